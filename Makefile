@@ -1,0 +1,55 @@
+# Two commands do everything: `make run` and `make test`. Both set the machine up first where something is missing.
+SHELL := /bin/bash
+JOBS ?= $(shell nproc)
+SETUP = tools/setup.sh
+
+.PHONY: run test setup build bench format lint asan tsan fuzz docs clean help
+
+run: build            ## build the program and run the main job: a swarm steered along a route
+	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
+
+test:                 ## build and run every test
+	@$(SETUP) test
+	@cmake --preset release > build.log 2>&1 || { cat build.log; rm -f build.log; exit 1; }; rm -f build.log
+	@cmake --build build -j $(JOBS)
+	@ctest --test-dir build --output-on-failure -j $(JOBS)
+
+setup:                ## install what building needs (apt; with sudo when not root)
+	@$(SETUP)
+
+build: setup          ## build the program: build/faba
+	@cmake --preset release -DBUILD_TESTING=OFF > build.log 2>&1 || { cat build.log; rm -f build.log; exit 1; }; rm -f build.log
+	@cmake --build build -j $(JOBS) --target faba
+
+bench: build          ## measure speed beside NumPy, Octave and the machine's limits; table in bench/results/
+	@$(SETUP) bench
+	@cmake --build build -j $(JOBS) --target bench_agents
+	@/usr/bin/python3 bench/agents.py
+
+format:               ## clang-format every source
+	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+lint:                 ## clang-format and clang-tidy as checks
+	@$(SETUP) lint
+	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+	@cmake --preset release > /dev/null
+	@git ls-files 'src/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p build
+
+asan tsan: setup      ## build and run the tests under sanitizers
+	@$(SETUP) test
+	@cmake --preset $@ > /dev/null
+	@cmake --build build/$@ -j $(JOBS)
+	@ctest --test-dir build/$@ --output-on-failure -j $(JOBS)
+
+fuzz: setup           ## fuzz the scenario loader for a minute (SECONDS=600 for longer)
+	@$(SETUP) fuzz
+	@tests/fuzz/run.sh $(or $(SECONDS_TO_FUZZ),60)
+
+docs: build           ## regenerate docs/reference from the parts' own descriptions, and the README's picture
+	@/usr/bin/python3 tools/make_docs.py
+
+clean:                ## remove the build; runs/ stays
+	@rm -rf build
+
+help:                 ## this list
+	@grep -E '^[a-z ]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 14

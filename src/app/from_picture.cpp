@@ -1,0 +1,26 @@
+#include "app/from_picture.h"
+
+#include <fmt/format.h>
+
+#include "vision/drop_edge.h"
+#include "vision/picture.h"
+
+namespace faba {
+
+void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_video) {
+  const Picture picture = read_picture(picture_or_video);
+  const DropEdge edge = find_drop_edge(picture.grey);
+  const std::string origin = "--from-video " + picture_or_video.string();
+  scenario.set("arena",
+               Json{{"type", "drop"},
+                    {"view_px", {edge.image_width, edge.image_height}},
+                    {"centre_px", {edge.centre_image.x, edge.centre_image.y}},
+                    {"radius_px", edge.radius_px}},
+               origin);
+  if (!scenario.root.contains("swarm") || !scenario.root["swarm"].is_array()) return;  // the reader will say so
+  for (std::size_t i = 0; i < scenario.root["swarm"].size(); ++i)
+    if (scenario.root["swarm"][i].is_object() && !scenario.root["swarm"][i].contains("start"))
+      scenario.set(fmt::format("swarm[{}].start", i), Json("visible"), origin);
+}
+
+}  // namespace faba

@@ -1,0 +1,52 @@
+#include "app/loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace faba {
+
+Schema<Limits::Params> Limits::schema() {
+  return Schema<Params>("limits", "What the loop lets through to the coils")
+      .add("max_current", &Params::max_current,
+           {.unit = "A", .min = 0, .max = 1000, .doc = "Largest current in any coil", .source = "assumed"})
+      .add("max_slew", &Params::max_slew,
+           {.unit = "A/s", .min = 0, .max = 1e9, .doc = "Fastest change of any current; unlimited when absent"})
+      .add("max_frame_age", &Params::max_frame_age,
+           {.unit = "s", .min = 1e-3, .max = 1e6, .doc = "Older pictures are not acted on: all currents go to zero"});
+}
+
+bool Limits::apply(Command& c, double dt, double frame_age) {
+  const std::vector<double> asked = c.current;
+  last_.resize(c.current.size(), 0.0);
+  for (std::size_t k = 0; k < c.current.size(); ++k) {
+    double& i = c.current[k];
+    if (!std::isfinite(i) || frame_age > p_.max_frame_age) i = 0;
+    i = std::clamp(i, -p_.max_current, p_.max_current);
+    if (p_.max_slew) i = std::clamp(i, last_[k] - *p_.max_slew * dt, last_[k] + *p_.max_slew * dt);
+  }
+  last_ = c.current;
+  return c.current != asked;
+}
+
+void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on) {
+  struct Guard {
+    Rig& rig;
+    ~Guard() { rig.safe(); }
+  } guard{loop.rig};
+  Observation seen;
+  while (loop.next < end && loop.rig.read(seen)) {
+    const double dt = loop.next == 0 ? loop.frame_period : seen.t - loop.last_t;
+    const Estimate estimate = loop.estimator.update(seen, loop.last);
+    const Target target = loop.reference.update(estimate);
+    Command command = loop.controller.update(estimate, target, dt);
+    const bool limited = loop.limits.apply(command, dt, seen.age);
+    loop.rig.write(command);
+    loop.last = command;
+    loop.last_t = seen.t;
+    for (Sink* s : loop.sinks) s->take({loop.next, seen, estimate, target, command, limited});
+    ++loop.next;
+    if (!go_on()) break;
+  }
+}
+
+}  // namespace faba

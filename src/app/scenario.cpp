@@ -1,0 +1,205 @@
+#include "app/scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/hash.h"
+
+namespace faba {
+
+Schema<Scenario::Params> Scenario::schema() {
+  return Schema<Params>("scenario", "A swarm, its coils, its controller and what is recorded")
+      .add("title", &Params::title, {.doc = "What the run is called in reports"})
+      .add("seed", &Params::seed,
+           {.min = 0, .max = 9007199254740991.0, .doc = "Same scenario and seed, same bits; drawn and printed when absent"})
+      .add("duration", &Params::duration, {.unit = "s", .min = 0, .max = 1e6, .doc = "Simulated time"})
+      .add("exposure", &Params::exposure,
+           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time in air before the run; matters with a motility law"});
+}
+
+Schema<Record> Record::schema() {
+  return Schema<Record>("record", "What a run keeps beside series.csv, manifest and report")
+      .add("tracks", &Record::tracks, {.doc = "tracks.h5: positions of all cells"})
+      .add("tracks_every", &Record::tracks_every, {.min = 1, .max = 1e6, .doc = "Every how many frames tracks are kept"})
+      .add("compress", &Record::compress, {.doc = "Compress tracks.h5 (lossless; a quarter smaller, ten times slower)"})
+      .add("video", &Record::video, {.doc = "video.mp4: the rendered swarm, for browsers"})
+      .add("video_every", &Record::video_every, {.min = 1, .max = 1e6, .doc = "Every how many frames a picture is rendered"})
+      .add("lossless", &Record::lossless, {.doc = "video.avi as well, exact to the grey level, for Fiji"})
+      .add("checkpoint", &Record::checkpoint,
+           {.unit = "s", .min = 0.1, .max = 1e6, .doc = "Time on the clock between checkpoints: what a crash can cost"});
+}
+
+Schema<Camera> Camera::schema() {
+  return Schema<Camera>("camera", "Frame rate and delay of the camera")
+      .add("rate", &Camera::rate,
+           {.unit = "Hz", .min = 0.01, .max = 1e5, .doc = "Frames per second", .source = "thesis: 90 frames in 6 s (A0)"})
+      .add("delay_frames", &Camera::delay_frames,
+           {.min = 0, .max = 1000, .doc = "Age of a picture, in frames, when the controller gets it"});
+}
+
+Schema<ScaleParams> ScaleParams::schema() {
+  return Schema<ScaleParams>("scale", "How pixels, iterations and field units hang together with SI")
+      .add("um_per_px", &ScaleParams::um_per_px,
+           {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel",
+            .source = "thesis's table 4.1 by regression (A20); the thesis itself used 0.8015"})
+      .add("iteration", &ScaleParams::iteration,
+           {.unit = "s", .min = 1e-5, .max = 100, .doc = "One iteration of the published models; one frame when absent"})
+      .add("field_unit", &ScaleParams::field_unit,
+           {.unit = "T", .min = 1e-9, .max = 1, .doc = "One field unit of the published models",
+            .source = "Earth's field near Rio (B2)"});
+}
+
+Schema<SimulationParams> SimulationParams::schema() {
+  return Schema<SimulationParams>("simulation", "Numerics")
+      .add("step", &SimulationParams::step,
+           {.unit = "s", .min = 1e-7, .max = 10,
+            .doc = "Time step, a whole part of a frame; chosen from the models' accuracy when absent"});
+}
+
+Schema<Swarm::Params> Swarm::schema() {
+  return Schema<Params>("swarm", "One kind of cell among those in the drop")
+      .add("count", &Params::count, {.min = 1, .max = 5e7, .doc = "Number of cells"})
+      .add("polarity", &Params::polarity,
+           {.doc = "north: swims along the field; south: against it", .source = "the thesis's cells are south-seeking (A0)",
+            .choices = {"north", "south"}})
+      .add("responding", &Params::responding, {.min = 0, .max = 1, .doc = "Fraction of the cells that feel the field"});
+}
+
+std::uint64_t Scenario::frames() const {
+  return std::uint64_t(std::max(1.0, std::floor(params.duration * camera.rate + 0.5)));
+}
+
+Scale Scenario::si_scale() const {
+  return {scale.um_per_px / 1e6, scale.iteration.value_or(frame_period()), scale.field_unit};
+}
+
+int Scenario::polarity() const {
+  double sum = 0;
+  for (const Swarm& s : swarms)
+    sum += (s.params.polarity == Swarm::Polarity::north ? 1.0 : -1.0) * double(s.params.count);
+  return sum > 0 ? 1 : -1;
+}
+
+Json Scenario::resolved() const {
+  Json j = schema().to_json(params);
+  j["scale"] = ScaleParams::schema().to_json(scale);
+  j["camera"] = Camera::schema().to_json(camera);
+  j["simulation"] = SimulationParams::schema().to_json(simulation);
+  j["arena"] = arena.resolved;
+  j["exclusion"] = Exclusion::schema().to_json(exclusion);
+  j["field"] = field.resolved;
+  j["motility"] = motility.resolved;
+  j["swarm"] = Json::array();
+  for (const Swarm& s : swarms) {
+    Json one = Swarm::schema().to_json(s.params);
+    one["model"] = s.model.resolved;
+    one["start"] = s.start.resolved;
+    j["swarm"].push_back(one);
+  }
+  j["estimator"] = estimator.resolved;
+  j["reference"] = reference.resolved;
+  j["controller"] = controller.resolved;
+  j["limits"] = Limits::schema().to_json(limits);
+  j["record"] = Record::schema().to_json(record);
+  return j;
+}
+
+std::string Scenario::hash() const {
+  Json j = resolved();
+  for (const char* key : {"title", "seed", "record"}) j.erase(key);
+  Hash h;
+  h.text(j.dump());
+  return h.hex();
+}
+
+namespace {
+
+template <class P>
+void section(const Node& root, const char* key, P& out, const Schema<P>& schema) {
+  if (root.has(key)) out = schema.parse(root.child(key));
+}
+
+template <class Registry>
+auto part(const Node& root, const char* key, const Registry& registry, const char* fallback) {
+  if (root.has(key)) return registry.resolve(root.child(key));
+  const Json name = fallback;
+  return registry.resolve(Node(name, key, root.document));
+}
+
+void read_swarms(const Node& root, const Parts& parts, Scenario& s) {
+  if (!root.has("swarm")) root.fail("needs at least one [[swarm]]");
+  const Node list = root.child("swarm");
+  if (!list.json->is_array() || list.json->empty()) list.fail("write [[swarm]], once for each kind of cell");
+  double total = 0;
+  for (std::size_t i = 0; i < list.json->size(); ++i) {
+    const Node n = list.item(i);
+    Swarm one;
+    one.params = Swarm::schema().parse(n, {"model", "start"});
+    one.model = part(n, "model", parts.model, "dipole");
+    one.start = part(n, "start", parts.start, "uniform");
+    // nested parts know only their own key: say where they stand
+    total += double(one.params.count);
+    s.swarms.push_back(std::move(one));
+  }
+  if (total > 5e7) list.fail(fmt::format("{} cells in all; at most 5e7 are possible", total));
+}
+
+}  // namespace
+
+Scenario read_scenario(const Document& d, const Parts& parts) {
+  const Node root(d);
+  Scenario s;
+  s.params = Scenario::schema().parse(root, {"scale", "camera", "simulation", "arena", "exclusion", "field", "motility",
+                                             "swarm", "estimator", "reference", "controller", "limits", "record"});
+  section(root, "scale", s.scale, ScaleParams::schema());
+  section(root, "camera", s.camera, Camera::schema());
+  section(root, "simulation", s.simulation, SimulationParams::schema());
+  section(root, "limits", s.limits, Limits::schema());
+  section(root, "exclusion", s.exclusion, Exclusion::schema());
+  section(root, "record", s.record, Record::schema());
+  s.arena = part(root, "arena", parts.arena, "box");
+  s.field = part(root, "field", parts.field, "uniform");
+  s.motility = part(root, "motility", parts.motility, "none");
+  s.estimator = part(root, "estimator", parts.estimator, "mean");
+  s.reference = part(root, "reference", parts.reference, "hold");
+  s.controller = part(root, "controller", parts.controller, "fuzzy");
+  read_swarms(root, parts, s);
+
+  if (s.params.duration * s.camera.rate > 1e8)
+    root.child("duration").fail("is more than 1e8 frames at this camera rate");
+  if (s.arena.resolved.value("limits", "") == "reject" && s.exclusion.order == Exclusion::Order::none)
+    throw Error(Errc::usage, root.where("arena"), "limits = \"reject\" needs exclusion; use \"clamp\" or \"reflect\"");
+  if (s.params.exposure > 0 && s.motility.type == "none")
+    s.warnings.push_back("exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
+  return s;
+}
+
+Json scenario_json_schema(const Parts& parts) {
+  Json j = Scenario::schema().json_schema();
+  j["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  Json& p = j["properties"];
+  p["scale"] = ScaleParams::schema().json_schema();
+  p["camera"] = Camera::schema().json_schema();
+  p["simulation"] = SimulationParams::schema().json_schema();
+  p["exclusion"] = Exclusion::schema().json_schema();
+  p["limits"] = Limits::schema().json_schema();
+  p["record"] = Record::schema().json_schema();
+  Json& swarm = p["swarm"] = {{"type", "array"}, {"minItems", 1}, {"items", Swarm::schema().json_schema()}};
+  each_kind(parts, [&](const char* kind, const auto& registry) {
+    Json any = Json::array({Json{{"type", "string"}, {"enum", registry.names()}}});
+    for (const auto& name : registry.names()) {
+      Json one = registry.json_schema(name);
+      one["properties"]["type"] = {{"const", name}};
+      one["required"] = Json::array({"type"});
+      any.push_back(one);
+    }
+    const Json choice = {{"description", registry.doc()}, {"oneOf", any}};
+    const bool per_swarm = std::string_view(kind) == "model" || std::string_view(kind) == "start";
+    (per_swarm ? swarm["items"]["properties"] : p)[kind] = choice;
+  });
+  return j;
+}
+
+}  // namespace faba

@@ -1,0 +1,98 @@
+#pragma once
+#include "app/loop.h"
+#include "app/parts.h"
+#include "sim/exclusion.h"
+
+namespace faba {
+
+/// The table [record]: what a run keeps.
+struct Record {
+  bool tracks = true;
+  int tracks_every = 1;
+  bool compress = true;
+  bool video = true;
+  int video_every = 1;
+  bool lossless = false;
+  double checkpoint = 10;
+  static Schema<Record> schema();
+};
+
+/// The table [camera].
+struct Camera {
+  double rate = 15;
+  int delay_frames = 0;
+  static Schema<Camera> schema();
+};
+
+/// The table [scale].
+struct ScaleParams {
+  double um_per_px = 0.9164;
+  std::optional<double> iteration;
+  double field_unit = 23e-6;
+  static Schema<ScaleParams> schema();
+};
+
+/// The table [simulation].
+struct SimulationParams {
+  std::optional<double> step;
+  static Schema<SimulationParams> schema();
+};
+
+/// One [[swarm]].
+struct Swarm {
+  enum class Polarity { north, south };
+  struct Params {
+    std::uint64_t count = 500;
+    Polarity polarity = Polarity::south;
+    double responding = 1;
+  };
+  static Schema<Params> schema();
+  Params params;
+  ModelRegistry::PartType model;
+  StartRegistry::PartType start;
+};
+
+/// A scenario, read and checked: everything about a run except its seed when none is given.
+struct Scenario {
+  struct Params {
+    std::string title;
+    std::optional<std::uint64_t> seed;
+    double duration = 20;
+    double exposure = 0;
+  };
+  static Schema<Params> schema();
+
+  Params params;
+  ScaleParams scale;
+  Camera camera;
+  SimulationParams simulation;
+  Limits::Params limits;
+  Exclusion::Params exclusion;
+  Record record;
+  ArenaRegistry::PartType arena;
+  FieldRegistry::PartType field;
+  MotilityRegistry::PartType motility;
+  EstimatorRegistry::PartType estimator;
+  ReferenceRegistry::PartType reference;
+  ControllerRegistry::PartType controller;
+  std::vector<Swarm> swarms;
+  std::vector<std::string> warnings;  ///< what is legal but probably not meant
+
+  std::uint64_t frames() const;       ///< of the whole run, at least 1
+  double frame_period() const { return 1 / camera.rate; }
+  Scale si_scale() const;
+  /// Polarity of most of the cells, which is what a controller steers: +1 or -1.
+  int polarity() const;
+  /// Every key with its value; as TOML it reads back to the same scenario.
+  Json resolved() const;
+  /// Fingerprint of resolved() without title, seed and [record]: equal for runs that differ in seed or recording only.
+  std::string hash() const;
+};
+
+/// Reads and checks a whole scenario. Throws Error(usage) naming file, line, path, reason and the nearest known key.
+Scenario read_scenario(const Document& d, const Parts& parts);
+
+/// JSON Schema of a whole scenario file: what web forms and editors read.
+Json scenario_json_schema(const Parts& parts);
+
+}  // namespace faba

@@ -1,0 +1,94 @@
+#include "app/simulation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace faba {
+namespace {
+
+// The strongest field in the plane that the coils can make at the arena's centre, T.
+double strongest(const Field& field, double max_current) {
+  std::vector<Vec3> b(field.coils());
+  field.basis({}, b, {});
+  const Vec3 earth = field.ambient();
+  Vec2 sum{std::fabs(earth.x), std::fabs(earth.y)};
+  for (const Vec3& v : b) sum = sum + Vec2{max_current * std::fabs(v.x), max_current * std::fabs(v.y)};
+  return norm(sum);
+}
+
+// Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out whole.
+int steps_per_frame(const Scenario& s, double longest) {
+  const double frame = s.frame_period();
+  if (s.simulation.step) {
+    const double n = frame / *s.simulation.step, whole = std::floor(n + 0.5);
+    if (whole < 1 || std::fabs(n - whole) > 1e-6 * whole)
+      throw Error(Errc::usage, "simulation.step",
+                  fmt::format("{} s is not a whole part of a frame ({} s)", *s.simulation.step, frame));
+    return int(whole);
+  }
+  const int least = int(std::ceil(frame / longest - 1e-9));
+  const double iteration = s.si_scale().iteration;
+  for (int n = std::max(least, 1); n <= 4 * std::max(least, 1); ++n) {
+    const double per_iteration = iteration * n / frame;
+    if (per_iteration > 0.5 && std::fabs(per_iteration - std::floor(per_iteration + 0.5)) < 1e-6) return n;
+  }
+  return std::max(least, 1);  // models that count in iterations will say what is wrong
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) : limits_(s.limits) {
+  const Scale scale = s.si_scale();
+  WorldParts w;
+  w.seed = seed;
+  w.exclusion = s.exclusion;
+  w.arena = s.arena.make({scale});
+  w.field = s.field.make({});
+  w.motility = s.motility.make({w.arena.get(), s.params.exposure});
+  frame_ = w.arena->frame();
+
+  // A model must be asked for its longest step before the step is known: build it twice, it is cheap.
+  double longest = s.frame_period();
+  const double b_max = strongest(*w.field, s.limits.max_current);
+  for (const Swarm& swarm : s.swarms)
+    longest = std::min(longest, swarm.model.make({scale, scale.iteration})->longest_step(b_max));
+  const int steps = steps_per_frame(s, longest);
+  w.dt = s.frame_period() / steps;
+
+  std::size_t at = 0;
+  for (const Swarm& swarm : s.swarms) {
+    Population p;
+    p.begin = at;
+    p.end = at += std::size_t(swarm.params.count);
+    p.polarity = swarm.params.polarity == Swarm::Polarity::north ? 1 : -1;
+    p.responding = swarm.params.responding;
+    p.model = swarm.model.make({scale, w.dt});
+    p.start = swarm.start.make({w.arena.get()});
+    w.populations.push_back(std::move(p));
+  }
+  if (double(s.frames()) * steps > 4e9)
+    throw Error(Errc::usage, "duration", "is more than 4e9 steps, the length of a random stream");
+
+  const ControlContext control{w.field,        scale, frame_, s.polarity(), s.frame_period(),
+                               s.camera.delay_frames};
+  world_ = std::make_unique<World>(std::move(w), pool);
+  rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});
+  estimator_ = s.estimator.make(control);
+  reference_ = s.reference.make(control);
+  controller_ = s.controller.make(control);
+  loop_ = std::make_unique<Loop>(Loop{*rig_, *estimator_, *reference_, *controller_, limits_, s.frame_period(), {}, 0, 0, {}});
+}
+
+void Simulation::archive(Archive& a) {
+  State state = a.reading() ? State{} : world_->state();
+  a& state& loop_->next& loop_->last_t& loop_->last.current;
+  if (a.reading()) world_->restore(std::move(state));
+  rig_->archive(a);
+  estimator_->archive(a);
+  reference_->archive(a);
+  controller_->archive(a);
+  limits_.archive(a);
+}
+
+}  // namespace faba

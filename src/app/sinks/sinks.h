@@ -1,0 +1,42 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+
+#include "app/loop.h"
+#include "app/scenario.h"
+#include "core/archive.h"
+#include "rig/sim_rig.h"
+
+namespace faba {
+
+/// A sink of a run directory: it can be cut back to a checkpoint and finished.
+class RunSink : public Sink {
+ public:
+  /// Writes where it stands to a checkpoint, everything before that safely on the disk.
+  virtual void checkpoint(Archive& a) = 0;
+  /// Completes its files. With `keep`, what is needed to go on later is kept as well.
+  virtual void finish(bool keep) = 0;
+};
+
+/// What sinks look at: the world's true state beside what the loop saw.
+struct SinkContext {
+  std::filesystem::path dir;
+  const World* world;
+  const Reference* reference;
+  Frame frame;
+  Scale scale;
+  double frame_rate;  ///< Hz
+  Record record;
+  bool dose = false;  ///< cells may stop responding during the run
+};
+
+// One function per sink; `resume` is null, or the archive to read its checkpoint from.
+
+/// series.csv: one line per frame (docs/formats/run-directory.md).
+std::unique_ptr<RunSink> series_sink(const SinkContext& c, Archive* resume);
+/// tracks.h5: positions of all cells.
+std::unique_ptr<RunSink> tracks_sink(const SinkContext& c, Archive* resume);
+/// video.mp4 and, on request, video.avi: the rendered swarm.
+std::unique_ptr<RunSink> video_sink(const SinkContext& c, bool lossless, Archive* resume);
+
+}  // namespace faba

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/sinks/sinks.h"
+#include "core/h5.h"
+
+namespace faba {
+namespace {
+
+constexpr std::uint64_t kChunkBytes = 16u << 20;  // of the row of chunks being filled; fits the file's cache
+
+class Tracks final : public RunSink {
+ public:
+  // `keep` rows of an earlier file are taken over: HDF5 cannot go on in a file whose writer was killed, but it can read it.
+  Tracks(const SinkContext& c, std::uint64_t keep)
+      : c_(c), path_(c.dir / "tracks.h5"), file_(H5File::create(keep ? path_.string() + ".new" : path_.string())) {
+    const auto n = std::uint64_t(c.world->state().agents.size());
+    const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
+    frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, 1024, 1, false));
+    t_ = std::make_unique<H5Table>(file_.table<double>("t_s", {}, 1024, 1, false));
+    position_ = std::make_unique<H5Table>(file_.table<float>("position_px", {n, 2}, rows, 4096, c.record.compress));
+    if (c.dose)
+      responding_ = std::make_unique<H5Table>(file_.table<std::uint8_t>("responding", {n}, rows, 4096, c.record.compress));
+    describe();
+    file_.begin_writing();
+    if (keep) take_over(keep);
+  }
+
+  void take(const Tick& t) override {
+    if (t.index % std::uint64_t(c_.record.tracks_every)) return;
+    const State& s = c_.world->state();
+    const auto x = s.agents["x"], y = s.agents["y"], response = s.agents["response"];
+    row_.resize(2 * x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Vec2 p = c_.frame.image_from_world({double(x[i]), double(y[i])});
+      row_[2 * i] = float(p.x), row_[2 * i + 1] = float(p.y);
+    }
+    append(t.index, double(t.index) / c_.frame_rate);
+    if (!responding_) return;
+    flags_.resize(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) flags_[i] = response[i] != 0.0f;
+    responding_->append<std::uint8_t>(flags_);
+  }
+
+  void checkpoint(Archive& a) override {
+    file_.sync();
+    std::uint64_t rows = position_->rows();
+    a& rows;
+  }
+  void finish(bool) override {
+    frame_.reset(), t_.reset(), position_.reset(), responding_.reset();
+    file_.close();
+  }
+
+ private:
+  void append(std::uint64_t frame, double t) {
+    frame_->append<std::uint64_t>({&frame, 1});
+    t_->append<double>({&t, 1});
+    position_->append<float>(row_);
+  }
+
+  void describe() {
+    file_.attribute("/", "format", std::string("faba tracks 1"));
+    file_.attribute("/", "fps", c_.frame_rate);
+    file_.attribute("/", "um_per_px", c_.scale.m_per_px * 1e6);
+    file_.attribute("/", "every_frames", double(c_.record.tracks_every));
+    file_.attribute("/", "width_px", double(c_.frame.width));
+    file_.attribute("/", "height_px", double(c_.frame.height));
+    file_.attribute("position_px", "axes", std::string("row, cell, (x right, y down); pixel centres are whole numbers"));
+    // which cells belong to which [[swarm]]: they are numbered one swarm after the other
+    for (std::size_t k = 0; k < c_.world->parts().populations.size(); ++k) {
+      const auto& p = c_.world->parts().populations[k];
+      file_.attribute("/", fmt::format("swarm_{}_first_cell", k), double(p.begin));
+      file_.attribute("/", fmt::format("swarm_{}_cells", k), double(p.end - p.begin));
+    }
+  }
+
+  void take_over(std::uint64_t keep) {
+    {
+      const H5File old = H5File::open(path_);
+      const H5Table frame = old.table("frame"), t = old.table("t_s"), position = old.table("position_px");
+      if (position.rows() < keep) throw Error(Errc::input, path_.string(), "has fewer frames than its checkpoint says");
+      row_.resize(position.row_size());
+      flags_.resize(position.row_size() / 2);
+      for (std::uint64_t r = 0; r < keep; ++r) {
+        std::uint64_t index = 0;
+        double time = 0;
+        frame.read<std::uint64_t>(r, {&index, 1});
+        t.read<double>(r, {&time, 1});
+        position.read<float>(r, row_);
+        append(index, time);
+        if (!responding_) continue;
+        old.table("responding").read<std::uint8_t>(r, flags_);
+        responding_->append<std::uint8_t>(flags_);
+      }
+    }
+    file_.sync();
+    std::filesystem::rename(path_.string() + ".new", path_);
+  }
+
+  SinkContext c_;
+  std::filesystem::path path_;
+  H5File file_;
+  std::unique_ptr<H5Table> frame_, t_, position_, responding_;
+  std::vector<float> row_;
+  std::vector<std::uint8_t> flags_;
+};
+
+}  // namespace
+
+std::unique_ptr<RunSink> tracks_sink(const SinkContext& c, Archive* resume) {
+  std::uint64_t keep = 0;
+  if (resume) *resume & keep;
+  return std::make_unique<Tracks>(c, keep);
+}
+
+}  // namespace faba

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "cli/verbs.h"
+#include "core/toml.h"
+
+namespace faba::cli {
+namespace {
+
+std::string line_of(const char* file, const char* key) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(key)) return line.substr(line.find(':') + 1);
+  return "unknown";
+}
+
+const char* vector_unit() {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "AVX-512";
+  if (__builtin_cpu_supports("avx2")) return "AVX2";
+  return "SSE2";
+}
+
+}  // namespace
+
+int doctor(const Common& c) {
+  std::error_code ec;
+  const auto space = std::filesystem::space(".", ec);
+  const Json j = {{"version", FABA_VERSION},
+                  {"processor", line_of("/proc/cpuinfo", "model name")},
+                  {"threads", std::thread::hardware_concurrency()},
+                  {"vector_unit", vector_unit()},
+                  {"memory", line_of("/proc/meminfo", "MemAvailable")},
+                  {"disk_free_gb", ec ? Json() : Json(double(space.available / 1000000) / 1000)}};
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  for (const auto& [k, v] : j.items()) fmt::print("{:<14}{}\n", k, v.is_string() ? v.get<std::string>() : v.dump());
+  return 0;
+}
+
+}  // namespace faba::cli

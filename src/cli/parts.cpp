@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include "app/scenario.h"
+#include "cli/verbs.h"
+
+namespace faba::cli {
+namespace {
+
+std::string shown_value(const Json& j) { return j.is_string() ? j.get<std::string>() : j.dump(); }
+
+std::string range_of(const Json& f) {
+  if (f.contains("enum")) {
+    std::string s;
+    for (const auto& e : f["enum"]) s += (s.empty() ? "" : " | ") + e.get<std::string>();
+    return s;
+  }
+  const std::string unit = f.value("x-unit", "");
+  std::string s;
+  if (f.contains("minimum") && f.contains("maximum"))
+    s = fmt::format("{:g} ... {:g}", f["minimum"].get<double>(), f["maximum"].get<double>());
+  else if (f.contains("minimum"))
+    s = fmt::format(">= {:g}", f["minimum"].get<double>());
+  return s.empty() ? unit : unit.empty() ? s : s + " " + unit;
+}
+
+void describe(const Json& schema, const std::string& indent) {
+  for (const auto& [key, f] : schema["properties"].items()) {
+    std::string line = fmt::format("{}{}", indent, key);
+    if (f.contains("default")) line += " = " + shown_value(f["default"]);
+    if (const std::string range = range_of(f); !range.empty()) line += fmt::format("   ({})", range);
+    fmt::print("{}\n", line);
+    if (f.contains("description")) fmt::print("{}    {}\n", indent, f["description"].get<std::string>());
+    if (f.contains("x-source")) {
+      if (f["x-source"].is_string())
+        fmt::print("{}    source: {}\n", indent, f["x-source"].get<std::string>());
+      else
+        for (const auto& [name, source] : f["x-source"].items())
+          fmt::print("{}    {}: {}\n", indent, name, source.get<std::string>());
+    }
+    if (f.contains("items") && f["items"].contains("properties")) describe(f["items"], indent + "    ");
+  }
+}
+
+}  // namespace
+
+int parts(const PartsVerb& v, const Common& c) {
+  const Parts all = builtin_parts();
+  Json out = Json::object();
+  std::vector<std::string> kinds;
+  each_kind(all, [&](const char* kind, const auto& registry) {
+    kinds.emplace_back(kind);
+    for (const auto& name : registry.names()) out[kind][name] = registry.json_schema(name);
+  });
+  if (!v.kind.empty() && !out.contains(v.kind))
+    throw Error(Errc::usage, "parts", fmt::format("there is no kind \"{}\"{}", v.kind, suggestion(v.kind, kinds)));
+  if (!v.name.empty() && !out[v.kind].contains(v.name)) {
+    std::vector<std::string> names;
+    for (const auto& [k, _] : out[v.kind].items()) names.push_back(k);
+    throw Error(Errc::usage, "parts", fmt::format("there is no {} \"{}\"{}", v.kind, v.name, suggestion(v.name, names)));
+  }
+  if (c.json) {
+    fmt::print("{}\n", (v.kind.empty() ? out : v.name.empty() ? out[v.kind] : out[v.kind][v.name]).dump());
+    return 0;
+  }
+  if (!v.name.empty()) {
+    const Json& one = out[v.kind][v.name];
+    fmt::print("{} \"{}\": {}\n", v.kind, v.name, one["description"].get<std::string>());
+    if (one.contains("x-validity")) fmt::print("Known to fail: {}\n", one["x-validity"].get<std::string>());
+    fmt::print("\n");
+    describe(one, "  ");
+    return 0;
+  }
+  each_kind(all, [&](const char* kind, const auto& registry) {
+    if (!v.kind.empty() && v.kind != kind) return;
+    fmt::print("{}: {}\n", kind, registry.doc());
+    for (const auto& name : registry.names())
+      fmt::print("  {:<14}{}\n", name, registry.json_schema(name)["description"].template get<std::string>());
+  });
+  fmt::print("\nEach in full: faba parts KIND NAME, such as faba parts model dipole\n");
+  return 0;
+}
+
+int schema(const Common&) {
+  fmt::print("{}\n", scenario_json_schema(builtin_parts()).dump(2));
+  return 0;
+}
+
+}  // namespace faba::cli

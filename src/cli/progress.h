@@ -1,0 +1,27 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace faba::cli {
+
+/// A bar with the time still to go on the last line of the terminal, once the work has lasted a second. Silent when
+/// standard error is no terminal.
+class Progress {
+ public:
+  Progress(std::string what, bool enabled);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void update(std::uint64_t done, std::uint64_t total);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  bool enabled_, shown_ = false;
+  Clock::time_point began_ = Clock::now(), drawn_ = began_;
+  std::uint64_t first_ = 0;  ///< work done before this process: not part of the speed
+  bool started_ = false;
+};
+
+}  // namespace faba::cli

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <random>
+
+#include "app/from_picture.h"
+#include "app/session.h"
+#include "cli/progress.h"
+#include "cli/verbs.h"
+#include "study/run_report.h"
+
+namespace faba::cli {
+namespace {
+
+void apply_settings(Document& d, const RunVerb& v) {
+  for (const std::string& s : v.set) {
+    const auto equals = s.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(Errc::usage, "--set " + s, "write --set path=value, such as --set swarm[0].count=200");
+    d.set(s.substr(0, equals), s.substr(equals + 1), "--set");
+  }
+  if (v.duration) d.set("duration", *v.duration, "--duration");
+  if (v.seed) d.set("seed", *v.seed, "--seed");
+}
+
+// 48 bits: short enough to type, and exact in every language that will read the manifest.
+std::uint64_t drawn_seed() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32 | device()) & 0xFFFFFFFFFFFFull;
+}
+
+std::filesystem::path free_directory(const std::string& scene, std::uint64_t seed) {
+  const std::string base = fmt::format("runs/{}-{}", std::filesystem::path(scene).stem().string(), seed);
+  std::filesystem::path dir = base;
+  std::error_code ec;
+  for (int i = 2; std::filesystem::exists(dir, ec); ++i) dir = fmt::format("{}-{}", base, i);
+  return dir;
+}
+
+void summary(const Session& session, const Metrics& metrics, const std::string& next) {
+  const auto& dir = session.dir();
+  const RunInWords words = run_in_words(metrics, read_run_info(dir / run_files::kManifest));
+  fmt::print("{}\n", words.outcome);
+  if (!words.details.empty()) fmt::print("{}\n", words.details);
+  const auto px = [](const std::optional<double>& v) { return v ? fmt::format("{:.1f} px", *v) : std::string("-"); };
+  fmt::print("settling time {}, steady error {} rms, dispersion {} x {}\n",
+             metrics.settling_time_s ? fmt::format("{:.2f} s", *metrics.settling_time_s) : "never",
+             px(metrics.steady_rms_px), px(metrics.sigma_x_px), px(metrics.sigma_y_px));
+  const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"}, {"exact", "video.avi"},
+                                                       {"tracks", "tracks.h5"}, {"series", "series.csv"},
+                                                       {"report", "report.html"}};
+  for (const auto& [what, name] : files)
+    if (std::filesystem::exists(dir / name)) fmt::print("  {:<7}{}\n", what, (dir / name).string());
+  fmt::print("seed {}, state_hash {}\n", session.manifest()["seed"].dump(),
+             session.manifest()["state_hash"].get<std::string>());
+  if (!next.empty()) fmt::print("now try: {}\n", next);
+}
+
+int carry_out(Session& session, const Common& c, const std::string& next) {
+  const bool whole = session.run();
+  if (!whole) {
+    if (!c.quiet)
+      fmt::print(stderr, "faba: interrupted; what was recorded is kept. Go on with: faba resume {}\n",
+                 session.dir().string());
+    return int(Errc::interrupted);
+  }
+  write_run_report(session.dir());
+  session.complete();
+  const Metrics metrics = control_metrics(read_series(session.dir() / "series.csv"));
+  if (c.json) {
+    Json j = {{"out", session.dir().string()}};
+    for (const auto& source : {session.manifest(), metrics_json(metrics)})
+      for (const auto& [k, v] : source.items()) j[k] = v;
+    fmt::print("{}\n", j.dump());
+  } else if (!c.quiet) {
+    summary(session, metrics, next);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int run(const RunVerb& v, const Common& c) {
+  Document d = read_toml(v.scene);
+  if (!v.from_video.empty()) fit_to_picture(d, v.from_video);
+  apply_settings(d, v);
+  const Scenario s = read_scenario(d, builtin_parts());
+  for (const auto& w : s.warnings) fmt::print(stderr, "faba: note: {}: {}\n", v.scene, w);
+
+  const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
+  Progress bar("simulating", !c.quiet && !c.json);
+  RunOptions o;
+  o.out = v.out.empty() ? free_directory(v.scene, seed) : v.out;
+  o.force = v.force;
+  o.threads = v.threads;
+  o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  o.stop = &stop_requested();
+  Session session = Session::begin(s, seed, o);
+  if (!s.params.seed && !c.quiet && !c.json) fmt::print("seed {} (drawn; --seed {} repeats this run)\n", seed, seed);
+  const std::string again = fmt::format("faba run {} --seed {}", v.scene, seed);
+  return carry_out(session, c, again + " --set controller.type=proportional");
+}
+
+int resume(const ResumeVerb& v, const Common& c) {
+  Progress bar("simulating", !c.quiet && !c.json);
+  RunOptions o;
+  o.out = v.dir;
+  o.threads = v.threads;
+  o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  o.stop = &stop_requested();
+  Session session = Session::resume(builtin_parts(), o);
+  return carry_out(session, c, "");
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,50 @@
+#pragma once
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace faba::cli {
+
+/// What every verb takes.
+struct Common {
+  bool json = false;   ///< one JSON object on standard output and nothing else there
+  bool quiet = false;  ///< no progress bar, no summary
+};
+
+struct RunVerb {
+  std::string scene;
+  std::vector<std::string> set;  ///< "path=value"
+  std::optional<std::string> seed, duration;
+  unsigned threads = 0;
+  std::filesystem::path out;
+  std::filesystem::path from_video;
+  bool force = false;
+};
+struct ResumeVerb {
+  std::filesystem::path dir;
+  unsigned threads = 0;
+};
+struct DropVerb {
+  std::filesystem::path picture, overlay;
+  bool force = false;
+};
+struct PartsVerb {
+  std::string kind, name;
+};
+
+// Each returns the exit code; errors are thrown.
+int run(const RunVerb& v, const Common& c);
+int resume(const ResumeVerb& v, const Common& c);
+int drop(const DropVerb& v, const Common& c);
+int parts(const PartsVerb& v, const Common& c);
+int schema(const Common& c);
+int doctor(const Common& c);
+
+/// Becomes true on Ctrl-C and SIGTERM; the second Ctrl-C ends the program at once.
+const std::atomic<bool>& stop_requested();
+/// Arranges for that.
+void catch_signals();
+
+}  // namespace faba::cli

@@ -1,0 +1,32 @@
+#include "control/centroid.h"
+
+namespace faba {
+
+Estimate Centroid::update(const Observation& o, bool only_visible) {
+  const auto counts = [&](const Detection& d) { return d.in_view || !only_visible; };
+  Estimate e;
+  e.t = o.t;
+  e.centroid = at_;
+  double n = 0, sx = 0, sy = 0;
+  for (const Detection& d : o.seen)
+    if (counts(d)) ++n, sx += double(d.x), sy += double(d.y);
+  e.visible = n;
+  if (n > 0) {
+    e.centroid = {sx / n, sy / n};
+    if (seen_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
+    at_ = e.centroid;
+    t_ = o.t;
+    seen_ = true;
+  }
+  if (n > 1) {
+    for (const Detection& d : o.seen)
+      if (counts(d)) {
+        const double dx = double(d.x) - e.centroid.x, dy = double(d.y) - e.centroid.y;
+        e.cov.xx += dx * dx, e.cov.xy += dx * dy, e.cov.yy += dy * dy;
+      }
+    e.cov = {e.cov.xx / (n - 1), e.cov.xy / (n - 1), e.cov.yy / (n - 1)};
+  }
+  return e;
+}
+
+}  // namespace faba

@@ -1,0 +1,20 @@
+#pragma once
+#include "core/archive.h"
+#include "core/signals.h"
+
+namespace faba {
+
+/// Mean, covariance (n - 1) and velocity of detections. Summed in index order by one thread: the same bits
+/// always.
+class Centroid {
+ public:
+  Estimate update(const Observation& o, bool only_visible);
+  void archive(Archive& a) { a& at_& t_& seen_; }
+
+ private:
+  Vec2 at_;  ///< last centroid, m, world
+  double t_ = 0;
+  bool seen_ = false;
+};
+
+}  // namespace faba

@@ -1,0 +1,58 @@
+#pragma once
+#include <memory>
+
+#include "core/archive.h"
+#include "core/frame.h"
+#include "core/registry.h"
+#include "core/signals.h"
+#include "field/field.h"
+
+namespace faba {
+
+/// Turns what was seen into what is believed.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+  virtual Estimate update(const Observation& o, const Command& last) = 0;
+  virtual void archive(Archive&) {}  ///< its memory, for checkpoints
+};
+
+/// Says where the swarm should be.
+class Reference {
+ public:
+  virtual ~Reference() = default;
+  virtual Target update(const Estimate& e) = 0;
+  virtual void archive(Archive&) {}
+  /// All setpoints in order, world frame, m: for pictures and reports.
+  virtual std::vector<Vec2> setpoints() const = 0;
+};
+
+/// Feedback law. It sees an estimate and a target only; it cannot reach the simulator, a clock or a device,
+/// which is what lets the same object drive either.
+class Controller {
+ public:
+  virtual ~Controller() = default;
+  /// `dt` s since the last update. Called once per frame. An estimate that rests on no cells (`visible` 0)
+  /// must not move the swarm.
+  virtual Command update(const Estimate& e, const Target& target, double dt) = 0;
+  virtual void archive(Archive&) {}
+};
+
+/// What estimators, references and controllers may look at when they are built.
+struct ControlContext {
+  std::shared_ptr<const Field> field;
+  Scale scale;
+  Frame frame;
+  int polarity = -1;        ///< of the cells to be steered: +1 north-seeking, -1 south-seeking
+  double frame_period = 0;  ///< s
+  int delay_frames = 0;     ///< age of an observation when it arrives
+};
+using EstimatorRegistry = Registry<Estimator, ControlContext>;
+using ReferenceRegistry = Registry<Reference, ControlContext>;
+using ControllerRegistry = Registry<Controller, ControlContext>;
+
+/// Currents that make the cells want to swim along `drive` (field units, world frame) at `at` (m, world): the
+/// physical field is drive times the unit times polarity (REFERENCE.md A8), the Earth's field not counted.
+Command drive_command(const ControlContext& c, Vec2 at_world, Vec2 drive);
+
+}  // namespace faba

@@ -1,0 +1,95 @@
+#include <algorithm>
+
+#include "control/controller.h"
+#include "core/portable_math.h"
+#include "core/schema.h"
+#include "field/allocate.h"
+
+namespace faba {
+namespace {
+
+/// A schedule of field vectors, whatever the swarm does: constant fields, reversals (the step response,
+/// REFERENCE.md A14), rotating fields with or without bias (B3.6-B3.8).
+///   B(t) = field + rotating (cos 2 pi f (t - at), sin 2 pi f (t - at))
+class Manual final : public Controller {
+ public:
+  struct Segment {
+    double at = 0;
+    Vec2 field;
+    double rotating = 0;
+    double frequency = 0;
+    static Schema<Segment> schema();
+  };
+  struct Params {
+    Vec2 field;
+    std::vector<Segment> segment;
+  };
+  static Schema<Params> schema();
+  Manual(const Params& p, const ControlContext& c);
+  Command update(const Estimate& e, const Target& target, double dt) override;
+  void archive(Archive& a) override { a& t_& started_; }
+
+  /// The scheduled field at time t, T, world frame.
+  Vec2 field_at(double t) const;
+
+ private:
+  Params p_;
+  ControlContext c_;
+  double t_ = 0;  ///< s since the first frame; the loop's own time, not the delayed picture's
+  bool started_ = false;
+};
+
+Schema<Manual::Segment> Manual::Segment::schema() {
+  return Schema<Segment>("segment", "The field from a moment on")
+      .add("at", &Segment::at, {.unit = "s", .min = 0, .max = 1e7, .doc = "From when on this segment holds"})
+      .add("field", &Segment::field,
+           {.unit = "T", .min = -0.1, .max = 0.1, .doc = "Constant part, world frame: x right, y up"})
+      .add("rotating", &Segment::rotating,
+           {.unit = "T", .min = 0, .max = 0.1, .doc = "Magnitude of a rotating part"})
+      .add("frequency", &Segment::frequency,
+           {.unit = "Hz",
+            .min = -1000,
+            .max = 1000,
+            .doc = "Turns per second of the rotating part, counter-clockwise"});
+}
+
+Schema<Manual::Params> Manual::schema() {
+  return Schema<Params>("manual", "A schedule of field vectors, whatever the swarm does")
+      .add("field", &Params::field,
+           {.unit = "T",
+            .min = -0.1,
+            .max = 0.1,
+            .doc = "Field before the first segment, world frame: x right, y up"})
+      .add("segment", &Params::segment, {.doc = "Segments in order of time: [[controller.segment]]"})
+      .check([](const Params& p) -> std::string {
+        for (std::size_t i = 1; i < p.segment.size(); ++i)
+          if (p.segment[i].at <= p.segment[i - 1].at) return "segments must be in order of time";
+        return {};
+      })
+      .validity("Sampled once per frame: a rotating field needs a frame rate well above its frequency.");
+}
+
+Manual::Manual(const Params& p, const ControlContext& c) : p_(p), c_(c) {}
+
+Vec2 Manual::field_at(double t) const {
+  // Times are sums of frame periods: a segment due within a millionth of a frame is due.
+  const double now = t + 1e-6 * c_.frame_period;
+  const Segment* s = nullptr;
+  for (const Segment& candidate : p_.segment)
+    if (candidate.at <= now) s = &candidate;
+  if (!s) return p_.field;
+  const auto turn = portable::sincos(2 * portable::kPi * s->frequency * (t - s->at));
+  return {s->field.x + s->rotating * turn.cos, s->field.y + s->rotating * turn.sin};
+}
+
+Command Manual::update(const Estimate& e, const Target&, double dt) {
+  if (started_) t_ += dt;
+  started_ = true;
+  return {allocate(*c_.field, {e.centroid.x, e.centroid.y, 0}, field_at(t_))};
+}
+
+}  // namespace
+
+void add_manual(ControllerRegistry& r) { r.add<Manual>(); }
+
+}  // namespace faba

@@ -1,0 +1,28 @@
+#include "control/centroid.h"
+#include "control/controller.h"
+
+namespace faba {
+namespace {
+
+/// The thesis's estimate: arithmetic mean of all cells, those outside the view included (REFERENCE.md A10).
+/// Only a simulation can do this; on a bench it equals `visible`.
+class EstimatorMean final : public Estimator {
+ public:
+  struct Params {};
+  static Schema<Params> schema() {
+    return Schema<Params>("mean", "Mean of all cells, in view or not: the thesis's estimate")
+        .validity("A camera cannot see cells outside its view; use `visible` for what a bench would give.");
+  }
+  EstimatorMean(const Params&, const ControlContext&) {}
+  Estimate update(const Observation& o, const Command&) override { return centroid_.update(o, false); }
+  void archive(Archive& a) override { a& centroid_; }
+
+ private:
+  Centroid centroid_;
+};
+
+}  // namespace
+
+void add_mean(EstimatorRegistry& r) { r.add<EstimatorMean>(); }
+
+}  // namespace faba

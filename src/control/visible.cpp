@@ -1,0 +1,28 @@
+#include "control/centroid.h"
+#include "control/controller.h"
+
+namespace faba {
+namespace {
+
+/// Mean of the cells in view, as a camera gives it. With none in view the last estimate is kept and `visible`
+/// is 0.
+class EstimatorVisible final : public Estimator {
+ public:
+  struct Params {};
+  static Schema<Params> schema() {
+    return Schema<Params>("visible", "Mean of the cells in view")
+        .validity("Biased towards the view's centre when part of the swarm is outside.");
+  }
+  EstimatorVisible(const Params&, const ControlContext&) {}
+  Estimate update(const Observation& o, const Command&) override { return centroid_.update(o, true); }
+  void archive(Archive& a) override { a& centroid_; }
+
+ private:
+  Centroid centroid_;
+};
+
+}  // namespace
+
+void add_visible(EstimatorRegistry& r) { r.add<EstimatorVisible>(); }
+
+}  // namespace faba

@@ -1,0 +1,33 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace faba {
+
+/// Kinds of failure a caller may want to tell apart; the value is the program's exit code.
+enum class Errc {
+  internal = 1,      ///< a defect of the program, a full disk, or anything not listed below
+  usage = 2,         ///< wrong command line, scenario, rig or study file
+  input = 3,         ///< a picture, video or data file that is missing, unreadable or unsuitable
+  device = 4,        ///< camera or coil driver
+  interrupted = 130  ///< stopped by a signal; what was recorded is kept
+};
+
+/// The one exception type of the library. `where` names the place in the user's terms (a scenario path such
+/// as `swarm[0].model.speed`, a file, a device), never a C++ file; `what` is one line: the reason and what to
+/// do.
+class Error : public std::runtime_error {
+ public:
+  Error(Errc code, std::string where, const std::string& what)
+      : std::runtime_error(where.empty() ? what : where + ": " + what),
+        code_(code),
+        where_(std::move(where)) {}
+  Errc code() const noexcept { return code_; }
+  const std::string& where() const noexcept { return where_; }
+
+ private:
+  Errc code_;
+  std::string where_;
+};
+
+}  // namespace faba

@@ -1,0 +1,70 @@
+#include "core/parallel.h"
+
+namespace faba {
+namespace {
+
+// A job comes every few microseconds while a simulation runs: look for it a little before going to sleep.
+constexpr int kSpins = 2000;
+
+void relax() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
+
+Pool::Pool(unsigned threads) {
+  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  for (unsigned i = 1; i < threads; ++i)
+    workers_.emplace_back([this, i](const std::stop_token& stop) { work(i, stop); });
+}
+
+Pool::~Pool() {
+  for (auto& w : workers_) w.request_stop();
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+}
+
+void Pool::share(unsigned index) {
+  const std::size_t n = threads(), begin = blocks_ * index / n, end = blocks_ * (index + 1) / n;
+  try {
+    for (std::size_t b = begin; b < end && !failed_.load(std::memory_order_relaxed); ++b) (*job_)(b);
+  } catch (...) {
+    if (!failed_.exchange(true)) error_ = std::current_exception();
+  }
+}
+
+void Pool::work(unsigned index, std::stop_token stop) {
+  std::uint32_t seen = 0;
+  for (;;) {
+    for (int i = 0; i < kSpins && round_.load(std::memory_order_acquire) == seen; ++i) relax();
+    round_.wait(seen, std::memory_order_acquire);
+    if (stop.stop_requested()) return;
+    seen = round_.load(std::memory_order_acquire);
+    share(index);
+    if (pending_.fetch_sub(1, std::memory_order_acq_rel) == 1) pending_.notify_one();
+  }
+}
+
+void Pool::run(std::size_t blocks, const std::function<void(std::size_t)>& job) {
+  if (workers_.empty() || blocks <= 1) {
+    for (std::size_t b = 0; b < blocks; ++b) job(b);
+    return;
+  }
+  job_ = &job;
+  blocks_ = blocks;
+  failed_ = false;
+  error_ = nullptr;
+  pending_.store(std::uint32_t(workers_.size()), std::memory_order_relaxed);
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  share(0);
+  for (int i = 0; i < kSpins && pending_.load(std::memory_order_acquire) != 0; ++i) relax();
+  for (auto left = pending_.load(std::memory_order_acquire); left != 0;
+       left = pending_.load(std::memory_order_acquire))
+    pending_.wait(left, std::memory_order_acquire);
+  if (error_) std::rethrow_exception(error_);
+}
+
+}  // namespace faba

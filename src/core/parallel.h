@@ -1,0 +1,47 @@
+#pragma once
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace faba {
+
+/// Threads kept for the life of the object. Work is cut into fixed blocks, so what a block computes never
+/// depends on how many threads there are. The calling thread works too; one thread means no other is started.
+class Pool {
+ public:
+  /// `threads` >= 1; 0 means as many as the machine has.
+  explicit Pool(unsigned threads = 0);
+  ~Pool();
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+  unsigned threads() const { return unsigned(workers_.size()) + 1; }
+
+  /// Calls job(block) once for each block in [0, blocks), each thread taking a contiguous share; returns when
+  /// all are done. The first exception thrown by a job is rethrown here.
+  void run(std::size_t blocks, const std::function<void(std::size_t)>& job);
+
+  /// run() over [0, n) in blocks of `block` elements: job(begin, end).
+  template <class Job>
+  void for_blocks(std::size_t n, std::size_t block, Job&& job) {
+    run((n + block - 1) / block,
+        [&](std::size_t b) { job(b * block, b * block + block < n ? b * block + block : n); });
+  }
+
+ private:
+  void work(unsigned index, std::stop_token stop);
+  void share(unsigned index);
+
+  std::vector<std::jthread> workers_;
+  const std::function<void(std::size_t)>* job_ = nullptr;
+  std::size_t blocks_ = 0;
+  std::atomic<std::uint32_t> round_{0};    ///< raised to start a job
+  std::atomic<std::uint32_t> pending_{0};  ///< workers not yet done with it
+  std::atomic<bool> failed_{false};
+  std::exception_ptr error_;
+};
+
+}  // namespace faba

@@ -1,0 +1,57 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "core/portable_math.h"
+
+namespace faba {
+
+/// Independent physical processes draw from streams of their own. Append only; never renumber.
+enum class Stream : std::uint32_t {
+  start = 0,        ///< where cells begin, and what each is born with
+  motion = 1,       ///< rotational and translational noise of one step
+  translation = 2,  ///< reserved
+  motility = 3,     ///< reversals, tumbles, tolerance to oxygen
+  camera = 4,
+  controller = 5,
+  exclusion = 6  ///< who wins a contested grid cell
+};
+
+/// Philox4x32-10 (Salmon et al. 2011, as in Random123): four random words as a pure function of counter and
+/// key. No state is kept, so results cannot depend on thread count or visiting order.
+[[gnu::always_inline]] inline void philox(std::uint32_t& c0, std::uint32_t& c1, std::uint32_t& c2,
+                                          std::uint32_t& c3, std::uint32_t k0, std::uint32_t k1) {
+#pragma GCC unroll 10
+  for (int round = 0; round < 10; ++round) {
+    const std::uint64_t p0 = std::uint64_t{0xD2511F53u} * c0, p1 = std::uint64_t{0xCD9E8D57u} * c2;
+    c0 = std::uint32_t(p1 >> 32) ^ c1 ^ k0;
+    c2 = std::uint32_t(p0 >> 32) ^ c3 ^ k1;
+    c1 = std::uint32_t(p1);
+    c3 = std::uint32_t(p0);
+    k0 += 0x9E3779B9u;
+    k1 += 0xBB67AE85u;
+  }
+}
+
+/// The same for one draw: key = seed, counter = (agent, step, stream, block).
+inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, Stream stream, std::uint32_t agent,
+                                         std::uint32_t step, std::uint32_t block = 0) {
+  std::array<std::uint32_t, 4> c{agent, step, std::uint32_t(stream), block};
+  philox(c[0], c[1], c[2], c[3], std::uint32_t(seed), std::uint32_t(seed >> 32));
+  return c;
+}
+
+/// Uniform in (0, 1), 24 bits: never 0, so that its logarithm is finite.
+inline float uniform(std::uint32_t word) { return (float(word >> 8) + 0.5f) * 0x1p-24f; }
+/// Uniform integer in {0, ..., n-1}, n <= 2^16: multiply-shift, bias below n 2^-32.
+inline std::uint32_t below(std::uint32_t word, std::uint32_t n) {
+  return std::uint32_t((std::uint64_t{word} * n) >> 32);
+}
+/// Two independent standard normals from two words (Box-Muller); tails end at 5.9 sigma with 24-bit uniforms.
+inline std::array<float, 2> normals(std::uint32_t a, std::uint32_t b) {
+  const float radius = std::sqrt(-2.0f * portable::log(uniform(a)));
+  const auto [s, c] = portable::sincos(float(std::int32_t(b) >> 8) * (portable::kPiF * 0x1p-23f));
+  return {radius * c, radius * s};
+}
+
+}  // namespace faba

@@ -1,0 +1,144 @@
+#include "core/schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+
+namespace faba {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t keep = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + std::size_t(a[i - 1] != b[j - 1])});
+      diagonal = keep;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string example(const FieldInfo& f) {
+  return f.unit.empty()
+             ? "a number"
+             : fmt::format("a {} such as \"1 {}\"", dimension_name(parse_unit(f.unit).dimension), f.unit);
+}
+
+std::string shown(const Json& j) {
+  const std::string s = j.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return s.size() > 60 ? s.substr(0, 57) + "..." : s;
+}
+
+constexpr double kOpen = std::numeric_limits<double>::max();
+
+}  // namespace
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const std::string* best = nullptr;
+  // More than a third of the letters wrong is another word, not a slip.
+  std::size_t d_best = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const auto& k : known)
+    if (const std::size_t d = edit_distance(word, k); d < d_best) d_best = d, best = &k;
+  if (best) return fmt::format("; did you mean \"{}\"?", *best);
+  return known.empty() ? "" : fmt::format("; known: {}", fmt::join(known, ", "));
+}
+
+namespace schema_detail {
+
+void check_number(double v, const FieldInfo& f, const Node& n) {
+  if (!std::isfinite(v)) n.fail(fmt::format("must be a finite number, got {}", v));
+  if (v >= f.min && v <= f.max) return;
+  const std::string range =
+      f.max == kOpen ? fmt::format("at least {}", format_quantity(f.min, f.unit))
+      : f.min == -kOpen
+          ? fmt::format("at most {}", format_quantity(f.max, f.unit))
+          : fmt::format("between {} and {}", format_quantity(f.min, f.unit), format_quantity(f.max, f.unit));
+  n.fail(fmt::format("{} is out of range; it must be {}", format_quantity(v, f.unit), range));
+}
+
+double read_number(const Node& n, const FieldInfo& f) {
+  double v = 0;
+  if (n.json->is_number()) {
+    v = n.json->get<double>();
+  } else if (n.json->is_string()) {
+    const std::string text = n.json->get<std::string>();
+    Quantity q;
+    try {
+      q = parse_quantity(text);
+    } catch (const std::invalid_argument& e) {
+      n.fail(fmt::format("{}; expected {}", e.what(), example(f)));
+    }
+    const Dimension wanted = parse_unit(f.unit).dimension;
+    if (q.dimension != wanted && !(q.dimension == Dimension{}))
+      n.fail(fmt::format("\"{}\" is a {}; expected {}", text, dimension_name(q.dimension), example(f)));
+    v = q.value;
+  } else {
+    n.fail(fmt::format("expected {}, got {}", example(f), shown(*n.json)));
+  }
+  check_number(v, f, n);
+  return v;
+}
+
+std::int64_t read_integer(const Node& n, const FieldInfo& f) {
+  if (!n.json->is_number()) n.fail(fmt::format("expected a whole number, got {}", shown(*n.json)));
+  const double v = n.json->get<double>();
+  check_number(v, f, n);
+  if (v != std::floor(v)) n.fail(fmt::format("expected a whole number, got {}", v));
+  return n.json->is_number_integer() ? n.json->get<std::int64_t>() : std::int64_t(v);
+}
+
+bool read_flag(const Node& n) {
+  if (!n.json->is_boolean()) n.fail(fmt::format("expected true or false, got {}", shown(*n.json)));
+  return n.json->get<bool>();
+}
+
+std::string read_text(const Node& n, const FieldInfo& f) {
+  if (!n.json->is_string()) n.fail(fmt::format("expected a text in quotes, got {}", shown(*n.json)));
+  if (!f.choices.empty()) read_choice(n, f);
+  return n.json->get<std::string>();
+}
+
+std::size_t read_choice(const Node& n, const FieldInfo& f) {
+  const std::string word = n.json->is_string() ? n.json->get<std::string>() : shown(*n.json);
+  const auto it = std::find(f.choices.begin(), f.choices.end(), word);
+  if (it == f.choices.end()) n.fail(fmt::format("\"{}\" is none of {}", word, fmt::join(f.choices, ", ")));
+  return std::size_t(it - f.choices.begin());
+}
+
+void require_array(const Node& n, std::size_t exact) {
+  if (!n.json->is_array()) n.fail(fmt::format("expected a list in [ ], got {}", shown(*n.json)));
+  if (exact && n.json->size() != exact)
+    n.fail(fmt::format("expected {} values, got {}", exact, n.json->size()));
+}
+
+Json number_json(double v, const FieldInfo& f) {
+  if (f.unit.empty() || f.unit == "px") return v;
+  return format_quantity(v, f.unit);
+}
+
+Json type_json(const char* type, const FieldInfo& f, const Json& fallback) {
+  Json j;
+  if (std::string(type) == "number" && !f.unit.empty())
+    j["type"] = {"number", "string"};
+  else
+    j["type"] = type;
+  if (!f.doc.empty()) j["description"] = f.doc;
+  if (!f.unit.empty()) j["x-unit"] = f.unit;
+  if (!f.choices.empty()) j["enum"] = f.choices;
+  const bool numeric = std::string(type) == "number" || std::string(type) == "integer";
+  if (numeric && f.min > -kOpen) j["minimum"] = f.min;
+  if (numeric && f.max < kOpen) j["maximum"] = f.max;
+  if (!fallback.is_null()) j["default"] = fallback;
+  if (!f.source.empty()) j["x-source"] = f.source;
+  return j;
+}
+
+}  // namespace schema_detail
+}  // namespace faba

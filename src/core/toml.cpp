@@ -1,0 +1,231 @@
+#include "core/toml.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+std::string joined(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
+Json convert(const toml::node& n, const std::string& path, Document& doc) {
+  if (n.source().begin.line) doc.origin[path] = fmt::format("{}:{}", doc.name, n.source().begin.line);
+  if (const auto* t = n.as_table()) {
+    // toml++ keeps keys sorted; order by line, so that a resolved scenario reads like the user's own.
+    std::vector<std::pair<toml::source_position, std::string_view>> keys;
+    for (const auto& [k, v] : *t) keys.emplace_back(v.source().begin, k.str());
+    std::stable_sort(keys.begin(), keys.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    Json j = Json::object();
+    for (const auto& [_, k] : keys) j[std::string(k)] = convert(*t->get(k), joined(path, k), doc);
+    return j;
+  }
+  if (const auto* a = n.as_array()) {
+    Json j = Json::array();
+    for (std::size_t i = 0; i < a->size(); ++i)
+      j.push_back(convert((*a)[i], fmt::format("{}[{}]", path, i), doc));
+    return j;
+  }
+  if (const auto* s = n.as_string()) return s->get();
+  if (const auto* i = n.as_integer()) return i->get();
+  if (const auto* d = n.as_floating_point()) return d->get();
+  if (const auto* b = n.as_boolean()) return b->get();
+  throw Error(Errc::usage, fmt::format("{}:{}: {}", doc.name, n.source().begin.line, path),
+              "dates and times have no meaning here");
+}
+
+struct Step {
+  std::string key;
+  std::vector<std::size_t> index;
+};
+std::vector<Step> split(const std::string& path) {
+  const auto bad = [&] {
+    return Error(Errc::usage, "--set " + path, "write a path such as swarm[0].model.speed");
+  };
+  std::vector<Step> steps;
+  std::istringstream in(path);
+  for (std::string part; std::getline(in, part, '.');) {
+    Step s;
+    const auto bracket = part.find('[');
+    s.key = part.substr(0, bracket);
+    if (s.key.empty()) throw bad();
+    for (auto at = bracket; at != std::string::npos && at < part.size();) {
+      const auto close = part.find(']', at);
+      if (part[at] != '[' || close == std::string::npos || close == at + 1 || close - at > 8) throw bad();
+      for (auto c = at + 1; c < close; ++c)
+        if (part[c] < '0' || part[c] > '9') throw bad();
+      s.index.push_back(std::stoul(part.substr(at + 1, close - at - 1)));
+      at = close + 1;
+    }
+    steps.push_back(std::move(s));
+  }
+  if (steps.empty() || path.back() == '.') throw bad();
+  return steps;
+}
+
+bool is_table_list(const Json& j) {
+  if (!j.is_array() || j.empty()) return false;
+  for (const auto& e : j)
+    if (!e.is_object()) return false;
+  return true;
+}
+
+void emit_value(const Json& j, std::string& out) {
+  if (j.is_array()) {
+    out += '[';
+    for (std::size_t i = 0; i < j.size(); ++i) {
+      if (i) out += ", ";
+      emit_value(j[i], out);
+    }
+    out += ']';
+  } else if (j.is_object()) {
+    out += "{ ";
+    bool first = true;
+    for (const auto& [k, v] : j.items()) {
+      if (v.is_null()) continue;
+      out += fmt::format("{}{} = ", first ? "" : ", ", k);
+      emit_value(v, out);
+      first = false;
+    }
+    out += " }";
+  } else {
+    out += j.dump();  // JSON strings, numbers and booleans are TOML too
+  }
+}
+
+void emit_table(const Json& table, const std::string& path, std::string& out) {
+  for (const auto& [k, v] : table.items())
+    if (!v.is_null() && !v.is_object() && !is_table_list(v)) {
+      out += k + " = ";
+      emit_value(v, out);
+      out += '\n';
+    }
+  for (const auto& [k, v] : table.items()) {
+    const std::string here = joined(path, k);
+    if (v.is_object()) {
+      out += fmt::format("\n[{}]\n", here);
+      emit_table(v, here, out);
+    } else if (is_table_list(v)) {
+      for (const auto& e : v) {
+        out += fmt::format("\n[[{}]]\n", here);
+        emit_table(e, here, out);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Document parse_toml(std::string_view text, const std::string& name) {
+  Document doc;
+  doc.name = name;
+  try {
+    const toml::table t = toml::parse(text, name);
+    doc.root = convert(t, "", doc);
+  } catch (const toml::parse_error& e) {
+    throw Error(Errc::usage, fmt::format("{}:{}", name, e.source().begin.line), std::string(e.description()));
+  }
+  return doc;
+}
+
+Document read_toml(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kMost = 4u << 20;
+  std::error_code ec;
+  if (!std::filesystem::exists(file, ec)) throw Error(Errc::usage, file.string(), "no such file");
+  if (std::filesystem::is_directory(file, ec))
+    throw Error(Errc::usage, file.string(), "is a directory, not a TOML file");
+  if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMost)
+    throw Error(Errc::usage, file.string(), "is over 4 MiB, no scenario is that long");
+  std::ifstream in(file, std::ios::binary);
+  std::string text(kMost + 1, '\0');
+  in.read(text.data(), std::streamsize(text.size()));
+  if (in.bad() || (in.fail() && !in.eof())) throw Error(Errc::usage, file.string(), "cannot be read");
+  text.resize(std::size_t(in.gcount()));
+  return parse_toml(text, file.string());
+}
+
+std::string to_toml(const Json& root) {
+  std::string out;
+  emit_table(root, "", out);
+  return out;
+}
+
+void Document::set(const std::string& path, Json value, const std::string& origin_label) {
+  Json* at = &root;
+  std::string so_far;
+  for (const Step& s : split(path)) {
+    const auto fail = [&](const std::string& what) {
+      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), what);
+    };
+    // `model = "dipole"` is short for `model = { type = "dipole" }`: setting below it keeps the type.
+    if (at->is_string()) *at = Json{{"type", *at}};
+    if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", so_far));
+    so_far = joined(so_far, s.key);
+    if (!at->contains(s.key)) {
+      if (!s.index.empty()) fail(fmt::format("there is no list \"{}\"", so_far));
+      (*at)[s.key] = Json::object();
+    }
+    at = &(*at)[s.key];
+    for (const std::size_t i : s.index) {
+      if (!at->is_array() || i >= at->size())
+        fail(fmt::format("\"{}\" has {} elements, there is no [{}]", so_far, at->is_array() ? at->size() : 0,
+                         i));
+      at = &(*at)[i];
+      so_far += fmt::format("[{}]", i);
+    }
+  }
+  *at = std::move(value);
+  // Whatever stood below in the file is gone, and its line numbers with it.
+  for (auto it = origin.lower_bound(so_far); it != origin.end() && it->first.starts_with(so_far);)
+    it = origin.erase(it);
+  origin[so_far] = origin_label;
+}
+
+void Document::set(const std::string& path, const std::string& value, const std::string& origin_label) {
+  Json parsed = value;
+  try {
+    const toml::table t = toml::parse("v = " + value);
+    if (t.size() == 1) {
+      Document scratch;
+      parsed = convert(*t.get("v"), "", scratch);
+    }
+  } catch (const toml::parse_error&) {
+    // not TOML: a plain string
+  }
+  set(path, std::move(parsed), origin_label);
+}
+
+Node Node::child(const std::string& key) const {
+  if (!json->is_object()) fail("must be a table");
+  if (!json->contains(key)) fail(fmt::format("\"{}\" is missing", key));
+  return {(*json)[key], joined(path, key), document};
+}
+Node Node::item(std::size_t i) const { return {(*json)[i], fmt::format("{}[{}]", path, i), document}; }
+
+std::string Node::where(const std::string& key) const {
+  const std::string full = key.empty() ? path : joined(path, key);
+  std::string label = document ? document->name : "";
+  if (document)
+    for (std::string p = full;;) {
+      if (const auto it = document->origin.find(p); it != document->origin.end()) {
+        label = it->second;
+        break;
+      }
+      const auto cut = p.find_last_of(".[");
+      if (cut == std::string::npos) break;
+      p.resize(cut);
+    }
+  if (full.empty()) return label;
+  return label.empty() ? full : fmt::format("{}: {}", label, full);
+}
+
+void Node::fail(const std::string& what) const { throw Error(Errc::usage, where(), what); }
+
+}  // namespace faba

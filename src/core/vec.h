@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <cmath>
+
+namespace faba {
+
+/// Plane vector; frame and unit are in the name of the variable that holds it.
+struct Vec2 {
+  double x = 0, y = 0;
+  friend Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+  friend Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+  friend Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
+  friend bool operator==(const Vec2&, const Vec2&) = default;
+};
+inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+/// Euclidean length. sqrt is correctly rounded everywhere, std::hypot is not: this keeps runs bit-identical.
+inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
+
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+  friend Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+/// Symmetric 2x2 matrix, here always a covariance.
+struct Mat2 {
+  double xx = 0, xy = 0, yy = 0;
+};
+/// Row-major 3x3 matrix; as a gradient, element [i][j] is d B_i / d x_j.
+using Mat3 = std::array<std::array<double, 3>, 3>;
+
+}  // namespace faba

@@ -1,0 +1,129 @@
+#include <cmath>
+
+#include "core/philox.h"
+#include "core/schema.h"
+#include "sim/agents/iterations.h"
+#include "sim/agents/vectorised.h"
+
+namespace faba {
+namespace {
+
+/// The Adapted model of the thesis (REFERENCE.md A5; its 3.3.3.3). In pixels per iteration,
+///   v = s u + k,   u = b / |b|,   b = response B / unit + (0, earth)
+/// with an innate speed s drawn once per cell from {0, ..., n}, n = round(max_speed), and k uniform on the
+/// integers
+/// {-a, ..., a} per axis, drawn anew every `hold` iterations. The field sets the direction only.
+/// Known to fail: the noise is as large as the speed unless noise_amplitude says less; the drift n/2 does not
+/// depend on the field's magnitude; the speed spread (CV 0.58) alone spreads a swarm by 0.58 of the way it
+/// goes.
+class Adapted final : public AgentModel {
+ public:
+  struct Params {
+    double max_speed = 9;
+    std::optional<double> noise_amplitude;
+    double earth = 1;
+    int hold = 2;
+    bool continuous_speed = false;
+  };
+  static Schema<Params> schema();
+  Adapted(const Params& p, const ModelContext& c);
+
+  std::vector<ColumnSpec> columns() const override;
+  void start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const override;
+  void step(State& s, const StepContext& c) const override;
+  double longest_step(double) const override { return scale_.iteration; }
+
+ private:
+  Params p_;
+  Scale scale_;
+  Iterations clock_;
+};
+
+struct Block {
+  const float *bx, *by, *response, *speed;
+  float *vx, *vy;
+};
+
+FABA_VECTORISED void redraw(const Block& b, std::size_t begin, std::size_t n, std::uint32_t iteration,
+                            std::uint32_t noise, float per_tesla, float earth, std::uint32_t k0,
+                            std::uint32_t k1) {
+  const float *__restrict bx = b.bx, *__restrict by = b.by, * __restrict response = b.response, * __restrict speed = b.speed;
+  float* __restrict vx = b.vx, * __restrict vy = b.vy;
+  const std::uint32_t count = 2 * noise + 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::uint32_t c0 = std::uint32_t(begin + i), c1 = iteration, c2 = std::uint32_t(Stream::motion), c3 = 0;
+    philox(c0, c1, c2, c3, k0, k1);
+    // A cell that no longer responds does not feel the Earth's field either.
+    const float r = response[i], m = r * per_tesla;
+    const float ux = m * bx[i], uy = m * by[i] + earth * r * r;
+    const float length = std::sqrt(ux * ux + uy * uy);
+    const float s = length > 0.0f ? speed[i] / length : 0.0f;
+    vx[i] = float(std::int32_t(below(c0, count)) - std::int32_t(noise)) + s * ux;
+    vy[i] = float(std::int32_t(below(c1, count)) - std::int32_t(noise)) + s * uy;
+  }
+}
+
+Schema<Adapted::Params> Adapted::schema() {
+  return Schema<Params>("adapted",
+                        "The thesis's Adapted model: innate speeds along the field plus 'inertia' noise")
+      .add("max_speed", &Params::max_speed,
+           {.min = 0,
+            .max = 1000,
+            .doc = "Largest innate speed in px per iteration, rounded to a whole number",
+            .source = "thesis: 8.9937 fitted (Fig. 4.16)"})
+      .add("noise_amplitude", &Params::noise_amplitude,
+           {.min = 0,
+            .max = 1000,
+            .doc = "Amplitude of the noise in px per iteration; max_speed when absent, as published",
+            .source = "thesis 3.3.3.3; 'small inertia' would be 0.2 max_speed (A5)"})
+      .add("earth", &Params::earth,
+           {.min = -100,
+            .max = 100,
+            .doc = "Earth's field in field units, added along y to the commanded drift",
+            .source = "thesis: 1 unit"})
+      .add("hold", &Params::hold,
+           {.min = 1,
+            .max = 100,
+            .doc = "Iterations for which a drawn velocity is kept",
+            .source = "thesis 3.3.3 (A3)"})
+      .add("continuous_speed", &Params::continuous_speed,
+           {.doc = "Draw innate speeds from all of [0, max_speed] instead of whole numbers"})
+      .validity(
+          "No turning time; the drift does not depend on the field's strength; one cell in n+1 has speed "
+          "zero.");
+}
+
+Adapted::Adapted(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), clock_(c, p.hold) {}
+
+std::vector<ColumnSpec> Adapted::columns() const {
+  auto columns = Iterations::columns();
+  columns.push_back({"speed", "px/iteration", "innate speed"});
+  return columns;
+}
+
+void Adapted::start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const {
+  const auto n = std::uint32_t(p_.max_speed + 0.5);
+  auto speed = s.agents["speed"];
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto w = draw(seed, Stream::start, std::uint32_t(i), 0, 0xFFFF)[0];
+    speed[i] = p_.continuous_speed ? float(p_.max_speed) * uniform(w) : float(below(w, n + 1));
+  }
+}
+
+void Adapted::step(State& s, const StepContext& c) const {
+  const std::size_t n = c.end - c.begin;
+  auto& a = s.agents;
+  const Block b{c.bx.data(),          c.by.data(),       &a["response"][c.begin],
+                &a["speed"][c.begin], &a["vx"][c.begin], &a["vy"][c.begin]};
+  if (clock_.redraws(s.step))
+    redraw(b, c.begin, n, clock_.index(s.step),
+           std::uint32_t(p_.noise_amplitude.value_or(p_.max_speed) + 0.5), float(1 / scale_.field_unit),
+           float(p_.earth), std::uint32_t(c.seed), std::uint32_t(c.seed >> 32));
+  clock_.move(s, c, float(scale_.m_per_px) * c.vigour);
+}
+
+}  // namespace
+
+void add_adapted(ModelRegistry& r) { r.add<Adapted>(); }
+
+}  // namespace faba

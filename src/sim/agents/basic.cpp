@@ -1,0 +1,90 @@
+#include "core/philox.h"
+#include "core/schema.h"
+#include "sim/agents/iterations.h"
+#include "sim/agents/vectorised.h"
+
+namespace faba {
+namespace {
+
+/// The Basic model of the thesis (REFERENCE.md A4, eq. 3.1, with the hold of A3). Per axis, in pixels per
+/// iteration,
+///   v = k + m,   k uniform on the integers {-n, ..., n},  n = round(max_speed),
+/// drawn anew every `hold` iterations; m is the drift that the field commands, in field units.
+/// Var[v] = n(n+1)/3 per axis; long-time diffusion hold n(n+1)/6 px^2 per iteration.
+/// Known to fail: `max_speed` is the amplitude of a noise, not a swimming speed; the swarm drifts with m
+/// whatever it is.
+class Basic final : public AgentModel {
+ public:
+  struct Params {
+    double max_speed = 8;
+    int hold = 2;
+  };
+  static Schema<Params> schema();
+  Basic(const Params& p, const ModelContext& c);
+
+  std::vector<ColumnSpec> columns() const override { return Iterations::columns(); }
+  void start(State&, std::size_t, std::size_t, std::uint64_t) const override {}  // born at rest, all alike
+  void step(State& s, const StepContext& c) const override;
+  double longest_step(double) const override { return scale_.iteration; }
+
+ private:
+  Params p_;
+  Scale scale_;
+  Iterations clock_;
+};
+
+struct Block {
+  const float *bx, *by, *response;
+  float *vx, *vy;
+};
+
+// Velocities in px per iteration.
+FABA_VECTORISED void redraw(const Block& b, std::size_t begin, std::size_t n, std::uint32_t iteration,
+                            std::uint32_t noise, float per_tesla, std::uint32_t k0, std::uint32_t k1) {
+  const float *__restrict bx = b.bx, *__restrict by = b.by, * __restrict response = b.response;
+  float* __restrict vx = b.vx, * __restrict vy = b.vy;
+  const std::uint32_t count = 2 * noise + 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::uint32_t c0 = std::uint32_t(begin + i), c1 = iteration, c2 = std::uint32_t(Stream::motion), c3 = 0;
+    philox(c0, c1, c2, c3, k0, k1);
+    const float m = response[i] * per_tesla;
+    vx[i] = float(std::int32_t(below(c0, count)) - std::int32_t(noise)) + m * bx[i];
+    vy[i] = float(std::int32_t(below(c1, count)) - std::int32_t(noise)) + m * by[i];
+  }
+}
+
+Schema<Basic::Params> Basic::schema() {
+  return Schema<Params>("basic",
+                        "The thesis's Basic model: commanded drift plus uniform integer noise, eq. 3.1")
+      .add("max_speed", &Params::max_speed,
+           {.min = 0,
+            .max = 1000,
+            .doc = "Amplitude of the noise in px per iteration, rounded to a whole number",
+            .source = "thesis: 8.1181 fitted (Fig. 4.15)"})
+      .add("hold", &Params::hold,
+           {.min = 1,
+            .max = 100,
+            .doc = "Iterations for which a drawn velocity is kept",
+            .source = "thesis 3.3.3 (A3)"})
+      .validity(
+          "A random walk with drift: no heading, no turning time, and a drift that does not depend on "
+          "max_speed.");
+}
+
+Basic::Basic(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), clock_(c, p.hold) {}
+
+void Basic::step(State& s, const StepContext& c) const {
+  const std::size_t n = c.end - c.begin;
+  auto& a = s.agents;
+  const Block b{c.bx.data(), c.by.data(), &a["response"][c.begin], &a["vx"][c.begin], &a["vy"][c.begin]};
+  if (clock_.redraws(s.step))
+    redraw(b, c.begin, n, clock_.index(s.step), std::uint32_t(p_.max_speed + 0.5),
+           float(1 / scale_.field_unit), std::uint32_t(c.seed), std::uint32_t(c.seed >> 32));
+  clock_.move(s, c, float(scale_.m_per_px) * c.vigour);
+}
+
+}  // namespace
+
+void add_basic(ModelRegistry& r) { r.add<Basic>(); }
+
+}  // namespace faba

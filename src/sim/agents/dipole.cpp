@@ -1,0 +1,313 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/philox.h"
+#include "core/schema.h"
+#include "sim/agent_model.h"
+#include "sim/agents/vectorised.h"
+
+namespace faba {
+namespace {
+
+/// A self-propelled magnetic dipole in the plane, overdamped (REFERENCE.md B1-B3, SI throughout):
+///   d theta = -w_B sin(theta - theta_B) dt + sqrt(2 D_r) dW,   w_B = m B / f_r,
+///   dx = v n dt + sqrt(2 D_t) dW,
+///   f_r = drag_factor 8 pi eta R^3,  f_t = 6 pi eta R,  D_r = kT / f_r,  D_t = kT / f_t.
+/// theta is the direction of the moment times polarity. Integrated by the exact solution of the torque
+/// followed by Ornstein-Uhlenbeck noise (D1), which stays within 2 % for any w_B dt; positions by the mean of
+/// both headings. Run-reverse cells change the sign of their speed while the moment stays where the field put
+/// it; a tumble turns the heading. Speeds are normal, cut off to [0, speed_max]; moments lognormal. Known to
+/// fail: helical paths, flagella that limit turning at strong fields, cell-cell hydrodynamics (below about 1
+/// % volume fraction they are small), the force (m.grad)B (0.05 % of the thrust at 1 T/m), and anything in
+/// depth.
+class Dipole final : public AgentModel {
+ public:
+  struct Params {
+    double moment = 1e-15;
+    double moment_spread = 0;
+    double radius = 0.7e-6;
+    double drag_factor = 1;
+    double viscosity = 0.89e-3;
+    double temperature = 298.15;
+    std::optional<double> rotational_diffusion;
+    std::optional<double> translational_diffusion;
+    double speed = 186e-6;
+    double speed_sd = 45e-6;
+    double speed_max = 320e-6;
+    double reversal_rate = 0;
+    double tumble_rate = 0;
+    std::optional<double> tumble_sd;
+  };
+  static Schema<Params> schema();
+  Dipole(const Params& p, const ModelContext& c);
+
+  std::vector<ColumnSpec> columns() const override;
+  void start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const override;
+  void step(State& s, const StepContext& c) const override;
+  double longest_step(double b_max) const override;
+
+  /// f_r, N m s.
+  static double rotational_drag(const Params& p);
+  /// D_r in 1/s and D_t in m^2/s after the overrides.
+  static double rotational_diffusion(const Params& p);
+  static double translational_diffusion(const Params& p);
+
+ private:
+  void reorient(State& s, const StepContext& c) const;
+
+  Params p_;
+  double turning_;  ///< median m / f_r, rad/(s T)
+  double d_r_, d_t_;
+};
+
+constexpr double kBoltzmann = 1.380649e-23;  // J/K, exact in the SI
+constexpr std::uint32_t kBirth = 0xFFFF;     // block of the start stream that placing cells never reaches
+
+struct Block {
+  const float *bx, *by, *response, *turning, *speed, *x, *y;
+  float *ux, *uy, *to_x, *to_y;
+};
+struct Constants {
+  float dt, spread_r /* 2 D_r dt */, sd_t /* sqrt(2 D_t dt) */, half_step /* vigour dt / 2 */;
+  std::uint32_t step, k0, k1;
+};
+
+// One Philox block feeds the three normals: words 0, 1 turn the heading, words 2, 3 move the cell.
+FABA_VECTORISED void swim(const Block& b, const Constants& c, std::size_t begin, std::size_t n) {
+  const float *bx = b.bx, *by = b.by, *response = b.response, *turning = b.turning, *speed = b.speed,
+              *x = b.x, *y = b.y;
+  float *ux = b.ux, *uy = b.uy, *to_x = b.to_x, *to_y = b.to_y;
+  const Constants k = c;
+#pragma GCC ivdep  // to_x and to_y may be x and y, element by element
+  for (std::size_t i = 0; i < n; ++i) {
+    std::uint32_t c0 = std::uint32_t(begin + i), c1 = k.step, c2 = std::uint32_t(Stream::motion), c3 = 0;
+    philox(c0, c1, c2, c3, k.k0, k.k1);
+    const float turn_noise = std::sqrt(-2.0f * portable::log(uniform(c0))) *
+                             portable::sincos(float(std::int32_t(c1) >> 8) * (portable::kPiF * 0x1p-23f)).cos;
+    const float move_radius = k.sd_t * std::sqrt(-2.0f * portable::log(uniform(c2)));
+    const auto move_angle = portable::sincos(float(std::int32_t(c3) >> 8) * (portable::kPiF * 0x1p-23f));
+
+    // Direction h that the heading u is drawn to: along the field, or against it for south-seeking cells.
+    const float b2 = bx[i] * bx[i] + by[i] * by[i];
+    const float length = std::sqrt(b2), sign = response[i] < 0.0f ? -1.0f : 1.0f;
+    const bool none = !(b2 > 0.0f);
+    const float inverse = sign / (none ? 1.0f : length);
+    const float hx = none ? 1.0f : bx[i] * inverse, hy = none ? 0.0f : by[i] * inverse;
+    const float w = turning[i] * length * (sign * response[i]);
+
+    // Exact torque: with delta the angle from h to u, cos delta -> (cos delta + tanh w dt) / (1 + cos delta
+    // tanh w dt). 1 + cos delta is taken from sin^2 where it would cancel, so that cells near antiparallel
+    // turn correctly.
+    const float cos0 = ux[i] * hx + uy[i] * hy, sin0 = hx * uy[i] - hy * ux[i];
+    const float big = 1.0f + std::fabs(cos0), small = sin0 * sin0 / big;
+    const float plus = cos0 < 0.0f ? small : big, minus = cos0 < 0.0f ? big : small;
+    const float wdt = w * k.dt;
+    const float e = portable::exp(wdt < 30.0f ? -wdt : -30.0f);
+    const float inv = 1.0f / (plus + e * e * minus);
+    const float cos1 = (plus - e * e * minus) * inv, sin1 = 2.0f * e * sin0 * inv;
+
+    // Ornstein-Uhlenbeck noise of stiffness w cos delta.
+    const float a = 2.0f * wdt * cos1;
+    const bool tiny = std::fabs(a) < 0.01f;
+    const float relaxed =
+        tiny ? 1.0f - a * (0.5f - a * (1.0f / 6.0f)) : (1.0f - portable::exp(-a)) / (tiny ? 1.0f : a);
+    const float variance = k.spread_r * (relaxed < 20.0f ? relaxed : 20.0f);
+    const auto turn = portable::sincos(std::sqrt(variance) * turn_noise);
+    const float cos2 = cos1 * turn.cos - sin1 * turn.sin, sin2 = sin1 * turn.cos + cos1 * turn.sin;
+    float vx = hx * cos2 - hy * sin2, vy = hy * cos2 + hx * sin2;
+    const float unit = 1.5f - 0.5f * (vx * vx + vy * vy);  // one Newton step keeps |u| = 1
+    vx *= unit;
+    vy *= unit;
+
+    const float half = k.half_step * speed[i];
+    to_x[i] = x[i] + (half * (ux[i] + vx) + move_radius * move_angle.cos);
+    to_y[i] = y[i] + (half * (uy[i] + vy) + move_radius * move_angle.sin);
+    ux[i] = vx;
+    uy[i] = vy;
+  }
+}
+
+Schema<Dipole::Params> Dipole::schema() {
+  Params msr1;
+  msr1.moment = 2.0e-16, msr1.moment_spread = 0.3, msr1.radius = 1.5e-6, msr1.drag_factor = 3.6;
+  msr1.speed = 45e-6, msr1.speed_sd = 8e-6, msr1.speed_max = 80e-6;
+  Params mc1;
+  mc1.moment = 2e-15, mc1.moment_spread = 0.3, mc1.radius = 0.75e-6;
+  mc1.speed = 300e-6, mc1.speed_sd = 70e-6, mc1.speed_max = 550e-6;
+  Params it1;
+  it1.moment_spread = 0.3;
+  return Schema<Params>("dipole",
+                        "Self-propelled magnetic dipole with rotational and translational diffusion")
+      .add("moment", &Params::moment,
+           {.unit = "A m^2",
+            .min = 0,
+            .max = 1e-12,
+            .doc = "Median magnetic moment of a cell",
+            .source = "IT-1: about ten 75 nm magnetite crystals, estimate (B2), assumed"})
+      .add("moment_spread", &Params::moment_spread,
+           {.min = 0,
+            .max = 2,
+            .doc = "Standard deviation of the moment's logarithm between cells",
+            .source = "assumed"})
+      .add("radius", &Params::radius,
+           {.unit = "m",
+            .min = 1e-8,
+            .max = 1e-4,
+            .doc = "Radius of the sphere with the cell's drag",
+            .source = "thesis: 1.4 um across"})
+      .add("drag_factor", &Params::drag_factor,
+           {.min = 0.1,
+            .max = 1e4,
+            .doc = "Rotational drag over that of the bare sphere, 8 pi eta R^3; flagella add 1-3",
+            .source = "assumed 1 (B1)"})
+      .add("viscosity", &Params::viscosity,
+           {.unit = "Pa s",
+            .min = 1e-5,
+            .max = 10,
+            .doc = "Viscosity of the medium",
+            .source = "water at 25 C"})
+      .add("temperature", &Params::temperature,
+           {.unit = "K", .min = 1, .max = 500, .doc = "Temperature, for the diffusion constants"})
+      .add("rotational_diffusion", &Params::rotational_diffusion,
+           {.unit = "1/s", .min = 0, .max = 1e4, .doc = "D_r instead of kT / f_r"})
+      .add("translational_diffusion", &Params::translational_diffusion,
+           {.unit = "m^2/s", .min = 0, .max = 1e-6, .doc = "D_t instead of kT / f_t"})
+      .add("speed", &Params::speed,
+           {.unit = "m/s", .min = 0, .max = 1e-2, .doc = "Mean swimming speed", .source = "thesis: 186 um/s"})
+      .add("speed_sd", &Params::speed_sd,
+           {.unit = "m/s",
+            .min = 0,
+            .max = 1e-2,
+            .doc = "Standard deviation of speed between cells, before the cut-off",
+            .source = "assumed: 300 um/s is then the 99.5 % point (B4)"})
+      .add("speed_max", &Params::speed_max,
+           {.unit = "m/s",
+            .min = 0,
+            .max = 1e-2,
+            .doc = "Largest speed; the normal law is cut off to [0, speed_max]",
+            .source = "assumed (B4)"})
+      .add("reversal_rate", &Params::reversal_rate,
+           {.unit = "1/s",
+            .min = 0,
+            .max = 1e3,
+            .doc = "Rate at which a cell turns its motor round and swims backwards"})
+      .add("tumble_rate", &Params::tumble_rate,
+           {.unit = "1/s", .min = 0, .max = 1e3, .doc = "Rate of tumbles"})
+      .add("tumble_sd", &Params::tumble_sd,
+           {.min = 0,
+            .max = 100,
+            .doc = "Standard deviation of a tumble's turn in rad; any direction when absent"})
+      .preset("IT-1", it1,
+              "Magnetofaba australis IT-1, the thesis's M. itaipuensis: speed and size from the thesis; "
+              "moment and spreads assumed (B2, B4)")
+      .preset("MSR-1", msr1,
+              "Magnetospirillum gryphiswaldense: moment (2.0 +- 0.6)e-16 A m^2 (Reufer et al., arXiv "
+              "1307.2459), drag set so that it turns at 0.74 rad/(mT s) (Pichel et al., arXiv "
+              "1710.00405), speed 30-60 um/s from memory; spreads assumed")
+      .preset(
+          "MC-1", mc1,
+          "Magnetococcus marinus: speeds 100-500 um/s (Bente et al. 2020, eLife); moment and spreads assumed")
+      .check([](const Params& p) -> std::string {
+        if (p.speed > p.speed_max) return "speed is above speed_max";
+        return {};
+      })
+      .validity(
+          "Planar; no helical paths, no flagellar limit of turning, no hydrodynamic interaction, no "
+          "field-gradient "
+          "force (0.05 % of the thrust at 1 T/m).");
+}
+
+double Dipole::rotational_drag(const Params& p) {
+  return p.drag_factor * 8 * portable::kPi * p.viscosity * p.radius * p.radius * p.radius;
+}
+double Dipole::rotational_diffusion(const Params& p) {
+  return p.rotational_diffusion.value_or(kBoltzmann * p.temperature / rotational_drag(p));
+}
+double Dipole::translational_diffusion(const Params& p) {
+  return p.translational_diffusion.value_or(kBoltzmann * p.temperature /
+                                            (6 * portable::kPi * p.viscosity * p.radius));
+}
+
+Dipole::Dipole(const Params& p, const ModelContext&)
+    : p_(p),
+      turning_(p.moment / rotational_drag(p)),
+      d_r_(rotational_diffusion(p)),
+      d_t_(translational_diffusion(p)) {}
+
+std::vector<ColumnSpec> Dipole::columns() const {
+  return {{"ux", "1", "heading, component to the right"},
+          {"uy", "1", "heading, component upwards"},
+          {"speed", "m/s", "swimming speed, negative while swimming backwards"},
+          {"turning", "rad/(s T)", "turning rate per tesla, m / f_r"}};
+}
+
+void Dipole::start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const {
+  auto ux = s.agents["ux"], uy = s.agents["uy"], speed = s.agents["speed"], turning = s.agents["turning"];
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto id = std::uint32_t(i);
+    const auto w = draw(seed, Stream::start, id, 0, kBirth);
+    const auto heading = portable::sincos(float(std::int32_t(w[0]) >> 8) * (portable::kPiF * 0x1p-23f));
+    ux[i] = heading.cos, uy[i] = heading.sin;
+    turning[i] = float(turning_ * portable::exp(p_.moment_spread * double(normals(w[1], w[2])[0])));
+    double v = p_.speed;
+    if (p_.speed_sd > 0) {
+      std::uint32_t attempt = 0;
+      do {
+        const auto u = draw(seed, Stream::start, id, ++attempt, kBirth);
+        v = p_.speed + p_.speed_sd * double(normals(u[0], u[1])[0]);
+      } while ((v < 0 || v > p_.speed_max) && attempt < 1000);
+      v = std::clamp(v, 0.0, p_.speed_max);
+    }
+    speed[i] = float(v);
+  }
+}
+
+void Dipole::step(State& s, const StepContext& c) const {
+  auto& a = s.agents;
+  const std::size_t n = c.end - c.begin;
+  if (p_.reversal_rate > 0 || p_.tumble_rate > 0) reorient(s, c);
+  const Block b{c.bx.data(),          c.by.data(),      &a["response"][c.begin], &a["turning"][c.begin],
+                &a["speed"][c.begin], &a["x"][c.begin], &a["y"][c.begin],        &a["ux"][c.begin],
+                &a["uy"][c.begin],    &c.to_x[c.begin], &c.to_y[c.begin]};
+  const Constants k{float(c.dt),
+                    float(2 * d_r_ * c.dt),
+                    float(std::sqrt(2 * d_t_ * c.dt)),
+                    float(c.dt / 2) * c.vigour,
+                    std::uint32_t(s.step),
+                    std::uint32_t(c.seed),
+                    std::uint32_t(c.seed >> 32)};
+  swim(b, k, c.begin, n);
+}
+
+// Reversals and tumbles are rare: a loop of its own keeps their branches out of the vectorised one.
+void Dipole::reorient(State& s, const StepContext& c) const {
+  auto ux = s.agents["ux"], uy = s.agents["uy"], speed = s.agents["speed"];
+  // an odd number of reversals within dt changes the sign
+  const auto p_reverse = float(0.5 * (1 - portable::exp(-2 * p_.reversal_rate * c.dt)));
+  const auto p_tumble = float(1 - portable::exp(-p_.tumble_rate * c.dt));
+  for (std::size_t i = c.begin; i < c.end; ++i) {
+    const auto w = draw(c.seed, Stream::motility, std::uint32_t(i), std::uint32_t(s.step));
+    if (uniform(w[0]) < p_reverse) speed[i] = -speed[i];
+    if (uniform(w[1]) >= p_tumble) continue;
+    const float angle = p_.tumble_sd ? float(*p_.tumble_sd) * normals(w[2], w[3])[0]
+                                     : float(std::int32_t(w[2]) >> 8) * (portable::kPiF * 0x1p-23f);
+    const auto t = portable::sincos(angle);
+    const float x = ux[i], y = uy[i];
+    ux[i] = x * t.cos - y * t.sin;
+    uy[i] = x * t.sin + y * t.cos;
+  }
+}
+
+double Dipole::longest_step(double b_max) const {
+  // Half a radian of turning and 0.05 rad^2 of diffusion per step: integrator bias below 0.5 % (D1).
+  double longest = 0.1;
+  if (turning_ * b_max > 0) longest = std::min(longest, 0.5 / (turning_ * b_max));
+  if (d_r_ > 0) longest = std::min(longest, 0.05 / d_r_);
+  return longest;
+}
+
+}  // namespace
+
+void add_dipole(ModelRegistry& r) { r.add<Dipole>(); }
+
+}  // namespace faba

@@ -1,0 +1,45 @@
+#include "sim/agents/iterations.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/agents/vectorised.h"
+
+namespace faba {
+namespace {
+
+FABA_VECTORISED void advance(const float* x, const float* __restrict v, float* to, std::size_t n,
+                             float metres) {
+#pragma GCC ivdep  // `to` may be x itself, element by element
+  for (std::size_t i = 0; i < n; ++i) to[i] = x[i] + metres * v[i];
+}
+
+}  // namespace
+
+Iterations::Iterations(const ModelContext& c, int hold) : hold_(std::uint64_t(hold)) {
+  const double ratio = c.scale.iteration / c.step, whole = std::floor(ratio + 0.5);
+  if (whole < 1 || std::fabs(ratio - whole) > 1e-6)
+    throw Error(
+        Errc::usage, "simulation.step",
+        fmt::format(
+            "an iteration of the published models ({} s) must be a whole number of steps ({} s); change "
+            "scale.iteration or simulation.step",
+            c.scale.iteration, c.step));
+  steps_ = std::uint64_t(whole);
+}
+
+void Iterations::move(State& s, const StepContext& c, float m_per_px) const {
+  const float metres = moves(s.step) ? m_per_px : 0.0f;
+  const std::size_t n = c.end - c.begin;
+  auto& a = s.agents;
+  advance(&a["x"][c.begin], &a["vx"][c.begin], &c.to_x[c.begin], n, metres);
+  advance(&a["y"][c.begin], &a["vy"][c.begin], &c.to_y[c.begin], n, metres);
+}
+
+std::vector<ColumnSpec> Iterations::columns() {
+  return {{"vx", "px/iteration", "held velocity to the right"},
+          {"vy", "px/iteration", "held velocity upwards"}};
+}
+
+}  // namespace faba

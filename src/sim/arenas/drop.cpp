@@ -1,0 +1,96 @@
+#include <cmath>
+
+#include "core/portable_math.h"
+#include "core/schema.h"
+#include "sim/arena.h"
+#include "sim/arenas/wall.h"
+
+namespace faba {
+namespace {
+
+/// A drop with a circular edge, seen through a camera that may show only part of it (REFERENCE.md A13). Cells
+/// swim out of view and back, and slide along the edge without ever crossing it (B6). Known to fail: pinned
+/// drops that are not round.
+class Drop final : public Arena {
+ public:
+  struct Params {
+    Vec2 view_px{640, 480};
+    Vec2 centre_px{319.5, 239.5};
+    double radius_px = 600;
+    double wall_alignment = 0;
+  };
+  static Schema<Params> schema();
+  Drop(const Params& p, const ArenaContext& c);
+
+  void confine(State& s, const StepContext& c) const override;
+  double depth(Vec2 p_world) const override;
+  Vec2 wall_point(double direction, double across, double depth) const override;
+  Grid grid() const override;
+  Frame frame() const override;
+  Outline outline() const override { return {p_.centre_px, p_.radius_px}; }
+
+ private:
+  Params p_;
+  double m_per_px_;
+  float radius_;  ///< m
+};
+
+Schema<Drop::Params> Drop::schema() {
+  return Schema<Params>("drop", "A round drop, usually larger than the view")
+      .add("view_px", &Params::view_px,
+           {.unit = "px", .min = 1, .max = 65536, .doc = "Width and height of the picture"})
+      .add("centre_px", &Params::centre_px,
+           {.unit = "px",
+            .min = -1e5,
+            .max = 1e5,
+            .doc = "Centre of the drop in the picture, y down; may lie outside"})
+      .add("radius_px", &Params::radius_px,
+           {.unit = "px", .min = 1, .max = 16384, .doc = "Radius of the drop"})
+      .add("wall_alignment", &Params::wall_alignment, WallAlignment::field_info())
+      .check([](const Params& p) -> std::string {
+        if (p.view_px.x != std::floor(p.view_px.x) || p.view_px.y != std::floor(p.view_px.y))
+          return "view_px must be whole numbers of pixels";
+        return {};
+      })
+      .validity("Round drops only; the liquid is a plane, depth is ignored.");
+}
+
+Drop::Drop(const Params& p, const ArenaContext& c)
+    : p_(p), m_per_px_(c.scale.m_per_px), radius_(float(p.radius_px * c.scale.m_per_px)) {}
+
+void Drop::confine(State& s, const StepContext& c) const {
+  const WallAlignment wall(s, p_.wall_alignment, c.dt);
+  const float r2_max = radius_ * radius_;
+  constexpr float kInside = 1.0f - 4e-7f;  // a few ulp, so that rounding cannot put a cell outside
+  for (std::size_t i = c.begin; i < c.end; ++i) {
+    const float x = c.to_x[i], y = c.to_y[i], r2 = x * x + y * y;
+    if (r2 <= r2_max) continue;
+    const float r = std::sqrt(r2), back = radius_ * kInside / r;
+    wall.touch(i, x / r, y / r);
+    c.to_x[i] = x * back;  // only the outward part of the move is lost: the cell slides
+    c.to_y[i] = y * back;
+  }
+}
+
+double Drop::depth(Vec2 p) const { return double(radius_) - norm(p); }
+
+// Cells that swim along `direction` keep their distance `across` from the drop's axis along it, and end on
+// the edge.
+Vec2 Drop::wall_point(double direction, double across, double depth) const {
+  const auto d = portable::sincos(direction);
+  const double forward = std::sqrt(std::max(0.0, 1 - across * across)), r = double(radius_) - depth;
+  return {r * (forward * d.cos - across * d.sin), r * (forward * d.sin + across * d.cos)};
+}
+
+Grid Drop::grid() const {
+  const int half = int(std::ceil(p_.radius_px)) + 1, n = 2 * half + 1;
+  return {n, n, float(m_per_px_), float(-(half + 0.5) * m_per_px_), float(-(half + 0.5) * m_per_px_)};
+}
+
+Frame Drop::frame() const { return {m_per_px_, int(p_.view_px.x), int(p_.view_px.y), p_.centre_px}; }
+
+}  // namespace
+
+void add_drop(ArenaRegistry& r) { r.add<Drop>(); }
+
+}  // namespace faba

@@ -1,0 +1,24 @@
+#include "sim/motility.h"
+
+namespace faba {
+namespace {
+
+/// Air does nothing: every cell keeps its speed and its response.
+class MotilityNone final : public Motility {
+ public:
+  struct Params {};
+  static Schema<Params> schema() {
+    return Schema<Params>("none", "Air does nothing: cells keep speed and response");
+  }
+  MotilityNone(const Params&, const MotilityContext&) {}
+  std::vector<ColumnSpec> columns() const override { return {}; }
+  void start(State&, std::size_t, std::size_t, std::uint64_t) const override {}
+  double vigour(double) const override { return 1; }
+  void step(State&, const StepContext&) const override {}
+};
+
+}  // namespace
+
+void add_motility_none(MotilityRegistry& r) { r.add<MotilityNone>(); }
+
+}  // namespace faba

@@ -1,0 +1,25 @@
+#include "sim/start.h"
+
+namespace faba {
+namespace {
+
+/// Anywhere in the arena, all places alike.
+class StartUniform final : public Start {
+ public:
+  struct Params {};
+  static Schema<Params> schema() { return {"uniform", "Anywhere in the arena, all places alike"}; }
+  StartUniform(const Params&, const StartContext& c) : grid_(c.arena->grid()) {}
+  Vec2 place(const std::array<double, 3>& u) const override {
+    return {double(grid_.left) + u[0] * grid_.columns * double(grid_.cell),
+            double(grid_.low) + u[1] * grid_.rows * double(grid_.cell)};
+  }
+
+ private:
+  Grid grid_;
+};
+
+}  // namespace
+
+void add_start_uniform(StartRegistry& r) { r.add<StartUniform>(); }
+
+}  // namespace faba

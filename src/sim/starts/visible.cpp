@@ -1,0 +1,24 @@
+#include "sim/start.h"
+
+namespace faba {
+namespace {
+
+/// Anywhere in the part of the arena that the camera shows (REFERENCE.md A13, "start in visible area").
+class StartVisible final : public Start {
+ public:
+  struct Params {};
+  static Schema<Params> schema() { return {"visible", "Anywhere in the visible part of the arena"}; }
+  StartVisible(const Params&, const StartContext& c) : frame_(c.arena->frame()) {}
+  Vec2 place(const std::array<double, 3>& u) const override {
+    return frame_.world_from_image({u[0] * frame_.width - 0.5, u[1] * frame_.height - 0.5});
+  }
+
+ private:
+  Frame frame_;
+};
+
+}  // namespace
+
+void add_start_visible(StartRegistry& r) { r.add<StartVisible>(); }
+
+}  // namespace faba

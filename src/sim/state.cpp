@@ -1,0 +1,46 @@
+#include "sim/state.h"
+
+#include <algorithm>
+
+#include "core/hash.h"
+
+namespace faba {
+
+Columns::Columns(std::size_t agents) : size_(agents) {
+  for (const char* name : {"x", "y", "response"}) add(name);
+}
+
+void Columns::add(std::string_view name) {
+  if (!has(name)) columns_.push_back({std::string(name), std::vector<float>(size_, 0.0f)});
+}
+
+bool Columns::has(std::string_view name) const {
+  return std::any_of(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
+}
+
+std::span<float> Columns::operator[](std::string_view name) {
+  for (Column& c : columns_)
+    if (c.name == name) return c.data;
+  throw Error(Errc::internal, std::string(name), "no such column");
+}
+
+std::span<const float> Columns::operator[](std::string_view name) const {
+  return const_cast<Columns&>(*this)[name];  // the same search; nothing is changed
+}
+
+std::string State::hash() const {
+  std::vector<const Column*> sorted;  // so that the order in which parts declare columns does not matter
+  for (const Column& c : agents.all()) sorted.push_back(&c);
+  std::sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->name < b->name; });
+  Hash h;
+  h.value(step);
+  for (const Column* c : sorted) {
+    h.text(c->name);
+    h.values(std::span<const float>(c->data));
+  }
+  h.values(std::span<const double>(current));
+  h.values(std::span<const double>(command));
+  return h.hex();
+}
+
+}  // namespace faba

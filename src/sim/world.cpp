@@ -1,0 +1,136 @@
+#include "sim/world.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/philox.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kBlock = 2048;  // field, headings and positions of a block stay in the first cache
+constexpr std::uint32_t kAttempts =
+    20000;  // to find a free place; reached only when the start region is full
+
+}  // namespace
+
+World::World(WorldParts parts, Pool& pool)
+    : parts_(std::move(parts)), pool_(pool), exclusion_(parts_.exclusion, *parts_.arena, parts_.seed) {
+  std::size_t n = 0;
+  for (const auto& p : parts_.populations) n = std::max(n, p.end);
+  const Grid g = parts_.arena->grid();
+  const auto cells = std::size_t(g.columns) * std::size_t(g.rows);
+  if (exclusion_.active() && n > cells)
+    throw Error(
+        Errc::usage, "swarm",
+        fmt::format("{} cells do not fit into {} grid cells, one each; fewer cells, a larger arena, or "
+                    "exclusion.order = \"none\"",
+                    n, cells));
+  state_.agents = Columns(n);
+  for (const auto& p : parts_.populations)
+    for (const auto& c : p.model->columns()) state_.agents.add(c.name);
+  for (const auto& c : parts_.motility->columns()) state_.agents.add(c.name);
+  state_.current.assign(parts_.field->coils(), 0.0);
+  state_.command = state_.current;
+  for (const double lag : parts_.field->lag())
+    follow_.push_back(lag > 0 ? 1 - portable::exp(-parts_.dt / lag) : 1.0);
+  place_all();
+  exclusion_.occupy(state_);
+  if (exclusion_.active()) {
+    to_x_.resize(n);
+    to_y_.resize(n);
+  }
+}
+
+void World::place_all() {
+  auto x = state_.agents["x"], y = state_.agents["y"], response = state_.agents["response"];
+  for (std::size_t k = 0; k < parts_.populations.size(); ++k) {
+    const Population& p = parts_.populations[k];
+    for (std::size_t i = p.begin; i < p.end; ++i) {
+      const auto id = std::uint32_t(i);
+      for (std::uint32_t attempt = 0;; ++attempt) {
+        if (attempt == kAttempts)
+          throw Error(
+              Errc::usage, fmt::format("swarm[{}].start", k),
+              fmt::format(
+                  "no free place found for cell {} of {}: the region is too small or too crowded; fewer "
+                  "cells, another start, or exclusion.order = \"none\"",
+                  i - p.begin + 1, p.end - p.begin));
+        const auto w = draw(parts_.seed, Stream::start, id, attempt);
+        const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
+        const Vec2 at = exclusion_.snapped(p.start->place({u(0), u(1), u(2)}));
+        if (parts_.arena->depth(at) < 0) continue;
+        if (exclusion_.active() && !exclusion_.place(id, at)) continue;
+        x[i] = float(at.x);
+        y[i] = float(at.y);
+        break;
+      }
+      const bool responds =
+          (double(draw(parts_.seed, Stream::motility, id, 0, 2)[0]) + 0.5) * 0x1p-32 < p.responding;
+      response[i] = responds ? float(p.polarity) : 0.0f;
+    }
+    p.model->start(state_, p.begin, p.end, parts_.seed);
+    parts_.motility->start(state_, p.begin, p.end, parts_.seed);
+  }
+}
+
+void World::advance_currents() {
+  for (std::size_t k = 0; k < state_.current.size(); ++k)
+    state_.current[k] += follow_[k] * (state_.command[k] - state_.current[k]);
+}
+
+void World::step() {
+  advance_currents();
+  const bool proposals = exclusion_.active();
+  const std::span<float> to_x = proposals ? std::span<float>(to_x_) : state_.agents["x"];
+  const std::span<float> to_y = proposals ? std::span<float>(to_y_) : state_.agents["y"];
+  const auto vigour = float(parts_.motility->vigour(state_.t));
+  for (const Population& p : parts_.populations)
+    pool_.for_blocks(p.end - p.begin, kBlock, [&](std::size_t b, std::size_t e) {
+      std::array<float, kBlock> bx, by;
+      StepContext c{p.begin + b,        p.begin + e, parts_.seed, parts_.dt, {bx.data(), e - b},
+                    {by.data(), e - b}, to_x,        to_y,        vigour};
+      const State& s = state_;
+      parts_.field->eval({s.agents["x"].subspan(c.begin, e - b), s.agents["y"].subspan(c.begin, e - b)},
+                         s.current, {{bx.data(), e - b}, {by.data(), e - b}});
+      parts_.motility->step(state_, c);
+      p.model->step(state_, c);
+      parts_.arena->confine(state_, c);
+    });
+  if (proposals) exclusion_.resolve(state_, to_x_, to_y_, pool_);
+  ++state_.step;
+  state_.t = double(state_.step) * parts_.dt;
+}
+
+void World::check_finite() const {
+  const auto x = state_.agents["x"], y = state_.agents["y"];
+  for (const Population& p : parts_.populations)
+    for (std::size_t i = p.begin; i < p.end; ++i)
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+        throw Error(
+            Errc::internal, fmt::format("agent {}", i),
+            fmt::format(
+                "position is not finite after step {}; the parameters of swarm[{}].model are out of its "
+                "range of validity",
+                state_.step, &p - parts_.populations.data()));
+}
+
+void World::restore(State saved) {
+  if (saved.agents.size() != state_.agents.size() ||
+      saved.agents.all().size() != state_.agents.all().size() ||
+      saved.current.size() != state_.current.size())
+    throw Error(Errc::input, "checkpoint", "does not belong to this scenario");
+  state_ = std::move(saved);
+  exclusion_ = Exclusion(parts_.exclusion, *parts_.arena, parts_.seed);
+  exclusion_.occupy(state_);
+}
+
+std::uint64_t World::responding() const {
+  std::uint64_t n = 0;
+  for (const float r : state_.agents["response"]) n += r != 0.0f;
+  return n;
+}
+
+}  // namespace faba

@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "study/metrics.h"
+#include "study/plot.h"
+#include "study/run_info.h"
+#include "study/series.h"
+
+namespace faba {
+
+/// A plot with the words that belong under it.
+struct Figure {
+  std::string heading, caption;  ///< plain text
+  Plot plot;
+};
+
+/// The figures of a run, in the order a reader wants them: distance to the setpoint, path in the picture,
+/// dispersion, field, currents, counts of cells. One is left out when its columns are missing or say nothing
+/// (no target; counts that never change). Lengths have a second scale in micrometres when the picture scale
+/// is known. Throws Error(Errc::input) when a column that every run has is missing (see control_metrics()).
+std::vector<Figure> run_figures(const Series& series, const Metrics& metrics, const RunInfo& info);
+
+}  // namespace faba

@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace faba {
+
+/// Where the cells of a run could be, in picture pixels.
+struct ArenaOutline {
+  std::string type;  ///< as the scenario names it
+  Vec2 centre_px;
+  std::optional<double> radius_px;  ///< of a drop
+  std::optional<Vec2> size_px;      ///< width and height of a box
+};
+
+/// What a run says about itself in its `manifest.json`. Everything but the version may be missing.
+struct RunInfo {
+  std::string version;          ///< of the program that made the run
+  std::string title, polarity;  ///< empty when not given, like all texts here
+  std::string seed, threads, state_hash, scenario_hash;
+  std::optional<double> um_per_px;  ///< picture scale, micrometre per pixel, > 0
+  std::optional<double> duration_s, wall_time_s;
+  std::optional<Vec2> view_px;  ///< width and height of the picture
+  std::optional<ArenaOutline> arena;
+  std::vector<std::string> swarms;  ///< one line per swarm: "count 500, model adapted"
+};
+
+/// Reads a manifest: a JSON object with `version`, and as far as known `seed, threads, state_hash,
+/// scenario_hash, duration_s, um_per_px, title, wall_time_s, view_px = [w, h], arena = {type, centre_px,
+/// radius_px | size_px}, polarity, swarms = [{...}]`. null counts as missing; unknown keys are left alone.
+/// Throws Error(Errc::input) naming the file and the key when the file is missing or not JSON, and for a
+/// value of the wrong kind.
+RunInfo read_run_info(const std::filesystem::path& path);
+
+}  // namespace faba

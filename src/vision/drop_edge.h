@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+#include "vision/edge_segments.h"
+#include "vision/image.h"
+
+namespace faba {
+
+/// Which side of the edge is the drop.
+enum class DropSide {
+  automatic,  ///< the side holding the circle's centre, unless cells are seen on the other side only
+  centre,     ///< the side holding the circle's centre
+  away        ///< the other side: the picture shows an air bubble in the liquid
+};
+
+/// Parameters of find_drop_edge. Lengths in px of the picture given.
+struct DropEdgeOptions {
+  EdgeSegmentOptions edges;     ///< smoothing, threshold, Hough lines
+  double stretch_low = 0.001;   ///< share of pixels shown black; dim 16-bit pictures are stretched to 0..255
+  double stretch_high = 0.999;  ///< share of pixels below white
+  double hot_pixel_sd = 8;  ///< a pixel this many noise sd off its 3x3 median is replaced by it; 0: keep all
+  double flatten_px = 33;   ///< side of the square whose mean is taken off before edges are sought; 0: none
+  int halvings = 4;         ///< edges are sought in the picture and in up to this many halved copies of it
+  int trials = 20000;       ///< random triples of edge pixels per copy
+  std::uint64_t seed = 1;   ///< of the random search
+  double min_radius_share = 0.08;  ///< smallest radius looked for, as a share of the picture's smaller side
+  double min_arc_deg = 10;         ///< shorter arcs are refused: their radius would be a guess
+  double max_sd_share = 0.15;      ///< a radius with a larger sd / radius is refused
+  double min_support = 0.5;        ///< share of the circle's arc in the picture that must show the edge
+  double max_log10_false_alarms = -3;  ///< a circle that chance would give more often than this is refused
+  double min_contrast_steps =
+      2;  ///< least contrast in steps of the grey scale: contour lines of even light are none
+  DropSide side = DropSide::automatic;
+  std::string name = "drop edge";  ///< `where` of errors: give the picture's file name
+};
+
+/// The edge of a drop: a circle and how sure it is. Image frame: x right, y down, px, pixel centres at
+/// integers.
+struct DropEdge {
+  Vec2 centre_image;  ///< may lie far outside the picture
+  double radius_px = 0;
+  Vec2 sd_centre_px;  ///< standard deviations, from the scatter of the edge about the circle
+  double sd_radius_px = 0;
+  double arc_deg = 0;              ///< angle the supporting arc covers as seen from the centre, 0..360
+  Vec2 inside_image;               ///< a point of the picture that is inside the drop
+  bool centre_side_inside = true;  ///< whether the drop is the side that holds the centre
+  int image_width = 0, image_height = 0;
+  double contrast = 0;       ///< grey inside minus outside of a step, middle minus sides of a line
+  double edge_width_px = 0;  ///< Gaussian sd of the blurred step or line
+  double support = 0;        ///< share of the circle's arc in the picture along which the edge was seen, 0..1
+  double log10_false_alarms = 0;      ///< how often chance would give such a circle; see ArcEvidence
+  std::vector<Vec2> edge_points;      ///< sub-pixel points of the edge that support the circle
+  std::vector<EdgeSegment> segments;  ///< the Hough segments the search started from
+};
+
+/// Finds the edge of a drop, any arc of 10 degrees or more, and its circle (REFERENCE.md A13): percentile
+/// stretch, Gaussian smoothing, Roberts edges, Hough segments, all edge pixels supporting them, RANSAC,
+/// Pratt. The picture's halved copies are searched the same way, so that blurred and noisy edges are seen
+/// too. Every circle is then tested along its whole arc (weigh_arc), which also gives the sub-pixel edge
+/// points for the last fit (Levenberg-Marquardt with covariance; the sd allow for edges that wander off a
+/// circle slowly). The place of the edge is the half level of a step and the middle of a line
+/// (fit_edge_profile). Same picture, same result. Throws Error(Errc::input, options.name): picture too small,
+/// not finite or uniform; no circle better supported than chance explains; a straight line; too short an arc;
+/// a radius too unsure; an arc mostly without an edge.
+DropEdge find_drop_edge(const GrayF& picture, const DropEdgeOptions& options = {});
+
+}  // namespace faba

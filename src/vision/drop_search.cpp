@@ -1,0 +1,239 @@
+#include "vision/drop_search.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr int kProfile = 16;    // px of the copy each side of the circle
+constexpr double kStraight = 1e5;  // px: 1000 px of an arc of this radius bend by 1.25 px
+constexpr double kHopeful = 5;  // log10 of false alarms: above, a circle is not worth following
+
+bool better(const DropCandidate& a, const DropCandidate& b) {
+  const double length_a = a.evidence.length_px * a.scale, length_b = b.evidence.length_px * b.scale;
+  if (length_a > 1.1 * length_b) return true;
+  if (length_b > 1.1 * length_a) return false;
+  return a.evidence.log10_false_alarms < b.evidence.log10_false_alarms;
+}
+
+/// How much larger the variance of a fit is than if neighbouring pieces were independent: 1 + 2 sum of the
+/// correlations of the residuals along the arc, up to the first that is not significant.
+double correlation_factor(const std::vector<Vec2>& points, const CircleFit& fit) {
+  std::vector<double> r;
+  for (Vec2 p : points) r.push_back(norm(p - fit.centre) - fit.radius);
+  double power = 0, factor = 1;
+  for (double x : r) power += x * x;
+  for (std::size_t lag = 1; lag < r.size() / 2 && power > 0; ++lag) {
+    double sum = 0;
+    for (std::size_t i = lag; i < r.size(); ++i) sum += r[i] * r[i - lag];
+    if (sum < 2 / std::sqrt(double(r.size())) * power) break;
+    factor += 2 * sum / power;
+  }
+  return factor;
+}
+
+/// Why a circle is not accepted; empty when it is.
+std::string objection(const DropCandidate& d, const DropPicture& picture, const DropEdgeOptions& o) {
+  const double radius = d.circle.radius, sd = d.fit.sd_radius, arc_deg = d.arc_rad * kDegrees;
+  if (d.evidence.log10_false_alarms > o.max_log10_false_alarms)
+    return "no edge of a drop: its edge pixels lie on no common circle better than scattered cells or noise "
+           "would; "
+           "show more of the edge, or focus on it";
+  if (arc_deg < o.min_arc_deg) {
+    const double length = radius * d.arc_rad, bend = length * d.arc_rad / 8, sd_bend = bend * sd / radius;
+    if (bend < 4 * sd_bend || bend < 1)
+      return fmt::format(
+          "the edge is a straight line: over {:.0f} px it bends by {:.1f} +- {:.1f} px; show the round "
+          "edge of the drop",
+          length, bend, sd_bend);
+    return fmt::format(
+        "the edge covers only {:.1f} degrees of a circle of radius {:.0f} px ({:.0f} degrees needed), "
+        "so its radius would be a guess; use a lower magnification or show more of the edge",
+        arc_deg, radius, o.min_arc_deg);
+  }
+  if (d.evidence.support < o.min_support)
+    return fmt::format(
+        "no edge of a drop: the best circle (radius {:.0f} px) shows an edge along only {:.0f} % of its "
+        "arc in the picture; show more of the edge, or focus on it",
+        radius, 100 * d.evidence.support);
+  if (sd > o.max_sd_share * radius)
+    return fmt::format(
+        "the radius is too unsure ({:.0f} +- {:.0f} px); show more of the edge, or a sharper one", radius,
+        sd);
+  // A saw-tooth of one contour has an rms of 0.29; half is the rms of a true step about twice as high.
+  if (d.evidence.relief < 0.5 * picture.contours)
+    return "no edge of a drop: the arcs in it are single steps of its grey scale in uneven light; use more "
+           "contrast "
+           "or more bits per pixel";
+  return {};
+}
+
+/// Largest distance between two circles at the points given.
+double distance(const Circle& a, const Circle& b, const std::vector<Vec2>& at) {
+  double most = 0;
+  for (Vec2 p : at)
+    most = std::max(most, std::fabs(norm(p - a.centre) - a.radius - norm(p - b.centre) + b.radius));
+  return most;
+}
+
+/// One round of following: what the picture shows near `start`, and the circle fitted to that.
+std::optional<DropCandidate> step_towards(const DropLevel& level, const Circle& start) {
+  DropCandidate d;
+  d.scale = level.scale;
+  d.evidence = weigh_arc(level.flat, level.to_level(start));
+  if (d.evidence.points.size() < 6 || d.evidence.log10_false_alarms > kHopeful) return std::nullopt;
+  for (Vec2 p : d.evidence.points) d.points.push_back(level.to_picture(p));
+  try {
+    d.fit = refine_circle(d.points, start, CircleLoss::square);
+  } catch (const Error&) {
+    // The points lie on a line as far as numbers of 53 bits can tell; the radius is as unsure as it is large.
+    if (start.radius < kStraight) return std::nullopt;
+    d.fit.centre = start.centre;
+    d.fit.radius = d.fit.sd_radius = start.radius;
+    d.fit.arc_rad = covered_angle(d.points, start.centre);
+  }
+  const Circle fitted = level.to_level({d.fit.centre, d.fit.radius});
+  d.profile = fit_edge_profile(mean_profile(level.grey, fitted, d.evidence.angles, kProfile));
+  d.circle = {d.fit.centre, d.fit.radius + d.profile.position * level.scale};
+  if (!(d.circle.radius > 0)) return std::nullopt;
+  const double inflate = std::sqrt(correlation_factor(d.points, d.fit));
+  d.fit.sd_centre = inflate * d.fit.sd_centre;
+  d.fit.sd_radius *= inflate;
+  const double piece_rad = d.evidence.piece_px * level.scale / d.circle.radius;
+  d.arc_rad = std::min(2 * std::numbers::pi, d.fit.arc_rad + piece_rad);
+  return d;
+}
+
+/// Moves a circle to the edge that the copy shows nearby. Nothing when it does not come to rest on a sharp
+/// edge.
+std::optional<DropCandidate> follow(const DropLevel& level, Circle circle) {
+  std::optional<DropCandidate> best;
+  for (int round = 0; round < 6; ++round) {
+    auto now = step_towards(level, circle);
+    if (!now) break;
+    const double moved = distance(now->circle, circle, now->points) / level.scale;
+    if (getenv("DROP_DEBUG"))
+      fprintf(stderr,
+              "   f%.0f c %.1f %.1f R %.1f: nfa %.1f support %.2f tol %.1f vis %zu shape %d pos %.2f w %.2f "
+              "step %.1f ring %.1f expl %.3f fit R %.2f sd %.2f moved %.2f\n",
+              level.scale, circle.centre.x, circle.centre.y, circle.radius, now->evidence.log10_false_alarms,
+              now->evidence.support, now->evidence.tolerance_px, now->evidence.visible,
+              (int)now->profile.shape, now->profile.position, now->profile.width, now->profile.step,
+              now->profile.ring, now->profile.explained, now->fit.radius, now->fit.sd_radius, moved);
+    circle = now->circle;
+    // Wider than 5 px of this copy, or no step or line at all: shading, or for a coarser copy.
+    const bool sharp = now->profile.width < 5 && now->profile.explained > 0.5;
+    if (moved < 0.5 && sharp && (!best || better(*now, *best))) best = std::move(now);
+    if (moved < 0.05) break;
+  }
+  return best;
+}
+
+class Search {
+ public:
+  Search(const DropPicture& picture, const DropEdgeOptions& o) : picture_(picture), options_(o) {}
+
+  /// Follows the circles found among the pixels of copy k, there and in every finer copy.
+  void try_pixels(const std::vector<EdgePixel>& pixels, const std::vector<EdgeSegment>& segments,
+                  std::size_t k) {
+    std::vector<Vec2> positions, normals;
+    for (const EdgePixel& p : pixels) positions.push_back(p.pos), normals.push_back(p.normal);
+    const DropLevel& level = picture_.levels[k];
+    CircleSearchOptions o;
+    o.trials = options_.trials;
+    o.seed = options_.seed;
+    o.max_circles = 4;
+    o.min_radius = options_.min_radius_share * std::min(level.grey.width, level.grey.height);
+    o.max_radius = 1000.0 * (level.grey.width + level.grey.height);  // a line of pixels is no rounder
+    for (const Circle& c : search_circles(positions, normals, o))
+      try_circle(level.to_picture(c), segments, k);
+  }
+
+  void try_circle(Circle circle, const std::vector<EdgeSegment>& segments, std::size_t k) {
+    if (known(circle, picture_.levels[k].scale)) return;
+    for (std::size_t j = k + 1; j-- > 0;) {
+      auto d = follow(picture_.levels[j], circle);
+      if (!d) break;
+      circle = d->circle;
+      d->objection = objection(*d, picture_, options_);
+      if (getenv("DROP_DEBUG")) fprintf(stderr, "  -> %s\n", d->objection.c_str());
+      const bool sure = d->evidence.log10_false_alarms < options_.max_log10_false_alarms;
+      if (sure) seen_.push_back(*d);
+      auto& place = d->objection.empty() ? found.accepted : found.refused;
+      if (!place || better(*d, *place)) {
+        if (d->objection.empty()) keep_segments(segments, picture_.levels[k]);
+        place = std::move(d);
+      }
+      if (!sure) break;
+    }
+  }
+
+  bool convinced() const {
+    return found.accepted && found.accepted->evidence.support > 0.9 &&
+           found.accepted->evidence.log10_false_alarms < -10;
+  }
+
+  DropSearch found;
+
+ private:
+  /// Whether the circle runs along one that was followed before: it would only end there again.
+  bool known(const Circle& circle, double scale) const {
+    return std::any_of(seen_.begin(), seen_.end(), [&](const DropCandidate& d) {
+      return distance(circle, d.circle, d.points) < 6 * std::max(scale, d.scale);
+    });
+  }
+  void keep_segments(const std::vector<EdgeSegment>& segments, const DropLevel& level) {
+    found.segments.clear();
+    for (const EdgeSegment& s : segments)
+      found.segments.push_back({level.to_picture(s.a), level.to_picture(s.b)});
+  }
+
+  const DropPicture& picture_;
+  const DropEdgeOptions& options_;
+  std::vector<DropCandidate> seen_;
+};
+
+EdgeSegments segments_of(const DropLevel& level, const DropEdgeOptions& o) {
+  EdgeSegmentOptions edges = o.edges;
+  if (level.scale > 1 && edges.threshold != EdgeThreshold::otsu) edges.threshold = EdgeThreshold::noise;
+  // Lengths are meant in px of the picture; a few px of a coarse copy are too short to be told from noise.
+  edges.min_length_px = std::max(10.0, edges.min_length_px / level.scale);
+  edges.fill_gap_px = std::max(4.0, edges.fill_gap_px / level.scale);
+  return find_edge_segments(level.flat, edges);
+}
+
+/// A circle so large that it is straight across any picture, through a segment.
+Circle along(const EdgeSegment& s) {
+  const Vec2 d = s.b - s.a, middle = 0.5 * (s.a + s.b);
+  const Vec2 normal = (1 / norm(d)) * Vec2{-d.y, d.x};
+  return {middle + 100 * kStraight * normal, 100 * kStraight};
+}
+
+}  // namespace
+
+DropSearch search_drop_edge(const DropPicture& picture, const DropEdgeOptions& options) {
+  Search search(picture, options);
+  std::vector<EdgeSegments> edges;
+  for (std::size_t k = 0; k < picture.levels.size() && !search.convinced(); ++k) {
+    edges.push_back(segments_of(picture.levels[k], options));
+    if (getenv("DROP_DEBUG"))
+      fprintf(stderr, "level %zu: %zu px %zu segs %zu supp\n", k, edges[k].pixels.size(),
+              edges[k].segments.size(), edges[k].support.size());
+    search.try_pixels(edges[k].support, edges[k].segments, k);
+  }
+  for (std::size_t k = 0; k < edges.size() && !search.found.accepted; ++k)
+    search.try_pixels(edges[k].pixels, edges[k].segments, k);
+  for (std::size_t k = 0; k < edges.size() && !search.found.accepted; ++k)
+    for (std::size_t i = 0; i < std::min<std::size_t>(2, edges[k].segments.size()); ++i)
+      search.try_circle(picture.levels[k].to_picture(along(edges[k].segments[i])), edges[k].segments, k);
+  return std::move(search.found);
+}
+
+}  // namespace faba

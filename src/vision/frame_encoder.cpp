@@ -1,0 +1,165 @@
+#include "vision/frame_encoder.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavutil/opt.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "core/error.h"
+#include "vision/libav.h"
+#include "vision/yuv420.h"
+
+namespace faba {
+namespace {
+
+constexpr int kLongestSide = 16384;  // px, what H.264 can hold
+
+using Frame = std::unique_ptr<AVFrame, libav::Freed<av_frame_free>>;
+using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
+using Codec = std::unique_ptr<AVCodecContext, libav::Freed<avcodec_free_context>>;
+
+int even(int length) { return length + length % 2; }
+
+void describe_h264(AVCodecContext& codec, FrameRate rate) {
+  codec.width = even(codec.width);
+  codec.height = even(codec.height);
+  codec.pix_fmt = AV_PIX_FMT_YUV420P;
+  codec.gop_size = std::max(1, (rate.numerator + rate.denominator / 2) / rate.denominator);
+  codec.max_b_frames = 0;
+  // Untagged or limited range shifts greys in browsers, and an untagged matrix makes them guess by the size.
+  codec.color_range = AVCOL_RANGE_JPEG;
+  codec.colorspace = AVCOL_SPC_SMPTE170M;
+  codec.color_primaries = AVCOL_PRI_BT709;
+  codec.color_trc = AVCOL_TRC_IEC61966_2_1;
+  codec.chroma_sample_location = AVCHROMA_LOC_CENTER;
+  av_opt_set(codec.priv_data, "preset", "veryfast", 0);
+  av_opt_set(codec.priv_data, "tune", "zerolatency", 0);
+  av_opt_set(codec.priv_data, "crf", "20", 0);
+  av_opt_set(codec.priv_data, "x264-params", "cpu-independent=1", 0);
+}
+
+}  // namespace
+
+struct FrameEncoder::Impl {
+  Kind kind;
+  int width, height;
+  FrameRate rate;
+  std::string where;
+  Codec codec{};
+  Frame frame{};
+  Packet packet{av_packet_alloc()};
+  std::int64_t count = 0;
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(Errc::internal, where, what); }
+  void open();
+  template <class Pixel>
+  void check(const Image<Pixel>& picture, bool kind_fits) const;
+  std::span<const std::uint8_t> code();
+  template <class Pixel>
+  void copy(const Image<Pixel>& picture);
+};
+
+void FrameEncoder::Impl::open() {
+  libav::quiet();
+  const char* name = kind == Kind::h264 ? "libx264" : "png";
+  const AVCodec* encoder = avcodec_find_encoder_by_name(name);
+  if (encoder == nullptr) {
+    fail(std::string("this FFmpeg has no encoder ") + name +
+         (kind == Kind::h264 ? "; install one built with x264 or record lossless_avi" : ""));
+  }
+  codec.reset(avcodec_alloc_context3(encoder));
+  codec->width = width;
+  codec->height = height;
+  codec->time_base = {rate.denominator, rate.numerator};
+  codec->framerate = {rate.numerator, rate.denominator};
+  codec->thread_count = 1;
+  if (kind == Kind::h264) {
+    describe_h264(*codec, rate);
+  } else {
+    codec->pix_fmt = kind == Kind::png_grey ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_RGB24;
+    codec->compression_level = 1;
+    av_opt_set(codec->priv_data, "pred", "none", 0);  // camera noise packs best, and fastest, as it is
+  }
+  libav::forget_messages();
+  const int result = avcodec_open2(codec.get(), encoder, nullptr);
+  if (result < 0) fail(std::string("the ") + name + " encoder cannot start: " + libav::reason(result));
+  frame.reset(av_frame_alloc());
+  frame->format = codec->pix_fmt;
+  frame->width = codec->width;
+  frame->height = codec->height;
+  frame->color_range = codec->color_range;
+  if (av_frame_get_buffer(frame.get(), 0) < 0) fail("no memory for a video frame");
+  count = 0;
+}
+
+template <class Pixel>
+void FrameEncoder::Impl::copy(const Image<Pixel>& picture) {
+  const std::size_t row_bytes = sizeof(Pixel) * static_cast<std::size_t>(width);
+  for (int row = 0; row < height; ++row) {
+    std::memcpy(frame->data[0] + std::ptrdiff_t{row} * frame->linesize[0],
+                picture.px.data() + std::ptrdiff_t{row} * width, row_bytes);
+  }
+}
+
+std::span<const std::uint8_t> FrameEncoder::Impl::code() {
+  libav::forget_messages();
+  av_packet_unref(packet.get());
+  frame->pts = count++;
+  int result = avcodec_send_frame(codec.get(), frame.get());
+  if (result >= 0) result = avcodec_receive_packet(codec.get(), packet.get());
+  if (result < 0) fail("a frame cannot be encoded: " + libav::reason(result));
+  return {packet->data, static_cast<std::size_t>(packet->size)};
+}
+
+template <class Pixel>
+void FrameEncoder::Impl::check(const Image<Pixel>& picture, bool kind_fits) const {
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (!kind_fits || picture.width != width || picture.height != height || picture.px.size() != pixels) {
+    fail("a frame of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+         " px does not fit this encoder of " + std::to_string(width) + " x " + std::to_string(height) +
+         " px");
+  }
+}
+
+FrameEncoder::FrameEncoder(Kind kind, int width, int height, FrameRate rate, std::string where)
+    : impl_(std::make_unique<Impl>(Impl{kind, width, height, rate, std::move(where)})) {
+  if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
+    impl_->fail("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                " px cannot be encoded; 1 to " + std::to_string(kLongestSide) + " px are possible");
+  }
+  impl_->open();
+}
+FrameEncoder::~FrameEncoder() = default;
+FrameEncoder::FrameEncoder(FrameEncoder&&) noexcept = default;
+FrameEncoder& FrameEncoder::operator=(FrameEncoder&&) noexcept = default;
+
+std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
+  Impl& self = *impl_;
+  self.check(picture, self.kind != Kind::png_grey);
+  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
+  if (self.kind == Kind::h264) {
+    const AVFrame& to = *self.frame;
+    to_yuv420(picture, {to.data[0], to.data[1], to.data[2], to.linesize[0], to.linesize[1], to.linesize[2]});
+  } else {
+    static_assert(sizeof(Rgb) == 3);
+    self.copy(picture);
+  }
+  return self.code();
+}
+
+std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
+  Impl& self = *impl_;
+  self.check(picture, self.kind == Kind::png_grey);
+  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
+  self.copy(picture);
+  return self.code();
+}
+
+void FrameEncoder::restart() { impl_->open(); }
+
+}  // namespace faba

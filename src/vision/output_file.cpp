@@ -1,0 +1,107 @@
+#include "vision/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+std::string advice(int error_number) {
+  const std::string reason = std::generic_category().message(error_number);
+  if (error_number == ENOSPC || error_number == EDQUOT)
+    return reason + "; free some space or write elsewhere";
+  if (error_number == EACCES || error_number == EROFS || error_number == EPERM) {
+    return reason + "; choose a place that may be written";
+  }
+  if (error_number == ENOENT) return reason + "; does the folder exist?";
+  return reason;
+}
+
+// Devices and some network file systems have nothing to flush and say so.
+bool cannot_flush(int error_number) { return error_number == EINVAL || error_number == ENOTSUP; }
+
+void flush_path(const std::filesystem::path& path, int flags, const std::filesystem::path& blame) {
+  const int descriptor = ::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw Error(Errc::internal, blame.string(), "cannot be flushed: " + advice(errno));
+  const int failure = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (failure != 0 && !cannot_flush(failure)) {
+    throw Error(Errc::internal, blame.string(), "cannot be flushed: " + advice(failure));
+  }
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path, std::uint64_t keep_bytes)
+    : path_(path), size_(keep_bytes) {
+  const int flags = keep_bytes == 0 ? O_WRONLY | O_CREAT | O_TRUNC : O_WRONLY;
+  descriptor_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("cannot be written", errno);
+  if (keep_bytes == 0) return;
+  try {
+    const off_t end = ::lseek(descriptor_, 0, SEEK_END);
+    if (end < 0) fail("cannot be continued", errno);
+    if (static_cast<std::uint64_t>(end) < keep_bytes) {
+      throw Error(Errc::internal, path.string(),
+                  "is shorter (" + std::to_string(end) + " bytes) than what was safe (" +
+                      std::to_string(keep_bytes) + " bytes), so it cannot be continued; start it anew");
+    }
+    if (::ftruncate(descriptor_, static_cast<off_t>(keep_bytes)) != 0) fail("cannot be cut", errno);
+    if (::lseek(descriptor_, 0, SEEK_END) < 0) fail("cannot be continued", errno);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputFile::fail(const char* what_failed, int error_number) const {
+  throw Error(Errc::internal, path_.string(), std::string(what_failed) + ": " + advice(error_number));
+}
+
+void OutputFile::append(std::span<const std::uint8_t> piece) {
+  for (auto rest = piece; !rest.empty();) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written >= 0) {
+      rest = rest.subspan(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      const int failure = errno;
+      const auto whole = static_cast<off_t>(size_);
+      // A device such as /dev/full cannot be cut back, nor does it keep anything.
+      if (::ftruncate(descriptor_, whole) == 0) ::lseek(descriptor_, whole, SEEK_SET);
+      fail("cannot be written", failure);
+    }
+  }
+  size_ += piece.size();
+}
+
+void OutputFile::sync() {
+  if (::fsync(descriptor_) != 0 && !cannot_flush(errno)) fail("cannot be flushed to the disk", errno);
+}
+
+void OutputFile::close() {
+  if (descriptor_ < 0) return;
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close(descriptor) != 0 && errno != EINTR) fail("cannot be closed", errno);
+}
+
+void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to) {
+  flush_path(from, 0, to);
+  std::error_code failure;
+  std::filesystem::rename(from, to, failure);
+  if (failure) throw Error(Errc::internal, to.string(), "cannot be put in place: " + advice(failure.value()));
+  const auto folder = to.has_parent_path() ? to.parent_path() : std::filesystem::path(".");
+  flush_path(folder, O_DIRECTORY, to);
+}
+
+}  // namespace faba

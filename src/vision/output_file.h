@@ -1,0 +1,42 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace faba {
+
+/// A file that grows by whole pieces (a frame, a picture), written straight through so that a crash of the
+/// program loses nothing that append() has taken. Every failure throws Error(Errc::internal, path) with the
+/// system's reason.
+class OutputFile {
+ public:
+  /// Creates `path`, or replaces what is there. With `keep_bytes` > 0 the file must exist with at least that
+  /// many bytes; it is cut to them and goes on from there.
+  explicit OutputFile(const std::filesystem::path& path, std::uint64_t keep_bytes = 0);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Appends all of `piece` or, when that fails (disk full), throws with the file cut back to what it was.
+  void append(std::span<const std::uint8_t> piece);
+  /// Returns when everything appended so far is on the disk.
+  void sync();
+  /// Closes the file; only sync() promises that it is on the disk. Closing twice is allowed.
+  void close();
+
+  std::uint64_t size() const { return size_; }                 ///< bytes
+  const std::filesystem::path& path() const { return path_; }  ///< as given
+
+ private:
+  [[noreturn]] void fail(const char* what_failed, int error_number) const;
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// Gives the complete file `from` its final name in the same file system, replacing what is there, and makes
+/// sure that content and name outlive a power cut. Throws Error(Errc::internal, to).
+void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to);
+
+}  // namespace faba

@@ -1,0 +1,20 @@
+#pragma once
+
+namespace faba {
+
+/// How a recording is coded, while it grows and when it is finished.
+enum class VideoFormat {
+  mp4,           ///< H.264 in MP4: small, plays in every browser, nearly exact (constant quality, crf 20)
+  lossless_avi,  ///< PNG frames in AVI: exact, opens in Fiji and ImageJ; for measuring on
+};
+
+/// A frame rate as a fraction, numerator / denominator frames per second, both positive.
+struct FrameRate {
+  int numerator = 25, denominator = 1;
+};
+
+/// The fraction with parts up to 100 000 that is nearest to `fps` (15/1, 273/20 for 13.65, 2997/50 for 59.94;
+/// 30000/1001 for 29.97003). Throws Error(Errc::internal) unless 0.001 <= fps <= 10 000.
+FrameRate frame_rate_near(double fps);
+
+}  // namespace faba

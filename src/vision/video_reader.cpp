@@ -1,0 +1,90 @@
+#include "vision/video_reader.h"
+
+#include <optional>
+#include <utility>
+
+#include "core/error.h"
+#include "vision/av_stream.h"
+#include "vision/input_file.h"
+#include "vision/tiff_stack.h"
+
+namespace faba {
+
+// Exactly one of the two is there.
+struct VideoReader::Impl {
+  std::optional<TiffStack> stack;
+  std::optional<AvStream> stream;
+
+  std::filesystem::path path;
+  int width = 0, height = 0;
+  std::int64_t pages_read = 0;
+  GrayF first_page;  // read on opening, so that a stack of which nothing can be read is refused there
+  bool stack_cut_short = false;
+  std::string stack_damage;
+
+  bool read_page(GrayF& frame, double& t_s);
+};
+
+bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
+  if (stack_cut_short) return false;
+  try {
+    if (pages_read == 0) {
+      std::swap(frame, first_page);
+      first_page = {};
+    } else if (!stack->read(frame)) {
+      return false;
+    }
+  } catch (const Error& error) {
+    stack_cut_short = true;
+    stack_damage = std::string(error.what()).substr(error.where().size() + 2);
+    return false;
+  }
+  if (frame.width != width || frame.height != height) {
+    throw Error(
+        Errc::input, path.string(),
+        "page " + std::to_string(pages_read + 1) + " has another size than the first; split the stack there");
+  }
+  t_s = static_cast<double>(pages_read) / (stack->fps() > 0 ? stack->fps() : 1);
+  ++pages_read;
+  return true;
+}
+
+VideoReader::VideoReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  if (check_input_file(path) == InputKind::tiff) {
+    impl_->stack.emplace(path);
+    impl_->stack->read(impl_->first_page);
+    impl_->width = impl_->stack->width();
+    impl_->height = impl_->stack->height();
+  } else {
+    impl_->stream.emplace(path);
+    impl_->width = impl_->stream->width();
+    impl_->height = impl_->stream->height();
+  }
+}
+VideoReader::~VideoReader() = default;
+VideoReader::VideoReader(VideoReader&&) noexcept = default;
+VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
+
+int VideoReader::width() const { return impl_->width; }
+int VideoReader::height() const { return impl_->height; }
+int VideoReader::bits() const { return impl_->stack ? impl_->stack->bits() : impl_->stream->bits(); }
+double VideoReader::fps() const { return impl_->stack ? impl_->stack->fps() : impl_->stream->fps(); }
+std::int64_t VideoReader::frames_stated() const {
+  return impl_->stack ? impl_->stack->pages() : impl_->stream->frames_stated();
+}
+bool VideoReader::truncated() const {
+  return impl_->stack ? impl_->stack_cut_short : impl_->stream->truncated();
+}
+std::int64_t VideoReader::damaged_frames() const {
+  return impl_->stack ? std::int64_t{impl_->stack_cut_short} : impl_->stream->damaged_frames();
+}
+const std::string& VideoReader::damage() const {
+  return impl_->stack ? impl_->stack_damage : impl_->stream->damage();
+}
+
+bool VideoReader::read(GrayF& frame, double& t_s) {
+  return impl_->stack ? impl_->read_page(frame, t_s) : impl_->stream->read(frame, t_s);
+}
+
+}  // namespace faba

@@ -1,0 +1,53 @@
+"""Fails when a file includes a folder that its layer may not see (the dependency rule of ARCHITECTURE.md)."""
+
+import pathlib
+import re
+import sys
+
+MAY = {
+    "core": "",
+    "field": "core",
+    "vision": "core",
+    "sim": "core field",
+    "control": "core field",
+    "rig": "core field vision sim",
+    "app": "core field vision sim control rig",
+    "study": "core field vision sim control rig app",
+    "cli": "core app study",
+}
+# A third-party library has one home.
+HOME = {
+    "opencv2/": {"vision"},
+    "libav": {"vision"},
+    "libsw": {"vision"},
+    "tiff": {"vision"},
+    "hdf5": {"core"},
+    "toml++": {"core"},
+    "CLI/": {"cli"},
+    "Eigen/": {"vision", "study", "field"},
+    "zlib": {"app"},
+}
+
+
+def main(root):
+    bad = 0
+    for file in sorted(root.rglob("*.[hc]*")):
+        here = file.relative_to(root).parts[0]
+        if here not in MAY:
+            print(f"{file}: the folder {here} has no place in tools/check_layers.py")
+            bad = 1
+            continue
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            own = re.match(r'\s*#\s*include "(\w+)/', line)
+            if own and own[1] != here and own[1] not in MAY[here].split():
+                print(f"{file}:{number}: {here} must not include {own[1]}")
+                bad = 1
+            other = re.match(r"\s*#\s*include <([^>]+)>", line)
+            for prefix, homes in HOME.items():
+                if other and other[1].startswith(prefix) and (here not in homes or file.suffix == ".h"):
+                    print(f"{file}:{number}: <{other[1]}> may be included by sources of {', '.join(sorted(homes))} only")
+                    bad = 1
+    return bad
+
+
+sys.exit(main(pathlib.Path(sys.argv[1])))
