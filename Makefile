@@ -10,7 +10,7 @@ run: build            ## build the program and run the main job: a swarm steered
 
 test:                 ## build and run every test
 	@$(SETUP) test
-	@cmake --preset release > build.log 2>&1 || { cat build.log; rm -f build.log; exit 1; }; rm -f build.log
+	@cmake --preset release --log-level=WARNING
 	@cmake --build build -j $(JOBS)
 	@ctest --test-dir build --output-on-failure -j $(JOBS)
 
@@ -18,7 +18,7 @@ setup:                ## install what building needs (apt; with sudo when not ro
 	@$(SETUP)
 
 build: setup          ## build the program: build/faba
-	@cmake --preset release -DBUILD_TESTING=OFF > build.log 2>&1 || { cat build.log; rm -f build.log; exit 1; }; rm -f build.log
+	@cmake --preset release --log-level=WARNING -DBUILD_TESTING=OFF
 	@cmake --build build -j $(JOBS) --target faba
 
 bench: build          ## measure speed beside NumPy, Octave and the machine's limits; table in bench/results/
@@ -32,12 +32,12 @@ format:               ## clang-format every source
 lint:                 ## clang-format and clang-tidy as checks
 	@$(SETUP) lint
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
-	@cmake --preset release > /dev/null
+	@cmake --preset release --log-level=WARNING
 	@git ls-files 'src/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p build
 
 asan tsan: setup      ## build and run the tests under sanitizers
 	@$(SETUP) test
-	@cmake --preset $@ > /dev/null
+	@cmake --preset $@ --log-level=WARNING
 	@cmake --build build/$@ -j $(JOBS)
 	@ctest --test-dir build/$@ --output-on-failure -j $(JOBS)
 

@@ -13,16 +13,18 @@ constexpr char kMagic[] = "faba checkpoint 1\n";
 constexpr std::size_t kMagicSize = sizeof kMagic - 1;
 
 std::uint32_t checksum(const std::string& bytes, std::size_t from) {
-  return std::uint32_t(crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()) + from, bytes.size() - from));
+  return std::uint32_t(
+      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()) + from, bytes.size() - from));
 }
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& file, const std::string& scenario_hash, const Archive& content) {
+void write_checkpoint(const std::filesystem::path& file, const std::string& scenario_hash,
+                      const Archive& content) {
   Archive body;
   std::string hash = scenario_hash;
   std::vector<std::uint8_t> bytes = content.bytes();
-  body & hash & bytes;
+  body& hash& bytes;
   std::string out(kMagic, kMagicSize);
   out.append(4, '\0');
   out.append(reinterpret_cast<const char*>(body.bytes().data()), body.bytes().size());
@@ -42,7 +44,7 @@ Archive read_checkpoint(const std::filesystem::path& file, const std::string& sc
   Archive body(std::vector<std::uint8_t>(in.begin() + long(kMagicSize) + 4, in.end()));
   std::string hash;
   std::vector<std::uint8_t> bytes;
-  body & hash & bytes;
+  body& hash& bytes;
   if (hash != scenario_hash) fail("belongs to another scenario");
   return Archive(std::move(bytes));
 }

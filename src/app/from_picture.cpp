@@ -17,7 +17,8 @@ void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_
                     {"centre_px", {edge.centre_image.x, edge.centre_image.y}},
                     {"radius_px", edge.radius_px}},
                origin);
-  if (!scenario.root.contains("swarm") || !scenario.root["swarm"].is_array()) return;  // the reader will say so
+  if (!scenario.root.contains("swarm") || !scenario.root["swarm"].is_array())
+    return;  // the reader will say so
   for (std::size_t i = 0; i < scenario.root["swarm"].size(); ++i)
     if (scenario.root["swarm"][i].is_object() && !scenario.root["swarm"][i].contains("start"))
       scenario.set(fmt::format("swarm[{}].start", i), Json("visible"), origin);

@@ -10,9 +10,15 @@ Schema<Limits::Params> Limits::schema() {
       .add("max_current", &Params::max_current,
            {.unit = "A", .min = 0, .max = 1000, .doc = "Largest current in any coil", .source = "assumed"})
       .add("max_slew", &Params::max_slew,
-           {.unit = "A/s", .min = 0, .max = 1e9, .doc = "Fastest change of any current; unlimited when absent"})
+           {.unit = "A/s",
+            .min = 0,
+            .max = 1e9,
+            .doc = "Fastest change of any current; unlimited when absent"})
       .add("max_frame_age", &Params::max_frame_age,
-           {.unit = "s", .min = 1e-3, .max = 1e6, .doc = "Older pictures are not acted on: all currents go to zero"});
+           {.unit = "s",
+            .min = 1e-3,
+            .max = 1e6,
+            .doc = "Older pictures are not acted on: all currents go to zero"});
 }
 
 bool Limits::apply(Command& c, double dt, double frame_age) {

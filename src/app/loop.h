@@ -19,10 +19,10 @@ class Limits {
   static Schema<Params> schema();
   explicit Limits(const Params& p) : p_(p) {}
 
-  /// Clips to the current and slew limits; not-a-number becomes zero; all zero when the frame is older than allowed.
-  /// Returns whether anything was changed.
+  /// Clips to the current and slew limits; not-a-number becomes zero; all zero when the frame is older than
+  /// allowed. Returns whether anything was changed.
   bool apply(Command& c, double dt, double frame_age);
-  void archive(Archive& a) { a & last_; }
+  void archive(Archive& a) { a& last_; }
 
  private:
   Params p_;
@@ -56,14 +56,14 @@ struct Loop {
   double frame_period = 0;  ///< s; stands for the time step in the very first turn
   std::vector<Sink*> sinks;
 
-  std::uint64_t next = 0;   ///< index of the next turn; a resumed loop starts where it was
-  double last_t = 0;        ///< time stamp of the frame before, s
-  Command last;             ///< written in the turn before
+  std::uint64_t next = 0;  ///< index of the next turn; a resumed loop starts where it was
+  double last_t = 0;       ///< time stamp of the frame before, s
+  Command last;            ///< written in the turn before
 };
 
 /// The only closed loop in the program; simulation, replay and hardware differ only in the rig:
-/// guard -> read -> estimate -> control -> limit -> write -> sinks. Runs until turn `end`, until the rig has no more
-/// frames, or until `go_on` (asked after every turn) says no. The rig is made safe on every way out.
+/// guard -> read -> estimate -> control -> limit -> write -> sinks. Runs until turn `end`, until the rig has
+/// no more frames, or until `go_on` (asked after every turn) says no. The rig is made safe on every way out.
 void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on);
 
 }  // namespace faba

@@ -13,28 +13,43 @@ Schema<Scenario::Params> Scenario::schema() {
   return Schema<Params>("scenario", "A swarm, its coils, its controller and what is recorded")
       .add("title", &Params::title, {.doc = "What the run is called in reports"})
       .add("seed", &Params::seed,
-           {.min = 0, .max = 9007199254740991.0, .doc = "Same scenario and seed, same bits; drawn and printed when absent"})
+           {.min = 0,
+            .max = 9007199254740991.0,
+            .doc = "Same scenario and seed, same bits; drawn and printed when absent"})
       .add("duration", &Params::duration, {.unit = "s", .min = 0, .max = 1e6, .doc = "Simulated time"})
       .add("exposure", &Params::exposure,
-           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time in air before the run; matters with a motility law"});
+           {.unit = "s",
+            .min = 0,
+            .max = 1e6,
+            .doc = "Time in air before the run; matters with a motility law"});
 }
 
 Schema<Record> Record::schema() {
   return Schema<Record>("record", "What a run keeps beside series.csv, manifest and report")
       .add("tracks", &Record::tracks, {.doc = "tracks.h5: positions of all cells"})
-      .add("tracks_every", &Record::tracks_every, {.min = 1, .max = 1e6, .doc = "Every how many frames tracks are kept"})
-      .add("compress", &Record::compress, {.doc = "Compress tracks.h5 (lossless; a quarter smaller, ten times slower)"})
+      .add("tracks_every", &Record::tracks_every,
+           {.min = 1, .max = 1e6, .doc = "Every how many frames tracks are kept"})
+      .add("compress", &Record::compress,
+           {.doc = "Compress tracks.h5 (lossless; a quarter smaller, ten times slower)"})
       .add("video", &Record::video, {.doc = "video.mp4: the rendered swarm, for browsers"})
-      .add("video_every", &Record::video_every, {.min = 1, .max = 1e6, .doc = "Every how many frames a picture is rendered"})
+      .add("video_every", &Record::video_every,
+           {.min = 1, .max = 1e6, .doc = "Every how many frames a picture is rendered"})
       .add("lossless", &Record::lossless, {.doc = "video.avi as well, exact to the grey level, for Fiji"})
       .add("checkpoint", &Record::checkpoint,
-           {.unit = "s", .min = 0.1, .max = 1e6, .doc = "Time on the clock between checkpoints: what a crash can cost"});
+           {.unit = "s",
+            .min = 0.1,
+            .max = 1e6,
+            .doc = "Time on the clock between checkpoints: what a crash can cost"});
 }
 
 Schema<Camera> Camera::schema() {
   return Schema<Camera>("camera", "Frame rate and delay of the camera")
       .add("rate", &Camera::rate,
-           {.unit = "Hz", .min = 0.01, .max = 1e5, .doc = "Frames per second", .source = "thesis: 90 frames in 6 s (A0)"})
+           {.unit = "Hz",
+            .min = 0.01,
+            .max = 1e5,
+            .doc = "Frames per second",
+            .source = "thesis: 90 frames in 6 s (A0)"})
       .add("delay_frames", &Camera::delay_frames,
            {.min = 0, .max = 1000, .doc = "Age of a picture, in frames, when the controller gets it"});
 }
@@ -42,19 +57,29 @@ Schema<Camera> Camera::schema() {
 Schema<ScaleParams> ScaleParams::schema() {
   return Schema<ScaleParams>("scale", "How pixels, iterations and field units hang together with SI")
       .add("um_per_px", &ScaleParams::um_per_px,
-           {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel",
+           {.min = 1e-3,
+            .max = 1e3,
+            .doc = "Micrometres per pixel",
             .source = "thesis's table 4.1 by regression (A20); the thesis itself used 0.8015"})
       .add("iteration", &ScaleParams::iteration,
-           {.unit = "s", .min = 1e-5, .max = 100, .doc = "One iteration of the published models; one frame when absent"})
+           {.unit = "s",
+            .min = 1e-5,
+            .max = 100,
+            .doc = "One iteration of the published models; one frame when absent"})
       .add("field_unit", &ScaleParams::field_unit,
-           {.unit = "T", .min = 1e-9, .max = 1, .doc = "One field unit of the published models",
+           {.unit = "T",
+            .min = 1e-9,
+            .max = 1,
+            .doc = "One field unit of the published models",
             .source = "Earth's field near Rio (B2)"});
 }
 
 Schema<SimulationParams> SimulationParams::schema() {
   return Schema<SimulationParams>("simulation", "Numerics")
       .add("step", &SimulationParams::step,
-           {.unit = "s", .min = 1e-7, .max = 10,
+           {.unit = "s",
+            .min = 1e-7,
+            .max = 10,
             .doc = "Time step, a whole part of a frame; chosen from the models' accuracy when absent"});
 }
 
@@ -62,9 +87,11 @@ Schema<Swarm::Params> Swarm::schema() {
   return Schema<Params>("swarm", "One kind of cell among those in the drop")
       .add("count", &Params::count, {.min = 1, .max = 5e7, .doc = "Number of cells"})
       .add("polarity", &Params::polarity,
-           {.doc = "north: swims along the field; south: against it", .source = "the thesis's cells are south-seeking (A0)",
+           {.doc = "north: swims along the field; south: against it",
+            .source = "the thesis's cells are south-seeking (A0)",
             .choices = {"north", "south"}})
-      .add("responding", &Params::responding, {.min = 0, .max = 1, .doc = "Fraction of the cells that feel the field"});
+      .add("responding", &Params::responding,
+           {.min = 0, .max = 1, .doc = "Fraction of the cells that feel the field"});
 }
 
 std::uint64_t Scenario::frames() const {
@@ -151,8 +178,9 @@ void read_swarms(const Node& root, const Parts& parts, Scenario& s) {
 Scenario read_scenario(const Document& d, const Parts& parts) {
   const Node root(d);
   Scenario s;
-  s.params = Scenario::schema().parse(root, {"scale", "camera", "simulation", "arena", "exclusion", "field", "motility",
-                                             "swarm", "estimator", "reference", "controller", "limits", "record"});
+  s.params = Scenario::schema().parse(
+      root, {"scale", "camera", "simulation", "arena", "exclusion", "field", "motility", "swarm", "estimator",
+             "reference", "controller", "limits", "record"});
   section(root, "scale", s.scale, ScaleParams::schema());
   section(root, "camera", s.camera, Camera::schema());
   section(root, "simulation", s.simulation, SimulationParams::schema());
@@ -170,9 +198,11 @@ Scenario read_scenario(const Document& d, const Parts& parts) {
   if (s.params.duration * s.camera.rate > 1e8)
     root.child("duration").fail("is more than 1e8 frames at this camera rate");
   if (s.arena.resolved.value("limits", "") == "reject" && s.exclusion.order == Exclusion::Order::none)
-    throw Error(Errc::usage, root.where("arena"), "limits = \"reject\" needs exclusion; use \"clamp\" or \"reflect\"");
+    throw Error(Errc::usage, root.where("arena"),
+                "limits = \"reject\" needs exclusion; use \"clamp\" or \"reflect\"");
   if (s.params.exposure > 0 && s.motility.type == "none")
-    s.warnings.push_back("exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
+    s.warnings.push_back(
+        "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
   return s;
 }
 

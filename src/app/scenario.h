@@ -78,18 +78,20 @@ struct Scenario {
   std::vector<Swarm> swarms;
   std::vector<std::string> warnings;  ///< what is legal but probably not meant
 
-  std::uint64_t frames() const;       ///< of the whole run, at least 1
+  std::uint64_t frames() const;  ///< of the whole run, at least 1
   double frame_period() const { return 1 / camera.rate; }
   Scale si_scale() const;
   /// Polarity of most of the cells, which is what a controller steers: +1 or -1.
   int polarity() const;
   /// Every key with its value; as TOML it reads back to the same scenario.
   Json resolved() const;
-  /// Fingerprint of resolved() without title, seed and [record]: equal for runs that differ in seed or recording only.
+  /// Fingerprint of resolved() without title, seed and [record]: equal for runs that differ in seed or
+  /// recording only.
   std::string hash() const;
 };
 
-/// Reads and checks a whole scenario. Throws Error(usage) naming file, line, path, reason and the nearest known key.
+/// Reads and checks a whole scenario. Throws Error(usage) naming file, line, path, reason and the nearest
+/// known key.
 Scenario read_scenario(const Document& d, const Parts& parts);
 
 /// JSON Schema of a whole scenario file: what web forms and editors read.

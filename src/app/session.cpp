@@ -14,11 +14,12 @@ namespace faba {
 namespace {
 
 using namespace run_files;
-constexpr const char* kOurs[] = {kMarker,        kCheckpoint,      kScenario,   kManifest,        "series.csv", "tracks.h5",
-                                 "tracks.h5.new", "video.mp4.part", "video.mp4", "video.avi.part", "video.avi",
-                                 "report.html"};
+constexpr const char* kOurs[] = {kMarker,      kCheckpoint,      kScenario,       kManifest,
+                                 "series.csv", "tracks.h5",      "tracks.h5.new", "video.mp4.part",
+                                 "video.mp4",  "video.avi.part", "video.avi",     "report.html"};
 
-// When the process began, in clock ticks since boot: tells a live writer from another process with its old number.
+// When the process began, in clock ticks since boot: tells a live writer from another process with its old
+// number.
 std::string started(long pid) {
   std::ifstream in(fmt::format("/proc/{}/stat", pid));
   std::string text((std::istreambuf_iterator<char>(in)), {});
@@ -37,27 +38,31 @@ void refuse_if_busy(const std::filesystem::path& dir) {
   std::string since;
   if (!(in >> pid >> since) || pid == getpid()) return;
   if (const std::string now = started(pid); !now.empty() && now == since)
-    throw Error(Errc::usage, dir.string(), fmt::format("process {} is writing here; wait for it or choose another --out", pid));
+    throw Error(Errc::usage, dir.string(),
+                fmt::format("process {} is writing here; wait for it or choose another --out", pid));
 }
 
 void mark(const std::filesystem::path& dir) {
-  write_file(dir / kMarker, fmt::format("{} {}\nThis run is not complete. Go on with: faba resume {}\n", getpid(),
-                                        started(getpid()), dir.string()));
+  write_file(dir / kMarker, fmt::format("{} {}\nThis run is not complete. Go on with: faba resume {}\n",
+                                        getpid(), started(getpid()), dir.string()));
 }
 
 void make_directory(const std::filesystem::path& dir, bool force) {
   std::error_code ec;
   if (std::filesystem::exists(dir, ec)) {
-    if (!std::filesystem::is_directory(dir, ec)) throw Error(Errc::usage, dir.string(), "exists and is not a directory");
+    if (!std::filesystem::is_directory(dir, ec))
+      throw Error(Errc::usage, dir.string(), "exists and is not a directory");
     const bool empty = std::filesystem::is_empty(dir, ec);
     if (!empty && !force)
-      throw Error(Errc::usage, dir.string(), "already exists; choose another --out, or --force to replace the run in it");
+      throw Error(Errc::usage, dir.string(),
+                  "already exists; choose another --out, or --force to replace the run in it");
     refuse_if_busy(dir);
     for (const char* name : kOurs) std::filesystem::remove(dir / name, ec);  // what is not ours stays
     return;
   }
   std::filesystem::create_directories(dir, ec);
-  if (ec) throw Error(Errc::internal, dir.string(), fmt::format("cannot make the directory: {}", ec.message()));
+  if (ec)
+    throw Error(Errc::internal, dir.string(), fmt::format("cannot make the directory: {}", ec.message()));
 }
 
 }  // namespace
@@ -86,14 +91,17 @@ Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& 
 
 Session Session::resume(const Parts& parts, const RunOptions& o) {
   std::error_code ec;
-  if (!std::filesystem::is_directory(o.out, ec)) throw Error(Errc::input, o.out.string(), "no such run directory");
+  if (!std::filesystem::is_directory(o.out, ec))
+    throw Error(Errc::input, o.out.string(), "no such run directory");
   if (!std::filesystem::exists(o.out / kMarker, ec)) {
-    if (std::filesystem::exists(o.out / kManifest, ec)) throw Error(Errc::usage, o.out.string(), "this run is complete");
+    if (std::filesystem::exists(o.out / kManifest, ec))
+      throw Error(Errc::usage, o.out.string(), "this run is complete");
     throw Error(Errc::input, o.out.string(), "is not a run directory");
   }
   refuse_if_busy(o.out);
   if (!std::filesystem::exists(o.out / kScenario, ec))
-    throw Error(Errc::input, o.out.string(), "was broken off before anything was written; run the scenario again");
+    throw Error(Errc::input, o.out.string(),
+                "was broken off before anything was written; run the scenario again");
   const Scenario s = read_scenario(read_toml(o.out / kScenario), parts);
   if (!s.params.seed) throw Error(Errc::input, (o.out / kScenario).string(), "names no seed");
   if (!std::filesystem::exists(o.out / kCheckpoint, ec)) {  // killed before the first one: nothing to lose
@@ -140,8 +148,10 @@ bool Session::run() {
   faba::run(loop, total, [&] {
     if (options_.progress) options_.progress(loop.next, total);
     const bool stop = options_.stop && options_.stop->load();
-    const bool due = std::chrono::duration<double>(Clock::now() - last).count() >= scenario_.record.checkpoint;
-    // Also at the end: a crash while files are completed then costs nothing. Before the rig is made safe, in any case.
+    const bool due =
+        std::chrono::duration<double>(Clock::now() - last).count() >= scenario_.record.checkpoint;
+    // Also at the end: a crash while files are completed then costs nothing. Before the rig is made safe, in
+    // any case.
     if (stop || due || loop.next == total) checkpoint(), last = Clock::now();
     return !stop;
   });
@@ -156,7 +166,8 @@ Json Session::manifest() const {
   const World& world = simulation_->world();
   const Outline outline = world.parts().arena->outline();
   const Frame frame = simulation_->frame();
-  Json arena = {{"type", scenario_.arena.type}, {"centre_px", {outline.centre_image.x, outline.centre_image.y}}};
+  Json arena = {{"type", scenario_.arena.type},
+                {"centre_px", {outline.centre_image.x, outline.centre_image.y}}};
   if (outline.radius_px > 0)
     arena["radius_px"] = outline.radius_px;
   else
@@ -192,7 +203,8 @@ void Session::complete() {
   std::error_code ec;
   std::filesystem::remove(dir_ / kCheckpoint, ec);
   if (std::filesystem::remove(dir_ / kMarker, ec); ec)
-    throw Error(Errc::internal, (dir_ / kMarker).string(), fmt::format("cannot be removed: {}", ec.message()));
+    throw Error(Errc::internal, (dir_ / kMarker).string(),
+                fmt::format("cannot be removed: {}", ec.message()));
 }
 
 }  // namespace faba

@@ -12,21 +12,23 @@ namespace faba {
 
 /// How a run is carried out; nothing here changes its result.
 struct RunOptions {
-  std::filesystem::path out;  ///< run directory
-  bool force = false;         ///< replace an earlier run there
-  unsigned threads = 0;       ///< 0: all of the machine's
+  std::filesystem::path out;                                              ///< run directory
+  bool force = false;                                                     ///< replace an earlier run there
+  unsigned threads = 0;                                                   ///< 0: all of the machine's
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  ///< called after every frame
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
 };
 
-/// A recorded run in a directory of its own. While it is being made the directory holds the file `incomplete`; a run that
-/// was interrupted or killed goes on from its last checkpoint, and ends with the same bits as one that was not.
+/// A recorded run in a directory of its own. While it is being made the directory holds the file
+/// `incomplete`; a run that was interrupted or killed goes on from its last checkpoint, and ends with the
+/// same bits as one that was not.
 class Session {
  public:
-  /// Makes the directory and everything in it. All checks come first: on Error(usage) nothing has been written.
+  /// Makes the directory and everything in it. All checks come first: on Error(usage) nothing has been
+  /// written.
   static Session begin(const Scenario& s, std::uint64_t seed, const RunOptions& o);
-  /// Goes on with the run in `o.out`. Throws Error(input) when there is nothing to go on with, Error(usage) when the run
-  /// is complete or another process is at it.
+  /// Goes on with the run in `o.out`. Throws Error(input) when there is nothing to go on with, Error(usage)
+  /// when the run is complete or another process is at it.
   static Session resume(const Parts& parts, const RunOptions& o);
   Session(Session&&) = default;
   ~Session();

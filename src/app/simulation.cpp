@@ -17,7 +17,8 @@ double strongest(const Field& field, double max_current) {
   return norm(sum);
 }
 
-// Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out whole.
+// Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
+// whole.
 int steps_per_frame(const Scenario& s, double longest) {
   const double frame = s.frame_period();
   if (s.simulation.step) {
@@ -70,19 +71,19 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) : limi
   if (double(s.frames()) * steps > 4e9)
     throw Error(Errc::usage, "duration", "is more than 4e9 steps, the length of a random stream");
 
-  const ControlContext control{w.field,        scale, frame_, s.polarity(), s.frame_period(),
-                               s.camera.delay_frames};
+  const ControlContext control{w.field, scale, frame_, s.polarity(), s.frame_period(), s.camera.delay_frames};
   world_ = std::make_unique<World>(std::move(w), pool);
   rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});
   estimator_ = s.estimator.make(control);
   reference_ = s.reference.make(control);
   controller_ = s.controller.make(control);
-  loop_ = std::make_unique<Loop>(Loop{*rig_, *estimator_, *reference_, *controller_, limits_, s.frame_period(), {}, 0, 0, {}});
+  loop_ = std::make_unique<Loop>(
+      Loop{*rig_, *estimator_, *reference_, *controller_, limits_, s.frame_period(), {}, 0, 0, {}});
 }
 
 void Simulation::archive(Archive& a) {
   State state = a.reading() ? State{} : world_->state();
-  a& state& loop_->next& loop_->last_t& loop_->last.current;
+  a& state & loop_->next & loop_->last_t & loop_->last.current;
   if (a.reading()) world_->restore(std::move(state));
   rig_->archive(a);
   estimator_->archive(a);

@@ -6,8 +6,8 @@
 
 namespace faba {
 
-/// A scenario brought to life: every part built and connected, nothing recorded. What `faba run` records, and what
-/// tests, benchmarks and studies step directly.
+/// A scenario brought to life: every part built and connected, nothing recorded. What `faba run` records, and
+/// what tests, benchmarks and studies step directly.
 class Simulation {
  public:
   /// Throws Error(usage) when the parts do not fit together.

@@ -38,7 +38,8 @@ int doctor(const Common& c) {
     fmt::print("{}\n", j.dump());
     return 0;
   }
-  for (const auto& [k, v] : j.items()) fmt::print("{:<14}{}\n", k, v.is_string() ? v.get<std::string>() : v.dump());
+  for (const auto& [k, v] : j.items())
+    fmt::print("{:<14}{}\n", k, v.is_string() ? v.get<std::string>() : v.dump());
   return 0;
 }
 

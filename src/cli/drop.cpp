@@ -9,15 +9,19 @@ namespace faba::cli {
 int drop(const DropVerb& v, const Common& c) {
   std::error_code ec;
   if (!v.overlay.empty() && !v.force && std::filesystem::exists(v.overlay, ec))
-    throw Error(Errc::usage, v.overlay.string(), "already exists; choose another --overlay, or --force to replace it");
+    throw Error(Errc::usage, v.overlay.string(),
+                "already exists; choose another --overlay, or --force to replace it");
   const auto j = report_drop(v.picture, v.overlay);
   if (c.json) {
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
     const auto number = [&](const char* a, const char* b) { return j[a][b].get<double>(); };
-    fmt::print("centre  ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}) px\nradius  {:.1f} +- {:.1f} px\narc     {:.0f} degrees in view\n",
-               j["center_px"][0].get<double>(), number("sd_px", "x"), j["center_px"][1].get<double>(), number("sd_px", "y"),
-               j["radius_px"].get<double>(), number("sd_px", "radius"), j["arc_deg"].get<double>());
+    fmt::print(
+        "centre  ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}) px\nradius  {:.1f} +- {:.1f} px\narc     {:.0f} "
+        "degrees in view\n",
+        j["center_px"][0].get<double>(), number("sd_px", "x"), j["center_px"][1].get<double>(),
+        number("sd_px", "y"), j["radius_px"].get<double>(), number("sd_px", "radius"),
+        j["arc_deg"].get<double>());
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
     fmt::print("now try: faba run scenes/drop.toml --from-video {}\n", v.picture.string());
   }

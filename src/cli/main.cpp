@@ -24,14 +24,16 @@ CLI::App* verb(CLI::App& app, Common& common, const char* name, const char* does
   CLI::App* v = app.add_subcommand(name, does);
   v->add_flag("--json", common.json, "One JSON object on standard output and nothing else there");
   v->add_flag("--quiet", common.quiet, "No progress bar and no summary");
-  v->footer(fmt::format("Examples:\n{}\n\nExit codes: 0 done, 2 usage or scenario error, 3 unreadable or unsuitable input, "
-                        "130 interrupted, 1 anything else",
-                        examples));
+  v->footer(fmt::format(
+      "Examples:\n{}\n\nExit codes: 0 done, 2 usage or scenario error, 3 unreadable or unsuitable input, "
+      "130 interrupted, 1 anything else",
+      examples));
   return v;
 }
 
 int dispatch(int argc, char** argv) {
-  CLI::App app{"Faba, a laboratory for magnetotactic bacteria: simulate a swarm under coils, steer it, record it"};
+  CLI::App app{
+      "Faba, a laboratory for magnetotactic bacteria: simulate a swarm under coils, steer it, record it"};
   app.set_version_flag("--version", "faba " FABA_VERSION);
   app.require_subcommand(1);
   app.footer("Each verb in full: faba VERB --help\nFirst steps: faba run scenes/steer.toml");
@@ -39,14 +41,18 @@ int dispatch(int argc, char** argv) {
   int code = 0;
 
   RunVerb run_options;
-  auto* v = verb(app, common, "run", "Run a scenario: the closed loop, headless and recorded",
-                 "  faba run scenes/steer.toml\n"
-                 "  faba run scenes/thesis-basic.toml --seed 7 --out runs/a --set swarm[0].model.max_speed=5\n"
-                 "  faba run scenes/drop.toml --from-video drop.tif --duration \"10 s\"");
+  auto* v =
+      verb(app, common, "run", "Run a scenario: the closed loop, headless and recorded",
+           "  faba run scenes/steer.toml\n"
+           "  faba run scenes/thesis-basic.toml --seed 7 --out runs/a --set swarm[0].model.max_speed=5\n"
+           "  faba run scenes/drop.toml --from-video drop.tif --duration \"10 s\"");
   v->add_option("scene", run_options.scene, "Scenario file (TOML)")->required();
-  v->add_option("--set", run_options.set, "Change one value: PATH=VALUE")->take_all()->allow_extra_args(false);
+  v->add_option("--set", run_options.set, "Change one value: PATH=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
   v->add_option("--seed", run_options.seed, "Seed of all randomness; drawn and printed when absent");
-  v->add_option("--threads", run_options.threads, "Threads; all of the machine's when absent. Never changes the result")
+  v->add_option("--threads", run_options.threads,
+                "Threads; all of the machine's when absent. Never changes the result")
       ->check(CLI::Range(1, 1024));
   v->add_option("--out", run_options.out, "Run directory; runs/SCENE-SEED when absent");
   v->add_option("--duration", run_options.duration, "Simulated time, such as \"10 s\"");
@@ -55,15 +61,18 @@ int dispatch(int argc, char** argv) {
   v->callback([&] { code = run(run_options, common); });
 
   ResumeVerb resume_options;
-  v = verb(app, common, "resume", "Go on with an interrupted run from its last checkpoint", "  faba resume runs/steer-1");
+  v = verb(app, common, "resume", "Go on with an interrupted run from its last checkpoint",
+           "  faba resume runs/steer-1");
   v->add_option("dir", resume_options.dir, "Run directory")->required();
-  v->add_option("--threads", resume_options.threads, "Threads; all of the machine's when absent")->check(CLI::Range(1, 1024));
+  v->add_option("--threads", resume_options.threads, "Threads; all of the machine's when absent")
+      ->check(CLI::Range(1, 1024));
   v->callback([&] { code = resume(resume_options, common); });
 
   DropVerb drop_options;
   v = verb(app, common, "drop", "Find the edge of a drop in a picture or in the first frame of a video",
            "  faba drop drop.tif --overlay edge.png\n  faba drop film.avi --json");
-  v->add_option("picture", drop_options.picture, "TIFF, PNG, JPEG, PGM (8 or 16 bit) or any video")->required();
+  v->add_option("picture", drop_options.picture, "TIFF, PNG, JPEG, PGM (8 or 16 bit) or any video")
+      ->required();
   v->add_option("--overlay", drop_options.overlay, "Write the picture with the edge drawn in, as PNG");
   v->add_flag("--force", drop_options.force, "Replace an existing overlay");
   v->callback([&] { code = drop(drop_options, common); });
@@ -71,11 +80,13 @@ int dispatch(int argc, char** argv) {
   PartsVerb parts_options;
   v = verb(app, common, "parts", "What can be named in a scenario, with units, ranges, defaults and sources",
            "  faba parts\n  faba parts model\n  faba parts model dipole");
-  v->add_option("kind", parts_options.kind, "model, start, arena, field, motility, estimator, reference, controller");
+  v->add_option("kind", parts_options.kind,
+                "model, start, arena, field, motility, estimator, reference, controller");
   v->add_option("name", parts_options.name, "One part in full");
   v->callback([&] { code = parts(parts_options, common); });
 
-  v = verb(app, common, "schema", "JSON Schema of a scenario file, for editors and forms", "  faba schema > scenario.json");
+  v = verb(app, common, "schema", "JSON Schema of a scenario file, for editors and forms",
+           "  faba schema > scenario.json");
   v->callback([&] { code = schema(common); });
   v = verb(app, common, "doctor", "What this machine has", "  faba doctor");
   v->callback([&] { code = doctor(common); });
@@ -84,7 +95,8 @@ int dispatch(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    complain(fmt::format("{} (see faba {}--help)", e.what(), argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : ""));
+    complain(fmt::format("{} (see faba {}--help)", e.what(),
+                         argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : ""));
     return int(Errc::usage);
   }
   return code;
@@ -109,7 +121,8 @@ int main(int argc, char** argv) {
   faba::cli::catch_signals();
   try {
     const int code = faba::cli::dispatch(argc, argv);
-    if (std::fflush(stdout) != 0) throw faba::Error(faba::Errc::internal, "standard output", "cannot be written");
+    if (std::fflush(stdout) != 0)
+      throw faba::Error(faba::Errc::internal, "standard output", "cannot be written");
     return code;
   } catch (const faba::Error& e) {
     faba::cli::complain(e.what());

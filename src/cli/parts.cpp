@@ -52,11 +52,13 @@ int parts(const PartsVerb& v, const Common& c) {
     for (const auto& name : registry.names()) out[kind][name] = registry.json_schema(name);
   });
   if (!v.kind.empty() && !out.contains(v.kind))
-    throw Error(Errc::usage, "parts", fmt::format("there is no kind \"{}\"{}", v.kind, suggestion(v.kind, kinds)));
+    throw Error(Errc::usage, "parts",
+                fmt::format("there is no kind \"{}\"{}", v.kind, suggestion(v.kind, kinds)));
   if (!v.name.empty() && !out[v.kind].contains(v.name)) {
     std::vector<std::string> names;
     for (const auto& [k, _] : out[v.kind].items()) names.push_back(k);
-    throw Error(Errc::usage, "parts", fmt::format("there is no {} \"{}\"{}", v.kind, v.name, suggestion(v.name, names)));
+    throw Error(Errc::usage, "parts",
+                fmt::format("there is no {} \"{}\"{}", v.kind, v.name, suggestion(v.name, names)));
   }
   if (c.json) {
     fmt::print("{}\n", (v.kind.empty() ? out : v.name.empty() ? out[v.kind] : out[v.kind][v.name]).dump());

@@ -19,7 +19,8 @@ std::string clock_time(double s) {
 
 }  // namespace
 
-Progress::Progress(std::string what, bool enabled) : what_(std::move(what)), enabled_(enabled && isatty(STDERR_FILENO)) {}
+Progress::Progress(std::string what, bool enabled)
+    : what_(std::move(what)), enabled_(enabled && isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
@@ -36,8 +37,8 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
   const double fraction = double(done) / double(total);
   const double left = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
   const int full = int(fraction * kWidth);
-  fmt::print(stderr, "\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {} left", what_, "", full, "", kWidth - full, 100 * fraction,
-             clock_time(left));
+  fmt::print(stderr, "\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {} left", what_, "", full, "", kWidth - full,
+             100 * fraction, clock_time(left));
   std::fflush(stderr);
 }
 

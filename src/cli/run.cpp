@@ -43,12 +43,16 @@ void summary(const Session& session, const Metrics& metrics, const std::string& 
   const RunInWords words = run_in_words(metrics, read_run_info(dir / run_files::kManifest));
   fmt::print("{}\n", words.outcome);
   if (!words.details.empty()) fmt::print("{}\n", words.details);
-  const auto px = [](const std::optional<double>& v) { return v ? fmt::format("{:.1f} px", *v) : std::string("-"); };
+  const auto px = [](const std::optional<double>& v) {
+    return v ? fmt::format("{:.1f} px", *v) : std::string("-");
+  };
   fmt::print("settling time {}, steady error {} rms, dispersion {} x {}\n",
              metrics.settling_time_s ? fmt::format("{:.2f} s", *metrics.settling_time_s) : "never",
              px(metrics.steady_rms_px), px(metrics.sigma_x_px), px(metrics.sigma_y_px));
-  const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"}, {"exact", "video.avi"},
-                                                       {"tracks", "tracks.h5"}, {"series", "series.csv"},
+  const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
+                                                       {"exact", "video.avi"},
+                                                       {"tracks", "tracks.h5"},
+                                                       {"series", "series.csv"},
                                                        {"report", "report.html"}};
   for (const auto& [what, name] : files)
     if (std::filesystem::exists(dir / name)) fmt::print("  {:<7}{}\n", what, (dir / name).string());
@@ -97,7 +101,8 @@ int run(const RunVerb& v, const Common& c) {
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   Session session = Session::begin(s, seed, o);
-  if (!s.params.seed && !c.quiet && !c.json) fmt::print("seed {} (drawn; --seed {} repeats this run)\n", seed, seed);
+  if (!s.params.seed && !c.quiet && !c.json)
+    fmt::print("seed {} (drawn; --seed {} repeats this run)\n", seed, seed);
   const std::string again = fmt::format("faba run {} --seed {}", v.scene, seed);
   return carry_out(session, c, again + " --set controller.type=proportional");
 }

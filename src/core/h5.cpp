@@ -138,7 +138,8 @@ H5File H5File::create(const std::filesystem::path& file) {
   auto impl = std::make_unique<Impl>();
   impl->path = file;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);  // single writer, many readers needs this format
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110,
+                       H5F_LIBVER_V110);  // single writer, many readers needs this format
   impl->file = Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   if (impl->file < 0) impl->fail(Errc::internal, "create");
   return H5File(std::move(impl));
@@ -158,8 +159,8 @@ H5File H5File::open(const std::filesystem::path& file) {
 }
 
 template <class T>
-H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>& row_shape, std::uint64_t chunk_rows,
-                      std::uint64_t chunk_columns, bool compress) {
+H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>& row_shape,
+                      std::uint64_t chunk_rows, std::uint64_t chunk_columns, bool compress) {
   auto t = std::make_shared<H5Table::Impl>();
   t->where = impl_->path.string();
   t->type = type_of<T>();
@@ -196,12 +197,14 @@ H5Table H5File::table(const std::string& name) const {
   return H5Table(t);
 }
 
-bool H5File::has(const std::string& name) const { return H5Lexists(impl_->file, name.c_str(), H5P_DEFAULT) > 0; }
+bool H5File::has(const std::string& name) const {
+  return H5Lexists(impl_->file, name.c_str(), H5P_DEFAULT) > 0;
+}
 
 void H5File::attribute(const std::string& object, const std::string& name, double value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT,
-                                   H5P_DEFAULT, H5P_DEFAULT),
+  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space,
+                                   H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                  H5Aclose);
   if (a < 0 || H5Awrite(a, H5T_NATIVE_DOUBLE, &value) < 0) impl_->fail(Errc::internal, "write");
 }
@@ -211,14 +214,15 @@ void H5File::attribute(const std::string& object, const std::string& name, const
   H5Tset_size(type, std::max<std::size_t>(1, value.size()));
   H5Tset_cset(type, H5T_CSET_UTF8);
   H5Tset_strpad(type, H5T_STR_NULLPAD);
-  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT,
-                                   H5P_DEFAULT),
+  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                   H5P_DEFAULT, H5P_DEFAULT),
                  H5Aclose);
   if (a < 0 || H5Awrite(a, type, value.c_str()) < 0) impl_->fail(Errc::internal, "write");
 }
 
 double H5File::number_attribute(const std::string& object, const std::string& name) const {
-  const Handle a(H5Aopen_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle a(H5Aopen_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
   double value = 0;
   if (a < 0 || H5Aread(a, H5T_NATIVE_DOUBLE, &value) < 0)
     throw Error(Errc::input, impl_->path.string(), fmt::format("has no number \"{}\"", name));
@@ -244,10 +248,10 @@ void H5File::close() {
   if (!impl_->file.release()) impl_->fail(Errc::internal, "close");
 }
 
-#define FABA_H5_TYPE(T)                                                                                          \
-  template void H5Table::append<T>(std::span<const T>);                                                          \
-  template void H5Table::read<T>(std::uint64_t, std::span<T>) const;                                             \
-  template H5Table H5File::table<T>(const std::string&, const std::vector<std::uint64_t>&, std::uint64_t,        \
+#define FABA_H5_TYPE(T)                                                                                   \
+  template void H5Table::append<T>(std::span<const T>);                                                   \
+  template void H5Table::read<T>(std::uint64_t, std::span<T>) const;                                      \
+  template H5Table H5File::table<T>(const std::string&, const std::vector<std::uint64_t>&, std::uint64_t, \
                                     std::uint64_t, bool);
 FABA_H5_TYPE(float)
 FABA_H5_TYPE(double)

@@ -8,8 +8,9 @@
 
 namespace faba {
 
-/// A table of an HDF5 file that grows by rows. Element types: float, double, std::uint8_t, std::int32_t, std::uint64_t.
-/// Valid as long as its file. Every failure throws Error(internal) with the file's name and HDF5's reason.
+/// A table of an HDF5 file that grows by rows. Element types: float, double, std::uint8_t, std::int32_t,
+/// std::uint64_t. Valid as long as its file. Every failure throws Error(internal) with the file's name and
+/// HDF5's reason.
 class H5Table {
  public:
   template <class T>
@@ -26,8 +27,8 @@ class H5Table {
   std::shared_ptr<Impl> impl_;
 };
 
-/// An HDF5 file. While it is written it stays readable at any moment, also after the process was killed (single writer,
-/// many readers); Debian's HDF5 is not thread-safe, so only one thread may use this.
+/// An HDF5 file. While it is written it stays readable at any moment, also after the process was killed
+/// (single writer, many readers); Debian's HDF5 is not thread-safe, so only one thread may use this.
 class H5File {
  public:
   /// Throws Error(internal) when it cannot be made.
@@ -38,11 +39,12 @@ class H5File {
   H5File& operator=(H5File&&) noexcept;
   ~H5File();
 
-  /// `row_shape`: shape of one row; {} for a single number. Element type T. Rows come in chunks of `chunk_rows` by, in
-  /// the first dimension of the row, `chunk_columns`. Tables and attributes must be made before begin_writing().
+  /// `row_shape`: shape of one row; {} for a single number. Element type T. Rows come in chunks of
+  /// `chunk_rows` by, in the first dimension of the row, `chunk_columns`. Tables and attributes must be made
+  /// before begin_writing().
   template <class T>
-  H5Table table(const std::string& name, const std::vector<std::uint64_t>& row_shape, std::uint64_t chunk_rows,
-                std::uint64_t chunk_columns, bool compress);
+  H5Table table(const std::string& name, const std::vector<std::uint64_t>& row_shape,
+                std::uint64_t chunk_rows, std::uint64_t chunk_columns, bool compress);
   /// An existing table. Throws Error(input) when it is absent or of another shape.
   H5Table table(const std::string& name) const;
   bool has(const std::string& name) const;

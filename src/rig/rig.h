@@ -4,8 +4,8 @@
 
 namespace faba {
 
-/// The seam between software and world: eyes and hands. The rig owns time: read() blocks until the next frame, whether
-/// that means waiting for a camera or stepping a simulation.
+/// The seam between software and world: eyes and hands. The rig owns time: read() blocks until the next
+/// frame, whether that means waiting for a camera or stepping a simulation.
 class Rig {
  public:
   virtual ~Rig() = default;

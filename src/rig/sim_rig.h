@@ -6,9 +6,9 @@
 
 namespace faba {
 
-/// A simulated microscope: steps the world from frame to frame and hands out what the camera saw `delay` frames ago.
-/// Frame 0 is the world as it was placed. Before that the swarm is taken to have been at rest, so that the first frames
-/// of a delayed camera show it where it started.
+/// A simulated microscope: steps the world from frame to frame and hands out what the camera saw `delay`
+/// frames ago. Frame 0 is the world as it was placed. Before that the swarm is taken to have been at rest, so
+/// that the first frames of a delayed camera show it where it started.
 class SimRig final : public Rig {
  public:
   struct Params {
@@ -31,8 +31,8 @@ class SimRig final : public Rig {
   World& world_;
   Params p_;
   Frame frame_;
-  std::uint64_t next_ = 0;                    ///< frame that read() will make
-  std::deque<std::vector<Detection>> seen_;   ///< the last delay + 1 frames, oldest first
+  std::uint64_t next_ = 0;                   ///< frame that read() will make
+  std::deque<std::vector<Detection>> seen_;  ///< the last delay + 1 frames, oldest first
 };
 
 }  // namespace faba

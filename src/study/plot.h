@@ -93,8 +93,10 @@ struct Plot {
   bool inlined = false;       ///< for the body of an HTML page: leaves out the XML namespace
   std::vector<Layer> layers = {};
 
-  Plot& add(Layer layer) {
-    layers.push_back(std::move(layer));
+  /// Appends a layer on top: `plot.add(Band{...}).add(Line{...})`.
+  template <class AnyLayer>
+  Plot& add(AnyLayer layer) {
+    layers.emplace_back(std::move(layer));
     return *this;
   }
 };

@@ -85,6 +85,10 @@ RunInfo read_run_info(const std::filesystem::path& path) {
   info.threads = keys.text("threads");
   info.state_hash = keys.text("state_hash");
   info.scenario_hash = keys.text("scenario_hash");
+  if (const Json* complete = keys.find("complete")) {
+    if (!complete->is_boolean()) keys.fail("complete", "true or false");
+    info.complete = complete->get<bool>();
+  }
   info.duration_s = keys.number("duration_s");
   info.wall_time_s = keys.number("wall_time_s");
   info.um_per_px = keys.number("um_per_px");

@@ -21,6 +21,7 @@ struct RunInfo {
   std::string version;          ///< of the program that made the run
   std::string title, polarity;  ///< empty when not given, like all texts here
   std::string seed, threads, state_hash, scenario_hash;
+  bool complete = true;             ///< false when the run was stopped before its end
   std::optional<double> um_per_px;  ///< picture scale, micrometre per pixel, > 0
   std::optional<double> duration_s, wall_time_s;
   std::optional<Vec2> view_px;  ///< width and height of the picture

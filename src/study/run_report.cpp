@@ -258,6 +258,8 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
     out += fmt::format("<p class=\"details\">{}</p>\n", escape_markup(words.details));
   if (!info.um_per_px)
     out += "<p class=\"note\">The run has no picture scale, so lengths are in pixels only.</p>\n";
+  if (!info.complete)
+    out += "<p class=\"warning\">The run was stopped before its end; this is what was recorded.</p>\n";
   if (series.last_line_cut()) {
     out +=
         "<p class=\"warning\">The recording ends in the middle of a line, as when a run is stopped. That "

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -89,8 +88,10 @@ std::span<const double> Series::find(std::string_view name) const noexcept {
 
 std::span<const double> Series::column(std::string_view name) const {
   if (!has(name)) {
+    std::string known;
+    for (const std::string& other : names_) known += (known.empty() ? "" : ", ") + other;
     throw Error(Errc::input, source_ + ":1",
-                fmt::format("there is no column {}; the columns are {}", name, fmt::join(names_, ", ")));
+                fmt::format("there is no column {}; the columns are {}", name, known));
   }
   return find(name);
 }

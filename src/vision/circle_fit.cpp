@@ -155,18 +155,26 @@ struct Cloud {
 
   int sense(std::size_t i, const Circle& c) const {
     const Vec2 d = points[i] - c.centre;
-    const double along = dot(d, normals[i]), reach = min_cos * norm(d);
-    return along >= reach ? 1 : along <= -reach ? -1 : 0;
+    const double along = dot(d, normals[i]);
+    if (along * along < min_cos * min_cos * dot(d, d)) return 0;
+    return along > 0 ? 1 : -1;
   }
-  bool supports(std::size_t i, const Hypothesis& h) const {
-    const Vec2 d = points[i] - h.circle.centre;
-    const double off = norm(d) - h.circle.radius;
-    if (off > tolerance || off < -tolerance) return false;
-    return h.sense == 0 || sense(i, h.circle) == h.sense;
+  /// Calls act(i) for every point of `which` that supports h. Squared distances: this is where the search
+  /// spends its time.
+  template <class Act>
+  void for_support(const Hypothesis& h, std::span<const std::size_t> which, Act act) const {
+    const double inner = std::max(h.circle.radius - tolerance, 0.0), outer = h.circle.radius + tolerance;
+    const double low = inner * inner, high = outer * outer;
+    for (std::size_t i : which) {
+      const Vec2 d = points[i] - h.circle.centre;
+      const double r2 = dot(d, d);
+      if (r2 >= low && r2 <= high && (h.sense == 0 || sense(i, h.circle) == h.sense)) act(i);
+    }
   }
-  std::size_t votes(const Hypothesis& h, std::span<const std::size_t> scored) const {
-    return std::size_t(
-        std::count_if(scored.begin(), scored.end(), [&](std::size_t i) { return supports(i, h); }));
+  std::size_t votes(const Hypothesis& h, std::span<const std::size_t> which) const {
+    std::size_t n = 0;
+    for_support(h, which, [&](std::size_t) { ++n; });
+    return n;
   }
 };
 
@@ -185,19 +193,34 @@ std::optional<Hypothesis> draw(const Cloud& cloud, const CircleSearchOptions& o,
 }
 
 /// Two rounds of Pratt's fit on the support: the support of a three-point circle is rough.
-void polish(Hypothesis& h, const Cloud& cloud, const CircleSearchOptions& o) {
+void polish(Hypothesis& h, const Cloud& cloud, std::span<const std::size_t> every,
+            const CircleSearchOptions& o) {
   for (int round = 0; round < 2; ++round) {
     std::vector<Vec2> support;
-    for (std::size_t i = 0; i < cloud.points.size(); ++i)
-      if (cloud.supports(i, h)) support.push_back(cloud.points[i]);
+    cloud.for_support(h, every, [&](std::size_t i) { support.push_back(cloud.points[i]); });
     const auto better = fit_circle_pratt(support);
     if (!better || better->radius < o.min_radius || better->radius > o.max_radius) return;
-    Hypothesis next{*better, h.sense, 0};
-    std::size_t votes = 0;
-    for (std::size_t i = 0; i < cloud.points.size(); ++i) votes += cloud.supports(i, next);
-    if (votes < support.size()) return;
+    const Hypothesis next{*better, h.sense, 0};
+    if (cloud.votes(next, every) < support.size()) return;
     h.circle = next.circle;
   }
+}
+
+std::vector<Hypothesis> draw_all(const Cloud& cloud, std::span<const std::size_t> scored,
+                                 const CircleSearchOptions& o) {
+  std::vector<Hypothesis> all;
+  Picker picker(o.seed);
+  for (int trial = 0; trial < o.trials && all.size() < o.max_hypotheses; ++trial) {
+    auto h = draw(cloud, o, picker);
+    if (!h) continue;
+    h->votes = cloud.votes(*h, scored);
+    all.push_back(*h);
+  }
+  return all;
+}
+
+void best_first(std::vector<Hypothesis>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.votes > b.votes; });
 }
 
 }  // namespace
@@ -299,32 +322,24 @@ std::vector<Circle> search_circles(std::span<const Vec2> points, std::span<const
   std::vector<Circle> found;
   if (points.size() < 4) return found;
   const Cloud cloud{points, normals, o.tolerance, std::cos(o.max_turn_deg * std::numbers::pi / 180)};
-  std::vector<std::size_t> scored;
+  std::vector<std::size_t> every(points.size()), scored;
+  std::iota(every.begin(), every.end(), std::size_t{0});
   const std::size_t stride = std::max<std::size_t>(1, (points.size() + o.max_scored - 1) / o.max_scored);
   for (std::size_t i = 0; i < points.size(); i += stride) scored.push_back(i);
 
-  Picker picker(o.seed);
-  std::vector<Hypothesis> all;
-  for (int trial = 0; trial < o.trials && all.size() < o.max_hypotheses; ++trial) {
-    auto h = draw(cloud, o, picker);
-    if (!h) continue;
-    h->votes = cloud.votes(*h, scored);
-    all.push_back(*h);
-  }
-  while (int(found.size()) < o.max_circles && !all.empty()) {
-    // Only the best of the first ranking are ranked again, since a circle can only lose votes to another.
-    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.votes > b.votes; });
-    if (found.empty() && all.size() > 200) all.resize(200);
+  std::vector<Hypothesis> all = draw_all(cloud, scored, o);
+  best_first(all);
+  // A circle only loses votes to the ones found before it, so the worst need not be looked at again.
+  if (all.size() > 200) all.resize(200);
+  while (int(found.size()) < o.max_circles && !all.empty() && all.front().votes >= 4) {
     Hypothesis best = all.front();
-    if (best.votes < 4 && stride == 1) break;
-    if (best.votes == 0) break;
-    polish(best, cloud, o);
+    polish(best, cloud, every, o);
     found.push_back(best.circle);
     std::erase_if(scored, [&](std::size_t i) {
-      const double off = norm(points[i] - best.circle.centre) - best.circle.radius;
-      return std::fabs(off) <= 2 * o.tolerance;
+      return std::fabs(norm(points[i] - best.circle.centre) - best.circle.radius) <= 2 * o.tolerance;
     });
     for (Hypothesis& h : all) h.votes = cloud.votes(h, scored);
+    best_first(all);
   }
   return found;
 }

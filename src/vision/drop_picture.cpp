@@ -19,14 +19,17 @@ constexpr int kSmallestCopy = 48;  // px
 
 cv::Mat1f view_of(GrayF& g) { return {g.height, g.width, g.px.data()}; }
 
-/// Every k-th value so that about 1e5 remain: enough for percentiles, and quick on large pictures.
-template <class Values>
-std::vector<float> sample(const Values& values, std::size_t size) {
-  const std::size_t stride = 1 + size / 100000;
+/// About 30000 of the values, evenly spread over rows and columns: enough for percentiles, and quick.
+std::vector<float> sample(const float* values, int width, int height) {
+  const std::size_t size = std::size_t(width) * std::size_t(height);
+  std::size_t stride = 1 + size / 30000;
+  while (std::gcd(stride, std::size_t(width)) != 1) ++stride;
   std::vector<float> some;
   for (std::size_t i = 0; i < size; i += stride) some.push_back(values[i]);
   return some;
 }
+
+std::vector<float> sample(const GrayF& g) { return sample(g.px.data(), g.width, g.height); }
 
 double quantile(std::vector<float>& v, double share) {
   const auto at = v.begin() + std::ptrdiff_t(share * double(v.size() - 1));
@@ -38,18 +41,19 @@ void replace_hot_pixels(GrayF& grey, double limit_sd) {
   cv::Mat1f view = view_of(grey), median, off;
   cv::medianBlur(view, median, 3);
   cv::absdiff(view, median, off);
-  std::vector<float> some = sample(off.ptr<float>(), off.total());
+  std::vector<float> some = sample(off.ptr<float>(), grey.width, grey.height);
   // A flat picture has sd 0; then any pixel off its neighbours' median is a defect.
   const double limit = std::max(limit_sd * 1.4826 * quantile(some, 0.5), 1e-6);
+  const float *distance = off.ptr<float>(), *better = median.ptr<float>();
   for (std::size_t i = 0; i < grey.px.size(); ++i)
-    if (double(off(int(i))) > limit) grey.px[i] = median(int(i));
+    if (double(distance[i]) > limit) grey.px[i] = better[i];
 }
 
 /// Standard deviation of the pixel noise, from the differences of neighbours without their largest tenth
 /// (edges).
 double noise_sd(const GrayF& g) {
   std::vector<float> squares;
-  const std::size_t stride = 1 + g.px.size() / 100000;
+  const std::size_t stride = 1 + g.px.size() / 30000;
   for (std::size_t i = 0; i + 1 < g.px.size(); i += stride)
     squares.push_back((g.px[i + 1] - g.px[i]) * (g.px[i + 1] - g.px[i]));
   const auto cut = squares.begin() + std::ptrdiff_t(0.9 * double(squares.size()));
@@ -106,7 +110,7 @@ DropPicture prepare_drop_picture(const GrayF& picture, const DropEdgeOptions& o)
   check(picture, o);
   GrayF grey = picture;
   if (o.hot_pixel_sd > 0) replace_hot_pixels(grey, o.hot_pixel_sd);
-  std::vector<float> some = sample(grey.px, grey.px.size());
+  std::vector<float> some = sample(grey);
   const double low = quantile(some, o.stretch_low), high = quantile(some, o.stretch_high);
   if (!(high > low))
     throw Error(Errc::input, o.name,

@@ -12,9 +12,10 @@ namespace faba {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr int kProfile = 16;    // px of the copy each side of the circle
+constexpr int kProfile = 16;       // px of the copy each side of the circle
 constexpr double kStraight = 1e5;  // px: 1000 px of an arc of this radius bend by 1.25 px
-constexpr double kHopeful = 5;  // log10 of false alarms: above, a circle is not worth following
+constexpr double kCrooked = 0.15;  // half of what a corner gives
+constexpr double kHopeful = 5;     // log10 of false alarms: above, a circle is not worth following
 
 bool better(const DropCandidate& a, const DropCandidate& b) {
   const double length_a = a.evidence.length_px * a.scale, length_b = b.evidence.length_px * b.scale;
@@ -39,6 +40,28 @@ double correlation_factor(const std::vector<Vec2>& points, const CircleFit& fit)
   return factor;
 }
 
+/// How far the edge is from being one arc: the part of its residuals that bends more than a circle can (third
+/// and fourth Legendre polynomial along the arc), relative to the bend of the arc itself. A corner between
+/// two straight lines gives 0.3, an arc 0. Zero when it is within 3 standard errors.
+double crookedness(const DropCandidate& d) {
+  if (d.points.size() < 8) return 0;
+  const Vec2 middle = d.points[d.points.size() / 2] - d.fit.centre;
+  const double axis = std::atan2(middle.y, middle.x), half = d.arc_rad / 2;
+  double sum3 = 0, sum4 = 0, norm3 = 0, norm4 = 0, power = 0;
+  for (Vec2 p : d.points) {
+    const Vec2 r = p - d.fit.centre;
+    const double u = std::remainder(std::atan2(r.y, r.x) - axis, 2 * std::numbers::pi) / half, u2 = u * u;
+    const double p3 = u * (5 * u2 - 3) / 2, p4 = (u2 * (35 * u2 - 30) + 3) / 8, off = norm(r) - d.fit.radius;
+    sum3 += off * p3, norm3 += p3 * p3;
+    sum4 += off * p4, norm4 += p4 * p4;
+    power += off * off;
+  }
+  const double c3 = sum3 / norm3, c4 = sum4 / norm4, size = std::sqrt(c3 * c3 + c4 * c4);
+  const double rest = std::max(power - c3 * sum3 - c4 * sum4, 0.0) / double(d.points.size());
+  const double error = std::sqrt(rest * (1 / norm3 + 1 / norm4));
+  return size > 3 * error ? size / (d.fit.radius * half * half / 3) : 0;
+}
+
 /// Why a circle is not accepted; empty when it is.
 std::string objection(const DropCandidate& d, const DropPicture& picture, const DropEdgeOptions& o) {
   const double radius = d.circle.radius, sd = d.fit.sd_radius, arc_deg = d.arc_rad * kDegrees;
@@ -58,6 +81,11 @@ std::string objection(const DropCandidate& d, const DropPicture& picture, const 
         "so its radius would be a guess; use a lower magnification or show more of the edge",
         arc_deg, radius, o.min_arc_deg);
   }
+  if (arc_deg < 120 && crookedness(d) > kCrooked)
+    return fmt::format(
+        "no edge of a drop: the longest edge is no arc of a circle but bent at a corner (best radius "
+        "{:.0f} px); show the round edge of the drop",
+        radius);
   if (d.evidence.support < o.min_support)
     return fmt::format(
         "no edge of a drop: the best circle (radius {:.0f} px) shows an edge along only {:.0f} % of its "
@@ -100,7 +128,10 @@ std::optional<DropCandidate> step_towards(const DropLevel& level, const Circle& 
     d.fit.arc_rad = covered_angle(d.points, start.centre);
   }
   const Circle fitted = level.to_level({d.fit.centre, d.fit.radius});
-  d.profile = fit_edge_profile(mean_profile(level.grey, fitted, d.evidence.angles, kProfile));
+  // The shading that was taken off is a line within reach of the profile, except about an edge with a halo;
+  // across a coarse copy's profile the light itself is no line.
+  const GrayF& grey = level.scale > 2 ? level.flat : level.grey;
+  d.profile = fit_edge_profile(mean_profile(grey, fitted, d.evidence.angles, kProfile));
   d.circle = {d.fit.centre, d.fit.radius + d.profile.position * level.scale};
   if (!(d.circle.radius > 0)) return std::nullopt;
   const double inflate = std::sqrt(correlation_factor(d.points, d.fit));

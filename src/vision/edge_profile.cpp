@@ -9,9 +9,9 @@
 namespace faba {
 namespace {
 
-using Coefficients = std::array<double, 5>;
+using Coefficients = std::array<double, 4>;
 
-/// One shape with its linear coefficients {offset, slope, curvature, first, second} at given position and
+/// One shape with its linear coefficients {offset, slope, first, second} at given position and
 /// width.
 struct Trial {
   double position = 0, width = 1, residual = 1e300;
@@ -24,7 +24,7 @@ struct Columns {
 };
 
 /// Solves the n x n normal equations in place by Cholesky; false when they are singular.
-bool solve(std::array<Coefficients, 5>& a, Coefficients& b, std::size_t n) {
+bool solve(std::array<Coefficients, 4>& a, Coefficients& b, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       double sum = a[i][j];
@@ -51,15 +51,15 @@ bool solve(std::array<Coefficients, 5>& a, Coefficients& b, std::size_t n) {
 Trial fit_at(std::span<const double> t, std::span<const double> grey, Columns columns, double position,
              double width) {
   Trial trial{position, width, 1e300, {}};
-  const std::size_t n = columns.step && columns.ring ? 5 : 4;
-  std::array<Coefficients, 5> a{};
+  const std::size_t n = columns.step && columns.ring ? 4 : 3;
+  std::array<Coefficients, 4> a{};
   Coefficients b{};
   double squares = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const double u = (t[i] - position) / width;
     const double step = columns.step ? 0.5 * std::erfc(-u * 0.70710678118654752) : 0;
     const double ring = columns.ring ? std::exp(-0.5 * u * u) : 0;
-    const Coefficients x{1, t[i], t[i] * t[i], columns.step ? step : ring, ring};
+    const Coefficients x{1, t[i], columns.step ? step : ring, ring};
     for (std::size_t r = 0; r < n; ++r) {
       for (std::size_t c = 0; c <= r; ++c) a[r][c] += x[r] * x[c];
       b[r] += x[r] * grey[i];
@@ -96,22 +96,22 @@ Trial fit_shape(std::span<const double> t, std::span<const double> grey, Columns
   return best;
 }
 
-/// Sum of squares that is left after the best parabola.
-double parabola_residual(std::span<const double> t, std::span<const double> grey) {
-  std::array<Coefficients, 5> a{};
+/// Sum of squares that is left after the best straight line.
+double line_residual(std::span<const double> t, std::span<const double> grey) {
+  std::array<Coefficients, 4> a{};
   Coefficients b{};
   double squares = 0;
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const Coefficients x{1, t[i], t[i] * t[i], 0, 0};
-    for (std::size_t r = 0; r < 3; ++r) {
+    const Coefficients x{1, t[i], 0, 0};
+    for (std::size_t r = 0; r < 2; ++r) {
       for (std::size_t c = 0; c <= r; ++c) a[r][c] += x[r] * x[c];
       b[r] += x[r] * grey[i];
     }
     squares += grey[i] * grey[i];
   }
   Coefficients k = b;
-  if (!solve(a, k, 3)) return 0;
-  return squares - k[0] * b[0] - k[1] * b[1] - k[2] * b[2];
+  if (!solve(a, k, 2)) return 0;
+  return squares - k[0] * b[0] - k[1] * b[1];
 }
 
 }  // namespace
@@ -124,18 +124,21 @@ EdgeProfile fit_edge_profile(std::span<const double> grey) {
   for (double g : grey) mean += g / double(grey.size());
   std::vector<double> centred;
   for (double g : grey) centred.push_back(g - mean);
-  const double all = parabola_residual(offset, centred);
+  const double all = line_residual(offset, centred);
   EdgeProfile out;
   if (!(all > 0)) return out;
   constexpr double kEnough = 0.95;  // of the variance
   const Trial step = fit_shape(offset, centred, {true, false}),
               ring = fit_shape(offset, centred, {false, true});
-  Trial best = step.residual <= ring.residual ? step : ring;
-  out.shape = step.residual <= ring.residual ? EdgeShape::step : EdgeShape::ring;
+  // On a slope that falls by its own height across it, a line is the shoulder of a step.
+  const bool is_ring =
+      ring.residual < step.residual && std::fabs(ring.k[1]) * 4 * ring.width < std::fabs(ring.k[2]);
+  Trial best = is_ring ? ring : step;
+  out.shape = is_ring ? EdgeShape::ring : EdgeShape::step;
   if (best.residual > (1 - kEnough) * all) {
     const Trial both = fit_shape(offset, centred, {true, true});
     // The line must be higher than the step, or the step's place hangs on a detail beside it.
-    if (both.residual < 0.5 * best.residual && std::fabs(both.k[4]) > std::fabs(both.k[3])) {
+    if (both.residual < 0.5 * best.residual && std::fabs(both.k[3]) > std::fabs(both.k[2])) {
       best = both;
       out.shape = EdgeShape::step_ring;
     }
@@ -143,9 +146,9 @@ EdgeProfile fit_edge_profile(std::span<const double> grey) {
   out.position = best.position;
   out.width = best.width;
   out.explained = std::clamp(1 - best.residual / all, 0.0, 1.0);
-  if (out.shape != EdgeShape::ring) out.step = best.k[3];
-  if (out.shape == EdgeShape::ring) out.ring = best.k[3];
-  if (out.shape == EdgeShape::step_ring) out.ring = best.k[4];
+  if (out.shape != EdgeShape::ring) out.step = best.k[2];
+  if (out.shape == EdgeShape::ring) out.ring = best.k[2];
+  if (out.shape == EdgeShape::step_ring) out.ring = best.k[3];
   return out;
 }
 

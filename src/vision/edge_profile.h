@@ -18,10 +18,10 @@ struct EdgeProfile {
   double step = 0;      ///< grey at large minus grey at small offsets; 0 for a ring
   double ring = 0;      ///< grey at the line's middle minus grey without it; negative: dark; 0 for a step
   double explained =
-      0;  ///< share of the profile's variance, after its best parabola, that the shape explains, 0..1
+      0;  ///< share of the profile's variance, after its best straight line, that the shape explains, 0..1
 };
 
-/// Least-squares fit of a + b t + c t^2 + step * Phi((t - p)/w) + ring * exp(-((t - p)/w)^2/2), Phi the
+/// Least-squares fit of a + b t + step * Phi((t - p)/w) + ring * exp(-((t - p)/w)^2/2), Phi the
 /// normal distribution, to grey at t = -m, ..., m (an odd number of samples, at least 9). The linear part is
 /// uneven light. A step alone, or a line alone, is preferred when it explains nearly as much, because a step
 /// with a line beside it can stand for a step moved sideways.

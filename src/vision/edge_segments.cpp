@@ -57,7 +57,7 @@ double otsu_power(const cv::Mat1f& power) {
 /// = 1.8 % of the pixels pass before thinning.
 double noise_power(const cv::Mat1f& power) {
   std::vector<float> sample;
-  const std::size_t stride = 1 + power.total() / 100000;
+  const std::size_t stride = 1 + power.total() / 30000;
   for (std::size_t i = 0; i < power.total(); i += stride)
     sample.push_back(*(power.begin() + std::ptrdiff_t(i)));
   const auto middle = sample.begin() + std::ptrdiff_t(sample.size() / 2);
@@ -125,14 +125,22 @@ std::vector<EdgeSegment> hough_segments(const cv::Mat1b& edges, const EdgeSegmen
   return segments;
 }
 
-bool lies_along(const EdgePixel& p, const EdgeSegment& s) {
-  constexpr double kOff = 1.5, kOver = 2, kCos = 0.819;  // 35 deg: a chord of a short arc and pixel noise
-  const double l = length(s);
-  const Vec2 along = (1 / l) * (s.b - s.a), across{-along.y, along.x}, d = p.pos - s.a;
-  const double t = dot(d, along);
-  return std::fabs(dot(d, across)) <= kOff && t >= -kOver && t <= l + kOver &&
-         std::fabs(dot(p.normal, across)) >= kCos;
-}
+/// A segment as the test of its supporters needs it.
+struct Strip {
+  Vec2 start, along;
+  double length = 0;
+  explicit Strip(const EdgeSegment& s) : start(s.a), length(norm(s.b - s.a)) {
+    along = (1 / length) * (s.b - s.a);
+  }
+  bool holds(const EdgePixel& p) const {
+    constexpr double kOff = 1.5, kOver = 2,
+                     kCos = 0.819;  // px, px, 35 deg: a chord of an arc, and pixel noise
+    const Vec2 across{-along.y, along.x}, d = p.pos - start;
+    const double t = dot(d, along);
+    return std::fabs(dot(d, across)) <= kOff && t >= -kOver && t <= length + kOver &&
+           std::fabs(dot(p.normal, across)) >= kCos;
+  }
+};
 
 }  // namespace
 
@@ -146,9 +154,9 @@ EdgeSegments find_edge_segments(const GrayF& picture, const EdgeSegmentOptions& 
   keep_strongest(edges, g, options.max_edge_pixels);
   out.segments = hough_segments(edges, options);
   out.pixels = list_pixels(edges, g);
+  const std::vector<Strip> strips(out.segments.begin(), out.segments.end());
   for (const EdgePixel& p : out.pixels)
-    if (std::any_of(out.segments.begin(), out.segments.end(),
-                    [&](const auto& s) { return lies_along(p, s); }))
+    if (std::any_of(strips.begin(), strips.end(), [&](const Strip& s) { return s.holds(p); }))
       out.support.push_back(p);
   return out;
 }

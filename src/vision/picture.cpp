@@ -4,31 +4,21 @@
 #include <cmath>
 #include <iterator>
 #include <span>
-#include <system_error>
+#include <string_view>
 #include <vector>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "vision/av_stream.h"
 #include "vision/frame_encoder.h"
 #include "vision/input_file.h"
-#include "vision/output_file.h"
 #include "vision/tiff_stack.h"
 
 namespace faba {
 namespace {
 
-void write_whole(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-  const std::filesystem::path temporary = path.string() + ".tmp";
-  try {
-    OutputFile file(temporary);
-    file.append(bytes);
-    file.close();
-    rename_complete(temporary, path);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw;
-  }
+std::string_view as_text(std::span<const std::uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 // The value with `fraction` of `values` below it; reorders them.
@@ -84,12 +74,12 @@ Gray8 stretched(const GrayF& picture, double low_fraction, double high_fraction)
 
 void write_png(const std::filesystem::path& path, const RgbImage& picture) {
   FrameEncoder encoder(FrameEncoder::Kind::png_colour, picture.width, picture.height, {}, path.string());
-  write_whole(path, encoder.encode(picture));
+  write_file(path, as_text(encoder.encode(picture)));
 }
 
 void write_png(const std::filesystem::path& path, const Gray8& picture) {
   FrameEncoder encoder(FrameEncoder::Kind::png_grey, picture.width, picture.height, {}, path.string());
-  write_whole(path, encoder.encode(picture));
+  write_file(path, as_text(encoder.encode(picture)));
 }
 
 }  // namespace faba

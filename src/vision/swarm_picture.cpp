@@ -14,7 +14,8 @@ const cv::Scalar kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90
 const cv::Scalar kPale{178, 182, 190}, kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
 const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kInk{60, 60, 60};
 constexpr int kShift = 4;  // sub-pixel bits of OpenCV's drawing
-constexpr std::size_t kManyCells = 20000;  // beyond this a cell is one pixel: anti-aliased discs would take longer than the step
+constexpr std::size_t kManyCells =
+    20000;  // beyond this a cell is one pixel: anti-aliased discs would take longer than the step
 
 cv::Point fixed(double x, double y) {
   const auto clamped = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
@@ -46,8 +47,8 @@ void ground(cv::Mat& m, const SwarmScene& s) {
   }
   m = s.edge_radius_px > 0 ? kOutside : kGround;
   if (s.edge_radius_px > 0)
-    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kGround, cv::FILLED, cv::LINE_AA,
-               kShift);
+    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kGround, cv::FILLED,
+               cv::LINE_AA, kShift);
 }
 
 void cells(cv::Mat& m, const SwarmScene& s) {
@@ -74,8 +75,10 @@ void scale_bar(cv::Mat& m, const SwarmScene& s) {
       break;
     }
   const double length = um / s.um_per_px, x = 12, y = s.height - 14;
-  cv::rectangle(m, cv::Point(int(x), int(y)), cv::Point(int(std::lround(x + length)), int(y) + 3), kInk, cv::FILLED);
-  text(m, um < 1000 ? fmt::format("{:g} um", um) : fmt::format("{:g} mm", um / 1000), {int(x), int(y) - 6}, 0.45);
+  cv::rectangle(m, cv::Point(int(x), int(y)), cv::Point(int(std::lround(x + length)), int(y) + 3), kInk,
+                cv::FILLED);
+  text(m, um < 1000 ? fmt::format("{:g} um", um) : fmt::format("{:g} mm", um / 1000), {int(x), int(y) - 6},
+       0.45);
 }
 
 // Long as 40 px at 100 uT, growing with the square root so that 20 uT and 2 mT both show.
@@ -101,7 +104,8 @@ RgbImage draw_swarm(const SwarmScene& s) {
   cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
   ground(m, s);
   if (s.edge_radius_px > 0)
-    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kEdge, 1, cv::LINE_AA, kShift);
+    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kEdge, 1,
+               cv::LINE_AA, kShift);
   for (std::size_t i = 1; i < s.route.size(); ++i) line(m, s.route[i - 1], s.route[i], {210, 160, 210});
   cells(m, s);
   if (s.setpoint) cross(m, *s.setpoint, 10, kPurple);

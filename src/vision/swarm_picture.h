@@ -20,12 +20,12 @@ struct SwarmScene {
   std::span<const Cell> cells;
   double cell_radius_px = 1.2;
   Vec2 edge_centre;
-  double edge_radius_px = 0;             ///< 0: no round edge, the picture's border is the wall
-  std::optional<Vec2> centroid;          ///< green cross
-  std::optional<Vec2> setpoint;          ///< purple cross
-  std::span<const Vec2> route;           ///< thin purple line through all setpoints when there are several
-  Vec2 field_ut;                         ///< arrow in the corner: field at the centroid, world frame (y up), uT
-  const Gray8* background = nullptr;     ///< a real picture, drawn faintly; of the same size
+  double edge_radius_px = 0;          ///< 0: no round edge, the picture's border is the wall
+  std::optional<Vec2> centroid;       ///< green cross
+  std::optional<Vec2> setpoint;       ///< purple cross
+  std::span<const Vec2> route;        ///< thin purple line through all setpoints when there are several
+  Vec2 field_ut;                      ///< arrow in the corner: field at the centroid, world frame (y up), uT
+  const Gray8* background = nullptr;  ///< a real picture, drawn faintly; of the same size
 };
 
 /// Draws it: bright ground, dark cells, drop edge, crosses, scale bar, clock and field arrow.

@@ -17,8 +17,10 @@ namespace faba {
 /// non-square pixels are not applied: pixels come as stored.
 ///
 /// Damage: a frame that cannot be decoded whole is not returned, nor are the frames predicted from it;
-/// reading goes on at the next key frame, so that no pixel is ever guessed. What a file cut short still holds
-/// is read, then read() gives false and truncated() is true.
+/// reading goes on at the next key frame, so that no pixel is guessed. What a file cut short still holds is
+/// read, then read() gives false and truncated() is true. Limits: transport streams, bare H.264 and GIF do
+/// not say how long they should be, so a cut between two of their frames goes unnoticed; in streams with
+/// B-frames up to a few frames shown just before one that is damaged inside may have been predicted from it.
 class VideoReader {
  public:
   /// Opens the file and decodes its first frame. Throws Error(Errc::input, path) when it is missing, a

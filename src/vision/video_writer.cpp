@@ -55,10 +55,11 @@ std::uint64_t VideoWriter::sync() {
   return impl_->file.size();
 }
 
-void VideoWriter::finish(const std::filesystem::path& final_path) {
+void VideoWriter::finish(const std::filesystem::path& final_path, bool keep_part) {
   impl_->file.sync();
   remux(impl_->file.path(), impl_->format, impl_->rate, final_path);
   impl_->file.close();
+  if (keep_part) return;
   std::error_code ignored;
   std::filesystem::remove(impl_->file.path(), ignored);
 }

@@ -41,10 +41,11 @@ class VideoWriter {
   /// next frame is a key frame. Throws Error(Errc::internal, part).
   std::uint64_t sync();
 
-  /// Writes `final_path` (by way of `final_path` + ".tmp"), replacing what is there, and removes `part`.
-  /// Nothing can be written afterwards. Throws Error(Errc::internal) when no frame was written or the disk is
-  /// full; `part` is then kept and finish() may be called again.
-  void finish(const std::filesystem::path& final_path);
+  /// Writes `final_path` (by way of `final_path` + ".tmp"), replacing what is there, and removes `part`,
+  /// unless `keep_part` is set: then it stays, to go on later where the last sync() ended. Nothing can be
+  /// written afterwards. Throws Error(Errc::internal) when no frame was written or the disk is full; `part`
+  /// is then kept and finish() may be called again.
+  void finish(const std::filesystem::path& final_path, bool keep_part = false);
 
  private:
   struct Impl;

@@ -126,6 +126,7 @@ TEST_CASE("run report: works with the least a run can have") {
   const std::string html = report_of(run);
   CHECK(has(html, "had no setpoint"));
   CHECK(has(html, "lengths are in pixels only"));
+  CHECK_FALSE(has(html, "stopped before"));
   CHECK(has(html, "<h3>Path in the picture</h3>"));
   CHECK(has(html, "<h3>Dispersion</h3>"));
   for (const char* absent : {"Distance to the setpoint</h3>", "Magnetic field</h3>", "Coil currents</h3>",
@@ -138,13 +139,14 @@ TEST_CASE("run report: no frames, and a recording cut off in the middle of a lin
   const TemporaryFolder run("report");
   const std::string head =
       "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px\n";
-  put(run.path() / "manifest.json", R"({"version": "0.1.0"})");
+  put(run.path() / "manifest.json", R"({"version": "0.1.0", "complete": false})");
   put(run.path() / "series.csv", head);
   CHECK(has(report_of(run), "No frame was recorded."));
   put(run.path() / "series.csv", head + "0,0,10,20,3,4,5,80\n1,0.1,12,20,3,4,");
   const std::string html = report_of(run);
   CHECK(has(html, "in the middle of a line"));
   CHECK(has(html, "did not settle"));
+  CHECK(has(html, "stopped before its end"));
 }
 
 TEST_CASE("run report: what is missing or wrong is named, and an older report stays") {
@@ -166,6 +168,7 @@ TEST_CASE("run report: what is missing or wrong is named, and an older report st
         {R"("arena": {"centre_px": [1, 2], "radius_px": "big"})", "arena.radius_px"},
         {R"("swarms": {})", "swarms"},
         {R"("swarms": ["basic"])", "swarms"},
+        {R"("complete": 1)", "complete"},
         {R"("title": ["a"])", "title"}}) {
     put(run.path() / "manifest.json", std::string(R"({"version": "0.1.0", )") + json + "}");
     CHECK(code_of(run, "manifest.json", key) == faba::Errc::input);

@@ -201,30 +201,53 @@ TEST_CASE("a video cut short gives exactly the frames of the whole one, then fal
   }
 }
 
+TEST_CASE("a video cut exactly between two frames is still known to be cut short") {
+  const media::ScratchFolder folder;
+  const std::string bytes = media::read_bytes(record(folder, VideoFormat::mp4, 6));
+  // The table of frame sizes: name, version, common size (0), count, then one number per frame.
+  const std::size_t table = bytes.find("stsz");
+  std::size_t last_size = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    last_size = last_size << 8 | static_cast<std::uint8_t>(bytes[table + 16 + std::size_t{5} * 4 + i]);
+  }
+  media::write_bytes(folder / "cut.mp4", bytes.substr(0, bytes.size() - last_size));
+  VideoReader cut(folder / "cut.mp4");
+  CHECK(read_all(cut).size() == 5);
+  CHECK(cut.truncated());
+}
+
 TEST_CASE("no pixel is guessed: after damage inside, frames are left out until the next key frame") {
   const media::ScratchFolder folder;
   const auto path = record(folder, VideoFormat::mp4, 30);  // key frames at 0, 10 and 20
   VideoReader whole(path);
   const std::vector<GrayF> frames = read_all(whole);
-  std::string bytes = media::read_bytes(path);
-  // Wipes out frame 13 or thereabouts: the coded frames lie in order behind the index.
+  const std::string bytes = media::read_bytes(path);
   const std::size_t data = bytes.find("mdat");
-  const std::size_t at = data + (bytes.size() - data) / 2;
-  for (std::size_t i = at; i < at + 60; ++i) bytes[i] = '\0';
-  media::write_bytes(folder / "hurt.mp4", bytes);
-  VideoReader hurt(folder / "hurt.mp4");
-  GrayF grey;
-  double t_s = 0;
-  std::size_t count = 0;
-  while (hurt.read(grey, t_s)) {
-    const auto frame = std::size_t(std::lround(t_s * 10));
-    REQUIRE(frame < frames.size());
-    CHECK(grey.px == frames[frame].px);
-    ++count;
+  for (int place = 4; place < 20; ++place) {  // before that lies the encoder's signature
+    CAPTURE(place);
+    std::string hurt_bytes = bytes;
+    const std::size_t at = data + (bytes.size() - data) * std::size_t(place) / 20;
+    for (std::size_t i = at; i < at + 30; ++i) hurt_bytes[i] = place % 2 == 0 ? '\0' : '\xFF';
+    media::write_bytes(folder / "hurt.mp4", hurt_bytes);
+    VideoReader hurt(folder / "hurt.mp4");
+    GrayF grey;
+    double t_s = 0;
+    std::size_t count = 0;
+    // Time stamps count from the first frame that is whole, which need not be the first of the file.
+    std::size_t offset = frames.size();
+    while (hurt.read(grey, t_s)) {
+      const auto frame = std::size_t(std::lround(t_s * 10));
+      if (offset == frames.size()) {
+        for (offset = 0; offset < frames.size() && frames[offset].px != grey.px;) offset += 10;
+      }
+      REQUIRE(frame + offset < frames.size());
+      CHECK(grey.px == frames[frame + offset].px);
+      ++count;
+    }
+    CHECK(count < frames.size());
+    CHECK(count + std::size_t(hurt.damaged_frames()) == frames.size());
+    CHECK_FALSE(hurt.damage().empty());
   }
-  CHECK(count < frames.size());
-  CHECK(count + std::size_t(hurt.damaged_frames()) == frames.size());
-  CHECK_FALSE(hurt.damage().empty());
 }
 
 TEST_CASE("two readers do not disturb each other, and a reader can be moved") {

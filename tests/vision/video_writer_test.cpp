@@ -226,6 +226,22 @@ TEST_CASE("a recording broken off and continued is the same file as one that was
   }
 }
 
+TEST_CASE("a finished recording can go on when its part was kept") {
+  const media::ScratchFolder folder;
+  VideoWriter whole(folder / "whole.part", VideoFormat::mp4, kWidth, kHeight, 15);
+  record(whole, 0, 9, 4);
+  whole.finish(folder / "whole");
+
+  VideoWriter first(folder / "v.part", VideoFormat::mp4, kWidth, kHeight, 15);
+  const std::uint64_t safe = record(first, 0, 4, 4);
+  first.finish(folder / "v", true);
+  CHECK(read_all(folder / "v").grey.size() == 4);
+  VideoWriter second(folder / "v.part", VideoFormat::mp4, kWidth, kHeight, 15, safe);
+  record(second, 4, 9);
+  second.finish(folder / "v");
+  CHECK(media::read_bytes(folder / "v") == media::read_bytes(folder / "whole"));
+}
+
 TEST_CASE("the same frames and syncs give the same bytes, and a sync costs no frame wherever it falls") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {

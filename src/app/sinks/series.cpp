@@ -35,10 +35,12 @@ class Series final : public RunSink {
     const Vec2 believed = c_.frame.image_from_world(t.estimate.centroid);
     const Vec3 b = c_.world->parts().field->at({mean.x, mean.y, 0}, s.current);
     std::string line = fmt::format("{},{:.9g}", t.index, double(t.index) / c_.frame_rate);
-    for (const double v : {at.x, at.y, sigma_x, sigma_y, std::sqrt(sigma_x * sigma_x + sigma_y * sigma_y), norm(at - to)})
+    for (const double v :
+         {at.x, at.y, sigma_x, sigma_y, std::sqrt(sigma_x * sigma_x + sigma_y * sigma_y), norm(at - to)})
       line += fmt::format(",{:.9g}", v);
     line += fmt::format(",{:.0f},{}", visible, c_.world->responding());
-    for (const double v : {believed.x, believed.y, to.x, to.y, b.x * 1e6, b.y * 1e6}) line += fmt::format(",{:.9g}", v);
+    for (const double v : {believed.x, believed.y, to.x, to.y, b.x * 1e6, b.y * 1e6})
+      line += fmt::format(",{:.9g}", v);
     for (const double i : t.command.current) line += fmt::format(",{:.9g}", i);
     file_.write(line + fmt::format(",{:d}\n", t.limited));
   }
@@ -65,7 +67,7 @@ class Series final : public RunSink {
 
 std::unique_ptr<RunSink> series_sink(const SinkContext& c, Archive* resume) {
   std::uint64_t keep = 0;
-  if (resume) *resume & keep;
+  if (resume) *resume& keep;
   return std::make_unique<Series>(c, keep);
 }
 

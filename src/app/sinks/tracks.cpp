@@ -12,16 +12,21 @@ constexpr std::uint64_t kChunkBytes = 16u << 20;  // of the row of chunks being 
 
 class Tracks final : public RunSink {
  public:
-  // `keep` rows of an earlier file are taken over: HDF5 cannot go on in a file whose writer was killed, but it can read it.
+  // `keep` rows of an earlier file are taken over: HDF5 cannot go on in a file whose writer was killed, but
+  // it can read it.
   Tracks(const SinkContext& c, std::uint64_t keep)
-      : c_(c), path_(c.dir / "tracks.h5"), file_(H5File::create(keep ? path_.string() + ".new" : path_.string())) {
+      : c_(c),
+        path_(c.dir / "tracks.h5"),
+        file_(H5File::create(keep ? path_.string() + ".new" : path_.string())) {
     const auto n = std::uint64_t(c.world->state().agents.size());
     const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
     frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, 1024, 1, false));
     t_ = std::make_unique<H5Table>(file_.table<double>("t_s", {}, 1024, 1, false));
-    position_ = std::make_unique<H5Table>(file_.table<float>("position_px", {n, 2}, rows, 4096, c.record.compress));
+    position_ =
+        std::make_unique<H5Table>(file_.table<float>("position_px", {n, 2}, rows, 4096, c.record.compress));
     if (c.dose)
-      responding_ = std::make_unique<H5Table>(file_.table<std::uint8_t>("responding", {n}, rows, 4096, c.record.compress));
+      responding_ = std::make_unique<H5Table>(
+          file_.table<std::uint8_t>("responding", {n}, rows, 4096, c.record.compress));
     describe();
     file_.begin_writing();
     if (keep) take_over(keep);
@@ -67,7 +72,8 @@ class Tracks final : public RunSink {
     file_.attribute("/", "every_frames", double(c_.record.tracks_every));
     file_.attribute("/", "width_px", double(c_.frame.width));
     file_.attribute("/", "height_px", double(c_.frame.height));
-    file_.attribute("position_px", "axes", std::string("row, cell, (x right, y down); pixel centres are whole numbers"));
+    file_.attribute("position_px", "axes",
+                    std::string("row, cell, (x right, y down); pixel centres are whole numbers"));
     // which cells belong to which [[swarm]]: they are numbered one swarm after the other
     for (std::size_t k = 0; k < c_.world->parts().populations.size(); ++k) {
       const auto& p = c_.world->parts().populations[k];
@@ -80,7 +86,8 @@ class Tracks final : public RunSink {
     {
       const H5File old = H5File::open(path_);
       const H5Table frame = old.table("frame"), t = old.table("t_s"), position = old.table("position_px");
-      if (position.rows() < keep) throw Error(Errc::input, path_.string(), "has fewer frames than its checkpoint says");
+      if (position.rows() < keep)
+        throw Error(Errc::input, path_.string(), "has fewer frames than its checkpoint says");
       row_.resize(position.row_size());
       flags_.resize(position.row_size() / 2);
       for (std::uint64_t r = 0; r < keep; ++r) {
@@ -111,7 +118,7 @@ class Tracks final : public RunSink {
 
 std::unique_ptr<RunSink> tracks_sink(const SinkContext& c, Archive* resume) {
   std::uint64_t keep = 0;
-  if (resume) *resume & keep;
+  if (resume) *resume& keep;
   return std::make_unique<Tracks>(c, keep);
 }
 

@@ -15,8 +15,8 @@ class Video final : public RunSink {
         final_(c.dir / (lossless ? "video.avi" : "video.mp4")) {
     // Killed after this file was completed and before the run was: there is nothing left to do.
     if (keep > 0 && !std::filesystem::exists(part_) && std::filesystem::exists(final_)) return;
-    writer_.emplace(part_, lossless ? VideoFormat::lossless_avi : VideoFormat::mp4, c.frame.width, c.frame.height,
-                    c.frame_rate / c.record.video_every, keep);
+    writer_.emplace(part_, lossless ? VideoFormat::lossless_avi : VideoFormat::mp4, c.frame.width,
+                    c.frame.height, c.frame_rate / c.record.video_every, keep);
     for (const Vec2 p : c.reference->setpoints()) route_.push_back(c.frame.image_from_world(p));
   }
 
@@ -81,7 +81,7 @@ class Video final : public RunSink {
 
 std::unique_ptr<RunSink> video_sink(const SinkContext& c, bool lossless, Archive* resume) {
   std::uint64_t keep = 0;
-  if (resume) *resume & keep;
+  if (resume) *resume& keep;
   return std::make_unique<Video>(c, lossless, keep);
 }
 

@@ -41,7 +41,7 @@ struct Block {
 // Velocities in px per iteration.
 FABA_VECTORISED void redraw(const Block& b, std::size_t begin, std::size_t n, std::uint32_t iteration,
                             std::uint32_t noise, float per_tesla, std::uint32_t k0, std::uint32_t k1) {
-  const float *__restrict bx = b.bx, *__restrict by = b.by, * __restrict response = b.response;
+  const float* __restrict bx = b.bx, * __restrict by = b.by, * __restrict response = b.response;
   float* __restrict vx = b.vx, * __restrict vy = b.vy;
   const std::uint32_t count = 2 * noise + 1;
   for (std::size_t i = 0; i < n; ++i) {

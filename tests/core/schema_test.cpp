@@ -1,0 +1,146 @@
+#include "core/schema.h"
+
+#include <doctest/doctest.h>
+
+#include "core/registry.h"
+
+using namespace faba;
+
+namespace {
+
+struct Inner {
+  double weight = 0.5;
+  static Schema<Inner> schema() {
+    return Schema<Inner>("inner", "x").add("weight", &Inner::weight, {.min = 0, .max = 1});
+  }
+};
+struct Params {
+  enum class Colour { red, green };
+  double speed = 1e-4;
+  int count = 3;
+  bool on = false;
+  std::string name = "a";
+  Colour colour = Colour::green;
+  Vec2 at{1, 2};
+  std::optional<double> extra;
+  std::vector<Inner> inner;
+  static Schema<Params> schema() {
+    Params fast;
+    fast.speed = 5e-4;
+    return Schema<Params>("params", "For the test")
+        .add("speed", &Params::speed, {.unit = "m/s", .min = 0, .max = 1e-3, .doc = "how fast"})
+        .add("count", &Params::count, {.min = 0, .max = 10})
+        .add("on", &Params::on, {})
+        .add("name", &Params::name, {})
+        .add("colour", &Params::colour, {.choices = {"red", "green"}})
+        .add("at", &Params::at, {.unit = "px"})
+        .add("extra", &Params::extra, {.unit = "s", .min = 0})
+        .add("inner", &Params::inner, {})
+        .preset("fast", fast, "test");
+  }
+};
+
+Params read(const std::string& toml) {
+  const Document d = parse_toml(toml, "scene.toml");
+  return Params::schema().parse(Node(d));
+}
+std::string complaint(const std::string& toml) {
+  try {
+    read(toml);
+  } catch (const Error& e) {
+    CHECK(e.code() == Errc::usage);
+    return e.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("values, units, presets, nested lists") {
+  const Params p = read(
+      "preset = 'fast'\ncount = 4.0\non = true\ncolour = 'red'\nat = [3, '4 px']\nextra = '2 ms'\n"
+      "[[inner]]\nweight = 0.25\n[[inner]]\n");
+  CHECK(p.speed == 5e-4);
+  CHECK(p.count == 4);
+  CHECK(p.on);
+  CHECK(p.colour == Params::Colour::red);
+  CHECK(p.at == Vec2{3, 4});
+  CHECK(p.extra == 2e-3);
+  REQUIRE(p.inner.size() == 2);
+  CHECK(p.inner[0].weight == 0.25);
+  CHECK(p.inner[1].weight == 0.5);
+  CHECK(read("preset = 'fast'\nspeed = '1 um/s'").speed == 1e-6);
+}
+
+TEST_CASE("every complaint is one line that names file, line, path, reason and a way out") {
+  CHECK(complaint("count = 1\nsped = 1") == "scene.toml:2: sped: unknown key; did you mean \"speed\"?");
+  CHECK(complaint("speed = '3 um'") ==
+        "scene.toml:1: speed: \"3 um\" is a length; expected a speed such as \"1 m/s\"");
+  CHECK(complaint("speed = nan") == "scene.toml:1: speed: must be a finite number, got nan");
+  CHECK(complaint("speed = inf") == "scene.toml:1: speed: must be a finite number, got inf");
+  CHECK(complaint("speed = 1e300") ==
+        "scene.toml:1: speed: 1e+300 m/s is out of range; it must be between 0 m/s and 0.001 m/s");
+  CHECK(complaint("speed = true") == "scene.toml:1: speed: expected a speed such as \"1 m/s\", got true");
+  CHECK(complaint("count = 2.5") == "scene.toml:1: count: expected a whole number, got 2.5");
+  CHECK(complaint("count = 99999999999999999999") != "accepted");
+  CHECK(complaint("colour = 'blue'") == "scene.toml:1: colour: \"blue\" is none of red, green");
+  CHECK(complaint("on = 1") == "scene.toml:1: on: expected true or false, got 1");
+  CHECK(complaint("at = [1]") == "scene.toml:1: at: expected 2 values, got 1");
+  CHECK(complaint("name = [1]") == "scene.toml:1: name: expected a text in quotes, got [1]");
+  CHECK(complaint("preset = 'quick'") == "scene.toml:1: preset: \"quick\" is none of fast");
+  CHECK(complaint("\n\n[[inner]]\nwieght = 1") ==
+        "scene.toml:4: inner[0].wieght: unknown key; did you mean \"weight\"?");
+  CHECK(complaint("extra = '-1 s'") == "scene.toml:1: extra: -1 s is out of range; it must be at least 0 s");
+}
+
+TEST_CASE("what a schema writes it reads back, to the bit") {
+  const Params p = read("speed = '0.1 mm/s'\nextra = '0.3 s'\nat = [0.1, 0.7]\n[[inner]]\nweight = 0.3");
+  const Json j = Params::schema().to_json(p);
+  const Document d = parse_toml(to_toml(j), "again");
+  CHECK(Params::schema().to_json(Params::schema().parse(Node(d))) == j);
+}
+
+TEST_CASE("--set changes one value and is named in complaints") {
+  Document d = parse_toml("[swarm]\ncount = 1\n[[list]]\na = 1\n", "f.toml");
+  d.set("swarm.count", std::string("7"), "--set");
+  CHECK(d.root["swarm"]["count"] == 7);
+  d.set("list[0].b", std::string("12 um/s"), "--set");
+  CHECK(d.root["list"][0]["b"] == "12 um/s");
+  d.set("new.deep", std::string("[1, 2]"), "--set");
+  CHECK(d.root["new"]["deep"] == Json::array({1, 2}));
+  CHECK(Node(d).where("swarm.count") == "--set: swarm.count");
+  for (const char* bad :
+       {"list[3].a", "swarm.count.x", "", "a..b", "a[", "a[x]", "swarm[0].count", "a.", "[0]", "a[-1]"})
+    CHECK_THROWS_AS(d.set(bad, std::string("1"), "--set"), Error);
+}
+
+TEST_CASE("registry: by name or table, unknown names are answered with the nearest") {
+  struct Animal {
+    virtual ~Animal() = default;
+    virtual int legs() const = 0;
+  };
+  struct None {};
+  struct Dog final : Animal {
+    struct Params {
+      int legs = 4;
+    };
+    static Schema<Params> schema() {
+      return Schema<Params>("dog", "barks").add("legs", &Params::legs, {.min = 0, .max = 4});
+    }
+    Dog(const Params& p, const None&) : n(p.legs) {}
+    int legs() const override { return n; }
+    int n;
+  };
+  Registry<Animal, None> r("animal", "test");
+  r.add<Dog>();
+  CHECK_THROWS_AS(r.add<Dog>(), Error);
+  const Document d =
+      parse_toml("a = 'dog'\nb = { type = 'dog', legs = 3 }\nc = 'dgo'\ne = { legs = 1 }\nf = 3", "z.toml");
+  CHECK(r.resolve(Node(d).child("a")).make({})->legs() == 4);
+  CHECK(r.resolve(Node(d).child("b")).make({})->legs() == 3);
+  CHECK(r.resolve(Node(d).child("b")).resolved == Json{{"type", "dog"}, {"legs", 3}});
+  CHECK_THROWS_WITH(r.resolve(Node(d).child("c")),
+                    "z.toml:3: c.type: there is no animal \"dgo\"; did you mean \"dog\"?");
+  CHECK_THROWS_WITH(r.resolve(Node(d).child("e")), "z.toml:4: e: needs type = \"...\"; known animals: dog");
+  CHECK_THROWS_AS(r.resolve(Node(d).child("f")), Error);
+}
