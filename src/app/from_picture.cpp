@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "vision/drop_edge.h"
 #include "vision/picture.h"
 
@@ -9,7 +10,14 @@ namespace faba {
 
 void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_video) {
   const Picture picture = read_picture(picture_or_video);
-  const DropEdge edge = find_drop_edge(picture.grey);
+  DropEdgeOptions options;
+  options.name = picture_or_video.string();
+  const DropEdge edge = find_drop_edge(picture.grey, options);
+  if (!edge.centre_side_inside)
+    throw Error(Errc::input, options.name,
+                "shows an air bubble in the liquid, not a drop: the cells are outside of the circle; give a "
+                "picture of a "
+                "drop, or write the arena by hand");
   const std::string origin = "--from-video " + picture_or_video.string();
   scenario.set("arena",
                Json{{"type", "drop"},

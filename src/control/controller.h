@@ -52,7 +52,7 @@ using ReferenceRegistry = Registry<Reference, ControlContext>;
 using ControllerRegistry = Registry<Controller, ControlContext>;
 
 /// Currents that make the cells want to swim along `drive` (field units, world frame) at `at` (m, world): the
-/// physical field is drive times the unit times polarity (REFERENCE.md A8), the Earth's field not counted.
+/// physical field is drive times the unit times polarity (theory A8), the Earth's field not counted.
 Command drive_command(const ControlContext& c, Vec2 at_world, Vec2 drive);
 
 }  // namespace faba

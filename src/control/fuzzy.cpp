@@ -7,7 +7,7 @@
 namespace faba {
 namespace {
 
-/// The thesis's fuzzy controller (REFERENCE.md A9, eq. 3.2): zero-order Sugeno on the distance d to the
+/// The thesis's fuzzy controller (theory A9, eq. 3.2): zero-order Sugeno on the distance d to the
 /// setpoint,
 ///   M = sum_k mu_k(d) M_k / sum_k mu_k(d),   mu(d; a, b, c, e) = clamp(min((d-a)/(b-a), 1, (e-d)/(e-c)), 0,
 ///   1),

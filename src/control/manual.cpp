@@ -9,7 +9,7 @@ namespace faba {
 namespace {
 
 /// A schedule of field vectors, whatever the swarm does: constant fields, reversals (the step response,
-/// REFERENCE.md A14), rotating fields with or without bias (B3.6-B3.8).
+/// theory A14), rotating fields with or without bias (B3.6-B3.8).
 ///   B(t) = field + rotating (cos 2 pi f (t - at), sin 2 pi f (t - at))
 class Manual final : public Controller {
  public:

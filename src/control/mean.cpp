@@ -4,7 +4,7 @@
 namespace faba {
 namespace {
 
-/// The thesis's estimate: arithmetic mean of all cells, those outside the view included (REFERENCE.md A10).
+/// The thesis's estimate: arithmetic mean of all cells, those outside the view included (theory A10).
 /// Only a simulation can do this; on a bench it equals `visible`.
 class EstimatorMean final : public Estimator {
  public:

@@ -6,7 +6,7 @@
 namespace faba {
 namespace {
 
-/// Proportional-integral law on the vector error (REFERENCE.md F3), delay-aware:
+/// Proportional-integral law on the vector error (theory F3), delay-aware:
 ///   u = sat(k_p e + k_i integral e),  k_p = gain / (hold + delay) per frame,
 /// u in frames^-1 times px is the wanted drift in px per frame; gain 0.45 is the largest that stays well
 /// damped for an integrator plant with that delay. How the drift is had depends on the cells:
@@ -48,7 +48,7 @@ Schema<Proportional::Params> Proportional::schema() {
            {.min = 0,
             .max = 10,
             .doc = "Loop gain; the proportional gain is gain / (hold_frames + delay)",
-            .source = "0.45: REFERENCE F3"})
+            .source = "0.45: theory F3"})
       .add("integral_gain", &Params::integral_gain,
            {.min = 0,
             .max = 10,

@@ -3,7 +3,7 @@
 namespace faba {
 namespace {
 
-/// Setpoints one after the other (REFERENCE.md A10): the next one when the swarm has been within
+/// Setpoints one after the other (theory A10): the next one when the swarm has been within
 /// `tolerance_px` for `hold_frames` in a row, or after `timeout`. The last one is held.
 class ReferenceRoute final : public Reference {
  public:

@@ -7,7 +7,7 @@ namespace faba {
 namespace {
 
 /// The same field everywhere: two crossed pairs of coils with concurring currents, one along x and one along
-/// y (REFERENCE.md A6; in the view of a microscope such a pair is uniform to 0.1 %, C4).
+/// y (theory A6; in the view of a microscope such a pair is uniform to 0.1 %, C4).
 ///   B = earth + gain (I_0, I_1, 0)
 /// Fails where gradients matter: far from the centre, or with opposed currents.
 class Uniform final : public Field {

@@ -7,7 +7,7 @@
 
 namespace faba {
 
-/// At most one cell per grid cell, a grid cell being one camera pixel (REFERENCE.md A1, A2, D4).
+/// At most one cell per grid cell, a grid cell being one camera pixel (theory A1, A2, D4).
 /// - `two-phase` (default): all cells propose from the state at the beginning of the step; a grid cell
 /// occupied then is
 ///   closed (with `follow`, open again once its owner has left, up to eight sweeps); of several that want a

@@ -8,7 +8,7 @@
 
 namespace faba {
 
-/// How well a closed-loop run was controlled: one number per question (REFERENCE.md F5).
+/// How well a closed-loop run was controlled: one number per question (theory F5).
 ///
 /// Terms used below. d_k is `distance_px` of frame k: from the centroid of all cells to the setpoint. A frame
 /// is *targeted* when d_k is a number; the others are left out. t0 and d0 belong to the first targeted frame.

@@ -34,7 +34,7 @@ std::optional<Circle> circle_through(Vec2 a, Vec2 b, Vec2 c);
 
 /// Pratt's algebraic fit: minimises sum w (A(x^2+y^2) + Bx + Cy + D)^2 under B^2 + C^2 - 4AD = 1. It needs no
 /// start and is nearly free of the pull to small radii that the simple (Kasa) fit has on short arcs
-/// (REFERENCE.md A13, [S26]). `weights` is empty (all 1) or as long as `points`, each >= 0.
+/// (theory A13, [S26]). `weights` is empty (all 1) or as long as `points`, each >= 0.
 /// Nothing for fewer than three points or points on a line.
 std::optional<Circle> fit_circle_pratt(std::span<const Vec2> points, std::span<const double> weights = {});
 
@@ -47,7 +47,7 @@ enum class CircleLoss {
 /// Minimises the distances of the points from the circle (Levenberg-Marquardt on centre and radius) from
 /// `start`, which must be near. The covariance is s^2 (J^T J)^-1 with s^2 from the residuals (for Tukey:
 /// Huber's sum psi^2/(n-3) / (mean psi')^2). On an arc of half-angle a with n points of scatter sigma it
-/// gives sd(R) = sigma sqrt(45/n)/a^2 (REFERENCE.md A13). For Tukey the inliers are the points with weight >
+/// gives sd(R) = sigma sqrt(45/n)/a^2 (theory A13). For Tukey the inliers are the points with weight >
 /// 0. Throws Error(Errc::input) for fewer than 4 points or when the points do not determine a circle.
 CircleFit refine_circle(std::span<const Vec2> points, Circle start, CircleLoss loss = CircleLoss::tukey);
 

@@ -56,7 +56,7 @@ struct DropEdge {
   std::vector<EdgeSegment> segments;  ///< the Hough segments the search started from
 };
 
-/// Finds the edge of a drop, any arc of 10 degrees or more, and its circle (REFERENCE.md A13): percentile
+/// Finds the edge of a drop, any arc of 10 degrees or more, and its circle (theory A13): percentile
 /// stretch, Gaussian smoothing, Roberts edges, Hough segments, all edge pixels supporting them, RANSAC,
 /// Pratt. The picture's halved copies are searched the same way, so that blurred and noisy edges are seen
 /// too. Every circle is then tested along its whole arc (weigh_arc), which also gives the sub-pixel edge

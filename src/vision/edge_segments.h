@@ -15,7 +15,7 @@ enum class EdgeThreshold {
   fixed    ///< EdgeSegmentOptions::fixed_threshold
 };
 
-/// Parameters of steps 2 to 4 of the published procedure (REFERENCE.md A13). Lengths in px of the picture
+/// Parameters of steps 2 to 4 of the published procedure (theory A13). Lengths in px of the picture
 /// given.
 struct EdgeSegmentOptions {
   double sigma_px = 1;  ///< sd of the Gaussian smoothing; 1 gives the classic 5x5 kernel; 0 for none

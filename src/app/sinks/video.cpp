@@ -32,13 +32,7 @@ class Video final : public RunSink {
 
   void finish(bool keep) override {
     if (!writer_) return;
-    if (!keep) return writer_->finish(final_);
-    // To go on later the stream itself is needed, and finishing uses it up: finish a copy.
-    writer_->sync();
-    const std::filesystem::path saved = part_.string() + ".kept";
-    std::filesystem::copy_file(part_, saved, std::filesystem::copy_options::overwrite_existing);
-    writer_->finish(final_);
-    std::filesystem::rename(saved, part_);
+    writer_->finish(final_, keep);
   }
 
  private:

@@ -8,7 +8,7 @@
 namespace faba {
 namespace {
 
-/// The Adapted model of the thesis (REFERENCE.md A5; its 3.3.3.3). In pixels per iteration,
+/// The Adapted model of the thesis (theory A5; its 3.3.3.3). In pixels per iteration,
 ///   v = s u + k,   u = b / |b|,   b = response B / unit + (0, earth)
 /// with an innate speed s drawn once per cell from {0, ..., n}, n = round(max_speed), and k uniform on the
 /// integers

@@ -6,7 +6,7 @@
 namespace faba {
 namespace {
 
-/// The Basic model of the thesis (REFERENCE.md A4, eq. 3.1, with the hold of A3). Per axis, in pixels per
+/// The Basic model of the thesis (theory A4, eq. 3.1, with the hold of A3). Per axis, in pixels per
 /// iteration,
 ///   v = k + m,   k uniform on the integers {-n, ..., n},  n = round(max_speed),
 /// drawn anew every `hold` iterations; m is the drift that the field commands, in field units.

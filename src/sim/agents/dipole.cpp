@@ -9,7 +9,7 @@
 namespace faba {
 namespace {
 
-/// A self-propelled magnetic dipole in the plane, overdamped (REFERENCE.md B1-B3, SI throughout):
+/// A self-propelled magnetic dipole in the plane, overdamped (theory B1-B3, SI throughout):
 ///   d theta = -w_B sin(theta - theta_B) dt + sqrt(2 D_r) dW,   w_B = m B / f_r,
 ///   dx = v n dt + sqrt(2 D_t) dW,
 ///   f_r = drag_factor 8 pi eta R^3,  f_t = 6 pi eta R,  D_r = kT / f_r,  D_t = kT / f_t.

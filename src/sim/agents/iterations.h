@@ -3,7 +3,7 @@
 
 namespace faba {
 
-/// The clock of the published models (REFERENCE.md A3): they move once per iteration, a whole number of the
+/// The clock of the published models (theory A3): they move once per iteration, a whole number of the
 /// world's steps, and draw a new velocity every `hold` iterations, which the thesis calls inertia.
 class Iterations {
  public:

@@ -9,7 +9,7 @@
 namespace faba {
 namespace {
 
-/// The thesis's constrained simulation (REFERENCE.md A12): a rectangle, all of it in view, that nobody
+/// The thesis's constrained simulation (theory A12): a rectangle, all of it in view, that nobody
 /// leaves. Limits act on the centres of the border pixels (A2): `clamp` puts each coordinate back on the
 /// border, `reflect` mirrors it, `reject` undoes the whole move.
 class Box final : public Arena {

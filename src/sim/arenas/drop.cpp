@@ -8,7 +8,7 @@
 namespace faba {
 namespace {
 
-/// A drop with a circular edge, seen through a camera that may show only part of it (REFERENCE.md A13). Cells
+/// A drop with a circular edge, seen through a camera that may show only part of it (theory A13). Cells
 /// swim out of view and back, and slide along the edge without ever crossing it (B6). Known to fail: pinned
 /// drops that are not round.
 class Drop final : public Arena {

@@ -4,7 +4,7 @@
 namespace faba {
 
 /// Oxygen in a round drop that is open to air at its edge and free of it at t = 0, as a fraction of
-/// saturation: the analytic solution of the diffusion equation in a cylinder (REFERENCE.md B5; the cells' own
+/// saturation: the analytic solution of the diffusion equation in a cylinder (theory B5; the cells' own
 /// uptake is neglected),
 ///   c(r,t) = 1 - 2 sum_n J0(l_n r/R) exp(-l_n^2 D t/R^2) / (l_n J1(l_n)),   J0(l_n) = 0.
 class OxygenProfile {

@@ -8,7 +8,7 @@
 namespace faba {
 namespace {
 
-/// Loss of motility in air (REFERENCE.md A16, B5). With t the time in air, exposure before the run included:
+/// Loss of motility in air (theory A16, B5). With t the time in air, exposure before the run included:
 ///   speed(t) = speed(0) / (1 + slowdown t);
 /// a cell's dose grows as dX/dt = max(c - tolerated, 0), c the local oxygen as a fraction of saturation
 /// (diffusion from the drop's edge; 1 in a box), and a cell whose dose exceeds its own lognormal tolerance no

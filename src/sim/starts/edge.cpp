@@ -4,7 +4,7 @@
 namespace faba {
 namespace {
 
-/// Piled up at the wall, as a swarm is after swimming along `direction` for long (REFERENCE.md A14, A21):
+/// Piled up at the wall, as a swarm is after swimming along `direction` for long (theory A14, A21):
 /// uniform across that direction, exponential in depth.
 class StartEdge final : public Start {
  public:

@@ -3,7 +3,7 @@
 namespace faba {
 namespace {
 
-/// Anywhere in the part of the arena that the camera shows (REFERENCE.md A13, "start in visible area").
+/// Anywhere in the part of the arena that the camera shows (theory A13, "start in visible area").
 class StartVisible final : public Start {
  public:
   struct Params {};
