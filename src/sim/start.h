@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 
 #include "sim/arena.h"
 
@@ -9,9 +10,10 @@ namespace faba {
 class Start {
  public:
   virtual ~Start() = default;
-  /// A candidate position, m, world frame, from three uniform numbers in (0, 1). Candidates outside the arena
-  /// or on an occupied cell are drawn again by the caller.
-  virtual Vec2 place(const std::array<double, 3>& u) const = 0;
+  /// A candidate position, m, world frame, from three uniform numbers in (0, 1); none when these numbers lead
+  /// nowhere. Those, and candidates outside the arena or on an occupied grid cell, are drawn again by the
+  /// caller.
+  virtual std::optional<Vec2> place(const std::array<double, 3>& u) const = 0;
 };
 
 struct StartContext {

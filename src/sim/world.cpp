@@ -60,7 +60,9 @@ void World::place_all() {
                   i - p.begin + 1, p.end - p.begin));
         const auto w = draw(parts_.seed, Stream::start, id, attempt);
         const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
-        const Vec2 at = exclusion_.snapped(p.start->place({u(0), u(1), u(2)}));
+        const auto candidate = p.start->place({u(0), u(1), u(2)});
+        if (!candidate) continue;
+        const Vec2 at = exclusion_.snapped(*candidate);
         if (parts_.arena->depth(at) < 0) continue;
         if (exclusion_.active() && !exclusion_.place(id, at)) continue;
         x[i] = float(at.x);

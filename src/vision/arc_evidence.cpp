@@ -130,14 +130,34 @@ void remove_line(std::vector<double>& v) {
   for (std::size_t i = 0; i < v.size(); ++i) v[i] -= mean + slope * (double(i) - middle);
 }
 
-/// Where along the piece the template (centred, `quarter` samples each side) has the largest product with it.
-double best_shift(const std::vector<double>& grey, const std::vector<double>& shape, int half, int quarter) {
+/// Sum of squares about its mean of every window of `length` samples of the piece.
+std::vector<double> window_energy(const std::vector<double>& grey, std::size_t length) {
+  std::vector<double> energy;
+  double sum = 0, squares = 0;
+  const double n = double(length), base = grey.front();
+  for (std::size_t i = 0; i < grey.size(); ++i) {
+    const double in = grey[i] - base;
+    sum += in, squares += in * in;
+    if (i + 1 < length) continue;
+    energy.push_back(std::max(squares - sum * sum / n, 0.0));
+    const double out = grey[i + 1 - length] - base;
+    sum -= out, squares -= out * out;
+  }
+  return energy;
+}
+
+/// Where along the piece the template has the largest product with it, for its length and for the unrest of
+/// the grey there: a bright cell has a large product with anything. `usual` is the energy of a window without
+/// such things.
+double best_shift(const std::vector<double>& grey, const std::vector<double>& shape, int half, int quarter,
+                  double usual) {
+  const std::vector<double> energy = window_energy(grey, shape.size());
   std::vector<double> product;
   for (int s = -quarter; s <= quarter; ++s) {
     double sum = 0;
     const double* g = &grey[std::size_t(half + s - quarter)];
     for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * g[i];
-    product.push_back(sum);
+    product.push_back(sum / std::sqrt(energy[std::size_t(half + s - quarter)] + usual));
   }
   const std::size_t top = std::size_t(std::max_element(product.begin(), product.end()) - product.begin());
   double fine = 0;
@@ -151,13 +171,18 @@ double best_shift(const std::vector<double>& grey, const std::vector<double>& sh
 void find_shifts(Strip& strip) {
   const int quarter = strip.half / 2;
   const std::size_t length = std::size_t(2 * quarter + 1), first = std::size_t(strip.half - quarter);
-  std::vector<double> sum(length, 0.0), others(length);
-  for (const Piece& p : strip.pieces)
+  std::vector<double> sum(length, 0.0), others(length), energies;
+  for (const Piece& p : strip.pieces) {
     for (std::size_t i = 0; i < length; ++i) sum[i] += p.grey[first + i];
+    energies.push_back(window_energy(p.grey, length)[first]);
+  }
+  const auto middle = energies.begin() + std::ptrdiff_t(energies.size() / 2);
+  std::nth_element(energies.begin(), middle, energies.end());
+  const double usual = std::max(*middle, 1e-12);
   for (Piece& p : strip.pieces) {
     for (std::size_t i = 0; i < length; ++i) others[i] = sum[i] - p.grey[first + i];
     remove_line(others);
-    p.shift = best_shift(p.grey, others, strip.half, quarter);
+    p.shift = best_shift(p.grey, others, strip.half, quarter, usual);
   }
 }
 

@@ -192,17 +192,20 @@ std::optional<Hypothesis> draw(const Cloud& cloud, const CircleSearchOptions& o,
   return h;
 }
 
-/// Two rounds of Pratt's fit on the support: the support of a three-point circle is rough.
-void polish(Hypothesis& h, const Cloud& cloud, std::span<const std::size_t> every,
+/// Pratt's fit on the support within three, then within one tolerance, for as long as that gains votes: three
+/// points close together give a rough circle even when all three are right.
+void polish(Hypothesis& h, const Cloud& cloud, std::span<const std::size_t> which,
             const CircleSearchOptions& o) {
-  for (int round = 0; round < 2; ++round) {
+  for (double reach : {3.0, 1.5, 1.0}) {
+    Cloud wide = cloud;
+    wide.tolerance = reach * cloud.tolerance;
     std::vector<Vec2> support;
-    cloud.for_support(h, every, [&](std::size_t i) { support.push_back(cloud.points[i]); });
+    wide.for_support(h, which, [&](std::size_t i) { support.push_back(cloud.points[i]); });
     const auto better = fit_circle_pratt(support);
     if (!better || better->radius < o.min_radius || better->radius > o.max_radius) return;
-    const Hypothesis next{*better, h.sense, 0};
-    if (cloud.votes(next, every) < support.size()) return;
-    h.circle = next.circle;
+    Hypothesis next{*better, h.sense, 0};
+    next.votes = cloud.votes(next, which);
+    if (next.votes >= h.votes) h = next;
   }
 }
 
@@ -331,8 +334,11 @@ std::vector<Circle> search_circles(std::span<const Vec2> points, std::span<const
   best_first(all);
   // A circle only loses votes to the ones found before it, so the worst need not be looked at again.
   if (all.size() > 200) all.resize(200);
+  for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 40); ++i) polish(all[i], cloud, scored, o);
+  best_first(all);
   while (int(found.size()) < o.max_circles && !all.empty() && all.front().votes >= 4) {
     Hypothesis best = all.front();
+    best.votes = cloud.votes(best, every);
     polish(best, cloud, every, o);
     found.push_back(best.circle);
     std::erase_if(scored, [&](std::size_t i) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kProfile = 16;       // px of the copy each side of the circle
 constexpr double kStraight = 1e5;  // px: 1000 px of an arc of this radius bend by 1.25 px
-constexpr double kCrooked = 0.15;  // half of what a corner gives
+constexpr double kCrooked = 0.1;  // a third of what a corner gives
 constexpr double kHopeful = 5;     // log10 of false alarms: above, a circle is not worth following
 
 bool better(const DropCandidate& a, const DropCandidate& b) {
@@ -59,6 +59,7 @@ double crookedness(const DropCandidate& d) {
   const double c3 = sum3 / norm3, c4 = sum4 / norm4, size = std::sqrt(c3 * c3 + c4 * c4);
   const double rest = std::max(power - c3 * sum3 - c4 * sum4, 0.0) / double(d.points.size());
   const double error = std::sqrt(rest * (1 / norm3 + 1 / norm4));
+  
   return size > 3 * error ? size / (d.fit.radius * half * half / 3) : 0;
 }
 

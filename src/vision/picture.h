@@ -12,7 +12,7 @@ struct Picture {
   int pages = 1;  ///< pages of a TIFF stack, of which the first was read; 1 for everything else
 };
 
-/// Grey value of a colour, any scale: 0.2989 R + 0.5870 G + 0.1140 B (REFERENCE: detector, step 2). The
+/// Grey value of a colour, any scale: 0.2989 R + 0.5870 G + 0.1140 B (theory A13). The
 /// weights add up to 0.9999, so equal channels give that value itself: a grey picture is the same whether
 /// saved as grey or as colour.
 inline float grey_of(float r, float g, float b) {

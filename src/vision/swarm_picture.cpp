@@ -45,7 +45,7 @@ void ground(cv::Mat& m, const SwarmScene& s) {
       }
     return;
   }
-  m = s.edge_radius_px > 0 ? kOutside : kGround;
+  m.setTo(s.edge_radius_px > 0 ? kOutside : kGround);
   if (s.edge_radius_px > 0)
     cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kGround, cv::FILLED,
                cv::LINE_AA, kShift);
@@ -99,7 +99,7 @@ void field_arrow(cv::Mat& m, const SwarmScene& s) {
 
 }  // namespace
 
-RgbImage draw_swarm(const SwarmScene& s) {
+RgbImage draw_ground(const SwarmScene& s) {
   RgbImage out(s.width, s.height);
   cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
   ground(m, s);
@@ -107,6 +107,12 @@ RgbImage draw_swarm(const SwarmScene& s) {
     cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kEdge, 1,
                cv::LINE_AA, kShift);
   for (std::size_t i = 1; i < s.route.size(); ++i) line(m, s.route[i - 1], s.route[i], {210, 160, 210});
+  return out;
+}
+
+RgbImage draw_swarm(const SwarmScene& s, const RgbImage& on_ground) {
+  RgbImage out = on_ground;
+  cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
   cells(m, s);
   if (s.setpoint) cross(m, *s.setpoint, 10, kPurple);
   if (s.centroid) cross(m, *s.centroid, 7, kGreen);

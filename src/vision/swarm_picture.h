@@ -28,8 +28,11 @@ struct SwarmScene {
   const Gray8* background = nullptr;  ///< a real picture, drawn faintly; of the same size
 };
 
-/// Draws it: bright ground, dark cells, drop edge, crosses, scale bar, clock and field arrow.
+/// What does not change from frame to frame: the ground, the drop with its edge, the route.
+RgbImage draw_ground(const SwarmScene& scene);
+
+/// The whole picture: dark cells, crosses, scale bar, clock and field arrow on a ground drawn before.
 /// Same scene, same pixels. Throws nothing.
-RgbImage draw_swarm(const SwarmScene& scene);
+RgbImage draw_swarm(const SwarmScene& scene, const RgbImage& ground);
 
 }  // namespace faba

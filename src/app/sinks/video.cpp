@@ -61,7 +61,8 @@ class Video final : public RunSink {
     scene.setpoint = c_.frame.image_from_world(t.target.position);
     scene.route = route_;
     scene.field_ut = {b.x * 1e6, b.y * 1e6};
-    return draw_swarm(scene);
+    if (ground_.empty()) ground_ = draw_ground(scene);
+    return draw_swarm(scene, ground_);
   }
 
   SinkContext c_;
@@ -69,6 +70,7 @@ class Video final : public RunSink {
   std::optional<VideoWriter> writer_;
   std::vector<Vec2> route_;
   std::vector<SwarmScene::Cell> cells_;
+  RgbImage ground_;
 };
 
 }  // namespace
