@@ -79,7 +79,9 @@ AppendFile::AppendFile(std::filesystem::path file, std::uint64_t keep_bytes) : p
     throw Error(Errc::input, path_.string(),
                 fmt::format("is shorter than the {} bytes its checkpoint names", keep_bytes));
   }
-  if (::ftruncate(fd_, off_t(keep_bytes)) != 0 || ::lseek(fd_, off_t(keep_bytes), SEEK_SET) < 0) {
+  // A device cannot be cut, nor need it be.
+  if ((std::uint64_t(end) != keep_bytes && ::ftruncate(fd_, off_t(keep_bytes)) != 0) ||
+      ::lseek(fd_, off_t(keep_bytes), SEEK_SET) < 0) {
     ::close(fd_);
     fail(path_, "cut back");
   }

@@ -1,19 +1,13 @@
 #pragma once
-#include <filesystem>
-
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "vision/drop_edge.h"
 
 namespace faba {
 
-/// The edge as `faba drop --json` prints it: `center_px`, `radius_px`, `sd_px`, `arc_deg`, `inside`,
-/// `image_size`; picture px, y down.
+/// The drop's edge as the command line and the web page report it:
+/// `{"center_px":[x,y],"radius_px":r,"sd_px":{"x":..,"y":..,"radius":..},"arc_deg":..,"inside":[x,y],"image_size":[w,h]}`,
+/// positions in picture px, y down as in the image file, `inside` a point of the picture inside the drop.
 nlohmann::ordered_json drop_json(const DropEdge& edge);
-
-/// Finds the edge in a picture or in the first frame of a video and, unless `overlay` is empty, writes the
-/// picture with the edge drawn in. Throws Error(input) when there is no usable picture or no edge in it.
-nlohmann::ordered_json report_drop(const std::filesystem::path& picture,
-                                   const std::filesystem::path& overlay);
 
 }  // namespace faba

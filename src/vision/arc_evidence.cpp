@@ -17,7 +17,8 @@ constexpr double kClear = -3;  // log10 of false alarms below which a tolerance 
 struct Piece {
   double angle = 0, width = 0;  // rad
   std::vector<double> grey;
-  double shift = 0;  // where the others' profile fits best, px
+  std::size_t stretch = 0;  // number of the unbroken part of the circle in the picture that it belongs to
+  double shift = 0;         // where the others' profile fits best, px
 };
 
 struct Strip {
@@ -77,16 +78,32 @@ double middle_mean(std::vector<float>& v) {
   return sum / double(n - 2 * cut);
 }
 
-Piece read_piece(const GrayF& im, const Circle& c, std::span<const double> angles, int half) {
+Piece read_piece(const GrayF& im, const Circle& c, std::span<const double> angles, int half,
+                 std::size_t stretch) {
   return {0.5 * (angles.front() + angles.back()), angles.back() - angles.front(),
-          mean_profile(im, c, angles, half), 0};
+          mean_profile(im, c, angles, half), stretch, 0};
+}
+
+void cut_into_pieces(Strip& strip, const GrayF& im, const Circle& c,
+                     const std::vector<std::vector<double>>& stretches, const ArcEvidenceOptions& o) {
+  std::size_t total = 0;
+  for (const auto& stretch : stretches) total += stretch.size();
+  strip.piece_px = std::max(o.piece_px, double(total) / o.max_pieces);
+  for (std::size_t s = 0; s < stretches.size(); ++s) {
+    const std::size_t size = stretches[s].size(), pieces = std::size_t(double(size) / strip.piece_px);
+    for (std::size_t k = 0; k < pieces; ++k) {
+      const std::span<const double> all(stretches[s]);
+      const std::size_t first = k * size / pieces, last = (k + 1) * size / pieces;
+      strip.pieces.push_back(read_piece(im, c, all.subspan(first, last - first), strip.half, s));
+    }
+  }
 }
 
 Strip read_strip(const GrayF& im, const Circle& c, const ArcEvidenceOptions& o) {
   Strip strip;
   strip.half = int(o.half_width);
   const AngleRange range = angles_of_view(im, c.centre);
-  const double core = o.half_width / 2, turn = range.last - range.first;
+  const double core = o.margin, turn = range.last - range.first;
   const double far_x = std::max(c.centre.x, im.width - 1 - c.centre.x);
   const double far_y = std::max(c.centre.y, im.height - 1 - c.centre.y);
   if (!(c.radius > 0 && c.radius < norm({far_x, far_y}))) return strip;  // passes outside the picture
@@ -95,26 +112,25 @@ Strip read_strip(const GrayF& im, const Circle& c, const ArcEvidenceOptions& o) 
     const double x = c.centre.x + r * std::cos(angle), y = c.centre.y + r * std::sin(angle);
     return x >= 0 && y >= 0 && x <= im.width - 1 && y <= im.height - 1;
   };
-  std::vector<std::vector<double>> runs(1);
+  std::vector<double> angles(n);
+  for (std::size_t i = 0; i < n; ++i) angles[i] = range.first + turn * (double(i) + 0.5) / double(n);
+  std::vector<bool> visible(n);
+  for (std::size_t i = 0; i < n; ++i)
+    visible[i] = seen(angles[i], c.radius - core) && seen(angles[i], c.radius + core);
+  // A full turn starts where the circle is out of view, so that no stretch is cut in two by the seam.
+  const bool full_turn = turn > 6.28;
+  const std::size_t hidden = std::size_t(std::find(visible.begin(), visible.end(), false) - visible.begin());
+  strip.closed = full_turn && hidden == n;
+  const std::size_t start = full_turn && !strip.closed ? hidden : 0;
+  std::vector<std::vector<double>> stretches(1);
   for (std::size_t i = 0; i < n; ++i) {
-    const double angle = range.first + turn * (double(i) + 0.5) / double(n);
-    if (seen(angle, c.radius - core) && seen(angle, c.radius + core))
-      runs.back().push_back(angle);
-    else if (!runs.back().empty())
-      runs.emplace_back();
+    const std::size_t k = (start + i) % n;
+    if (visible[k])
+      stretches.back().push_back(angles[k] + (start + i >= n ? turn : 0));
+    else if (!stretches.back().empty())
+      stretches.emplace_back();
   }
-  std::size_t total = 0;
-  for (const auto& run : runs) total += run.size();
-  strip.closed = runs.size() == 1 && total == n && turn > 6.28;
-  const double per_piece = strip.piece_px = std::max(o.piece_px, double(total) / o.max_pieces);
-  for (const auto& run : runs) {
-    const std::size_t pieces = std::size_t(double(run.size()) / per_piece);
-    for (std::size_t k = 0; k < pieces; ++k) {
-      const auto first = run.begin() + std::ptrdiff_t(k * run.size() / pieces);
-      const auto last = run.begin() + std::ptrdiff_t((k + 1) * run.size() / pieces);
-      strip.pieces.push_back(read_piece(im, c, std::span(first, last), strip.half));
-    }
-  }
+  cut_into_pieces(strip, im, c, stretches, o);
   return strip;
 }
 
@@ -237,15 +253,18 @@ struct Verdict {
   Run run;
 };
 
+/// Probability that a piece agrees within a tolerance by chance.
+double chance(const Strip& strip, double tolerance) { return 2 * tolerance / (2 * (strip.half / 2) + 1); }
+
 std::vector<Verdict> judge(const Strip& strip, double log10_circles) {
   std::vector<Verdict> verdicts;
-  const double n = double(strip.pieces.size()), range = 2 * (strip.half / 2) + 1;
+  const double n = double(strip.pieces.size());
   // What was chosen among is paid for: circles told apart by a pixel, runs of pieces, tolerances.
   const double tests = log10_circles + std::log10(n * n * double(std::size(kTolerances)));
   for (double tolerance : kTolerances) {
     std::vector<bool> hit;
     for (const Piece& p : strip.pieces) hit.push_back(std::fabs(p.shift) <= tolerance);
-    const double p = 2 * tolerance / range;
+    const double p = chance(strip, tolerance);
     Verdict v{tolerance, 1e9, best_run(hit, strip.closed, p)};
     if (v.run.hits >= 4) v.log10_alarms = log10_tail(v.run.length, v.run.hits, p) + tests;
     verdicts.push_back(v);
@@ -272,6 +291,22 @@ Choice choose(const std::vector<Verdict>& verdicts) {
       break;
     }
   return c;
+}
+
+/// The stretches in which a run agrees more than once in a hundred by chance. A corner of the picture that
+/// the circle happens to cross must not be fitted along with a true arc elsewhere.
+std::vector<bool> solid_stretches(const Strip& strip, const Verdict& v) {
+  const std::size_t count = strip.pieces.back().stretch + 1;
+  std::vector<std::size_t> pieces(count), hits(count);
+  for (std::size_t i = 0; i < v.run.length; ++i) {
+    const Piece& p = strip.pieces[(v.run.first + i) % strip.pieces.size()];
+    pieces[p.stretch] += 1;
+    hits[p.stretch] += std::fabs(p.shift) <= v.tolerance;
+  }
+  std::vector<bool> solid(count);
+  for (std::size_t s = 0; s < count; ++s)
+    solid[s] = hits[s] > 0 && log10_tail(pieces[s], hits[s], chance(strip, v.tolerance)) < -2;
+  return solid;
 }
 
 /// Which pieces of a run see the same edge as their neighbours: within 3 robust sd of the median of five. Not
@@ -332,8 +367,10 @@ ArcEvidence weigh_arc(const GrayF& picture, const Circle& circle, const ArcEvide
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += p.grey[k] / double(tight.run.hits);
     for (double part : {-0.375, -0.125, 0.125, 0.375}) e.angles.push_back(p.angle + part * p.width);
   }
+  const std::vector<bool> solid = solid_stretches(strip, wide);
   for (std::size_t k : steady_pieces(strip, wide.run)) {
     const Piece& p = strip.pieces[k];
+    if (!solid[p.stretch]) continue;
     const double r = circle.radius + p.shift;
     e.points.push_back({circle.centre.x + r * std::cos(p.angle), circle.centre.y + r * std::sin(p.angle)});
   }

@@ -12,6 +12,7 @@ namespace faba {
 /// Parameters of weigh_arc. Lengths in px of the picture given.
 struct ArcEvidenceOptions {
   double half_width = 24;  ///< grey profiles run from this far inside the circle to this far outside
+  double margin = 3;
   double piece_px = 6;     ///< the arc is cut into pieces at least this long, each judged by itself
   int max_pieces = 128;     ///< longer pieces are used on longer arcs
 };

@@ -24,7 +24,7 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   const double place = place_sd(d.edge_width_px);
   d.sd_centre_px = c.fit.sd_centre;
   d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + place * place);
-  d.arc_deg = c.arc_rad * 180 / std::numbers::pi;
+  d.arc_deg = c.seen_rad * 180 / std::numbers::pi;
   d.image_width = picture.width;
   d.image_height = picture.height;
   d.support = c.evidence.support;

@@ -29,7 +29,7 @@ struct DropEdgeOptions {
   double min_radius_share = 0.08;  ///< smallest radius looked for, as a share of the picture's smaller side
   double min_arc_deg = 10;         ///< shorter arcs are refused: their radius would be a guess
   double max_sd_share = 0.15;      ///< a radius with a larger sd / radius is refused
-  double min_support = 0.65;        ///< share of the circle's arc in the picture that must show the edge
+  double min_support = 0.65;       ///< share of the circle's arc in the picture that must show the edge
   double max_log10_false_alarms = -6;  ///< a circle that chance would give more often than this is refused
   double min_contrast_steps =
       2;  ///< least contrast in steps of the grey scale: contour lines of even light are none
@@ -53,7 +53,7 @@ struct DropEdge {
   double support = 0;        ///< share of the circle's arc in the picture along which the edge was seen, 0..1
   double log10_false_alarms = 0;      ///< how often chance would give such a circle; see ArcEvidence
   std::vector<Vec2> edge_points;      ///< sub-pixel points of the edge that support the circle
-  std::vector<EdgeSegment> segments;  ///< the Hough segments the search started from
+  std::vector<EdgeSegment> segments;  ///< the Hough segments along the edge
 };
 
 /// Finds the edge of a drop, any arc of 10 degrees or more, and its circle (theory A13): percentile

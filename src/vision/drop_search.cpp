@@ -12,10 +12,12 @@ namespace faba {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr int kProfile = 16;       // px of the copy each side of the circle
-constexpr double kStraight = 1e5;  // px: 1000 px of an arc of this radius bend by 1.25 px
-constexpr double kCrooked = 0.1;  // a third of what a corner gives
-constexpr double kHopeful = 5;     // log10 of false alarms: above, a circle is not worth following
+constexpr int kProfile = 16;        // px of the copy each side of the circle
+constexpr double kStraight = 1e5;   // px: 1000 px of an arc of this radius bend by 1.25 px
+constexpr double kCrooked = 0.1;    // a third of what a corner gives
+constexpr double kCrookedPx = 0.5;  // what the border of a picture can do to a short arc in its corner
+constexpr double kCornerDeg = 120;  // two straight lines cannot pass for a longer arc
+constexpr double kHopeful = 5;      // log10 of false alarms: above, a circle is not worth following
 
 bool better(const DropCandidate& a, const DropCandidate& b) {
   const double length_a = a.evidence.length_px * a.scale, length_b = b.evidence.length_px * b.scale;
@@ -42,7 +44,7 @@ double correlation_factor(const std::vector<Vec2>& points, const CircleFit& fit)
 
 /// How far the edge is from being one arc: the part of its residuals that bends more than a circle can (third
 /// and fourth Legendre polynomial along the arc), relative to the bend of the arc itself. A corner between
-/// two straight lines gives 0.3, an arc 0. Zero when it is within 3 standard errors.
+/// two straight lines gives 0.3, an arc 0. Zero when it is within 3 standard errors or half a pixel.
 double crookedness(const DropCandidate& d) {
   if (d.points.size() < 8) return 0;
   const Vec2 middle = d.points[d.points.size() / 2] - d.fit.centre;
@@ -59,48 +61,64 @@ double crookedness(const DropCandidate& d) {
   const double c3 = sum3 / norm3, c4 = sum4 / norm4, size = std::sqrt(c3 * c3 + c4 * c4);
   const double rest = std::max(power - c3 * sum3 - c4 * sum4, 0.0) / double(d.points.size());
   const double error = std::sqrt(rest * (1 / norm3 + 1 / norm4));
-  
-  return size > 3 * error ? size / (d.fit.radius * half * half / 3) : 0;
+  return size > std::max(3 * error, kCrookedPx) ? size / (d.fit.radius * half * half / 3) : 0;
+}
+
+/// The sum of the angles between neighbouring points, without gaps of more than five pieces.
+double seen_angle(const std::vector<Vec2>& points, Vec2 centre, double piece_rad) {
+  std::vector<double> angle;
+  for (Vec2 p : points) angle.push_back(std::atan2(p.y - centre.y, p.x - centre.x));
+  std::sort(angle.begin(), angle.end());
+  angle.push_back(angle.front() + 2 * std::numbers::pi);
+  double sum = 0;
+  for (std::size_t i = 1; i < angle.size(); ++i) {
+    const double gap = angle[i] - angle[i - 1];
+    sum += gap <= 5 * piece_rad ? gap : piece_rad;
+  }
+  return sum;
+}
+
+std::string straight_or_short(const DropCandidate& d, const DropEdgeOptions& o) {
+  const double length = d.circle.radius * d.arc_rad, bend = length * d.arc_rad / 8;
+  const double sd_bend = bend * d.fit.sd_radius / d.circle.radius;
+  if (bend < 4 * sd_bend || bend < 1)
+    return fmt::format(
+        "the edge is a straight line: over {:.0f} px it bends by {:.1f} +- {:.1f} px; show the round "
+        "edge of the drop",
+        length, bend, sd_bend);
+  return fmt::format(
+      "the edge covers only {:.1f} degrees of a circle of radius {:.0f} px ({:.0f} degrees needed), "
+      "so its radius would be a guess; use a lower magnification or show more of the edge",
+      d.seen_rad * kDegrees, d.circle.radius, o.min_arc_deg);
 }
 
 /// Why a circle is not accepted; empty when it is.
 std::string objection(const DropCandidate& d, const DropPicture& picture, const DropEdgeOptions& o) {
-  const double radius = d.circle.radius, sd = d.fit.sd_radius, arc_deg = d.arc_rad * kDegrees;
+  const double radius = d.circle.radius, sd = d.fit.sd_radius;
   if (d.evidence.log10_false_alarms > o.max_log10_false_alarms)
-    return "no edge of a drop: its edge pixels lie on no common circle better than scattered cells or noise "
-           "would; "
-           "show more of the edge, or focus on it";
-  if (arc_deg < o.min_arc_deg) {
-    const double length = radius * d.arc_rad, bend = length * d.arc_rad / 8, sd_bend = bend * sd / radius;
-    if (bend < 4 * sd_bend || bend < 1)
-      return fmt::format(
-          "the edge is a straight line: over {:.0f} px it bends by {:.1f} +- {:.1f} px; show the round "
-          "edge of the drop",
-          length, bend, sd_bend);
+    return "no edge of a drop: the edges in the picture lie on no common circle better than scattered cells "
+           "or noise "
+           "would; show more of the drop's edge, or focus on it";
+  if (d.seen_rad * kDegrees < o.min_arc_deg) return straight_or_short(d, o);
+  if (d.arc_rad * kDegrees < kCornerDeg && crookedness(d) > kCrooked)
     return fmt::format(
-        "the edge covers only {:.1f} degrees of a circle of radius {:.0f} px ({:.0f} degrees needed), "
-        "so its radius would be a guess; use a lower magnification or show more of the edge",
-        arc_deg, radius, o.min_arc_deg);
-  }
-  if (arc_deg < 120 && crookedness(d) > kCrooked)
-    return fmt::format(
-        "no edge of a drop: the longest edge is no arc of a circle but bent at a corner (best radius "
-        "{:.0f} px); show the round edge of the drop",
+        "no edge of a drop: the longest edge is not round but bent at a corner (best radius {:.0f} "
+        "px); show the round edge of the drop",
         radius);
   if (d.evidence.support < o.min_support)
     return fmt::format(
-        "no edge of a drop: the best circle (radius {:.0f} px) shows an edge along only {:.0f} % of its "
-        "arc in the picture; show more of the edge, or focus on it",
+        "no edge of a drop: the best circle (radius {:.0f} px) follows an edge along only {:.0f} % of "
+        "its arc in the picture; show more of the drop's edge, or focus on it",
         radius, 100 * d.evidence.support);
   if (sd > o.max_sd_share * radius)
     return fmt::format(
-        "the radius is too unsure ({:.0f} +- {:.0f} px); show more of the edge, or a sharper one", radius,
-        sd);
+        "the radius is too unsure ({:.0f} +- {:.0f} px); show more of the drop's edge, or focus on it",
+        radius, sd);
   // A saw-tooth of one contour has an rms of 0.29; half is the rms of a true step about twice as high.
   if (d.evidence.relief < 0.5 * picture.contours)
-    return "no edge of a drop: the arcs in it are single steps of its grey scale in uneven light; use more "
-           "contrast "
-           "or more bits per pixel";
+    return "no edge of a drop: the arcs in the picture are single steps of its grey scale in uneven light; "
+           "use more "
+           "contrast or more bits per pixel";
   return {};
 }
 
@@ -112,7 +130,7 @@ double distance(const Circle& a, const Circle& b, const std::vector<Vec2>& at) {
   return most;
 }
 
-/// One round of following: what the picture shows near `start`, and the circle fitted to that.
+/// One round of following: what the copy shows near `start`, and the circle fitted to that.
 std::optional<DropCandidate> step_towards(const DropLevel& level, const Circle& start) {
   DropCandidate d;
   d.scale = level.scale;
@@ -129,8 +147,8 @@ std::optional<DropCandidate> step_towards(const DropLevel& level, const Circle& 
     d.fit.arc_rad = covered_angle(d.points, start.centre);
   }
   const Circle fitted = level.to_level({d.fit.centre, d.fit.radius});
-  // The shading that was taken off is a line within reach of the profile, except about an edge with a halo;
-  // across a coarse copy's profile the light itself is no line.
+  // Taking the shading off bends the profile of an edge with a halo; in a coarse copy the light itself is
+  // bent more.
   const GrayF& grey = level.scale > 2 ? level.flat : level.grey;
   d.profile = fit_edge_profile(mean_profile(grey, fitted, d.evidence.angles, kProfile));
   d.circle = {d.fit.centre, d.fit.radius + d.profile.position * level.scale};
@@ -140,6 +158,7 @@ std::optional<DropCandidate> step_towards(const DropLevel& level, const Circle& 
   d.fit.sd_radius *= inflate;
   const double piece_rad = d.evidence.piece_px * level.scale / d.circle.radius;
   d.arc_rad = std::min(2 * std::numbers::pi, d.fit.arc_rad + piece_rad);
+  d.seen_rad = std::min(d.arc_rad, seen_angle(d.points, d.circle.centre, piece_rad));
   return d;
 }
 
@@ -151,19 +170,13 @@ std::optional<DropCandidate> follow(const DropLevel& level, Circle circle) {
     auto now = step_towards(level, circle);
     if (!now) break;
     const double moved = distance(now->circle, circle, now->points) / level.scale;
-    if (getenv("DROP_DEBUG"))
-      fprintf(stderr,
-              "   f%.0f c %.1f %.1f R %.1f: nfa %.1f support %.2f tol %.1f vis %zu shape %d pos %.2f w %.2f "
-              "step %.1f ring %.1f expl %.3f fit R %.2f sd %.2f moved %.2f\n",
-              level.scale, circle.centre.x, circle.centre.y, circle.radius, now->evidence.log10_false_alarms,
-              now->evidence.support, now->evidence.tolerance_px, now->evidence.visible,
-              (int)now->profile.shape, now->profile.position, now->profile.width, now->profile.step,
-              now->profile.ring, now->profile.explained, now->fit.radius, now->fit.sd_radius, moved);
     circle = now->circle;
     // Wider than 5 px of this copy, or no step or line at all: shading, or for a coarser copy.
     const bool sharp = now->profile.width < 5 && now->profile.explained > 0.5;
-    if (moved < 0.5 && sharp && (!best || better(*now, *best))) best = std::move(now);
-    if (moved < 0.05) break;
+    // At rest: it moves by less than half a pixel, or than the scatter of its pieces lets it jitter.
+    const double jitter = 5 * now->fit.rms / level.scale / std::sqrt(double(now->points.size()));
+    if (moved < std::max(0.5, jitter) && sharp && (!best || better(*now, *best))) best = std::move(now);
+    if (moved < std::max(0.05, 0.2 * jitter)) break;
   }
   return best;
 }
@@ -195,12 +208,11 @@ class Search {
       if (!d) break;
       circle = d->circle;
       d->objection = objection(*d, picture_, options_);
-      if (getenv("DROP_DEBUG")) fprintf(stderr, "  -> %s\n", d->objection.c_str());
       const bool sure = d->evidence.log10_false_alarms < options_.max_log10_false_alarms;
       if (sure) seen_.push_back(*d);
       auto& place = d->objection.empty() ? found.accepted : found.refused;
       if (!place || better(*d, *place)) {
-        if (d->objection.empty()) keep_segments(segments, picture_.levels[k]);
+        if (d->objection.empty()) keep_segments(segments, picture_.levels[k], d->circle);
         place = std::move(d);
       }
       if (!sure) break;
@@ -221,10 +233,16 @@ class Search {
       return distance(circle, d.circle, d.points) < 6 * std::max(scale, d.scale);
     });
   }
-  void keep_segments(const std::vector<EdgeSegment>& segments, const DropLevel& level) {
+  /// Those that run along the circle; longer chords belong to something else.
+  void keep_segments(const std::vector<EdgeSegment>& segments, const DropLevel& level, const Circle& circle) {
     found.segments.clear();
-    for (const EdgeSegment& s : segments)
-      found.segments.push_back({level.to_picture(s.a), level.to_picture(s.b)});
+    const double slack = 3 + 2 * level.scale;
+    for (const EdgeSegment& s : segments) {
+      const EdgeSegment here{level.to_picture(s.a), level.to_picture(s.b)};
+      auto off = [&](Vec2 p) { return std::fabs(norm(p - circle.centre) - circle.radius); };
+      if (off(here.a) < slack && off(here.b) < slack && off(0.5 * (here.a + here.b)) < slack)
+        found.segments.push_back(here);
+    }
   }
 
   const DropPicture& picture_;
@@ -255,9 +273,6 @@ DropSearch search_drop_edge(const DropPicture& picture, const DropEdgeOptions& o
   std::vector<EdgeSegments> edges;
   for (std::size_t k = 0; k < picture.levels.size() && !search.convinced(); ++k) {
     edges.push_back(segments_of(picture.levels[k], options));
-    if (getenv("DROP_DEBUG"))
-      fprintf(stderr, "level %zu: %zu px %zu segs %zu supp\n", k, edges[k].pixels.size(),
-              edges[k].segments.size(), edges[k].support.size());
     search.try_pixels(edges[k].support, edges[k].segments, k);
   }
   for (std::size_t k = 0; k < edges.size() && !search.found.accepted; ++k)

@@ -15,7 +15,8 @@ namespace faba {
 struct DropCandidate {
   Circle circle;             ///< place of the edge: fit plus the middle of the grey profile across it
   CircleFit fit;             ///< to `points`, with standard deviations
-  double arc_rad = 0;        ///< angle that the points cover
+  double arc_rad = 0;        ///< angle between the outermost points
+  double seen_rad = 0;       ///< angle along which the edge is seen: arc_rad without long gaps
   std::vector<Vec2> points;  ///< sub-pixel edge points, along the arc
   ArcEvidence evidence;      ///< in px of the copy
   EdgeProfile profile;       ///< across the edge, in px of the copy
@@ -27,7 +28,7 @@ struct DropCandidate {
 struct DropSearch {
   std::optional<DropCandidate> accepted;  ///< the best of those without objection
   std::optional<DropCandidate> refused;   ///< the best of the others
-  std::vector<EdgeSegment> segments;      ///< Hough segments of the copy that led to `accepted`, picture px
+  std::vector<EdgeSegment> segments;      ///< Hough segments along `accepted` in the copy that led to it
 };
 
 /// Looks for circular edges in the picture and its copies: pixels along Hough segments first, all edge pixels

@@ -130,9 +130,9 @@ EdgeProfile fit_edge_profile(std::span<const double> grey) {
   constexpr double kEnough = 0.95;  // of the variance
   const Trial step = fit_shape(offset, centred, {true, false}),
               ring = fit_shape(offset, centred, {false, true});
-  // On a slope that falls by its own height across it, a line is the shoulder of a step.
-  const bool is_ring =
-      ring.residual < step.residual && std::fabs(ring.k[1]) * 4 * ring.width < std::fabs(ring.k[2]);
+  // A line whose two sides differ by more than its own height is the shoulder of a step.
+  const double fall = std::fabs(ring.k[1]) * (offset.back() - offset.front());
+  const bool is_ring = ring.residual < step.residual && fall < std::fabs(ring.k[2]);
   Trial best = is_ring ? ring : step;
   out.shape = is_ring ? EdgeShape::ring : EdgeShape::step;
   if (best.residual > (1 - kEnough) * all) {

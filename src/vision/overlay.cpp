@@ -3,38 +3,114 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-
-#include "vision/picture.h"
+#include <vector>
 
 namespace faba {
 namespace {
 
-constexpr int kShift = 4;
+// Okabe and Ito's colour-blind-safe palette.
+const cv::Scalar kSky(86, 180, 233), kYellow(240, 228, 66), kOrange(255, 170, 0), kViolet(204, 121, 167);
+const cv::Scalar kRim(0, 0, 0);
+constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
 
 cv::Point fixed(Vec2 p) {
-  const auto f = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
-  return {f(p.x), f(p.y)};
+  return {int(std::lround(p.x * (1 << kShift))), int(std::lround(p.y * (1 << kShift)))};
 }
 
-void cross(cv::Mat& m, Vec2 at, double arm, const cv::Scalar& colour) {
-  cv::line(m, fixed({at.x - arm, at.y}), fixed({at.x + arm, at.y}), colour, 2, cv::LINE_AA, kShift);
-  cv::line(m, fixed({at.x, at.y - arm}), fixed({at.x, at.y + arm}), colour, 2, cv::LINE_AA, kShift);
+cv::Mat3b stretched(const GrayF& picture) {
+  std::vector<float> v = picture.px;
+  auto quantile = [&](double share) {
+    const auto at = v.begin() + std::ptrdiff_t(share * double(v.size() - 1));
+    std::nth_element(v.begin(), at, v.end());
+    return *at;
+  };
+  const float low = quantile(0.001), high = std::max(quantile(0.999), low + 1e-6f);
+  cv::Mat3b out(picture.height, picture.width);
+  std::transform(picture.px.begin(), picture.px.end(), out.begin(), [&](float p) {
+    const auto grey = cv::saturate_cast<uchar>(255 * (p - low) / (high - low));
+    return cv::Vec3b(grey, grey, grey);
+  });
+  return out;
+}
+
+/// The circle as short chords, only where it can be seen: OpenCV's own circle is limited to radii of 2^15 px.
+std::vector<std::vector<cv::Point>> visible_arcs(const DropEdge& edge) {
+  const Vec2 c = edge.centre_image;
+  const int n = std::clamp(int(2 * edge.radius_px), 64, 200000);
+  std::vector<std::vector<cv::Point>> arcs(1);
+  for (int i = 0; i <= n; ++i) {
+    const double angle = 2 * CV_PI * i / n;
+    const Vec2 p{c.x + edge.radius_px * std::cos(angle), c.y + edge.radius_px * std::sin(angle)};
+    if (p.x > -8 && p.y > -8 && p.x < edge.image_width + 7 && p.y < edge.image_height + 7)
+      arcs.back().push_back(fixed(p));
+    else if (!arcs.back().empty())
+      arcs.emplace_back();
+  }
+  return arcs;
+}
+
+/// One layer of drawing: everything in its colour at `width`, or everything in black for the rim below it.
+class Pen {
+ public:
+  Pen(cv::Mat3b canvas, int width, bool rim) : canvas_(std::move(canvas)), width_(width), rim_(rim) {}
+
+  void line(Vec2 a, Vec2 b, const cv::Scalar& colour) {
+    cv::line(canvas_, fixed(a), fixed(b), ink(colour), stroke(), cv::LINE_AA, kShift);
+  }
+  void path(const std::vector<cv::Point>& points, const cv::Scalar& colour) {
+    cv::polylines(canvas_, points, false, ink(colour), stroke(), cv::LINE_AA, kShift);
+  }
+  void ring(Vec2 at, double radius, const cv::Scalar& colour) {
+    cv::circle(canvas_, fixed(at), length(radius), ink(colour), stroke(), cv::LINE_AA, kShift);
+  }
+  void dot(Vec2 at, double radius, const cv::Scalar& colour) {
+    cv::circle(canvas_, fixed(at), length(radius + (rim_ ? 1 : 0)), ink(colour), cv::FILLED, cv::LINE_AA,
+               kShift);
+  }
+
+ private:
+  cv::Scalar ink(const cv::Scalar& colour) const { return rim_ ? kRim : colour; }
+  int stroke() const { return rim_ ? width_ + 2 : width_; }
+  static int length(double px) { return int(std::lround(px * (1 << kShift))); }
+
+  cv::Mat3b canvas_;
+  int width_;
+  bool rim_;
+};
+
+void draw(Pen pen, const DropEdge& edge, int width) {
+  const Vec2 c = edge.centre_image;
+  const double unit = width;
+  for (const EdgeSegment& s : edge.segments) pen.line(s.a, s.b, kViolet);
+  for (const auto& arc : visible_arcs(edge)) pen.path(arc, kSky);
+  // Far enough apart that the circle shows between them.
+  const double apart = 14 * unit;
+  Vec2 last{-1e9, -1e9};
+  for (Vec2 p : edge.edge_points) {
+    if (norm(p - last) < apart) continue;
+    pen.dot(p, 1.6 * unit, kYellow);
+    last = p;
+  }
+  if (c.x >= 0 && c.y >= 0 && c.x < edge.image_width && c.y < edge.image_height) {
+    pen.line(c - Vec2{9 * unit, 0}, c + Vec2{9 * unit, 0}, kSky);
+    pen.line(c - Vec2{0, 9 * unit}, c + Vec2{0, 9 * unit}, kSky);
+  }
+  pen.ring(edge.inside_image, 5 * unit, kOrange);
 }
 
 }  // namespace
 
 RgbImage drop_overlay(const GrayF& picture, const DropEdge& edge) {
-  const Gray8 grey = stretched(picture);
-  RgbImage out(grey.width, grey.height);
-  for (std::size_t i = 0; i < grey.px.size(); ++i) out.px[i] = {grey.px[i], grey.px[i], grey.px[i]};
-  cv::Mat m(out.height, out.width, CV_8UC3, out.px.data());
-  const cv::Scalar points{86, 180, 233}, circle{230, 159, 0}, inside{0, 158, 115};
-  for (const Vec2 p : edge.edge_points)
-    cv::circle(m, fixed(p), 1 << kShift, points, cv::FILLED, cv::LINE_AA, kShift);
-  cv::circle(m, fixed(edge.centre_image), int(std::lround(edge.radius_px * (1 << kShift))), circle, 1,
-             cv::LINE_AA, kShift);
-  cross(m, edge.centre_image, 8, circle);
-  cv::circle(m, fixed(edge.inside_image), 5 << kShift, inside, 2, cv::LINE_AA, kShift);
+  RgbImage out(picture.width, picture.height);
+  if (picture.empty()) return out;
+  cv::Mat3b m = stretched(picture), rims = m.clone();
+  const int width = std::max(1, int(std::lround(std::min(m.cols, m.rows) / 500.0)));
+  draw(Pen(rims, width, true), edge, width);
+  cv::addWeighted(m, 0.4, rims, 0.6, 0, m);
+  draw(Pen(m, width, false), edge, width);
+  std::transform(m.begin(), m.end(), out.px.begin(), [](const cv::Vec3b& v) {
+    return Rgb{v[0], v[1], v[2]};
+  });
   return out;
 }
 

@@ -1,10 +1,14 @@
 #pragma once
 #include "vision/drop_edge.h"
+#include "vision/image.h"
 
 namespace faba {
 
-/// The picture, stretched to 8 bits, with the supporting edge points, the fitted circle, its centre and a
-/// point inside.
+/// The picture in grey (stretched between its 0.1 % and 99.9 % percentiles) with the drop's edge drawn on it:
+/// Hough segments thin violet, supporting edge points as yellow dots, the fitted circle blue, its centre as a
+/// blue cross when it is in view, and an orange ring round a point inside the drop. Thin lines with a dark
+/// rim, from the Okabe-Ito palette, which colour-blind readers can tell apart. Same size as the picture; an
+/// empty picture gives an empty one.
 RgbImage drop_overlay(const GrayF& picture, const DropEdge& edge);
 
 }  // namespace faba

@@ -1,0 +1,74 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/h5.h"
+#include "tests/e2e/program.h"
+
+using namespace faba;
+
+TEST_CASE("help, version, parts, schema and doctor answer with exit 0") {
+  const TestFolder f;
+  CHECK(faba_in(f.path, "--version").out == "faba " FABA_VERSION "\n");
+  for (const char* verb :
+       {"--help", "run --help", "resume --help", "drop --help", "parts --help", "schema --help", "doctor"}) {
+    const Called c = faba_in(f.path, verb);
+    INFO(verb);
+    CHECK(c.exit == 0);
+    CHECK(c.err.empty());
+    CHECK(c.out.size() > 40);
+  }
+  CHECK(faba_in(f.path, "run --help").out.find("Examples:") != std::string::npos);
+  CHECK(faba_in(f.path, "parts --json").json()["model"].contains("dipole"));
+  CHECK(faba_in(f.path, "parts model dipole --json").json()["properties"]["speed"]["x-unit"] == "m/s");
+  CHECK(faba_in(f.path, "schema").json()["properties"]["swarm"]["type"] == "array");
+  CHECK(faba_in(f.path, "doctor --json").json().contains("threads"));
+}
+
+TEST_CASE("every scene in scenes/ is accepted and runs") {
+  const TestFolder f;
+  for (const auto& entry : std::filesystem::directory_iterator(FABA_SCENES)) {
+    INFO(entry.path().string());
+    const Called c =
+        faba_in(f.path, "run '" + entry.path().string() + "' --seed 1 --duration '0.4 s' --json --out '" +
+                            entry.path().stem().string() + "'");
+    CHECK_MESSAGE(c.exit == 0, c.err);
+    CHECK(c.json()["frames"].get<int>() > 0);
+  }
+}
+
+TEST_CASE("drop: a rendered drop is found; run --from-video keeps the swarm inside it") {
+  const TestFolder f;
+  const double cx = 130, cy = 80, r = 60;
+  std::string pgm = "P5\n240 160\n255\n";
+  for (int y = 0; y < 160; ++y)
+    for (int x = 0; x < 240; ++x) {
+      const double d = std::hypot(x - cx, y - cy) - r;
+      const int noise = (x * 7 + y * 13 + x * y) % 5;
+      pgm += char(int(150 - 60 / (1 + std::exp(-d))) + noise);
+    }
+  write_file(f.path / "drop.pgm", pgm);
+  const auto j = faba_in(f.path, "drop drop.pgm --json --overlay o.png").json();
+  CHECK(j["center_px"][0].get<double>() == doctest::Approx(cx).epsilon(0.01));
+  CHECK(j["center_px"][1].get<double>() == doctest::Approx(cy).epsilon(0.01));
+  CHECK(j["radius_px"].get<double>() == doctest::Approx(r).epsilon(0.02));
+  CHECK(j["image_size"] == nlohmann::json::array({240, 160}));
+  CHECK(read_file(f.path / "o.png").starts_with("\x89PNG"));
+  CHECK(faba_in(f.path, "drop drop.pgm --overlay o.png").exit == 2);  // not overwritten
+
+  const Called run = faba_in(f.path, "run '" FABA_SCENES
+                                     "/drop.toml' --from-video drop.pgm --set swarm[0].count=60 "
+                                     "--seed 1 --out run --json");
+  REQUIRE_MESSAGE(run.exit == 0, run.err);
+  CHECK(run.json()["settling_time_s"].is_number());
+  const H5File tracks = H5File::open(f.path / "run/tracks.h5");
+  const H5Table position = tracks.table("position_px");
+  std::vector<float> row(position.row_size());
+  for (std::uint64_t k = 0; k < position.rows(); ++k) {
+    position.read<float>(k, row);
+    for (std::size_t i = 0; i < row.size(); i += 2)
+      REQUIRE(std::hypot(double(row[i]) - j["center_px"][0].get<double>(),
+                         double(row[i + 1]) - j["center_px"][1].get<double>()) <=
+              j["radius_px"].get<double>() + 1e-3);  // float pixels
+  }
+}

@@ -1,0 +1,140 @@
+// Bad input: one clear line, the documented exit code, nothing written.
+#include <doctest/doctest.h>
+
+#include <unistd.h>
+
+#include "tests/e2e/program.h"
+
+using namespace faba;
+
+namespace {
+
+struct Bad {
+  const char* what;
+  std::string scene;
+  const char* says;
+};
+
+}  // namespace
+
+TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reason, nothing written") {
+  const TestFolder f;
+  const std::string swarm = "[[swarm]]\ncount = 50\n";
+  for (const Bad& b : {
+           Bad{"truncated", "duration = '2 s'\n[[swarm", "s.toml:2"},
+           Bad{"not TOML", "\x01\x02\xff\xfe", "s.toml:1"},
+           Bad{"empty", "", "needs at least one [[swarm]]"},
+           Bad{"misspelt key", swarm + "cuont = 3\n",
+               "s.toml:3: swarm[0].cuont: unknown key; did you mean \"count\"?"},
+           Bad{"misspelt section", swarm + "[controler]\ntype = 'fuzzy'\n", "did you mean \"controller\"?"},
+           Bad{"wrong unit", "duration = '2 um'\n" + swarm, "is a length; expected a time"},
+           Bad{"unknown unit", "duration = '2 parsec'\n" + swarm, "unknown unit \"parsec\""},
+           Bad{"NaN", "duration = nan\n" + swarm, "must be a finite number"},
+           Bad{"huge", "duration = 1e300\n" + swarm, "out of range"},
+           Bad{"huge integer", "seed = 99999999999999999999999\n" + swarm, "s.toml:1"},
+           Bad{"negative", swarm + "model = { type = 'dipole', speed = '-1 um/s' }\n", "out of range"},
+           Bad{"a million in a thousand",
+               "[arena]\ntype = 'box'\nsize_px = [40, 25]\n[[swarm]]\ncount = 1000000\n",
+               "do not fit into 1000 grid cells"},
+           Bad{"1e18 cells", "[[swarm]]\ncount = 1000000000000000000\n", "out of range"},
+           Bad{"unknown part", swarm + "model = 'dipol'\n",
+               "there is no agent model \"dipol\"; did you mean \"dipole\"?"},
+           Bad{"wrong type", "duration = [1]\n" + swarm, "expected a time such as \"1 s\", got [1]"},
+           Bad{"part without type", swarm + "[controller]\nmax_output = 3\n", "needs type"},
+           Bad{"duplicate key", "seed = 1\nseed = 2\n" + swarm, "s.toml:2"},
+           Bad{"deep nesting", "a = " + std::string(100000, '[') + "\n", "s.toml:1"},
+           Bad{"route without points", swarm + "[reference]\ntype = 'route'\n", "at least one setpoint"},
+           Bad{"step that does not divide", swarm + "[simulation]\nstep = '40 ms'\n",
+               "whole part of a frame"},
+           Bad{"a date", "seed = 2020-01-01\n" + swarm, "dates and times"},
+       }) {
+    write_file(f.path / "s.toml", b.scene);
+    const Called c = faba_in(f.path, "run s.toml --out out --seed 1 --quiet");
+    INFO(b.what, ": ", c.err.substr(0, 400));
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+    CHECK(c.err.find(b.says) != std::string::npos);
+    CHECK(c.out.empty());
+    CHECK_FALSE(std::filesystem::exists(f.path / "out"));
+  }
+}
+
+TEST_CASE("bad command lines: exit 2") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  for (const char* arguments :
+       {"", "rnu", "run", "run none.toml --out out", "run . --out out", "run s.toml --frobnicate",
+        "run s.toml --set count --out out", "run s.toml --set swarm[3].count=1 --out out",
+        "run s.toml --set swarm[0].sped=1 --out out", "run s.toml --seed -1 --out out",
+        "run s.toml --seed 99999999999999999999 --out out", "run s.toml --threads 0 --out out",
+        "run s.toml --duration '3 um' --out out", "parts colour", "parts model ant",
+        "run s.toml --out s.toml"}) {
+    const Called c = faba_in(f.path, arguments);
+    INFO("faba ", arguments, " -> ", c.exit, " ", c.err);
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+    CHECK_FALSE(std::filesystem::exists(f.path / "out"));
+  }
+}
+
+TEST_CASE("bad pictures: exit 3, nothing written") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  write_file(f.path / "empty.mp4", "");
+  write_file(f.path / "text.tif", "this is not a picture");
+  std::string pgm = "P5\n160 120\n255\n";
+  write_file(f.path / "even.pgm", pgm + std::string(160 * 120, 'x'));
+  write_file(f.path / "cut.pgm", pgm + std::string(100, 'x'));
+  std::string line = pgm;
+  for (int y = 0; y < 120; ++y)
+    for (int x = 0; x < 160; ++x) line += char(2 * x + y < 200 ? 60 : 180);
+  write_file(f.path / "line.pgm", line);
+  std::filesystem::create_directory(f.path / "folder");
+  for (const char* picture :
+       {"none.tif", "folder", "empty.mp4", "text.tif", "even.pgm", "cut.pgm", "line.pgm"}) {
+    for (const std::string& verb : {std::string("drop ") + picture + " --overlay o.png",
+                                    std::string("run s.toml --out out --from-video ") + picture}) {
+      const Called c = faba_in(f.path, verb);
+      INFO(verb, " -> ", c.exit, " ", c.err);
+      CHECK(c.exit == 3);
+      CHECK(one_clear_line(c.err));
+      CHECK(c.err.find(picture) != std::string::npos);
+      CHECK_FALSE(std::filesystem::exists(f.path / "out"));
+      CHECK_FALSE(std::filesystem::exists(f.path / "o.png"));
+    }
+  }
+}
+
+TEST_CASE("an output that cannot be written: exit 1 or 2, said in one line") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  const Called c = faba_in(f.path, "run s.toml --seed 1 --out /proc/nowhere/run");
+  CHECK(c.exit == 1);
+  CHECK(one_clear_line(c.err));
+}
+
+TEST_CASE("a full disk: exit 1, one line, the run stays marked incomplete") {
+  const TestFolder f;
+  const auto disk = f.path / "disk";
+  std::filesystem::create_directory(disk);
+  const std::string mount = "mount -t tmpfs -o size=1m tmpfs '" + disk.string() + "' 2> /dev/null";
+  if (geteuid() != 0 || std::system(mount.c_str()) != 0) {
+    MESSAGE("skipped: no small file system can be mounted here");
+    return;
+  }
+  for (const char* record :
+       {"video = false\ncompress = false", "tracks = false", "video = false\ntracks = false"}) {
+    INFO(record);
+    write_file(f.path / "s.toml", "duration = '400 s'\n[[swarm]]\ncount = 500\nmodel = 'basic'\n[record]\n" +
+                                      std::string(record) + "\ncheckpoint = '0.2 s'\n");
+    const Called c = faba_in(f.path, "run s.toml --seed 1 --force --quiet --out disk/run");
+    INFO(c.err);
+    CHECK(c.exit == 1);
+    CHECK(one_clear_line(c.err));
+    CHECK(c.err.find("No space left") != std::string::npos);
+    CHECK(std::filesystem::exists(disk / "run/incomplete"));
+    CHECK_FALSE(std::filesystem::exists(disk / "run/report.html"));
+    std::filesystem::remove_all(disk / "run");
+  }
+  CHECK(std::system(("umount '" + disk.string() + "'").c_str()) == 0);
+}

@@ -1,0 +1,44 @@
+#pragma once
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/app/run_directory.h"
+
+namespace faba {
+
+/// What one call of the built program gave.
+struct Called {
+  int exit = -1;
+  std::string out, err;
+  nlohmann::json json() const { return nlohmann::json::parse(out); }
+};
+
+/// Runs `faba ARGUMENTS` through the shell, in `folder`.
+inline Called faba_in(const std::filesystem::path& folder, const std::string& arguments,
+                      const std::string& before = "") {
+  const auto err = folder / "stderr.txt";
+  const std::string command = "cd '" + folder.string() + "' && " + before + " '" FABA_PROGRAM "' " +
+                              arguments + " 2> '" + err.string() + "'";
+  Called c;
+  FILE* pipe = popen(command.c_str(), "r");
+  char buffer[4096];
+  for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) c.out.append(buffer, n);
+  const int status = pclose(pipe);
+  c.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  c.err = read_file(err);
+  return c;
+}
+
+/// Whether `text` is one line that begins "faba: error: ".
+inline bool one_clear_line(const std::string& text) {
+  return text.starts_with("faba: error: ") && text.find('\n') == text.size() - 1;
+}
+
+inline const std::string kSmallScene =
+    "duration = '2 s'\n[[swarm]]\ncount = 50\nmodel = 'basic'\n[arena]\ntype = 'box'\nsize_px = [160, 120]\n";
+
+}  // namespace faba

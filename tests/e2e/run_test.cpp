@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/e2e/program.h"
+
+using namespace faba;
+
+TEST_CASE("run: files, JSON fields, same hash for any thread count and again") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  const Called a = faba_in(f.path, "run s.toml --seed 5 --out a --json --threads 1");
+  REQUIRE_MESSAGE(a.exit == 0, a.err);
+  CHECK(a.err.empty());
+  const auto j = a.json();
+  CHECK(j["out"] == "a");
+  CHECK(j["seed"] == 5);
+  CHECK(j["frames"] == 30);
+  CHECK(j["dispersion_px"].size() == 2);
+  CHECK(j.contains("settling_time_s"));
+  CHECK(j.contains("steady_rms_px"));
+  for (const char* name :
+       {"manifest.json", "scenario.toml", "series.csv", "tracks.h5", "video.mp4", "report.html"})
+    CHECK_MESSAGE(std::filesystem::exists(f.path / "a" / name), name);
+  CHECK_FALSE(std::filesystem::exists(f.path / "a/incomplete"));
+  CHECK(nlohmann::json::parse(read_file(f.path / "a/manifest.json"))["state_hash"] == j["state_hash"]);
+  const std::string series = read_file(f.path / "a/series.csv");
+  CHECK(series.starts_with(
+      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px,"));
+  for (const char* more : {"--threads 2", "--threads 3", ""})
+    CHECK(faba_in(f.path, std::string("run s.toml --seed 5 --force --out b --json ") + more)
+              .json()["state_hash"] == j["state_hash"]);
+  CHECK(faba_in(f.path, "run a/scenario.toml --out c --json").json()["state_hash"] == j["state_hash"]);
+  CHECK(faba_in(f.path, "run s.toml --seed 6 --out d --json").json()["state_hash"] != j["state_hash"]);
+}
+
+TEST_CASE("run: a drawn seed is printed, recorded, and repeats the run") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  const auto first = faba_in(f.path, "run s.toml --out a --json").json();
+  const auto again = faba_in(f.path, "run s.toml --out b --json --seed " + first["seed"].dump()).json();
+  CHECK(again["state_hash"] == first["state_hash"]);
+  CHECK(faba_in(f.path, "run s.toml --out c").out.find("(drawn; --seed ") != std::string::npos);
+}
+
+TEST_CASE("run: the tracks open in h5py with fps and um_per_px") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  REQUIRE(faba_in(f.path, "run s.toml --seed 5 --out a --quiet").exit == 0);
+  write_file(f.path / "read.py",
+             "import h5py\nf = h5py.File('a/tracks.h5')\n"
+             "print(f['position_px'].shape, f.attrs['fps'], round(f.attrs['um_per_px'], 4), f['t_s'][1])\n");
+  const std::string command = "cd '" + f.path.string() + "' && /usr/bin/python3 read.py > out.txt 2>&1";
+  CHECK(std::system(command.c_str()) == 0);
+  CHECK(read_file(f.path / "out.txt") == "(30, 50, 2) 15.0 0.9164 0.06666666666666667\n");
+}
+
+TEST_CASE("Ctrl-C: exit 130, what was recorded is readable, resume ends with the same hash") {
+  const TestFolder f;
+
+  const std::string scene =
+      "duration = '100 s'\nexclusion = { order = 'none' }\n[[swarm]]\ncount = 4000\nmodel = 'basic'\n"
+      "[record]\nvideo = false\ntracks_every = 50\ncheckpoint = '0.2 s'\n";
+  write_file(f.path / "s.toml", scene);
+  const auto whole = faba_in(f.path, "run s.toml --seed 1 --out whole --json").json();
+  const Called stopped =
+      faba_in(f.path, "run s.toml --seed 1 --out cut", "timeout --preserve-status -s INT 0.4");
+  if (stopped.exit == 0) return;  // a machine so fast that it was done before the signal came
+  CHECK(stopped.exit == 130);
+  CHECK(std::filesystem::exists(f.path / "cut/incomplete"));
+  CHECK(read_file(f.path / "cut/series.csv").size() > 200);
+  const Called resumed = faba_in(f.path, "resume cut --json");
+  REQUIRE_MESSAGE(resumed.exit == 0, resumed.err);
+  CHECK(resumed.json()["state_hash"] == whole["state_hash"]);
+  CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "whole/series.csv"));
+}
+
+TEST_CASE("kill -9 at any moment: resume ends with the same hash and the same series") {
+  const TestFolder f;
+  write_file(f.path / "s.toml",
+             "duration = '150 s'\nexclusion = { order = 'none' }\n[[swarm]]\ncount = 4000\nmodel = 'basic'\n"
+             "[record]\nvideo_every = 30\ntracks_every = 50\ncheckpoint = '0.1 s'\n");
+  const auto whole = faba_in(f.path, "run s.toml --seed 1 --out whole --json").json();
+  for (int kill = 1; kill <= 6; ++kill) {
+    const std::string dir = "cut" + std::to_string(kill);
+    const std::string after = std::to_string(0.05 + 0.1 * kill);
+    Called c = faba_in(f.path, "run s.toml --seed 1 --quiet --out " + dir, "timeout -s KILL " + after);
+    for (int i = 0; i < 3 && std::filesystem::exists(f.path / dir / "incomplete");
+         ++i)  // killed again while resuming
+      c = faba_in(f.path, "resume " + dir + " --quiet", "timeout -s KILL " + after);
+    if (std::filesystem::exists(f.path / dir / "incomplete"))
+      c = faba_in(f.path, "resume " + dir + " --json");
+    if (!std::filesystem::exists(f.path / dir / "manifest.json"))
+      continue;  // killed before the directory was made
+    INFO("killed after ", after, " s: ", c.err);
+    CHECK(nlohmann::json::parse(read_file(f.path / dir / "manifest.json"))["state_hash"] ==
+          whole["state_hash"]);
+    CHECK(read_file(f.path / dir / "series.csv") == read_file(f.path / "whole/series.csv"));
+  }
+}

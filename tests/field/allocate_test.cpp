@@ -1,0 +1,53 @@
+#include "field/allocate.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace faba;
+
+namespace {
+
+// Coils with a given field per ampere, the same everywhere.
+class Given final : public Field {
+ public:
+  explicit Given(std::vector<Vec3> b) : b_(std::move(b)) {}
+  std::size_t coils() const override { return b_.size(); }
+  void eval(const Points&, std::span<const double>, Vectors) const override {}
+  void basis(Vec3, std::span<Vec3> b, std::span<Mat3>) const override {
+    std::copy(b_.begin(), b_.end(), b.begin());
+  }
+  Vec3 ambient() const override { return {0, 0, 1e-5}; }
+  std::vector<double> lag() const override { return std::vector<double>(b_.size(), 0.0); }
+
+ private:
+  std::vector<Vec3> b_;
+};
+
+}  // namespace
+
+TEST_CASE("the wanted field is made, with the least currents of all that make it") {
+  const Given f({{1, 0.2, 0}, {-0.3, 2, 1}, {0.5, 0.5, 0}, {0, -1, 2}});
+  const Vec2 wanted{3e-4, -7e-4};
+  const auto i = allocate(f, {}, wanted);
+  const Vec3 b = f.at({}, i) - f.ambient();
+  CHECK(b.x == doctest::Approx(wanted.x).epsilon(1e-12));
+  CHECK(b.y == doctest::Approx(wanted.y).epsilon(1e-12));
+  // least norm: the currents are a combination of the two rows of the basis, so orthogonal to its null space
+  for (const auto& null : {std::vector<double>{-0.65, -0.5, 1, -0.63}}) {
+    std::vector<double> n = null;
+    n[0] = -(n[1] * -0.3 + n[2] * 0.5);
+    n[3] = n[0] * 0.2 + n[1] * 2 + n[2] * 0.5;
+    double along = 0;
+    for (std::size_t k = 0; k < 4; ++k) along += n[k] * i[k];
+    CHECK(std::fabs(along) < 1e-15);
+  }
+}
+
+TEST_CASE("coils along one line make what they can; no coil makes nothing") {
+  const Given line({{2, 0, 0}, {1, 0, 0}});
+  const auto i = allocate(line, {}, {1, 1});
+  CHECK(line.at({}, i).x == doctest::Approx(1));
+  CHECK(line.at({}, i).y == 0);
+  CHECK(allocate(Given({{0, 0, 5}}), {}, {1, 1}) == std::vector<double>{0.0});
+}

@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""Fails when the documentation and the program have drifted apart.
+
+    tools/check_docs.py --program build/faba --root .
+
+Checks, each named in the message when it fails:
+- docs/reference/ is what tools/make_docs.py would write now;
+- every relative link of every .md file leads to a file of this tree, and to a heading of it where it names one;
+- every fenced block marked `toml scenario` is accepted by the program, and so is every one marked `toml part`, which is
+  an excerpt, once a swarm is added where it has none;
+- every option that a `$ build/faba VERB ...` line uses exists, and so does every scene that it names;
+- the columns of docs/formats/run-directory.md are those of a series.csv;
+- every theory label and source tag cited in src/ and tests/ exists in docs/theory/;
+- no file of src/ is longer than 400 lines.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import make_docs
+
+MOST_LINES = 400
+SKIPPED = {"build", "runs", ".git", "node_modules"}
+
+
+class Checks:
+    def __init__(self, program, root):
+        self.program, self.root, self.failures = program, root, []
+        self.pages = sorted(p for p in root.rglob("*.md") if not SKIPPED & set(p.relative_to(root).parts))
+        self.text = {p: p.read_text() for p in self.pages}
+
+    def fail(self, place, what):
+        if isinstance(place, pathlib.Path):
+            place = place.relative_to(self.root)
+        self.failures.append(f"{place}: {what}")
+
+    def faba(self, *arguments, cwd):
+        return subprocess.run([str(self.program), *arguments], capture_output=True, text=True, cwd=cwd)
+
+    # --- generated pages -------------------------------------------------------------------------------------------
+
+    def reference(self):
+        folder = self.root / "docs/reference"
+        wanted = make_docs.pages(self.program, self.root)
+        for name in sorted(set(wanted) | {p.name for p in folder.glob("*.md")}):
+            page = folder / name
+            if not page.exists() or wanted.get(name) != page.read_text():
+                self.fail(page, "differs from what the program says; run: tools/make_docs.py")
+
+    # --- links -----------------------------------------------------------------------------------------------------
+
+    def headings(self, page):
+        """Anchors as GitHub makes them from the headings outside code."""
+        found = set()
+        for line in without_code(self.text[page]).splitlines():
+            if not (m := re.match(r"#{1,6}\s+(.*?)\s*#*$", line)):
+                continue
+            title = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", m[1]).lower()
+            slug = re.sub(r"[^\w\- ]", "", title).replace(" ", "-")
+            number, name = 0, slug
+            while name in found:
+                number += 1
+                name = f"{slug}-{number}"
+            found.add(name)
+        return found
+
+    def links(self):
+        for page, text in self.text.items():
+            for number, line in enumerate(without_code(text, keep_lines=True).splitlines(), 1):
+                for target in re.findall(r"\]\(<?([^)>\s]+)>?\)", line):
+                    if re.match(r"[a-z]+:", target):
+                        continue
+                    name, _, anchor = target.partition("#")
+                    file = (page.parent / name).resolve() if name else page
+                    place = f"{page.relative_to(self.root)}:{number}"
+                    if not file.is_relative_to(self.root):
+                        self.fail(place, f"the link {target} leads out of the project")
+                    elif not file.exists():
+                        self.fail(place, f"the link {target} leads nowhere")
+                    elif anchor and (file not in self.text or anchor not in self.headings(file)):
+                        self.fail(place, f"the link {target} names a heading that is not there")
+
+    # --- examples --------------------------------------------------------------------------------------------------
+
+    def blocks(self, info):
+        for page, text in self.text.items():
+            for m in re.finditer(r"^```" + re.escape(info) + r"\n(.*?)^```", text, re.M | re.S):
+                yield f"{page.relative_to(self.root)}:{text.count(chr(10), 0, m.start()) + 1}", m[1]
+
+    def scenarios(self, folder):
+        """Runs each for one frame. `--duration` would hide a wrong one: it is tried as an exposure first."""
+        for info in ("toml scenario", "toml part"):
+            for place, block in self.blocks(info):
+                scene = pathlib.Path(folder) / "block.toml"
+                swarm = "" if "[[swarm]]" in block else "\n[[swarm]]\ncount = 20\n"
+                scene.write_text(block + swarm)
+                given = re.search(r'^duration\s*=\s*(.+?)\s*(#.*)?$', block, re.M)
+                more = ["--set", f"exposure={given[1]}"] if given and "exposure" not in block else []
+                r = self.faba("run", "block.toml", "--duration", "0 s", "--seed", "1", "--out", "out", "--force", "--quiet",
+                              "--set", "record.video=false", "--set", "record.tracks=false", *more, cwd=folder)
+                if r.returncode != 0:
+                    self.fail(place, f"the program refuses this scenario: {r.stderr.strip()}")
+
+    def commands(self, folder):
+        helps = {}
+        for page, text in self.text.items():
+            for number, line in enumerate(text.splitlines(), 1):
+                m = re.match(r"\s*\$ build/faba (\w+)(.*)", line)
+                if not m:
+                    continue
+                verb, rest = m[1], re.sub(r"'[^']*'|\"[^\"]*\"", "''", m[2])
+                place = f"{page.relative_to(self.root)}:{number}"
+                if verb not in helps:
+                    r = self.faba(verb, "--help", cwd=folder)
+                    helps[verb] = r.stdout if r.returncode == 0 else None
+                if helps[verb] is None:
+                    self.fail(place, f"there is no verb {verb}")
+                    continue
+                for option in re.findall(r"(?<!\S)--[\w-]+", rest):
+                    if not re.search(re.escape(option) + r"\b", helps[verb]):
+                        self.fail(place, f"faba {verb} has no option {option}")
+                for scene in re.findall(r"(?<!\S)scenes/\S+\.toml", rest):
+                    if not (self.root / scene).exists():
+                        self.fail(place, f"there is no {scene}")
+
+    def columns(self, folder):
+        page = self.root / "docs/formats/run-directory.md"
+        section = re.search(r"^## series\.csv\n(.*?)^## ", self.text.get(page, ""), re.M | re.S)
+        said = re.findall(r"^\| `(\w+)` \|", section[1] if section else "", re.M)
+        scene = pathlib.Path(folder) / "columns.toml"
+        scene.write_text("[[swarm]]\ncount = 2\n")
+        self.faba("run", "columns.toml", "--duration", "0 s", "--seed", "1", "--out", "columns", "--quiet", cwd=folder)
+        header = (pathlib.Path(folder) / "columns/series.csv").read_text().splitlines()[0]
+        there = list(dict.fromkeys(re.sub(r"current_\d+_a", "current_K_a", header).split(",")))
+        if said != there:
+            self.fail(page, f"series.csv has the columns {', '.join(there)}; the page lists {', '.join(said)}")
+
+    # --- sources ---------------------------------------------------------------------------------------------------
+
+    def sources(self):
+        labels = set(make_docs.theory_labels(self.root))
+        tags = (self.root / "docs/theory/sources.md").read_text()
+        for folder in ("src", "tests"):
+            for file in sorted((self.root / folder).rglob("*.[hc]*")):
+                lines = file.read_text(errors="replace").splitlines()
+                if folder == "src" and len(lines) > MOST_LINES:
+                    self.fail(file, f"{len(lines)} lines; at most {MOST_LINES}")
+                for number, line in enumerate(lines, 1):
+                    place = f"{file.relative_to(self.root)}:{number}"
+                    for cited in re.findall(r"\btheory ([A-F]\d{1,2}(?:(?:, | and )[A-F]\d{1,2})*)", line):
+                        for label in re.findall(r"[A-F]\d{1,2}", cited):
+                            if label not in labels:
+                                self.fail(place, f"cites theory {label}, which docs/theory/README.md does not list")
+                    for tag in re.findall(r"\[(S\d{1,2})\]", line):
+                        if not re.search(rf"\b{tag}\b", tags):
+                            self.fail(place, f"cites [{tag}], which docs/theory/sources.md does not list")
+
+
+def without_code(text, keep_lines=False):
+    """The text without fenced blocks and inline code."""
+    blank = (lambda m: "\n" * m[0].count("\n")) if keep_lines else ""
+    text = re.sub(r"^```.*?^```", blank, text, flags=re.M | re.S)
+    return re.sub(r"`[^`\n]*`", lambda m: "x" if keep_lines else m[0].strip("`"), text)
+
+
+def main():
+    cli = argparse.ArgumentParser(description="Fail when the documentation and the program have drifted apart.")
+    cli.add_argument("--program", default="build/faba")
+    cli.add_argument("--root", default=".", type=pathlib.Path)
+    options = cli.parse_args()
+    program, root = pathlib.Path(options.program).resolve(), options.root.resolve()
+    if not program.exists():
+        sys.exit(f"check_docs: no program {program}; build it first or name it with --program")
+    checks = Checks(program, root)
+    with tempfile.TemporaryDirectory() as folder:
+        checks.reference()
+        checks.links()
+        checks.scenarios(folder)
+        checks.commands(folder)
+        checks.columns(folder)
+        checks.sources()
+    for failure in checks.failures:
+        print(failure)
+    print(f"check_docs: {len(checks.pages)} pages, {len(checks.failures)} failures")
+    return 1 if checks.failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
