@@ -41,7 +41,7 @@ asan tsan: setup      ## build and run the tests under sanitizers
 	@cmake --build build/$@ -j $(JOBS)
 	@ctest --test-dir build/$@ --output-on-failure -j $(JOBS)
 
-fuzz: setup           ## fuzz the scenario loader for a minute (SECONDS=600 for longer)
+fuzz: setup           ## fuzz the scenario loader for a minute (SECONDS_TO_FUZZ=600 for longer)
 	@$(SETUP) fuzz
 	@tests/fuzz/run.sh $(or $(SECONDS_TO_FUZZ),60)
 

@@ -92,18 +92,19 @@ class Checks:
                 yield f"{page.relative_to(self.root)}:{text.count(chr(10), 0, m.start()) + 1}", m[1]
 
     def scenarios(self, folder):
-        """Runs each for one frame. `--duration` would hide a wrong one: it is tried as an exposure first."""
+        """Runs each for one frame. `--duration` hides the block's own one, so that is tried once more as an exposure."""
         for info in ("toml scenario", "toml part"):
             for place, block in self.blocks(info):
                 scene = pathlib.Path(folder) / "block.toml"
-                swarm = "" if "[[swarm]]" in block else "\n[[swarm]]\ncount = 20\n"
-                scene.write_text(block + swarm)
-                given = re.search(r'^duration\s*=\s*(.+?)\s*(#.*)?$', block, re.M)
-                more = ["--set", f"exposure={given[1]}"] if given and "exposure" not in block else []
-                r = self.faba("run", "block.toml", "--duration", "0 s", "--seed", "1", "--out", "out", "--force", "--quiet",
-                              "--set", "record.video=false", "--set", "record.tracks=false", *more, cwd=folder)
-                if r.returncode != 0:
-                    self.fail(place, f"the program refuses this scenario: {r.stderr.strip()}")
+                scene.write_text(block + ("" if "[[swarm]]" in block else "\n[[swarm]]\ncount = 20\n"))
+                duration = re.search(r"^duration\s*=\s*(.+?)\s*(#.*)?$", block, re.M)
+                for more in [[]] + ([["--set", f"exposure={duration[1]}"]] if duration else []):
+                    r = self.faba("run", "block.toml", "--duration", "0 s", "--seed", "1", "--out", "out", "--force",
+                                  "--quiet", "--set", "record.video=false", "--set", "record.tracks=false", *more,
+                                  cwd=folder)
+                    if r.returncode != 0:
+                        self.fail(place, f"the program refuses this scenario: {r.stderr.strip()}")
+                        break
 
     def commands(self, folder):
         helps = {}

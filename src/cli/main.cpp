@@ -13,12 +13,7 @@ namespace {
 
 std::atomic<bool> stop{false};
 
-// One line, whatever stood in the message.
-void complain(std::string text) {
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  fmt::print(stderr, "faba: error: {}\n", text);
-}
+void complain(const std::string& text) { fmt::print(stderr, "faba: error: {}\n", text); }
 
 CLI::App* verb(CLI::App& app, Common& common, const char* name, const char* does, const char* examples) {
   CLI::App* v = app.add_subcommand(name, does);
@@ -95,9 +90,9 @@ int dispatch(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    complain(fmt::format("{} (see faba {}--help)", e.what(),
-                         argc > 1 && argv[1][0] != '-' ? argv[1] + std::string(" ") : ""));
-    return int(Errc::usage);
+    const std::string help =
+        argc > 1 && argv[1][0] != '-' ? fmt::format("faba {} --help", argv[1]) : "faba --help";
+    throw Error(Errc::usage, "", fmt::format("{} (see {})", e.what(), help));
   }
   return code;
 }

@@ -19,13 +19,19 @@ enum class Errc {
 class Error : public std::runtime_error {
  public:
   Error(Errc code, std::string where, const std::string& what)
-      : std::runtime_error(where.empty() ? what : where + ": " + what),
+      : std::runtime_error(one_line(where.empty() ? what : where + ": " + what)),
         code_(code),
         where_(std::move(where)) {}
   Errc code() const noexcept { return code_; }
   const std::string& where() const noexcept { return where_; }
 
  private:
+  // Names and values come from users' files and may hold anything.
+  static std::string one_line(std::string text) {
+    for (char& c : text)
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    return text;
+  }
   Errc code_;
   std::string where_;
 };

@@ -96,7 +96,8 @@ void emit_value(const Json& j, std::string& out) {
     }
     out += " }";
   } else {
-    out += j.dump();  // JSON strings, numbers and booleans are TOML too
+    for (const char c : j.dump())
+      c == '\x7f' ? out += "\\u007f" : out += c;  // else JSON's scalars are TOML's
   }
 }
 

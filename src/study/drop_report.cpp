@@ -1,5 +1,8 @@
 #include "study/drop_report.h"
 
+#include "vision/overlay.h"
+#include "vision/picture.h"
+
 #include <nlohmann/json.hpp>
 
 namespace faba {
@@ -15,6 +18,15 @@ nlohmann::ordered_json drop_json(const DropEdge& edge) {
   json["inside"] = {edge.inside_image.x, edge.inside_image.y};
   json["image_size"] = {edge.image_width, edge.image_height};
   return json;
+}
+
+nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay) {
+  const GrayF grey = read_picture(picture).grey;
+  DropEdgeOptions options;
+  options.name = picture.string();
+  const DropEdge edge = find_drop_edge(grey, options);
+  if (!overlay.empty()) write_png(overlay, drop_overlay(grey, edge));
+  return drop_json(edge);
 }
 
 }  // namespace faba

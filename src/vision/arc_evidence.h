@@ -1,21 +1,13 @@
 #pragma once
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "core/vec.h"
+#include "vision/arc_strip.h"
 #include "vision/circle_fit.h"
 #include "vision/image.h"
 
 namespace faba {
-
-/// Parameters of weigh_arc. Lengths in px of the picture given.
-struct ArcEvidenceOptions {
-  double half_width = 24;  ///< grey profiles run from this far inside the circle to this far outside
-  double margin = 3;
-  double piece_px = 6;     ///< the arc is cut into pieces at least this long, each judged by itself
-  int max_pieces = 128;     ///< longer pieces are used on longer arcs
-};
 
 /// What a picture says about one circle being an edge in it.
 struct ArcEvidence {
@@ -33,15 +25,11 @@ struct ArcEvidence {
 };
 
 /// Tests the circle without assuming how an edge looks. The visible arc is cut into pieces; each piece is
-/// asked where the mean profile of all OTHER pieces fits best along its radius. At an edge, whatever its
-/// shape, contrast and noise, they agree on zero; anywhere else the answers are spread evenly over the search
-/// range. The count of pieces that agree, over the best contiguous run of the arc, is a binomial variable
-/// under chance. A linear trend of grey along the radius (uneven light) has no say.
-ArcEvidence weigh_arc(const GrayF& picture, const Circle& circle, const ArcEvidenceOptions& options = {});
-
-/// Mean grey across a circle in the directions given: element i belongs to radius + (i - half) px. The lowest
-/// and the highest quarter at each radius do not count, so that cells and dust do not.
-std::vector<double> mean_profile(const GrayF& picture, const Circle& circle, std::span<const double> angles,
-                                 int half);
+/// asked where along its radius the mean profile of all OTHER pieces fits best or, when that is not clear,
+/// where its own grey changes (align_by_profile, align_by_change). At an edge, whatever its shape, contrast
+/// and noise, the answers agree on zero; anywhere else they are spread evenly over the search range. The
+/// count of pieces that agree, over the best contiguous run of the arc, is then a binomial variable, and what
+/// was chosen among (circles, runs, tolerances) is paid for as in an a-contrario test.
+ArcEvidence weigh_arc(const GrayF& picture, const Circle& circle, const ArcStripOptions& options = {});
 
 }  // namespace faba

@@ -30,7 +30,7 @@ struct DropEdgeOptions {
   double min_arc_deg = 10;         ///< shorter arcs are refused: their radius would be a guess
   double max_sd_share = 0.15;      ///< a radius with a larger sd / radius is refused
   double min_support = 0.65;       ///< share of the circle's arc in the picture that must show the edge
-  double max_log10_false_alarms = -6;  ///< a circle that chance would give more often than this is refused
+  double max_log10_false_alarms = -4.5;  ///< a circle that chance would give more often than this is refused
   double min_contrast_steps =
       2;  ///< least contrast in steps of the grey scale: contour lines of even light are none
   DropSide side = DropSide::automatic;
