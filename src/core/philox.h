@@ -42,13 +42,15 @@ inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, Stream stream, std:
 }
 
 /// Uniform in (0, 1), 23 bits: the half that keeps it from 0 and 1 is then exact in a float.
-inline float uniform(std::uint32_t word) { return (float(word >> 9) + 0.5f) * 0x1p-23f; }
+[[gnu::always_inline]] inline float uniform(std::uint32_t word) {
+  return (float(word >> 9) + 0.5f) * 0x1p-23f;
+}
 /// Uniform integer in {0, ..., n-1}, n <= 2^16: multiply-shift, bias below n 2^-32.
-inline std::uint32_t below(std::uint32_t word, std::uint32_t n) {
+[[gnu::always_inline]] inline std::uint32_t below(std::uint32_t word, std::uint32_t n) {
   return std::uint32_t((std::uint64_t{word} * n) >> 32);
 }
 /// Two independent standard normals from two words (Box-Muller); the tails end at 5.8 sigma.
-inline std::array<float, 2> normals(std::uint32_t a, std::uint32_t b) {
+[[gnu::always_inline]] inline std::array<float, 2> normals(std::uint32_t a, std::uint32_t b) {
   const float radius = std::sqrt(-2.0f * portable::log(uniform(a)));
   const auto [s, c] = portable::sincos(float(std::int32_t(b) >> 8) * (portable::kPiF * 0x1p-23f));
   return {radius * c, radius * s};

@@ -13,14 +13,14 @@ inline constexpr float kPiF = 3.14159265358979f;
 inline constexpr double kPi = 3.14159265358979323846;
 
 /// Nearest integer, ties to even, for |x| < 2^22. Adding and taking away 1.5 * 2^23 works with SSE2 alone.
-inline float nearest(float x) { return (x + 12582912.0f) - 12582912.0f; }
+[[gnu::always_inline]] inline float nearest(float x) { return (x + 12582912.0f) - 12582912.0f; }
 
 struct SinCos {
   float sin, cos;
 };
 
 /// Sine and cosine of an angle in rad, |a| <= 1e4; absolute error below 1.5e-7.
-inline SinCos sincos(float a) {
+[[gnu::always_inline]] inline SinCos sincos(float a) {
   const float q = nearest(a * 0.636619772f);
   const auto quadrant = std::int32_t(q);
   // pi/2 in three parts, the first two exact in products with q < 2^13
@@ -35,7 +35,7 @@ inline SinCos sincos(float a) {
 }
 
 /// Natural logarithm of a normal positive float; relative error below 1e-7 (absolute near 1).
-inline float log(float v) {
+[[gnu::always_inline]] inline float log(float v) {
   const auto bits = std::bit_cast<std::int32_t>(v);
   const std::int32_t e = (bits - 0x3f3504f3) >> 23;  // v = m 2^e, m in [sqrt(1/2), sqrt(2))
   const float m = std::bit_cast<float>(bits - e * (1 << 23)) - 1.0f;
@@ -57,7 +57,7 @@ inline float log(float v) {
 }
 
 /// e^x, x clamped to [-87, 88]; relative error below 2e-7.
-inline float exp(float x) {
+[[gnu::always_inline]] inline float exp(float x) {
   x = x < -87.0f ? -87.0f : x > 88.0f ? 88.0f : x;
   const float n = nearest(x * 1.44269504f);
   const float r = (x - n * 0.693359375f) + n * 2.12194440e-4f;

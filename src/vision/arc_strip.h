@@ -29,7 +29,7 @@ struct ArcStrip {
 /// How a strip is cut. Lengths in px of the picture.
 struct ArcStripOptions {
   int half_width = 24;   ///< profiles run from this far inside the circle to this far outside; even
-  double border_px = 4;  ///< the arc nearer than this to the picture's border is left out
+  double border_px = 6;  ///< the arc nearer than this to the picture's border is left out
   double piece_px = 6;   ///< shortest piece
   int max_pieces = 128;  ///< longer pieces are used on longer arcs
 };

@@ -34,7 +34,7 @@ std::optional<Circle> circle_through(Vec2 a, Vec2 b, Vec2 c);
 
 /// Pratt's algebraic fit: minimises sum w (A(x^2+y^2) + Bx + Cy + D)^2 under B^2 + C^2 - 4AD = 1. It needs no
 /// start and is nearly free of the pull to small radii that the simple (Kasa) fit has on short arcs
-/// (theory A13, [S26]). `weights` is empty (all 1) or as long as `points`, each >= 0.
+/// (theory A13). `weights` is empty (all 1) or as long as `points`, each >= 0.
 /// Nothing for fewer than three points or points on a line.
 std::optional<Circle> fit_circle_pratt(std::span<const Vec2> points, std::span<const double> weights = {});
 

@@ -18,7 +18,9 @@ enum class DropSide {
 
 /// Parameters of find_drop_edge. Lengths in px of the picture given.
 struct DropEdgeOptions {
-  EdgeSegmentOptions edges;     ///< smoothing, threshold, Hough lines
+  /// Smoothing, threshold, Hough lines. In the halved copies lengths are halved too, and a threshold other
+  /// than otsu is EdgeThreshold::noise.
+  EdgeSegmentOptions edges;
   double stretch_low = 0.001;   ///< share of pixels shown black; dim 16-bit pictures are stretched to 0..255
   double stretch_high = 0.999;  ///< share of pixels below white
   double hot_pixel_sd = 8;  ///< a pixel this many noise sd off its 3x3 median is replaced by it; 0: keep all
@@ -31,8 +33,7 @@ struct DropEdgeOptions {
   double max_sd_share = 0.15;      ///< a radius with a larger sd / radius is refused
   double min_support = 0.65;       ///< share of the circle's arc in the picture that must show the edge
   double max_log10_false_alarms = -4.5;  ///< a circle that chance would give more often than this is refused
-  double min_contrast_steps =
-      2;  ///< least contrast in steps of the grey scale: contour lines of even light are none
+  double min_contrast_steps = 2;         ///< least contrast in grey steps where noise does not hide the steps
   DropSide side = DropSide::automatic;
   std::string name = "drop edge";  ///< `where` of errors: give the picture's file name
 };

@@ -19,6 +19,14 @@ constexpr double kCrookedPx = 0.5;  // what the border of a picture can do to a 
 constexpr double kCornerDeg = 120;  // two straight lines cannot pass for a longer arc
 constexpr double kHopeful = 5;      // log10 of false alarms: above, a circle is not worth following
 
+constexpr const char* kChance =
+    "no edge of a drop: no circle follows the edges in the picture better than scattered cells or noise; "
+    "show more of the drop's edge, or focus on it";
+constexpr const char* kContours =
+    "no edge of a drop: the arcs in the picture are single steps of its grey scale in uneven light; "
+    "use more contrast or more bits per pixel";
+
+/// Whether a shows more of an edge than b, or as much and more certainly.
 bool better(const DropCandidate& a, const DropCandidate& b) {
   const double length_a = a.evidence.length_px * a.scale, length_b = b.evidence.length_px * b.scale;
   if (length_a > 1.1 * length_b) return true;
@@ -52,8 +60,10 @@ double crookedness(const DropCandidate& d) {
   double sum3 = 0, sum4 = 0, norm3 = 0, norm4 = 0, power = 0;
   for (Vec2 p : d.points) {
     const Vec2 r = p - d.fit.centre;
-    const double u = std::remainder(std::atan2(r.y, r.x) - axis, 2 * std::numbers::pi) / half, u2 = u * u;
-    const double p3 = u * (5 * u2 - 3) / 2, p4 = (u2 * (35 * u2 - 30) + 3) / 8, off = norm(r) - d.fit.radius;
+    const double u =
+        std::clamp(std::remainder(std::atan2(r.y, r.x) - axis, 2 * std::numbers::pi) / half, -1.0, 1.0);
+    const double u2 = u * u, p3 = u * (5 * u2 - 3) / 2, p4 = (u2 * (35 * u2 - 30) + 3) / 8,
+                 off = norm(r) - d.fit.radius;
     sum3 += off * p3, norm3 += p3 * p3;
     sum4 += off * p4, norm4 += p4 * p4;
     power += off * off;
@@ -83,42 +93,37 @@ std::string straight_or_short(const DropCandidate& d, const DropEdgeOptions& o) 
   const double sd_bend = bend * d.fit.sd_radius / d.circle.radius;
   if (bend < 4 * sd_bend || bend < 1)
     return fmt::format(
-        "the edge is a straight line: over {:.0f} px it bends by {:.1f} +- {:.1f} px; show the round "
-        "edge of the drop",
-        length, bend, sd_bend);
+        "the edge is a straight line: it bends by {:.1f} +- {:.1f} px over {:.0f} px; "
+        "show the round edge of the drop",
+        bend, sd_bend, length);
   return fmt::format(
-      "the edge covers only {:.1f} degrees of a circle of radius {:.0f} px ({:.0f} degrees needed), "
-      "so its radius would be a guess; use a lower magnification or show more of the edge",
+      "the edge covers only {:.1f} degrees of a circle of radius {:.0f} px ({:.0f} degrees needed); "
+      "use a lower magnification or show more of the edge",
       d.seen_rad * kDegrees, d.circle.radius, o.min_arc_deg);
 }
 
 /// Why a circle is not accepted; empty when it is.
 std::string objection(const DropCandidate& d, const DropPicture& picture, const DropEdgeOptions& o) {
   const double radius = d.circle.radius, sd = d.fit.sd_radius;
-  if (d.evidence.log10_false_alarms > o.max_log10_false_alarms)
-    return "no edge of a drop: the edges in the picture lie on no common circle better than scattered cells "
-           "or noise "
-           "would; show more of the drop's edge, or focus on it";
+  if (d.evidence.log10_false_alarms > o.max_log10_false_alarms) return kChance;
   if (d.seen_rad * kDegrees < o.min_arc_deg) return straight_or_short(d, o);
   if (d.arc_rad * kDegrees < kCornerDeg && crookedness(d) > kCrooked)
     return fmt::format(
-        "no edge of a drop: the longest edge is not round but bent at a corner (best radius {:.0f} "
-        "px); show the round edge of the drop",
+        "no edge of a drop: the longest edge is bent at a corner, not round (best radius {:.0f} px); "
+        "show the round edge of the drop",
         radius);
   if (d.evidence.support < o.min_support)
     return fmt::format(
-        "no edge of a drop: the best circle (radius {:.0f} px) follows an edge along only {:.0f} % of "
-        "its arc in the picture; show more of the drop's edge, or focus on it",
+        "no edge of a drop: the best circle (radius {:.0f} px) follows an edge along only {:.0f} % "
+        "of its arc in the picture; show more of the drop's edge, or focus on it",
         radius, 100 * d.evidence.support);
   if (sd > o.max_sd_share * radius)
     return fmt::format(
-        "the radius is too unsure ({:.0f} +- {:.0f} px); show more of the drop's edge, or focus on it",
+        "the radius is too unsure ({:.0f} +- {:.0f} px); "
+        "show more of the drop's edge, or focus on it",
         radius, sd);
-  // A saw-tooth of one contour has an rms of 0.29; half is the rms of a true step about twice as high.
-  if (d.evidence.relief < 0.5 * picture.contours)
-    return "no edge of a drop: the arcs in the picture are single steps of its grey scale in uneven light; "
-           "use more "
-           "contrast or more bits per pixel";
+  // A step of height h leaves h/4 about the best straight line; a saw-tooth of contour lines 0.29 of theirs.
+  if (d.evidence.relief < 0.25 * o.min_contrast_steps * picture.contours) return kContours;
   return {};
 }
 
@@ -208,12 +213,15 @@ class Search {
       if (!d) break;
       circle = d->circle;
       d->objection = objection(*d, picture_, options_);
-      const bool sure = d->evidence.log10_false_alarms < options_.max_log10_false_alarms;
+      const bool sure = is_sure(*d);
       if (sure) seen_.push_back(*d);
-      auto& place = d->objection.empty() ? found.accepted : found.refused;
-      if (!place || better(*d, *place)) {
-        if (d->objection.empty()) keep_segments(segments, picture_.levels[k], d->circle);
-        place = std::move(d);
+      if (d->objection.empty()) {
+        if (!found.accepted || better(*d, *found.accepted)) {
+          keep_segments(segments, picture_.levels[k], d->circle);
+          found.accepted = std::move(d);
+        }
+      } else if (!found.refused || (sure == is_sure(*found.refused) ? better(*d, *found.refused) : sure)) {
+        found.refused = std::move(d);
       }
       if (!sure) break;
     }
@@ -227,6 +235,9 @@ class Search {
   DropSearch found;
 
  private:
+  bool is_sure(const DropCandidate& d) const {
+    return d.evidence.log10_false_alarms < options_.max_log10_false_alarms;
+  }
   /// Whether the circle runs along one that was followed before: it would only end there again.
   bool known(const Circle& circle, double scale) const {
     return std::any_of(seen_.begin(), seen_.end(), [&](const DropCandidate& d) {

@@ -127,7 +127,7 @@ EdgeProfile fit_edge_profile(std::span<const double> grey) {
   const double all = line_residual(offset, centred);
   EdgeProfile out;
   if (!(all > 0)) return out;
-  constexpr double kEnough = 0.95;  // of the variance
+  constexpr double kEnough = 0.99;  // of the variance
   const Trial step = fit_shape(offset, centred, {true, false}),
               ring = fit_shape(offset, centred, {false, true});
   // A line whose two sides differ by more than its own height is the shoulder of a step.

@@ -9,7 +9,7 @@ namespace faba {
 
 /// How strong a gradient must be to count as an edge.
 enum class EdgeThreshold {
-  legacy,  ///< sqrt(6 * mean of the squared gradient), the automatic rule of the published program [M]
+  legacy,  ///< sqrt(6 * mean of the squared gradient), the automatic rule of the published program
   otsu,    ///< the split of the gradient histogram with the largest variance between its two classes
   noise,   ///< 4 * median of the squared gradient / ln 2: the legacy kind of rule, not raised by strong edges
   fixed    ///< EdgeSegmentOptions::fixed_threshold

@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/picture.h"
+
 namespace faba {
 namespace {
 
@@ -17,19 +19,11 @@ cv::Point fixed(Vec2 p) {
   return {int(std::lround(p.x * (1 << kShift))), int(std::lround(p.y * (1 << kShift)))};
 }
 
-cv::Mat3b stretched(const GrayF& picture) {
-  std::vector<float> v = picture.px;
-  auto quantile = [&](double share) {
-    const auto at = v.begin() + std::ptrdiff_t(share * double(v.size() - 1));
-    std::nth_element(v.begin(), at, v.end());
-    return *at;
-  };
-  const float low = quantile(0.001), high = std::max(quantile(0.999), low + 1e-6f);
-  cv::Mat3b out(picture.height, picture.width);
-  std::transform(picture.px.begin(), picture.px.end(), out.begin(), [&](float p) {
-    const auto grey = cv::saturate_cast<uchar>(255 * (p - low) / (high - low));
-    return cv::Vec3b(grey, grey, grey);
-  });
+cv::Mat3b grey_canvas(const GrayF& picture) {
+  const Gray8 grey = stretched(picture, 0.001, 0.999);
+  cv::Mat3b out(grey.height, grey.width);
+  std::transform(grey.px.begin(), grey.px.end(), out.begin(),
+                 [](std::uint8_t g) { return cv::Vec3b(g, g, g); });
   return out;
 }
 
@@ -103,7 +97,7 @@ void draw(Pen pen, const DropEdge& edge, int width) {
 RgbImage drop_overlay(const GrayF& picture, const DropEdge& edge) {
   RgbImage out(picture.width, picture.height);
   if (picture.empty()) return out;
-  cv::Mat3b m = stretched(picture), rims = m.clone();
+  cv::Mat3b m = grey_canvas(picture), rims = m.clone();
   const int width = std::max(1, int(std::lround(std::min(m.cols, m.rows) / 500.0)));
   draw(Pen(rims, width, true), edge, width);
   cv::addWeighted(m, 0.4, rims, 0.6, 0, m);
