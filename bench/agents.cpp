@@ -7,7 +7,7 @@
 
 #include "checks.h"
 #include "core/toml.h"
-#include "limits.h"
+#include "machine.h"
 #include "peers/sequential.h"
 #include "timing.h"
 

@@ -42,7 +42,7 @@ Swarm::Swarm(const Scene& scene, Pool& pool) : scene_(scene) {
   simulation_ = std::make_unique<Simulation>(s, 1, pool);
   bytes_ = heap() - before;
   const Grid g = world().parts().arena->grid();
-  if (scene.exclusive()) bytes_ -= double(sizeof(std::uint32_t)) * g.columns * g.rows;
+  if (scene.exclusive()) bytes_ -= double(g.columns) * g.rows;  // a byte each
   bytes_ /= double(scene.agents);
   saved_ = world().state();
 }

@@ -17,19 +17,22 @@ enum class Stream : std::uint32_t {
   exclusion = 6  ///< who wins a contested grid cell
 };
 
+inline constexpr std::uint32_t kPhiloxM0 = 0xD2511F53u, kPhiloxM1 = 0xCD9E8D57u;  ///< multipliers
+inline constexpr std::uint32_t kPhiloxW0 = 0x9E3779B9u, kPhiloxW1 = 0xBB67AE85u;  ///< key increments
+
 /// Philox4x32-10 (Salmon et al. 2011, as in Random123): four random words as a pure function of counter and
 /// key. No state is kept, so results cannot depend on thread count or visiting order.
 [[gnu::always_inline]] inline void philox(std::uint32_t& c0, std::uint32_t& c1, std::uint32_t& c2,
                                           std::uint32_t& c3, std::uint32_t k0, std::uint32_t k1) {
 #pragma GCC unroll 10
   for (int round = 0; round < 10; ++round) {
-    const std::uint64_t p0 = std::uint64_t{0xD2511F53u} * c0, p1 = std::uint64_t{0xCD9E8D57u} * c2;
+    const std::uint64_t p0 = std::uint64_t{kPhiloxM0} * c0, p1 = std::uint64_t{kPhiloxM1} * c2;
     c0 = std::uint32_t(p1 >> 32) ^ c1 ^ k0;
     c2 = std::uint32_t(p0 >> 32) ^ c3 ^ k1;
     c1 = std::uint32_t(p1);
     c3 = std::uint32_t(p0);
-    k0 += 0x9E3779B9u;
-    k1 += 0xBB67AE85u;
+    k0 += kPhiloxW0;
+    k1 += kPhiloxW1;
   }
 }
 

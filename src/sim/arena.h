@@ -12,7 +12,10 @@ struct Grid {
 
   /// Index of the cell that holds a point; points outside count to the nearest border cell.
   std::int32_t index(float x, float y) const {
-    const auto clamped = [](float v, int n) { return v < 0 ? 0 : v >= float(n) ? n - 1 : int(v); };
+    const auto clamped = [](float v, int n) {  // what is no number counts to the first
+      const float last = float(n - 1), from_zero = v > 0 ? v : 0;
+      return std::int32_t(from_zero < last ? from_zero : last);
+    };
     return clamped((y - low) / cell, rows) * columns + clamped((x - left) / cell, columns);
   }
   Vec2 centre(std::int32_t i) const {
@@ -26,6 +29,9 @@ struct Outline {
   Vec2 centre_image;
   double radius_px = 0;
 };
+
+/// Agents that an arena looks at together before it goes through them one by one.
+constexpr std::size_t kArenaRow = 64;
 
 /// Where cells can be. World frame, origin at the arena's centre.
 class Arena {

@@ -1,9 +1,11 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "core/parallel.h"
 #include "core/schema.h"
 #include "sim/arena.h"
+#include "sim/two_phase.h"
 
 namespace faba {
 
@@ -33,33 +35,24 @@ class Exclusion {
 
   bool active() const { return p_.order != Order::none; }
   const Params& params() const { return p_; }
-  /// Whether `p_world` lies in a free grid cell; if so and `take`, it becomes the home of `agent` there.
-  bool place(std::uint32_t agent, Vec2 p_world);
+  /// Takes the grid cell at `p_world` for one agent; false when it is not free.
+  bool place(Vec2 p_world);
   /// Where a cell at `p_world` really stands: the centre of its grid cell with integer_positions.
   Vec2 snapped(Vec2 p_world) const;
   /// Reads who stands where from the state; call once before the first resolve() and after a restart.
   void occupy(const State& s);
   /// Moves every agent to its proposal or lets it stay; x and y columns are updated.
-  void resolve(State& s, std::vector<float>& to_x, std::vector<float>& to_y, Pool& pool);
+  void resolve(State& s, std::span<float> to_x, std::span<float> to_y, Pool& pool);
 
  private:
-  template <bool kShared>
-  void claim(State& s, const std::vector<float>& to_x, const std::vector<float>& to_y, std::size_t begin,
-             std::size_t end);
-  void settle(State& s, const std::vector<float>& to_x, const std::vector<float>& to_y, std::size_t begin,
-              std::size_t end);
-  void follow(State& s, const std::vector<float>& to_x, const std::vector<float>& to_y);
-  void published(State& s, const std::vector<float>& to_x, const std::vector<float>& to_y);
+  void published(State& s, std::span<const float> to_x, std::span<const float> to_y);
   std::int32_t last_free(std::int32_t from, std::int32_t to) const;
-  std::uint64_t priority(std::uint64_t step, std::int32_t cell, std::uint32_t agent) const;
 
   Params p_;
   Grid grid_;
   std::uint64_t seed_;
-  /// One word per grid cell: kFree, kTaken, or agent + 1 of the best claim so far.
-  std::vector<std::uint32_t> word_;
-  std::vector<std::int32_t> home_;    ///< grid cell of each agent
-  std::vector<std::int32_t> target_;  ///< grid cell claimed in this step, or kNone
+  TwoPhase two_phase_;
+  TwoPhase::Cells taken_;  ///< kFree or kTaken for every grid cell
 };
 
 }  // namespace faba

@@ -64,7 +64,7 @@ void World::place_all() {
         if (!candidate) continue;
         const Vec2 at = exclusion_.snapped(*candidate);
         if (parts_.arena->depth(at) < 0) continue;
-        if (exclusion_.active() && !exclusion_.place(id, at)) continue;
+        if (exclusion_.active() && !exclusion_.place(at)) continue;
         x[i] = float(at.x);
         y[i] = float(at.y);
         break;

@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/philox_row.h"
 #include "core/schema.h"
+#include "core/vectorised.h"
 #include "sim/agents/iterations.h"
-#include "sim/agents/vectorised.h"
 
 namespace faba {
 namespace {
@@ -44,22 +44,19 @@ struct Block {
   float *vx, *vy;
 };
 
-FABA_VECTORISED void redraw(const Block& b, std::size_t begin, std::size_t n, std::uint32_t iteration,
-                            std::uint32_t noise, float per_tesla, float earth, std::uint32_t k0,
-                            std::uint32_t k1) {
+FABA_VECTORISED void redraw(const Block& b, const PhiloxRow& row, std::size_t n, std::uint32_t noise,
+                            float per_tesla, float earth) {
   const float* __restrict bx = b.bx, * __restrict by = b.by, * __restrict response = b.response, * __restrict speed = b.speed;
   float* __restrict vx = b.vx, * __restrict vy = b.vy;
   const std::uint32_t count = 2 * noise + 1;
   for (std::size_t i = 0; i < n; ++i) {
-    std::uint32_t c0 = std::uint32_t(begin + i), c1 = iteration, c2 = std::uint32_t(Stream::motion), c3 = 0;
-    philox(c0, c1, c2, c3, k0, k1);
     // A cell that no longer responds does not feel the Earth's field either.
     const float r = response[i], m = r * per_tesla;
     const float ux = m * bx[i], uy = m * by[i] + earth * r * r;
     const float length = std::sqrt(ux * ux + uy * uy);
     const float s = length > 0.0f ? speed[i] / length : 0.0f;
-    vx[i] = float(std::int32_t(below(c0, count)) - std::int32_t(noise)) + s * ux;
-    vy[i] = float(std::int32_t(below(c1, count)) - std::int32_t(noise)) + s * uy;
+    vx[i] = float(std::int32_t(below(row.w0[i], count)) - std::int32_t(noise)) + s * ux;
+    vy[i] = float(std::int32_t(below(row.w1[i], count)) - std::int32_t(noise)) + s * uy;
   }
 }
 
@@ -111,14 +108,18 @@ void Adapted::start(State& s, std::size_t begin, std::size_t end, std::uint64_t 
 }
 
 void Adapted::step(State& s, const StepContext& c) const {
-  const std::size_t n = c.end - c.begin;
   auto& a = s.agents;
-  const Block b{c.bx.data(),          c.by.data(),       &a["response"][c.begin],
-                &a["speed"][c.begin], &a["vx"][c.begin], &a["vy"][c.begin]};
-  if (clock_.redraws(s.step))
-    redraw(b, c.begin, n, clock_.index(s.step),
-           std::uint32_t(p_.noise_amplitude.value_or(p_.max_speed) + 0.5), float(1 / scale_.field_unit),
-           float(p_.earth), std::uint32_t(c.seed), std::uint32_t(c.seed >> 32));
+  const auto noise = std::uint32_t(p_.noise_amplitude.value_or(p_.max_speed) + 0.5);
+  const auto per_tesla = float(1 / scale_.field_unit), earth = float(p_.earth);
+  if (clock_.redraws(s.step)) {
+    const float *response = &a["response"][c.begin], *speed = &a["speed"][c.begin];
+    float *vx = &a["vx"][c.begin], *vy = &a["vy"][c.begin];
+    for_rows(c.seed, Stream::motion, c.begin, c.end - c.begin, clock_.index(s.step),
+             [&](std::size_t i, std::size_t n, const PhiloxRow& row) {
+               redraw({&c.bx[i], &c.by[i], response + i, speed + i, vx + i, vy + i}, row, n, noise, per_tesla,
+                      earth);
+             });
+  }
   clock_.move(s, c, float(scale_.m_per_px) * c.vigour);
 }
 

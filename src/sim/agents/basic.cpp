@@ -1,7 +1,7 @@
-#include "core/philox.h"
+#include "core/philox_row.h"
 #include "core/schema.h"
+#include "core/vectorised.h"
 #include "sim/agents/iterations.h"
-#include "sim/agents/vectorised.h"
 
 namespace faba {
 namespace {
@@ -39,17 +39,15 @@ struct Block {
 };
 
 // Velocities in px per iteration.
-FABA_VECTORISED void redraw(const Block& b, std::size_t begin, std::size_t n, std::uint32_t iteration,
-                            std::uint32_t noise, float per_tesla, std::uint32_t k0, std::uint32_t k1) {
+FABA_VECTORISED void redraw(const Block& b, const PhiloxRow& row, std::size_t n, std::uint32_t noise,
+                            float per_tesla) {
   const float* __restrict bx = b.bx, * __restrict by = b.by, * __restrict response = b.response;
   float* __restrict vx = b.vx, * __restrict vy = b.vy;
   const std::uint32_t count = 2 * noise + 1;
   for (std::size_t i = 0; i < n; ++i) {
-    std::uint32_t c0 = std::uint32_t(begin + i), c1 = iteration, c2 = std::uint32_t(Stream::motion), c3 = 0;
-    philox(c0, c1, c2, c3, k0, k1);
     const float m = response[i] * per_tesla;
-    vx[i] = float(std::int32_t(below(c0, count)) - std::int32_t(noise)) + m * bx[i];
-    vy[i] = float(std::int32_t(below(c1, count)) - std::int32_t(noise)) + m * by[i];
+    vx[i] = float(std::int32_t(below(row.w0[i], count)) - std::int32_t(noise)) + m * bx[i];
+    vy[i] = float(std::int32_t(below(row.w1[i], count)) - std::int32_t(noise)) + m * by[i];
   }
 }
 
@@ -74,12 +72,17 @@ Schema<Basic::Params> Basic::schema() {
 Basic::Basic(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), clock_(c, p.hold) {}
 
 void Basic::step(State& s, const StepContext& c) const {
-  const std::size_t n = c.end - c.begin;
   auto& a = s.agents;
-  const Block b{c.bx.data(), c.by.data(), &a["response"][c.begin], &a["vx"][c.begin], &a["vy"][c.begin]};
-  if (clock_.redraws(s.step))
-    redraw(b, c.begin, n, clock_.index(s.step), std::uint32_t(p_.max_speed + 0.5),
-           float(1 / scale_.field_unit), std::uint32_t(c.seed), std::uint32_t(c.seed >> 32));
+  const auto noise = std::uint32_t(p_.max_speed + 0.5);
+  const auto per_tesla = float(1 / scale_.field_unit);
+  if (clock_.redraws(s.step)) {
+    const float* response = &a["response"][c.begin];
+    float *vx = &a["vx"][c.begin], *vy = &a["vy"][c.begin];
+    for_rows(c.seed, Stream::motion, c.begin, c.end - c.begin, clock_.index(s.step),
+             [&](std::size_t i, std::size_t n, const PhiloxRow& row) {
+               redraw({&c.bx[i], &c.by[i], response + i, vx + i, vy + i}, row, n, noise, per_tesla);
+             });
+  }
   clock_.move(s, c, float(scale_.m_per_px) * c.vigour);
 }
 

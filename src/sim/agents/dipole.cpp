@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/philox_row.h"
 #include "core/schema.h"
+#include "core/vectorised.h"
 #include "sim/agent_model.h"
-#include "sim/agents/vectorised.h"
 
 namespace faba {
 namespace {
@@ -69,23 +69,22 @@ struct Block {
 };
 struct Constants {
   float dt, spread_r /* 2 D_r dt */, sd_t /* sqrt(2 D_t dt) */, half_step /* vigour dt / 2 */;
-  std::uint32_t step, k0, k1;
 };
 
 // One Philox block feeds the three normals: words 0, 1 turn the heading, words 2, 3 move the cell.
-FABA_VECTORISED void swim(const Block& b, const Constants& c, std::size_t begin, std::size_t n) {
+FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& row, std::size_t n) {
   const float *bx = b.bx, *by = b.by, *response = b.response, *turning = b.turning, *speed = b.speed,
               *x = b.x, *y = b.y;
   float *ux = b.ux, *uy = b.uy, *to_x = b.to_x, *to_y = b.to_y;
   const Constants k = c;
 #pragma GCC ivdep  // to_x and to_y may be x and y, element by element
   for (std::size_t i = 0; i < n; ++i) {
-    std::uint32_t c0 = std::uint32_t(begin + i), c1 = k.step, c2 = std::uint32_t(Stream::motion), c3 = 0;
-    philox(c0, c1, c2, c3, k.k0, k.k1);
-    const float turn_noise = std::sqrt(-2.0f * portable::log(uniform(c0))) *
-                             portable::sincos(float(std::int32_t(c1) >> 8) * (portable::kPiF * 0x1p-23f)).cos;
-    const float move_radius = k.sd_t * std::sqrt(-2.0f * portable::log(uniform(c2)));
-    const auto move_angle = portable::sincos(float(std::int32_t(c3) >> 8) * (portable::kPiF * 0x1p-23f));
+    const float turn_noise =
+        std::sqrt(-2.0f * portable::log(uniform(row.w0[i]))) *
+        portable::sincos(float(std::int32_t(row.w1[i]) >> 8) * (portable::kPiF * 0x1p-23f)).cos;
+    const float move_radius = k.sd_t * std::sqrt(-2.0f * portable::log(uniform(row.w2[i])));
+    const auto move_angle =
+        portable::sincos(float(std::int32_t(row.w3[i]) >> 8) * (portable::kPiF * 0x1p-23f));
 
     // Direction h that the heading u is drawn to: along the field, or against it for south-seeking cells.
     const float b2 = bx[i] * bx[i] + by[i] * by[i];
@@ -266,17 +265,18 @@ void Dipole::step(State& s, const StepContext& c) const {
   auto& a = s.agents;
   const std::size_t n = c.end - c.begin;
   if (p_.reversal_rate > 0 || p_.tumble_rate > 0) reorient(s, c);
-  const Block b{c.bx.data(),          c.by.data(),      &a["response"][c.begin], &a["turning"][c.begin],
-                &a["speed"][c.begin], &a["x"][c.begin], &a["y"][c.begin],        &a["ux"][c.begin],
-                &a["uy"][c.begin],    &c.to_x[c.begin], &c.to_y[c.begin]};
-  const Constants k{float(c.dt),
-                    float(2 * d_r_ * c.dt),
-                    float(std::sqrt(2 * d_t_ * c.dt)),
-                    float(c.dt / 2) * c.vigour,
-                    std::uint32_t(s.step),
-                    std::uint32_t(c.seed),
-                    std::uint32_t(c.seed >> 32)};
-  swim(b, k, c.begin, n);
+  const Constants k{float(c.dt), float(2 * d_r_ * c.dt), float(std::sqrt(2 * d_t_ * c.dt)),
+                    float(c.dt / 2) * c.vigour};
+  const float *response = a["response"].data(), *turning = a["turning"].data(), *speed = a["speed"].data(),
+              *x = a["x"].data(), *y = a["y"].data();
+  float *ux = a["ux"].data(), *uy = a["uy"].data();
+  for_rows(c.seed, Stream::motion, c.begin, n, std::uint32_t(s.step),
+           [&](std::size_t i, std::size_t count, const PhiloxRow& row) {
+             const std::size_t j = c.begin + i;
+             swim({&c.bx[i], &c.by[i], response + j, turning + j, speed + j, x + j, y + j, ux + j, uy + j,
+                   &c.to_x[j], &c.to_y[j]},
+                  k, row, count);
+           });
 }
 
 // Reversals and tumbles are rare: a loop of its own keeps their branches out of the vectorised one.

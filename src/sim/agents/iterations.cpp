@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/agents/vectorised.h"
+#include "core/vectorised.h"
 
 namespace faba {
 namespace {

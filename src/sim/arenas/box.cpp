@@ -3,6 +3,7 @@
 
 #include "core/portable_math.h"
 #include "core/schema.h"
+#include "core/vectorised.h"
 #include "sim/arena.h"
 #include "sim/arenas/wall.h"
 
@@ -59,23 +60,47 @@ Box::Box(const Params& p, const ArenaContext& c)
       half_x_(float((p.size_px.x - 1) / 2 * c.scale.m_per_px)),
       half_y_(float((p.size_px.y - 1) / 2 * c.scale.m_per_px)) {}
 
+// Most agents touch no wall: a row of them is cleared by one vectorised look.
+FABA_VECTORISED bool all_inside(const float* x, const float* y, std::size_t n, float half_x, float half_y) {
+  std::uint32_t outside = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    outside |= std::uint32_t(std::fabs(x[i]) > half_x) | std::uint32_t(std::fabs(y[i]) > half_y);
+  return outside == 0;
+}
+
+FABA_VECTORISED void clamp(float* __restrict v, std::size_t n, float half) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float above = v[i] < -half ? -half : v[i];
+    v[i] = above > half ? half : above;
+  }
+}
+
 void Box::confine(State& s, const StepContext& c) const {
+  if (p_.limits == Limits::clamp && p_.wall_alignment == 0) {  // nothing to know about who is at a wall
+    clamp(&c.to_x[c.begin], c.end - c.begin, half_x_);
+    clamp(&c.to_y[c.begin], c.end - c.begin, half_y_);
+    return;
+  }
   const auto x = s.agents["x"], y = s.agents["y"];
   const WallAlignment wall(s, p_.wall_alignment, c.dt);
-  for (std::size_t i = c.begin; i < c.end; ++i) {
-    const float px = c.to_x[i], py = c.to_y[i];
-    if (std::fabs(px) <= half_x_ && std::fabs(py) <= half_y_) continue;
-    if (std::fabs(px) > half_x_) wall.touch(i, std::copysign(1.0f, px), 0.0f);
-    if (std::fabs(py) > half_y_) wall.touch(i, 0.0f, std::copysign(1.0f, py));
-    float qx = std::clamp(px, -half_x_, half_x_), qy = std::clamp(py, -half_y_, half_y_);
-    if (p_.limits == Limits::reflect) {  // a move longer than the box ends on its border
-      qx = std::clamp(2 * qx - px, -half_x_, half_x_);
-      qy = std::clamp(2 * qy - py, -half_y_, half_y_);
-    } else if (p_.limits == Limits::reject) {
-      qx = x[i], qy = y[i];
+  for (std::size_t row = c.begin; row < c.end; row += kArenaRow) {
+    const std::size_t end = std::min(row + kArenaRow, c.end);
+    if (all_inside(&c.to_x[row], &c.to_y[row], end - row, half_x_, half_y_)) continue;
+    for (std::size_t i = row; i < end; ++i) {
+      const float px = c.to_x[i], py = c.to_y[i];
+      if (std::fabs(px) <= half_x_ && std::fabs(py) <= half_y_) continue;
+      if (std::fabs(px) > half_x_) wall.touch(i, std::copysign(1.0f, px), 0.0f);
+      if (std::fabs(py) > half_y_) wall.touch(i, 0.0f, std::copysign(1.0f, py));
+      float qx = std::clamp(px, -half_x_, half_x_), qy = std::clamp(py, -half_y_, half_y_);
+      if (p_.limits == Limits::reflect) {  // a move longer than the box ends on its border
+        qx = std::clamp(2 * qx - px, -half_x_, half_x_);
+        qy = std::clamp(2 * qy - py, -half_y_, half_y_);
+      } else if (p_.limits == Limits::reject) {
+        qx = x[i], qy = y[i];
+      }
+      c.to_x[i] = qx;
+      c.to_y[i] = qy;
     }
-    c.to_x[i] = qx;
-    c.to_y[i] = qy;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/portable_math.h"
 #include "core/schema.h"
+#include "core/vectorised.h"
 #include "sim/arena.h"
 #include "sim/arenas/wall.h"
 
@@ -58,17 +59,28 @@ Schema<Drop::Params> Drop::schema() {
 Drop::Drop(const Params& p, const ArenaContext& c)
     : p_(p), m_per_px_(c.scale.m_per_px), radius_(float(p.radius_px * c.scale.m_per_px)) {}
 
+// Most agents touch no wall: a row of them is cleared by one vectorised look.
+FABA_VECTORISED bool all_inside(const float* x, const float* y, std::size_t n, float r2_max) {
+  std::uint32_t outside = 0;
+  for (std::size_t i = 0; i < n; ++i) outside |= std::uint32_t(x[i] * x[i] + y[i] * y[i] > r2_max);
+  return outside == 0;
+}
+
 void Drop::confine(State& s, const StepContext& c) const {
   const WallAlignment wall(s, p_.wall_alignment, c.dt);
   const float r2_max = radius_ * radius_;
   constexpr float kInside = 1.0f - 4e-7f;  // a few ulp, so that rounding cannot put a cell outside
-  for (std::size_t i = c.begin; i < c.end; ++i) {
-    const float x = c.to_x[i], y = c.to_y[i], r2 = x * x + y * y;
-    if (r2 <= r2_max) continue;
-    const float r = std::sqrt(r2), back = radius_ * kInside / r;
-    wall.touch(i, x / r, y / r);
-    c.to_x[i] = x * back;  // only the outward part of the move is lost: the cell slides
-    c.to_y[i] = y * back;
+  for (std::size_t row = c.begin; row < c.end; row += kArenaRow) {
+    const std::size_t end = std::min(row + kArenaRow, c.end);
+    if (all_inside(&c.to_x[row], &c.to_y[row], end - row, r2_max)) continue;
+    for (std::size_t i = row; i < end; ++i) {
+      const float x = c.to_x[i], y = c.to_y[i], r2 = x * x + y * y;
+      if (r2 <= r2_max) continue;
+      const float r = std::sqrt(r2), back = radius_ * kInside / r;
+      wall.touch(i, x / r, y / r);
+      c.to_x[i] = x * back;  // only the outward part of the move is lost: the cell slides
+      c.to_y[i] = y * back;
+    }
   }
 }
 

@@ -4,8 +4,8 @@
 namespace faba {
 namespace {
 
-/// Piled up at the wall, as a swarm is after swimming along `direction` for long (theory A14, A21): uniform across
-/// that direction, exponential in depth.
+/// Piled up at the wall, as a swarm is after swimming along `direction` for long (theory A14, A21): uniform
+/// across that direction, exponential in depth.
 class StartEdge final : public Start {
  public:
   struct Params {
@@ -25,8 +25,8 @@ class StartEdge final : public Start {
   }
 
  private:
-  // From the arena's centre to the middle of the view: there lies the part of the edge that a camera shows. Left
-  // when the view is centred.
+  // From the arena's centre to the middle of the view: there lies the part of the edge that a camera shows.
+  // Left when the view is centred.
   double towards_view() const {
     const Vec2 middle = frame_.world_from_image({(frame_.width - 1) / 2.0, (frame_.height - 1) / 2.0});
     constexpr double kCentred = 0.1;  // of the view's width
@@ -46,7 +46,8 @@ Schema<StartEdge::Params> StartEdge::schema() {
            {.unit = "rad",
             .min = -10,
             .max = 10,
-            .doc = "Direction towards that wall, world frame: \"0 deg\" right, \"90 deg\" up; when absent towards "
+            .doc = "Direction towards that wall, world frame: \"0 deg\" right, \"90 deg\" up; when absent "
+                   "towards "
                    "the part of the edge in view, or left"})
       .add("depth_px", &Params::depth_px,
            {.unit = "px", .min = 0, .max = 1e4, .doc = "Mean depth of the pile", .source = "assumed (A21)"})

@@ -11,7 +11,7 @@ class StartUniform final : public Start {
   StartUniform(const Params&, const StartContext& c) : grid_(c.arena->grid()) {}
   std::optional<Vec2> place(const std::array<double, 3>& u) const override {
     return Vec2{double(grid_.left) + u[0] * grid_.columns * double(grid_.cell),
-            double(grid_.low) + u[1] * grid_.rows * double(grid_.cell)};
+                double(grid_.low) + u[1] * grid_.rows * double(grid_.cell)};
   }
 
  private:

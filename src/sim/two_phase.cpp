@@ -1,0 +1,183 @@
+#include "sim/two_phase.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/vectorised.h"
+
+namespace faba {
+namespace {
+
+constexpr std::int32_t kGranted = -1;
+constexpr std::size_t kBlock = 8192;  // agents whose wishes are sorted together
+constexpr int kSweeps = 8;            // of follow()
+// A stripe, a byte per grid cell, stays in the first cache. Stripes are larger when there would be too many
+// for a block to sort its wishes into.
+constexpr unsigned kStripeShift = 15;
+constexpr std::size_t kMostStripes = 256;
+
+FABA_VECTORISED void find_cells(const Grid& g, const float* x, const float* y, std::size_t n,
+                                std::int32_t* __restrict cell) {
+  const Grid grid = g;
+  for (std::size_t i = 0; i < n; ++i) cell[i] = grid.index(x[i], y[i]);
+}
+
+}  // namespace
+
+// SplitMix64's finalizer (Steele, Lea and Flood 2014).
+std::uint64_t TwoPhase::priority(std::uint64_t key, std::int32_t cell, std::uint32_t agent) {
+  std::uint64_t z = key ^ (std::uint64_t(std::uint32_t(cell)) << 32 | agent);
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
+TwoPhase::TwoPhase(const Grid& grid) : grid_(grid) {
+  const std::size_t last = std::size_t(grid.columns) * std::size_t(grid.rows) - 1;
+  for (shift_ = kStripeShift; last >> shift_ >= kMostStripes;) ++shift_;
+  stripes_ = (last >> shift_) + 1;
+}
+
+void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::span<float> to_x,
+                       std::span<float> to_y, Cells& taken, std::uint64_t key, bool follows, Pool& pool) {
+  blocks_ = (x.size() + kBlock - 1) / kBlock;
+  wish_.resize(x.size());
+  left_.resize(x.size());
+  refused_.resize(x.size());
+  segment_.resize(blocks_ * stripes_);
+  const auto each = [&](std::size_t n, auto&& job) {
+    if (blocks_ > 1) return pool.run(n, job);
+    for (std::size_t i = 0; i < n; ++i) job(i);  // not worth waking anybody
+  };
+  each(blocks_, [&](std::size_t b) { sort(x, y, to_x, to_y, b); });
+  each(stripes_, [&](std::size_t k) { decide(k, taken, key); });
+  each(stripes_, [&](std::size_t k) {  // only now: what was taken was closed to every wish
+    for (std::size_t b = 0; b < blocks_; ++b) {
+      const Segment& s = segment(b, k);
+      for (std::uint32_t i = 0; i < s.granted; ++i) taken[std::size_t(left_[s.begin + i])] = kFree;
+    }
+  });
+  if (follows) follow(taken, key);
+  each(blocks_, [&](std::size_t b) {
+    for (std::size_t k = 0; k < stripes_; ++k) {
+      const Segment& s = segment(b, k);
+      for (std::uint32_t i = 0; i < s.refused; ++i) {
+        const Wish& w = wish_[refused_[s.begin + i]];
+        if (w.to == kGranted) continue;
+        to_x[w.agent] = x[w.agent];
+        to_y[w.agent] = y[w.agent];
+      }
+    }
+  });
+}
+
+// Agents that stay in their grid cell count as one more stripe, which nobody reads: a branch on who stays
+// would be mispredicted too often.
+void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
+                    std::span<const float> to_y, std::size_t block) {
+  const std::size_t first = block * kBlock, n = std::min(kBlock, x.size() - first);
+  std::array<std::int32_t, kBlock> from, to;
+  find_cells(grid_, &x[first], &y[first], n, from.data());
+  find_cells(grid_, &to_x[first], &to_y[first], n, to.data());
+  const auto stripe = [&from, &to, none = stripes_, shift = shift_](std::size_t i) {
+    return from[i] == to[i] ? none : std::size_t(to[i]) >> shift;
+  };
+  std::array<std::uint32_t, kMostStripes + 2> next{};  // counts, one entry late, then places
+  for (std::size_t i = 0; i < n; ++i) ++next[stripe(i) + 1];
+  next[0] = std::uint32_t(first);
+  for (std::size_t k = 0; k < stripes_; ++k) {
+    next[k + 1] += next[k];
+    segment(block, k) = {next[k], next[k + 1]};
+  }
+  Wish* const wish = wish_.data();
+  for (std::size_t i = 0; i < n; ++i) wish[next[stripe(i)]++] = {std::uint32_t(first + i), from[i], to[i]};
+}
+
+// Everybody is counted where they want to go; who is alone there goes, and few are left to be compared. Loops
+// over all wishes have no branches, which would be mispredicted too often.
+void TwoPhase::decide(std::size_t stripe, Cells& taken, std::uint64_t key) {
+  const auto first = std::int32_t(stripe << shift_);
+  std::uint8_t* const cell = taken.data() + first;
+  const Wish* const wish = wish_.data();
+  std::size_t wishes = 0;
+  for (std::size_t b = 0; b < blocks_; ++b) {
+    const Segment s = segment(b, stripe);
+    wishes += s.end - s.begin;
+    for (std::uint32_t i = s.begin; i < s.end; ++i) {
+      std::uint8_t& wanted = cell[wish[i].to - first];  // kFree, once, more than once, or kTaken
+      wanted = std::uint8_t(wanted + (wanted < 2));
+    }
+  }
+  static thread_local std::vector<std::uint32_t> contested, best;
+  if (contested.size() < wishes) contested.resize(wishes);
+  if (best.size() >> shift_ == 0) best.resize(std::size_t{1} << shift_);
+  std::uint32_t* const contest = contested.data();
+  std::size_t contests = 0;
+  for (std::size_t b = 0; b < blocks_; ++b) {
+    Segment& s = segment(b, stripe);
+    std::int32_t* const left = &left_[s.begin];
+    std::uint32_t* const others = &refused_[s.begin];
+    std::uint32_t granted = 0;
+    for (std::uint32_t i = s.begin, end = s.end, k = 0; i < end;
+         ++i, ++k) {  // both lists get every wish, one keeps it
+      std::uint8_t& wanted = cell[wish[i].to - first];
+      const bool alone = wanted == 1;
+      left[granted] = wish[i].from;
+      others[k - granted] = i;
+      granted += alone;
+      wanted = std::uint8_t(wanted | (0u - unsigned(alone)));  // 1 becomes kTaken
+    }
+    std::uint32_t refused = 0;
+    for (std::uint32_t k = 0; k < s.end - s.begin - granted; ++k) {
+      const std::uint32_t i = others[k];
+      const bool closed = cell[wish[i].to - first] == kTaken;
+      others[refused] = i;
+      contest[contests] = i;
+      refused += closed;
+      contests += !closed;
+    }
+    s.granted = granted;
+    s.refused = refused;
+  }
+  const auto best_for = [&](std::uint32_t i) -> std::uint32_t& {
+    return best[std::size_t(wish[i].to - first)];
+  };
+  const auto rank = [&](std::uint32_t i) { return priority(key, wish[i].to, wish[i].agent); };
+  for (const std::uint32_t i : std::span(contest, contests)) best_for(i) = i;
+  for (const std::uint32_t i : std::span(contest, contests))
+    if (rank(i) < rank(best_for(i))) best_for(i) = i;
+  for (const std::uint32_t i : std::span(contest, contests)) {
+    Segment& s = segment(wish[i].agent / kBlock, stripe);
+    cell[wish[i].to - first] = kTaken;
+    if (best_for(i) == i)
+      left_[s.begin + s.granted++] = wish[i].from;
+    else
+      refused_[s.begin + s.refused++] = i;
+  }
+}
+
+// Sweep by sweep, each again all at once. Two that want to swap places block each other for good. One thread:
+// the pile-ups where it matters are thin.
+void TwoPhase::follow(Cells& taken, std::uint64_t key) {
+  std::vector<Wish*> waiting, winners;
+  for (const Segment& s : segment_)
+    for (std::uint32_t i = 0; i < s.refused; ++i) waiting.push_back(&wish_[refused_[s.begin + i]]);
+  std::sort(waiting.begin(), waiting.end(), [key](const Wish* a, const Wish* b) {
+    return a->to != b->to ? a->to < b->to : priority(key, a->to, a->agent) < priority(key, b->to, b->agent);
+  });
+  for (int sweep = 1; sweep < kSweeps; ++sweep) {
+    winners.clear();
+    for (std::size_t i = 0; i < waiting.size(); ++i)
+      if ((i == 0 || waiting[i - 1]->to != waiting[i]->to) && taken[std::size_t(waiting[i]->to)] == kFree)
+        winners.push_back(waiting[i]);
+    if (winners.empty()) break;
+    for (const Wish* w : winners) taken[std::size_t(w->to)] = kTaken;
+    for (Wish* w : winners) {
+      taken[std::size_t(w->from)] = kFree;
+      w->to = kGranted;
+    }
+    std::erase_if(waiting, [](const Wish* w) { return w->to == kGranted; });
+  }
+}
+
+}  // namespace faba

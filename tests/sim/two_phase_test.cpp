@@ -1,0 +1,89 @@
+#include "sim/two_phase.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/philox.h"
+
+using namespace faba;
+
+namespace {
+
+struct Crowd {
+  std::vector<float> x, y, to_x, to_y;
+  TwoPhase::Cells taken;
+};
+
+// One cell each on random grid cells, all wanting to go up to `reach` away.
+Crowd crowd(const Grid& g, std::size_t agents, float reach, std::uint64_t seed) {
+  Crowd c;
+  c.taken.assign(std::size_t(g.columns) * std::size_t(g.rows), kFree);
+  const auto at = [&](std::uint32_t i, std::uint32_t attempt) {
+    const auto w = draw(seed, Stream::start, i, attempt);
+    return std::pair{uniform(w[0]) * float(g.columns), uniform(w[1]) * float(g.rows)};
+  };
+  for (std::uint32_t i = 0; c.x.size() < agents; ++i) {
+    const auto [x, y] = at(i, 0);
+    if (std::exchange(c.taken[std::size_t(g.index(x, y))], kTaken) == kTaken) continue;
+    const auto w = draw(seed, Stream::motion, i, 0);
+    c.x.push_back(x), c.y.push_back(y);
+    c.to_x.push_back(x + reach * (2 * uniform(w[0]) - 1));
+    c.to_y.push_back(y + reach * (2 * uniform(w[1]) - 1));
+  }
+  return c;
+}
+
+// The rule of D4 word for word: everybody looks at the grid as it was, the best of each grid cell goes.
+void by_the_book(const Grid& g, Crowd& c, std::uint64_t key, bool follow) {
+  const std::size_t n = c.x.size();
+  std::vector<bool> settled(n, false);
+  for (int sweep = 0; sweep < (follow ? 8 : 1); ++sweep) {
+    std::map<std::int32_t, std::uint32_t> best;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const auto from = g.index(c.x[i], c.y[i]), to = g.index(c.to_x[i], c.to_y[i]);
+      if (settled[i] || from == to || c.taken[std::size_t(to)] == kTaken) continue;
+      const auto [it, first] = best.try_emplace(to, i);
+      if (!first && TwoPhase::priority(key, to, i) < TwoPhase::priority(key, to, it->second)) it->second = i;
+    }
+    for (const auto& [to, i] : best) c.taken[std::size_t(to)] = kTaken;
+    for (const auto& [to, i] : best) {
+      c.taken[std::size_t(g.index(c.x[i], c.y[i]))] = kFree;
+      settled[i] = true;
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (!settled[i] && g.index(c.x[i], c.y[i]) != g.index(c.to_x[i], c.to_y[i]))
+      c.to_x[i] = c.x[i], c.to_y[i] = c.y[i];
+}
+
+}  // namespace
+
+TEST_CASE("who goes and who stays is D4's rule word for word, on one stripe of the grid and on many") {
+  struct Case {
+    Grid grid;
+    std::size_t agents;
+    float reach;
+  };
+  const std::vector<Case> cases{{{40, 30, 1, 0, 0}, 900, 1.5f},      // crowded
+                                {{40, 30, 1, 0, 0}, 100, 50.0f},     // far moves, many of them to the border
+                                {{700, 500, 1, 0, 0}, 60000, 2.0f},  // many stripes, many blocks
+                                {{1, 1, 1, 0, 0}, 1, 3.0f}};
+  for (const Case& k : cases)
+    for (const bool follow : {false, true})
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        Crowd expected = crowd(k.grid, k.agents, k.reach, seed);
+        const Crowd begin = expected;
+        by_the_book(k.grid, expected, seed, follow);
+        for (const unsigned threads : {1u, 3u}) {
+          INFO("grid ", k.grid.columns, " follow ", follow, " seed ", seed, " threads ", threads);
+          Crowd c = begin;
+          Pool pool(threads);
+          TwoPhase(k.grid).resolve(c.x, c.y, c.to_x, c.to_y, c.taken, seed, follow, pool);
+          CHECK(c.to_x == expected.to_x);
+          CHECK(c.to_y == expected.to_y);
+          CHECK(c.taken == expected.taken);
+        }
+      }
+}
