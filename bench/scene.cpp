@@ -40,6 +40,7 @@ Swarm::Swarm(const Scene& scene, Pool& pool) : scene_(scene) {
   const Scenario s = read_scenario(parse_toml(toml(scene), "bench"), builtin_parts());
   const double before = heap();
   simulation_ = std::make_unique<Simulation>(s, 1, pool);
+  advance(kCycle);  // brings what is made on the first step
   bytes_ = heap() - before;
   const Grid g = world().parts().arena->grid();
   if (scene.exclusive()) bytes_ -= double(g.columns) * g.rows;  // a byte each

@@ -8,6 +8,11 @@
 #include "core/philox.h"
 
 namespace faba {
+namespace {
+
+constexpr std::size_t kCopyBlock = 8192;
+
+}  // namespace
 
 Schema<Exclusion::Params> Exclusion::schema() {
   return Schema<Params>("exclusion", "At most one cell per grid cell (one pixel)")
@@ -104,8 +109,10 @@ void Exclusion::resolve(State& s, std::span<float> to_x, std::span<float> to_y, 
   const auto key = draw(seed_, Stream::exclusion, 0, std::uint32_t(s.step));
   const auto x = s.agents["x"], y = s.agents["y"];
   two_phase_.resolve(x, y, to_x, to_y, taken_, std::uint64_t{key[0]} << 32 | key[1], p_.follow, pool);
-  std::copy(to_x.begin(), to_x.end(), x.begin());
-  std::copy(to_y.begin(), to_y.end(), y.begin());
+  pool.for_blocks(x.size(), kCopyBlock, [&](std::size_t begin, std::size_t end) {
+    std::copy(&to_x[begin], &to_x[begin] + (end - begin), &x[begin]);
+    std::copy(&to_y[begin], &to_y[begin] + (end - begin), &y[begin]);
+  });
 }
 
 }  // namespace faba
