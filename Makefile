@@ -46,7 +46,8 @@ fuzz: setup           ## fuzz the scenario loader for a minute (SECONDS_TO_FUZZ=
 	@tests/fuzz/run.sh $(or $(SECONDS_TO_FUZZ),60)
 
 docs: build           ## regenerate docs/reference from the parts' own descriptions, and the README's picture
-	@/usr/bin/python3 tools/make_docs.py
+	@$(SETUP) docs
+	@/usr/bin/python3 tools/make_docs.py --picture
 
 clean:                ## remove the build; runs/ stays
 	@rm -rf build

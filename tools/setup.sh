@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what building Faba needs on Debian 12 and says what it does. With a word (test, bench, lint, fuzz) also what
+# Installs what building Faba needs on Debian 12 and says what it does. With a word (test, bench, lint, ...) also what
 # that needs. Does nothing, in a few milliseconds, when all is there.
 set -euo pipefail
 
@@ -11,6 +11,7 @@ for what in "$@"; do
     test) packages+=(doctest-dev python3 python3-numpy python3-h5py) ;;
     bench) packages+=(python3 python3-numpy octave) ;;
     lint) packages+=(clang-format clang-tidy) ;;
+    docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
     *) echo "setup.sh: nothing is known of \"$what\"" >&2; exit 2 ;;
   esac

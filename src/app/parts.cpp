@@ -18,6 +18,7 @@ namespace faba {
   X(motility, motility_thesis) \
   X(estimator, mean)           \
   X(estimator, visible)        \
+  X(reference, none)           \
   X(reference, hold)           \
   X(reference, route)          \
   X(controller, manual)        \

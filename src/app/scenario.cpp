@@ -191,8 +191,9 @@ Scenario read_scenario(const Document& d, const Parts& parts) {
   s.field = part(root, "field", parts.field, "uniform");
   s.motility = part(root, "motility", parts.motility, "none");
   s.estimator = part(root, "estimator", parts.estimator, "mean");
-  s.reference = part(root, "reference", parts.reference, "hold");
   s.controller = part(root, "controller", parts.controller, "fuzzy");
+  const bool steers = s.controller.type != "manual";
+  s.reference = part(root, "reference", parts.reference, steers ? "hold" : "none");
   read_swarms(root, parts, s);
 
   if (s.params.duration * s.camera.rate > 1e8)
@@ -200,6 +201,10 @@ Scenario read_scenario(const Document& d, const Parts& parts) {
   if (s.arena.resolved.value("limits", "") == "reject" && s.exclusion.order == Exclusion::Order::none)
     throw Error(Errc::usage, root.where("arena"),
                 "limits = \"reject\" needs exclusion; use \"clamp\" or \"reflect\"");
+  if (steers && s.reference.type == "none")
+    throw Error(
+        Errc::usage, root.where("reference"),
+        fmt::format("controller {} has nowhere to steer to; use \"hold\" or \"route\"", s.controller.type));
   if (s.params.exposure > 0 && s.motility.type == "none")
     s.warnings.push_back(
         "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");

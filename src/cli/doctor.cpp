@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -10,11 +12,20 @@
 namespace faba::cli {
 namespace {
 
-std::string line_of(const char* file, const char* key) {
+// "key : value" of a file in /proc; empty when it is not there.
+std::string value_of(const char* file, const char* key) {
   std::ifstream in(file);
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(key)) return line.substr(line.find(':') + 1);
-  return "unknown";
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const auto begin = line.find_first_not_of(" \t", line.find(':') + 1);
+    return begin == std::string::npos ? std::string() : line.substr(begin);
+  }
+  return {};
+}
+
+Json free_memory_gb() {
+  const std::string kib = value_of("/proc/meminfo", "MemAvailable");
+  return kib.empty() ? Json() : Json(std::round(std::strtod(kib.c_str(), nullptr) * 1.024e-3) / 1e3);
 }
 
 const char* vector_unit() {
@@ -29,17 +40,17 @@ int doctor(const Common& c) {
   std::error_code ec;
   const auto space = std::filesystem::space(".", ec);
   const Json j = {{"version", FABA_VERSION},
-                  {"processor", line_of("/proc/cpuinfo", "model name")},
+                  {"processor", value_of("/proc/cpuinfo", "model name")},
                   {"threads", std::thread::hardware_concurrency()},
                   {"vector_unit", vector_unit()},
-                  {"memory", line_of("/proc/meminfo", "MemAvailable")},
+                  {"memory_free_gb", free_memory_gb()},
                   {"disk_free_gb", ec ? Json() : Json(double(space.available / 1000000) / 1000)}};
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
   }
   for (const auto& [k, v] : j.items())
-    fmt::print("{:<14}{}\n", k, v.is_string() ? v.get<std::string>() : v.dump());
+    fmt::print("{:<16}{}\n", k, v.is_string() ? v.get<std::string>() : v.dump());
   return 0;
 }
 

@@ -1,24 +1,26 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <new>
 
 #include "cli/verbs.h"
-#include "core/error.h"
+#include "core/schema.h"
 
 namespace faba::cli {
 namespace {
 
 std::atomic<bool> stop{false};
+std::string called_as = "faba";
 
 void complain(const std::string& text) { fmt::print(stderr, "faba: error: {}\n", text); }
 
 CLI::App* verb(CLI::App& app, Common& common, const char* name, const char* does, const char* examples) {
   CLI::App* v = app.add_subcommand(name, does);
   v->add_flag("--json", common.json, "One JSON object on standard output and nothing else there");
-  v->add_flag("--quiet", common.quiet, "No progress bar and no summary");
+  v->add_flag("-q,--quiet", common.quiet, "No progress bar and no summary");
   v->footer(fmt::format(
       "Examples:\n{}\n\nExit codes: 0 done, 2 usage or scenario error, 3 unreadable or unsuitable input, "
       "130 interrupted, 1 anything else",
@@ -26,7 +28,16 @@ CLI::App* verb(CLI::App& app, Common& common, const char* name, const char* does
   return v;
 }
 
+// CLI11 would say that a verb is missing.
+void check_verb(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  for (const CLI::App* v : app.get_subcommands({})) known.push_back(v->get_name());
+  if (std::find(known.begin(), known.end(), word) == known.end())
+    throw Error(Errc::usage, word, "is no verb" + suggestion(word, known));
+}
+
 int dispatch(int argc, char** argv) {
+  if (argc > 0) called_as = argv[0];
   CLI::App app{
       "Faba, a laboratory for magnetotactic bacteria: simulate a swarm under coils, steer it, record it"};
   app.set_version_flag("--version", "faba " FABA_VERSION);
@@ -49,7 +60,7 @@ int dispatch(int argc, char** argv) {
   v->add_option("--threads", run_options.threads,
                 "Threads; all of the machine's when absent. Never changes the result")
       ->check(CLI::Range(1, 1024));
-  v->add_option("--out", run_options.out, "Run directory; runs/SCENE-SEED when absent");
+  v->add_option("-o,--out", run_options.out, "Run directory; runs/SCENE-SEED when absent");
   v->add_option("--duration", run_options.duration, "Simulated time, such as \"10 s\"");
   v->add_option("--from-video", run_options.from_video, "Take the drop's edge from this picture or video");
   v->add_flag("--force", run_options.force, "Replace an earlier run in the directory");
@@ -90,6 +101,7 @@ int dispatch(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (argc > 1 && argv[1][0] != '-') check_verb(app, argv[1]);
     const std::string help =
         argc > 1 && argv[1][0] != '-' ? fmt::format("faba {} --help", argv[1]) : "faba --help";
     throw Error(Errc::usage, "", fmt::format("{} (see {})", e.what(), help));
@@ -100,6 +112,7 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 const std::atomic<bool>& stop_requested() { return stop; }
+const std::string& program() { return called_as; }
 
 void catch_signals() {
   const auto on_signal = [](int) {

@@ -46,9 +46,11 @@ void summary(const Session& session, const Metrics& metrics, const std::string& 
   const auto px = [](const std::optional<double>& v) {
     return v ? fmt::format("{:.1f} px", *v) : std::string("-");
   };
-  fmt::print("settling time {}, steady error {} rms, dispersion {} x {}\n",
-             metrics.settling_time_s ? fmt::format("{:.2f} s", *metrics.settling_time_s) : "never",
-             px(metrics.steady_rms_px), px(metrics.sigma_x_px), px(metrics.sigma_y_px));
+  if (metrics.setpoints > 0)
+    fmt::print("settling time {}, steady error {} rms, ",
+               metrics.settling_time_s ? fmt::format("{:.2f} s", *metrics.settling_time_s) : "never",
+               px(metrics.steady_rms_px));
+  fmt::print("dispersion {} x {}\n", px(metrics.sigma_x_px), px(metrics.sigma_y_px));
   const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
                                                        {"exact", "video.avi"},
                                                        {"tracks", "tracks.h5"},
@@ -65,8 +67,8 @@ int carry_out(Session& session, const Common& c, const std::string& next) {
   const bool whole = session.run();
   if (!whole) {
     if (!c.quiet)
-      fmt::print(stderr, "faba: interrupted; what was recorded is kept. Go on with: faba resume {}\n",
-                 session.dir().string());
+      fmt::print(stderr, "faba: interrupted; what was recorded is kept. Go on with: {} resume {}\n",
+                 program(), session.dir().string());
     return int(Errc::interrupted);
   }
   write_run_report(session.dir());
@@ -75,7 +77,8 @@ int carry_out(Session& session, const Common& c, const std::string& next) {
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
     for (const auto& source : {session.manifest(), metrics_json(metrics)})
-      for (const auto& [k, v] : source.items()) j[k] = v;
+      for (const auto& [k, v] : source.items())
+        if (!j.contains(k)) j[k] = v;  // what both name is what the manifest says
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
     summary(session, metrics, next);
@@ -103,8 +106,9 @@ int run(const RunVerb& v, const Common& c) {
   Session session = Session::begin(s, seed, o);
   if (!s.params.seed && !c.quiet && !c.json)
     fmt::print("seed {} (drawn; --seed {} repeats this run)\n", seed, seed);
-  const std::string again = fmt::format("faba run {} --seed {}", v.scene, seed);
-  return carry_out(session, c, again + " --set controller.type=proportional");
+  const char* other = s.controller.type == "fuzzy" ? "proportional" : "fuzzy";
+  return carry_out(session, c,
+                   fmt::format("{} run {} --seed {} --set controller={}", program(), v.scene, seed, other));
 }
 
 int resume(const ResumeVerb& v, const Common& c) {

@@ -34,6 +34,9 @@ struct PartsVerb {
   std::string kind, name;
 };
 
+/// The program as it was called, for commands that a user is told to type.
+const std::string& program();
+
 // Each returns the exit code; errors are thrown.
 int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);

@@ -46,7 +46,7 @@ struct Estimate {
 
 /// Where the swarm should be. World frame, m.
 struct Target {
-  Vec2 position;
+  Vec2 position;          ///< not a number: nowhere in particular
   std::size_t index = 0;  ///< of the setpoint on a route
   bool finished = false;  ///< the route has been walked to its end
 };

@@ -7,6 +7,7 @@ extern "C" {
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -60,6 +61,17 @@ bool is_jpeg_cut_short(const std::filesystem::path& path) {
   return scan == std::string::npos || bytes.find("\xFF\xD9", scan) == std::string::npos;
 }
 
+// FFmpeg reads PGM and PPM with any white space in the header, but recognizes only one field a line.
+const AVInputFormat* portable_map(AVIOContext& io) {
+  unsigned char magic[3] = {};
+  const int read = avio_read(&io, magic, 3);
+  avio_seek(&io, 0, SEEK_SET);
+  if (read < 3 || magic[0] != 'P' || std::isspace(magic[2]) == 0) return nullptr;
+  return magic[1] == '5'   ? av_find_input_format("pgm_pipe")
+         : magic[1] == '6' ? av_find_input_format("ppm_pipe")
+                           : nullptr;
+}
+
 }  // namespace
 
 struct AvStream::Impl {
@@ -104,11 +116,12 @@ void AvStream::Impl::open() {
   if (result < 0) refuse("cannot be opened: " + libav::reason(result));
   io.reset(raw_io);
 
+  const AVInputFormat* kind_by_magic = portable_map(*io);
   AVFormatContext* raw = avformat_alloc_context();
   raw->pb = io.get();
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "protocol_whitelist", "none", 0);     // play lists may not open anything
-  result = avformat_open_input(&raw, "", nullptr, &options);  // frees `raw` itself on failure
+  av_dict_set(&options, "protocol_whitelist", "none", 0);           // play lists may not open anything
+  result = avformat_open_input(&raw, "", kind_by_magic, &options);  // frees `raw` itself on failure
   av_dict_free(&options);
   if (result < 0)
     refuse("is no picture or video that can be read, or was cut short: " + libav::reason(result));

@@ -178,6 +178,15 @@ TEST_CASE("what is no picture is refused with its name and a reason") {
   refusal(folder / "list.m3u8");
 }
 
+TEST_CASE("a PGM may have its whole header on one line, or a field and a comment on each") {
+  const media::ScratchFolder folder;
+  for (const char* header : {"P5 37 23 65535\n", "P5\n# a comment\n37\n23\n65535\n"}) {
+    media::write_bytes(folder / "p.pgm", header + grey_rows(2));
+    CHECK(wrong_pixels(read_picture(folder / "p.pgm").grey,
+                       [](int col, int row) { return value_at(col, row, 65536); }) == 0);
+  }
+}
+
 TEST_CASE("a PNG or PGM cut anywhere is refused, not filled up") {
   const media::ScratchFolder folder;
   const std::string png = media::png_file(kWidth, kHeight, 16, false, grey_rows(2));

@@ -37,11 +37,10 @@ class Series final : public RunSink {
     std::string line = fmt::format("{},{:.9g}", t.index, double(t.index) / c_.frame_rate);
     for (const double v :
          {at.x, at.y, sigma_x, sigma_y, std::sqrt(sigma_x * sigma_x + sigma_y * sigma_y), norm(at - to)})
-      line += fmt::format(",{:.9g}", v);
+      line += cell(v);
     line += fmt::format(",{:.0f},{}", visible, c_.world->responding());
-    for (const double v : {believed.x, believed.y, to.x, to.y, b.x * 1e6, b.y * 1e6})
-      line += fmt::format(",{:.9g}", v);
-    for (const double i : t.command.current) line += fmt::format(",{:.9g}", i);
+    for (const double v : {believed.x, believed.y, to.x, to.y, b.x * 1e6, b.y * 1e6}) line += cell(v);
+    for (const double i : t.command.current) line += cell(i);
     file_.write(line + fmt::format(",{:d}\n", t.limited));
   }
 
@@ -52,6 +51,8 @@ class Series final : public RunSink {
   void finish(bool) override { file_.close(); }
 
  private:
+  /// Empty for what is no number, such as the distance to no setpoint.
+  static std::string cell(double v) { return std::isfinite(v) ? fmt::format(",{:.9g}", v) : ","; }
   std::string header() const {
     std::string h =
         "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px,visible_count,"

@@ -58,7 +58,7 @@ class Video final : public RunSink {
     scene.cells = cells_;
     scene.edge_centre = edge.centre_image, scene.edge_radius_px = edge.radius_px;
     scene.centroid = c_.frame.image_from_world(mean);
-    scene.setpoint = c_.frame.image_from_world(t.target.position);
+    if (std::isfinite(t.target.position.x)) scene.setpoint = c_.frame.image_from_world(t.target.position);
     scene.route = route_;
     scene.field_ut = {b.x * 1e6, b.y * 1e6};
     if (ground_.empty()) ground_ = draw_ground(scene);

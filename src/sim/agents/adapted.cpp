@@ -14,8 +14,8 @@ namespace {
 /// integers
 /// {-a, ..., a} per axis, drawn anew every `hold` iterations. The field sets the direction only.
 /// Known to fail: the noise is as large as the speed unless noise_amplitude says less; the drift n/2 does not
-/// depend on the field's magnitude; the speed spread (CV 0.58) alone spreads a swarm by 0.58 of the way it
-/// goes.
+/// depend on the field's magnitude; the spread of innate speeds alone, 0.64 of their mean for n = 9, spreads
+/// a swarm by 0.64 of the way it goes (0.58 with continuous_speed).
 class Adapted final : public AgentModel {
  public:
   struct Params {

@@ -1,0 +1,27 @@
+#include <limits>
+
+#include "control/controller.h"
+
+namespace faba {
+namespace {
+
+/// No setpoint: the swarm is watched, not steered, and nothing is said about a distance.
+class ReferenceNone final : public Reference {
+ public:
+  struct Params {};
+  static Schema<Params> schema() {
+    return Schema<Params>("none", "No setpoint; the default of the manual controller, which follows none");
+  }
+  ReferenceNone(const Params&, const ControlContext&) {}
+  Target update(const Estimate&) override {
+    constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+    return {{kNowhere, kNowhere}, 0, false};
+  }
+  std::vector<Vec2> setpoints() const override { return {}; }
+};
+
+}  // namespace
+
+void add_none(ReferenceRegistry& r) { r.add<ReferenceNone>(); }
+
+}  // namespace faba
