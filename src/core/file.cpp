@@ -1,61 +1,56 @@
 #include "core/file.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "core/error.h"
 
 namespace faba {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, const char* doing) {
-  throw Error(Errc::internal, file.string(), fmt::format("cannot {}: {}", doing, std::strerror(errno)));
-}
-
-void write_all(int fd, std::string_view bytes, const std::filesystem::path& file) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(file, "write");
-    bytes.remove_prefix(std::size_t(n));
+std::string advice(int error_number) {
+  const std::string reason = std::generic_category().message(error_number);
+  if (error_number == ENOSPC || error_number == EDQUOT)
+    return reason + "; free some space or write elsewhere";
+  if (error_number == EACCES || error_number == EROFS || error_number == EPERM) {
+    return reason + "; choose a place that may be written";
   }
+  if (error_number == ENOENT) return reason + "; does the folder exist?";
+  return reason;
 }
 
-void sync_directory(const std::filesystem::path& dir) {
-  const int fd = ::open(dir.empty() ? "." : dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd < 0) return;  // some file systems do not allow it; the rename itself has been done
-  ::fsync(fd);
-  ::close(fd);
+// Devices and some network file systems have nothing to flush and say so.
+bool cannot_flush(int error_number) { return error_number == EINVAL || error_number == ENOTSUP; }
+
+void flush_path(const std::filesystem::path& path, int flags, const std::filesystem::path& blame) {
+  const int descriptor = ::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw Error(Errc::internal, blame.string(), "cannot be flushed: " + advice(errno));
+  const int failure = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (failure != 0 && !cannot_flush(failure)) {
+    throw Error(Errc::internal, blame.string(), "cannot be flushed: " + advice(failure));
+  }
 }
 
 }  // namespace
 
 void write_file(const std::filesystem::path& file, std::string_view content) {
   const std::filesystem::path temporary = file.string() + ".tmp";
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) fail(file, "create");
   try {
-    write_all(fd, content, file);
-    if (::fsync(fd) != 0) fail(file, "write");
+    OutputFile out(temporary, 0, file);
+    out.append(content);
+    out.close();
+    rename_complete(temporary, file);
   } catch (...) {
-    ::close(fd);
-    ::unlink(temporary.c_str());
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
     throw;
   }
-  ::close(fd);
-  if (::rename(temporary.c_str(), file.c_str()) != 0) {
-    const int reason = errno;
-    ::unlink(temporary.c_str());
-    errno = reason;
-    fail(file, "create");
-  }
-  sync_directory(file.parent_path());
 }
 
 std::string read_file(const std::filesystem::path& file) {
@@ -70,55 +65,75 @@ std::string read_file(const std::filesystem::path& file) {
   return std::move(out).str();
 }
 
-AppendFile::AppendFile(std::filesystem::path file, std::uint64_t keep_bytes) : path_(std::move(file)) {
-  fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-  if (fd_ < 0) fail(path_, "create");
-  const off_t end = ::lseek(fd_, 0, SEEK_END);
-  if (end < 0 || std::uint64_t(end) < keep_bytes) {
-    ::close(fd_);
-    throw Error(Errc::input, path_.string(),
-                fmt::format("is shorter than the {} bytes its checkpoint names", keep_bytes));
-  }
-  // A device cannot be cut, nor need it be.
-  if ((std::uint64_t(end) != keep_bytes && ::ftruncate(fd_, off_t(keep_bytes)) != 0) ||
-      ::lseek(fd_, off_t(keep_bytes), SEEK_SET) < 0) {
-    ::close(fd_);
-    fail(path_, "cut back");
-  }
-  length_ = keep_bytes;
-}
-
-AppendFile::~AppendFile() {
-  if (fd_ < 0) return;
+OutputFile::OutputFile(const std::filesystem::path& path, std::uint64_t keep_bytes,
+                       const std::filesystem::path& shown)
+    : path_(path), shown_(shown.empty() ? path : shown), size_(keep_bytes) {
+  const int flags = keep_bytes == 0 ? O_WRONLY | O_CREAT | O_TRUNC : O_WRONLY;
+  descriptor_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("cannot be written", errno);
+  if (keep_bytes == 0) return;
   try {
-    flush();
-  } catch (const Error&) {  // the error was, or will be, reported by sync() or close(); a destructor cannot
+    const off_t end = ::lseek(descriptor_, 0, SEEK_END);
+    if (end < 0) fail("cannot be continued", errno);
+    if (static_cast<std::uint64_t>(end) < keep_bytes) {
+      throw Error(Errc::internal, shown_.string(),
+                  "is shorter (" + std::to_string(end) + " bytes) than what was safe (" +
+                      std::to_string(keep_bytes) + " bytes), so it cannot be continued; start it anew");
+    }
+    if (::ftruncate(descriptor_, static_cast<off_t>(keep_bytes)) != 0) fail("cannot be cut", errno);
+    if (::lseek(descriptor_, 0, SEEK_END) < 0) fail("cannot be continued", errno);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
   }
-  ::close(fd_);
 }
 
-void AppendFile::flush() {
-  write_all(fd_, buffer_, path_);
-  buffer_.clear();
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void AppendFile::write(std::string_view bytes) {
-  buffer_ += bytes;
-  length_ += bytes.size();
-  if (buffer_.size() > 1u << 16) flush();
+void OutputFile::fail(const char* what_failed, int error_number) const {
+  throw Error(Errc::internal, shown_.string(), std::string(what_failed) + ": " + advice(error_number));
 }
 
-std::uint64_t AppendFile::sync() {
-  flush();
-  if (::fsync(fd_) != 0 && errno != EINVAL) fail(path_, "write");  // EINVAL: a device such as /dev/full
-  return length_;
+void OutputFile::append(std::span<const std::uint8_t> piece) {
+  for (auto rest = piece; !rest.empty();) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written >= 0) {
+      rest = rest.subspan(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      const int failure = errno;
+      const auto whole = static_cast<off_t>(size_);
+      // A device such as /dev/full cannot be cut back, nor does it keep anything.
+      if (::ftruncate(descriptor_, whole) == 0) ::lseek(descriptor_, whole, SEEK_SET);
+      fail("cannot be written", failure);
+    }
+  }
+  size_ += piece.size();
 }
 
-void AppendFile::close() {
-  sync();
-  const int fd = fd_;
-  fd_ = -1;
-  if (::close(fd) != 0) fail(path_, "close");
+void OutputFile::append(std::string_view piece) {
+  append(std::span(reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()));
+}
+
+void OutputFile::sync() {
+  if (::fsync(descriptor_) != 0 && !cannot_flush(errno)) fail("cannot be flushed to the disk", errno);
+}
+
+void OutputFile::close() {
+  if (descriptor_ < 0) return;
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close(descriptor) != 0 && errno != EINTR) fail("cannot be closed", errno);
+}
+
+void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to) {
+  flush_path(from, 0, to);
+  std::error_code failure;
+  std::filesystem::rename(from, to, failure);
+  if (failure) throw Error(Errc::internal, to.string(), "cannot be put in place: " + advice(failure.value()));
+  const auto folder = to.has_parent_path() ? to.parent_path() : std::filesystem::path(".");
+  flush_path(folder, O_DIRECTORY, to);
 }
 
 }  // namespace faba

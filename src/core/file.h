@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace faba {
 
@@ -15,26 +15,40 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 /// The whole content. Throws Error(input) when missing, a directory or unreadable.
 std::string read_file(const std::filesystem::path& file);
 
-/// A file that grows line by line or block by block and may be cut back to where a checkpoint left it.
-class AppendFile {
+/// A file that grows by whole pieces (a line, a frame), written straight through so that a crash of the
+/// program loses nothing that append() has taken. Every failure throws Error(Errc::internal, path) with the
+/// system's reason.
+class OutputFile {
  public:
-  /// Opens for writing; an existing file is cut to `keep_bytes` first. Throws Error(internal), or
-  /// Error(input) when the file is shorter than `keep_bytes`.
-  AppendFile(std::filesystem::path file, std::uint64_t keep_bytes);
-  ~AppendFile();
-  AppendFile(const AppendFile&) = delete;
-  AppendFile& operator=(const AppendFile&) = delete;
+  /// Creates `path`, or replaces what is there. With `keep_bytes` > 0 the file must exist with at least that
+  /// many bytes; it is cut to them and goes on from there. Messages name `shown` when it is given.
+  explicit OutputFile(const std::filesystem::path& path, std::uint64_t keep_bytes = 0,
+                      const std::filesystem::path& shown = {});
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
 
-  void write(std::string_view bytes);  ///< buffered
-  std::uint64_t sync();                ///< to the disk; returns the length
-  void close();                        ///< sync and close; write() may not follow
+  /// Appends all of `piece` or, when that fails (disk full), throws with the file cut back to what it was.
+  void append(std::span<const std::uint8_t> piece);
+  void append(std::string_view piece);
+  /// Returns when everything appended so far is on the disk.
+  void sync();
+  /// Closes the file; only sync() promises that it is on the disk. Closing twice is allowed.
+  void close();
+
+  std::uint64_t size() const { return size_; }                 ///< bytes
+  const std::filesystem::path& path() const { return path_; }  ///< as given
 
  private:
-  void flush();
-  std::filesystem::path path_;
-  int fd_ = -1;
-  std::string buffer_;
-  std::uint64_t length_ = 0;
+  [[noreturn]] void fail(const char* what_failed, int error_number) const;
+
+  std::filesystem::path path_, shown_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
 };
+
+/// Gives the complete file `from` its final name in the same file system, replacing what is there, and makes
+/// sure that content and name outlive a power cut. Throws Error(Errc::internal, to).
+void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to);
 
 }  // namespace faba

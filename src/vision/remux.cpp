@@ -11,8 +11,8 @@ extern "C" {
 #include <system_error>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "vision/libav.h"
-#include "vision/output_file.h"
 
 namespace faba {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <system_error>
 
+#include "core/file.h"
 #include "vision/frame_encoder.h"
-#include "vision/output_file.h"
 #include "vision/remux.h"
 
 namespace faba {

@@ -42,21 +42,22 @@ TEST_CASE("files: whole or not at all; appended files are cut back") {
   CHECK_THROWS_AS(read_file(f.path), Error);
   CHECK_THROWS_AS(read_file(f.path / "none"), Error);
   {
-    AppendFile file(f.path / "log", 0);
-    file.write("hello ");
-    CHECK(file.sync() == 6);
-    file.write("lost");
+    OutputFile file(f.path / "log");
+    file.append("hello ");
+    file.sync();
+    CHECK(file.size() == 6);
+    file.append("lost");
   }
   {
-    AppendFile file(f.path / "log", 6);
-    file.write("world");
+    OutputFile file(f.path / "log", 6);
+    file.append("world");
     file.close();
   }
   CHECK(read_file(f.path / "log") == "hello world");
-  CHECK_THROWS_AS(AppendFile(f.path / "log", 100), Error);
-  AppendFile full("/dev/full", 0);
-  full.write("x");
-  CHECK_THROWS_AS(full.sync(), Error);
+  CHECK_THROWS_AS(OutputFile(f.path / "log", 100), Error);
+  OutputFile full("/dev/full");
+  CHECK_THROWS_AS(full.append("x"), Error);
+  CHECK(full.size() == 0);
 }
 
 TEST_CASE("HDF5: rows come back, also from a file that was not closed") {

@@ -11,7 +11,7 @@ namespace {
 class Series final : public RunSink {
  public:
   Series(const SinkContext& c, std::uint64_t keep) : c_(c), file_(c.dir / "series.csv", keep) {
-    if (keep == 0) file_.write(header());
+    if (keep == 0) file_.append(header());
   }
 
   void take(const Tick& t) override {
@@ -41,14 +41,18 @@ class Series final : public RunSink {
     line += fmt::format(",{:.0f},{}", visible, c_.world->responding());
     for (const double v : {believed.x, believed.y, to.x, to.y, b.x * 1e6, b.y * 1e6}) line += cell(v);
     for (const double i : t.command.current) line += cell(i);
-    file_.write(line + fmt::format(",{:d}\n", t.limited));
+    file_.append(line + fmt::format(",{:d}\n", t.limited));
   }
 
   void checkpoint(Archive& a) override {
-    std::uint64_t length = file_.sync();
+    file_.sync();
+    std::uint64_t length = file_.size();
     a& length;
   }
-  void finish(bool) override { file_.close(); }
+  void finish(bool) override {
+    file_.sync();
+    file_.close();
+  }
 
  private:
   /// Empty for what is no number, such as the distance to no setpoint.
@@ -61,7 +65,7 @@ class Series final : public RunSink {
     return h + ",limited\n";
   }
   SinkContext c_;
-  AppendFile file_;
+  OutputFile file_;
 };
 
 }  // namespace
