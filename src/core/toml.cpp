@@ -1,8 +1,20 @@
 #include "core/toml.h"
 
+namespace faba {
+namespace {
+struct NotToml {};
+constexpr void require(bool holds) {
+  if (!holds) throw NotToml();
+}
+}  // namespace
+}  // namespace faba
+// toml++ 3.3 asserts what it should refuse, such as a header that begins with "[+".
+#define TOML_ASSERT(expr) faba::require(static_cast<bool>(expr))
+
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -122,16 +134,53 @@ void emit_table(const Json& table, const std::string& path, std::string& out) {
   }
 }
 
+// End of the string that begins at `i` with a quote: one past its closing quotes, the end of the line or of
+// the text where they are missing.
+std::size_t end_of_string(std::string_view text, std::size_t i) {
+  const std::string_view quote = text.substr(i, 1), three = text.substr(i, 3);
+  const bool many_lines = three.size() == 3 && three[1] == three[0] && three[2] == three[0];
+  const std::string_view closing = many_lines ? three : quote;
+  for (i += closing.size(); i < text.size(); ++i) {
+    if (text.substr(i, closing.size()) == closing) return i + closing.size();
+    if (text[i] == '\n' && !many_lines) return i;
+    if (text[i] == '\\' && quote == "\"") ++i;
+  }
+  return text.size();
+}
+
+// Characters beyond ASCII belong into strings and comments. toml++ 3.3 is undefined on some of them
+// elsewhere.
+void check_plain(std::string_view text, const std::string& name) {
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == '#') {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (text[i] == '"' || text[i] == '\'') {
+      i = end_of_string(text, i);
+    } else if (static_cast<unsigned char>(text[i]) >= 0x80) {
+      const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(i), '\n');
+      throw Error(Errc::usage, fmt::format("{}:{}", name, line),
+                  "letters beyond ASCII may stand in strings and comments only");
+    } else {
+      ++i;
+    }
+  }
+}
+
 }  // namespace
 
 Document parse_toml(std::string_view text, const std::string& name) {
   Document doc;
   doc.name = name;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of some editors
+  check_plain(text, name);
   try {
     const toml::table t = toml::parse(text, name);
     doc.root = convert(t, "", doc);
   } catch (const toml::parse_error& e) {
     throw Error(Errc::usage, fmt::format("{}:{}", name, e.source().begin.line), std::string(e.description()));
+  } catch (const NotToml&) {
+    throw Error(Errc::usage, name,
+                "is not TOML: a key or a [header] begins with a character that it may not");
   }
   return doc;
 }

@@ -20,7 +20,8 @@ nlohmann::ordered_json drop_json(const DropEdge& edge) {
   return json;
 }
 
-nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay) {
+nlohmann::ordered_json report_drop(const std::filesystem::path& picture,
+                                   const std::filesystem::path& overlay) {
   const GrayF grey = read_picture(picture).grey;
   DropEdgeOptions options;
   options.name = picture.string();

@@ -12,8 +12,9 @@ namespace faba {
 /// positions in picture px, y down as in the image file, `inside` a point of the picture inside the drop.
 nlohmann::ordered_json drop_json(const DropEdge& edge);
 
-/// Finds the edge in a picture or in the first frame of a video and, unless `overlay` is empty, writes the picture
-/// with the edge drawn in. Throws Error(input) when there is no usable picture or no edge in it.
-nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay);
+/// Finds the edge in a picture or in the first frame of a video and, unless `overlay` is empty, writes the
+/// picture with the edge drawn in. Throws Error(input) when there is no usable picture or no edge in it.
+nlohmann::ordered_json report_drop(const std::filesystem::path& picture,
+                                   const std::filesystem::path& overlay);
 
 }  // namespace faba

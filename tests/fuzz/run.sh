@@ -5,12 +5,12 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 mkdir -p build/fuzz/corpus
 objects=()
-for source in tests/fuzz/scenario_fuzz.cpp src/core/{error,hash,parallel,portable_math,schema,toml,units}.cpp src/field/*.cpp \
+for source in tests/fuzz/scenario_fuzz.cpp src/core/{error,hash,parallel,philox_row,portable_math,schema,toml,units}.cpp src/field/*.cpp \
   src/sim/*.cpp src/sim/*/*.cpp src/control/*.cpp src/app/{scenario,parts,loop}.cpp; do
   [ -e "$source" ] || continue
   object=build/fuzz/$(echo "$source" | tr / _).o
   objects+=("$object")
-  if [ ! -e "$object" ] || [ "$source" -nt "$object" ]; then
+  if [ ! -e "$object" ] || [ "$source" -nt "$object" ] || [ -n "$(find src -name '*.h' -newer "$object" -print -quit)" ]; then
     echo "$source $object"
   fi
 done | xargs -r -P "$(nproc)" -n 2 bash -c 'clang++ -std=c++20 -O1 -g -fsanitize=fuzzer-no-link,address,undefined \

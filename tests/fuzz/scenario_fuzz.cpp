@@ -1,5 +1,6 @@
-// libFuzzer target: whatever bytes are given as a scenario, the loader answers with a scenario or with one Error(usage).
-// Built and run for a bounded time by `make fuzz`; the corpus is scenes/ plus tests/fuzz/corpus/.
+// libFuzzer target: whatever bytes are given as a scenario, the loader answers with a scenario or with one
+// Error(usage). Built and run for a bounded time by `make fuzz`; the corpus is scenes/ plus
+// tests/fuzz/corpus/.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

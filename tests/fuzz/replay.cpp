@@ -1,0 +1,20 @@
+// Gives every file of the folders named to the fuzz target: what was once found stays mended.
+#include <cstdio>
+#include <filesystem>
+
+#include "core/file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+int main(int argc, char** argv) {
+  int files = 0;
+  for (int i = 1; i < argc; ++i)
+    for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
+      if (!entry.is_regular_file()) continue;
+      std::puts(entry.path().c_str());  // before it may crash
+      const std::string text = faba::read_file(entry.path());
+      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+      ++files;
+    }
+  return files > 0 ? 0 : 1;
+}
