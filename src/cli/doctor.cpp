@@ -44,7 +44,7 @@ int doctor(const Common& c) {
                   {"threads", std::thread::hardware_concurrency()},
                   {"vector_unit", vector_unit()},
                   {"memory_free_gb", free_memory_gb()},
-                  {"disk_free_gb", ec ? Json() : Json(double(space.available / 1000000) / 1000)}};
+                  {"disk_free_gb", ec ? Json() : Json(std::round(double(space.available) * 1e-6) / 1e3)}};
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;

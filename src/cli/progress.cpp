@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace faba::cli {
@@ -12,7 +13,7 @@ namespace {
 constexpr int kWidth = 30;
 
 std::string clock_time(double s) {
-  const auto whole = std::int64_t(s + 0.5);
+  const auto whole = std::llround(s);
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }

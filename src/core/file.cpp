@@ -14,7 +14,7 @@ namespace faba {
 namespace {
 
 std::string advice(int error_number) {
-  const std::string reason = std::generic_category().message(error_number);
+  std::string reason = std::generic_category().message(error_number);
   if (error_number == ENOSPC || error_number == EDQUOT)
     return reason + "; free some space or write elsewhere";
   if (error_number == EACCES || error_number == EROFS || error_number == EPERM) {

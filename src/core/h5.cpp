@@ -87,7 +87,11 @@ struct H5Table::Impl {
     throw Error(code, where, fmt::format("cannot {}: {}", doing, reason()));
   }
   // The part of the table that is one row.
-  std::pair<Handle, Handle> select(std::uint64_t row) const {
+  /// One row, as it lies in memory and in the file.
+  struct Row {
+    Handle memory, in_file;
+  };
+  Row select(std::uint64_t row) const {
     std::vector<hsize_t> start(dims.size(), 0), count = dims;
     start[0] = row;
     count[0] = 1;
@@ -113,16 +117,18 @@ void H5Table::append(std::span<const T> row) {
     throw Error(Errc::internal, t.where, "row of another shape or type");
   ++t.dims[0];
   if (H5Dset_extent(t.set, t.dims.data()) < 0) t.fail(Errc::internal, "write");
-  const auto [memory, in_file] = t.select(t.dims[0] - 1);
-  if (H5Dwrite(t.set, t.type, memory, in_file, H5P_DEFAULT, row.data()) < 0) t.fail(Errc::internal, "write");
+  const auto at = t.select(t.dims[0] - 1);
+  if (H5Dwrite(t.set, t.type, at.memory, at.in_file, H5P_DEFAULT, row.data()) < 0)
+    t.fail(Errc::internal, "write");
 }
 
 template <class T>
 void H5Table::read(std::uint64_t row, std::span<T> out) const {
   const Impl& t = *impl_;
   if (row >= t.dims[0] || out.size() != t.row_size()) throw Error(Errc::input, t.where, "has no such row");
-  const auto [memory, in_file] = t.select(row);
-  if (H5Dread(t.set, type_of<T>(), memory, in_file, H5P_DEFAULT, out.data()) < 0) t.fail(Errc::input, "read");
+  const auto at = t.select(row);
+  if (H5Dread(t.set, type_of<T>(), at.memory, at.in_file, H5P_DEFAULT, out.data()) < 0)
+    t.fail(Errc::input, "read");
 }
 
 std::uint64_t H5Table::rows() const { return impl_->dims[0]; }

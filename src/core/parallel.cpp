@@ -35,7 +35,7 @@ void Pool::share(unsigned index) {
   }
 }
 
-void Pool::work(unsigned index, std::stop_token stop) {
+void Pool::work(unsigned index, const std::stop_token& stop) {
   std::uint32_t seen = 0;
   for (;;) {
     for (int i = 0; i < kSpins && round_.load(std::memory_order_acquire) == seen; ++i) relax();

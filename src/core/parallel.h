@@ -32,7 +32,7 @@ class Pool {
   }
 
  private:
-  void work(unsigned index, std::stop_token stop);
+  void work(unsigned index, const std::stop_token& stop);
   void share(unsigned index);
 
   std::vector<std::jthread> workers_;

@@ -31,7 +31,7 @@ void plain(std::uint32_t first, std::uint32_t step, std::uint32_t stream, std::u
   for (std::size_t i = 0; i < n; i += 16) {
     __m512i w[2][4];
     for (int h = 0; h < 2; ++h) {
-      w[h][0] = _mm512_add_epi64(_mm512_set1_epi64(first + std::int64_t(i) + 8 * h),
+      w[h][0] = _mm512_add_epi64(_mm512_set1_epi64(first + std::int64_t(i) + std::int64_t{8} * h),
                                  _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0));
       w[h][1] = _mm512_set1_epi64(step);
       w[h][2] = _mm512_set1_epi64(stream);
@@ -53,7 +53,8 @@ void plain(std::uint32_t first, std::uint32_t step, std::uint32_t stream, std::u
     std::uint32_t* const out[4] = {&row.w0[i], &row.w1[i], &row.w2[i], &row.w3[i]};
     for (int h = 0; h < 2; ++h)
       for (int k = 0; k < 4; ++k)
-        _mm256_store_si256(reinterpret_cast<__m256i*>(out[k] + 8 * h), _mm512_cvtepi64_epi32(w[h][k]));
+        _mm256_store_si256(reinterpret_cast<__m256i*>(out[k] + std::ptrdiff_t{8} * h),
+                           _mm512_cvtepi64_epi32(w[h][k]));
   }
 }
 
@@ -64,7 +65,7 @@ void plain(std::uint32_t first, std::uint32_t step, std::uint32_t stream, std::u
   for (std::size_t i = 0; i < n; i += 8) {
     __m256i w[2][4];
     for (int h = 0; h < 2; ++h) {
-      w[h][0] = _mm256_add_epi64(_mm256_set1_epi64x(first + std::int64_t(i) + 4 * h),
+      w[h][0] = _mm256_add_epi64(_mm256_set1_epi64x(first + std::int64_t(i) + std::int64_t{4} * h),
                                  _mm256_set_epi64x(3, 2, 1, 0));
       w[h][1] = _mm256_set1_epi64x(step);
       w[h][2] = _mm256_set1_epi64x(stream);
@@ -86,7 +87,7 @@ void plain(std::uint32_t first, std::uint32_t step, std::uint32_t stream, std::u
     std::uint32_t* const out[4] = {&row.w0[i], &row.w1[i], &row.w2[i], &row.w3[i]};
     for (int h = 0; h < 2; ++h)
       for (int k = 0; k < 4; ++k)
-        _mm_store_si128(reinterpret_cast<__m128i*>(out[k] + 4 * h),
+        _mm_store_si128(reinterpret_cast<__m128i*>(out[k] + std::ptrdiff_t{4} * h),
                         _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(w[h][k], even)));
   }
 }

@@ -16,11 +16,11 @@ namespace faba {
 /// What is said about one parameter. Numbers with a unit may be given as "186 um/s"; a bare number is in
 /// `unit`.
 struct FieldInfo {
-  std::string unit = "";                             ///< SI unit (or px); empty for a pure number
+  std::string unit = {};                             ///< SI unit (or px); empty for a pure number
   double min = -std::numeric_limits<double>::max();  ///< in `unit`
   double max = std::numeric_limits<double>::max();
-  std::string doc = "";                   ///< one sentence
-  std::string source = "";                ///< where the default comes from; "assumed" when nobody measured it
+  std::string doc = {};                   ///< one sentence
+  std::string source = {};                ///< where the default comes from; "assumed" when nobody measured it
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
 };
 

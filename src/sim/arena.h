@@ -19,8 +19,8 @@ struct Grid {
     return clamped((y - low) / cell, rows) * columns + clamped((x - left) / cell, columns);
   }
   Vec2 centre(std::int32_t i) const {
-    return {double(left) + double(cell) * (i % columns + 0.5),
-            double(low) + double(cell) * (i / columns + 0.5)};
+    const int column = i % columns, row = i / columns;
+    return {double(left) + double(cell) * (column + 0.5), double(low) + double(cell) * (row + 0.5)};
   }
 };
 

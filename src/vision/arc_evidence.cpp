@@ -67,7 +67,10 @@ struct Verdict {
 };
 
 /// Probability that a piece agrees within a tolerance by chance.
-double chance(const ArcStrip& strip, double tolerance) { return 2 * tolerance / (2 * (strip.half / 2) + 1); }
+double chance(const ArcStrip& strip, double tolerance) {
+  const int reach = strip.half / 2;
+  return 2 * tolerance / (2 * reach + 1);
+}
 
 std::vector<Verdict> judge(const ArcStrip& strip, double log10_circles) {
   std::vector<Verdict> verdicts;
@@ -141,7 +144,8 @@ std::vector<std::size_t> steady_pieces(const ArcStrip& strip, const Run& run) {
   std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(sizes.size() / 2), sizes.end());
   const double limit = std::max(3 * 1.4826 * sizes[sizes.size() / 2], 0.25);
   for (std::size_t i = 0; i < length; ++i)
-    if (off[i] <= limit && std::fabs(shift(i)) < strip.half / 2) steady.push_back((run.first + i) % n);
+    if (off[i] <= limit && 2 * std::fabs(shift(i)) < strip.half - strip.half % 2)
+      steady.push_back((run.first + i) % n);
   return steady;
 }
 

@@ -183,7 +183,7 @@ void remove_line(std::vector<double>& v) {
 
 void align_by_profile(ArcStrip& strip) {
   const int reach = strip.reach();
-  const std::size_t length = std::size_t(2 * reach + 1), first = std::size_t(strip.half - reach);
+  const auto length = 2 * std::size_t(reach) + 1, first = std::size_t(strip.half) - std::size_t(reach);
   std::vector<double> sum(length, 0.0), others(length), energies;
   for (const ArcPiece& p : strip.pieces) {
     for (std::size_t i = 0; i < length; ++i) sum[i] += p.grey[first + i];
@@ -224,7 +224,7 @@ void align_by_change(ArcStrip& strip) {
     };
     double best = 1e300;
     for (int s = -strip.reach(); s <= strip.reach(); ++s) {
-      const std::size_t split = std::size_t(strip.half + s);
+      const auto split = static_cast<std::size_t>(std::ptrdiff_t{strip.half} + s);
       const double cost = spread_cost(0, split) + spread_cost(split, std::size_t(n));
       if (cost < best) best = cost, p.shift = s - 0.5;
     }

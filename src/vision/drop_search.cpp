@@ -38,6 +38,7 @@ bool better(const DropCandidate& a, const DropCandidate& b) {
 /// correlations of the residuals along the arc, up to the first that is not significant.
 double correlation_factor(const std::vector<Vec2>& points, const CircleFit& fit) {
   std::vector<double> r;
+  r.reserve(points.size());
   for (Vec2 p : points) r.push_back(norm(p - fit.centre) - fit.radius);
   double power = 0, factor = 1;
   for (double x : r) power += x * x;
@@ -77,6 +78,7 @@ double crookedness(const DropCandidate& d) {
 /// The sum of the angles between neighbouring points, without gaps of more than five pieces.
 double seen_angle(const std::vector<Vec2>& points, Vec2 centre, double piece_rad) {
   std::vector<double> angle;
+  angle.reserve(points.size());
   for (Vec2 p : points) angle.push_back(std::atan2(p.y - centre.y, p.x - centre.x));
   std::sort(angle.begin(), angle.end());
   angle.push_back(angle.front() + 2 * std::numbers::pi);

@@ -81,8 +81,13 @@ Trial fit_shape(std::span<const double> t, std::span<const double> grey, Columns
     const Trial trial = fit_at(t, grey, columns, position, width);
     if (trial.residual < best.residual) best = trial;
   };
-  for (double width = pitch; width < reach / 1.4; width *= 1.8)
-    for (double p = -reach; p <= reach; p += std::max(pitch, width / 1.5)) consider(p, width);
+  double width = pitch;
+  while (width < reach / 1.4) {
+    const double mesh = std::max(pitch, width / 1.5);
+    const int steps = int(2 * reach / mesh);
+    for (int i = 0; i <= steps; ++i) consider(-reach + i * mesh, width);
+    width *= 1.8;
+  }
   // Zoom: each round halves the mesh about the best point.
   double dp = std::max(pitch, best.width / 1.5), dw = 1.8;
   for (int round = 0; round < 9; ++round) {
@@ -118,7 +123,8 @@ double line_residual(std::span<const double> t, std::span<const double> grey) {
 
 EdgeProfile fit_edge_profile(std::span<const double> grey) {
   std::vector<double> offset;
-  for (std::size_t i = 0; i < grey.size(); ++i) offset.push_back(double(i) - double(grey.size() / 2));
+  const auto middle = double(std::size_t{grey.size() / 2});
+  for (std::size_t i = 0; i < grey.size(); ++i) offset.push_back(double(i) - middle);
   // About a mean near zero the sums of squares keep their digits.
   double mean = 0;
   for (double g : grey) mean += g / double(grey.size());

@@ -14,7 +14,7 @@ struct Gradient {
 };
 
 cv::Mat1f smooth(const GrayF& picture, double sigma) {
-  const cv::Mat1f view(picture.height, picture.width, const_cast<float*>(picture.px.data()));
+  cv::Mat1f view(picture.height, picture.width, const_cast<float*>(picture.px.data()));
   if (sigma <= 0) return view;
   cv::Mat1f out;
   const int size = 2 * int(std::ceil(2 * sigma)) + 1;
@@ -96,7 +96,7 @@ void keep_strongest(cv::Mat1b& edges, const Gradient& g, std::size_t limit) {
   if (powers.size() <= limit) return;
   const auto cut = powers.begin() + std::ptrdiff_t(powers.size() - limit);
   std::nth_element(powers.begin(), cut, powers.end());
-  edges.setTo(0, g.power < *cut);
+  edges.setTo(0, g.power < double(*cut));
 }
 
 std::vector<EdgePixel> list_pixels(const cv::Mat1b& edges, const Gradient& g) {
@@ -118,6 +118,7 @@ std::vector<EdgeSegment> hough_segments(const cv::Mat1b& edges, const EdgeSegmen
   const int votes = std::max(6, int(o.min_length_px / 2));
   cv::HoughLinesP(edges, lines, 1, std::numbers::pi / 180, votes, o.min_length_px, o.fill_gap_px);
   std::vector<EdgeSegment> segments;
+  segments.reserve(lines.size());
   for (const cv::Vec4i& l : lines) segments.push_back({{l[0] + 0.5, l[1] + 0.5}, {l[2] + 0.5, l[3] + 0.5}});
   std::stable_sort(segments.begin(), segments.end(),
                    [](const auto& a, const auto& b) { return length(a) > length(b); });

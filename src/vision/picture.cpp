@@ -62,11 +62,11 @@ Gray8 stretched(const GrayF& picture, double low_fraction, double high_fraction)
     low = *least;
     high = *most;
   }
-  const double gain = low == high ? 0 : 255 / (double{high} - double{low});
+  const double gain = low == high ? 0 : 255 / (double(high) - double(low));
   const double offset = low == high ? 128 : 0;
   std::transform(picture.px.begin(), picture.px.end(), out.px.begin(), [&](float v) {
     const double shown =
-        std::isfinite(v) ? std::clamp((double{v} - double{low}) * gain + offset, 0.0, 255.0) : 0.0;
+        std::isfinite(v) ? std::clamp((double(v) - double(low)) * gain + offset, 0.0, 255.0) : 0.0;
     return static_cast<std::uint8_t>(std::lround(shown));
   });
   return out;

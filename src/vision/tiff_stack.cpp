@@ -103,7 +103,7 @@ double description_number(const std::string& description, const std::string& key
 
 struct TiffStack::Impl {
   struct Close {
-    void operator()(TIFF* tiff) const { TIFFClose(tiff); }
+    void operator()(TIFF* open) const { TIFFClose(open); }
   };
 
   std::filesystem::path path;

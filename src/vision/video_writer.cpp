@@ -30,6 +30,7 @@ FrameEncoder::Kind kind_of(VideoFormat format) {
 VideoWriter::VideoWriter(const std::filesystem::path& part, VideoFormat format, int width, int height,
                          double fps, std::uint64_t resume_at_bytes) {
   const FrameRate rate = frame_rate_near(fps);
+  // NOLINTNEXTLINE(modernize-make-unique): an aggregate
   impl_.reset(new Impl{format, rate, FrameEncoder(kind_of(format), width, height, rate, part.string()),
                        OutputFile(part, resume_at_bytes)});
 }

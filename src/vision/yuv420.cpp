@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-// Short loops over contiguous rows, one thing each, so that the compiler vectorises them (with -O3);
-// integers, so every processor gives the same bytes.
-#define FABA_FOR_EACH_PROCESSOR [[gnu::target_clones("avx2", "default"), gnu::optimize("O3")]]
+#include "core/vectorised.h"
+
+// Short loops over contiguous rows, one thing each, so that the compiler vectorises them.
 
 namespace faba {
 namespace {
@@ -23,13 +23,14 @@ static_assert(kBlue.r + kBlue.g + kBlue.b == 0 && kRed.r + kRed.g + kRed.b == 0)
 // The channels of one row, apart; padded to an even number of pixels.
 struct Row {
   explicit Row(int width) : r(padded(width)), g(padded(width)), b(padded(width)) {}
-  static std::size_t padded(int width) { return static_cast<std::size_t>(width + width % 2); }
+  static std::size_t padded(int width) {
+    return static_cast<std::size_t>(width) + static_cast<std::size_t>(width % 2);
+  }
   int width() const { return static_cast<int>(r.size()); }
   std::vector<Byte> r, g, b;
 };
 
-FABA_FOR_EACH_PROCESSOR
-void split(const Rgb* in, int width, Byte* r, Byte* g, Byte* b) {
+FABA_VECTORISED void split(const Rgb* in, int width, Byte* r, Byte* g, Byte* b) {
   for (int i = 0; i < width; ++i) {
     r[i] = in[i].r;
     g[i] = in[i].g;
@@ -45,25 +46,22 @@ void load(const Rgb* in, int width, Row& row) {
   row.b.back() = in[width - 1].b;
 }
 
-FABA_FOR_EACH_PROCESSOR
-void luma(const Byte* r, const Byte* g, const Byte* b, int width, Byte* y) {
+FABA_VECTORISED void luma(const Byte* r, const Byte* g, const Byte* b, int width, Byte* y) {
   for (int i = 0; i < width; ++i) {
     y[i] = static_cast<Byte>((kLuma.r * r[i] + kLuma.g * g[i] + kLuma.b * b[i] + (1 << 15)) >> 16);
   }
 }
 
 // Sums of 2 x 2 pixels.
-FABA_FOR_EACH_PROCESSOR
-void sum_squares(const Byte* upper, const Byte* lower, int count, std::uint16_t* sums) {
-  for (int i = 0; i < count; ++i) {
+FABA_VECTORISED void sum_squares(const Byte* upper, const Byte* lower, int count, std::uint16_t* sums) {
+  for (std::size_t i = 0; i < std::size_t(count); ++i) {
     sums[i] = static_cast<std::uint16_t>(upper[2 * i] + upper[2 * i + 1] + lower[2 * i] + lower[2 * i + 1]);
   }
 }
 
 // From sums of four, which have two more bits of fraction.
-FABA_FOR_EACH_PROCESSOR
-void chroma(Weights weights, const std::uint16_t* r, const std::uint16_t* g, const std::uint16_t* b,
-            int count, Byte* out) {
+FABA_VECTORISED void chroma(Weights weights, const std::uint16_t* r, const std::uint16_t* g,
+                            const std::uint16_t* b, int count, Byte* out) {
   for (int i = 0; i < count; ++i) {
     const int value =
         (weights.r * r[i] + weights.g * g[i] + weights.b * b[i] + (128 << 18) + (1 << 17)) >> 18;

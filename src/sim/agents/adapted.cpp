@@ -99,7 +99,7 @@ std::vector<ColumnSpec> Adapted::columns() const {
 }
 
 void Adapted::start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const {
-  const auto n = std::uint32_t(p_.max_speed + 0.5);
+  const auto n = std::uint32_t(std::lround(p_.max_speed));
   auto speed = s.agents["speed"];
   for (std::size_t i = begin; i < end; ++i) {
     const auto w = draw(seed, Stream::start, std::uint32_t(i), 0, 0xFFFF)[0];
@@ -109,7 +109,7 @@ void Adapted::start(State& s, std::size_t begin, std::size_t end, std::uint64_t 
 
 void Adapted::step(State& s, const StepContext& c) const {
   auto& a = s.agents;
-  const auto noise = std::uint32_t(p_.noise_amplitude.value_or(p_.max_speed) + 0.5);
+  const auto noise = std::uint32_t(std::lround(p_.noise_amplitude.value_or(p_.max_speed)));
   const auto per_tesla = float(1 / scale_.field_unit), earth = float(p_.earth);
   if (clock_.redraws(s.step)) {
     const float *response = &a["response"][c.begin], *speed = &a["speed"][c.begin];

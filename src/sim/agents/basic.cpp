@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "core/philox_row.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
@@ -73,7 +75,7 @@ Basic::Basic(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), c
 
 void Basic::step(State& s, const StepContext& c) const {
   auto& a = s.agents;
-  const auto noise = std::uint32_t(p_.max_speed + 0.5);
+  const auto noise = std::uint32_t(std::lround(p_.max_speed));
   const auto per_tesla = float(1 / scale_.field_unit);
   if (clock_.redraws(s.step)) {
     const float* response = &a["response"][c.begin];

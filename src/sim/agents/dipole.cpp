@@ -77,7 +77,7 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
               *x = b.x, *y = b.y;
   float *ux = b.ux, *uy = b.uy, *to_x = b.to_x, *to_y = b.to_y;
   const Constants k = c;
-#pragma GCC ivdep  // to_x and to_y may be x and y, element by element
+  FABA_ELEMENTWISE
   for (std::size_t i = 0; i < n; ++i) {
     const float turn_noise =
         std::sqrt(-2.0f * portable::log(uniform(row.w0[i]))) *

@@ -11,7 +11,7 @@ namespace {
 
 FABA_VECTORISED void advance(const float* x, const float* __restrict v, float* to, std::size_t n,
                              float metres) {
-#pragma GCC ivdep  // `to` may be x itself, element by element
+  FABA_ELEMENTWISE
   for (std::size_t i = 0; i < n; ++i) to[i] = x[i] + metres * v[i];
 }
 

@@ -49,7 +49,7 @@ OxygenProfile::OxygenProfile(double radius, double diffusivity)
   for (int j = 0; j < kTimes; ++j)
     for (int i = 0; i < kNodes; ++i) {
       const double s = double(j) / (kTimes - 1);  // squared: the steep beginning gets most nodes
-      table_[std::size_t(j * kNodes + i)] =
+      table_[std::size_t(j) * kNodes + std::size_t(i)] =
           float(concentration(radius * i / (kNodes - 1), s * s * kRelaxed / rate_));
     }
 }
