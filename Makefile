@@ -10,15 +10,15 @@ run: build            ## build the program and run the main job: a swarm steered
 
 test:                 ## build and run every test
 	@$(SETUP) test
-	@cmake --preset release --log-level=WARNING
+	@cmake --preset release --log-level=WARNING > /dev/null
 	@cmake --build build -j $(JOBS)
-	@ctest --test-dir build --output-on-failure -j $(JOBS)
+	@ctest --test-dir build --no-tests=error --output-on-failure -j $(JOBS)
 
 setup:                ## install what building needs (apt; with sudo when not root)
 	@$(SETUP)
 
 build: setup          ## build the program: build/faba
-	@cmake --preset release --log-level=WARNING -DBUILD_TESTING=OFF
+	@cmake --preset release --log-level=WARNING -DBUILD_TESTING=OFF > /dev/null
 	@cmake --build build -j $(JOBS) --target faba
 
 bench: build          ## measure speed beside NumPy, Octave and the machine's limits; table in bench/results/
@@ -32,14 +32,14 @@ format:               ## clang-format every source
 lint:                 ## clang-format and clang-tidy as checks
 	@$(SETUP) lint
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
-	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF
+	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF > /dev/null
 	@git ls-files 'src/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p build/lint
 
 asan tsan: setup      ## build and run the tests under sanitizers
 	@$(SETUP) test
-	@cmake --preset $@ --log-level=WARNING
+	@cmake --preset $@ --log-level=WARNING > /dev/null
 	@cmake --build build/$@ -j $(JOBS)
-	@ctest --test-dir build/$@ --output-on-failure -j $(JOBS)
+	@ctest --test-dir build/$@ --no-tests=error --output-on-failure -j $(JOBS)
 
 fuzz: setup           ## fuzz the scenario loader for a minute (SECONDS_TO_FUZZ=600 for longer)
 	@$(SETUP) fuzz
