@@ -115,10 +115,22 @@ def table(properties, labels):
         text = "It has no parameters.\n"
     if presets:
         text += "\nPresets; keys given beside one win over it:\n\n"
-        text += "\n".join(f'- `preset = "{name}"`: {linked(source, labels)}' for name, source in presets.items()) + "\n"
+        text += "\n".join(f'- `preset = "{name}"`: {linked(source, labels)}' for name, source in presets.items())
+        text += "\n\n" + preset_table(properties)
     for key, item in nested:
         text += f"\nEach `{key}`: {item.get('description', '')}.\n\n" + table(item["properties"], labels)
     return text
+
+
+def preset_table(properties):
+    """The keys in which presets differ, and what each says."""
+    values = properties["preset"]["x-values"]
+    lines = ["| key | " + " | ".join(values) + " |", "|---|" + "---|" * len(values)]
+    for key in properties:
+        said = [value_text(v[key]) if key in v else "—" for v in values.values()]
+        if len(set(said)) > 1:
+            lines.append(f"| `{key}` | " + " | ".join(said) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def part_page(kind, doc, parts, labels):

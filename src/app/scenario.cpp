@@ -173,10 +173,23 @@ void read_swarms(const Node& root, const Parts& parts, Scenario& s) {
   if (total > 5e7) list.fail(fmt::format("{} cells in all; at most 5e7 are possible", total));
 }
 
+// In TOML a key belongs to the last [header] before it, which is easily forgotten below the tables.
+void check_top_level(const Node& root) {
+  for (const auto& [table, content] : root.json->items()) {
+    const bool list = content.is_array() && !content.empty();
+    const Node n = list ? root.child(table).item(content.size() - 1) : root.child(table);
+    for (const char* key : {"title", "seed", "duration"})
+      if (n.json->is_object() && n.json->contains(key))
+        throw Error(Errc::usage, n.where(key),
+                    fmt::format("belongs to the whole scenario; write {} above the first [table]", key));
+  }
+}
+
 }  // namespace
 
 Scenario read_scenario(const Document& d, const Parts& parts) {
   const Node root(d);
+  check_top_level(root);
   Scenario s;
   s.params = Scenario::schema().parse(
       root, {"scale", "camera", "simulation", "arena", "exclusion", "field", "motility", "swarm", "estimator",
@@ -192,22 +205,18 @@ Scenario read_scenario(const Document& d, const Parts& parts) {
   s.motility = part(root, "motility", parts.motility, "none");
   s.estimator = part(root, "estimator", parts.estimator, "mean");
   s.controller = part(root, "controller", parts.controller, "fuzzy");
-  const bool steers = s.controller.type != "manual";
-  s.reference = part(root, "reference", parts.reference, steers ? "hold" : "none");
+  s.reference = part(root, "reference", parts.reference, s.steers() ? "hold" : "none");
   read_swarms(root, parts, s);
 
   if (s.params.duration * s.camera.rate > 1e8)
-    root.child("duration").fail("is more than 1e8 frames at this camera rate");
+    root.child("duration").fail("is more than 1e8 frames; shorten it or lower camera.rate");
   if (s.arena.resolved.value("limits", "") == "reject" && s.exclusion.order == Exclusion::Order::none)
     throw Error(Errc::usage, root.where("arena"),
                 "limits = \"reject\" needs exclusion; use \"clamp\" or \"reflect\"");
-  if (steers && s.reference.type == "none")
+  if (s.steers() && s.reference.type == "none")
     throw Error(
         Errc::usage, root.where("reference"),
         fmt::format("controller {} has nowhere to steer to; use \"hold\" or \"route\"", s.controller.type));
-  if (s.params.exposure > 0 && s.motility.type == "none")
-    s.warnings.push_back(
-        "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
   return s;
 }
 

@@ -76,12 +76,13 @@ struct Scenario {
   ReferenceRegistry::PartType reference;
   ControllerRegistry::PartType controller;
   std::vector<Swarm> swarms;
-  std::vector<std::string> warnings;  ///< what is legal but probably not meant
 
   std::uint64_t frames() const;  ///< of the whole run, at least 1
   double frame_period() const { return 1 / camera.rate; }
   Scale si_scale() const;
-  /// Polarity of most of the cells, which is what a controller steers: +1 or -1.
+  /// Whether a feedback controller steers to a setpoint; false with a schedule of fields.
+  bool steers() const { return controller.type != "manual"; }
+  /// Polarity of most of the cells, which is what a controller steers: +1 or -1; south when both are as many.
   int polarity() const;
   /// Every key with its value; as TOML it reads back to the same scenario.
   Json resolved() const;

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -47,22 +48,32 @@ void mark(const std::filesystem::path& dir) {
                                         getpid(), started(getpid()), dir.string()));
 }
 
+bool holds_run(const std::filesystem::path& dir) {
+  std::error_code ec;
+  const auto has = [&](const char* name) { return std::filesystem::exists(dir / name, ec); };
+  return has(kMarker) || (has(kManifest) && has(kScenario));
+}
+
 void make_directory(const std::filesystem::path& dir, bool force) {
   std::error_code ec;
   if (std::filesystem::exists(dir, ec)) {
     if (!std::filesystem::is_directory(dir, ec))
       throw Error(Errc::usage, dir.string(), "exists and is not a directory");
-    const bool empty = std::filesystem::is_empty(dir, ec);
-    if (!empty && !force)
-      throw Error(Errc::usage, dir.string(),
-                  "already exists; choose another --out, or --force to replace the run in it");
+    if (!std::filesystem::is_empty(dir, ec)) {
+      if (!holds_run(dir))
+        throw Error(Errc::usage, dir.string(), "holds other files and no run; choose another --out");
+      if (!force)
+        throw Error(Errc::usage, dir.string(),
+                    "already holds a run; choose another --out, or --force to replace it");
+    }
     refuse_if_busy(dir);
     for (const char* name : kOurs) std::filesystem::remove(dir / name, ec);  // what is not ours stays
     return;
   }
   std::filesystem::create_directories(dir, ec);
   if (ec)
-    throw Error(Errc::internal, dir.string(), fmt::format("cannot make the directory: {}", ec.message()));
+    throw Error(Errc::internal, dir.string(),
+                fmt::format("cannot be made: {}; choose another --out", ec.message()));
 }
 
 }  // namespace
@@ -179,6 +190,9 @@ Json Session::manifest() const {
     one["start"] = s.start.type;
     swarms.push_back(one);
   }
+  std::vector<Vec2> setpoints = simulation_->reference().setpoints();
+  setpoints.erase(std::unique(setpoints.begin(), setpoints.end()),
+                  setpoints.end());  // as a series shows them
   return {{"version", FABA_VERSION},
           {"title", scenario_.params.title},
           {"complete", loop.next == scenario_.frames()},
@@ -196,7 +210,8 @@ Json Session::manifest() const {
           {"arena", arena},
           {"polarity", scenario_.polarity() > 0 ? "north" : "south"},
           {"cells", world.state().agents.size()},
-          {"swarms", swarms}};
+          {"swarms", swarms},
+          {"setpoints", setpoints.size()}};
 }
 
 void Session::complete() {

@@ -41,6 +41,7 @@ class Session {
   void complete();
 
   const Scenario& scenario() const { return scenario_; }
+  const Simulation& simulation() const { return *simulation_; }
   const std::filesystem::path& dir() const { return dir_; }
 
  private:

@@ -25,7 +25,8 @@ int steps_per_frame(const Scenario& s, double longest) {
     const double n = frame / *s.simulation.step, whole = std::floor(n + 0.5);
     if (whole < 1 || std::fabs(n - whole) > 1e-6 * whole)
       throw Error(Errc::usage, "simulation.step",
-                  fmt::format("{} s is not a whole part of a frame ({} s)", *s.simulation.step, frame));
+                  fmt::format("{:g} s is not a whole part of a frame ({:g} s); the nearest is {:.9g} s",
+                              *s.simulation.step, frame, frame / std::max(1.0, whole)));
     return int(whole);
   }
   const int least = int(std::ceil(frame / longest - 1e-9));
@@ -69,7 +70,9 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) : limi
     w.populations.push_back(std::move(p));
   }
   if (double(s.frames()) * steps > 4e9)
-    throw Error(Errc::usage, "duration", "is more than 4e9 steps, the length of a random stream");
+    throw Error(
+        Errc::usage, "duration",
+        fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
 
   const ControlContext control{w.field, scale, frame_, s.polarity(), s.frame_period(), s.camera.delay_frames};
   world_ = std::make_unique<World>(std::move(w), pool);

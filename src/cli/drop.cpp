@@ -6,11 +6,24 @@
 
 namespace faba::cli {
 
-int drop(const DropVerb& v, const Common& c) {
+namespace {
+
+void check_overlay(const DropVerb& v) {
+  if (v.overlay.empty()) return;
+  const auto refuse = [&](const char* why) { throw Error(Errc::usage, v.overlay.string(), why); };
   std::error_code ec;
-  if (!v.overlay.empty() && !v.force && std::filesystem::exists(v.overlay, ec))
-    throw Error(Errc::usage, v.overlay.string(),
-                "already exists; choose another --overlay, or --force to replace it");
+  if (std::filesystem::equivalent(v.overlay, v.picture, ec))
+    refuse("is the picture itself; choose another --overlay");
+  if (std::filesystem::is_directory(v.overlay, ec)) refuse("is a directory; name a file such as edge.png");
+  if (v.overlay.extension() != ".png") refuse("must end in .png, which is what is written");
+  if (!v.force && std::filesystem::exists(v.overlay, ec))
+    refuse("already exists; choose another --overlay, or --force to replace it");
+}
+
+}  // namespace
+
+int drop(const DropVerb& v, const Common& c) {
+  check_overlay(v);
   const auto j = report_drop(v.picture, v.overlay);
   if (c.json) {
     fmt::print("{}\n", j.dump());
@@ -23,7 +36,8 @@ int drop(const DropVerb& v, const Common& c) {
         number("sd_px", "y"), j["radius_px"].get<double>(), number("sd_px", "radius"),
         j["arc_deg"].get<double>());
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
-    fmt::print("now try: faba run scenes/drop.toml --from-video {}\n", v.picture.string());
+    fmt::print("now try: {} run scenes/drop.toml --from-video {}\n", shell_word(program()),
+               shell_word(v.picture.string()));
   }
   return 0;
 }

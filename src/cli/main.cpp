@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 #include "cli/verbs.h"
@@ -20,13 +22,15 @@ void complain(const std::string& text) { fmt::print(stderr, "faba: error: {}\n",
 CLI::App* verb(CLI::App& app, Common& common, const char* name, const char* does, const char* examples) {
   CLI::App* v = app.add_subcommand(name, does);
   v->add_flag("--json", common.json, "One JSON object on standard output and nothing else there");
-  v->add_flag("-q,--quiet", common.quiet, "No progress bar and no summary");
+  v->add_flag("-q,--quiet", common.quiet, "No progress bar, no notes and no summary");
   v->footer(fmt::format(
       "Examples:\n{}\n\nExit codes: 0 done, 2 usage or scenario error, 3 unreadable or unsuitable input, "
       "130 interrupted, 1 anything else",
       examples));
   return v;
 }
+
+std::string not_empty(const std::string& word) { return word.empty() ? "must not be empty" : ""; }
 
 // CLI11 would say that a verb is missing.
 void check_verb(const CLI::App& app, const std::string& word) {
@@ -40,6 +44,7 @@ int dispatch(int argc, char** argv) {
   if (argc > 0) called_as = argv[0];
   CLI::App app{
       "Faba, a laboratory for magnetotactic bacteria: simulate a swarm under coils, steer it, record it"};
+  app.name("faba");
   app.set_version_flag("--version", "faba " FABA_VERSION);
   app.require_subcommand(1);
   app.footer("Each verb in full: faba VERB --help\nFirst steps: faba run scenes/steer.toml");
@@ -60,9 +65,10 @@ int dispatch(int argc, char** argv) {
   v->add_option("--threads", run_options.threads,
                 "Threads; all of the machine's when absent. Never changes the result")
       ->check(CLI::Range(1, 1024));
-  v->add_option("-o,--out", run_options.out, "Run directory; runs/SCENE-SEED when absent");
+  v->add_option("-o,--out", run_options.out, "Run directory; runs/SCENE-SEED when absent")->check(not_empty);
   v->add_option("--duration", run_options.duration, "Simulated time, such as \"10 s\"");
-  v->add_option("--from-video", run_options.from_video, "Take the drop's edge from this picture or video");
+  v->add_option("--from-video", run_options.from_video, "Take the drop's edge from this picture or video")
+      ->check(not_empty);
   v->add_flag("--force", run_options.force, "Replace an earlier run in the directory");
   v->callback([&] { code = run(run_options, common); });
 
@@ -79,7 +85,8 @@ int dispatch(int argc, char** argv) {
            "  faba drop drop.tif --overlay edge.png\n  faba drop film.avi --json");
   v->add_option("picture", drop_options.picture, "TIFF, PNG, JPEG, PGM (8 or 16 bit) or any video")
       ->required();
-  v->add_option("--overlay", drop_options.overlay, "Write the picture with the edge drawn in, as PNG");
+  v->add_option("--overlay", drop_options.overlay, "Write the picture with the edge drawn in, as PNG")
+      ->check(not_empty);
   v->add_flag("--force", drop_options.force, "Replace an existing overlay");
   v->callback([&] { code = drop(drop_options, common); });
 
@@ -97,13 +104,18 @@ int dispatch(int argc, char** argv) {
   v = verb(app, common, "doctor", "What this machine has", "  faba doctor");
   v->callback([&] { code = doctor(common); });
 
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words[0] == "help") {  // as others have it: faba help run
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  if (!words.empty() && words[0].rfind('-', 0) != 0) check_verb(app, words[0]);
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    if (argc > 1 && argv[1][0] != '-') check_verb(app, argv[1]);
-    const std::string help =
-        argc > 1 && argv[1][0] != '-' ? fmt::format("faba {} --help", argv[1]) : "faba --help";
+    const std::string help = argc > 1 && argv[1][0] != '-' ? fmt::format("{} {} --help", program(), argv[1])
+                                                           : program() + " --help";
     throw Error(Errc::usage, "", fmt::format("{} (see {})", e.what(), help));
   }
   return code;
@@ -113,6 +125,16 @@ int dispatch(int argc, char** argv) {
 
 const std::atomic<bool>& stop_requested() { return stop; }
 const std::string& program() { return called_as; }
+
+std::string shell_word(const std::string& word) {
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+    return std::isalnum(c) || std::strchr("_-./=:,+@%", c);
+  });
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
 
 void catch_signals() {
   const auto on_signal = [](int) {

@@ -23,6 +23,15 @@ std::string range_of(const Json& f) {
   return s.empty() ? unit : unit.empty() ? s : s + " " + unit;
 }
 
+// Of a preset: the values that are not the defaults.
+std::string own_values(const Json& values, const Json& properties) {
+  std::string out;
+  for (const auto& [key, value] : values.items())
+    if (const Json& f = properties[key]; !f.contains("default") || f["default"] != value)
+      out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", key, shown_value(value));
+  return out.empty() ? "the defaults" : out;
+}
+
 void describe(const Json& schema, const std::string& indent) {
   for (const auto& [key, f] : schema["properties"].items()) {
     std::string line = fmt::format("{}{}", indent, key);
@@ -35,7 +44,8 @@ void describe(const Json& schema, const std::string& indent) {
         fmt::print("{}    source: {}\n", indent, f["x-source"].get<std::string>());
       else
         for (const auto& [name, source] : f["x-source"].items())
-          fmt::print("{}    {}: {}\n", indent, name, source.get<std::string>());
+          fmt::print("{0}    {1}: {2}\n{0}        {3}\n", indent, name, source.get<std::string>(),
+                     own_values(f["x-values"][name], schema["properties"]));
     }
     if (f.contains("items") && f["items"].contains("properties")) describe(f["items"], indent + "    ");
   }

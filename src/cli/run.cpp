@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <random>
 
 #include "app/from_picture.h"
+#include "app/notes.h"
 #include "app/session.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
+#include "study/markup.h"
 #include "study/run_report.h"
 
 namespace faba::cli {
@@ -30,6 +31,15 @@ std::uint64_t drawn_seed() {
   return (std::uint64_t{device()} << 32 | device()) & 0xFFFFFFFFFFFFull;
 }
 
+// The same run with another swarm: what a result is worth shows from the second one on.
+std::string again_with(const RunVerb& v, std::uint64_t seed) {
+  std::string line = fmt::format("{} run {} --seed {}", shell_word(program()), shell_word(v.scene), seed);
+  if (!v.from_video.empty()) line += " --from-video " + shell_word(v.from_video);
+  if (v.duration) line += " --duration " + shell_word(*v.duration);
+  for (const std::string& s : v.set) line += " --set " + shell_word(s);
+  return line;
+}
+
 std::filesystem::path free_directory(const std::string& scene, std::uint64_t seed) {
   const std::string base = fmt::format("runs/{}-{}", std::filesystem::path(scene).stem().string(), seed);
   std::filesystem::path dir = base;
@@ -38,19 +48,15 @@ std::filesystem::path free_directory(const std::string& scene, std::uint64_t see
   return dir;
 }
 
-void summary(const Session& session, const Metrics& metrics, const std::string& next) {
+void summary(const Session& session, const Metrics& m, const std::string& next) {
   const auto& dir = session.dir();
-  const RunInWords words = run_in_words(metrics, read_run_info(dir / run_files::kManifest));
-  fmt::print("{}\n", words.outcome);
-  if (!words.details.empty()) fmt::print("{}\n", words.details);
-  const auto px = [](const std::optional<double>& v) {
-    return v ? fmt::format("{:.1f} px", *v) : std::string("-");
-  };
-  if (metrics.setpoints > 0)
-    fmt::print("settling time {}, steady error {} rms, ",
-               metrics.settling_time_s ? fmt::format("{:.2f} s", *metrics.settling_time_s) : "never",
-               px(metrics.steady_rms_px));
-  fmt::print("dispersion {} x {}\n", px(metrics.sigma_x_px), px(metrics.sigma_y_px));
+  fmt::print("{}\n", run_in_words(m, read_run_info(dir / run_files::kManifest)).outcome);
+  const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
+  if (m.setpoints > 0)
+    fmt::print("settling time {}, steady error {} px rms, ",
+               m.settling_time_s ? three_digits(*m.settling_time_s) + " s" : "never", px(m.steady_rms_px));
+  if (m.cross_track_95_px) fmt::print("off the route {} px (95 %), ", px(m.cross_track_95_px));
+  fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));
   const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
                                                        {"exact", "video.avi"},
                                                        {"tracks", "tracks.h5"},
@@ -92,8 +98,9 @@ int run(const RunVerb& v, const Common& c) {
   Document d = read_toml(v.scene);
   if (!v.from_video.empty()) fit_to_picture(d, v.from_video);
   apply_settings(d, v);
+  if (!d.root.contains("title"))
+    d.set("title", Json(std::filesystem::path(v.scene).stem().string()), v.scene);
   const Scenario s = read_scenario(d, builtin_parts());
-  for (const auto& w : s.warnings) fmt::print(stderr, "faba: note: {}: {}\n", v.scene, w);
 
   const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
   Progress bar("simulating", !c.quiet && !c.json);
@@ -104,11 +111,12 @@ int run(const RunVerb& v, const Common& c) {
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   Session session = Session::begin(s, seed, o);
+  if (!c.quiet)
+    for (const auto& note : notes_on(s, session.simulation(), o.out))
+      fmt::print(stderr, "faba: note: {}: {}\n", v.scene, note);
   if (!s.params.seed && !c.quiet && !c.json)
     fmt::print("seed {} (drawn; --seed {} repeats this run)\n", seed, seed);
-  const char* other = s.controller.type == "fuzzy" ? "proportional" : "fuzzy";
-  return carry_out(session, c,
-                   fmt::format("{} run {} --seed {} --set controller={}", program(), v.scene, seed, other));
+  return carry_out(session, c, again_with(v, s.params.seed ? seed + 1 : 1));
 }
 
 int resume(const ResumeVerb& v, const Common& c) {

@@ -10,7 +10,7 @@ namespace faba::cli {
 /// What every verb takes.
 struct Common {
   bool json = false;   ///< one JSON object on standard output and nothing else there
-  bool quiet = false;  ///< no progress bar, no summary
+  bool quiet = false;  ///< no progress bar, no notes, no summary
 };
 
 struct RunVerb {
@@ -36,6 +36,8 @@ struct PartsVerb {
 
 /// The program as it was called, for commands that a user is told to type.
 const std::string& program();
+/// A word as a shell takes it for one: in quotes where it needs them.
+std::string shell_word(const std::string& word);
 
 // Each returns the exit code; errors are thrown.
 int run(const RunVerb& v, const Common& c);

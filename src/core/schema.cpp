@@ -87,7 +87,11 @@ double read_number(const Node& n, const FieldInfo& f) {
 }
 
 std::int64_t read_integer(const Node& n, const FieldInfo& f) {
-  if (!n.json->is_number()) n.fail(fmt::format("expected a whole number, got {}", shown(*n.json)));
+  if (!n.json->is_number()) {
+    const bool bounded = f.min > -kOpen && f.max < kOpen;
+    n.fail(fmt::format("expected a whole number{}, got {}",
+                       bounded ? fmt::format(" from {} to {}", f.min, f.max) : "", shown(*n.json)));
+  }
   const double v = n.json->get<double>();
   check_number(v, f, n);
   if (v != std::floor(v)) n.fail(fmt::format("expected a whole number, got {}", v));

@@ -208,11 +208,16 @@ class Schema {
         {"title", name_}, {"description", summary_}, {"type", "object"}, {"additionalProperties", false}};
     if (!presets_.empty()) {
       Json names = Json::array();
-      Json sources = Json::object();
-      for (const auto& p : presets_) names.push_back(p.name), sources[p.name] = p.source;
+      Json sources = Json::object(), values = Json::object();
+      for (const auto& p : presets_) {
+        names.push_back(p.name);
+        sources[p.name] = p.source;
+        values[p.name] = to_json(p.values);
+      }
       props["preset"] = {{"type", "string"},
                          {"enum", names},
                          {"x-source", sources},
+                         {"x-values", values},
                          {"description", "Named set of values; keys given beside it win over it"}};
     }
     if (!validity_.empty()) j["x-validity"] = validity_;

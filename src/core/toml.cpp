@@ -172,6 +172,7 @@ Document parse_toml(std::string_view text, const std::string& name) {
   Document doc;
   doc.name = name;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of some editors
+  if (text.find('\0') != text.npos) throw Error(Errc::usage, name, "is a binary file, not TOML");
   check_plain(text, name);
   try {
     const toml::table t = toml::parse(text, name);
@@ -225,8 +226,8 @@ void Document::set(const std::string& path, Json value, const std::string& origi
     at = &(*at)[s.key];
     for (const std::size_t i : s.index) {
       if (!at->is_array() || i >= at->size())
-        fail(fmt::format("\"{}\" has {} elements, there is no [{}]", so_far, at->is_array() ? at->size() : 0,
-                         i));
+        fail(fmt::format("there is no {0}[{1}]; \"{0}\" has {2} of them, more are added in the file", so_far,
+                         i, at->is_array() ? at->size() : 0));
       at = &(*at)[i];
       so_far += fmt::format("[{}]", i);
     }

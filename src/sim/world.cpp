@@ -48,22 +48,24 @@ void World::place_all() {
   auto x = state_.agents["x"], y = state_.agents["y"], response = state_.agents["response"];
   for (std::size_t k = 0; k < parts_.populations.size(); ++k) {
     const Population& p = parts_.populations[k];
+    bool within = false;  // the arena, some candidate was
     for (std::size_t i = p.begin; i < p.end; ++i) {
       const auto id = std::uint32_t(i);
       for (std::uint32_t attempt = 0;; ++attempt) {
         if (attempt == kAttempts)
           throw Error(
               Errc::usage, fmt::format("swarm[{}].start", k),
-              fmt::format(
-                  "no free place found for cell {} of {}: the region is too small or too crowded; fewer "
-                  "cells, another start, or exclusion.order = \"none\"",
-                  i - p.begin + 1, p.end - p.begin));
+              within ? fmt::format("no free place found for cell {} of {}: the region is too small or too "
+                                   "crowded; fewer cells, another start, or exclusion.order = \"none\"",
+                                   i - p.begin + 1, p.end - p.begin)
+                     : "the region lies outside of the arena; move it, or use another start");
         const auto w = draw(parts_.seed, Stream::start, id, attempt);
         const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
         const auto candidate = p.start->place({u(0), u(1), u(2)});
         if (!candidate) continue;
         const Vec2 at = exclusion_.snapped(*candidate);
         if (parts_.arena->depth(at) < 0) continue;
+        within = true;
         if (exclusion_.active() && !exclusion_.place(at)) continue;
         x[i] = float(at.x);
         y[i] = float(at.y);

@@ -91,6 +91,7 @@ RunInfo read_run_info(const std::filesystem::path& path) {
   }
   info.duration_s = keys.number("duration_s");
   info.wall_time_s = keys.number("wall_time_s");
+  info.setpoints = keys.number("setpoints");
   info.um_per_px = keys.number("um_per_px");
   if (info.um_per_px && !(*info.um_per_px > 0)) keys.fail("um_per_px", "greater than 0");
   info.view_px = keys.pair("view_px");

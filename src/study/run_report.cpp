@@ -1,5 +1,6 @@
 #include "study/run_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -41,15 +42,23 @@ std::string spread_in_words(const Metrics& m, const RunInfo& info) {
 }
 
 std::string arrival_in_words(const Metrics& m, const RunInfo& info) {
-  const bool moving = m.setpoints > kFewSetpoints, route = m.setpoints > 1 && !moving;
+  const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
+  const bool moving = given > kFewSetpoints, route = given > 1 && !moving;
+  if (route && m.setpoints < given) {
+    return fmt::format(
+        "After {} the swarm {} setpoint {} of {}, {} away from it.", seconds(m.duration_s),
+        *m.final_distance_px <= *m.settling_band_px ? "had come to" : "was still on its way to", m.setpoints,
+        given, length_in_words(*m.final_distance_px, info));
+  }
   const std::string goal = moving  ? "its moving setpoint"
-                           : route ? fmt::format("the last of {} setpoints", m.setpoints)
+                           : route ? fmt::format("the last of {} setpoints", given)
                                    : "its setpoint";
   if (!m.settling_time_s) {
-    return fmt::format(
-        "The swarm did not settle at {}: it started {} away and was {} away at the end, after {}.", goal,
-        length_in_words(*m.initial_error_px, info), length_in_words(*m.final_distance_px, info),
-        seconds(m.duration_s));
+    const std::string from =
+        given > 1 ? "" : fmt::format("it started {} away and ", length_in_words(*m.initial_error_px, info));
+    return fmt::format("The swarm did not settle at {}: {}was {} away at the end, after {}.", goal,
+                       from.empty() ? "it " : from, length_in_words(*m.final_distance_px, info),
+                       seconds(m.duration_s));
   }
   if (*m.settling_time_s > kLate * m.duration_s) {  // the steady error would speak of the approach
     return fmt::format("The swarm reached {} only after {}, late in a run of {}; at the end it was {} away.",
@@ -284,6 +293,7 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
 RunInWords run_in_words(const Metrics& m, const RunInfo& info) {
   if (m.frames == 0) return {"No frame was recorded.", ""};
   RunInWords words;
+  if (m.frames == 1) return {"One frame was recorded, the beginning of the run.", ""};
   words.outcome = m.initial_error_px ? arrival_in_words(m, info)
                                      : fmt::format("The swarm had no setpoint and was recorded for {}.",
                                                    seconds(m.duration_s));

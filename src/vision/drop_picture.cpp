@@ -70,6 +70,8 @@ double contour_height(std::vector<float> some, double noise) {
   double step = 0;
   for (std::size_t i = 1; i < some.size(); ++i)
     if (const double d = double(some[i] - some[i - 1]); d > 0 && (step == 0 || d < step)) step = d;
+  if (double(some.back() - some.front()) <= step)
+    return 0;  // two values: a mask, whose steps are the edge itself
   const double ratio = step > 0 ? noise / step : 1;
   return step * std::min(1.0, 4 * std::exp(-2 * std::numbers::pi * std::numbers::pi * ratio * ratio));
 }

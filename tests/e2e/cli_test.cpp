@@ -25,6 +25,20 @@ TEST_CASE("help, version, parts, schema and doctor answer with exit 0") {
   CHECK(faba_in(f.path, "doctor --json").json().contains("threads"));
 }
 
+TEST_CASE("help is a verb too, and the summary names a next command that works") {
+  const TestFolder f;
+  CHECK(faba_in(f.path, "help").out == faba_in(f.path, "--help").out);
+  CHECK(faba_in(f.path, "help drop").out == faba_in(f.path, "drop --help").out);
+  CHECK(faba_in(f.path, "help dorp").exit == 2);
+
+  write_file(f.path / "my scene.toml", "[[swarm]]\ncount = 5\n");
+  const std::string out =
+      faba_in(f.path, "run 'my scene.toml' --seed 3 --duration '1 s' --set 'swarm[0].count=7'").out;
+  const auto at = out.find(" run 'my scene.toml' --seed 4 --duration '1 s' --set 'swarm[0].count=7'\n");
+  REQUIRE(at != std::string::npos);
+  CHECK(faba_in(f.path, out.substr(at + 1)).exit == 0);
+}
+
 TEST_CASE("every scene in scenes/ is accepted and runs") {
   const TestFolder f;
   for (const auto& entry : std::filesystem::directory_iterator(FABA_SCENES)) {

@@ -46,6 +46,15 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
            Bad{"route without points", swarm + "[reference]\ntype = 'route'\n", "at least one setpoint"},
            Bad{"step that does not divide", swarm + "[simulation]\nstep = '40 ms'\n",
                "whole part of a frame"},
+           Bad{"a key of the top level below a table", "[camera]\nrate = 20\nduration = '2 s'\n" + swarm,
+               "s.toml:3: camera.duration: belongs to the whole scenario"},
+           Bad{"a start outside", swarm + "start = { type = 'disc', centre_px = [5000, 0] }\n",
+               "lies outside of the arena"},
+           Bad{"a binary file",
+               std::string("\x7f"
+                           "ELF\0\0",
+                           6),
+               "is a binary file"},
            Bad{"a date", "seed = 2020-01-01\n" + swarm, "dates and times"},
        }) {
     write_file(f.path / "s.toml", b.scene);
@@ -111,6 +120,55 @@ TEST_CASE("an output that cannot be written: exit 1 or 2, said in one line") {
   const Called c = faba_in(f.path, "run s.toml --seed 1 --out /proc/nowhere/run");
   CHECK(c.exit == 1);
   CHECK(one_clear_line(c.err));
+}
+
+TEST_CASE("what is not ours is never overwritten, --force or not") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", "duration = '1 s'\n[[swarm]]\ncount = 5\n");
+  std::filesystem::create_directory(f.path / "thesis");
+  write_file(f.path / "thesis/report.html", "mine");
+  for (const char* force : {"", " --force"}) {
+    const Called c = faba_in(f.path, std::string("run s.toml --seed 1 --out thesis") + force);
+    CHECK(c.exit == 2);
+    CHECK(c.err.find("holds other files and no run") != std::string::npos);
+  }
+  CHECK(read_file(f.path / "thesis/report.html") == "mine");
+  CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet").exit == 0);
+  CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet").exit == 2);
+  CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet --force").exit == 0);
+
+  write_file(f.path / "drop.png", "a picture");
+  for (const char* overlay : {"drop.png", "./drop.png", "thesis", "edge.tif", "''"}) {
+    const Called c = faba_in(f.path, std::string("drop drop.png --force --overlay ") + overlay);
+    INFO(overlay, ": ", c.err);
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+  }
+  CHECK(read_file(f.path / "drop.png") == "a picture");
+}
+
+TEST_CASE("what is legal but probably not meant is noted, a line each") {
+  const TestFolder f;
+  struct Odd {
+    const char* set;
+    const char* says;
+  };
+  write_file(f.path / "s.toml", "duration = '0.5 s'\n[[swarm]]\ncount = 5\n[[swarm]]\ncount = 9\n");
+  for (const Odd& o :
+       {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px lies outside of the box"},
+        Odd{"limits.max_current=0", "the coils stay without current"},
+        Odd{"swarm[0].polarity=north", "swarm[0]: the controller steers the south-seeking cells"},
+        Odd{"duration=0", "has one frame"}, Odd{"exposure=100", "did you mean motility"},
+        Odd{"camera.rate=20", ""}}) {
+    const std::string type = std::string(o.set).starts_with("reference") ? " --set reference.type=hold" : "";
+    const std::string run = "run s.toml --seed 1 --force --out run" + type + " --set '" + o.set + "'";
+    const Called c = faba_in(f.path, run);
+    INFO(o.set, ": ", c.err);
+    CHECK(c.exit == 0);
+    CHECK(c.err.find(o.says) != std::string::npos);
+    CHECK(c.err.empty() == std::string(o.says).empty());
+    CHECK(faba_in(f.path, run + " --quiet").err.empty());
+  }
 }
 
 TEST_CASE("a full disk: exit 1, one line, the run stays marked incomplete") {

@@ -145,7 +145,7 @@ TEST_CASE("run report: no frames, and a recording cut off in the middle of a lin
   put(run.path() / "series.csv", head + "0,0,10,20,3,4,5,80\n1,0.1,12,20,3,4,");
   const std::string html = report_of(run);
   CHECK(has(html, "in the middle of a line"));
-  CHECK(has(html, "did not settle"));
+  CHECK(has(html, "One frame was recorded"));
   CHECK(has(html, "stopped before its end"));
 }
 
@@ -240,6 +240,16 @@ TEST_CASE("run report: the outcome in words fits what happened") {
     const faba::RunInWords words = run_in_words(m, info);
     CHECK(has(words.outcome, "reached the last of 4 setpoints after 12.0\u00A0s"));
     CHECK(has(words.details, "within 6.00\u00A0px (3.00\u00A0µm) of the route in 19 of 20 frames"));
+  }
+  SUBCASE("a route that was not finished") {
+    info.setpoints = 6;
+    m.setpoints = 4, m.settling_time_s = 12, m.steady_rms_px = 2, m.cross_track_95_px = 6;
+    m.settling_band_px = 15;
+    CHECK(has(run_in_words(m, info).outcome, "was still on its way to setpoint 4 of 6, 80.0"));
+    m.final_distance_px = 3;
+    CHECK(has(run_in_words(m, info).outcome, "had come to setpoint 4 of 6, 3.00"));
+    m.setpoints = 6, m.settling_time_s.reset();
+    CHECK(has(run_in_words(m, info).outcome, "did not settle at the last of 6 setpoints: it was 3.00"));
   }
   SUBCASE("a target that moves all the time") {
     m.setpoints = 900, m.settling_time_s = 3, m.steady_rms_px = 9;

@@ -40,7 +40,7 @@ class Box final : public Arena {
 Schema<Box::Params> Box::schema() {
   return Schema<Params>("box", "A rectangle, all of it in view, that nobody leaves")
       .add("size_px", &Params::size_px,
-           {.unit = "px", .min = 1, .max = 65536, .doc = "Width and height, whole pixels"})
+           {.unit = "px", .min = 2, .max = 65536, .doc = "Width and height, whole pixels"})
       .add("limits", &Params::limits,
            {.doc = "What happens to a move across the border",
             .source = "clamp: the thesis's accumulation on edges (A2)",
