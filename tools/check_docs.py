@@ -8,6 +8,7 @@ Checks, each named in the message when it fails:
 - every relative link of every .md file leads to a file of this tree, and to a heading of it where it names one;
 - every fenced block marked `toml scenario` is accepted by the program, and so is every one marked `toml part`, which is
   an excerpt, once a swarm is added where it has none;
+- every block marked `console checked` prints, command by command, what the page says; `...` stands for anything;
 - every option that a `$ build/faba VERB ...` line uses exists, and so does every scene that it names;
 - the columns of docs/formats/run-directory.md are those of a series.csv;
 - every theory label and source tag cited in src/ and tests/ exists in docs/theory/;
@@ -106,6 +107,23 @@ class Checks:
                         self.fail(place, f"the program refuses this scenario: {r.stderr.strip()}")
                         break
 
+    def outputs(self, folder):
+        """The blocks of a page run one after the other in one folder, as a reader would do it."""
+        for page in self.pages:
+            work = pathlib.Path(folder) / f"outputs-{page.stem}"
+            for m in re.finditer(r"^```console checked\n(.*?)^```", self.text[page], re.M | re.S):
+                if not work.exists():
+                    work.mkdir()
+                    (work / "scenes").symlink_to(self.root / "scenes")
+                    (work / "build").mkdir()
+                    (work / "build/faba").symlink_to(self.program)
+                place = f"{page.relative_to(self.root)}:{self.text[page].count(chr(10), 0, m.start()) + 1}"
+                for command, said in shell_session(m[1]):
+                    r = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=work)
+                    pattern = ".*".join(re.escape(piece) for piece in said.split("..."))
+                    if r.returncode != 0 or not re.fullmatch(pattern, r.stdout.replace("\u00a0", " ")):
+                        self.fail(place, f"{command!r} now prints:\n{r.stdout}{r.stderr}")
+
     def commands(self, folder):
         helps = {}
         for page, text in self.text.items():
@@ -168,6 +186,25 @@ def without_code(text, keep_lines=False):
     return re.sub(r"`[^`\n]*`", lambda m: "x" if keep_lines else m[0].strip("`"), text)
 
 
+def shell_session(block):
+    """Pairs of a command, after `$ ` and on as many lines as the shell takes, and what is printed under it."""
+    command, said, pairs = "", "", []
+    for line in block.splitlines(keepends=True):
+        if line.startswith("$ "):
+            pairs += [(command, said)] if command else []
+            command, said = line[2:], ""
+        elif unfinished(command):
+            command += line
+        else:
+            said += line
+    return pairs + [(command, said)]
+
+
+def unfinished(command):
+    r = subprocess.run(["bash", "-n", "-c", command], capture_output=True, text=True)
+    return r.returncode != 0 or "here-document" in r.stderr or command.endswith("\\\n")
+
+
 def main():
     cli = argparse.ArgumentParser(description="Fail when the documentation and the program have drifted apart.")
     cli.add_argument("--program", default="build/faba")
@@ -181,6 +218,7 @@ def main():
         checks.reference()
         checks.links()
         checks.scenarios(folder)
+        checks.outputs(folder)
         checks.commands(folder)
         checks.columns(folder)
         checks.sources()

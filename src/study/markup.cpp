@@ -59,14 +59,13 @@ std::string three_digits(double value) {
   if (!std::isfinite(value)) return "\u2013";
   if (value == 0) return "0";
   const double size = std::abs(value);
-  std::string digits;
-  if (size < 1e-3 || size >= 1e6) {
-    const int exponent = int(std::floor(std::log10(size)));
-    digits =
-        fmt::format("{:.2f}\u00A0\u00D7\u00A0{}", size / std::pow(10.0, exponent), power_of_ten(exponent));
-  } else {
-    digits = fmt::format("{:.{}f}", size, std::max(0, 2 - int(std::floor(std::log10(size)))));
-  }
+  std::string digits = fmt::format("{:.2e}", size);  // whose exponent is that of the rounded number
+  const auto e = digits.find('e');
+  const int exponent = std::stoi(digits.substr(e + 1));
+  if (exponent < -3 || exponent >= 6)
+    digits = fmt::format("{}\u00A0\u00D7\u00A0{}", digits.substr(0, e), power_of_ten(exponent));
+  else
+    digits = fmt::format("{:.{}f}", size, std::max(0, 2 - exponent));
   return value < 0 ? std::string(kMinus) + digits : digits;
 }
 

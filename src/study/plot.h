@@ -41,6 +41,13 @@ struct Band {
   Ink ink = Ink::muted;
 };
 
+/// The area between two curves over the same x: how far something goes up and down.
+struct Ribbon {
+  std::vector<double> x, lo, hi;  ///< same length; what is longer is cut; non-finite points are left out
+  std::string label = {};
+  Ink ink = Ink::automatic;
+};
+
 /// A thin straight line across the plot at one value, with its words beside it.
 struct Rule {
   double at = 0;
@@ -81,7 +88,7 @@ struct SecondScale {
 /// To give it another kind of layer, add a struct to `Layer` and its extent(), draw() and swatch() in
 /// plot.cpp.
 struct Plot {
-  using Layer = std::variant<Line, Scatter, Band, Rule, Ellipse, Box>;
+  using Layer = std::variant<Line, Scatter, Band, Ribbon, Rule, Ellipse, Box>;
 
   std::string title = {};        ///< drawn on top; may be empty
   std::string description = {};  ///< read out by screen readers instead of the picture; the title when empty

@@ -79,6 +79,11 @@ void extent(const Scatter& s, Range& x, Range& y) {
 void extent(const Band& b, Range& x, Range& y) {
   for (const double v : {b.lo, b.hi}) (b.of_x ? x : y).take(v);
 }
+void extent(const Ribbon& r, Range& x, Range& y) {
+  for (const double v : r.x) x.take(v);
+  for (const auto* side : {&r.lo, &r.hi})
+    for (const double v : *side) y.take(v);
+}
 void extent(const Rule& r, Range& x, Range& y) { (r.of_x ? x : y).take(r.at); }
 void extent(const Ellipse& e, Range& x, Range& y) {
   for (const double side : {-1.0, 1.0}) x.take(e.x + side * e.radius_x), y.take(e.y + side * e.radius_y);
@@ -199,6 +204,17 @@ std::string draw(const Band& b, Ink ink, const Map& map) {
   return rectangle(look, {0, map.to_y(b.lo)}, {map.w, map.to_y(b.hi)});
 }
 
+std::string draw(const Ribbon& r, Ink ink, const Map& map) {
+  std::string there, back;
+  for (std::size_t i = 0; i < std::min({r.x.size(), r.lo.size(), r.hi.size()}); ++i) {
+    if (!std::isfinite(r.x[i] + r.lo[i] + r.hi[i])) continue;
+    there += fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.hi[i]));
+    back.insert(0, fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.lo[i])));
+  }
+  if (there.empty()) return {};
+  return fmt::format(R"(<polygon {} fill-opacity="0.25" points="{}{}"/>)", fill(shade(ink)), there, back);
+}
+
 std::string draw(const Rule& r, Ink ink, const Map& map) {
   if (!std::isfinite(r.at)) return {};
   const double at = r.of_x ? map.to_x(r.at) : map.to_y(r.at);
@@ -238,6 +254,9 @@ std::string swatch(const Line& l, Ink ink) {
 std::string swatch(const Scatter& s, Ink ink) {
   return fmt::format(R"(<path {} stroke-width="{}" d="{}"/>)", stroke(shade(ink)), mark_stroke(s),
                      mark_at(s, {0, 0}));
+}
+std::string swatch(const Ribbon&, Ink ink) {
+  return rectangle(fill(shade(ink)) + R"( fill-opacity="0.3")", {-9, -5}, {9, 5});
 }
 std::string swatch(const Band&, Ink ink) {
   return rectangle(fill(shade(ink)) + R"( fill-opacity="0.3")", {-9, -5}, {9, 5});

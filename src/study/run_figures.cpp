@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -108,9 +110,12 @@ Figure holding_figure(const Series& series, const Metrics& m, const RunInfo& inf
   Figure figure{
       "Staying there", "Distance to the setpoint over the last third of the frames, on its own scale.",
       lengths_over_time("distance", "Distance to the setpoint over the last third of the run", info)};
-  figure.plot.add(Line{{t.begin() + from, t.end()}, {d.begin() + from, d.end()}});
-  figure.plot.add(
-      Rule{*m.steady_rms_px, fmt::format("rms {} px", three_digits(*m.steady_rms_px)), false, Ink::text});
+  figure.plot.add(Line{{t.begin() + from, t.end()}, {d.begin() + from, d.end()}, "distance"});
+  figure.plot.add(Line{{t[std::size_t(from)], t.back()},
+                       {*m.steady_rms_px, *m.steady_rms_px},
+                       fmt::format("rms, {} px", three_digits(*m.steady_rms_px)),
+                       Ink::text,
+                       true});
   return figure;
 }
 
@@ -195,6 +200,63 @@ Figure dispersion_figure(const Series& series, const RunInfo& info) {
   return figure;
 }
 
+constexpr int kSwitches = 100;        // changes of direction that a plot can show one by one
+constexpr std::size_t kWindows = 60;  // of a plot that cannot
+
+/// Whether a signal goes up and down more often than a plot can show, swings of less than a twentieth of its
+/// range aside.
+bool restless(const Values& v) {
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+  for (const double x : v)
+    if (std::isfinite(x)) lo = std::min(lo, x), hi = std::max(hi, x);
+  int switches = 0, direction = 0;
+  double turn = v.empty() ? 0 : v.front();
+  for (const double x : v) {
+    if (!std::isfinite(x)) continue;
+    if (std::abs(x - turn) > 0.05 * (hi - lo)) {
+      const int now = x > turn ? 1 : -1;
+      switches += now != direction;
+      direction = now;
+      turn = x;
+    } else if ((x - turn) * direction > 0) {
+      turn = x;
+    }
+  }
+  return switches > kSwitches;
+}
+
+/// A command over time: as it is or, where it switches too often to be read, its mean and its range window by
+/// window. Returns the length of a window, 0 for none.
+double add_command(Plot& plot, const Values& t, const Values& v, const Line& like) {
+  if (t.size() < 2 * kWindows || !restless(v)) {
+    Line line = like;
+    line.x = t, line.y = v, line.held = true, line.width = 1.4;
+    plot.add(std::move(line));
+    return 0;
+  }
+  const std::size_t size = (t.size() + kWindows - 1) / kWindows;
+  Ribbon range{{}, {}, {}, {}, like.ink};
+  Line mean = like;
+  for (std::size_t first = 0; first < t.size(); first += size) {
+    const std::size_t end = std::min(first + size, t.size());
+    const auto [lo, hi] = std::minmax_element(&v[first], &v[first] + (end - first));
+    range.x.push_back(0.5 * (t[first] + t[end - 1]));
+    range.lo.push_back(*lo), range.hi.push_back(*hi);
+    mean.y.push_back(std::accumulate(&v[first], &v[first] + (end - first), 0.0) / double(end - first));
+  }
+  mean.x = range.x;
+  plot.add(std::move(range)).add(std::move(mean));
+  return double(size) * (t.back() - t.front()) / double(t.size() - 1);
+}
+
+std::string windows_in_words(double window) {
+  if (window == 0) return {};
+  return fmt::format(
+      " It switches faster than can be shown: lines are means over {} s, shades go from the smallest to the "
+      "largest value in them.",
+      three_digits(window));
+}
+
 Figure field_figure(const Series& series) {
   const Values t = values(series.column("t_s"));
   const Values x = values(series.find("field_x_ut")), y = values(series.find("field_y_ut"));
@@ -210,9 +272,10 @@ Figure field_figure(const Series& series) {
     figure.plot.add(Line{t, limited, "limited", Ink::orange, false, true, 5});
     figure.caption += " Where the magnitude is underlaid, the command was clipped by a limit.";
   }
-  figure.plot.add(Line{t, size, "magnitude", Ink::text, false, true, 1.4});
-  figure.plot.add(Line{t, x, "Bx", Ink::blue, false, true, 1.4});
-  figure.plot.add(Line{t, y, "By", Ink::vermillion, true, true, 1.4});
+  double window = add_command(figure.plot, t, size, {{}, {}, "magnitude", Ink::text});
+  window = std::max(window, add_command(figure.plot, t, x, {{}, {}, "Bx", Ink::blue}));
+  window = std::max(window, add_command(figure.plot, t, y, {{}, {}, "By", Ink::vermillion, true}));
+  figure.caption += windows_in_words(window);
   return figure;
 }
 
@@ -220,12 +283,15 @@ Figure current_figure(const Series& series) {
   const Values t = values(series.column("t_s"));
   Figure figure{"Coil currents", "Current through each coil, held from one frame to the next.",
                 over_time("current (A)", "Coil currents over time")};
+  constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple};
+  double window = 0;
   for (std::size_t coil = 0;; ++coil) {
     const std::string name = fmt::format("current_{}_a", coil);
     if (!series.has(name)) break;
-    figure.plot.add(Line{t, values(series.find(name)), fmt::format("coil {}", coil), Ink::automatic,
-                         coil % 2 == 1, true, 1.4});
+    const Line like{{}, {}, fmt::format("coil {}", coil), kInks[coil % std::size(kInks)], coil % 2 == 1};
+    window = std::max(window, add_command(figure.plot, t, values(series.find(name)), like));
   }
+  figure.caption += windows_in_words(window);
   return figure;
 }
 

@@ -34,6 +34,9 @@ TEST_CASE("markup: three significant digits without surprises") {
   CHECK(three_digits(26.666) == "26.7");
   CHECK(three_digits(312.6) == "313");
   CHECK(three_digits(36182.4) == "36182");
+  CHECK(three_digits(0.09999999) == "0.100");  // what rounds up to another power of ten
+  CHECK(three_digits(9.9999) == "10.0");
+  CHECK(three_digits(999999.7) == "1.00\u00A0×\u00A010⁶");
   CHECK(three_digits(-2.5) == "\u22122.50");
   CHECK(three_digits(0.0012345) == "0.00123");
   CHECK(three_digits(2.5e-7) == "2.50\u00A0×\u00A010⁻⁷");

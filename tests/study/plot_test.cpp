@@ -145,6 +145,7 @@ TEST_CASE("plot: no data, one point, a constant, absurd numbers: still a sound d
         plot.equal_aspect = equal;
         plot.right = SecondScale{1e-3, "other"};
         plot.add(Line{x, y, "line"}).add(Scatter{x, y, "dots"});
+        plot.add(Ribbon{y, y, y});
         if (!y.empty()) plot.add(Band{y.front(), y.back()}).add(Rule{y.front(), "rule", false});
         if (x.size() > 1 && y.size() > 1) {
           plot.add(Ellipse{x[0], y[0], x[1], y[1]}).add(Box{x[0], y[0], x[1], y[1]});

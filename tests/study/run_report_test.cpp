@@ -272,3 +272,31 @@ TEST_CASE("run report: a short approach is shown by itself, and only then") {
   CHECK(has(headings(900), "Approach;"));
   CHECK_FALSE(has(headings(90), "Approach;"));
 }
+
+TEST_CASE("run report: a command that switches too often to be read is shown by its mean and range") {
+  const auto drawn = [](int half_period) {
+    std::vector<double> t, current, zero(600, 0.0);
+    for (int k = 0; k < 600; ++k) t.push_back(k / 60.0), current.push_back(k / half_period % 2 ? 1 : -1);
+    const faba::Series series("series.csv",
+                              {"t_s", "distance_px", "centroid_x_px", "centroid_y_px", "sigma_x_px",
+                               "sigma_y_px", "rms_radius_px", "current_0_a"},
+                              {t, zero, zero, zero, zero, zero, zero, current});
+    for (const faba::Figure& f : run_figures(series, control_metrics(series), {}))
+      if (f.heading == "Coil currents") return f;
+    return faba::Figure{};
+  };
+  const faba::Figure calm = drawn(60), restless = drawn(1);
+  REQUIRE(calm.plot.layers.size() == 1);
+  CHECK(std::get<faba::Line>(calm.plot.layers[0]).y.size() == 600);
+  CHECK_FALSE(has(calm.caption, "faster"));
+  REQUIRE(restless.plot.layers.size() == 2);
+  const auto& range = std::get<faba::Ribbon>(restless.plot.layers[0]);
+  const auto& mean = std::get<faba::Line>(restless.plot.layers[1]);
+  REQUIRE(range.x.size() == 60);
+  for (std::size_t i = 0; i < 60; ++i) {
+    CHECK(range.lo[i] == -1);
+    CHECK(range.hi[i] == 1);
+    CHECK(mean.y[i] == 0);
+  }
+  CHECK(has(restless.caption, "means over 0.167 s"));
+}
