@@ -79,8 +79,9 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
   const Constants k = c;
   FABA_ELEMENTWISE
   for (std::size_t i = 0; i < n; ++i) {
-    const float turn_noise =
-        std::sqrt(-2.0f * portable::log(uniform(row.w0[i]))) *
+    // A normal number is sqrt(turn_square) turn_cos (Box and Muller); the root is taken once, further below.
+    const float turn_square = -2.0f * portable::log(uniform(row.w0[i]));
+    const float turn_cos =
         portable::sincos(float(std::int32_t(row.w1[i]) >> 8) * (portable::kPiF * 0x1p-23f)).cos;
     const float move_radius = k.sd_t * std::sqrt(-2.0f * portable::log(uniform(row.w2[i])));
     const auto move_angle =
@@ -94,16 +95,16 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
     const float hx = none ? 1.0f : bx[i] * inverse, hy = none ? 0.0f : by[i] * inverse;
     const float w = turning[i] * length * (sign * response[i]);
 
-    // Exact torque: with delta the angle from h to u, cos delta -> (cos delta + tanh w dt) / (1 + cos delta
-    // tanh w dt). 1 + cos delta is taken from sin^2 where it would cancel, so that cells near antiparallel
-    // turn correctly.
+    // Exact torque: with delta the angle from h to u, tan(delta / 2) -> e^(-w dt) tan(delta / 2). Of its two
+    // forms sin / (1 + cos) and (1 - cos) / sin the one that does not cancel is taken, so that cells near
+    // antiparallel turn correctly.
     const float cos0 = ux[i] * hx + uy[i] * hy, sin0 = hx * uy[i] - hy * ux[i];
-    const float big = 1.0f + std::fabs(cos0), small = sin0 * sin0 / big;
-    const float plus = cos0 < 0.0f ? small : big, minus = cos0 < 0.0f ? big : small;
+    const float big = 1.0f + std::fabs(cos0);
     const float wdt = w * k.dt;
     const float e = portable::exp(wdt < 30.0f ? -wdt : -30.0f);
-    const float inv = 1.0f / (plus + e * e * minus);
-    const float cos1 = (plus - e * e * minus) * inv, sin1 = 2.0f * e * sin0 * inv;
+    const float over = e * (cos0 < 0.0f ? big : sin0), under = cos0 < 0.0f ? sin0 : big;
+    const float inv = 1.0f / (under * under + over * over);
+    const float cos1 = (under * under - over * over) * inv, sin1 = 2.0f * over * under * inv;
 
     // Ornstein-Uhlenbeck noise of stiffness w cos delta.
     const float a = 2.0f * wdt * cos1;
@@ -111,7 +112,7 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
     const float relaxed =
         tiny ? 1.0f - a * (0.5f - a * (1.0f / 6.0f)) : (1.0f - portable::exp(-a)) / (tiny ? 1.0f : a);
     const float variance = k.spread_r * (relaxed < 20.0f ? relaxed : 20.0f);
-    const auto turn = portable::sincos(std::sqrt(variance) * turn_noise);
+    const auto turn = portable::sincos(std::sqrt(variance * turn_square) * turn_cos);
     const float cos2 = cos1 * turn.cos - sin1 * turn.sin, sin2 = sin1 * turn.cos + cos1 * turn.sin;
     float vx = hx * cos2 - hy * sin2, vy = hy * cos2 + hx * sin2;
     const float unit = 1.5f - 0.5f * (vx * vx + vy * vy);  // one Newton step keeps |u| = 1
