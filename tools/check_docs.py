@@ -115,6 +115,7 @@ class Checks:
                 if not work.exists():
                     work.mkdir()
                     (work / "scenes").symlink_to(self.root / "scenes")
+                    (work / "rigs").symlink_to(self.root / "rigs")
                     (work / "build").mkdir()
                     (work / "build/faba").symlink_to(self.program)
                 place = f"{page.relative_to(self.root)}:{self.text[page].count(chr(10), 0, m.start()) + 1}"
@@ -128,13 +129,13 @@ class Checks:
         helps = {}
         for page, text in self.text.items():
             for number, line in enumerate(text.splitlines(), 1):
-                m = re.match(r"\s*\$ build/faba (\w+)(.*)", line)
+                m = re.match(r"\s*\$ build/faba (field \w+|\w+)(.*)", line)
                 if not m:
                     continue
                 verb, rest = m[1], re.sub(r"'[^']*'|\"[^\"]*\"", "''", m[2])
                 place = f"{page.relative_to(self.root)}:{number}"
                 if verb not in helps:
-                    r = self.faba(verb, "--help", cwd=folder)
+                    r = self.faba(*verb.split(), "--help", cwd=folder)
                     helps[verb] = r.stdout if r.returncode == 0 else None
                 if helps[verb] is None:
                     self.fail(place, f"there is no verb {verb}")
@@ -142,7 +143,7 @@ class Checks:
                 for option in re.findall(r"(?<!\S)--[\w-]+", rest):
                     if not re.search(re.escape(option) + r"\b", helps[verb]):
                         self.fail(place, f"faba {verb} has no option {option}")
-                for scene in re.findall(r"(?<!\S)scenes/\S+\.toml", rest):
+                for scene in re.findall(r"(?<!\S)(?:scenes|rigs)/\S+\.toml", rest):
                     if not (self.root / scene).exists():
                         self.fail(place, f"there is no {scene}")
 

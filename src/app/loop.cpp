@@ -27,7 +27,8 @@ bool Limits::apply(Command& c, double dt, double frame_age) {
   for (std::size_t k = 0; k < c.current.size(); ++k) {
     double& i = c.current[k];
     if (!std::isfinite(i) || frame_age > p_.max_frame_age) i = 0;
-    i = std::clamp(i, -p_.max_current, p_.max_current);
+    const double most = k < most_.size() ? std::min(most_[k], p_.max_current) : p_.max_current;
+    i = std::clamp(i, -most, most);
     if (p_.max_slew) i = std::clamp(i, last_[k] - *p_.max_slew * dt, last_[k] + *p_.max_slew * dt);
   }
   last_ = c.current;

@@ -17,7 +17,8 @@ class Limits {
     double max_frame_age = 1;
   };
   static Schema<Params> schema();
-  explicit Limits(const Params& p) : p_(p) {}
+  /// `most`: the largest current of each coil, A; coils beyond its length have the common limit alone.
+  explicit Limits(const Params& p, std::vector<double> most = {}) : p_(p), most_(std::move(most)) {}
 
   /// Clips to the current and slew limits; not-a-number becomes zero; all zero when the frame is older than
   /// allowed. Returns whether anything was changed.
@@ -26,6 +27,7 @@ class Limits {
 
  private:
   Params p_;
+  std::vector<double> most_;  ///< A
   std::vector<double> last_;  ///< A, what was let through last
 };
 

@@ -14,6 +14,8 @@ namespace faba {
   X(arena, box)                \
   X(arena, drop)               \
   X(field, uniform)            \
+  X(field, coils)              \
+  X(field, rig)                \
   X(motility, motility_none)   \
   X(motility, motility_thesis) \
   X(estimator, mean)           \

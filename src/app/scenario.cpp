@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/rig_file.h"
 #include "core/hash.h"
 
 namespace faba {
@@ -187,7 +188,8 @@ void check_top_level(const Node& root) {
 
 }  // namespace
 
-Scenario read_scenario(const Document& d, const Parts& parts) {
+Scenario read_scenario(Document d, const Parts& parts) {
+  include_rig(d);
   const Node root(d);
   check_top_level(root);
   Scenario s;

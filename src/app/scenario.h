@@ -93,7 +93,7 @@ struct Scenario {
 
 /// Reads and checks a whole scenario. Throws Error(usage) naming file, line, path, reason and the nearest
 /// known key.
-Scenario read_scenario(const Document& d, const Parts& parts);
+Scenario read_scenario(Document d, const Parts& parts);
 
 /// JSON Schema of a whole scenario file: what web forms and editors read.
 Json scenario_json_schema(const Parts& parts);

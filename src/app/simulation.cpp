@@ -7,14 +7,30 @@
 namespace faba {
 namespace {
 
-// The strongest field in the plane that the coils can make at the arena's centre, T.
-double strongest(const Field& field, double max_current) {
-  std::vector<Vec3> b(field.coils());
-  field.basis({}, b, {});
-  const Vec3 earth = field.ambient();
+std::vector<double> largest_currents(const Field& field, double limit) {
+  std::vector<double> most;
+  for (std::size_t k = 0; k < field.coils(); ++k)
+    most.push_back(std::min(limit, field.circuit(k).max_current));
+  return most;
+}
+
+// The strongest field in the plane that the coils can make anywhere in the arena, T.
+double strongest(const WorldParts& w, double max_current) {
+  const std::vector<double> most = largest_currents(*w.field, max_current);
+  if (w.table) return w.table->strongest(most);
+  std::vector<Vec3> b(w.field->coils());
+  w.field->basis({}, b, {});
+  const Vec3 earth = w.field->ambient();
   Vec2 sum{std::fabs(earth.x), std::fabs(earth.y)};
-  for (const Vec3& v : b) sum = sum + Vec2{max_current * std::fabs(v.x), max_current * std::fabs(v.y)};
+  for (std::size_t k = 0; k < b.size(); ++k)
+    sum = sum + Vec2{most[k] * std::fabs(b[k].x), most[k] * std::fabs(b[k].y)};
   return norm(sum);
+}
+
+// The rectangle that the arena lies in.
+FieldTable tabulated(const Field& field, const Grid& g) {
+  const Vec2 low{double(g.left), double(g.low)};
+  return {field, low, low + double(g.cell) * Vec2{double(g.columns), double(g.rows)}};
 }
 
 // Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
@@ -40,19 +56,20 @@ int steps_per_frame(const Scenario& s, double longest) {
 
 }  // namespace
 
-Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) : limits_(s.limits) {
+Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
   const Scale scale = s.si_scale();
   WorldParts w;
   w.seed = seed;
   w.exclusion = s.exclusion;
   w.arena = s.arena.make({scale});
   w.field = s.field.make({});
+  if (w.field->varies()) w.table = tabulated(*w.field, w.arena->grid());
   w.motility = s.motility.make({w.arena.get(), s.params.exposure});
   frame_ = w.arena->frame();
 
   // A model must be asked for its longest step before the step is known: build it twice, it is cheap.
   double longest = s.frame_period();
-  const double b_max = strongest(*w.field, s.limits.max_current);
+  const double b_max = strongest(w, s.limits.max_current);
   for (const Swarm& swarm : s.swarms)
     longest = std::min(longest, swarm.model.make({scale, scale.iteration})->longest_step(b_max));
   const int steps = steps_per_frame(s, longest);
@@ -74,6 +91,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) : limi
         Errc::usage, "duration",
         fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
 
+  limits_ = Limits(s.limits, largest_currents(*w.field, s.limits.max_current));
   const ControlContext control{w.field, scale, frame_, s.polarity(), s.frame_period(), s.camera.delay_frames};
   world_ = std::make_unique<World>(std::move(w), pool);
   rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});

@@ -90,6 +90,23 @@ int dispatch(int argc, char** argv) {
   v->add_flag("--force", drop_options.force, "Replace an existing overlay");
   v->callback([&] { code = drop(drop_options, common); });
 
+  FieldVerb field_options;
+  CLI::App* field = app.add_subcommand("field", "Magnetic field of a rig of coils");
+  field->require_subcommand(1);
+  v = verb(*field, common, "at", "B at points: CSV in, CSV out, SI units",
+           "  faba field at rigs/thesis-four-coils.toml --points points.csv > b.csv");
+  v->add_option("rig", field_options.rig, "Rig file (TOML)")->required();
+  v->add_option("--points", field_options.points, "CSV with the columns x_m,y_m,z_m")->required();
+  v->callback([&] { code = field_at(field_options, common); });
+  v = verb(*field, common, "null", "Currents that put a zero of the field at a place and trap cells there",
+           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
+           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
+  v->add_option("rig", field_options.rig, "Rig file (TOML)")->required();
+  v->add_option("--at", field_options.at, "Place in the plane of the sample, x and y");
+  v->add_option("--polarity", field_options.polarity, "Cells to trap: north or south seeking")
+      ->check(CLI::IsMember({"north", "south"}));
+  v->callback([&] { code = field_null(field_options, common); });
+
   PartsVerb parts_options;
   v = verb(app, common, "parts", "What can be named in a scenario, with units, ranges, defaults and sources",
            "  faba parts\n  faba parts model\n  faba parts model dipole");
@@ -110,6 +127,7 @@ int dispatch(int argc, char** argv) {
     words.emplace_back("--help");
   }
   if (!words.empty() && words[0].rfind('-', 0) != 0) check_verb(app, words[0]);
+  if (words.size() > 1 && words[0] == "field" && words[1].rfind('-', 0) != 0) check_verb(*field, words[1]);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& e) {

@@ -30,6 +30,10 @@ struct DropVerb {
   std::filesystem::path picture, overlay;
   bool force = false;
 };
+struct FieldVerb {
+  std::filesystem::path rig, points;
+  std::string at = "0 mm, 0 mm", polarity = "north";
+};
 struct PartsVerb {
   std::string kind, name;
 };
@@ -43,6 +47,8 @@ std::string shell_word(const std::string& word);
 int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
+int field_at(const FieldVerb& v, const Common& c);
+int field_null(const FieldVerb& v, const Common& c);
 int parts(const PartsVerb& v, const Common& c);
 int schema(const Common& c);
 int doctor(const Common& c);

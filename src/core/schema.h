@@ -160,6 +160,20 @@ class Schema {
     fields_.push_back(std::move(f));
     return *this;
   }
+  /// Takes over every field of a struct that P holds, as keys of the same table.
+  template <class M>
+  Schema& include(M P::*member, const Schema<M>& other) {
+    for (const auto& theirs : other.fields_) {
+      Field f;
+      f.description = theirs.description;
+      f.set = [member, set = theirs.set](P& p, const Node& n) { set(p.*member, n); };
+      f.get = [member, get = theirs.get](const P& p) { return get(p.*member); };
+      fields_.push_back(std::move(f));
+    }
+    for (const auto& rule : other.rules_)
+      rules_.push_back([member, rule](const P& p) { return rule(p.*member); });
+    return *this;
+  }
   /// Named sets of defaults, chosen by the key `preset`; other keys given beside it win over it.
   Schema& preset(std::string preset_name, P values, std::string source) {
     presets_.push_back({std::move(preset_name), std::move(values), std::move(source)});
@@ -225,8 +239,13 @@ class Schema {
     return j;
   }
   const std::string& name() const { return name_; }
+  const std::string& summary() const { return summary_; }
+  /// Empty when nothing is said.
+  const std::string& validity() const { return validity_; }
 
  private:
+  template <class Other>
+  friend class Schema;
   struct Field {
     FieldDescription description;
     std::function<void(P&, const Node&)> set;

@@ -21,10 +21,16 @@ class Uniform final : public Field {
   Uniform(const Params& p, const FieldContext&) : p_(p) {}
 
   std::size_t coils() const override { return 2; }
+  void per_ampere(std::size_t coil, std::span<const Vec3> at, std::span<Vec3> b) const override;
   void eval(const Points& at, std::span<const double> current, Vectors b) const override;
-  void basis(Vec3 at, std::span<Vec3> b, std::span<Mat3> gradient) const override;
   Vec3 ambient() const override { return {p_.earth.x, p_.earth.y, 0}; }
-  std::vector<double> lag() const override { return {p_.lag, p_.lag}; }
+  Circuit circuit(std::size_t coil) const override {
+    Circuit c;
+    c.name = coil == 0 ? "x pair" : "y pair";
+    c.lag = p_.lag;
+    return c;
+  }
+  bool varies() const override { return false; }
 
  private:
   Params p_;
@@ -57,10 +63,8 @@ void Uniform::eval(const Points&, std::span<const double> current, Vectors b) co
   std::fill(b.y.begin(), b.y.end(), float(p_.earth.y + p_.gain * current[1]));
 }
 
-void Uniform::basis(Vec3, std::span<Vec3> b, std::span<Mat3> gradient) const {
-  b[0] = {p_.gain, 0, 0};
-  b[1] = {0, p_.gain, 0};
-  std::fill(gradient.begin(), gradient.end(), Mat3{});
+void Uniform::per_ampere(std::size_t coil, std::span<const Vec3>, std::span<Vec3> b) const {
+  std::fill(b.begin(), b.end(), coil == 0 ? Vec3{p_.gain, 0, 0} : Vec3{0, p_.gain, 0});
 }
 
 }  // namespace

@@ -34,8 +34,10 @@ World::World(WorldParts parts, Pool& pool)
   for (const auto& c : parts_.motility->columns()) state_.agents.add(c.name);
   state_.current.assign(parts_.field->coils(), 0.0);
   state_.command = state_.current;
-  for (const double lag : parts_.field->lag())
+  for (std::size_t k = 0; k < parts_.field->coils(); ++k) {
+    const double lag = parts_.field->circuit(k).lag;
     follow_.push_back(lag > 0 ? 1 - portable::exp(-parts_.dt / lag) : 1.0);
+  }
   place_all();
   exclusion_.occupy(state_);
   if (exclusion_.active()) {
@@ -90,6 +92,7 @@ void World::step() {
   const bool proposals = exclusion_.active();
   const std::span<float> to_x = proposals ? std::span<float>(to_x_) : state_.agents["x"];
   const std::span<float> to_y = proposals ? std::span<float>(to_y_) : state_.agents["y"];
+  if (parts_.table) parts_.table->set(state_.current);
   const auto vigour = float(parts_.motility->vigour(state_.t));
   for (const Population& p : parts_.populations)
     pool_.for_blocks(p.end - p.begin, kBlock, [&](std::size_t b, std::size_t e) {
@@ -97,8 +100,9 @@ void World::step() {
       StepContext c{p.begin + b,        p.begin + e, parts_.seed, parts_.dt, {bx.data(), e - b},
                     {by.data(), e - b}, to_x,        to_y,        vigour};
       const State& s = state_;
-      parts_.field->eval({s.agents["x"].subspan(c.begin, e - b), s.agents["y"].subspan(c.begin, e - b)},
-                         s.current, {{bx.data(), e - b}, {by.data(), e - b}});
+      const Points at{s.agents["x"].subspan(c.begin, e - b), s.agents["y"].subspan(c.begin, e - b)};
+      const Vectors field{{bx.data(), e - b}, {by.data(), e - b}};
+      parts_.table ? parts_.table->eval(at, field) : parts_.field->eval(at, s.current, field);
       parts_.motility->step(state_, c);
       p.model->step(state_, c);
       parts_.arena->confine(state_, c);

@@ -1,9 +1,10 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/parallel.h"
-#include "field/field.h"
+#include "field/field_table.h"
 #include "sim/exclusion.h"
 #include "sim/motility.h"
 #include "sim/start.h"
@@ -22,6 +23,7 @@ struct Population {
 /// Everything about a run that does not change while it runs.
 struct WorldParts {
   std::shared_ptr<const Field> field;
+  std::optional<FieldTable> table;  ///< of `field` over the arena; empty for one that is the same everywhere
   std::shared_ptr<const Arena> arena;
   std::shared_ptr<const Motility> motility;
   std::vector<Population> populations;

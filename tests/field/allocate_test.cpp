@@ -13,12 +13,11 @@ class Given final : public Field {
  public:
   explicit Given(std::vector<Vec3> b) : b_(std::move(b)) {}
   std::size_t coils() const override { return b_.size(); }
-  void eval(const Points&, std::span<const double>, Vectors) const override {}
-  void basis(Vec3, std::span<Vec3> b, std::span<Mat3>) const override {
-    std::copy(b_.begin(), b_.end(), b.begin());
+  void per_ampere(std::size_t coil, std::span<const Vec3>, std::span<Vec3> b) const override {
+    std::fill(b.begin(), b.end(), b_[coil]);
   }
+  Circuit circuit(std::size_t) const override { return {}; }
   Vec3 ambient() const override { return {0, 0, 1e-5}; }
-  std::vector<double> lag() const override { return std::vector<double>(b_.size(), 0.0); }
 
  private:
   std::vector<Vec3> b_;

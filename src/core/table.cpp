@@ -1,4 +1,4 @@
-#include "study/series.h"
+#include "core/table.h"
 
 #include <algorithm>
 #include <charconv>
@@ -52,12 +52,13 @@ std::string_view next_line(std::string_view& text) {
 
 }  // namespace
 
-Series::Series(std::string source, std::vector<std::string> names, std::vector<std::vector<double>> columns,
-               bool last_line_cut)
+Table::Table(std::string source, std::vector<std::string> names, std::vector<std::vector<double>> columns,
+             bool last_line_cut, std::size_t header_line)
     : source_(std::move(source)),
       names_(std::move(names)),
       columns_(std::move(columns)),
-      last_line_cut_(last_line_cut) {
+      last_line_cut_(last_line_cut),
+      header_line_(header_line) {
   if (names_.size() != columns_.size()) {
     throw Error(Errc::input, source_, fmt::format("{} names for {} columns", names_.size(), columns_.size()));
   }
@@ -76,17 +77,17 @@ Series::Series(std::string source, std::vector<std::string> names, std::vector<s
   }
 }
 
-bool Series::has(std::string_view name) const noexcept {
+bool Table::has(std::string_view name) const noexcept {
   return std::find(names_.begin(), names_.end(), name) != names_.end();
 }
 
-std::span<const double> Series::find(std::string_view name) const noexcept {
+std::span<const double> Table::find(std::string_view name) const noexcept {
   const auto at = std::find(names_.begin(), names_.end(), name);
   if (at == names_.end()) return {};
   return columns_[std::size_t(at - names_.begin())];
 }
 
-std::span<const double> Series::column(std::string_view name) const {
+std::span<const double> Table::column(std::string_view name) const {
   if (!has(name)) {
     std::string known;
     for (const std::string& other : names_) known += (known.empty() ? "" : ", ") + other;
@@ -96,26 +97,30 @@ std::span<const double> Series::column(std::string_view name) const {
   return find(name);
 }
 
-std::string Series::place(std::size_t row) const { return fmt::format("{}:{}", source_, row + 2); }
+std::string Table::place(std::size_t row) const {
+  return fmt::format("{}:{}", source_, header_line_ + row + 1);
+}
 
-Series read_series(const std::filesystem::path& path) {
+Table read_table(const std::filesystem::path& path, LastLine last_line) {
   const std::string file = path.string();
   const std::string content = read_file(path);
   std::string_view text = content;
   if (text.starts_with("\xEF\xBB\xBF"))
     text.remove_prefix(3);  // a byte-order mark, as spreadsheets leave one
-  if (trimmed(text).empty()) throw Error(Errc::input, file, "is empty; the run wrote nothing");
+  if (trimmed(text).empty()) throw Error(Errc::input, file, "is empty");
 
   const auto last_end = text.rfind('\n');
   if (last_end == std::string_view::npos) throw Error(Errc::input, file + ":1", "the header line is cut off");
-  const bool cut = last_end + 1 != text.size();
-  text = text.substr(0, last_end + 1);
+  const bool cut = last_line == LastLine::drop && last_end + 1 != text.size();
+  if (cut) text = text.substr(0, last_end + 1);
 
+  std::size_t header = 1;
+  for (; text.starts_with('#'); ++header) next_line(text);
   std::vector<std::string> names;
   for (const std::string_view name : split_fields(next_line(text))) names.emplace_back(name);
   std::vector<std::vector<double>> columns(names.size());
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
-  for (std::size_t line = 2; !text.empty(); ++line) {
+  for (std::size_t line = header + 1; !text.empty(); ++line) {
     const auto fields = split_fields(next_line(text));
     if (fields.size() != names.size()) {
       throw Error(Errc::input, fmt::format("{}:{}", file, line),
@@ -125,7 +130,7 @@ Series read_series(const std::filesystem::path& path) {
       columns[i].push_back(number_in(fields[i], file, line, names[i]));
     }
   }
-  return Series(file, std::move(names), std::move(columns), cut);
+  return Table(file, std::move(names), std::move(columns), cut, header);
 }
 
 }  // namespace faba

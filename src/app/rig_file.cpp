@@ -1,0 +1,38 @@
+#include "app/rig_file.h"
+
+#include <fmt/format.h>
+
+namespace faba {
+
+FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts) {
+  Document d = read_toml(file);
+  if (!d.root.contains("coil"))
+    throw Error(Errc::usage, file.string(), "is no rig: it has no [[coil]]; see rigs/ for some");
+  d.root["type"] = "rig";
+  return parts.field.resolve(Node(d));
+}
+
+void include_rig(Document& scenario) {
+  if (!scenario.root.is_object() || !scenario.root.contains("field") || !scenario.root["field"].is_object())
+    return;
+  Json& field = scenario.root["field"];
+  if (!field.contains("file")) return;
+  const Node node = Node(scenario).child("field").child("file");
+  if (!field["file"].is_string()) node.fail("expected the name of a rig file in quotes");
+  const std::filesystem::path named = field["file"].get<std::string>();
+  const std::filesystem::path beside = std::filesystem::path(scenario.name).parent_path() / named;
+  std::error_code ec;
+  const bool found = std::filesystem::exists(beside, ec);
+  if (!found && !std::filesystem::exists(named, ec))
+    node.fail(fmt::format("there is neither {} nor {}", beside.string(), named.string()));
+  const Document rig = read_toml(found ? beside : named);
+  field.erase("file");
+  for (const auto& [key, value] : rig.root.items()) {
+    if (field.contains(key)) continue;
+    field[key] = value;
+    for (const auto& [path, place] : rig.origin)
+      if (path.starts_with(key)) scenario.origin["field." + path] = place;
+  }
+}
+
+}  // namespace faba

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+
+#include "app/parts.h"
+
+namespace faba {
+
+/// A rig in a TOML file of its own: [[coil]] and [earth]. Throws Error(usage) naming file, line and reason.
+FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts);
+
+/// Puts the content of the rig file named by the scenario's `field.file`, relative to the scenario or to
+/// where the program was called, in the key's place, so that what is recorded stands by itself. What the
+/// scenario says itself wins.
+void include_rig(Document& scenario);
+
+}  // namespace faba

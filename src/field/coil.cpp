@@ -1,0 +1,88 @@
+#include "field/coil.h"
+
+#include "core/portable_math.h"
+
+namespace faba {
+namespace {
+
+double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+double along(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+}  // namespace
+
+Schema<CoilParams> CoilParams::schema() {
+  return Schema<CoilParams>("coil", "Where a coil stands and what it is connected to")
+      .add("name", &CoilParams::name, {.doc = "What reports call it"})
+      .add("position", &CoilParams::position,
+           {.unit = "m",
+            .min = -10,
+            .max = 10,
+            .doc = "Its middle, world frame: x right, y up, z to the camera"})
+      .add("axis", &CoilParams::axis,
+           {.min = -1e6,
+            .max = 1e6,
+            .doc = "Direction of its field inside for a positive current, of any length"})
+      .add("current", &CoilParams::current,
+           {.unit = "A",
+            .min = -1e4,
+            .max = 1e4,
+            .doc = "What flows when nothing commands it, as in `faba field`"})
+      .add("max_current", &CoilParams::max_current,
+           {.unit = "A", .min = 0, .max = 1e4, .doc = "Largest current; unlimited when absent"})
+      .add("resistance", &CoilParams::resistance,
+           {.unit = "ohm", .min = 1e-6, .max = 1e6, .doc = "Resistance of the winding"})
+      .add("inductance", &CoilParams::inductance,
+           {.unit = "H",
+            .min = 0,
+            .max = 1e3,
+            .doc = "Inductance; with the resistance it makes the current lag by L/R",
+            .source = "L/R of 1-10 ms is typical (C4)"})
+      .check([](const CoilParams& p) -> std::string {
+        if (p.axis == Vec3{}) return "axis must not be [0, 0, 0]";
+        if (p.inductance && !p.resistance) return "inductance needs a resistance, for the time constant L/R";
+        if (p.max_current && std::fabs(p.current) > *p.max_current) return "current is above max_current";
+        return {};
+      });
+}
+
+Axis::Axis(Vec3 origin, Vec3 direction) : origin_(origin), direction_((1 / length(direction)) * direction) {
+  // Any two directions across; the axis least along the coil's keeps them well defined.
+  const Vec3 d{std::fabs(direction_.x), std::fabs(direction_.y), std::fabs(direction_.z)};
+  const Vec3 other = d.x <= d.y && d.x <= d.z ? Vec3{1, 0, 0} : d.y <= d.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  across_ = cross(direction_, other);
+  across_ = (1 / length(across_)) * across_;
+  third_ = cross(direction_, across_);
+}
+
+void Axis::places(std::span<const Vec3> at, std::span<double> rho, std::span<double> z) const {
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Vec3 r = at[i] - origin_;
+    z[i] = along(r, direction_);
+    rho[i] = length(r - z[i] * direction_);
+  }
+}
+
+Vec3 Axis::vector(Vec3 at, double b_rho, double b_z) const {
+  const Vec3 r = at - origin_, off = r - along(r, direction_) * direction_;
+  const double rho = length(off);
+  return rho > 0 ? b_z * direction_ + (b_rho / rho) * off : b_z * direction_;
+}
+
+Field::Stroke Axis::circle(double radius, double z) const {
+  constexpr int kCorners = 96;
+  Field::Stroke s;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double turn = 2 * portable::kPi * i / kCorners;
+    s.push_back(line(radius, turn, z, z).front());
+  }
+  return s;
+}
+
+Field::Stroke Axis::line(double rho, double turn, double z0, double z1) const {
+  const auto a = portable::sincos(turn);
+  const Vec3 off = (rho * a.cos) * across_ + (rho * a.sin) * third_;
+  return {origin_ + off + z0 * direction_, origin_ + off + z1 * direction_};
+}
+
+}  // namespace faba

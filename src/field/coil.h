@@ -1,0 +1,93 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/schema.h"
+#include "field/axial.h"
+#include "field/field.h"
+
+namespace faba {
+
+/// Where a coil stands, how it is wound and what it is connected to: keys that all coils have.
+struct CoilParams {
+  std::string name;
+  Vec3 position;
+  Vec3 axis{0, 0, 1};
+  double current = 0;
+  std::optional<double> max_current;
+  std::optional<double> resistance, inductance;
+  static Schema<CoilParams> schema();
+};
+
+/// From the world to cylindrical coordinates about an axis and back.
+class Axis {
+ public:
+  /// `direction` of any length but 0; m, world.
+  Axis(Vec3 origin, Vec3 direction);
+  /// rho and z of every point.
+  void places(std::span<const Vec3> at, std::span<double> rho, std::span<double> z) const;
+  /// The vector with the components b_rho and b_z at `at`.
+  Vec3 vector(Vec3 at, double b_rho, double b_z) const;
+  /// A circle about the axis, closed.
+  Field::Stroke circle(double radius, double z) const;
+  /// A line at the distance `rho` from the axis, on the side given by `turn` (rad), from z0 to z1.
+  Field::Stroke line(double rho, double turn, double z0, double z1) const;
+
+ private:
+  Vec3 origin_, direction_, across_, third_;
+};
+
+/// A coil that is symmetric about its axis. `Source` is its shape:
+///   Source::Params and Source::schema(), with the parameters of the shape alone;
+///   Source(Params);
+///   add(Places, Components): the field of 1 A through the coil;
+///   clearance(rho, z): distance to the nearest winding, m;
+///   outline(Axis): strokes.
+template <class Source>
+class Coil final : public Field {
+ public:
+  struct Params {
+    typename Source::Params shape;
+    CoilParams coil;
+  };
+  static Schema<Params> schema() {
+    const auto shape = Source::schema();
+    return Schema<Params>(shape.name(), shape.summary())
+        .include(&Params::shape, shape)
+        .include(&Params::coil, CoilParams::schema())
+        .validity(shape.validity());
+  }
+  Coil(const Params& p, const FieldContext&)
+      : p_(p.coil), source_(p.shape), axis_(p.coil.position, p.coil.axis) {}
+
+  std::size_t coils() const override { return 1; }
+  void per_ampere(std::size_t, std::span<const Vec3> at, std::span<Vec3> b) const override {
+    std::vector<double> rho(at.size()), z(at.size()), b_rho(at.size()), b_z(at.size());
+    axis_.places(at, rho, z);
+    source_.add({rho, z}, {b_rho, b_z});
+    for (std::size_t i = 0; i < at.size(); ++i) b[i] = axis_.vector(at[i], b_rho[i], b_z[i]);
+  }
+  Circuit circuit(std::size_t) const override {
+    Circuit c;
+    c.name = p_.name;
+    c.current = p_.current;
+    if (p_.max_current) c.max_current = *p_.max_current;
+    c.resistance = p_.resistance.value_or(0);
+    if (p_.inductance && p_.resistance) c.lag = *p_.inductance / *p_.resistance;
+    return c;
+  }
+  double clearance(Vec3 at) const override {
+    double rho = 0, z = 0;
+    axis_.places({&at, 1}, {&rho, 1}, {&z, 1});
+    return source_.clearance(rho, z);
+  }
+  std::vector<Stroke> outline() const override { return source_.outline(axis_); }
+
+ private:
+  CoilParams p_;
+  Source source_;
+  Axis axis_;
+};
+
+}  // namespace faba

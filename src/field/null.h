@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "field/field.h"
+
+namespace faba {
+
+/// A place where the in-plane field is zero, and what a swarm does there.
+struct FieldNull {
+  std::vector<double> current;  ///< A, one per coil
+  std::array<double, 2>
+      gradient{};           ///< eigenvalues of the in-plane gradient there, T/m, the first the smaller
+  double out_of_plane = 0;  ///< dB_z/dz, T/m; minus their sum
+  bool reachable = false;   ///< the currents make the zero, and no limit is exceeded
+  bool saddle = true;       ///< cells of the polarity asked for are driven away along one direction
+};
+
+/// Currents that put a zero of the in-plane field at `at` (m, world, z = 0), the Earth's field included, and
+/// trap cells of `polarity` (+1 north-seeking, -1 south-seeking) there as strongly as the limits allow
+/// (theory C6). The zero needs A I = -B_earth, A the 2 x coils matrix of field per ampere; what is free in I,
+/// the null space of A, is turned so that the weaker of the two trapping gradients is largest, and made as
+/// large as the current limits `most` (A, one per coil) allow. Where no direction of it traps along both
+/// axes, as with two coils, the saddle with the stronger trap is given.
+FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const double> most);
+
+/// The limits of the field's own coils; 1 A where a coil has none.
+std::vector<double> current_limits(const Field& field);
+
+/// The zero of the in-plane field for given currents, by Newton's method from `from`, m; how far the last
+/// step went is in `last_step` when given. Not a number when it runs off or finds none in 50 steps.
+Vec2 find_null(const Field& field, std::span<const double> current, Vec2 from);
+
+}  // namespace faba

@@ -1,0 +1,101 @@
+#include <memory>
+
+#include "core/schema.h"
+#include "field/coils/coils.h"
+
+namespace faba {
+namespace {
+
+/// One [[coil]] of a rig: any kind of coil, described by the kind's own schema.
+struct RigCoil {
+  FieldRegistry::PartType part;
+
+  struct Description {
+    RigCoil parse(const Node& n) const { return {coil_kinds().resolve(n)}; }
+    Json to_json(const RigCoil& c) const { return c.part.resolved; }
+    Json json_schema() const {
+      Json any = Json::array();
+      for (const auto& name : coil_kinds().names()) {
+        Json one = coil_kinds().json_schema(name);
+        one["properties"]["type"] = {{"const", name}};
+        one["required"] = Json::array({"type"});
+        any.push_back(one);
+      }
+      return {{"oneOf", any}};
+    }
+  };
+  static Description schema() { return {}; }
+};
+
+struct Earth {
+  Vec3 field;
+  static Schema<Earth> schema() {
+    return Schema<Earth>("earth", "The field that no coil makes")
+        .add("field", &Earth::field,
+             {.unit = "T", .min = -1e-2, .max = 1e-2, .doc = "Of the Earth and the room, world frame"});
+  }
+};
+
+/// Any number of coils and the Earth's field (theory C4): B = B_earth + sum of I_k b_k. Cores and magnets
+/// that see each other keep this linear, but change every b_k: then measure them and use maps.
+class Rig final : public Field {
+ public:
+  struct Params {
+    std::vector<RigCoil> coil;
+    Earth earth;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("rig", "Any number of coils, and the Earth's field")
+        .add("coil", &Params::coil,
+             {.doc = "The coils, one [[coil]] each; their order is that of the currents"})
+        .add("earth", &Params::earth, {.doc = "The field that no coil makes"})
+        .check([](const Params& p) -> std::string {
+          return p.coil.empty() ? "needs at least one [[coil]], or file = \"a rig's TOML file\"" : "";
+        })
+        .validity(
+            "Ferrite cores that magnetise each other: measure the field of each coil with all cores in "
+            "place.");
+  }
+  Rig(const Params& p, const FieldContext& c) : earth_(p.earth.field) {
+    for (std::size_t i = 0; i < p.coil.size(); ++i) {
+      parts_.push_back(p.coil[i].part.make(c));
+      for (std::size_t k = 0; k < parts_.back()->coils(); ++k) index_.push_back({i, k});
+    }
+  }
+
+  std::size_t coils() const override { return index_.size(); }
+  void per_ampere(std::size_t coil, std::span<const Vec3> at, std::span<Vec3> b) const override {
+    parts_[index_[coil].part]->per_ampere(index_[coil].coil, at, b);
+  }
+  Circuit circuit(std::size_t coil) const override {
+    Circuit c = parts_[index_[coil].part]->circuit(index_[coil].coil);
+    if (c.name.empty()) c.name = "coil " + std::to_string(coil);
+    return c;
+  }
+  Vec3 ambient() const override { return earth_; }
+  double clearance(Vec3 at) const override {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& p : parts_) least = std::min(least, p->clearance(at));
+    return least;
+  }
+  std::vector<Stroke> outline() const override {
+    std::vector<Stroke> all;
+    for (const auto& p : parts_)
+      for (auto& s : p->outline()) all.push_back(std::move(s));
+    return all;
+  }
+
+ private:
+  struct Index {
+    std::size_t part, coil;
+  };
+  Vec3 earth_;
+  std::vector<std::unique_ptr<Field>> parts_;
+  std::vector<Index> index_;  ///< of every coil
+};
+
+}  // namespace
+
+void add_rig(FieldRegistry& r) { r.add<Rig>(); }
+
+}  // namespace faba

@@ -1,0 +1,259 @@
+// Coils against sums over their wires, against Maxwell's equations, and against each other, over random
+// geometries (theory C1, C2, C4).
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/toml.h"
+#include "field/axial.h"
+#include "field/coils/coils.h"
+#include "field/field_table.h"
+#include "tests/field/wires.h"
+
+using namespace faba;
+
+namespace {
+
+std::unique_ptr<Field> made(const std::string& toml) {
+  FieldRegistry r{"field", ""};
+  add_coils(r);
+  add_rig(r);
+  const Document d = parse_toml(toml, "test");
+  return r.resolve(Node(d)).make({});
+}
+
+double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+/// Random coils of every kind, and points between a tenth of their size and ten times it from their windings.
+struct Draw {
+  std::mt19937_64 random{7};
+  double uniform(double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); }
+  double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
+  std::string vec(double size) {
+    return fmt::format("[{}, {}, {}]", uniform(-size, size), uniform(-size, size), uniform(-size, size));
+  }
+  std::string coil(const std::string& kind) {
+    const double a = log_uniform(1e-3, 0.1);
+    std::string t = fmt::format("type = '{}'\nposition = {}\naxis = {}\n", kind, vec(a), vec(1));
+    if (kind == "dipole") return t + fmt::format("moment = {}\nradius = {}\n", uniform(-1, 1), a / 10);
+    if (kind == "thick_coil")
+      return t + fmt::format("inner_radius = {}\nouter_radius = {}\nlength = {}\nturns = 300\n", a,
+                             a * uniform(1.1, 2), a * uniform(0.3, 4));
+    t += fmt::format("radius = {}\nturns = {}\n", a, std::floor(uniform(1, 500)));
+    if (kind == "solenoid") t += fmt::format("length = {}\n", a * log_uniform(0.1, 10));
+    if (kind == "solenoid" && uniform(0, 1) < 0.5)
+      t += fmt::format("core_permeability = {}\ncore_length = {}\n", uniform(1, 20), a * uniform(0.5, 12));
+    if (kind == "loop" || kind == "helmholtz") t += fmt::format("wire_radius = {}\n", a / 1000);
+    if (kind == "helmholtz" && uniform(0, 1) < 0.5) t += "opposed = true\n";
+    return t;
+  }
+  Vec3 point(const Field& f) {
+    for (;;) {
+      const double size = log_uniform(1e-3, 0.3);
+      const Vec3 p{uniform(-size, size), uniform(-size, size), uniform(-size, size)};
+      if (const double d = f.clearance(p); d > 1e-4 && d < 0.5) return p;
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every coil: no divergence, no curl (C2)") {
+  Draw draw;
+  for (const auto& kind : coil_kinds().names())
+    for (int i = 0; i < 40; ++i) {
+      const std::string toml = draw.coil(kind);
+      const auto f = made(toml);
+      const Vec3 p = draw.point(*f);
+      Vec3 b;
+      Mat3 g;
+      f->basis(p, {&b, 1}, {&g, 1});
+      double size = 0;
+      for (const auto& row : g)
+        for (const double v : row) size = std::max(size, std::fabs(v));
+      INFO(toml, "at ", p.x, " ", p.y, " ", p.z, ", clearance ", f->clearance(p));
+      // Differences resolve b / clearance to 1e-10 (Field::basis), and C2 asks for 1e-7 of the gradient.
+      const double allowed = 1e-7 * size + 1e-9 * length(b) / f->clearance(p);
+      CHECK(std::fabs(g[0][0] + g[1][1] + g[2][2]) < allowed);
+      CHECK(std::fabs(g[0][1] - g[1][0]) < allowed);
+      CHECK(std::fabs(g[0][2] - g[2][0]) < allowed);
+      CHECK(std::fabs(g[1][2] - g[2][1]) < allowed);
+    }
+}
+
+TEST_CASE("three rigs agree with the sum over their wires to 1e-8") {
+  struct Case {
+    const char* name;
+    std::string toml;
+    std::vector<Wire> wires;
+  };
+  const Vec3 tilted{0.3, -0.5, 0.8};
+  const std::vector<Case> cases{
+      {"two tilted solenoids",
+       "type = 'rig'\n[[coil]]\ntype = 'solenoid'\nradius = 0.008\nlength = 0.03\nturns = 250\nposition = "
+       "[0.04, 0.01, 0]\naxis = [-1, 0.2, 0.1]\n[[coil]]\ntype = 'solenoid'\nradius = 0.02\nlength = "
+       "0.01\nturns = 80\nposition = [0, -0.05, 0.02]\naxis = [0.3, -0.5, 0.8]\n",
+       {sheet({0.04, 0.01, 0}, {-1, 0.2, 0.1}, 0.008, 0.03, 250),
+        sheet({0, -0.05, 0.02}, tilted, 0.02, 0.01, 80)}},
+      {"a Maxwell pair and a loop",
+       "type = 'rig'\n[[coil]]\ntype = 'helmholtz'\nradius = 0.05\nturns = 60\nopposed = true\naxis = [0, 1, "
+       "0]\n[[coil]]\ntype = 'loop'\nradius = 0.03\nturns = 12\nposition = [0, 0, -0.02]\n",
+       {loops({{0, -0.05 * std::sqrt(3.0) / 2, 0}, {0, 0.05 * std::sqrt(3.0) / 2, 0}}, {0, 1, 0}, 0.05,
+              {60, -60}),
+        loops({{0, 0, -0.02}}, {0, 0, 1}, 0.03, {12})}},
+      {"a thick coil",
+       "type = 'rig'\n[[coil]]\ntype = 'thick_coil'\ninner_radius = 0.01\nouter_radius = 0.02\nlength = "
+       "0.025\nturns = 900\nposition = [0.06, 0, 0]\naxis = [1, 0, 0]\n",
+       {thick({0.06, 0, 0}, {1, 0, 0}, 0.01, 0.02, 0.025, 900)}}};
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<> u(-0.012, 0.012);
+  for (const Case& c : cases) {
+    const auto f = made(c.toml);
+    REQUIRE(f->coils() == c.wires.size());
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p{u(random), u(random), u(random)};
+      std::vector<Vec3> b(f->coils());
+      f->basis(p, b, {});
+      for (std::size_t k = 0; k < b.size(); ++k) {
+        const Vec3 sum = biot_savart(c.wires[k], p);
+        INFO(c.name, ", coil ", k);
+        CHECK(length(b[k] - sum) < 1e-8 * length(sum));
+      }
+    }
+  }
+}
+
+TEST_CASE("from far away every coil is a dipole of moment N I pi a^2") {
+  struct Case {
+    const char* toml;
+    double moment;
+  };
+  const double pi = 3.14159265358979;
+  for (const Case& c : {Case{"type = 'loop'\nradius = 0.01\nturns = 30\n", 30 * pi * 1e-4},
+                        Case{"type = 'solenoid'\nradius = 0.01\nlength = 0.02\nturns = 90\n", 90 * pi * 1e-4},
+                        Case{"type = 'helmholtz'\nradius = 0.01\nturns = 15\n", 30 * pi * 1e-4},
+                        Case{"type = 'thick_coil'\ninner_radius = 0.01\nouter_radius = 0.013\nlength = "
+                             "0.01\nturns = 10\n",
+                             10 * pi * (0.01 * 0.01 + 0.01 * 0.013 + 0.013 * 0.013) / 3}}) {
+    const auto coil = made(c.toml);
+    const auto dipole = made(fmt::format("type = 'dipole'\nmoment = {:.17g}\n", c.moment));
+    for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{0, 0.6, 0.8}, Vec3{0, 0, 1}}) {
+      double before = 0;
+      for (const double r : {1.0, 2.0}) {
+        Vec3 a, b;
+        coil->basis(r * direction, {&a, 1}, {});
+        dipole->basis(r * direction, {&b, 1}, {});
+        const double off = length(a - b) / length(b);
+        INFO(c.toml, " at ", r);
+        // The next multipole is (size / r)^2 of the dipole times at most 6, and falls with the square of r.
+        CHECK(off < 6 * 0.02 * 0.02 / (r * r));
+        if (before > 1e-6) CHECK(off == doctest::Approx(before / 4).epsilon(0.01));
+        before = off;
+      }
+    }
+  }
+}
+
+TEST_CASE("two formulas for one coil: a sheet's change along its axis is that of its rims, two loops") {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<> u(0.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    const double a = 0.001 + 0.05 * u(random), half = a * (0.1 + 3 * u(random));
+    const double rho = 3 * a * u(random), z = half * (4 * u(random) - 2);
+    const double near = std::min(norm(Vec2{rho - a, z - half}), norm(Vec2{rho - a, z + half}));
+    if (near < 0.05 * a || std::fabs(rho - a) < 0.05 * a) continue;
+    const auto sheet = [&](double at) {
+      Vec2 b;
+      axial::add_sheet(a, half, 1e-9, 1, {{&rho, 1}, {&at, 1}}, {{&b.x, 1}, {&b.y, 1}});
+      return b;
+    };
+    const auto loop = [&](double at) {
+      Vec2 b;
+      axial::add_loop(a, 1e-9, 1, {{&rho, 1}, {&at, 1}}, {{&b.x, 1}, {&b.y, 1}});
+      return b;
+    };
+    const double h = 0.01 * std::min(near, std::fabs(rho - a));
+    Vec2 slope;
+    const double w[3] = {45.0 / 60, -9.0 / 60, 1.0 / 60};
+    for (int j = 1; j <= 3; ++j) slope = slope + (w[j - 1] / h) * (sheet(z + j * h) - sheet(z - j * h));
+    const Vec2 rims = loop(z + half) - loop(z - half);
+    CHECK(norm(slope - rims) < 1e-8 * (norm(rims) + norm(sheet(z)) / near));
+  }
+}
+
+TEST_CASE("on the axis: the closed forms, and full accuracy a micrometre beside it") {
+  const double a = 0.005, half = 0.02, z = 0.013;
+  for (const double rho : {0.0, 1e-15, 1e-9, 1e-6, 1e-5}) {
+    double b_rho = 0, b_z = 0;
+    axial::add_sheet(a, half, 1e-9, 5000, {{&rho, 1}, {&z, 1}}, {{&b_rho, 1}, {&b_z, 1}});
+    const double u = z + half, v = z - half;
+    const double axis = axial::kMu0 * 2500 * (u / norm(Vec2{u, a}) - v / norm(Vec2{v, a}));
+    const double slope = axial::kMu0 * 2500 * a * a *
+                         (std::pow(norm(Vec2{u, a}), -3) - std::pow(norm(Vec2{v, a}), -3));  // dB_z/dz
+    INFO("rho ", rho);
+    CHECK(b_z == doctest::Approx(axis).epsilon(1e-14 + 10 * (rho / a) * (rho / a)));
+    if (rho > 0)
+      CHECK(b_rho == doctest::Approx(-0.5 * rho * slope).epsilon(1e-14 + 10 * (rho / a) * (rho / a)));
+    if (rho == 0) CHECK(b_rho == 0);
+  }
+}
+
+TEST_CASE("on the sheet: the mean of both sides, a jump of mu0 K; at its rim and on a wire: finite") {
+  const double a = 0.005, half = 0.02;
+  const auto b_z = [&](double rho, double z) {
+    double x = 0, y = 0;
+    axial::add_sheet(a, half, 5e-5, 1000, {{&rho, 1}, {&z, 1}}, {{&x, 1}, {&y, 1}});
+    CHECK(std::isfinite(x));
+    CHECK(std::isfinite(y));
+    return y;
+  };
+  const double inside = b_z(a * (1 - 1e-9), 0.004), outside = b_z(a * (1 + 1e-9), 0.004);
+  CHECK(inside - outside == doctest::Approx(axial::kMu0 * 1000).epsilon(1e-6));
+  CHECK(b_z(a, 0.004) == doctest::Approx(0.5 * (inside + outside)).epsilon(1e-6));
+  b_z(a, half);
+  b_z(a, -half);
+  double x = 0, y = 0;
+  const double zero = 0;
+  axial::add_loop(a, 5e-5, 1, {{&a, 1}, {&zero, 1}}, {{&x, 1}, {&y, 1}});
+  CHECK(std::isfinite(x + y));
+}
+
+TEST_CASE("a point's field does not depend on the points beside it") {
+  std::vector<double> rho, z;
+  for (int i = 0; i < 1000; ++i)
+    rho.push_back(1e-5 * (i * 37 % 1000)), z.push_back(1e-4 * (i * 91 % 700 - 350));
+  std::vector<double> all_rho(1000), all_z(1000);
+  axial::add_sheet(0.005, 0.02, 1e-5, 1, {rho, z}, {all_rho, all_z});
+  for (std::size_t i = 0; i < 1000; ++i) {
+    double x = 0, y = 0;
+    axial::add_sheet(0.005, 0.02, 1e-5, 1, {{&rho[i], 1}, {&z[i], 1}}, {{&x, 1}, {&y, 1}});
+    // A tile takes as many passes as its hardest point: more than enough for the others.
+    CHECK(x == doctest::Approx(all_rho[i]).epsilon(1e-13));
+    CHECK(y == doctest::Approx(all_z[i]).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("the table of a rig is the rig to its tolerance, and refuses coils in the sample") {
+  const std::string rig =
+      "type = 'rig'\nearth = { field = ['10 uT', '-15 uT', 0] }\n[[coil]]\ntype = 'solenoid'\nposition = "
+      "['35 mm', 0, 0]\naxis = [-1, 0, 0]\n[[coil]]\ntype = 'solenoid'\nposition = [0, '-35 mm', 0]\naxis = "
+      "[0, 1, 0]\n";
+  const auto f = made(rig);
+  FieldTable table(*f, {-0.003, -0.002}, {0.003, 0.002});
+  CHECK(table.error() <= FieldTable::kTolerance);
+  const std::vector<double> current{0.4, -0.25};
+  table.set(current);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<float> u(-0.003f, 0.003f), v(-0.002f, 0.002f);
+  for (int i = 0; i < 500; ++i) {
+    const float x = u(random), y = v(random);
+    float bx = 0, by = 0;
+    table.eval({{&x, 1}, {&y, 1}, 0}, {{&bx, 1}, {&by, 1}});
+    const Vec3 exact = f->at({double(x), double(y), 0}, current);
+    // Both coils' errors, each a share of its largest field, 0.5 mT/A at the near rim, and float's rounding.
+    const double allowed = FieldTable::kTolerance * 0.65 * 0.5e-3 + 1e-7 * length(exact);
+    CHECK(norm(Vec2{double(bx) - exact.x, double(by) - exact.y}) < allowed);
+  }
+  CHECK_THROWS_AS(FieldTable(*f, {-0.02, -0.02}, {0.02, 0.02}), Error);
+}
