@@ -25,7 +25,9 @@ namespace faba {
   X(reference, route)          \
   X(controller, manual)        \
   X(controller, fuzzy)         \
-  X(controller, proportional)
+  X(controller, proportional)  \
+  X(controller, gradient)      \
+  X(controller, gradient_feedback)
 
 #define X(kind, name) void add_##name(decltype(Parts::kind)&);
 FABA_PARTS(X)

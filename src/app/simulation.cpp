@@ -92,7 +92,13 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
         fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
 
   limits_ = Limits(s.limits, largest_currents(*w.field, s.limits.max_current));
-  const ControlContext control{w.field, scale, frame_, s.polarity(), s.frame_period(), s.camera.delay_frames};
+  const ControlContext control{w.field,
+                               scale,
+                               frame_,
+                               s.polarity(),
+                               s.frame_period(),
+                               s.camera.delay_frames,
+                               largest_currents(*w.field, s.limits.max_current)};
   world_ = std::make_unique<World>(std::move(w), pool);
   rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});
   estimator_ = s.estimator.make(control);

@@ -43,9 +43,10 @@ struct ControlContext {
   std::shared_ptr<const Field> field;
   Scale scale;
   Frame frame;
-  int polarity = -1;        ///< of the cells to be steered: +1 north-seeking, -1 south-seeking
-  double frame_period = 0;  ///< s
-  int delay_frames = 0;     ///< age of an observation when it arrives
+  int polarity = -1;                     ///< of the cells to be steered: +1 north-seeking, -1 south-seeking
+  double frame_period = 0;               ///< s
+  int delay_frames = 0;                  ///< age of an observation when it arrives
+  std::vector<double> max_current = {};  ///< largest current of each coil, A; one per coil
 };
 using EstimatorRegistry = Registry<Estimator, ControlContext>;
 using ReferenceRegistry = Registry<Reference, ControlContext>;

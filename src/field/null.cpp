@@ -122,12 +122,12 @@ void measure(FieldNull& n, const Local& local, int polarity) {
 
 }  // namespace
 
-FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const double> most) {
+FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const double> most, bool with_earth) {
   const Local local(field, at);
   const auto n = Eigen::Index(local.b.size());
   Matrix a(2, n);
   for (Eigen::Index k = 0; k < n; ++k) a.col(k) << local.b[std::size_t(k)].x, local.b[std::size_t(k)].y;
-  const Vec3 earth = field.ambient();
+  const Vec3 earth = with_earth ? field.ambient() : Vec3{};
   const Eigen::Vector2d wanted(-earth.x, -earth.y);
   Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   svd.setThreshold(kRank);

@@ -130,7 +130,7 @@ TEST_CASE("every controller: finite and quiet on hostile estimates") {
     INFO(name);
     Document d;
     d.root = Json{{"c", name}};
-    const ControlContext context{s.field.make({}), s.si_scale(), Frame{}, -1, 1.0 / 15, 0};
+    const ControlContext context{s.field.make({}), s.si_scale(), Frame{}, -1, 1.0 / 15, 0, {2, 2}};
     const auto controller = kParts.controller.resolve(Node(d).child("c")).make(context);
     Limits limits(s.limits);
     for (const double bad : {0.0, nan, inf, -inf, 1e300, 1e-300})

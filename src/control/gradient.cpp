@@ -1,0 +1,36 @@
+#include "control/trap.h"
+#include "core/schema.h"
+
+namespace faba {
+namespace {
+
+/// Open loop: a zero of the field is put at the setpoint, and the swarm gathers there by itself (theory C6).
+/// Fails with two coils, whose zero is a saddle, and by B_E / g where the Earth's field is not allowed for.
+class Gradient final : public Controller {
+ public:
+  struct Params {
+    bool earth = true;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("gradient",
+                          "Open loop: a zero of the field at the setpoint gathers the swarm there")
+        .add("earth", &Params::earth,
+             {.doc = "Allow for the Earth's field; false: as on a rig where nobody does"})
+        .validity(
+            "Two coils make a saddle, which drives cells away along one direction. Far from the zero cells "
+            "are "
+            "drawn to it at their own speed at most; near it the cloud is as wide as sqrt(v f_r / (m g)).");
+  }
+  Gradient(const Params& p, const ControlContext& c) : trap_(c, p.earth) {}
+  Command update(const Estimate&, const Target& target, double) override { return trap_.at(target.position); }
+  void archive(Archive& a) override { trap_.archive(a); }
+
+ private:
+  Trap trap_;
+};
+
+}  // namespace
+
+void add_gradient(ControllerRegistry& r) { r.add<Gradient>(); }
+
+}  // namespace faba

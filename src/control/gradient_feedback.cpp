@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "control/trap.h"
+#include "core/schema.h"
+
+namespace faba {
+namespace {
+
+/// As `gradient`, with an outer proportional-integral loop that moves the zero until the swarm, not the zero,
+/// is at the setpoint (theory F3): the offset B_E / g of an unknown field goes away.
+///   zero = setpoint + gain e + sum of gain e dt / integral_time,  e = setpoint - swarm
+class GradientFeedback final : public Controller {
+ public:
+  struct Params {
+    double gain = 0.5;
+    double integral_time = 3;
+    double most_px = 2000;
+    bool earth = true;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("gradient_feedback",
+                          "A zero of the field, moved until the swarm is at the setpoint")
+        .add("gain", &Params::gain,
+             {.min = 0,
+              .max = 10,
+              .doc = "How far the zero leads, as a share of the swarm's error",
+              .source = "assumed"})
+        .add("integral_time", &Params::integral_time,
+             {.unit = "s",
+              .min = 1e-2,
+              .max = 1e6,
+              .doc = "Time in which a steady error moves the zero by as much again",
+              .source = "assumed"})
+        .add("most_px", &Params::most_px,
+             {.unit = "px",
+              .min = 0,
+              .max = 1e5,
+              .doc = "The zero is put no further than this from the setpoint"})
+        .add("earth", &Params::earth,
+             {.doc = "Allow for the Earth's field; false: the loop has to find it out"})
+        .validity(
+            "Slower than a swarm relaxes in the trap, about f_r / (m g) times its width over its speed.");
+  }
+  GradientFeedback(const Params& p, const ControlContext& c)
+      : p_(p), m_per_px_(c.scale.m_per_px), trap_(c, p.earth) {}
+
+  Command update(const Estimate& e, const Target& target, double dt) override {
+    const Vec2 error = target.position - e.centroid;
+    if (e.visible > 0 && std::isfinite(error.x + error.y)) {
+      lead_ = clipped(p_.gain * error + integral_);
+      // No winding up: the integral stops growing where the zero may not go further.
+      if (norm(lead_) < most()) integral_ = clipped(integral_ + (p_.gain * dt / p_.integral_time) * error);
+    }
+    return trap_.at(target.position + lead_);
+  }
+  void archive(Archive& a) override {
+    a& lead_& integral_;
+    trap_.archive(a);
+  }
+
+ private:
+  double most() const { return p_.most_px * m_per_px_; }
+  Vec2 clipped(Vec2 v) const { return norm(v) > most() ? (most() / norm(v)) * v : v; }
+
+  Params p_;
+  double m_per_px_;
+  Trap trap_;
+  Vec2 lead_, integral_;  ///< m
+};
+
+}  // namespace
+
+void add_gradient_feedback(ControllerRegistry& r) { r.add<GradientFeedback>(); }
+
+}  // namespace faba

@@ -1,0 +1,132 @@
+// `faba field`: what it prints, and what it says to bad input.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/e2e/program.h"
+
+using namespace faba;
+
+namespace {
+
+const std::string kRig = "'" FABA_SCENES "/../rigs/thesis-four-coils.toml'";
+
+}  // namespace
+
+TEST_CASE("field at: CSV in, CSV out, 17 digits, the coils' own currents") {
+  const TestFolder f;
+  std::string rig = read_file(FABA_SCENES "/../rigs/thesis-four-coils.toml");
+  for (const auto& [name, amperes] : {std::pair{"right", "-0.25"}, std::pair{"left", "0.25"}}) {
+    const std::string line = std::string("name = \"") + name + "\"\n";
+    rig.insert(rig.find(line) + line.size(), std::string("current = ") + amperes + "\n");
+  }
+  write_file(f.path / "rig.toml", rig);
+  write_file(f.path / "p.csv", "x_m,y_m,z_m\n0,0,0\n0.002,0.001,0");  // no line end: a line like the others
+  const Called c = faba_in(f.path, "field at rig.toml --points p.csv");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  std::istringstream lines(c.out);
+  std::string header, first, second;
+  std::getline(lines, header), std::getline(lines, first), std::getline(lines, second);
+  CHECK(header == "x_m,y_m,z_m,bx_t,by_t,bz_t");
+  double x = 0, y = 0, z = 0, bx = 0, by = 0, bz = 0;
+  REQUIRE(std::sscanf(second.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &bx, &by, &bz) == 6);
+  // fourcoil_reference.csv, "uniform+x", fourth point, to the digits printed there
+  CHECK(bx == doctest::Approx(1.5457058382e-04).epsilon(1e-9));
+  CHECK(by == doctest::Approx(-3.6805628574e-06).epsilon(1e-9));
+  const auto j = faba_in(f.path, "field at rig.toml --points p.csv --json").json();
+  CHECK(j["b_t"][1][0].get<double>() == bx);
+  CHECK(j["currents_a"][0].get<double>() == -0.25);
+}
+
+TEST_CASE("field null: the fields of --json, a saddle and an unreachable place are said") {
+  const TestFolder f;
+  const auto j = faba_in(f.path, "field null " + kRig + " --at '1 mm, 0 mm' --json").json();
+  CHECK(j["currents_a"].size() == 4);
+  CHECK(j["eigenvalues_t_per_m"][0].get<double>() < 0);
+  CHECK(j["reachable"] == true);
+  CHECK(j["saddle"] == false);
+  const auto south =
+      faba_in(f.path, "field null " + kRig + " --at '1 mm, 0 mm' --polarity south --json").json();
+  CHECK(south["currents_a"][0].get<double>() == doctest::Approx(-j["currents_a"][0].get<double>()));
+  CHECK(faba_in(f.path, "field null " + kRig + " --at '20 mm, 0 mm' --json").exit == 0);
+  CHECK(
+      faba_in(f.path, "field null '" FABA_SCENES "/../rigs/helmholtz.toml'").err.find("cannot put a zero") !=
+      std::string::npos);
+}
+
+TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
+  const TestFolder f;
+  const std::string coil = "[[coil]]\ntype = 'solenoid'\n";
+  write_file(f.path / "ok.csv", "x_m,y_m,z_m\n0,0,0\n");
+  struct Bad {
+    const char* what;
+    std::string rig, points;
+    int exit;
+    const char* says;
+  };
+  for (const Bad& b :
+       {Bad{"no coil", "[earth]\nfield = [0, 0, 0]\n", "", 2, "has no [[coil]]"},
+        Bad{"zero turns", coil + "turns = 0\n", "", 2, "out of range"},
+        Bad{"NaN current", coil + "current = nan\n", "", 2, "finite"},
+        Bad{"no axis", coil + "axis = [0, 0, 0]\n", "", 2, "axis must not be"},
+        Bad{"unknown kind", "[[coil]]\ntype = 'selenoid'\n", "", 2, "did you mean \"solenoid\""},
+        Bad{"unknown key", coil + "raduis = 1\n", "", 2, "did you mean \"radius\""},
+        Bad{"current above its limit", coil + "current = 2\nmax_current = 1\n", "", 2, "above max_current"},
+        Bad{"missing column", coil, "x_m,y_m\n0,0\n", 3, "there is no column z_m"},
+        Bad{"no number", coil, "x_m,y_m,z_m\n0,0,zero\n", 3, "is not a number"},
+        Bad{"short line", coil, "x_m,y_m,z_m\n0,0\n", 3, "2 fields"},
+        Bad{"empty field", coil, "x_m,y_m,z_m\n0,,0\n", 3, "a coordinate is missing"},
+        Bad{"blank file", coil, "\n", 3, "has no name"}}) {
+    write_file(f.path / "rig.toml", b.rig);
+    write_file(f.path / "p.csv", b.points.empty() ? "x_m,y_m,z_m\n0,0,0\n" : b.points);
+    const Called c = faba_in(f.path, "field at rig.toml --points p.csv");
+    INFO(b.what, ": ", c.err);
+    CHECK(c.exit == b.exit);
+    CHECK(one_clear_line(c.err));
+    CHECK(c.err.find(b.says) != std::string::npos);
+    CHECK(c.out.empty());
+  }
+  CHECK(faba_in(f.path, "field at missing.toml --points ok.csv").exit == 2);
+  write_file(f.path / "rig.toml", coil);
+  CHECK(faba_in(f.path, "field at rig.toml --points missing.csv").exit == 3);
+  for (const char* at : {"1 mm", "1 s, 0 mm", "one, two", ", ", "nan, 0 mm"}) {
+    const Called c = faba_in(f.path, "field null rig.toml --at '" + std::string(at) + "'");
+    INFO(at, ": ", c.err);
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+  }
+}
+
+TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in it") {
+  const TestFolder f;
+  std::filesystem::create_directory(f.path / "scenes");
+  std::filesystem::copy_file(FABA_SCENES "/../rigs/thesis-four-coils.toml", f.path / "scenes/rig.toml");
+  const std::string swarm = "[[swarm]]\ncount = 20\nmodel = 'dipole'\n";
+  write_file(f.path / "scenes/s.toml",
+             "duration = '1 s'\n[field]\ntype = 'rig'\nfile = 'rig.toml'\n" + swarm);
+  const Called c = faba_in(f.path, "run scenes/s.toml --seed 1 --out run --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(read_file(f.path / "run/series.csv").find("current_3_a") != std::string::npos);
+  const Called again = faba_in(f.path, "run run/scenario.toml --out again --json");
+  REQUIRE_MESSAGE(again.exit == 0, again.err);
+  CHECK(again.json()["state_hash"] == c.json()["state_hash"]);
+
+  struct Bad {
+    const char* field;
+    const char* says;
+  };
+  for (const Bad& b :
+       {Bad{"file = 'none.toml'", "there is neither"}, Bad{"file = 3", "in quotes"},
+        Bad{"", "needs at least one [[coil]]"},
+        Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "reaches into the sample"},
+        Bad{"coil = [{ type = 'loop', radius = '-1 mm' }]", "field.coil[0].radius"}}) {
+    write_file(f.path / "bad.toml", "[field]\ntype = 'rig'\n" + std::string(b.field) + "\n" +
+                                        "[arena]\ntype = 'drop'\nradius_px = 2000\n" + swarm);
+    const Called refused = faba_in(f.path, "run bad.toml --seed 1 --out bad");
+    INFO(b.field, ": ", refused.err);
+    CHECK(refused.exit == 2);
+    CHECK(one_clear_line(refused.err));
+    CHECK(refused.err.find(b.says) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(f.path / "bad"));
+  }
+}

@@ -1,0 +1,105 @@
+// T7: swarms at zeros of the field of real coils against closed forms (theory B3.9 and C6).
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "tests/swarm.h"
+
+using namespace faba;
+
+namespace {
+
+constexpr double kSpeed = 1e-4, kPerTesla = 1e5;  // m/s; m / f_r in rad/(s T)
+
+// Cells of speed v without translational noise, D_r = 1, at the reference rig (C4): coils at +x, +y, -x, -y.
+std::string at_rig(const std::string& polarity, const std::string& earth, int cells) {
+  std::string t =
+      "duration = 1\nexclusion = { order = 'none' }\narena = { type = 'drop', radius_px = 6000 }\nscale = { "
+      "um_per_px "
+      "= 1 }\nsimulation = { step = 0.02 }\ncamera = { rate = 50 }\n[[swarm]]\ncount = " +
+      std::to_string(cells) + "\npolarity = '" + polarity +
+      "'\nstart = { type = 'disc', radius_px = 300 }\nmodel = { type = 'dipole', moment = 1e-15, viscosity = "
+      "1e-3, "
+      "radius = 1e-6, drag_factor = " +
+      std::to_string(1e-15 / kPerTesla / (8 * 3.14159265358979 * 1e-21)) +
+      ", speed = " + std::to_string(kSpeed) +
+      ", speed_sd = 0, translational_diffusion = 0, rotational_diffusion = 1 }\n[field]\ntype = 'rig'\nearth "
+      "= { field "
+      "= " +
+      earth + " }\n";
+  for (const char* place : {"1, 0", "0, 1", "-1, 0", "0, -1"})
+    t += fmt::format(
+        "[[field.coil]]\ntype = 'solenoid'\nradius = 0.005\nlength = 0.04\nturns = 400\nposition = [{}, "
+        "0]\naxis = [{}, "
+        "0]\n",
+        std::string(place) == "1, 0"    ? "0.035, 0"
+        : std::string(place) == "0, 1"  ? "0, 0.035"
+        : std::string(place) == "-1, 0" ? "-0.035, 0"
+                                        : "0, -0.035",
+        std::string(place) == "1, 0"    ? "-1, 0"
+        : std::string(place) == "0, 1"  ? "0, -1"
+        : std::string(place) == "-1, 0" ? "1, 0"
+                                        : "0, 1");
+  return t;
+}
+
+void run_for(TestSwarm& t, const std::vector<double>& current, double seconds) {
+  t.world().command(current);
+  for (int i = 0; i < int(seconds / 0.02); ++i) t.world().step();
+}
+
+Sample along(TestSwarm& t, const char* axis) {
+  const auto v = t.column(axis);
+  return Sample::of(v.size(), [&](std::size_t i) { return v[i]; });
+}
+
+}  // namespace
+
+TEST_CASE("T7: at a four-coil zero the cloud is Gaussian of variance v f_r / (m g), shifted by B_E / g") {
+  const double g = 0.019404;  // T/m in the plane at 0.5 A: C6, and null_test holds it
+  const double variance = kSpeed / (kPerTesla * g), shift = 5e-6 / g;
+  constexpr int kCells = 40000;
+  TestSwarm t(at_rig("north", "['5 uT', 0, 0]", kCells));
+  // The centre relaxes as m'' + D_r m' + (v m g / 2 f_r) m = 0, with D_r = 1/s at a rate of 0.11/s: after 100 s
+  // 2e-5 of the shift is missing.
+  run_for(t, {0.5, 0.5, 0.5, 0.5}, 100);
+  const Sample x = along(t, "x"), y = along(t, "y");
+  INFO("variance ", x.variance / variance, " ", y.variance / variance, ", shift ", x.mean / shift);
+  // Sampling: sqrt(2 / n) = 0.7 % of a variance; the issue allows 2 %. The rig's own curvature over a cloud
+  // of 0.23 mm at 15 mm adds (0.23 / 15)^2.
+  CHECK(std::fabs(0.5 * (x.variance + y.variance) / variance - 1) < 0.02);
+  CHECK(std::fabs(x.mean - shift) < 4 * x.standard_error + 0.002 * shift);
+  CHECK(std::fabs(y.mean) < 4 * y.standard_error);
+  // Gaussian: the share within one standard deviation of the centre is 1 - exp(-1/2) in the plane.
+  const auto px = t.column("x"), py = t.column("y");
+  const Sample inside = Sample::of(px.size(), [&](std::size_t i) {
+    const double dx = double(px[i]) - shift, dy = double(py[i]);
+    return dx * dx + dy * dy < variance ? 1.0 : 0.0;
+  });
+  CHECK(std::fabs(inside.mean - 0.393469) < 4 * inside.standard_error + 0.004);
+}
+
+TEST_CASE("two opposed coils hold a swarm along their axis and let it escape across it") {
+  const double g = 0.03881;
+  TestSwarm t(at_rig("north", "[0, 0, 0]", 4000));
+  run_for(t, {0.5, 0, 0.5, 0}, 60);
+  const Sample x = along(t, "x"), y = along(t, "y");
+  // Cells carried away along y are drawn less towards the axis there, so x is only about as wide as in the
+  // trap.
+  CHECK(x.variance < 4 * kSpeed / (kPerTesla * g));
+  CHECK(std::sqrt(y.variance) > 2e-3);  // and on its way to the drop's edge, 6 mm away
+}
+
+TEST_CASE("south-seeking cells need the opposite sign") {
+  for (const double sign : {1.0, -1.0}) {
+    TestSwarm t(at_rig("south", "[0, 0, 0]", 4000));
+    const double i = 0.5 * sign;
+    run_for(t, {i, i, i, i}, 60);
+    const double rms = std::sqrt(along(t, "x").variance + along(t, "y").variance);
+    INFO("sign ", sign, " rms ", rms);
+    if (sign < 0)
+      CHECK(rms < 4e-4);
+    else
+      CHECK(rms > 3e-3);
+  }
+}
