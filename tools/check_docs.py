@@ -94,6 +94,7 @@ class Checks:
 
     def scenarios(self, folder):
         """Runs each for one frame. `--duration` hides the block's own one, so that is tried once more as an exposure."""
+        (pathlib.Path(folder) / "rigs").symlink_to(self.root / "rigs")
         for info in ("toml scenario", "toml part"):
             for place, block in self.blocks(info):
                 scene = pathlib.Path(folder) / "block.toml"

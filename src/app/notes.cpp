@@ -3,11 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "field/null.h"
 
 namespace faba {
 namespace {
 
 using Notes = std::vector<std::string>;
+
+// Amperes from what a resolved scenario says: "0.5 A".
+std::vector<double> currents_in(const Json& list) {
+  std::vector<double> a;
+  for (const Json& one : list)
+    a.push_back(one.is_string() ? parse_quantity(one.get<std::string>()).value : one.get<double>());
+  return a;
+}
 
 void note_goals(const Simulation& simulation, Notes& notes) {
   const Arena& arena = *simulation.world().parts().arena;
@@ -29,6 +41,58 @@ void note_polarities(const Scenario& s, Notes& notes) {
                     "drives these away",
                     i, north ? "north" : "south"));
   }
+}
+
+std::string in_px(Vec2 px) { return fmt::format("({:.0f}, {:.0f}) px", px.x, px.y); }
+
+constexpr const char* kSaddle =
+    "a saddle: without divergence the field that draws cells together along one direction drives them away "
+    "along the other. Four coils can trap along both, as in rigs/thesis-four-coils.toml (theory C6)";
+
+// Where a controller of gradients puts its zeros, and what they do.
+void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
+  const Field& field = *simulation.world().parts().field;
+  std::vector<double> most;
+  for (std::size_t k = 0; k < field.coils(); ++k)
+    most.push_back(std::min(s.limits.max_current, field.circuit(k).max_current));
+  for (const Vec2 at : simulation.reference().setpoints()) {
+    const FieldNull n = null_at(field, at, s.polarity(), most);
+    const std::string place = in_px(simulation.frame().image_from_world(at));
+    if (!n.reachable)
+      notes.push_back(
+          fmt::format("controller: these coils cannot put a zero of the field at {}; nothing "
+                      "gathers the swarm there",
+                      place));
+    else if (n.saddle)
+      notes.push_back(fmt::format("controller: the zero of the field at {} is {}", place, kSaddle));
+  }
+}
+
+// Currents given one by one: where they cancel near the sample, and what becomes of cells there.
+void note_currents(const Scenario& s, const Simulation& simulation, Notes& notes) {
+  const WorldParts& parts = simulation.world().parts();
+  const auto look = [&](const Json& from) {
+    const std::vector<double> current =
+        from.value("current", Json::array()).empty() ? std::vector<double>() : currents_in(from["current"]);
+    if (current.empty()) return;
+    const Vec2 at = find_null(*parts.field, current, {});
+    if (!std::isfinite(at.x) || parts.field->clearance({at.x, at.y, 0}) < 1e-4) return;
+    const std::string place = in_px(simulation.frame().image_from_world(at));
+    const double outside = -parts.arena->depth(at);
+    const NullGradient g = null_gradient(*parts.field, current, at);
+    const bool north = s.polarity() > 0;
+    const bool traps = north ? g[1] < 0 : g[0] > 0, flees = north ? g[0] > 0 : g[1] < 0;
+    notes.push_back(fmt::format(
+        "controller: with these currents the field is zero at {}{}; it is {}", place,
+        outside > 0
+            ? fmt::format(", {:.2g} mm outside of the sample, so the swarm goes to one side", outside * 1e3)
+            : "",
+        traps   ? "a trap"
+        : flees ? "a place that cells flee in every direction"
+                : kSaddle));
+  };
+  look(s.controller.resolved);
+  for (const Json& segment : s.controller.resolved.value("segment", Json::array())) look(segment);
 }
 
 void note_helpless(const Scenario& s, Notes& notes) {
@@ -77,6 +141,8 @@ std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulatio
     note_goals(simulation, notes);
     note_polarities(s, notes);
   }
+  if (s.controller.type.starts_with("gradient")) note_traps(s, simulation, notes);
+  if (s.controller.type == "manual") note_currents(s, simulation, notes);
   note_size(s, simulation.world().state().agents.size(), out, notes);
   return notes;
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/checkpoint.h"
+#include "app/notes.h"
 #include "core/file.h"
 
 namespace faba {
@@ -211,7 +212,8 @@ Json Session::manifest() const {
           {"polarity", scenario_.polarity() > 0 ? "north" : "south"},
           {"cells", world.state().agents.size()},
           {"swarms", swarms},
-          {"setpoints", setpoints.size()}};
+          {"setpoints", setpoints.size()},
+          {"notes", notes_on(scenario_, *simulation_, dir_)}};
 }
 
 void Session::complete() {

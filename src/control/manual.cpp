@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "control/controller.h"
@@ -18,10 +20,12 @@ class Manual final : public Controller {
     Vec2 field;
     double rotating = 0;
     double frequency = 0;
+    std::vector<double> current;
     static Schema<Segment> schema();
   };
   struct Params {
     Vec2 field;
+    std::vector<double> current;
     std::vector<Segment> segment;
   };
   static Schema<Params> schema();
@@ -29,6 +33,8 @@ class Manual final : public Controller {
   Command update(const Estimate& e, const Target& target, double dt) override;
   void archive(Archive& a) override { a& t_& started_; }
 
+  /// What holds at time t: a segment, or none before the first.
+  const Segment* segment_at(double t) const;
   /// The scheduled field at time t, T, world frame.
   Vec2 field_at(double t) const;
 
@@ -38,6 +44,14 @@ class Manual final : public Controller {
   double t_ = 0;  ///< s since the first frame; the loop's own time, not the delayed picture's
   bool started_ = false;
 };
+
+FieldInfo currents_info() {
+  return {
+      .unit = "A",
+      .min = -1e4,
+      .max = 1e4,
+      .doc = "Currents themselves, one per coil, instead of a field: for coils that work against each other"};
+}
 
 Schema<Manual::Segment> Manual::Segment::schema() {
   return Schema<Segment>("segment", "The field from a moment on")
@@ -50,7 +64,8 @@ Schema<Manual::Segment> Manual::Segment::schema() {
            {.unit = "Hz",
             .min = -1000,
             .max = 1000,
-            .doc = "Turns per second of the rotating part, counter-clockwise"});
+            .doc = "Turns per second of the rotating part, counter-clockwise"})
+      .add("current", &Segment::current, currents_info());
 }
 
 Schema<Manual::Params> Manual::schema() {
@@ -60,6 +75,7 @@ Schema<Manual::Params> Manual::schema() {
             .min = -0.1,
             .max = 0.1,
             .doc = "Field before the first segment, world frame: x right, y up"})
+      .add("current", &Params::current, currents_info())
       .add("segment", &Params::segment, {.doc = "Segments in order of time: [[controller.segment]]"})
       .check([](const Params& p) -> std::string {
         for (std::size_t i = 1; i < p.segment.size(); ++i)
@@ -69,14 +85,27 @@ Schema<Manual::Params> Manual::schema() {
       .validity("Sampled once per frame: a rotating field needs a frame rate well above its frequency.");
 }
 
-Manual::Manual(const Params& p, const ControlContext& c) : p_(p), c_(c) {}
+Manual::Manual(const Params& p, const ControlContext& c) : p_(p), c_(c) {
+  const auto check = [&](const std::vector<double>& current) {
+    if (!current.empty() && current.size() != c.field->coils())
+      throw Error(Errc::usage, "controller.current",
+                  fmt::format("has {} currents, the field has {} coils", current.size(), c.field->coils()));
+  };
+  check(p.current);
+  for (const Segment& s : p.segment) check(s.current);
+}
 
-Vec2 Manual::field_at(double t) const {
+const Manual::Segment* Manual::segment_at(double t) const {
   // Times are sums of frame periods: a segment due within a millionth of a frame is due.
   const double now = t + 1e-6 * c_.frame_period;
   const Segment* s = nullptr;
   for (const Segment& candidate : p_.segment)
     if (candidate.at <= now) s = &candidate;
+  return s;
+}
+
+Vec2 Manual::field_at(double t) const {
+  const Segment* s = segment_at(t);
   if (!s) return p_.field;
   const auto turn = portable::sincos(2 * portable::kPi * s->frequency * (t - s->at));
   return {s->field.x + s->rotating * turn.cos, s->field.y + s->rotating * turn.sin};
@@ -85,6 +114,8 @@ Vec2 Manual::field_at(double t) const {
 Command Manual::update(const Estimate& e, const Target&, double dt) {
   if (started_) t_ += dt;
   started_ = true;
+  const Segment* s = segment_at(t_);
+  if (const auto& current = s ? s->current : p_.current; !current.empty()) return {current};
   return {allocate(*c_.field, {e.centroid.x, e.centroid.y, 0}, field_at(t_))};
 }
 

@@ -106,18 +106,20 @@ Vector turned_to_limits(const Slope& all, const Vector& start, const Matrix& fre
   return y;
 }
 
-void measure(FieldNull& n, const Local& local, int polarity) {
+/// Eigenvalues of the in-plane part of the gradient, and dB_z/dz.
+struct Measured {
+  std::array<double, 2> in_plane;
+  double along_z;
+};
+Measured measured(const Local& local, std::span<const double> current) {
   double xx = 0, xy = 0, yy = 0, zz = 0;
-  for (std::size_t k = 0; k < n.current.size(); ++k) {
-    xx += n.current[k] * local.g[k][0][0], yy += n.current[k] * local.g[k][1][1];
-    xy += n.current[k] * 0.5 * (local.g[k][0][1] + local.g[k][1][0]);
-    zz += n.current[k] * local.g[k][2][2];
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    xx += current[k] * local.g[k][0][0], yy += current[k] * local.g[k][1][1];
+    xy += current[k] * 0.5 * (local.g[k][0][1] + local.g[k][1][0]);
+    zz += current[k] * local.g[k][2][2];
   }
   const double mean = 0.5 * (xx + yy), half = norm(Vec2{0.5 * (xx - yy), xy});
-  n.gradient = {mean - half, mean + half};
-  n.out_of_plane = zz;
-  // North-seeking cells swim along B: they come together where B points inwards.
-  n.saddle = !(polarity > 0 ? n.gradient[1] < 0 : n.gradient[0] > 0);
+  return {{mean - half, mean + half}, zz};
 }
 
 }  // namespace
@@ -157,8 +159,16 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
       out.current.assign(current.begin(), current.end());
     }
   }
-  measure(out, local, polarity);
+  const Measured m = measured(local, out.current);
+  out.gradient = m.in_plane;
+  out.out_of_plane = m.along_z;
+  // North-seeking cells swim along B: they come together where B points inwards.
+  out.saddle = !(polarity > 0 ? m.in_plane[1] < 0 : m.in_plane[0] > 0);
   return out;
+}
+
+NullGradient null_gradient(const Field& field, std::span<const double> current, Vec2 at) {
+  return measured(Local(field, at), current).in_plane;
 }
 
 std::vector<double> current_limits(const Field& field) {
@@ -181,6 +191,9 @@ Vec2 find_null(const Field& field, std::span<const double> current, Vec2 from) {
       for (int r = 0; r < 2; ++r)
         for (int c = 0; c < 2; ++c) g(r, c) += current[k] * local.g[k][std::size_t(r)][std::size_t(c)];
     }
+    double made = 0;  // by the coils one by one: what a zero is small against
+    for (std::size_t k = 0; k < current.size(); ++k)
+      made += std::fabs(current[k]) * norm(Vec2{local.b[k].x, local.b[k].y});
     const Eigen::Vector2d step = g.fullPivLu().solve(b);
     // A step longer than the way to the nearest coil is no step towards a zero that this gradient knows of.
     const double most = 0.5 * field.clearance({from.x, from.y, 0});
@@ -188,7 +201,8 @@ Vec2 find_null(const Field& field, std::span<const double> current, Vec2 from) {
     if (!std::isfinite(length) || !(most > 0)) break;
     const double share = length > most ? most / length : 1;
     from = from - share * Vec2{step[0], step[1]};
-    if (length < 1e-12) return from;
+    if (length < 1e-12 && b.norm() < 1e-9 * made) return from;
+    if (length < 1e-12) break;
   }
   return {kNowhere, kNowhere};
 }

@@ -26,6 +26,11 @@ struct FieldNull {
 FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const double> most,
                   bool with_earth = true);
 
+/// Eigenvalues of the in-plane gradient of B at a place, T/m, the smaller one first. North-seeking cells come
+/// together where both are negative.
+using NullGradient = std::array<double, 2>;
+NullGradient null_gradient(const Field& field, std::span<const double> current, Vec2 at);
+
 /// The limits of the field's own coils; 1 A where a coil has none.
 std::vector<double> current_limits(const Field& field);
 

@@ -104,6 +104,13 @@ RunInfo read_run_info(const std::filesystem::path& path) {
     if (centre)
       info.arena = {inside.text("type"), *centre, inside.number("radius_px"), inside.pair("size_px")};
   }
+  if (const Json* notes = keys.find("notes")) {
+    if (!notes->is_array()) keys.fail("notes", "a list");
+    for (const Json& note : *notes) {
+      if (!note.is_string()) keys.fail("notes", "a list of texts");
+      info.notes.push_back(note.get<std::string>());
+    }
+  }
   if (const Json* swarms = keys.find("swarms")) {
     if (!swarms->is_array()) keys.fail("swarms", "a list");
     for (const Json& swarm : *swarms) {

@@ -265,6 +265,8 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
                                 escape_markup(words.outcome));
   if (!words.details.empty())
     out += fmt::format("<p class=\"details\">{}</p>\n", escape_markup(words.details));
+  for (const std::string& note : info.notes)
+    out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note));
   if (!info.um_per_px)
     out += "<p class=\"note\">The run has no picture scale, so lengths are in pixels only.</p>\n";
   if (!info.complete)
