@@ -23,8 +23,9 @@ build: setup          ## build the program: build/faba
 
 bench: build          ## measure speed beside NumPy, Octave and the machine's limits; table in bench/results/
 	@$(SETUP) bench
-	@cmake --build build -j $(JOBS) --target bench_agents
+	@cmake --build build -j $(JOBS) --target bench_agents bench_coils
 	@/usr/bin/python3 bench/agents.py
+	@/usr/bin/python3 bench/coils.py
 
 format:               ## clang-format every source
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

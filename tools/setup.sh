@@ -9,7 +9,7 @@ packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev 
 for what in "$@"; do
   case $what in
     test) packages+=(doctest-dev python3 python3-numpy python3-h5py) ;;
-    bench) packages+=(python3 python3-numpy octave) ;;
+    bench) packages+=(python3 python3-numpy python3-scipy octave libboost-math-dev) ;;
     lint) packages+=(clang-format clang-tidy) ;;
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;

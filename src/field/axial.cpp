@@ -51,6 +51,9 @@ template <int Passes, bool third>
   const bool near_axis = k2 < 1e-7;
   Sums out;
   out.t = 0.5 * k2 * first * first + (near_axis ? 0 : rest / (near_axis ? 1 : k2));
+  // Half the sum is the mean to the square of the difference that is left; m alone would be off by the
+  // difference.
+  m = 0.5 * (m + b);
   const double last = portable::kPi / 2 / (third ? m * (m + p) : m);
   out.k = double(1 << Passes) * (third ? (m + p) * last : last);
   out.p = third ? (s + c * m) * last : 0;
@@ -115,7 +118,7 @@ FABA_PASSES(8)
 
 /// Passes until the mean's two sides agree to 1e-8, which makes the integrals exact to 1e-16.
 int passes(double smallest_kc) {
-  return smallest_kc > 0.1 ? 4 : smallest_kc > 3e-3 ? 5 : smallest_kc > 1e-6 ? 6 : 8;
+  return smallest_kc > 0.06 ? 4 : smallest_kc > 3e-3 ? 5 : smallest_kc > 1e-6 ? 6 : 8;
 }
 
 FABA_VECTORISED double smallest_kc2(double a, double half, double wire2, const Tile& tile) {
