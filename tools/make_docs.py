@@ -80,6 +80,12 @@ def range_text(field):
 def kind_text(field):
     if field.get("type") == "array" and "properties" in field.get("items", {}):
         return "list of tables"
+    if field.get("type") == "object":
+        return "table"
+    if "oneOf" in field.get("items", {}):
+        kinds = ", ".join(f'[`{o["properties"]["type"]["const"]}`](#{o["properties"]["type"]["const"]})'
+                          for o in field["items"]["oneOf"])
+        return f"list of tables, each with a `type`: {kinds}"
     if field.get("type") == "array":
         item = field.get("items", {})
         if item.get("type") == "array":
@@ -105,8 +111,8 @@ def table(properties, labels):
         if isinstance(source, dict):
             presets, source = source, "below"
         item = field.get("items", {})
-        if "properties" in item:
-            nested.append((key, item))
+        if "properties" in item or "properties" in field:
+            nested.append((key, item if "properties" in item else field))
             default = "none"
         lines.append(f"| `{key}` | {cell(default)} | {cell(kind_text(field))} | {cell(field.get('description', ''))} | "
                      f"{cell(linked(source, labels))} |")
@@ -118,7 +124,7 @@ def table(properties, labels):
         text += "\n".join(f'- `preset = "{name}"`: {linked(source, labels)}' for name, source in presets.items())
         text += "\n\n" + preset_table(properties)
     for key, item in nested:
-        text += f"\nEach `{key}`: {item.get('description', '')}.\n\n" + table(item["properties"], labels)
+        text += f"\n`{key}`: {item.get('description', '')}.\n\n" + table(item["properties"], labels)
     return text
 
 

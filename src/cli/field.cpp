@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
 
 #include "cli/verbs.h"
 #include "core/error.h"
@@ -25,6 +27,24 @@ double metres(const std::string& words) {
   return q.value;
 }
 
+std::vector<double> amperes(const std::string& words) {
+  std::vector<double> out;
+  std::istringstream in(words);
+  for (std::string one; std::getline(in, one, ',');) {
+    char* end = nullptr;
+    out.push_back(std::strtod(one.c_str(), &end));
+    if (end == one.c_str() || *end != '\0' || !std::isfinite(out.back()))
+      throw Error(Errc::usage, "--current", fmt::format("\"{}\" is not a number of amperes", one));
+  }
+  return out;
+}
+
+void refuse_existing(const std::filesystem::path& file, bool force) {
+  std::error_code ec;
+  if (!file.empty() && !force && std::filesystem::exists(file, ec))
+    throw Error(Errc::usage, file.string(), "already exists; name another file, or --force to replace it");
+}
+
 // "1 mm, 0 mm" as metres.
 Vec2 place(const std::string& words) {
   const auto comma = std::min(words.find(','), words.size());
@@ -46,6 +66,38 @@ int field_at(const FieldVerb& v, const Common& c) {
     out += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", f.at[i].x, f.at[i].y, f.at[i].z,
                        f.b[i].x, f.b[i].y, f.b[i].z);
   fmt::print("{}", out);
+  return 0;
+}
+
+int field_map(const FieldVerb& v, const Common& c) {
+  FieldMapOptions o;
+  const Vec2 size = place(v.size);
+  if (!(size.x > 0 && size.y > 0 && size.x <= 1 && size.y <= 1))
+    throw Error(Errc::usage, "--size", "must be two lengths of up to 1 m, such as \"6 mm, 4.5 mm\"");
+  o.width = size.x, o.height = size.y;
+  o.current = amperes(v.current);
+  if (!v.check) {
+    o.picture = v.picture, o.hdf5 = v.out;
+    refuse_existing(o.picture, v.force);
+    refuse_existing(o.hdf5, v.force);
+  }
+  const auto j = faba::field_map(v.rig, o);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  for (const auto& z : j["zeros"])
+    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", z["at_m"][0].get<double>() * 1e3,
+               z["at_m"][1].get<double>() * 1e3, z["kind"].get<std::string>(),
+               z["eigenvalues_t_per_m"][0].get<double>(), z["eigenvalues_t_per_m"][1].get<double>());
+  if (!v.check) fmt::print("strongest {:.4g} mT\n", j["strongest_t"].get<double>() * 1e3);
+  if (const auto& t = j["table"]; !t.is_null())
+    fmt::print("table {} x {} nodes, {:.3g} um apart; largest error {:.1e} of a coil's largest field\n",
+               t["columns"].get<int>(), t["rows"].get<int>(), t["spacing_m"].get<double>() * 1e6,
+               t["error"].get<double>());
+  for (const auto& file : {o.picture, o.hdf5})
+    if (!file.empty()) fmt::print("  {}\n", file.string());
   return 0;
 }
 

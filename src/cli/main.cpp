@@ -98,6 +98,19 @@ int dispatch(int argc, char** argv) {
   v->add_option("rig", field_options.rig, "Rig file (TOML)")->required();
   v->add_option("--points", field_options.points, "CSV with the columns x_m,y_m,z_m")->required();
   v->callback([&] { code = field_at(field_options, common); });
+  v = verb(*field, common, "map", "The field in the plane of the sample, as a picture and as HDF5",
+           "  faba field map rigs/thesis-four-coils.toml --current 0.5,0.5,0.5,0.5\n"
+           "  faba field map rigs/helmholtz.toml --current 1,0 --size \"20 mm, 20 mm\" --picture h.png --out "
+           "h.h5");
+  v->add_option("rig", field_options.rig, "Rig file (TOML)")->required();
+  v->add_option("--current", field_options.current, "Currents in A, one per coil: 0.5,0.5,0,0");
+  v->add_option("--size", field_options.size, "Width and height of the rectangle about the centre");
+  v->add_option("--picture", field_options.picture, "Picture to write, PNG")->check(not_empty);
+  v->add_option("-o,--out", field_options.out, "HDF5 file to write")->check(not_empty);
+  v->add_flag("--check", field_options.check,
+              "Only say how far the table that a swarm swims in is from the field");
+  v->add_flag("--force", field_options.force, "Replace existing files");
+  v->callback([&] { code = field_map(field_options, common); });
   v = verb(*field, common, "null", "Currents that put a zero of the field at a place and trap cells there",
            "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
            "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");

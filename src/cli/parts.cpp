@@ -47,7 +47,15 @@ void describe(const Json& schema, const std::string& indent) {
           fmt::print("{0}    {1}: {2}\n{0}        {3}\n", indent, name, source.get<std::string>(),
                      own_values(f["x-values"][name], schema["properties"]));
     }
-    if (f.contains("items") && f["items"].contains("properties")) describe(f["items"], indent + "    ");
+    if (f.contains("properties")) describe(f, indent + "    ");
+    if (!f.contains("items")) continue;
+    if (f["items"].contains("properties")) describe(f["items"], indent + "    ");
+    if (f["items"].contains("oneOf")) {
+      std::string kinds;
+      for (const auto& one : f["items"]["oneOf"])
+        kinds += (kinds.empty() ? "" : " | ") + one["properties"]["type"]["const"].get<std::string>();
+      fmt::print("{}    type   ({}), and the keys of that kind\n", indent, kinds);
+    }
   }
 }
 

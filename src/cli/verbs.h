@@ -32,7 +32,9 @@ struct DropVerb {
 };
 struct FieldVerb {
   std::filesystem::path rig, points;
-  std::string at = "0 mm, 0 mm", polarity = "north";
+  std::string at = "0 mm, 0 mm", polarity = "north", size = "6 mm, 4.5 mm", current;
+  std::filesystem::path picture = "field.png", out;
+  bool check = false, force = false;
 };
 struct PartsVerb {
   std::string kind, name;
@@ -48,6 +50,7 @@ int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
+int field_map(const FieldVerb& v, const Common& c);
 int field_null(const FieldVerb& v, const Common& c);
 int parts(const PartsVerb& v, const Common& c);
 int schema(const Common& c);

@@ -62,6 +62,7 @@ template <int Passes, bool third>
 
 /// One tile of points. Everything per A (loop) or per A/m (sheet), without mu0.
 struct Tile {
+  std::size_t size = 0;  ///< whole vectors of them, the last ones copies of the first point
   std::array<double, kTile> rho, z, b_rho, b_z;
 };
 
@@ -81,7 +82,7 @@ struct Modulus {
 
 template <int Passes>
 [[gnu::always_inline]] inline void loop_tile(double a, double wire2, Tile& tile) {
-  for (std::size_t i = 0; i < kTile; ++i) {
+  for (std::size_t i = 0; i < tile.size; ++i) {
     const double rho = tile.rho[i], z = tile.z[i];
     const Modulus o = modulus(a, rho, z, wire2);
     const Sums s = sums<Passes, false>(o.kc, o.k2, 0);
@@ -95,7 +96,7 @@ template <int Passes>
 
 template <int Passes>
 [[gnu::always_inline]] inline void sheet_tile(double a, double half, double wire2, Tile& tile) {
-  for (std::size_t i = 0; i < kTile; ++i) {
+  for (std::size_t i = 0; i < tile.size; ++i) {
     const double rho = tile.rho[i], above = tile.z[i] + half, below = tile.z[i] - half;
     const double by_sum = 1 / (a + rho), g = (a - rho) * by_sum;
     const Modulus u = modulus(a, rho, above, wire2), v = modulus(a, rho, below, wire2);
@@ -123,7 +124,7 @@ int passes(double smallest_kc) {
 
 FABA_VECTORISED double smallest_kc2(double a, double half, double wire2, const Tile& tile) {
   double least = 1;
-  for (std::size_t i = 0; i < kTile; ++i) {
+  for (std::size_t i = 0; i < tile.size; ++i) {
     const double z = std::fabs(tile.z[i]) - half, rho = tile.rho[i];
     const double near2 = z * z + (a - rho) * (a - rho),
                  kc2 = (near2 < wire2 ? wire2 : near2) / (z * z + (a + rho) * (a + rho));
@@ -137,7 +138,9 @@ void for_tiles(const Places& at, const Components& b, double factor, Compute&& c
   Tile tile;
   for (std::size_t begin = 0; begin < at.rho.size(); begin += kTile) {
     const std::size_t n = std::min(kTile, at.rho.size() - begin);
-    for (std::size_t i = 0; i < kTile; ++i) {  // a last tile is filled with copies of its first point
+    constexpr std::size_t kVector = 16;
+    tile.size = (n + kVector - 1) / kVector * kVector;
+    for (std::size_t i = 0; i < tile.size; ++i) {  // a last tile is filled with copies of its first point
       tile.rho[i] = at.rho[begin + (i < n ? i : 0)];
       tile.z[i] = at.z[begin + (i < n ? i : 0)];
     }

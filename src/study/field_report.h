@@ -17,6 +17,21 @@ struct FieldAtPoints {
 /// points.
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points);
 
+/// What `faba field map` shows: the field of a rig in the plane of the sample over a rectangle about its
+/// centre.
+struct FieldMapOptions {
+  double width = 6e-3, height = 4.5e-3;  ///< m
+  std::vector<double> current = {};      ///< A, one per coil; the coils' own when empty
+  std::filesystem::path picture, hdf5;   ///< written unless empty
+};
+/// Draws the map and writes it as HDF5 (`b_t`, rows by columns by (x, y, z), from the top; `x_m`, `y_m`), and
+/// says
+/// `{"currents_a":[..],"zeros":[{"at_m":[x,y],"eigenvalues_t_per_m":[a,b],"kind":".."}],"strongest_t":..,
+/// "table":{"spacing_m":..,"columns":..,"rows":..,"error":..}}`: the table is what a swarm would swim in over
+/// this rectangle, and its error the largest difference from the field, as a share of each coil's largest
+/// field. Throws Error(usage) when a coil reaches into the rectangle.
+nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMapOptions& options);
+
 /// Currents for a zero of the field at `at` (m, in the plane of the sample) that traps cells of `polarity`,
 /// as the command line and the web page report it:
 /// `{"at_m":[x,y],"coils":[..],"currents_a":[..],"eigenvalues_t_per_m":[a,b],"dbz_dz_t_per_m":c,"reachable":..,

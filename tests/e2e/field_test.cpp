@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/h5.h"
+
 #include "tests/e2e/program.h"
 
 using namespace faba;
@@ -52,6 +54,41 @@ TEST_CASE("field null: the fields of --json, a saddle and an unreachable place a
   CHECK(
       faba_in(f.path, "field null '" FABA_SCENES "/../rigs/helmholtz.toml'").err.find("cannot put a zero") !=
       std::string::npos);
+}
+
+TEST_CASE("field map: zeros, a picture, HDF5 with the field of `at`, and the error of the table") {
+  const TestFolder f;
+  const std::string map = "field map " + kRig + " --current 0.5,0.5,0.5,0.5 ";
+  const auto j = faba_in(f.path, map + "--picture m.png --out m.h5 --json").json();
+  REQUIRE(j["zeros"].size() == 1);
+  CHECK(std::fabs(j["zeros"][0]["at_m"][0].get<double>()) < 1e-12);
+  CHECK(j["zeros"][0]["kind"] == "traps north-seekers");
+  CHECK(j["table"]["error"].get<double>() < 1e-5);
+  CHECK(read_file(f.path / "m.png").starts_with("\x89PNG"));
+  const H5File h5 = H5File::open(f.path / "m.h5");
+  const H5Table b = h5.table("b_t"), x = h5.table("x_m"), y = h5.table("y_m");
+  CHECK(b.rows() == y.rows());
+  CHECK(b.row_size() == 3 * x.rows());
+  std::vector<double> row(b.row_size());
+  b.read<double>(0, row);
+  double left = 0, top = 0;
+  x.read<double>(0, {&left, 1});
+  y.read<double>(0, {&top, 1});
+  CHECK(left < 0);
+  CHECK(top > 0);
+  CHECK(row[0] > 0);  // currents inwards: at the upper left the field points to the right and down
+  CHECK(row[1] < 0);
+  for (const char* again : {"--picture m.png", "--picture n.png --out m.h5"})
+    CHECK(faba_in(f.path, map + again).exit == 2);
+  CHECK(faba_in(f.path, "field map " + kRig + " --check").exit == 0);
+  CHECK_FALSE(std::filesystem::exists(f.path / "field.png"));
+  for (const char* bad : {"--current 1,2", "--current 1,2,3,x", "--current nan,0,0,0", "--size '1 mm'",
+                          "--size '0 mm, 1 mm'", "--size '1 s, 1 s'", "--check --size '100 mm, 100 mm'"}) {
+    const Called c = faba_in(f.path, "field map " + kRig + " " + bad);
+    INFO(bad, ": ", c.err);
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+  }
 }
 
 TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
