@@ -101,6 +101,28 @@ int field_map(const FieldVerb& v, const Common& c) {
   return 0;
 }
 
+int field_tolerance(const FieldVerb& v, const Common& c) {
+  refuse_existing(v.picture, v.force);
+  if (!v.picture.empty() && v.picture.extension() != ".svg")
+    throw Error(Errc::usage, v.picture.string(), "must end in .svg, which is what is written");
+  const auto j = faba::field_tolerance(v.rig, place(v.at), v.picture);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  std::string before;
+  for (const auto& row : j["rows"]) {
+    if (!before.empty() && before != row["cause"]) fmt::print("\n");
+    before = row["cause"].get<std::string>();
+    fmt::print("{:<42}{}\n", row["words"].get<std::string>(),
+               row["lost"] == true ? "the zero is gone"
+                                   : fmt::format("{:>8.4f} mm", row["shift_m"].get<double>() * 1e3));
+  }
+  if (!v.picture.empty()) fmt::print("  {}\n", v.picture.string());
+  return 0;
+}
+
 int field_null(const FieldVerb& v, const Common& c) {
   const auto j = null_report(v.rig, place(v.at), v.polarity == "south" ? -1 : 1);
   if (c.json) {

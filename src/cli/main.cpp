@@ -91,6 +91,7 @@ int dispatch(int argc, char** argv) {
   v->callback([&] { code = drop(drop_options, common); });
 
   FieldVerb field_options;
+  std::filesystem::path tolerance_picture;  // none unless named, unlike the map's
   CLI::App* field = app.add_subcommand("field", "Magnetic field of a rig of coils");
   field->require_subcommand(1);
   v = verb(*field, common, "at", "B at points: CSV in, CSV out, SI units",
@@ -119,6 +120,19 @@ int dispatch(int argc, char** argv) {
   v->add_option("--polarity", field_options.polarity, "Cells to trap: north or south seeking")
       ->check(CLI::IsMember({"north", "south"}));
   v->callback([&] { code = field_null(field_options, common); });
+
+  v = verb(*field, common, "tolerance",
+           "How far a zero of the field moves when the rig is not as its file says",
+           "  faba field tolerance rigs/thesis-two-coils.toml\n"
+           "  faba field tolerance rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --picture tolerance.svg");
+  v->add_option("rig", field_options.rig, "Rig file (TOML)")->required();
+  v->add_option("--at", field_options.at, "Place of the zero in the plane of the sample, x and y");
+  v->add_option("--picture", tolerance_picture, "Plot to write, SVG")->check(not_empty);
+  v->add_flag("--force", field_options.force, "Replace an existing plot");
+  v->callback([&] {
+    field_options.picture = tolerance_picture;
+    code = field_tolerance(field_options, common);
+  });
 
   PartsVerb parts_options;
   v = verb(app, common, "parts", "What can be named in a scenario, with units, ranges, defaults and sources",

@@ -51,6 +51,7 @@ int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
 int field_map(const FieldVerb& v, const Common& c);
+int field_tolerance(const FieldVerb& v, const Common& c);
 int field_null(const FieldVerb& v, const Common& c);
 int parts(const PartsVerb& v, const Common& c);
 int schema(const Common& c);

@@ -32,6 +32,15 @@ struct FieldMapOptions {
 /// field. Throws Error(usage) when a coil reaches into the rectangle.
 nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMapOptions& options);
 
+/// How far the zero of the field that null_report() gives at `at` moves when one thing is not as assumed: the
+/// current of a coil, its place along and across its axis, its direction, the Earth's field. Each is tried
+/// for every coil and direction, and the largest shift counts:
+/// `{"at_m":[x,y],"currents_a":[..],"rows":[{"cause":"current","words":"..","amount":10,"unit":"%","shift_m":..,"lost":false},..]}`,
+/// `lost` when the zero is nowhere near any more, and shift_m then null. Unless `picture` is empty the table
+/// is drawn there as SVG. Throws Error(usage) when the rig has no zero there.
+nlohmann::ordered_json field_tolerance(const std::filesystem::path& rig, Vec2 at,
+                                       const std::filesystem::path& picture);
+
 /// Currents for a zero of the field at `at` (m, in the plane of the sample) that traps cells of `polarity`,
 /// as the command line and the web page report it:
 /// `{"at_m":[x,y],"coils":[..],"currents_a":[..],"eigenvalues_t_per_m":[a,b],"dbz_dz_t_per_m":c,"reachable":..,
