@@ -95,7 +95,7 @@ void note_currents(const Scenario& s, const Simulation& simulation, Notes& notes
   for (const Json& segment : s.controller.resolved.value("segment", Json::array())) look(segment);
 }
 
-void note_helpless(const Scenario& s, Notes& notes) {
+void note_helpless(const Scenario& s, const Simulation& simulation, Notes& notes) {
   if (s.limits.max_current == 0)
     notes.emplace_back("limits.max_current is 0: the coils stay without current");
   if (std::all_of(s.swarms.begin(), s.swarms.end(), [](const Swarm& w) { return w.params.responding == 0; }))
@@ -103,6 +103,11 @@ void note_helpless(const Scenario& s, Notes& notes) {
   if (s.params.exposure > 0 && s.motility.type == "none")
     notes.emplace_back(
         "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
+  if (const double steps = s.frame_period() / simulation.step(); steps > 1e5)
+    notes.push_back(
+        fmt::format("simulation: the models need {:.2g} steps per frame to be accurate, which will take "
+                    "long; less field, slower turning or less diffusion need fewer",
+                    steps));
   if (s.frames() == 1)
     notes.push_back(
         fmt::format("duration: the run has one frame, its beginning; at {:g} Hz the next one comes "
@@ -136,7 +141,7 @@ void note_size(const Scenario& s, std::size_t cells, std::filesystem::path out, 
 std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulation,
                                   const std::filesystem::path& out) {
   Notes notes;
-  note_helpless(s, notes);
+  note_helpless(s, simulation, notes);
   if (s.steers()) {
     note_goals(simulation, notes);
     note_polarities(s, notes);

@@ -1,16 +1,12 @@
 #include "app/session.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "app/checkpoint.h"
 #include "app/notes.h"
 #include "core/file.h"
+#include "vision/video_format.h"
 
 namespace faba {
 namespace {
@@ -20,61 +16,64 @@ constexpr const char* kOurs[] = {kMarker,      kCheckpoint,      kScenario,     
                                  "series.csv", "tracks.h5",      "tracks.h5.new", "video.mp4.part",
                                  "video.mp4",  "video.avi.part", "video.avi",     "report.html"};
 
-// When the process began, in clock ticks since boot: tells a live writer from another process with its old
-// number.
-std::string started(long pid) {
-  std::ifstream in(fmt::format("/proc/{}/stat", pid));
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  const auto after_name = text.rfind(')');
-  if (after_name == std::string::npos) return "";
-  std::istringstream fields(text.substr(after_name + 2));
-  std::string field;
-  for (int i = 3; i <= 22 && fields >> field; ++i) {
-  }
-  return field;
-}
-
-void refuse_if_busy(const std::filesystem::path& dir) {
-  std::ifstream in(dir / kMarker);
-  long pid = 0;
-  std::string since;
-  if (!(in >> pid >> since) || pid == getpid()) return;
-  if (const std::string now = started(pid); !now.empty() && now == since)
-    throw Error(Errc::usage, dir.string(),
-                fmt::format("process {} is writing here; wait for it or choose another --out", pid));
-}
-
-void mark(const std::filesystem::path& dir) {
-  write_file(dir / kMarker, fmt::format("{} {}\nThis run is not complete. Go on with: faba resume {}\n",
-                                        getpid(), started(getpid()), dir.string()));
-}
-
 bool holds_run(const std::filesystem::path& dir) {
   std::error_code ec;
-  const auto has = [&](const char* name) { return std::filesystem::exists(dir / name, ec); };
-  return has(kMarker) || (has(kManifest) && has(kScenario));
+  const auto has = [&](const char* name) { return std::filesystem::is_regular_file(dir / name, ec); };
+  return RunLock::marks(dir) || (has(kManifest) && has(kScenario));
 }
 
-void make_directory(const std::filesystem::path& dir, bool force) {
+// Whether the directory is new. All that can be wrong with an old one is found here, before anything in it
+// goes.
+bool make_directory(const std::filesystem::path& dir, bool force) {
   std::error_code ec;
-  if (std::filesystem::exists(dir, ec)) {
-    if (!std::filesystem::is_directory(dir, ec))
+  if (dir.has_parent_path()) std::filesystem::create_directories(dir.parent_path(), ec);
+  if (std::filesystem::create_directory(dir, ec)) return true;
+  if (!std::filesystem::is_directory(dir)) {
+    if (std::filesystem::exists(std::filesystem::symlink_status(dir)))
       throw Error(Errc::usage, dir.string(), "exists and is not a directory");
-    if (!std::filesystem::is_empty(dir, ec)) {
-      if (!holds_run(dir))
-        throw Error(Errc::usage, dir.string(), "holds other files and no run; choose another --out");
-      if (!force)
-        throw Error(Errc::usage, dir.string(),
-                    "already holds a run; choose another --out, or --force to replace it");
-    }
-    refuse_if_busy(dir);
-    for (const char* name : kOurs) std::filesystem::remove(dir / name, ec);  // what is not ours stays
-    return;
-  }
-  std::filesystem::create_directories(dir, ec);
-  if (ec)
     throw Error(Errc::internal, dir.string(),
                 fmt::format("cannot be made: {}; choose another --out", ec.message()));
+  }
+  if (std::filesystem::is_empty(dir, ec)) return false;
+  if (!holds_run(dir))
+    throw Error(Errc::usage, dir.string(), "holds other files and no run; choose another --out");
+  if (!force)
+    throw Error(Errc::usage, dir.string(),
+                "already holds a run; choose another --out, or --force to replace it");
+  for (const char* name : kOurs)
+    if (std::filesystem::is_directory(dir / name, ec))
+      throw Error(Errc::usage, (dir / name).string(),
+                  "is a directory where a file of the run is to be; choose another --out");
+  return false;
+}
+
+// The first of `base`, `base`-2, `base`-3 ... that is not there yet; made, so that nobody else takes it.
+std::filesystem::path make_numbered(const std::filesystem::path& base) {
+  for (int i = 1;; ++i) {
+    const std::filesystem::path dir = i == 1 ? base.string() : fmt::format("{}-{}", base.string(), i);
+    if (std::filesystem::exists(std::filesystem::symlink_status(dir))) continue;
+    try {
+      if (make_directory(dir, false)) return dir;
+    } catch (const Error& e) {
+      if (e.code() != Errc::usage) throw;  // somebody was quicker
+    }
+  }
+}
+
+// What a video cannot be is better said before a run than after its first frame.
+void check_recording(const Scenario& s, const Frame& frame) {
+  if (!s.record.video && !s.record.lossless) return;
+  if (std::max(frame.width, frame.height) > kLongestVideoSide)
+    throw Error(Errc::usage, "arena",
+                fmt::format("a video of {} x {} px is not possible, {} px is the most; a smaller view, or "
+                            "record.video = false",
+                            frame.width, frame.height, kLongestVideoSide));
+  const double fps = s.camera.rate / s.record.video_every;
+  if (fps < kSlowestVideo || fps > kFastestVideo)
+    throw Error(Errc::usage, "camera.rate",
+                fmt::format("a video cannot have {:g} frames per second; another record.video_every, or "
+                            "record.video = false",
+                            fps));
 }
 
 }  // namespace
@@ -94,9 +93,17 @@ Session::~Session() = default;
 
 Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& o) {
   Session session(s, seed, o);
-  make_directory(o.out, o.force);
-  mark(o.out);
-  write_file(o.out / kScenario, to_toml(session.scenario_.resolved()));
+  check_recording(s, session.simulation_->frame());
+  if (o.numbered)
+    session.dir_ = make_numbered(o.out);
+  else
+    make_directory(o.out, o.force);
+  session.notes_ = notes_on(s, *session.simulation_, session.dir_);
+  session.lock_ = RunLock(session.dir_, o.program);
+  std::error_code ec;
+  for (const char* name : kOurs)  // what is not ours stays
+    if (std::string_view(name) != kMarker) std::filesystem::remove(session.dir_ / name, ec);
+  write_file(session.dir_ / kScenario, to_toml(session.scenario_.resolved()));
   session.open_sinks(nullptr);
   return session;
 }
@@ -105,12 +112,12 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
   std::error_code ec;
   if (!std::filesystem::is_directory(o.out, ec))
     throw Error(Errc::input, o.out.string(), "no such run directory");
-  if (!std::filesystem::exists(o.out / kMarker, ec)) {
+  if (!RunLock::marks(o.out)) {
     if (std::filesystem::exists(o.out / kManifest, ec))
       throw Error(Errc::usage, o.out.string(), "this run is complete");
     throw Error(Errc::input, o.out.string(), "is not a run directory");
   }
-  refuse_if_busy(o.out);
+  RunLock lock(o.out, o.program);
   if (!std::filesystem::exists(o.out / kScenario, ec))
     throw Error(Errc::input, o.out.string(),
                 "was broken off before anything was written; run the scenario again");
@@ -119,12 +126,14 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
   if (!std::filesystem::exists(o.out / kCheckpoint, ec)) {  // killed before the first one: nothing to lose
     RunOptions again = o;
     again.force = true;
+    lock = RunLock();  // begin() takes it anew
     return begin(s, *s.params.seed, again);
   }
   Session session(s, *s.params.seed, o);
   Archive saved = read_checkpoint(o.out / kCheckpoint, s.hash());
   session.simulation_->archive(saved);
-  mark(o.out);
+  session.lock_ = std::move(lock);
+  session.notes_ = notes_on(s, *session.simulation_, session.dir_);
   session.open_sinks(&saved);
   return session;
 }
@@ -157,6 +166,13 @@ bool Session::run() {
   const std::uint64_t total = scenario_.frames();
   auto last = Clock::now();
   Loop& loop = simulation_->loop();
+  // A frame of very many steps is not waited for: it is done again by resume, from the last checkpoint.
+  std::optional<Clock::time_point> asked;
+  simulation_->rig().give_up_when([&] {
+    if (!options_.stop || !options_.stop->load()) return false;
+    if (!asked) asked = Clock::now();
+    return Clock::now() - *asked > std::chrono::seconds(1);
+  });
   faba::run(loop, total, [&] {
     if (options_.progress) options_.progress(loop.next, total);
     const bool stop = options_.stop && options_.stop->load();
@@ -213,15 +229,13 @@ Json Session::manifest() const {
           {"cells", world.state().agents.size()},
           {"swarms", swarms},
           {"setpoints", setpoints.size()},
-          {"notes", notes_on(scenario_, *simulation_, dir_)}};
+          {"notes", notes_}};
 }
 
 void Session::complete() {
   std::error_code ec;
   std::filesystem::remove(dir_ / kCheckpoint, ec);
-  if (std::filesystem::remove(dir_ / kMarker, ec); ec)
-    throw Error(Errc::internal, (dir_ / kMarker).string(),
-                fmt::format("cannot be removed: {}", ec.message()));
+  lock_.complete();
 }
 
 }  // namespace faba

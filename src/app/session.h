@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "app/run_lock.h"
 #include "app/simulation.h"
 #include "app/sinks/sinks.h"
 
@@ -12,9 +13,11 @@ namespace faba {
 
 /// How a run is carried out; nothing here changes its result.
 struct RunOptions {
-  std::filesystem::path out;                                              ///< run directory
-  bool force = false;                                                     ///< replace an earlier run there
-  unsigned threads = 0;                                                   ///< 0: all of the machine's
+  std::filesystem::path out;     ///< run directory
+  bool numbered = false;         ///< or out-2, out-3 ... when it exists
+  std::string program = "faba";  ///< the command to go on with
+  bool force = false;            ///< replace an earlier run there
+  unsigned threads = 0;          ///< 0: all of the machine's
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  ///< called after every frame
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
 };
@@ -41,7 +44,8 @@ class Session {
   void complete();
 
   const Scenario& scenario() const { return scenario_; }
-  const Simulation& simulation() const { return *simulation_; }
+  /// What is legal but probably not meant: notes_on().
+  const std::vector<std::string>& notes() const { return notes_; }
   const std::filesystem::path& dir() const { return dir_; }
 
  private:
@@ -53,6 +57,8 @@ class Session {
   std::uint64_t seed_;
   RunOptions options_;
   std::filesystem::path dir_;
+  RunLock lock_;
+  std::vector<std::string> notes_;
   std::unique_ptr<Pool> pool_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::unique_ptr<RunSink>> sinks_;

@@ -18,6 +18,7 @@ class Simulation {
   World& world() { return *world_; }
   const World& world() const { return *world_; }
   Loop& loop() { return *loop_; }
+  SimRig& rig() { return *rig_; }
   const Reference& reference() const { return *reference_; }
   const Frame& frame() const { return frame_; }
   double step() const { return world_->parts().dt; }

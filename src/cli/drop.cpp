@@ -16,7 +16,7 @@ void check_overlay(const DropVerb& v) {
     refuse("is the picture itself; choose another --overlay");
   if (std::filesystem::is_directory(v.overlay, ec)) refuse("is a directory; name a file such as edge.png");
   if (v.overlay.extension() != ".png") refuse("must end in .png, which is what is written");
-  if (!v.force && std::filesystem::exists(v.overlay, ec))
+  if (!v.force && std::filesystem::exists(std::filesystem::symlink_status(v.overlay, ec)))
     refuse("already exists; choose another --overlay, or --force to replace it");
 }
 
@@ -36,8 +36,9 @@ int drop(const DropVerb& v, const Common& c) {
         number("sd_px", "y"), j["radius_px"].get<double>(), number("sd_px", "radius"),
         j["arc_deg"].get<double>());
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
-    fmt::print("now try: {} run scenes/drop.toml --from-video {}\n", shell_word(program()),
-               shell_word(v.picture.string()));
+    if (std::filesystem::exists("scenes/drop.toml"))
+      fmt::print("now try: {} run scenes/drop.toml --from-video {}\n", shell_word(program()),
+                 shell_word(v.picture.string()));
   }
   return 0;
 }

@@ -136,7 +136,7 @@ int field_null(const FieldVerb& v, const Common& c) {
              j["eigenvalues_t_per_m"][0].get<double>(), j["eigenvalues_t_per_m"][1].get<double>(),
              j["dbz_dz_t_per_m"].get<double>());
   if (const auto note = j["note"].get<std::string>(); !note.empty())
-    fmt::print(stderr, "faba: note: {}: {}\n", v.rig.string(), note);
+    tell(fmt::format("faba: note: {}: {}", v.rig.string(), note));
   return 0;
 }
 

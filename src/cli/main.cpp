@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <new>
 
 #include "cli/verbs.h"
@@ -17,7 +18,7 @@ namespace {
 std::atomic<bool> stop{false};
 std::string called_as = "faba";
 
-void complain(const std::string& text) { fmt::print(stderr, "faba: error: {}\n", text); }
+void complain(const std::string& text) { tell("faba: error: " + text); }
 
 CLI::App* verb(CLI::App& app, Common& common, const char* name, const char* does, const char* examples) {
   CLI::App* v = app.add_subcommand(name, does);
@@ -171,6 +172,11 @@ int dispatch(int argc, char** argv) {
 const std::atomic<bool>& stop_requested() { return stop; }
 const std::string& program() { return called_as; }
 
+void tell(const std::string& line) {
+  std::fputs((line + '\n').c_str(), stderr);
+  std::fflush(stderr);
+}
+
 std::string shell_word(const std::string& word) {
   const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
     return std::isalnum(c) || std::strchr("_-./=:,+@%", c);
@@ -182,11 +188,19 @@ std::string shell_word(const std::string& word) {
 }
 
 void catch_signals() {
+  // Some senders signal a process and its group: a repeat within half a second is the same wish.
+  static std::atomic<long> first_ms{0};
   const auto on_signal = [](int) {
-    if (stop.exchange(true)) _Exit(int(Errc::interrupted));
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const long ms = now.tv_sec * 1000 + now.tv_nsec / 1000000;
+    if (!stop.exchange(true))
+      first_ms = ms;
+    else if (ms - first_ms > 500)
+      _Exit(int(Errc::interrupted));
   };
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_signal);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early is an error of writing, not a death
 }
 

@@ -1,16 +1,31 @@
 #include "cli/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 
 namespace faba::cli {
 namespace {
 
-constexpr int kWidth = 30;
+// Without the sequence that erases a line, as on TERM=dumb, a bar would be one line after the other.
+bool can_erase() {
+  const char* kind = std::getenv("TERM");
+  return kind && std::strcmp(kind, "dumb") != 0;
+}
+
+// Of the bar: what a narrow terminal leaves beside the words.
+int bar_width(std::size_t words) {
+  constexpr int kMost = 30, kNumbers = 22;
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kMost;
+  return std::clamp(int(size.ws_col) - int(words) - kNumbers, 0, kMost);
+}
 
 std::string clock_time(double s) {
   const auto whole = std::llround(s);
@@ -21,10 +36,13 @@ std::string clock_time(double s) {
 }  // namespace
 
 Progress::Progress(std::string what, bool enabled)
-    : what_(std::move(what)), enabled_(enabled && isatty(STDERR_FILENO)) {}
+    : what_(std::move(what)), enabled_(enabled && isatty(STDERR_FILENO) && can_erase()) {}
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
   if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
 }
 
 void Progress::update(std::uint64_t done, std::uint64_t total) {
@@ -37,9 +55,10 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
   shown_ = true;
   const double fraction = double(done) / double(total);
   const double left = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
-  const int full = int(fraction * kWidth);
-  fmt::print(stderr, "\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {} left", what_, "", full, "", kWidth - full,
-             100 * fraction, clock_time(left));
+  const int width = bar_width(what_.size()), full = int(fraction * width);
+  const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {} left", what_, "", full, "",
+                                      width - full, 100 * fraction, clock_time(left));
+  std::fputs(bar.c_str(), stderr);
   std::fflush(stderr);
 }
 

@@ -13,6 +13,7 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
+  void clear();  ///< takes the bar off the terminal; the next update() draws it again
   void update(std::uint64_t done, std::uint64_t total);
 
  private:

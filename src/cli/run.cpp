@@ -4,7 +4,6 @@
 #include <random>
 
 #include "app/from_picture.h"
-#include "app/notes.h"
 #include "app/session.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
@@ -40,12 +39,16 @@ std::string again_with(const RunVerb& v, std::uint64_t seed) {
   return line;
 }
 
-std::filesystem::path free_directory(const std::string& scene, std::uint64_t seed) {
-  const std::string base = fmt::format("runs/{}-{}", std::filesystem::path(scene).stem().string(), seed);
-  std::filesystem::path dir = base;
+// What a run is made from is not to be replaced by it.
+void refuse_own_input(const RunVerb& v, const std::filesystem::path& out) {
   std::error_code ec;
-  for (int i = 2; std::filesystem::exists(dir, ec); ++i) dir = fmt::format("{}-{}", base, i);
-  return dir;
+  for (const std::filesystem::path& input : {std::filesystem::path(v.scene), v.from_video}) {
+    if (input.empty() || v.out.empty()) continue;
+    const auto folder = std::filesystem::weakly_canonical(input, ec).parent_path();
+    if (folder == std::filesystem::weakly_canonical(out, ec))
+      throw Error(Errc::usage, input.string(),
+                  "lies in the directory that the run would replace; choose another --out");
+  }
 }
 
 void summary(const Session& session, const Metrics& m, const std::string& next) {
@@ -69,12 +72,13 @@ void summary(const Session& session, const Metrics& m, const std::string& next) 
   if (!next.empty()) fmt::print("now try: {}\n", next);
 }
 
-int carry_out(Session& session, const Common& c, const std::string& next) {
+int carry_out(Session& session, Progress& bar, const Common& c, const std::string& next) {
   const bool whole = session.run();
+  bar.clear();
   if (!whole) {
     if (!c.quiet)
-      fmt::print(stderr, "faba: interrupted; what was recorded is kept. Go on with: {} resume {}\n",
-                 program(), session.dir().string());
+      tell(fmt::format("faba: interrupted; what was recorded is kept. Go on with: {} resume {}",
+                       shell_word(program()), shell_word(session.dir().string())));
     return int(Errc::interrupted);
   }
   write_run_report(session.dir());
@@ -105,29 +109,33 @@ int run(const RunVerb& v, const Common& c) {
   const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
   Progress bar("simulating", !c.quiet && !c.json);
   RunOptions o;
-  o.out = v.out.empty() ? free_directory(v.scene, seed) : v.out;
+  o.out = v.out;
+  if (v.out.empty()) o.out = fmt::format("runs/{}-{}", std::filesystem::path(v.scene).stem().string(), seed);
+  o.numbered = v.out.empty();
   o.force = v.force;
+  o.program = shell_word(program());
+  refuse_own_input(v, o.out);
   o.threads = v.threads;
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   Session session = Session::begin(s, seed, o);
   if (!c.quiet)
-    for (const auto& note : notes_on(s, session.simulation(), o.out))
-      fmt::print(stderr, "faba: note: {}: {}\n", v.scene, note);
+    for (const auto& note : session.notes()) tell(fmt::format("faba: note: {}: {}", v.scene, note));
   if (!s.params.seed && !c.quiet && !c.json)
     fmt::print("seed {} (drawn; --seed {} repeats this run)\n", seed, seed);
-  return carry_out(session, c, again_with(v, s.params.seed ? seed + 1 : 1));
+  return carry_out(session, bar, c, again_with(v, s.params.seed ? seed + 1 : 1));
 }
 
 int resume(const ResumeVerb& v, const Common& c) {
   Progress bar("simulating", !c.quiet && !c.json);
   RunOptions o;
   o.out = v.dir;
+  o.program = shell_word(program());
   o.threads = v.threads;
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   Session session = Session::resume(builtin_parts(), o);
-  return carry_out(session, c, "");
+  return carry_out(session, bar, c, "");
 }
 
 }  // namespace faba::cli

@@ -42,6 +42,8 @@ struct PartsVerb {
 
 /// The program as it was called, for commands that a user is told to type.
 const std::string& program();
+/// A line on standard error; lost when nobody can be told.
+void tell(const std::string& line);
 /// A word as a shell takes it for one: in quotes where it needs them.
 std::string shell_word(const std::string& word);
 

@@ -1,5 +1,10 @@
 #include "core/parallel.h"
 
+#include <string>
+#include <system_error>
+
+#include "core/error.h"
+
 namespace faba {
 namespace {
 
@@ -16,11 +21,20 @@ void relax() {
 
 Pool::Pool(unsigned threads) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  for (unsigned i = 1; i < threads; ++i)
-    workers_.emplace_back([this, i](const std::stop_token& stop) { work(i, stop); });
+  try {
+    for (unsigned i = 1; i < threads; ++i)
+      workers_.emplace_back([this, i](const std::stop_token& stop) { work(i, stop); });
+  } catch (const std::system_error& e) {
+    stop();  // those that are there wait for work, and would be waited for
+    throw Error(Errc::internal, "--threads",
+                "the system starts no more than " + std::to_string(workers_.size() + 1) + " threads here (" +
+                    e.code().message() + "); ask for fewer");
+  }
 }
 
-Pool::~Pool() {
+Pool::~Pool() { stop(); }
+
+void Pool::stop() {
   for (auto& w : workers_) w.request_stop();
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();

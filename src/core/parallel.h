@@ -12,7 +12,8 @@ namespace faba {
 /// depends on how many threads there are. The calling thread works too; one thread means no other is started.
 class Pool {
  public:
-  /// `threads` >= 1; 0 means as many as the machine has.
+  /// `threads` >= 1; 0 means as many as the machine has. Throws Error(internal) when the system gives no
+  /// more.
   explicit Pool(unsigned threads = 0);
   ~Pool();
   Pool(const Pool&) = delete;
@@ -33,6 +34,7 @@ class Pool {
 
  private:
   void work(unsigned index, const std::stop_token& stop);
+  void stop();
   void share(unsigned index);
 
   std::vector<std::jthread> workers_;

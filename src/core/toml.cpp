@@ -247,8 +247,15 @@ void Document::set(const std::string& path, const std::string& value, const std:
       Document scratch;
       parsed = convert(*t.get("v"), "", scratch);
     }
-  } catch (const toml::parse_error&) {
-    // not TOML: a plain string
+  } catch (const toml::parse_error& e) {
+    // What does not begin like a table or list is a plain string.
+    if (value.starts_with('{') || value.starts_with('['))
+      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), std::string(e.description()));
+  }
+  try {
+    parsed.dump();
+  } catch (const Json::exception&) {
+    throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), "is not UTF-8");
   }
   set(path, std::move(parsed), origin_label);
 }

@@ -16,7 +16,10 @@ std::vector<Detection> SimRig::look() const {
 
 bool SimRig::read(Observation& out) {
   if (next_ > 0) {
-    for (int i = 0; i < p_.steps_per_frame; ++i) world_.step();
+    for (int i = 0; i < p_.steps_per_frame; ++i) {
+      world_.step();
+      if (give_up_ && give_up_()) return false;
+    }
     world_.check_finite();
   }
   seen_.push_back(look());

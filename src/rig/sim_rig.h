@@ -1,5 +1,6 @@
 #pragma once
 #include <deque>
+#include <functional>
 
 #include "rig/rig.h"
 #include "sim/world.h"
@@ -24,6 +25,8 @@ class SimRig final : public Rig {
   void safe() noexcept override;
   void archive(Archive& a) override;
   const World& world() const { return world_; }
+  /// Asked between steps: when it says yes read() gives up the frame it is at, and with it the run.
+  void give_up_when(std::function<bool()> asked) { give_up_ = std::move(asked); }
 
  private:
   std::vector<Detection> look() const;
@@ -31,6 +34,7 @@ class SimRig final : public Rig {
   World& world_;
   Params p_;
   Frame frame_;
+  std::function<bool()> give_up_;
   std::uint64_t next_ = 0;                   ///< frame that read() will make
   std::deque<std::vector<Detection>> seen_;  ///< the last delay + 1 frames, oldest first
 };

@@ -17,8 +17,6 @@ extern "C" {
 namespace faba {
 namespace {
 
-constexpr int kLongestSide = 16384;  // px, what H.264 can hold
-
 using Frame = std::unique_ptr<AVFrame, libav::Freed<av_frame_free>>;
 using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
 using Codec = std::unique_ptr<AVCodecContext, libav::Freed<avcodec_free_context>>;
@@ -130,9 +128,9 @@ void FrameEncoder::Impl::check(const Image<Pixel>& picture, bool kind_fits) cons
 
 FrameEncoder::FrameEncoder(Kind kind, int width, int height, FrameRate rate, std::string where)
     : impl_(std::make_unique<Impl>(Impl{kind, width, height, rate, std::move(where)})) {
-  if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide) {
+  if (width < 1 || height < 1 || width > kLongestVideoSide || height > kLongestVideoSide) {
     impl_->fail("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                " px cannot be encoded; 1 to " + std::to_string(kLongestSide) + " px are possible");
+                " px cannot be encoded; 1 to " + std::to_string(kLongestVideoSide) + " px are possible");
   }
   impl_->open();
 }

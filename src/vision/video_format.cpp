@@ -11,7 +11,7 @@ extern "C" {
 namespace faba {
 
 FrameRate frame_rate_near(double fps) {
-  if (!(fps >= 0.001 && fps <= 10000)) {
+  if (!(fps >= kSlowestVideo && fps <= kFastestVideo)) {
     throw Error(Errc::internal, "", "a video cannot have " + std::to_string(fps) + " frames per second");
   }
   const AVRational rate = av_d2q(fps, 100000);

@@ -13,6 +13,9 @@ struct FrameRate {
   int numerator = 25, denominator = 1;
 };
 
+inline constexpr int kLongestVideoSide = 16384;                      ///< px, what H.264 can hold
+inline constexpr double kSlowestVideo = 0.001, kFastestVideo = 1e4;  ///< frames per second
+
 /// The fraction with parts up to 100 000 that is nearest to `fps` (15/1, 273/20 for 13.65, 2997/50 for 59.94;
 /// 30000/1001 for 29.97003). Throws Error(Errc::internal) unless 0.001 <= fps <= 10 000.
 FrameRate frame_rate_near(double fps);

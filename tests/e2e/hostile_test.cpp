@@ -1,7 +1,10 @@
 // Bad input: one clear line, the documented exit code, nothing written.
 #include <doctest/doctest.h>
 
+#include <sys/wait.h>
 #include <unistd.h>
+
+#include <chrono>
 
 #include "tests/e2e/program.h"
 
@@ -55,6 +58,10 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
                            "ELF\0\0",
                            6),
                "is a binary file"},
+           Bad{"a video that cannot be", swarm + "[camera]\nrate = '100 kHz'\n",
+               "a video cannot have 100000"},
+           Bad{"a picture that cannot be", swarm + "[arena]\ntype = 'drop'\nview_px = [20000, 10]\n",
+               "16384 px is the most"},
            Bad{"a date", "seed = 2020-01-01\n" + swarm, "dates and times"},
        }) {
     write_file(f.path / "s.toml", b.scene);
@@ -137,6 +144,24 @@ TEST_CASE("what is not ours is never overwritten, --force or not") {
   CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet").exit == 2);
   CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet --force").exit == 0);
 
+  // A file called as one of ours is not one of ours; what a run is made from is not to be replaced by it.
+  std::filesystem::create_directory(f.path / "notes");
+  write_file(f.path / "notes/incomplete", "buy milk\n");
+  write_file(f.path / "notes/series.csv", "mine");
+  CHECK(faba_in(f.path, "run s.toml --seed 1 --out notes --force").exit == 2);
+  CHECK(read_file(f.path / "notes/series.csv") == "mine");
+  CHECK(faba_in(f.path, "run run/scenario.toml --out run --force").exit == 2);
+  CHECK(faba_in(f.path, "run run/scenario.toml --out run/../run --force").exit == 2);
+  std::filesystem::copy_file(f.path / "s.toml", f.path / "run/picture.png");
+  CHECK(faba_in(f.path, "run s.toml --from-video run/picture.png --out run --force").exit != 0);
+  std::filesystem::remove(f.path / "run/video.mp4");
+  std::filesystem::create_directory(f.path / "run/video.mp4");
+  const std::string before = read_file(f.path / "run/series.csv");
+  CHECK(faba_in(f.path, "run s.toml --seed 2 --out run --force").exit == 2);
+  CHECK(read_file(f.path / "run/series.csv") == before);
+  std::filesystem::create_symlink("nowhere", f.path / "dangling");
+  CHECK(faba_in(f.path, "run s.toml --seed 1 --out dangling").exit == 2);
+
   write_file(f.path / "drop.png", "a picture");
   for (const char* overlay : {"drop.png", "./drop.png", "thesis", "edge.tif", "''"}) {
     const Called c = faba_in(f.path, std::string("drop drop.png --force --overlay ") + overlay);
@@ -145,6 +170,43 @@ TEST_CASE("what is not ours is never overwritten, --force or not") {
     CHECK(one_clear_line(c.err));
   }
   CHECK(read_file(f.path / "drop.png") == "a picture");
+}
+
+TEST_CASE("four runs at once take four directories; an error is an exit code where nobody can be told") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", "duration = '1 s'\n[[swarm]]\ncount = 5\n");
+  const std::string run = std::string("'") + FABA_PROGRAM + "' run s.toml --seed 1 --quiet";
+  const std::string all = "cd '" + f.path.string() + "' && for i in 1 2 3 4; do " + run + " & done; wait";
+  CHECK(std::system(all.c_str()) == 0);
+  for (const char* name : {"s-1", "s-1-2", "s-1-3", "s-1-4"}) {
+    CHECK(std::filesystem::exists(f.path / "runs" / name / "report.html"));
+    CHECK_FALSE(std::filesystem::exists(f.path / "runs" / name / "incomplete"));
+  }
+  for (const auto& [command, code] : {std::pair{"drop nofile 2>&-", 3}, {"run nofile 2>/dev/full", 2}}) {
+    const int status = std::system((std::string("'") + FABA_PROGRAM + "' " + command).c_str());
+    CHECK(WEXITSTATUS(status) == code);
+  }
+}
+
+TEST_CASE("a stop is heeded within a frame of very many steps, and twice the same wish is one") {
+  const TestFolder f;
+  // A tiny hot cell turns so fast that a frame takes a hundred million steps.
+  write_file(f.path / "slow.toml",
+             "[[swarm]]\ncount = 50\nmodel = { type = 'dipole', temperature = 500, viscosity = 1e-5, radius "
+             "= 1e-8 }\n");
+  write_file(f.path / "stop.sh",
+             std::string("'") + FABA_PROGRAM +
+                 "' run slow.toml --seed 1 --out slow --duration '0.1 s' 2> err &\np=$!\nsleep 1\n"
+                 "kill -TERM $p\nkill -TERM $p\nwait $p\n");
+  const auto began = std::chrono::steady_clock::now();
+  const int status = std::system(("cd '" + f.path.string() + "' && sh stop.sh").c_str());
+  CHECK(WEXITSTATUS(status) == 130);
+  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(20));
+  const std::string err = read_file(f.path / "err");
+  INFO(err);
+  CHECK(err.find("steps per frame") != std::string::npos);
+  CHECK(err.find("interrupted") != std::string::npos);
+  CHECK(std::filesystem::exists(f.path / "slow/incomplete"));
 }
 
 TEST_CASE("what is legal but probably not meant is noted, a line each") {
