@@ -60,8 +60,8 @@ TEST_CASE("T7: at a four-coil zero the cloud is Gaussian of variance v f_r / (m 
   const double variance = kSpeed / (kPerTesla * g), shift = 5e-6 / g;
   constexpr int kCells = 40000;
   TestSwarm t(at_rig("north", "['5 uT', 0, 0]", kCells));
-  // The centre relaxes as m'' + D_r m' + (v m g / 2 f_r) m = 0, with D_r = 1/s at a rate of 0.11/s: after 100 s
-  // 2e-5 of the shift is missing.
+  // The centre relaxes as m'' + D_r m' + (v m g / 2 f_r) m = 0, with D_r = 1/s at a rate of 0.11/s: after 100
+  // s 2e-5 of the shift is missing.
   run_for(t, {0.5, 0.5, 0.5, 0.5}, 100);
   const Sample x = along(t, "x"), y = along(t, "y");
   INFO("variance ", x.variance / variance, " ", y.variance / variance, ", shift ", x.mean / shift);
