@@ -50,7 +50,7 @@ bool make_directory(const std::filesystem::path& dir, bool force) {
 // The first of `base`, `base`-2, `base`-3 ... that is not there yet; made, so that nobody else takes it.
 std::filesystem::path make_numbered(const std::filesystem::path& base) {
   for (int i = 1;; ++i) {
-    const std::filesystem::path dir = i == 1 ? base.string() : fmt::format("{}-{}", base.string(), i);
+    std::filesystem::path dir = i == 1 ? base.string() : fmt::format("{}-{}", base.string(), i);
     if (std::filesystem::exists(std::filesystem::symlink_status(dir))) continue;
     try {
       if (make_directory(dir, false)) return dir;

@@ -91,8 +91,9 @@ Vector turned_to_limits(const Slope& all, const Vector& start, const Matrix& fre
     const Vector through = free * direction;
     return weakest(all, start + std::max(room(start, through, most), 0.0) * through);
   };
-  double best = value(y);
-  for (double step = 0.5; step > 1e-10; step *= 0.5)
+  constexpr int kHalvings = 32;  // down to 1e-10
+  double best = value(y), step = 0.5;
+  for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5)
     for (bool better = true; better;) {
       better = false;
       for (Eigen::Index axis = 0; axis < y.size(); ++axis)
