@@ -52,9 +52,7 @@ constexpr const char* kSaddle =
 // Where a controller of gradients puts its zeros, and what they do.
 void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
   const Field& field = *simulation.world().parts().field;
-  std::vector<double> most;
-  for (std::size_t k = 0; k < field.coils(); ++k)
-    most.push_back(std::min(s.limits.max_current, field.circuit(k).max_current));
+  const std::vector<double> most = field.max_currents(s.limits.max_current);
   for (const Vec2 at : simulation.reference().setpoints()) {
     const FieldNull n = null_at(field, at, s.polarity(), most);
     const std::string place = in_px(simulation.frame().image_from_world(at));

@@ -16,7 +16,6 @@
 namespace faba {
 namespace {
 
-constexpr const char* kName = "incomplete";
 constexpr const char* kFirst = "faba process ";
 constexpr const char* kSecond = "This run is not complete. Go on with: ";
 
@@ -41,7 +40,7 @@ bool same_file(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-RunLock::RunLock(const std::filesystem::path& dir, const std::string& program) : file_(dir / kName) {
+RunLock::RunLock(const std::filesystem::path& dir, const std::string& program) : file_(dir / kFile) {
   for (int attempt = 0; attempt < 100; ++attempt) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor_ < 0) fail(file_, "cannot be written");
@@ -84,7 +83,7 @@ void RunLock::complete() {
 }
 
 bool RunLock::marks(const std::filesystem::path& dir) {
-  std::ifstream in(dir / kName);
+  std::ifstream in(dir / kFile);
   std::string first, second;
   return std::getline(in, first) && std::getline(in, second) && second.starts_with(kSecond);
 }

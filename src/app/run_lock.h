@@ -8,6 +8,8 @@ namespace faba {
 /// system takes back however the process ends; the file stays until the run is whole.
 class RunLock {
  public:
+  static constexpr const char* kFile = "incomplete";
+
   RunLock() = default;
   /// Makes the file if it is not there. `program` is the command to go on with. Throws Error(usage) when
   /// another process is at it, Error(internal) when the file cannot be written.

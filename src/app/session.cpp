@@ -101,6 +101,12 @@ Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& 
   session.notes_ = notes_on(s, *session.simulation_, session.dir_);
   session.lock_ = RunLock(session.dir_, o.program);
   std::error_code ec;
+  if (!o.force &&
+      std::filesystem::exists(session.dir_ / kManifest, ec)) {  // somebody was quicker, and is done
+    session.lock_.complete();
+    throw Error(Errc::usage, session.dir_.string(),
+                "already holds a run; choose another --out, or --force to replace it");
+  }
   for (const char* name : kOurs)  // what is not ours stays
     if (std::string_view(name) != kMarker) std::filesystem::remove(session.dir_ / name, ec);
   write_file(session.dir_ / kScenario, to_toml(session.scenario_.resolved()));

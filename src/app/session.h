@@ -67,7 +67,7 @@ class Session {
 
 /// A run directory's files, for those that look into one.
 namespace run_files {
-inline constexpr const char* kMarker = "incomplete";
+inline constexpr const char* kMarker = RunLock::kFile;
 inline constexpr const char* kCheckpoint = "checkpoint";
 inline constexpr const char* kScenario = "scenario.toml";
 inline constexpr const char* kManifest = "manifest.json";

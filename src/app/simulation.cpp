@@ -7,16 +7,9 @@
 namespace faba {
 namespace {
 
-std::vector<double> largest_currents(const Field& field, double limit) {
-  std::vector<double> most;
-  for (std::size_t k = 0; k < field.coils(); ++k)
-    most.push_back(std::min(limit, field.circuit(k).max_current));
-  return most;
-}
-
 // The strongest field in the plane that the coils can make anywhere in the arena, T.
 double strongest(const WorldParts& w, double max_current) {
-  const std::vector<double> most = largest_currents(*w.field, max_current);
+  const std::vector<double> most = w.field->max_currents(max_current);
   if (w.table) return w.table->strongest(most);
   std::vector<Vec3> b(w.field->coils());
   w.field->basis({}, b, {});
@@ -91,14 +84,14 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
         Errc::usage, "duration",
         fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
 
-  limits_ = Limits(s.limits, largest_currents(*w.field, s.limits.max_current));
+  limits_ = Limits(s.limits, w.field->max_currents(s.limits.max_current));
   const ControlContext control{w.field,
                                scale,
                                frame_,
                                s.polarity(),
                                s.frame_period(),
                                s.camera.delay_frames,
-                               largest_currents(*w.field, s.limits.max_current)};
+                               w.field->max_currents(s.limits.max_current)};
   world_ = std::make_unique<World>(std::move(w), pool);
   rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});
   estimator_ = s.estimator.make(control);

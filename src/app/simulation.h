@@ -32,7 +32,7 @@ class Simulation {
   std::unique_ptr<Estimator> estimator_;
   std::unique_ptr<Reference> reference_;
   std::unique_ptr<Controller> controller_;
-  Limits limits_{{}, {}};
+  Limits limits_{Limits::Params{}};
   std::unique_ptr<Loop> loop_;
 };
 

@@ -12,9 +12,9 @@
 namespace faba::cli {
 namespace {
 
-double metres(const std::string& words) {
-  const auto bad = [](const std::string& why) {
-    return Error(Errc::usage, "--at", fmt::format("{}; write x and y such as \"1 mm, -0.5 mm\"", why));
+double metres(const std::string& option, const std::string& words) {
+  const auto bad = [&](const std::string& why) {
+    return Error(Errc::usage, option, fmt::format("{}; lengths are written such as \"1 mm, -0.5 mm\"", why));
   };
   Quantity q;
   try {
@@ -46,9 +46,10 @@ void refuse_existing(const std::filesystem::path& file, bool force) {
 }
 
 // "1 mm, 0 mm" as metres.
-Vec2 place(const std::string& words) {
+Vec2 place(const std::string& option, const std::string& words) {
   const auto comma = std::min(words.find(','), words.size());
-  return {metres(words.substr(0, comma)), metres(words.substr(std::min(comma + 1, words.size())))};
+  return {metres(option, words.substr(0, comma)),
+          metres(option, words.substr(std::min(comma + 1, words.size())))};
 }
 
 }  // namespace
@@ -71,11 +72,13 @@ int field_at(const FieldVerb& v, const Common& c) {
 
 int field_map(const FieldVerb& v, const Common& c) {
   FieldMapOptions o;
-  const Vec2 size = place(v.size);
+  const Vec2 size = place("--size", v.size);
   if (!(size.x > 0 && size.y > 0 && size.x <= 1 && size.y <= 1))
     throw Error(Errc::usage, "--size", "must be two lengths of up to 1 m, such as \"6 mm, 4.5 mm\"");
   o.width = size.x, o.height = size.y;
   o.current = amperes(v.current);
+  if (!v.view.empty()) o.view = place("--view", v.view);
+  if (!v.drop.empty()) o.drop_radius = metres("--drop", v.drop);
   if (!v.check) {
     o.picture = v.picture, o.hdf5 = v.out;
     refuse_existing(o.picture, v.force);
@@ -105,7 +108,7 @@ int field_tolerance(const FieldVerb& v, const Common& c) {
   refuse_existing(v.picture, v.force);
   if (!v.picture.empty() && v.picture.extension() != ".svg")
     throw Error(Errc::usage, v.picture.string(), "must end in .svg, which is what is written");
-  const auto j = faba::field_tolerance(v.rig, place(v.at), v.picture);
+  const auto j = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
@@ -124,7 +127,7 @@ int field_tolerance(const FieldVerb& v, const Common& c) {
 }
 
 int field_null(const FieldVerb& v, const Common& c) {
-  const auto j = null_report(v.rig, place(v.at), v.polarity == "south" ? -1 : 1);
+  const auto j = null_report(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1);
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;

@@ -107,6 +107,9 @@ int dispatch(int argc, char** argv) {
   v->add_option("rig", field_options.rig, "Rig file (TOML)")->required();
   v->add_option("--current", field_options.current, "Currents in A, one per coil: 0.5,0.5,0,0");
   v->add_option("--size", field_options.size, "Width and height of the rectangle about the centre");
+  v->add_option("--view", field_options.view, "Width and height of the camera's view, to be drawn in")
+      ->check(not_empty);
+  v->add_option("--drop", field_options.drop, "Radius of the drop, to be drawn in")->check(not_empty);
   v->add_option("--picture", field_options.picture, "Picture to write, PNG")->check(not_empty);
   v->add_option("-o,--out", field_options.out, "HDF5 file to write")->check(not_empty);
   v->add_flag("--check", field_options.check,

@@ -32,7 +32,7 @@ struct DropVerb {
 };
 struct FieldVerb {
   std::filesystem::path rig, points;
-  std::string at = "0 mm, 0 mm", polarity = "north", size = "6 mm, 4.5 mm", current;
+  std::string at = "0 mm, 0 mm", polarity = "north", size = "6 mm, 4.5 mm", current, view, drop;
   std::filesystem::path picture = "field.png", out;
   bool check = false, force = false;
 };

@@ -5,11 +5,30 @@
 namespace faba {
 
 Vec3 Field::at(Vec3 point, std::span<const double> current) const {
-  std::vector<Vec3> b(coils());
-  basis(point, b, {});
-  Vec3 sum = ambient();
-  for (std::size_t k = 0; k < b.size(); ++k) sum = sum + current[k] * b[k];
-  return sum;
+  Vec3 b;
+  at({&point, 1}, current, {&b, 1});
+  return b;
+}
+
+void Field::at(std::span<const Vec3> points, std::span<const double> current, std::span<Vec3> b) const {
+  std::vector<Vec3> one(points.size());
+  std::fill(b.begin(), b.end(), ambient());
+  for (std::size_t k = 0; k < coils(); ++k) {
+    per_ampere(k, points, one);
+    for (std::size_t i = 0; i < points.size(); ++i) b[i] = b[i] + current[k] * one[i];
+  }
+}
+
+std::vector<double> Field::own_currents() const {
+  std::vector<double> current;
+  for (std::size_t k = 0; k < coils(); ++k) current.push_back(circuit(k).current);
+  return current;
+}
+
+std::vector<double> Field::max_currents(double limit) const {
+  std::vector<double> most;
+  for (std::size_t k = 0; k < coils(); ++k) most.push_back(std::min(limit, circuit(k).max_current));
+  return most;
 }
 
 void Field::basis(Vec3 at, std::span<Vec3> b, std::span<Mat3> gradient) const {
@@ -33,14 +52,11 @@ void Field::basis(Vec3 at, std::span<Vec3> b, std::span<Mat3> gradient) const {
   }
 }
 
-void Field::eval(const Points& at, std::span<const double> current, Vectors b) const {
-  std::vector<Vec3> points(at.x.size()), one(at.x.size()), sum(at.x.size(), ambient());
+void Field::eval(const Points& at_points, std::span<const double> current, Vectors b) const {
+  std::vector<Vec3> points(at_points.x.size()), sum(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] = {double(at.x[i]), double(at.y[i]), double(at.z)};
-  for (std::size_t k = 0; k < coils(); ++k) {
-    per_ampere(k, points, one);
-    for (std::size_t i = 0; i < points.size(); ++i) sum[i] = sum[i] + current[k] * one[i];
-  }
+    points[i] = {double(at_points.x[i]), double(at_points.y[i]), double(at_points.z)};
+  at(points, current, sum);
   for (std::size_t i = 0; i < points.size(); ++i) b.x[i] = float(sum[i].x), b.y[i] = float(sum[i].y);
 }
 

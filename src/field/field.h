@@ -60,6 +60,12 @@ class Field {
   void basis(Vec3 at, std::span<Vec3> b, std::span<Mat3> gradient) const;
   /// B at one point, T.
   Vec3 at(Vec3 point, std::span<const double> current) const;
+  /// B at many points, T; spans have equal length.
+  void at(std::span<const Vec3> points, std::span<const double> current, std::span<Vec3> b) const;
+  /// What flows in every coil when nobody says otherwise, A.
+  std::vector<double> own_currents() const;
+  /// The largest current of every coil where `limit` is the largest of all, A.
+  std::vector<double> max_currents(double limit) const;
 };
 
 /// Nothing yet: a field is built from its own parameters alone.

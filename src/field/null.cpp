@@ -1,9 +1,13 @@
 #include "field/null.h"
 
+// What it gives goes into commands, and so into a run's bits: no instructions that only some builds use.
+#define EIGEN_DONT_VECTORIZE
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/portable_math.h"
 
 namespace faba {
 namespace {
@@ -58,8 +62,8 @@ Vector best_trap(const Slope& c) {
 Vector strongest_slope(const Slope& c) {
   Vector best = c.at(1, 0);
   for (int i = 1; i < 720; ++i) {
-    const double angle = 3.14159265358979323846 * i / 360;
-    const Vector now = c.at(std::cos(angle), std::sin(angle));
+    const auto angle = portable::sincos(portable::kPi * i / 360);
+    const Vector now = c.at(angle.cos, angle.sin);
     if (now.norm() > best.norm()) best = now;
   }
   return best.norm() > 0 ? Vector(best.normalized()) : Vector();
@@ -79,7 +83,7 @@ double room(const Vector& start, const Vector& direction, std::span<const double
 
 /// Slope of all coils along the direction in which currents `i` trap least, T/m; positive when they trap.
 double weakest(const Slope& c, const Vector& i) {
-  return c.mean.dot(i) - std::hypot(c.along.dot(i), c.across.dot(i));
+  return c.mean.dot(i) - norm(Vec2{c.along.dot(i), c.across.dot(i)});
 }
 
 // Turns the direction `y` in the free currents until the weaker trap is strongest at the current limits,

@@ -7,11 +7,15 @@
 
 namespace faba {
 
+/// Eigenvalues of the in-plane gradient of B at a place, T/m, the smaller one first. North-seeking cells come
+/// together where both are negative.
+using NullGradient = std::array<double, 2>;
+NullGradient null_gradient(const Field& field, std::span<const double> current, Vec2 at);
+
 /// A place where the in-plane field is zero, and what a swarm does there.
 struct FieldNull {
   std::vector<double> current;  ///< A, one per coil
-  std::array<double, 2>
-      gradient{};           ///< eigenvalues of the in-plane gradient there, T/m, the first the smaller
+  NullGradient gradient{};
   double out_of_plane = 0;  ///< dB_z/dz, T/m; minus their sum
   bool reachable = false;   ///< the currents make the zero, and no limit is exceeded
   bool saddle = true;       ///< cells of the polarity asked for are driven away along one direction
@@ -26,16 +30,11 @@ struct FieldNull {
 FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const double> most,
                   bool with_earth = true);
 
-/// Eigenvalues of the in-plane gradient of B at a place, T/m, the smaller one first. North-seeking cells come
-/// together where both are negative.
-using NullGradient = std::array<double, 2>;
-NullGradient null_gradient(const Field& field, std::span<const double> current, Vec2 at);
-
 /// The limits of the field's own coils; 1 A where a coil has none.
 std::vector<double> current_limits(const Field& field);
 
-/// The zero of the in-plane field for given currents, by Newton's method from `from`, m; how far the last
-/// step went is in `last_step` when given. Not a number when it runs off or finds none in 50 steps.
+/// The zero of the in-plane field for given currents (A, one per coil), by Newton's method from `from`, m.
+/// Not a number when it runs off or finds none in 50 steps.
 Vec2 find_null(const Field& field, std::span<const double> current, Vec2 from);
 
 }  // namespace faba

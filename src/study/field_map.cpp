@@ -35,12 +35,8 @@ Map computed(const Field& field, const std::vector<double>& current, const Field
     for (int column = 0; column < m.width; ++column)
       m.at.push_back(
           {(column - (m.width - 1) / 2.0) * m.m_per_px, ((m.height - 1) / 2.0 - row) * m.m_per_px, 0});
-  m.b.assign(m.at.size(), field.ambient());
-  std::vector<Vec3> one(m.at.size());
-  for (std::size_t k = 0; k < current.size(); ++k) {
-    field.per_ampere(k, m.at, one);
-    for (std::size_t i = 0; i < one.size(); ++i) m.b[i] = m.b[i] + current[k] * one[i];
-  }
+  m.b.resize(m.at.size());
+  field.at(m.at, current, m.b);
   return m;
 }
 
@@ -90,11 +86,12 @@ void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vect
   std::filesystem::rename(part, file);
 }
 
-void draw(const std::filesystem::path& file, const Field& field, const Map& m,
-          const nlohmann::ordered_json& zeros) {
+void draw(const FieldMapOptions& o, const Field& field, const Map& m, const nlohmann::ordered_json& zeros) {
   FieldScene s;
   s.width = m.width, s.height = m.height;
   s.um_per_px = m.m_per_px * 1e6;
+  if (o.view) s.view_px = (1 / m.m_per_px) * *o.view;
+  s.drop_radius_px = o.drop_radius / m.m_per_px;
   for (const Vec3& v : m.b) s.b.push_back({v.x, v.y});
   for (const auto& stroke : field.outline()) {
     s.coils.emplace_back();
@@ -103,7 +100,7 @@ void draw(const std::filesystem::path& file, const Field& field, const Map& m,
   for (const auto& z : zeros)
     s.zeros.push_back(
         {m.px({z["at_m"][0].get<double>(), z["at_m"][1].get<double>()}), z["kind"].get<std::string>()});
-  write_png(file, draw_field(s));
+  write_png(o.picture, draw_field(s));
 }
 
 // A map may show the coils themselves, a table of the field may not hold them.
@@ -124,9 +121,7 @@ nlohmann::ordered_json table_report(const Field& field, const FieldMapOptions& o
 
 nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
   const auto field = read_rig(rig, builtin_parts()).make({});
-  std::vector<double> current = o.current;
-  for (std::size_t k = 0; o.current.empty() && k < field->coils(); ++k)
-    current.push_back(field->circuit(k).current);
+  const std::vector<double> current = o.current.empty() ? field->own_currents() : o.current;
   if (current.size() != field->coils())
     throw Error(Errc::usage, "--current",
                 fmt::format("has {} currents, the rig has {} coils", current.size(), field->coils()));
@@ -142,7 +137,7 @@ nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMa
   for (const Vec3& v : m.b) strongest = std::max(strongest, norm(Vec2{v.x, v.y}));
   j["strongest_t"] = strongest;
   j["table"] = table_report(*field, o);
-  if (!o.picture.empty()) draw(o.picture, *field, m, j["zeros"]);
+  if (!o.picture.empty()) draw(o, *field, m, j["zeros"]);
   if (!o.hdf5.empty()) write_hdf5(o.hdf5, m, current);
   return j;
 }

@@ -1,7 +1,6 @@
 #include "study/field_report.h"
 
 #include <cmath>
-#include <span>
 
 #include "app/rig_file.h"
 #include "core/table.h"
@@ -19,7 +18,7 @@ std::unique_ptr<Field> rig_of(const std::filesystem::path& file) {
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points) {
   const auto field = rig_of(rig);
   FieldAtPoints out;
-  for (std::size_t k = 0; k < field->coils(); ++k) out.current.push_back(field->circuit(k).current);
+  out.current = field->own_currents();
   const Table table = read_table(points);
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m");
   for (std::size_t i = 0; i < table.size(); ++i) {
@@ -27,12 +26,8 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
       throw Error(Errc::input, table.place(i), "a coordinate is missing");
     out.at.push_back({x[i], y[i], z[i]});
   }
-  out.b.assign(out.at.size(), field->ambient());
-  std::vector<Vec3> one(out.at.size());
-  for (std::size_t k = 0; k < out.current.size(); ++k) {
-    field->per_ampere(k, out.at, one);
-    for (std::size_t i = 0; i < one.size(); ++i) out.b[i] = out.b[i] + out.current[k] * one[i];
-  }
+  out.b.resize(out.at.size());
+  field->at(out.at, out.current, out.b);
   return out;
 }
 

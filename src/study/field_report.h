@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -22,6 +23,8 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
 struct FieldMapOptions {
   double width = 6e-3, height = 4.5e-3;  ///< m
   std::vector<double> current = {};      ///< A, one per coil; the coils' own when empty
+  std::optional<Vec2> view = {};         ///< width and height of the camera's view, m, drawn about the centre
+  double drop_radius = 0;                ///< m, drawn about the centre; 0: none
   std::filesystem::path picture, hdf5;   ///< written unless empty
 };
 /// Draws the map and writes it as HDF5 (`b_t`, rows by columns by (x, y, z), from the top; `x_m`, `y_m`), and

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/scale_bar.h"
+
 namespace faba {
 namespace {
 
@@ -94,16 +96,10 @@ void colour_scale(cv::Mat& m, const FieldScene& s, const Decades& decades, const
 }
 
 void scale_bar(cv::Mat& m, const FieldScene& s) {
-  const double most = 0.25 * s.width * s.um_per_px;
-  double um = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double f : {5.0, 2.0})
-    if (um * f <= most) {
-      um *= f;
-      break;
-    }
-  const Vec2 from{14, s.height - 16.0}, to{14 + um / s.um_per_px, s.height - 16.0};
-  line(m, from, to, 3);
-  text(m, um < 1000 ? fmt::format("{:g} um", um) : fmt::format("{:g} mm", um / 1000), {14, s.height - 24.0});
+  const ScaleBar bar = scale_bar_for(s.width, s.um_per_px);
+  const Vec2 from{14, s.height - 16.0};
+  line(m, from, from + Vec2{bar.length_px, 0}, 3);
+  text(m, bar.words, from - Vec2{0, 8});
 }
 
 }  // namespace

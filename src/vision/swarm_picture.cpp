@@ -6,6 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/scale_bar.h"
+
 namespace faba {
 namespace {
 
@@ -65,20 +67,12 @@ void cells(cv::Mat& m, const SwarmScene& s) {
   }
 }
 
-// The longest of 1, 2, 5 x 10^k um that fits into a quarter of the picture.
 void scale_bar(cv::Mat& m, const SwarmScene& s) {
-  const double most = 0.25 * s.width * s.um_per_px;
-  double um = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double f : {5.0, 2.0})
-    if (um * f <= most) {
-      um *= f;
-      break;
-    }
-  const double length = um / s.um_per_px, x = 12, y = s.height - 14;
-  cv::rectangle(m, cv::Point(int(x), int(y)), cv::Point(int(std::lround(x + length)), int(y) + 3), kInk,
-                cv::FILLED);
-  text(m, um < 1000 ? fmt::format("{:g} um", um) : fmt::format("{:g} mm", um / 1000), {int(x), int(y) - 6},
-       0.45);
+  const ScaleBar bar = scale_bar_for(s.width, s.um_per_px);
+  const double x = 12, y = s.height - 14;
+  cv::rectangle(m, cv::Point(int(x), int(y)), cv::Point(int(std::lround(x + bar.length_px)), int(y) + 3),
+                kInk, cv::FILLED);
+  text(m, bar.words, {int(x), int(y) - 6}, 0.45);
 }
 
 // Long as 40 px at 100 uT, growing with the square root so that 20 uT and 2 mT both show.

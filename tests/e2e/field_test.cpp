@@ -59,7 +59,9 @@ TEST_CASE("field null: the fields of --json, a saddle and an unreachable place a
 TEST_CASE("field map: zeros, a picture, HDF5 with the field of `at`, and the error of the table") {
   const TestFolder f;
   const std::string map = "field map " + kRig + " --current 0.5,0.5,0.5,0.5 ";
-  const auto j = faba_in(f.path, map + "--picture m.png --out m.h5 --json").json();
+  const auto j =
+      faba_in(f.path, map + "--view '0.6 mm, 0.4 mm' --drop '0.5 mm' --picture m.png --out m.h5 --json")
+          .json();
   REQUIRE(j["zeros"].size() == 1);
   CHECK(std::fabs(j["zeros"][0]["at_m"][0].get<double>()) < 1e-12);
   CHECK(j["zeros"][0]["kind"] == "traps north-seekers");
@@ -82,8 +84,9 @@ TEST_CASE("field map: zeros, a picture, HDF5 with the field of `at`, and the err
     CHECK(faba_in(f.path, map + again).exit == 2);
   CHECK(faba_in(f.path, "field map " + kRig + " --check").exit == 0);
   CHECK_FALSE(std::filesystem::exists(f.path / "field.png"));
-  for (const char* bad : {"--current 1,2", "--current 1,2,3,x", "--current nan,0,0,0", "--size '1 mm'",
-                          "--size '0 mm, 1 mm'", "--size '1 s, 1 s'", "--check --size '100 mm, 100 mm'"}) {
+  for (const char* bad :
+       {"--current 1,2", "--current 1,2,3,x", "--current nan,0,0,0", "--size '1 mm'", "--size '0 mm, 1 mm'",
+        "--view '1 mm'", "--drop '1 s'", "--size '1 s, 1 s'", "--check --size '100 mm, 100 mm'"}) {
     const Called c = faba_in(f.path, "field map " + kRig + " " + bad);
     INFO(bad, ": ", c.err);
     CHECK(c.exit == 2);

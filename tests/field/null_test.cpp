@@ -8,6 +8,7 @@
 
 #include "core/toml.h"
 #include "field/coils/coils.h"
+#include "tests/reference_rig.h"
 
 using namespace faba;
 
@@ -15,16 +16,7 @@ namespace {
 
 // The reference rig (C4) with the coils at these angles, in degrees.
 std::unique_ptr<Field> rig(const std::vector<double>& angles, const std::string& earth = "[0, 0, 0]") {
-  std::string t = "type = 'rig'\nearth = { field = " + earth + " }\n";
-  for (const double a : angles) {
-    const double c = std::cos(a * 3.14159265358979323846 / 180),
-                 s = std::sin(a * 3.14159265358979323846 / 180);
-    t += fmt::format(
-        "[[coil]]\ntype = 'solenoid'\nradius = 0.005\nlength = 0.04\nturns = 400\nmax_current = "
-        "0.5\nposition = "
-        "[{}, {}, 0]\naxis = [{}, {}, 0]\n",
-        0.035 * c, 0.035 * s, -c, -s);
-  }
+  const std::string t = "type = 'rig'\nearth = { field = " + earth + " }\n" + reference_coils("coil", angles);
   FieldRegistry r{"field", ""};
   add_rig(r);
   const Document d = parse_toml(t, "test");

@@ -24,6 +24,8 @@ const Golden kGolden[] = {
     {"drop", 120, "7cca7cadd79c10a6"},
     {"step-response", 60, "d22d42993f989a9a"},
     {"aging", 60, "2460151d4914c719"},
+    {"null-route", 60, "483d476156b47080"},
+    {"thesis-coils-c", 60, "f8b33655fe22ac22"},
 };
 
 std::string hash_of(const Golden& g, unsigned threads) {

@@ -1,8 +1,7 @@
 // T7: swarms at zeros of the field of real coils against closed forms (theory B3.9 and C6).
 #include <doctest/doctest.h>
 
-#include <array>
-
+#include "tests/reference_rig.h"
 #include "tests/swarm.h"
 
 using namespace faba;
@@ -13,34 +12,19 @@ constexpr double kSpeed = 1e-4, kPerTesla = 1e5;  // m/s; m / f_r in rad/(s T)
 
 // Cells of speed v without translational noise, D_r = 1, at the reference rig (C4): coils at +x, +y, -x, -y.
 std::string at_rig(const std::string& polarity, const std::string& earth, int cells) {
-  std::string t =
-      "duration = 1\nexclusion = { order = 'none' }\narena = { type = 'drop', radius_px = 6000 }\nscale = { "
-      "um_per_px "
-      "= 1 }\nsimulation = { step = 0.02 }\ncamera = { rate = 50 }\n[[swarm]]\ncount = " +
-      std::to_string(cells) + "\npolarity = '" + polarity +
-      "'\nstart = { type = 'disc', radius_px = 300 }\nmodel = { type = 'dipole', moment = 1e-15, viscosity = "
-      "1e-3, "
-      "radius = 1e-6, drag_factor = " +
-      std::to_string(1e-15 / kPerTesla / (8 * 3.14159265358979 * 1e-21)) +
-      ", speed = " + std::to_string(kSpeed) +
-      ", speed_sd = 0, translational_diffusion = 0, rotational_diffusion = 1 }\n[field]\ntype = 'rig'\nearth "
-      "= { field "
-      "= " +
-      earth + " }\n";
-  for (const char* place : {"1, 0", "0, 1", "-1, 0", "0, -1"})
-    t += fmt::format(
-        "[[field.coil]]\ntype = 'solenoid'\nradius = 0.005\nlength = 0.04\nturns = 400\nposition = [{}, "
-        "0]\naxis = [{}, "
-        "0]\n",
-        std::string(place) == "1, 0"    ? "0.035, 0"
-        : std::string(place) == "0, 1"  ? "0, 0.035"
-        : std::string(place) == "-1, 0" ? "-0.035, 0"
-                                        : "0, -0.035",
-        std::string(place) == "1, 0"    ? "-1, 0"
-        : std::string(place) == "0, 1"  ? "0, -1"
-        : std::string(place) == "-1, 0" ? "1, 0"
-                                        : "0, 1");
-  return t;
+  // f_r = m / kPerTesla for m = 1e-15 A m^2, by choice of the drag factor over 8 pi 1e-3 (1e-6)^3
+  const double drag_factor = 1e-15 / kPerTesla / (8 * 3.14159265358979 * 1e-21);
+  return fmt::format(
+             "duration = '200 s'\nexclusion = {{ order = 'none' }}\nscale = {{ um_per_px = 1 }}\nsimulation "
+             "= {{ step = "
+             "0.02 }}\ncamera = {{ rate = 50 }}\narena = {{ type = 'drop', radius_px = 6000 }}\n"
+             "[[swarm]]\ncount = {}\npolarity = '{}'\nstart = {{ type = 'disc', radius_px = 300 }}\n"
+             "model = {{ type = 'dipole', moment = 1e-15, viscosity = 1e-3, radius = 1e-6, drag_factor = {}, "
+             "speed = {}, "
+             "speed_sd = 0, translational_diffusion = 0, rotational_diffusion = 1 }}\n"
+             "[field]\ntype = 'rig'\nearth = {{ field = {} }}\n",
+             cells, polarity, drag_factor, kSpeed, earth) +
+         reference_coils("field.coil", {0, 90, 180, 270});
 }
 
 void run_for(TestSwarm& t, const std::vector<double>& current, double seconds) {
@@ -101,5 +85,29 @@ TEST_CASE("south-seeking cells need the opposite sign") {
       CHECK(rms < 4e-4);
     else
       CHECK(rms > 3e-3);
+  }
+}
+
+TEST_CASE("the gradient controllers: open loop is off by an unknown B_E / g, feedback is not") {
+  const double shift = 5e-6 / 0.019404;
+  struct Case {
+    const char* controller;
+    double expected, allowed;  // of the shift
+  };
+  // The mean of the cloud over the last 100 s: 4000 cells and some ten relaxation times of 9 s leave a
+  // standard error of 0.23 mm / sqrt(4000 * 10) = 1 um, below 1 % of the shift. Feedback still relaxes by a
+  // share of it.
+  for (const Case& c : {Case{"type = 'gradient', earth = false", 1, 0.03}, Case{"type = 'gradient'", 0, 0.03},
+                        Case{"type = 'gradient_feedback', earth = false", 0, 0.05}}) {
+    TestSwarm t("controller = { " + std::string(c.controller) + " }\nlimits = { max_current = 0.5 }\n" +
+                at_rig("north", "['5 uT', 0, 0]", 4000));
+    double mean = 0;
+    int frames = 0;
+    run(t.simulation.loop(), 10000, [&] {
+      if (t.simulation.loop().next > 5000) mean += along(t, "x").mean, ++frames;
+      return true;
+    });
+    INFO(c.controller, ": ", mean / frames / shift, " of the shift");
+    CHECK(std::fabs(mean / frames / shift - c.expected) < c.allowed);
   }
 }

@@ -1,0 +1,30 @@
+#include "core/table.h"
+
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "tests/study/temporary_folder.h"
+
+using namespace faba;
+
+// What a table shares with a series is in tests/study/series_test.cpp.
+TEST_CASE("table: comments above the header, and a last line without its end is a line") {
+  const test::TemporaryFolder folder("table");
+  const auto file = folder.path() / "t.csv";
+  write_file(file, "# measured at noon\n# by hand\na,b\n1,2\n3,x");
+  try {
+    read_table(file);
+    FAIL("a word was taken for a number");
+  } catch (const Error& e) {
+    CHECK(e.where() == file.string() + ":5");
+  }
+  write_file(file, "# measured at noon\n# by hand\na,b\n1,2\n3,4");
+  const Table kept = read_table(file), dropped = read_table(file, LastLine::drop);
+  REQUIRE(kept.size() == 2);
+  CHECK(kept.column("b")[1] == 4);
+  CHECK_FALSE(kept.last_line_cut());
+  CHECK(kept.place(1) == file.string() + ":5");
+  CHECK(dropped.size() == 1);
+  CHECK(dropped.last_line_cut());
+}
