@@ -12,6 +12,21 @@ FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts&
   return parts.field.resolve(Node(d));
 }
 
+namespace {
+
+// Files that a rig names stand beside it; in a scenario the same names would be looked for elsewhere.
+void files_from_here(Document& rig) {
+  if (!rig.root.contains("coil") || !rig.root["coil"].is_array()) return;
+  for (Json& coil : rig.root["coil"]) {
+    if (!coil.is_object() || !coil.contains("file") || !coil["file"].is_string()) continue;
+    const auto there = std::filesystem::path(rig.name).parent_path() / coil["file"].get<std::string>();
+    std::error_code ec;
+    if (std::filesystem::exists(there, ec)) coil["file"] = there.string();
+  }
+}
+
+}  // namespace
+
 void include_rig(Document& scenario) {
   if (!scenario.root.is_object() || !scenario.root.contains("field") || !scenario.root["field"].is_object())
     return;
@@ -25,7 +40,8 @@ void include_rig(Document& scenario) {
   const bool found = std::filesystem::exists(beside, ec);
   if (!found && !std::filesystem::exists(named, ec))
     node.fail(fmt::format("there is neither {} nor {}", beside.string(), named.string()));
-  const Document rig = read_toml(found ? beside : named);
+  Document rig = read_toml(found ? beside : named);
+  files_from_here(rig);
   field.erase("file");
   for (const auto& [key, value] : rig.root.items()) {
     if (field.contains(key)) continue;

@@ -30,14 +30,17 @@ class Registry {
   /// `kind` is the word for messages ("agent model"), `doc` one sentence for `faba parts`.
   Registry(std::string kind, std::string doc) : kind_(std::move(kind)), doc_(std::move(doc)) {}
 
-  /// T provides Params, static schema(), and a constructor T(Params, const Context&).
+  /// T provides Params, static schema(), and a constructor T(Params, const Context&). Parameters that stand
+  /// for something kept elsewhere, such as a file of measurements, are filled in by a static settle(Params&,
+  /// const Node&), so that what is resolved stands by itself.
   template <class T>
   void add() {
     const auto s = T::schema();
     Entry e;
     e.json_schema = s.json_schema();
     e.resolve = [s](const Node& n) {
-      const typename T::Params p = s.parse(n, {"type"});
+      typename T::Params p = s.parse(n, {"type"});
+      if constexpr (requires { T::settle(p, n); }) T::settle(p, n);
       Json resolved = {{"type", s.name()}};
       resolved.update(s.to_json(p));
       return PartType{s.name(), std::move(resolved),

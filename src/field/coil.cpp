@@ -11,38 +11,58 @@ Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.
 
 }  // namespace
 
-Schema<CoilParams> CoilParams::schema() {
-  return Schema<CoilParams>("coil", "Where a coil stands and what it is connected to")
-      .add("name", &CoilParams::name, {.doc = "What reports call it"})
-      .add("position", &CoilParams::position,
-           {.unit = "m",
-            .min = -10,
-            .max = 10,
-            .doc = "Its middle, world frame: x right, y up, z to the camera"})
-      .add("axis", &CoilParams::axis,
-           {.min = -1e6,
-            .max = 1e6,
-            .doc = "Direction of its field inside for a positive current, of any length"})
-      .add("current", &CoilParams::current,
+Schema<CircuitParams> CircuitParams::schema() {
+  return Schema<CircuitParams>("circuit", "What a coil is connected to")
+      .add("name", &CircuitParams::name, {.doc = "What reports call it"})
+      .add("gain", &CircuitParams::gain,
+           {.min = -1e3,
+            .max = 1e3,
+            .doc = "Measured field over that of the formula, as `faba field fit` finds it"})
+      .add("current", &CircuitParams::current,
            {.unit = "A",
             .min = -1e4,
             .max = 1e4,
             .doc = "What flows when nothing commands it, as in `faba field`"})
-      .add("max_current", &CoilParams::max_current,
+      .add("max_current", &CircuitParams::max_current,
            {.unit = "A", .min = 0, .max = 1e4, .doc = "Largest current; unlimited when absent"})
-      .add("resistance", &CoilParams::resistance,
+      .add("resistance", &CircuitParams::resistance,
            {.unit = "ohm", .min = 1e-6, .max = 1e6, .doc = "Resistance of the winding"})
-      .add("inductance", &CoilParams::inductance,
+      .add("inductance", &CircuitParams::inductance,
            {.unit = "H",
             .min = 0,
             .max = 1e3,
             .doc = "Inductance; with the resistance it makes the current lag by L/R",
             .source = "L/R of 1-10 ms is typical (C4)"})
-      .check([](const CoilParams& p) -> std::string {
-        if (p.axis == Vec3{}) return "axis must not be [0, 0, 0]";
+      .check([](const CircuitParams& p) -> std::string {
         if (p.inductance && !p.resistance) return "inductance needs a resistance, for the time constant L/R";
         if (p.max_current && std::fabs(p.current) > *p.max_current) return "current is above max_current";
         return {};
+      });
+}
+
+Circuit CircuitParams::circuit() const {
+  Circuit c;
+  c.name = name;
+  c.current = current;
+  if (max_current) c.max_current = *max_current;
+  c.resistance = resistance.value_or(0);
+  if (inductance && resistance) c.lag = *inductance / *resistance;
+  return c;
+}
+
+Schema<PoseParams> PoseParams::schema() {
+  return Schema<PoseParams>("pose", "Where a coil stands")
+      .add("position", &PoseParams::position,
+           {.unit = "m",
+            .min = -10,
+            .max = 10,
+            .doc = "Its middle, world frame: x right, y up, z to the camera"})
+      .add("axis", &PoseParams::axis,
+           {.min = -1e6,
+            .max = 1e6,
+            .doc = "Direction of its field inside for a positive current, of any length"})
+      .check([](const PoseParams& p) -> std::string {
+        return p.axis == Vec3{} ? "axis must not be [0, 0, 0]" : "";
       });
 }
 

@@ -9,15 +9,22 @@
 
 namespace faba {
 
-/// Where a coil stands, how it is wound and what it is connected to: keys that all coils have.
-struct CoilParams {
+/// What a coil is connected to, and how strong it turned out to be: keys that all coils have.
+struct CircuitParams {
   std::string name;
-  Vec3 position;
-  Vec3 axis{0, 0, 1};
+  double gain = 1;
   double current = 0;
   std::optional<double> max_current;
   std::optional<double> resistance, inductance;
-  static Schema<CoilParams> schema();
+  static Schema<CircuitParams> schema();
+  Circuit circuit() const;
+};
+
+/// Where a coil with an axis stands.
+struct PoseParams {
+  Vec3 position;
+  Vec3 axis{0, 0, 1};
+  static Schema<PoseParams> schema();
 };
 
 /// From the world to cylindrical coordinates about an axis and back.
@@ -49,34 +56,28 @@ class Coil final : public Field {
  public:
   struct Params {
     typename Source::Params shape;
-    CoilParams coil;
+    PoseParams pose;
+    CircuitParams circuit;
   };
   static Schema<Params> schema() {
     const auto shape = Source::schema();
     return Schema<Params>(shape.name(), shape.summary())
         .include(&Params::shape, shape)
-        .include(&Params::coil, CoilParams::schema())
+        .include(&Params::pose, PoseParams::schema())
+        .include(&Params::circuit, CircuitParams::schema())
         .validity(shape.validity());
   }
   Coil(const Params& p, const FieldContext&)
-      : p_(p.coil), source_(p.shape), axis_(p.coil.position, p.coil.axis) {}
+      : circuit_(p.circuit), source_(p.shape), axis_(p.pose.position, p.pose.axis) {}
 
   std::size_t coils() const override { return 1; }
   void per_ampere(std::size_t, std::span<const Vec3> at, std::span<Vec3> b) const override {
     std::vector<double> rho(at.size()), z(at.size()), b_rho(at.size()), b_z(at.size());
     axis_.places(at, rho, z);
     source_.add({rho, z}, {b_rho, b_z});
-    for (std::size_t i = 0; i < at.size(); ++i) b[i] = axis_.vector(at[i], b_rho[i], b_z[i]);
+    for (std::size_t i = 0; i < at.size(); ++i) b[i] = circuit_.gain * axis_.vector(at[i], b_rho[i], b_z[i]);
   }
-  Circuit circuit(std::size_t) const override {
-    Circuit c;
-    c.name = p_.name;
-    c.current = p_.current;
-    if (p_.max_current) c.max_current = *p_.max_current;
-    c.resistance = p_.resistance.value_or(0);
-    if (p_.inductance && p_.resistance) c.lag = *p_.inductance / *p_.resistance;
-    return c;
-  }
+  Circuit circuit(std::size_t) const override { return circuit_.circuit(); }
   double clearance(Vec3 at) const override {
     double rho = 0, z = 0;
     axis_.places({&at, 1}, {&rho, 1}, {&z, 1});
@@ -85,7 +86,7 @@ class Coil final : public Field {
   std::vector<Stroke> outline() const override { return source_.outline(axis_); }
 
  private:
-  CoilParams p_;
+  CircuitParams circuit_;
   Source source_;
   Axis axis_;
 };

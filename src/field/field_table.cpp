@@ -77,9 +77,10 @@ void FieldTable::fill(const Field& field, double spacing) {
     if (field.clearance(p) <= spacing)
       throw Error(
           Errc::usage, "field",
-          fmt::format("a coil reaches into the sample at ({:.3g}, {:.3g}) mm from its centre; move it "
-                      "away, or make the arena smaller",
-                      p.x * 1e3, p.y * 1e3));
+          fmt::format(
+              "a coil, or the end of a measured map, reaches into the sample at ({:.3g}, {:.3g}) mm from its "
+              "centre; move it away, or make the arena smaller",
+              p.x * 1e3, p.y * 1e3));
   basis_.assign(field.coils(), std::vector<Vec2>(at.size()));
   std::vector<Vec3> b(at.size());
   for (std::size_t k = 0; k < basis_.size(); ++k) {

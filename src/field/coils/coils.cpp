@@ -8,7 +8,8 @@ namespace faba {
   X(solenoid)         \
   X(thick_coil)       \
   X(dipole_coil)      \
-  X(helmholtz)
+  X(helmholtz)        \
+  X(map)
 
 #define X(name) void add_##name(FieldRegistry&);
 FABA_COILS(X)

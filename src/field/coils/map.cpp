@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/portable_math.h"
+#include "field/coil.h"
+#include "field/harmonics.h"
+
+namespace faba {
+namespace {
+
+/// What a map comes down to: solid harmonics in the box that was measured.
+struct Expansion {
+  Vec3 centre, half_size;
+  double radius = 1;
+  double residual = 0;
+  std::vector<double> coefficients;
+  static Schema<Expansion> schema() {
+    return Schema<Expansion>("expansion", "Solid harmonics that a map comes down to (theory C7)")
+        .add("centre", &Expansion::centre,
+             {.unit = "m", .min = -10, .max = 10, .doc = "Of the harmonics, and of the box that was measured"})
+        .add("half_size", &Expansion::half_size,
+             {.unit = "m", .min = 0, .max = 10, .doc = "Half the width, height and depth of that box"})
+        .add("radius", &Expansion::radius,
+             {.unit = "m", .min = 1e-9, .max = 100, .doc = "Unit of length of the harmonics"})
+        .add("residual", &Expansion::residual,
+             {.min = 0, .max = 1e9, .doc = "What the measurements are off by, as a share of the field, both rms"})
+        .add("coefficients", &Expansion::coefficients,
+             {.min = -1e6,
+              .max = 1e6,
+              .doc = "T/A, Schmidt's semi-normalisation: c_l0, c_l1, s_l1, c_l2, s_l2 ... for l = 1, 2 ..."})
+        .check([](const Expansion& p) -> std::string {
+          const int degree = Harmonics{{}, 1, p.coefficients}.degree();
+          const bool whole = degree >= 1 && degree <= kMostHarmonicDegree &&
+                             harmonic_terms(degree) == p.coefficients.size();
+          return whole ? "" : "coefficients must be 3, 8, 15 ... (l + 1)^2 - 1 numbers, up to l = 14";
+        });
+  }
+};
+
+/// A coil, with cores and all, whose field was measured or computed elsewhere, brought to solid harmonics:
+/// without divergence and curl whatever the errors of measurement, which the fit smooths (theory C7).
+/// Known to fail where the box that was measured holds a winding or a core.
+class Map final : public Field {
+ public:
+  struct Params {
+    std::string file;
+    double measured_current = 1;
+    std::optional<double> within;
+    Vec3 position;
+    double turn = 0;
+    CircuitParams circuit;
+    std::optional<Expansion> expansion;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("map", "The field of a coil as it was measured, or computed by other software")
+        .add("file", &Params::file,
+             {.doc = "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz may "
+                     "be absent), or HDF5 as of `faba field map`; beside the rig, or where the program is called"})
+        .add("measured_current", &Params::measured_current,
+             {.unit = "A", .min = -1e4, .max = 1e4, .doc = "What flowed when it was measured"})
+        .add("within", &Params::within,
+             {.unit = "m",
+              .min = 1e-6,
+              .max = 10,
+              .doc = "Only points nearer than this to the map's origin are used; all when absent"})
+        .add("position", &Params::position,
+             {.unit = "m", .min = -10, .max = 10, .doc = "Where the map's origin is, world frame"})
+        .add("turn", &Params::turn,
+             {.unit = "rad", .min = -100, .max = 100, .doc = "The map is turned by this about z, counterclockwise"})
+        .include(&Params::circuit, CircuitParams::schema())
+        .add("expansion", &Params::expansion, {.doc = "Filled in from the file when absent"})
+        .check([](const Params& p) -> std::string {
+          if (p.file.empty() && !p.expansion) return "needs file = \"a CSV or HDF5 file\"";
+          return p.measured_current == 0 ? "measured_current must not be 0" : "";
+        })
+        .validity("A box that holds a winding or a core. Up to a tenth of its size outside of the box the field is "
+                  "foretold, further out it is not a number.");
+  }
+  static void settle(Params& p, const Node& n) {
+    if (p.expansion) return;
+    FieldData data = read_field_data(beside(p.file, n));
+    if (data.about_axis || !data.given[0] || !data.given[1])
+      throw Error(Errc::input, data.source,
+                  "a map needs the columns x, y, bx and by, and best z and bz, such as x_mm and bx_mt");
+    if (p.within) keep_within(data, *p.within);
+    p.expansion = expanded(data, p.measured_current);
+  }
+
+  Map(const Params& p, const FieldContext&)
+      : circuit_(p.circuit),
+        position_(p.position),
+        turn_(portable::sincos(p.turn)),
+        field_{p.expansion->centre, p.expansion->radius, p.expansion->coefficients},
+        half_size_(p.expansion->half_size) {}
+
+  std::size_t coils() const override { return 1; }
+  void per_ampere(std::size_t, std::span<const Vec3> at, std::span<Vec3> b) const override {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const Vec3 p = turned(at[i] - position_, -1);
+      b[i] = inside(p) > 0 ? circuit_.gain * turned(field_.at(p), 1) : Vec3{kNone, kNone, kNone};
+    }
+  }
+  Circuit circuit(std::size_t) const override { return circuit_.circuit(); }
+  /// Distance to where the map ends: what is beyond is not known.
+  double clearance(Vec3 at) const override { return std::max(0.0, inside(turned(at - position_, -1))); }
+  std::vector<Stroke> outline() const override {
+    Stroke box;
+    for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}})
+      box.push_back(position_ + turned(field_.centre + Vec3{x * half_size_.x, y * half_size_.y, 0}, 1));
+    return {box};
+  }
+
+ private:
+  static std::filesystem::path beside(const std::filesystem::path& file, const Node& n) {
+    if (!n.document) return file;
+    const std::filesystem::path there = std::filesystem::path(n.document->name).parent_path() / file;
+    std::error_code ec;
+    return std::filesystem::exists(there, ec) ? there : file;
+  }
+  static void keep_within(FieldData& d, double distance) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < d.at.size(); ++i) {
+      const Vec3 p = d.at[i];
+      if (p.x * p.x + p.y * p.y + p.z * p.z > distance * distance) continue;
+      d.at[kept] = p, d.b[kept++] = d.b[i];
+    }
+    d.at.resize(kept), d.b.resize(kept);
+  }
+  static Expansion expanded(const FieldData& data, double measured_current) {
+    constexpr double kTooFar = 0.05;  // assumed: a Hall probe is good to a hundredth
+    const HarmonicFit fit = fit_harmonics(data);
+    Expansion e;
+    e.centre = fit.field.centre, e.radius = fit.field.radius;
+    for (const Vec3& p : data.at) {
+      const Vec3 d = p - e.centre;
+      e.half_size = {std::max(e.half_size.x, std::fabs(d.x)), std::max(e.half_size.y, std::fabs(d.y)),
+                     std::max(e.half_size.z, std::fabs(d.z))};
+    }
+    e.residual = fit.rms_field > 0 ? fit.rms / fit.rms_field : 0;
+    if (e.residual > kTooFar)
+      throw Error(Errc::input, data.source,
+                  fmt::format("is not a magnetic field without currents in it: the nearest such field is off by "
+                              "{:.2g} % rms. Are columns or signs mixed up, or does the map reach into a coil or "
+                              "core? Then use less of it, with within = \"5 mm\"",
+                              100 * e.residual));
+    for (const double c : fit.field.coefficients) e.coefficients.push_back(c / measured_current);
+    return e;
+  }
+
+  // Turned by the map's angle (sense 1) or back (sense -1) about z.
+  Vec3 turned(Vec3 v, int sense) const {
+    const double s = sense * turn_.sin;
+    return {turn_.cos * v.x - s * v.y, s * v.x + turn_.cos * v.y, v.z};
+  }
+  // Distance from the border of the box, a tenth of its size larger all round, in the map's frame, m; negative
+  // outside.
+  double inside(Vec3 p) const {
+    const Vec3 d = p - field_.centre;
+    const double margin = 0.1 * field_.radius;
+    return margin + std::min({half_size_.x - std::fabs(d.x), half_size_.y - std::fabs(d.y),
+                              half_size_.z - std::fabs(d.z)});
+  }
+
+  CircuitParams circuit_;
+  Vec3 position_;
+  portable::SinCosD turn_;
+  Harmonics field_;
+  Vec3 half_size_;
+};
+
+}  // namespace
+
+void add_map(FieldRegistry& r) { r.add<Map>(); }
+
+}  // namespace faba

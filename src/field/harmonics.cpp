@@ -1,0 +1,198 @@
+#include "field/harmonics.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+
+constexpr std::size_t kMostPoints = 8000;  // more only repeat what these say, and cost time at every start
+constexpr double kNoise = 1e-13;           // share of the largest pivot that is rounding
+
+using Complex = std::complex<double>;
+
+// R_l^m = r^l P_l^m e^(i m phi) / (l + m)!, for which derivatives are neighbours:
+//   d/dz R_l^m = R_(l-1)^m,  (d/dx + i d/dy) R_l^m = -R_(l-1)^(m+1),  (d/dx - i d/dy) R_l^m = R_(l-1)^(m-1).
+struct Solid {
+  static std::size_t place(int l, int m) { return std::size_t(l * (l + 1) / 2 + m); }
+  std::vector<Complex> value;
+  Complex of(int l, int m) const {
+    if (std::abs(m) > l) return 0;
+    return m < 0 ? -std::conj(value[place(l, -m)]) : value[place(l, m)];  // only m = -1 is asked for
+  }
+  Solid(Vec3 at, int degree) : value(place(degree, degree) + 1) {
+    const double r2 = at.x * at.x + at.y * at.y + at.z * at.z;
+    value[0] = 1;
+    for (int m = 0; m <= degree; ++m) {
+      if (m > 0) {
+        const Complex before = value[place(m - 1, m - 1)];
+        value[place(m, m)] = Complex(at.x * before.real() - at.y * before.imag(),
+                                     at.x * before.imag() + at.y * before.real()) /
+                             double(2 * m);
+      }
+      for (int l = m + 1; l <= degree; ++l) {
+        Complex v = (2 * l - 1) * at.z * value[place(l - 1, m)];
+        if (l - 2 >= m) v -= r2 * value[place(l - 2, m)];
+        value[place(l, m)] = v / double((l + m) * (l - m));
+      }
+    }
+  }
+};
+
+/// Schmidt's factor over that of Solid: sqrt((2 - [m = 0]) (l - m)! (l + m)!).
+class Schmidt {
+ public:
+  Schmidt() {
+    std::array<double, 2 * kMostHarmonicDegree + 1> factorial{1};
+    for (std::size_t i = 1; i < factorial.size(); ++i) factorial[i] = factorial[i - 1] * double(i);
+    for (int l = 0; l <= kMostHarmonicDegree; ++l)
+      for (int m = 0; m <= l; ++m)
+        factor_[Solid::place(l, m)] =
+            std::sqrt((m ? 2 : 1) * factorial[std::size_t(l - m)] * factorial[std::size_t(l + m)]);
+  }
+  double operator()(int l, int m) const { return factor_[Solid::place(l, m)]; }
+
+ private:
+  std::array<double, std::size_t((kMostHarmonicDegree + 1) * (kMostHarmonicDegree + 2) / 2)> factor_{};
+};
+
+/// Sums for least squares over some of the points.
+struct Normal {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+  double square = 0;  ///< of all measurements
+  double count = 0;
+
+  explicit Normal(int degree)
+      : matrix(Eigen::MatrixXd::Zero(size(degree), size(degree))), right(Eigen::VectorXd::Zero(size(degree))) {}
+  static Eigen::Index size(int degree) { return Eigen::Index(harmonic_terms(degree)); }
+  void add(const Eigen::MatrixXd& rows, const Eigen::VectorXd& values) {
+    matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
+    right += rows.transpose() * values;
+    square += values.squaredNorm(), count += double(values.size());
+  }
+  Normal& operator+=(const Normal& o) {
+    matrix += o.matrix, right += o.right, square += o.square, count += o.count;
+    return *this;
+  }
+  /// Least squares up to `degree`; directions that the data say nothing about stay 0.
+  Eigen::VectorXd solve(int degree) const {
+    const Eigen::Index terms = size(degree);
+    Eigen::MatrixXd m = matrix.topLeftCorner(terms, terms).selfadjointView<Eigen::Lower>();
+    m.diagonal().array() += kNoise * m.diagonal().maxCoeff();
+    return m.ldlt().solve(right.head(terms));
+  }
+  double rms(const Eigen::VectorXd& c) const {
+    const Eigen::MatrixXd m = matrix.topLeftCorner(c.size(), c.size()).selfadjointView<Eigen::Lower>();
+    return std::sqrt(std::max(0.0, square - 2 * c.dot(right.head(c.size())) + c.dot(m * c)) / std::max(count, 1.0));
+  }
+};
+
+// At most kMostPoints of them, evenly.
+std::vector<std::size_t> chosen(std::size_t points) {
+  const std::size_t step = std::max<std::size_t>(1, (points + kMostPoints - 1) / kMostPoints);
+  std::vector<std::size_t> i;
+  for (std::size_t k = 0; k < points; k += step) i.push_back(k);
+  return i;
+}
+
+// Centre and radius of the box that holds the points.
+void place(const std::vector<Vec3>& at, Harmonics& field) {
+  Vec3 low = at[0], high = low;
+  for (const Vec3& p : at) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3 half = 0.5 * (high - low);
+  field.centre = 0.5 * (low + high);
+  field.radius = std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z);
+}
+
+Normal normal(const FieldData& data, const std::vector<std::size_t>& points, const Harmonics& about, int degree) {
+  constexpr std::size_t kBlock = 256;
+  Normal sums(degree);
+  std::vector<Vec3> term(harmonic_terms(degree));
+  Eigen::MatrixXd rows(Eigen::Index(3 * kBlock), Normal::size(degree));
+  Eigen::VectorXd values(rows.rows());
+  Eigen::Index n = 0;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const std::size_t i = points[j];
+    harmonic_fields((1 / about.radius) * (data.at[i] - about.centre), degree, term);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto component = [k](const Vec3& v) { return k == 0 ? v.x : k == 1 ? v.y : v.z; };
+      if (!data.given[k]) continue;
+      for (std::size_t t = 0; t < term.size(); ++t) rows(n, Eigen::Index(t)) = component(term[t]);
+      values[n++] = component(data.b[i]);
+    }
+    if (j + 1 < points.size() && n + 3 <= rows.rows()) continue;
+    sums.add(rows.topRows(n), values.head(n));
+    n = 0;
+  }
+  return sums;
+}
+
+}  // namespace
+
+int Harmonics::degree() const { return int(std::lround(std::sqrt(double(coefficients.size() + 1)))) - 1; }
+
+void harmonic_fields(Vec3 at, int degree, std::span<Vec3> out) {
+  static const Schmidt schmidt;
+  const Solid below(at, degree - 1);
+  std::size_t next = 0;
+  for (int l = 1; l <= degree; ++l)
+    for (int m = 0; m <= l; ++m) {
+      const Complex less = below.of(l - 1, m - 1), more = below.of(l - 1, m + 1), same = below.of(l - 1, m);
+      const double f = schmidt(l, m);
+      const Complex dx = 0.5 * (less - more), sum = less + more;
+      out[next++] = {f * dx.real(), -0.5 * f * sum.imag(), f * same.real()};
+      if (m > 0) out[next++] = {f * dx.imag(), 0.5 * f * sum.real(), f * same.imag()};
+    }
+}
+
+Vec3 Harmonics::at(Vec3 point) const {
+  std::vector<Vec3> term(coefficients.size());
+  harmonic_fields((1 / radius) * (point - centre), degree(), term);
+  Vec3 b;
+  for (std::size_t i = 0; i < term.size(); ++i) b = b + coefficients[i] * term[i];
+  return b;
+}
+
+HarmonicFit fit_harmonics(const FieldData& data) {
+  const std::vector<std::size_t> points = chosen(data.at.size());
+  const auto given = std::size_t(std::count(data.given.begin(), data.given.end(), true));
+  if (points.size() < 8)
+    throw Error(Errc::input, data.source, "has too few points for a field; at least 8 are needed");
+  HarmonicFit fit;
+  place(data.at, fit.field);
+  if (!(fit.field.radius > 0)) throw Error(Errc::input, data.source, "all of its points are at one place");
+  int most = 1;
+  while (most < kMostHarmonicDegree && 2 * harmonic_terms(most + 1) <= given * points.size()) ++most;
+
+  std::vector<std::size_t> learned, left_out;  // a fifth without a rhythm, which a regular map might share
+  for (const std::size_t i : points)
+    ((std::uint32_t(i) * 2654435761u >> 8) % 5 == 0 ? left_out : learned).push_back(i);
+  Normal all = normal(data, learned, fit.field, most);
+  const Normal test = normal(data, left_out, fit.field, most);
+  int best = 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int degree = 1; degree <= most; ++degree) {
+    const double off = test.rms(all.solve(degree));
+    if (off < 0.95 * least) least = off, best = degree;  // a further degree must be worth its terms
+  }
+  all += test;
+  const Eigen::VectorXd c = all.solve(best);
+  fit.field.coefficients.assign(c.begin(), c.end());
+  fit.rms = all.rms(c);
+  fit.rms_field = std::sqrt(all.square / all.count);
+  return fit;
+}
+
+}  // namespace faba
