@@ -145,6 +145,11 @@ std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulatio
     note_polarities(s, notes);
   }
   if (s.controller.type.starts_with("gradient")) note_traps(s, simulation, notes);
+  if (const auto& table = simulation.world().parts().table; table && table->error() > FieldTable::kTolerance)
+    notes.push_back(fmt::format(
+        "library: on its grid the field is off by up to {:.1g} of a coil's largest; a finer one needs "
+        "a smaller --spacing",
+        table->error()));
   if (s.controller.type == "manual") note_currents(s, simulation, notes);
   note_size(s, simulation.world().state().agents.size(), out, notes);
   return notes;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/hash.h"
+
 namespace faba {
 
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts) {
@@ -19,13 +21,24 @@ void files_from_here(Document& rig) {
   if (!rig.root.contains("coil") || !rig.root["coil"].is_array()) return;
   for (Json& coil : rig.root["coil"]) {
     if (!coil.is_object() || !coil.contains("file") || !coil["file"].is_string()) continue;
-    const auto there = std::filesystem::path(rig.name).parent_path() / coil["file"].get<std::string>();
-    std::error_code ec;
-    if (std::filesystem::exists(there, ec)) coil["file"] = there.string();
+    coil["file"] = Node(rig).file(coil["file"].get<std::string>()).string();
   }
 }
 
 }  // namespace
+
+std::string rig_fingerprint(const Json& resolved) {
+  Json rig = resolved;
+  const auto strip = [](Json& coil) {
+    for (const char* key : {"name", "current", "file"}) coil.erase(key);
+  };
+  strip(rig);
+  if (rig.contains("coil") && rig["coil"].is_array())
+    for (Json& coil : rig["coil"]) strip(coil);
+  Hash h;
+  h.text(rig.dump());
+  return h.hex();
+}
 
 void include_rig(Document& scenario) {
   if (!scenario.root.is_object() || !scenario.root.contains("field") || !scenario.root["field"].is_object())
@@ -34,13 +47,13 @@ void include_rig(Document& scenario) {
   if (!field.contains("file")) return;
   const Node node = Node(scenario).child("field").child("file");
   if (!field["file"].is_string()) node.fail("expected the name of a rig file in quotes");
-  const std::filesystem::path named = field["file"].get<std::string>();
-  const std::filesystem::path beside = std::filesystem::path(scenario.name).parent_path() / named;
+  const std::string named = field["file"].get<std::string>();
+  const std::filesystem::path file = node.file(named);
   std::error_code ec;
-  const bool found = std::filesystem::exists(beside, ec);
-  if (!found && !std::filesystem::exists(named, ec))
-    node.fail(fmt::format("there is neither {} nor {}", beside.string(), named.string()));
-  Document rig = read_toml(found ? beside : named);
+  if (!std::filesystem::exists(file, ec))
+    node.fail(
+        fmt::format("there is no {}, neither beside the scenario nor where the program was called", named));
+  Document rig = read_toml(file);
   files_from_here(rig);
   field.erase("file");
   for (const auto& [key, value] : rig.root.items()) {

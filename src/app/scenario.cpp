@@ -7,6 +7,7 @@
 
 #include "app/rig_file.h"
 #include "core/hash.h"
+#include "field/library.h"
 
 namespace faba {
 
@@ -75,6 +76,20 @@ Schema<ScaleParams> ScaleParams::schema() {
             .source = "Earth's field near Rio (B2)"});
 }
 
+Schema<LibraryParams> LibraryParams::schema() {
+  return Schema<LibraryParams>("library", "A field library, as `faba field library` makes it for the rig")
+      .add("file", &LibraryParams::file,
+           {.doc = "HDF5 file; beside the scenario, or where the program is called. The field is then taken "
+                   "at the "
+                   "nodes of its grid"})
+      .add(
+          "made", &LibraryParams::made,
+          {.doc = "What the library is told by; filled in from the file, and refused when it is another one"})
+      .check([](const LibraryParams& p) -> std::string {
+        return p.file.empty() ? "needs file = \"a library's HDF5 file\"" : "";
+      });
+}
+
 Schema<SimulationParams> SimulationParams::schema() {
   return Schema<SimulationParams>("simulation", "Numerics")
       .add("step", &SimulationParams::step,
@@ -131,12 +146,14 @@ Json Scenario::resolved() const {
   j["controller"] = controller.resolved;
   j["limits"] = Limits::schema().to_json(limits);
   j["record"] = Record::schema().to_json(record);
+  if (library) j["library"] = LibraryParams::schema().to_json(*library);
   return j;
 }
 
 std::string Scenario::hash() const {
   Json j = resolved();
   for (const char* key : {"title", "seed", "record"}) j.erase(key);
+  if (library) j["library"].erase("file");  // `made` says what is in it, wherever it lies
   Hash h;
   h.text(j.dump());
   return h.hex();
@@ -154,6 +171,19 @@ auto part(const Node& root, const char* key, const Registry& registry, const cha
   if (root.has(key)) return registry.resolve(root.child(key));
   const Json name = fallback;
   return registry.resolve(Node(name, key, root.document));
+}
+
+void read_library(const Node& root, Scenario& s) {
+  if (!root.has("library")) return;
+  const Node n = root.child("library");
+  LibraryParams p = LibraryParams::schema().parse(n);
+  p.file = std::filesystem::absolute(n.file(p.file)).lexically_normal().string();
+  Hash h;
+  h.text(FieldLibrary::task(p.file));
+  if (!p.made.empty() && p.made != h.hex())
+    throw Error(Errc::input, p.file, "is another library than the one that this scenario was made with");
+  p.made = h.hex();
+  s.library = p;
 }
 
 void read_swarms(const Node& root, const Parts& parts, Scenario& s) {
@@ -195,7 +225,7 @@ Scenario read_scenario(Document d, const Parts& parts) {
   Scenario s;
   s.params = Scenario::schema().parse(
       root, {"scale", "camera", "simulation", "arena", "exclusion", "field", "motility", "swarm", "estimator",
-             "reference", "controller", "limits", "record"});
+             "reference", "controller", "limits", "library", "record"});
   section(root, "scale", s.scale, ScaleParams::schema());
   section(root, "camera", s.camera, Camera::schema());
   section(root, "simulation", s.simulation, SimulationParams::schema());
@@ -209,6 +239,7 @@ Scenario read_scenario(Document d, const Parts& parts) {
   s.controller = part(root, "controller", parts.controller, "fuzzy");
   s.reference = part(root, "reference", parts.reference, s.steers() ? "hold" : "none");
   read_swarms(root, parts, s);
+  read_library(root, s);
 
   if (s.params.duration * s.camera.rate > 1e8)
     root.child("duration").fail("is more than 1e8 frames; shorten it or lower camera.rate");
@@ -232,6 +263,7 @@ Json scenario_json_schema(const Parts& parts) {
   p["exclusion"] = Exclusion::schema().json_schema();
   p["limits"] = Limits::schema().json_schema();
   p["record"] = Record::schema().json_schema();
+  p["library"] = LibraryParams::schema().json_schema();
   Json& swarm = p["swarm"] = {{"type", "array"}, {"minItems", 1}, {"items", Swarm::schema().json_schema()}};
   each_kind(parts, [&](const char* kind, const auto& registry) {
     Json any = Json::array({Json{{"type", "string"}, {"enum", registry.names()}}});

@@ -32,6 +32,14 @@ struct ScaleParams {
   static Schema<ScaleParams> schema();
 };
 
+/// The table [library]: a FieldLibrary that the run takes its grid from, and controllers of gradients their
+/// currents.
+struct LibraryParams {
+  std::string file;
+  std::string made;  ///< fingerprint of how the library was made
+  static Schema<LibraryParams> schema();
+};
+
 /// The table [simulation].
 struct SimulationParams {
   std::optional<double> step;
@@ -69,6 +77,7 @@ struct Scenario {
   Limits::Params limits;
   Exclusion::Params exclusion;
   Record record;
+  std::optional<LibraryParams> library;
   ArenaRegistry::PartType arena;
   FieldRegistry::PartType field;
   MotilityRegistry::PartType motility;

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "app/rig_file.h"
+#include "field/library.h"
+
 namespace faba {
 namespace {
 
@@ -26,6 +29,24 @@ FieldTable tabulated(const Field& field, const Grid& g) {
   return {field, low, low + double(g.cell) * Vec2{double(g.columns), double(g.rows)}};
 }
 
+// The grid of a library, checked to be of this rig and to hold the arena.
+FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary& library, const Scenario& s) {
+  library.check(field, rig_fingerprint(s.field.resolved));
+  const TableGrid& grid = library.grid();
+  const Vec2 low{double(g.left), double(g.low)};
+  const Vec2 high = low + double(g.cell) * Vec2{double(g.columns), double(g.rows)};
+  constexpr double kRim = 1e-9;  // m
+  if (low.x < grid.low.x - kRim || low.y < grid.low.y - kRim || high.x > grid.high().x + kRim ||
+      high.y > grid.high().y + kRim)
+    throw Error(
+        Errc::usage, "library",
+        fmt::format("covers {:.4g} x {:.4g} mm about the centre, the arena reaches over {:.4g} x {:.4g} mm; "
+                    "make it larger with --size",
+                    1e3 * (grid.high() - grid.low).x, 1e3 * (grid.high() - grid.low).y, 1e3 * (high - low).x,
+                    1e3 * (high - low).y));
+  return {field, grid};
+}
+
 // Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
 // whole.
 int steps_per_frame(const Scenario& s, double longest) {
@@ -38,13 +59,19 @@ int steps_per_frame(const Scenario& s, double longest) {
                               *s.simulation.step, frame, frame / std::max(1.0, whole)));
     return int(whole);
   }
-  const int least = int(std::ceil(frame / longest - 1e-9));
+  const double needed = std::max(1.0, std::ceil(frame / longest - 1e-9));
+  if (!(needed < 1e9))
+    throw Error(Errc::usage, "simulation",
+                fmt::format("the models need {:.2g} steps per frame to be accurate; use less field, slower "
+                            "turning or less diffusion, or say yourself with simulation.step",
+                            needed));
+  const int least = int(needed);
   const double iteration = s.si_scale().iteration;
-  for (int n = std::max(least, 1); n <= 4 * std::max(least, 1); ++n) {
+  for (int n = least; n <= least + 3 + int(std::ceil(frame / iteration)); ++n) {
     const double per_iteration = iteration * n / frame;
     if (per_iteration > 0.5 && std::fabs(per_iteration - std::floor(per_iteration + 0.5)) < 1e-6) return n;
   }
-  return std::max(least, 1);  // models that count in iterations will say what is wrong
+  return least;  // models that count in iterations will say what is wrong
 }
 
 }  // namespace
@@ -56,7 +83,13 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
   w.exclusion = s.exclusion;
   w.arena = s.arena.make({scale});
   w.field = s.field.make({});
-  if (w.field->varies()) w.table = tabulated(*w.field, w.arena->grid());
+  std::shared_ptr<const FieldLibrary> library;
+  if (s.library) {
+    library = std::make_shared<FieldLibrary>(s.library->file);
+    w.table = tabulated(*w.field, w.arena->grid(), *library, s);
+  } else if (w.field->varies()) {
+    w.table = tabulated(*w.field, w.arena->grid());
+  }
   w.motility = s.motility.make({w.arena.get(), s.params.exposure});
   frame_ = w.arena->frame();
 
@@ -91,7 +124,8 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
                                s.polarity(),
                                s.frame_period(),
                                s.camera.delay_frames,
-                               w.field->max_currents(s.limits.max_current)};
+                               w.field->max_currents(s.limits.max_current),
+                               library};
   world_ = std::make_unique<World>(std::move(w), pool);
   rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});
   estimator_ = s.estimator.make(control);

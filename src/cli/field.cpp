@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "cli/progress.h"
 #include "cli/verbs.h"
 #include "core/error.h"
 #include "core/units.h"
@@ -45,11 +46,24 @@ void refuse_existing(const std::filesystem::path& file, bool force) {
     throw Error(Errc::usage, file.string(), "already exists; name another file, or --force to replace it");
 }
 
+void refuse_svg(const std::filesystem::path& file, bool force) {
+  refuse_existing(file, force);
+  if (!file.empty() && file.extension() != ".svg")
+    throw Error(Errc::usage, file.string(), "must end in .svg, which is what is written");
+}
+
 // "1 mm, 0 mm" as metres.
 Vec2 place(const std::string& option, const std::string& words) {
   const auto comma = std::min(words.find(','), words.size());
   return {metres(option, words.substr(0, comma)),
           metres(option, words.substr(std::min(comma + 1, words.size())))};
+}
+
+Vec2 rectangle(const std::string& words) {
+  const Vec2 size = place("--size", words);
+  if (!(size.x > 0 && size.y > 0 && size.x <= 1 && size.y <= 1))
+    throw Error(Errc::usage, "--size", "must be two lengths of up to 1 m, such as \"6 mm, 4.5 mm\"");
+  return size;
 }
 
 }  // namespace
@@ -72,9 +86,7 @@ int field_at(const FieldVerb& v, const Common& c) {
 
 int field_map(const FieldVerb& v, const Common& c) {
   FieldMapOptions o;
-  const Vec2 size = place("--size", v.size);
-  if (!(size.x > 0 && size.y > 0 && size.x <= 1 && size.y <= 1))
-    throw Error(Errc::usage, "--size", "must be two lengths of up to 1 m, such as \"6 mm, 4.5 mm\"");
+  const Vec2 size = rectangle(v.size);
   o.width = size.x, o.height = size.y;
   o.current = amperes(v.current);
   if (!v.view.empty()) o.view = place("--view", v.view);
@@ -105,9 +117,7 @@ int field_map(const FieldVerb& v, const Common& c) {
 }
 
 int field_tolerance(const FieldVerb& v, const Common& c) {
-  refuse_existing(v.picture, v.force);
-  if (!v.picture.empty() && v.picture.extension() != ".svg")
-    throw Error(Errc::usage, v.picture.string(), "must end in .svg, which is what is written");
+  refuse_svg(v.picture, v.force);
   const auto j = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
   if (c.json) {
     fmt::print("{}\n", j.dump());
@@ -123,6 +133,63 @@ int field_tolerance(const FieldVerb& v, const Common& c) {
                                    : fmt::format("{:>8.4f} mm", row["shift_m"].get<double>() * 1e3));
   }
   if (!v.picture.empty()) fmt::print("  {}\n", v.picture.string());
+  return 0;
+}
+
+int field_library(const LibraryVerb& v, const Common& c) {
+  refuse_existing(v.out, v.force);
+  FieldLibraryOptions o;
+  const Vec2 size = rectangle(v.size);
+  o.width = size.x, o.height = size.y;
+  if (!v.spacing.empty()) o.spacing = metres("--spacing", v.spacing);
+  if (!(o.spacing >= 0)) throw Error(Errc::usage, "--spacing", "must not be negative");
+  o.levels = v.levels, o.threads = v.threads, o.force = v.force;
+  catch_signals();
+  Progress bar("library", !c.json && !c.quiet);
+  o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  o.stop = [] { return stop_requested().load(); };
+  const auto j = build_field_library(v.rig, v.out, o);
+  bar.clear();
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  fmt::print("{} entries of {} x {} nodes, from {} sets of currents\n", j["entries"].get<std::uint64_t>(),
+             j["columns"].get<int>(), j["rows"].get<int>(), j["combinations"].get<std::uint64_t>());
+  if (const auto& off = j["off_m"]; !off.is_null())
+    fmt::print(
+        "nearest zero {:.3g} um away in the median, {:.3g} um at most; the solver's is at the place itself\n",
+        off["median"].get<double>() * 1e6, off["largest"].get<double>() * 1e6);
+  if (const auto& s = j["strength"]; !s.is_null())
+    fmt::print("trap {:.3g} times as strong as the solver's in the median\n", s.get<double>());
+  fmt::print("  {}\n", v.out.string());
+  return 0;
+}
+
+int field_fit(const FieldVerb& v, const Common& c) {
+  refuse_existing(v.out, v.force);
+  refuse_svg(v.picture, v.force);
+  const auto j = faba::field_fit(v.rig, v.measured, v.out, v.picture);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  fmt::print("{:<12}{:>9.4f} +- {:.4f}\n", "gain", j["gain"].get<double>(), j["gain_se"].get<double>());
+  const auto vector = [&](const char* what, const char* key, const char* error, double per_unit,
+                          const char* unit) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!j[error][k].is_null())
+        fmt::print("{:<12}{:>9.4g} +- {:.2g} {}\n", fmt::format("{} {}", what, "xyz"[k]),
+                   j[key][k].get<double>() / per_unit, j[error][k].get<double>() / per_unit, unit);
+  };
+  vector("shift", "shift_m", "shift_se_m", 1e-3, "mm");
+  vector("offset", "offset_t", "offset_se_t", 1e-6, "uT");
+  fmt::print("left over   {:>9.3g} uT rms of {:.4g} uT, {} values\n", j["rms_t"].get<double>() * 1e6,
+             j["rms_field_t"].get<double>() * 1e6, j["values"].get<int>());
+  for (const auto& file : {v.out, v.picture})
+    if (!file.empty()) fmt::print("  {}\n", file.string());
   return 0;
 }
 

@@ -92,7 +92,8 @@ int dispatch(int argc, char** argv) {
   v->callback([&] { code = drop(drop_options, common); });
 
   FieldVerb field_options;
-  std::filesystem::path tolerance_picture;  // none unless named, unlike the map's
+  std::filesystem::path map_picture = "field.png";
+  LibraryVerb library_options;
   CLI::App* field = app.add_subcommand("field", "Magnetic field of a rig of coils");
   field->require_subcommand(1);
   v = verb(*field, common, "at", "B at points: CSV in, CSV out, SI units",
@@ -110,12 +111,15 @@ int dispatch(int argc, char** argv) {
   v->add_option("--view", field_options.view, "Width and height of the camera's view, to be drawn in")
       ->check(not_empty);
   v->add_option("--drop", field_options.drop, "Radius of the drop, to be drawn in")->check(not_empty);
-  v->add_option("--picture", field_options.picture, "Picture to write, PNG")->check(not_empty);
+  v->add_option("--picture", map_picture, "Picture to write, PNG")->check(not_empty);
   v->add_option("-o,--out", field_options.out, "HDF5 file to write")->check(not_empty);
   v->add_flag("--check", field_options.check,
               "Only say how far the table that a swarm swims in is from the field");
   v->add_flag("--force", field_options.force, "Replace existing files");
-  v->callback([&] { code = field_map(field_options, common); });
+  v->callback([&] {
+    field_options.picture = map_picture;
+    code = field_map(field_options, common);
+  });
   v = verb(*field, common, "null", "Currents that put a zero of the field at a place and trap cells there",
            "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
            "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
@@ -131,12 +135,38 @@ int dispatch(int argc, char** argv) {
            "  faba field tolerance rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --picture tolerance.svg");
   v->add_option("rig", field_options.rig, "Rig file (TOML)")->required();
   v->add_option("--at", field_options.at, "Place of the zero in the plane of the sample, x and y");
-  v->add_option("--picture", tolerance_picture, "Plot to write, SVG")->check(not_empty);
+  v->add_option("--picture", field_options.picture, "Plot to write, SVG")->check(not_empty);
   v->add_flag("--force", field_options.force, "Replace an existing plot");
-  v->callback([&] {
-    field_options.picture = tolerance_picture;
-    code = field_tolerance(field_options, common);
-  });
+  v->callback([&] { code = field_tolerance(field_options, common); });
+  v = verb(*field, common, "fit", "Bring a rig to a measured field: strength, place, and what no coil makes",
+           "  faba field fit rigs/flat-coil.toml --map measured.csv\n"
+           "  faba field fit rig.toml --map measured.h5 --out fitted.toml --picture left-over.svg");
+  v->add_option("rig", field_options.rig, "Rig file (TOML), with the currents of the measurement")
+      ->required();
+  v->add_option("--map", field_options.measured, "Measured field: CSV or HDF5, see `faba parts field map`")
+      ->required();
+  v->add_option("-o,--out", field_options.out, "Rig file to write, with what was found")->check(not_empty);
+  v->add_option("--picture", field_options.picture, "Plot of what is left over, SVG")->check(not_empty);
+  v->add_flag("--force", field_options.force, "Replace existing files");
+  v->callback([&] { code = field_fit(field_options, common); });
+  v = verb(*field, common, "library", "Many sets of currents with the zeros that they make, as in the thesis",
+           "  faba field library rigs/thesis-four-coils.toml --out four.h5\n"
+           "  faba field library rigs/thesis-two-coils.toml --size \"1 mm, 1 mm\" --levels 200 --out two.h5");
+  v->add_option("rig", library_options.rig, "Rig file (TOML)")->required();
+  v->add_option("-o,--out", library_options.out,
+                "HDF5 file to write; what a stopped build left is gone on with")
+      ->required()
+      ->check(not_empty);
+  v->add_option("--size", library_options.size, "Width and height of the rectangle that zeros are wanted in");
+  v->add_option("--spacing", library_options.spacing, "Of the grid; a 64th of the longer side unless given")
+      ->check(not_empty);
+  v->add_option("--levels", library_options.levels, "Steps from no current to the largest")
+      ->check(CLI::Range(1, 100000));
+  v->add_option("--threads", library_options.threads,
+                "Threads to work with; all of the machine's unless given")
+      ->check(CLI::Range(1u, 1024u));
+  v->add_flag("--force", library_options.force, "Replace an existing library");
+  v->callback([&] { code = field_library(library_options, common); });
 
   PartsVerb parts_options;
   v = verb(app, common, "parts", "What can be named in a scenario, with units, ranges, defaults and sources",

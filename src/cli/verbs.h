@@ -31,10 +31,17 @@ struct DropVerb {
   bool force = false;
 };
 struct FieldVerb {
-  std::filesystem::path rig, points;
+  std::filesystem::path rig, points, measured;
   std::string at = "0 mm, 0 mm", polarity = "north", size = "6 mm, 4.5 mm", current, view, drop;
-  std::filesystem::path picture = "field.png", out;
+  std::filesystem::path picture, out;
   bool check = false, force = false;
+};
+struct LibraryVerb {
+  std::filesystem::path rig, out;
+  std::string size = "2 mm, 2 mm", spacing;
+  int levels = 0;
+  unsigned threads = 0;
+  bool force = false;
 };
 struct PartsVerb {
   std::string kind, name;
@@ -53,6 +60,8 @@ int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
 int field_map(const FieldVerb& v, const Common& c);
+int field_library(const LibraryVerb& v, const Common& c);
+int field_fit(const FieldVerb& v, const Common& c);
 int field_tolerance(const FieldVerb& v, const Common& c);
 int field_null(const FieldVerb& v, const Common& c);
 int parts(const PartsVerb& v, const Common& c);

@@ -9,6 +9,8 @@
 
 namespace faba {
 
+class FieldLibrary;
+
 /// Turns what was seen into what is believed.
 class Estimator {
  public:
@@ -47,6 +49,7 @@ struct ControlContext {
   double frame_period = 0;               ///< s
   int delay_frames = 0;                  ///< age of an observation when it arrives
   std::vector<double> max_current = {};  ///< largest current of each coil, A; one per coil
+  std::shared_ptr<const FieldLibrary> library = {};  ///< of the field, when the scenario names one
 };
 using EstimatorRegistry = Registry<Estimator, ControlContext>;
 using ReferenceRegistry = Registry<Reference, ControlContext>;

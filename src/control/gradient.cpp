@@ -1,5 +1,4 @@
 #include "control/trap.h"
-#include "core/schema.h"
 
 namespace faba {
 namespace {
@@ -9,19 +8,18 @@ namespace {
 class Gradient final : public Controller {
  public:
   struct Params {
-    bool earth = true;
+    Trap::Params trap;
   };
   static Schema<Params> schema() {
     return Schema<Params>("gradient",
                           "Open loop: a zero of the field at the setpoint gathers the swarm there")
-        .add("earth", &Params::earth,
-             {.doc = "Allow for the Earth's field; false: as on a rig where nobody does"})
+        .include(&Params::trap, Trap::Params::schema())
         .validity(
             "Two coils make a saddle, which drives cells away along one direction. Far from the zero cells "
             "are "
             "drawn to it at their own speed at most; near it the cloud is as wide as sqrt(v f_r / (m g)).");
   }
-  Gradient(const Params& p, const ControlContext& c) : trap_(c, p.earth) {}
+  Gradient(const Params& p, const ControlContext& c) : trap_(p.trap, c) {}
   Command update(const Estimate&, const Target& target, double) override { return trap_.at(target.position); }
   void archive(Archive& a) override { trap_.archive(a); }
 

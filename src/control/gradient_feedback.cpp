@@ -16,7 +16,7 @@ class GradientFeedback final : public Controller {
     double gain = 0.5;
     double integral_time = 3;
     double most_px = 2000;
-    bool earth = true;
+    Trap::Params trap;
   };
   static Schema<Params> schema() {
     return Schema<Params>("gradient_feedback",
@@ -37,13 +37,12 @@ class GradientFeedback final : public Controller {
               .min = 0,
               .max = 1e5,
               .doc = "The zero is put no further than this from the setpoint"})
-        .add("earth", &Params::earth,
-             {.doc = "Allow for the Earth's field; false: the loop has to find it out"})
+        .include(&Params::trap, Trap::Params::schema())
         .validity(
             "Slower than a swarm relaxes in the trap, about f_r / (m g) times its width over its speed.");
   }
   GradientFeedback(const Params& p, const ControlContext& c)
-      : p_(p), m_per_px_(c.scale.m_per_px), trap_(c, p.earth) {}
+      : p_(p), m_per_px_(c.scale.m_per_px), trap_(p.trap, c) {}
 
   Command update(const Estimate& e, const Target& target, double dt) override {
     const Vec2 error = target.position - e.centroid;

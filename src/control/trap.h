@@ -1,5 +1,6 @@
 #pragma once
 #include "control/controller.h"
+#include "core/schema.h"
 
 namespace faba {
 
@@ -7,15 +8,22 @@ namespace faba {
 /// of the coils. Where the coils cannot, those of before stay.
 class Trap {
  public:
-  /// `earth`: whether the Earth's field is allowed for.
-  Trap(const ControlContext& c, bool earth) : c_(c), earth_(earth), current_(c.field->coils(), 0.0) {}
+  enum class Source { solve, library };
+  /// Keys that controllers of gradients share.
+  struct Params {
+    Source source = Source::solve;
+    bool earth = true;
+    static Schema<Params> schema();
+  };
+  /// Throws Error(usage) when there is no library to take currents from.
+  Trap(const Params& p, const ControlContext& c);
   /// `at` in m, world frame.
   Command at(Vec2 at);
   void archive(Archive& a) { a& known_& at_& current_; }
 
  private:
+  Params p_;
   ControlContext c_;
-  bool earth_;
   bool known_ = false;  ///< current_ is that for at_
   Vec2 at_;
   std::vector<double> current_;  ///< A

@@ -235,6 +235,18 @@ double H5File::number_attribute(const std::string& object, const std::string& na
   return value;
 }
 
+std::string H5File::text_attribute(const std::string& object, const std::string& name) const {
+  const Handle a(H5Aopen_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  if (a >= 0) {
+    const Handle type(H5Aget_type(a), H5Tclose);
+    std::string value(H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) ? H5Tget_size(type) : 0,
+                      '\0');
+    if (!value.empty() && H5Aread(a, type, value.data()) >= 0) return value.substr(0, value.find('\0'));
+  }
+  throw Error(Errc::input, impl_->path.string(), fmt::format("has no text \"{}\"", name));
+}
+
 void H5File::begin_writing() {
   if (H5Fstart_swmr_write(impl_->file) < 0) impl_->fail(Errc::internal, "begin to write");
 }

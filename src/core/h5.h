@@ -53,6 +53,7 @@ class H5File {
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   double number_attribute(const std::string& object, const std::string& name) const;
+  std::string text_attribute(const std::string& object, const std::string& name) const;
 
   void begin_writing();  ///< from here on readers may follow, and a crash leaves a readable file
   void sync();           ///< everything appended so far to the disk

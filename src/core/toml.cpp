@@ -286,4 +286,11 @@ std::string Node::where(const std::string& key) const {
 
 void Node::fail(const std::string& what) const { throw Error(Errc::usage, where(), what); }
 
+std::filesystem::path Node::file(const std::string& name) const {
+  if (!document) return name;
+  const std::filesystem::path beside = std::filesystem::path(document->name).parent_path() / name;
+  std::error_code ec;
+  return std::filesystem::exists(beside, ec) ? beside : std::filesystem::path(name);
+}
+
 }  // namespace faba

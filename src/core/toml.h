@@ -37,6 +37,8 @@ struct Node {
   /// "scenes/x.toml:12: swarm[0].count", falling back to the nearest known parent.
   std::string where(const std::string& key = "") const;
   [[noreturn]] void fail(const std::string& what) const;
+  /// The file called `name`: beside the document when it is there, else from where the program was called.
+  std::filesystem::path file(const std::string& name) const;
 };
 
 /// Reads a TOML file. Missing, a directory, over 4 MiB, not TOML: Error(usage) with file and line.

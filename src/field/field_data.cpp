@@ -65,12 +65,13 @@ FieldData from_csv(const std::filesystem::path& file) {
     return std::any_of(list.begin(), list.end(), [](const auto& c) { return c.has_value(); });
   };
   if (d.about_axis && (place[1] || field[1]))
-    throw Error(Errc::input, d.source, "has rho, a distance from an axis, as well as y; give one or the other");
-  if (!any(place) || !any(field))
     throw Error(Errc::input, d.source,
-                fmt::format("needs columns for {}, such as {}; it has {}", any(place) ? "the field" : "the place",
-                            any(place) ? "bx_mt, by_mt, bz_mt" : "x_mm, y_mm, z_mm",
-                            fmt::join(t.names(), ", ")));
+                "has rho, a distance from an axis, as well as y; give one or the other");
+  if (!any(place) || !any(field))
+    throw Error(
+        Errc::input, d.source,
+        fmt::format("needs columns for {}, such as {}; it has {}", any(place) ? "the field" : "the place",
+                    any(place) ? "bx_mt, by_mt, bz_mt" : "x_mm, y_mm, z_mm", fmt::join(t.names(), ", ")));
   for (std::size_t i = 0; i < t.size(); ++i) {
     std::array<double, 3> p{}, b{};
     for (std::size_t k = 0; k < 3; ++k) {

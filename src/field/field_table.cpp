@@ -44,42 +44,40 @@ FABA_VECTORISED void interpolate(const Grid& g, const float* x, const float* y, 
 
 }  // namespace
 
-FieldTable::FieldTable(const Field& field, Vec2 low, Vec2 high)
-    : low_(low), size_(high - low), ambient_(field.ambient()) {
-  const double longer = std::max(size_.x, size_.y);
-  double spacing = longer / (kFirst - 1);
+FieldTable::FieldTable(const Field& field, Vec2 low, Vec2 high) : ambient_(field.ambient()) {
+  const Vec2 size = high - low;
+  grid_ = {low, std::max(size.x, size.y) / (kFirst - 1), 0, 0};
   // The error falls with the square of the spacing; two tries are enough unless a winding is near.
   for (int attempt = 0;; ++attempt) {
-    const double nodes = (size_.x / spacing + 2) * (size_.y / spacing + 2);
+    const double nodes = (size.x / grid_.spacing + 2) * (size.y / grid_.spacing + 2);
     if (attempt == 4 || nodes > kMostNodes)
       throw Error(Errc::usage, "field",
                   "a coil is too near to the sample for its field to be tabulated; move it away, or make the "
                   "arena smaller");
-    fill(field, spacing);
-    error_ = measure(field);
+    grid_.columns = std::max(2, int(std::ceil(size.x / grid_.spacing - 1e-9)) + 1);
+    grid_.rows = std::max(2, int(std::ceil(size.y / grid_.spacing - 1e-9)) + 1);
+    fill(field);
     if (error_ <= kTolerance) break;
-    spacing *= 0.8 * std::sqrt(kTolerance / error_);
+    grid_.spacing *= 0.8 * std::sqrt(kTolerance / error_);
   }
-  nodes_.resize(std::size_t(columns_) * std::size_t(rows_));
-  current_.assign(basis_.size(), std::numeric_limits<double>::quiet_NaN());
-  set(std::vector<double>(basis_.size(), 0.0));
 }
 
-void FieldTable::fill(const Field& field, double spacing) {
-  spacing_ = spacing;
-  columns_ = int(std::ceil(size_.x / spacing - 1e-9)) + 1,
-  rows_ = int(std::ceil(size_.y / spacing - 1e-9)) + 1;
-  columns_ = std::max(columns_, 2), rows_ = std::max(rows_, 2);
+FieldTable::FieldTable(const Field& field, const TableGrid& grid) : grid_(grid), ambient_(field.ambient()) {
+  fill(field);
+}
+
+void FieldTable::fill(const Field& field) {
   std::vector<Vec3> at;
-  for (int r = 0; r < rows_; ++r)
-    for (int c = 0; c < columns_; ++c) at.push_back({low_.x + c * spacing, low_.y + r * spacing, 0});
+  for (int r = 0; r < grid_.rows; ++r)
+    for (int c = 0; c < grid_.columns; ++c)
+      at.push_back({grid_.low.x + c * grid_.spacing, grid_.low.y + r * grid_.spacing, 0});
   for (const Vec3 p : at)
-    if (field.clearance(p) <= spacing)
+    if (field.clearance(p) <= grid_.spacing)
       throw Error(
           Errc::usage, "field",
           fmt::format(
-              "a coil, or the end of a measured map, reaches into the sample at ({:.3g}, {:.3g}) mm from its "
-              "centre; move it away, or make the arena smaller",
+              "a coil, or the end of a measured map, reaches into the sample at ({:.3g}, {:.3g}) mm from "
+              "its centre; move it away, or make the arena smaller",
               p.x * 1e3, p.y * 1e3));
   basis_.assign(field.coils(), std::vector<Vec2>(at.size()));
   std::vector<Vec3> b(at.size());
@@ -87,16 +85,20 @@ void FieldTable::fill(const Field& field, double spacing) {
     field.per_ampere(k, at, b);
     std::transform(b.begin(), b.end(), basis_[k].begin(), [](const Vec3& v) { return Vec2{v.x, v.y}; });
   }
+  error_ = measure(field);
+  nodes_.resize(2 * at.size());
+  current_.assign(basis_.size(), std::numeric_limits<double>::quiet_NaN());
+  set(std::vector<double>(basis_.size(), 0.0));
 }
 
 double FieldTable::measure(const Field& field) const {
   std::vector<Vec3> at;
   std::vector<std::size_t> corner;
-  const int step = std::max(1, std::max(columns_, rows_) / 64);
-  for (int r = 0; r + 1 < rows_; r += step)
-    for (int c = 0; c + 1 < columns_; c += step) {
-      at.push_back({low_.x + (c + 0.5) * spacing_, low_.y + (r + 0.5) * spacing_, 0});
-      corner.push_back(std::size_t(r) * std::size_t(columns_) + std::size_t(c));
+  const int step = std::max(1, std::max(grid_.columns, grid_.rows) / 64);
+  for (int r = 0; r + 1 < grid_.rows; r += step)
+    for (int c = 0; c + 1 < grid_.columns; c += step) {
+      at.push_back({grid_.low.x + (c + 0.5) * grid_.spacing, grid_.low.y + (r + 0.5) * grid_.spacing, 0});
+      corner.push_back(std::size_t(r) * std::size_t(grid_.columns) + std::size_t(c));
     }
   std::vector<Vec3> exact(at.size());
   double worst = 0;
@@ -106,7 +108,7 @@ double FieldTable::measure(const Field& field) const {
     for (const Vec2 v : b) largest = std::max(largest, norm(v));
     field.per_ampere(k, at, exact);
     for (std::size_t i = 0; i < at.size(); ++i) {
-      const std::size_t j = corner[i], up = j + std::size_t(columns_);
+      const std::size_t j = corner[i], up = j + std::size_t(grid_.columns);
       const Vec2 middle = 0.25 * (b[j] + b[j + 1] + b[up] + b[up + 1]);
       off = std::max(off, norm(middle - Vec2{exact[i].x, exact[i].y}));
     }
@@ -118,27 +120,27 @@ double FieldTable::measure(const Field& field) const {
 void FieldTable::set(std::span<const double> current) {
   if (std::equal(current.begin(), current.end(), current_.begin(), current_.end())) return;
   current_.assign(current.begin(), current.end());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (std::size_t i = 0; i < grid_.nodes(); ++i) {
     Vec2 sum{ambient_.x, ambient_.y};
     for (std::size_t k = 0; k < basis_.size(); ++k) sum = sum + current_[k] * basis_[k][i];
-    nodes_[i] = {float(sum.x), float(sum.y)};
+    nodes_[2 * i] = float(sum.x), nodes_[2 * i + 1] = float(sum.y);
   }
 }
 
 void FieldTable::eval(const Points& at, Vectors b) const {
-  const Grid g{&nodes_[0].x,
-               float(low_.x),
-               float(low_.y),
-               float(1 / spacing_),
-               std::nextafter(float(columns_ - 1), 0.0f),
-               std::nextafter(float(rows_ - 1), 0.0f),
-               columns_};
+  const Grid g{nodes_.data(),
+               float(grid_.low.x),
+               float(grid_.low.y),
+               float(1 / grid_.spacing),
+               std::nextafter(float(grid_.columns - 1), 0.0f),
+               std::nextafter(float(grid_.rows - 1), 0.0f),
+               grid_.columns};
   interpolate(g, at.x.data(), at.y.data(), b.x.data(), b.y.data(), at.x.size());
 }
 
 double FieldTable::strongest(std::span<const double> max_current) const {
   double most = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (std::size_t i = 0; i < grid_.nodes(); ++i) {
     Vec2 sum{std::fabs(ambient_.x), std::fabs(ambient_.y)};
     for (std::size_t k = 0; k < basis_.size(); ++k)
       sum =

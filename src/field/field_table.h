@@ -3,6 +3,15 @@
 
 namespace faba {
 
+/// Nodes of a square grid in the plane z = 0, from the lower left one on, row by row.
+struct TableGrid {
+  Vec2 low;            ///< the first node, m, world
+  double spacing = 0;  ///< m
+  int columns = 0, rows = 0;
+  std::size_t nodes() const { return std::size_t(columns) * std::size_t(rows); }
+  Vec2 high() const { return low + spacing * Vec2{double(columns - 1), double(rows - 1)}; }
+};
+
 /// A field in the plane z = 0 over a rectangle, made ready for many points: the field per ampere of every
 /// coil at the nodes of a square grid, added up once per set of currents and interpolated bilinearly between
 /// them.
@@ -14,15 +23,17 @@ class FieldTable {
   /// World frame, m. The spacing follows from the tolerance. Throws Error(usage, "field") when a coil reaches
   /// into the rectangle, or so near to it that no table of a million nodes is good enough.
   FieldTable(const Field& field, Vec2 low, Vec2 high);
+  /// With nodes as given, whatever error() they lead to. Throws likewise for coils that reach in.
+  FieldTable(const Field& field, const TableGrid& grid);
 
   /// Sets the currents (A, one per coil) for eval(). Costs a pass over the nodes when they changed.
   void set(std::span<const double> current);
   /// The in-plane field, T. Points beyond the rectangle count as on its border.
   void eval(const Points& at, Vectors b) const;
 
-  int columns() const { return columns_; }
-  int rows() const { return rows_; }
-  double spacing() const { return spacing_; }  ///< m
+  const TableGrid& grid() const { return grid_; }
+  /// The in-plane field at every node, T: x, y, x, y ...
+  std::span<const float> nodes() const { return nodes_; }
   /// Largest distance found between table and field, a share as in kTolerance: looked for at the centres of
   /// the squares, where bilinear interpolation is worst.
   double error() const { return error_; }
@@ -30,18 +41,14 @@ class FieldTable {
   double strongest(std::span<const double> max_current) const;
 
  private:
-  struct Node {
-    float x, y;
-  };
-  void fill(const Field& field, double spacing);
+  void fill(const Field& field);
   double measure(const Field& field) const;
 
-  Vec2 low_, size_;
+  TableGrid grid_;
   Vec3 ambient_;
-  double spacing_ = 0, error_ = 0;
-  int columns_ = 0, rows_ = 0;
+  double error_ = 0;
   std::vector<std::vector<Vec2>> basis_;  ///< of every coil, T/A, row by row
-  std::vector<Node> nodes_;               ///< T
+  std::vector<float> nodes_;              ///< T, x and y of every node
   std::vector<double> current_;
 };
 

@@ -13,7 +13,6 @@
 namespace faba {
 namespace {
 
-
 constexpr std::size_t kMostPoints = 8000;  // more only repeat what these say, and cost time at every start
 constexpr double kNoise = 1e-13;           // share of the largest pivot that is rounding
 
@@ -72,7 +71,8 @@ struct Normal {
   double count = 0;
 
   explicit Normal(int degree)
-      : matrix(Eigen::MatrixXd::Zero(size(degree), size(degree))), right(Eigen::VectorXd::Zero(size(degree))) {}
+      : matrix(Eigen::MatrixXd::Zero(size(degree), size(degree))),
+        right(Eigen::VectorXd::Zero(size(degree))) {}
   static Eigen::Index size(int degree) { return Eigen::Index(harmonic_terms(degree)); }
   void add(const Eigen::MatrixXd& rows, const Eigen::VectorXd& values) {
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
@@ -92,7 +92,8 @@ struct Normal {
   }
   double rms(const Eigen::VectorXd& c) const {
     const Eigen::MatrixXd m = matrix.topLeftCorner(c.size(), c.size()).selfadjointView<Eigen::Lower>();
-    return std::sqrt(std::max(0.0, square - 2 * c.dot(right.head(c.size())) + c.dot(m * c)) / std::max(count, 1.0));
+    return std::sqrt(std::max(0.0, square - 2 * c.dot(right.head(c.size())) + c.dot(m * c)) /
+                     std::max(count, 1.0));
   }
 };
 
@@ -116,7 +117,8 @@ void place(const std::vector<Vec3>& at, Harmonics& field) {
   field.radius = std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z);
 }
 
-Normal normal(const FieldData& data, const std::vector<std::size_t>& points, const Harmonics& about, int degree) {
+Normal normal(const FieldData& data, const std::vector<std::size_t>& points, const Harmonics& about,
+              int degree) {
   constexpr std::size_t kBlock = 256;
   Normal sums(degree);
   std::vector<Vec3> term(harmonic_terms(degree));

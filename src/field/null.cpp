@@ -1,7 +1,5 @@
 #include "field/null.h"
 
-// What it gives goes into commands, and so into a run's bits: no instructions that only some builds use.
-#define EIGEN_DONT_VECTORIZE
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

@@ -107,9 +107,9 @@ void draw(const FieldMapOptions& o, const Field& field, const Map& m, const nloh
 nlohmann::ordered_json table_report(const Field& field, const FieldMapOptions& o) {
   try {
     const FieldTable table(field, {-o.width / 2, -o.height / 2}, {o.width / 2, o.height / 2});
-    return {{"spacing_m", table.spacing()},
-            {"columns", table.columns()},
-            {"rows", table.rows()},
+    return {{"spacing_m", table.grid().spacing},
+            {"columns", table.grid().columns},
+            {"rows", table.grid().rows},
             {"error", table.error()}};
   } catch (const Error&) {
     if (o.picture.empty() && o.hdf5.empty()) throw;

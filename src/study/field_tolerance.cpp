@@ -73,11 +73,16 @@ class Rigs {
       for (const double side : {1.0, -1.0}) {
         Json j = part_.resolved;
         Json& coil = j["coil"][k];
-        const Vec3 raw = vector(coil["axis"]), axis = (1 / length(raw)) * raw;
+        const bool turns = coil.contains("turn");  // a map has no axis: its x stands for it
+        const double turn = turns ? number(coil["turn"]) : 0;
+        const Vec3 raw = turns ? Vec3{std::cos(turn), std::sin(turn), 0} : vector(coil["axis"]);
+        const Vec3 axis = (1 / length(raw)) * raw;
         // Across its axis in the plane of the sample, which is where a zero can move to.
         const Vec3 in_plane{-axis.y, axis.x, 0};
         const Vec3 across = length(in_plane) > 1e-6 ? (1 / length(in_plane)) * in_plane : Vec3{1, 0, 0};
-        if (name == "tilt")
+        if (name == "tilt" && turns)
+          coil["turn"] = turn + side * amount;
+        else if (name == "tilt")
           coil["axis"] = json(std::cos(amount) * axis + (side * std::sin(amount)) * across);
         else
           coil["position"] =

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "tests/study/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 using namespace faba;
 

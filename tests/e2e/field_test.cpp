@@ -180,7 +180,7 @@ TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in 
     const char* says;
   };
   for (const Bad& b :
-       {Bad{"file = 'none.toml'", "there is neither"}, Bad{"file = 3", "in quotes"},
+       {Bad{"file = 'none.toml'", "there is no none.toml"}, Bad{"file = 3", "in quotes"},
         Bad{"", "needs at least one [[coil]]"},
         Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "reaches into the sample"},
         Bad{"coil = [{ type = 'loop', radius = '-1 mm' }]", "field.coil[0].radius"}}) {

@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "study/run_figures.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "well_formed.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace {
 

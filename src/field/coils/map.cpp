@@ -18,22 +18,25 @@ struct Expansion {
   std::vector<double> coefficients;
   static Schema<Expansion> schema() {
     return Schema<Expansion>("expansion", "Solid harmonics that a map comes down to (theory C7)")
-        .add("centre", &Expansion::centre,
-             {.unit = "m", .min = -10, .max = 10, .doc = "Of the harmonics, and of the box that was measured"})
+        .add(
+            "centre", &Expansion::centre,
+            {.unit = "m", .min = -10, .max = 10, .doc = "Of the harmonics, and of the box that was measured"})
         .add("half_size", &Expansion::half_size,
              {.unit = "m", .min = 0, .max = 10, .doc = "Half the width, height and depth of that box"})
         .add("radius", &Expansion::radius,
              {.unit = "m", .min = 1e-9, .max = 100, .doc = "Unit of length of the harmonics"})
         .add("residual", &Expansion::residual,
-             {.min = 0, .max = 1e9, .doc = "What the measurements are off by, as a share of the field, both rms"})
+             {.min = 0,
+              .max = 1e9,
+              .doc = "What the measurements are off by, as a share of the field, both rms"})
         .add("coefficients", &Expansion::coefficients,
              {.min = -1e6,
               .max = 1e6,
               .doc = "T/A, Schmidt's semi-normalisation: c_l0, c_l1, s_l1, c_l2, s_l2 ... for l = 1, 2 ..."})
         .check([](const Expansion& p) -> std::string {
           const int degree = Harmonics{{}, 1, p.coefficients}.degree();
-          const bool whole = degree >= 1 && degree <= kMostHarmonicDegree &&
-                             harmonic_terms(degree) == p.coefficients.size();
+          const bool whole =
+              degree >= 1 && degree <= kMostHarmonicDegree && harmonic_terms(degree) == p.coefficients.size();
           return whole ? "" : "coefficients must be 3, 8, 15 ... (l + 1)^2 - 1 numbers, up to l = 14";
         });
   }
@@ -56,8 +59,10 @@ class Map final : public Field {
   static Schema<Params> schema() {
     return Schema<Params>("map", "The field of a coil as it was measured, or computed by other software")
         .add("file", &Params::file,
-             {.doc = "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz may "
-                     "be absent), or HDF5 as of `faba field map`; beside the rig, or where the program is called"})
+             {.doc =
+                  "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz may "
+                  "be absent), or HDF5 as of `faba field map`; beside the rig, or where the program is "
+                  "called"})
         .add("measured_current", &Params::measured_current,
              {.unit = "A", .min = -1e4, .max = 1e4, .doc = "What flowed when it was measured"})
         .add("within", &Params::within,
@@ -68,19 +73,23 @@ class Map final : public Field {
         .add("position", &Params::position,
              {.unit = "m", .min = -10, .max = 10, .doc = "Where the map's origin is, world frame"})
         .add("turn", &Params::turn,
-             {.unit = "rad", .min = -100, .max = 100, .doc = "The map is turned by this about z, counterclockwise"})
+             {.unit = "rad",
+              .min = -100,
+              .max = 100,
+              .doc = "The map is turned by this about z, counterclockwise"})
         .include(&Params::circuit, CircuitParams::schema())
         .add("expansion", &Params::expansion, {.doc = "Filled in from the file when absent"})
         .check([](const Params& p) -> std::string {
           if (p.file.empty() && !p.expansion) return "needs file = \"a CSV or HDF5 file\"";
           return p.measured_current == 0 ? "measured_current must not be 0" : "";
         })
-        .validity("A box that holds a winding or a core. Up to a tenth of its size outside of the box the field is "
-                  "foretold, further out it is not a number.");
+        .validity(
+            "A box that holds a winding or a core. Up to a tenth of its size outside of the box the field is "
+            "foretold, further out it is not a number.");
   }
   static void settle(Params& p, const Node& n) {
     if (p.expansion) return;
-    FieldData data = read_field_data(beside(p.file, n));
+    FieldData data = read_field_data(n.file(p.file));
     if (data.about_axis || !data.given[0] || !data.given[1])
       throw Error(Errc::input, data.source,
                   "a map needs the columns x, y, bx and by, and best z and bz, such as x_mm and bx_mt");
@@ -114,12 +123,6 @@ class Map final : public Field {
   }
 
  private:
-  static std::filesystem::path beside(const std::filesystem::path& file, const Node& n) {
-    if (!n.document) return file;
-    const std::filesystem::path there = std::filesystem::path(n.document->name).parent_path() / file;
-    std::error_code ec;
-    return std::filesystem::exists(there, ec) ? there : file;
-  }
   static void keep_within(FieldData& d, double distance) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < d.at.size(); ++i) {
@@ -141,11 +144,12 @@ class Map final : public Field {
     }
     e.residual = fit.rms_field > 0 ? fit.rms / fit.rms_field : 0;
     if (e.residual > kTooFar)
-      throw Error(Errc::input, data.source,
-                  fmt::format("is not a magnetic field without currents in it: the nearest such field is off by "
-                              "{:.2g} % rms. Are columns or signs mixed up, or does the map reach into a coil or "
-                              "core? Then use less of it, with within = \"5 mm\"",
-                              100 * e.residual));
+      throw Error(
+          Errc::input, data.source,
+          fmt::format("is not a magnetic field without currents in it: the nearest such field is off by "
+                      "{:.2g} % rms. Are columns or signs mixed up, or does the map reach into a coil or "
+                      "core? Then use less of it, with within = \"5 mm\"",
+                      100 * e.residual));
     for (const double c : fit.field.coefficients) e.coefficients.push_back(c / measured_current);
     return e;
   }
@@ -155,8 +159,8 @@ class Map final : public Field {
     const double s = sense * turn_.sin;
     return {turn_.cos * v.x - s * v.y, s * v.x + turn_.cos * v.y, v.z};
   }
-  // Distance from the border of the box, a tenth of its size larger all round, in the map's frame, m; negative
-  // outside.
+  // Distance from the border of the box, a tenth of its size larger all round, in the map's frame, m;
+  // negative outside.
   double inside(Vec3 p) const {
     const Vec3 d = p - field_.centre;
     const double margin = 0.1 * field_.radius;

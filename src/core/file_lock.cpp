@@ -1,0 +1,85 @@
+#include "core/file_lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+constexpr const char* kFirst = "faba process ";
+
+[[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
+  throw Error(Errc::internal, file.string(),
+              fmt::format("{}: {}", what, std::generic_category().message(errno)));
+}
+
+std::string holder(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line.starts_with(kFirst) ? "process " + line.substr(std::string(kFirst).size()) : "another process";
+}
+
+bool same_file(int descriptor, const std::filesystem::path& file) {
+  struct stat a {
+  }, b{};
+  return fstat(descriptor, &a) == 0 && stat(file.c_str(), &b) == 0 && a.st_ino == b.st_ino &&
+         a.st_dev == b.st_dev;
+}
+
+}  // namespace
+
+FileLock::FileLock(const std::filesystem::path& file, const std::filesystem::path& shown,
+                   const std::string& text)
+    : file_(file) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(file_, "cannot be written");
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(std::exchange(descriptor_, -1));
+      throw Error(Errc::usage, shown.string(),
+                  fmt::format("{} is writing here; wait for it or choose another --out", holder(file_)));
+    }
+    if (same_file(descriptor_, file_)) break;  // else its holder completed and removed it meanwhile
+    ::close(std::exchange(descriptor_, -1));
+  }
+  const std::string content = fmt::format("{}{}\n{}", kFirst, getpid(), text);
+  if (descriptor_ < 0 || ::ftruncate(descriptor_, 0) != 0 ||
+      ::pwrite(descriptor_, content.data(), content.size(), 0) != ssize_t(content.size()) ||
+      ::fsync(descriptor_) != 0) {
+    const int reason = errno;
+    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+    errno = reason;
+    fail(file_, "cannot be written");
+  }
+}
+
+FileLock::FileLock(FileLock&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FileLock& FileLock::operator=(FileLock&& other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void FileLock::complete() {
+  if (::unlink(file_.c_str()) != 0) fail(file_, "cannot be removed");
+  ::close(std::exchange(descriptor_, -1));
+}
+
+}  // namespace faba
