@@ -106,6 +106,6 @@ TEST_CASE("field library: limits are said") {
   o.spacing = 1e-9;
   CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", o), Error);
   o = small();
-  o.width = 0.05, o.spacing = 1e-3;  // the coils stand in it
+  o.width = o.height = 0.05, o.spacing = 1e-3;  // the coils stand in it
   CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", o), Error);
 }
