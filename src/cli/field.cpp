@@ -52,6 +52,11 @@ void refuse_svg(const std::filesystem::path& file, bool force) {
     throw Error(Errc::usage, file.string(), "must end in .svg, which is what is written");
 }
 
+// To four decimals, without a sign before zero.
+double millimetres(const nlohmann::ordered_json& metres) {
+  return std::round(metres.get<double>() * 1e7) / 1e4 + 0.0;
+}
+
 // "1 mm, 0 mm" as metres.
 Vec2 place(const std::string& option, const std::string& words) {
   const auto comma = std::min(words.find(','), words.size());
@@ -103,8 +108,8 @@ int field_map(const FieldVerb& v, const Common& c) {
   }
   if (c.quiet) return 0;
   for (const auto& z : j["zeros"])
-    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", z["at_m"][0].get<double>() * 1e3,
-               z["at_m"][1].get<double>() * 1e3, z["kind"].get<std::string>(),
+    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", millimetres(z["at_m"][0]),
+               millimetres(z["at_m"][1]), z["kind"].get<std::string>(),
                z["eigenvalues_t_per_m"][0].get<double>(), z["eigenvalues_t_per_m"][1].get<double>());
   if (!v.check) fmt::print("strongest {:.4g} mT\n", j["strongest_t"].get<double>() * 1e3);
   if (const auto& t = j["table"]; !t.is_null())
