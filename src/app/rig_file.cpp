@@ -27,6 +27,13 @@ void files_from_here(Document& rig) {
 
 }  // namespace
 
+Json rig_json_schema(const Parts& parts) {
+  Json j = parts.field.json_schema("rig");
+  j["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  j["required"] = Json::array({"coil"});
+  return j;
+}
+
 std::string rig_fingerprint(const Json& resolved) {
   Json rig = resolved;
   const auto strip = [](Json& coil) {

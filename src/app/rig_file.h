@@ -8,6 +8,9 @@ namespace faba {
 /// A rig in a TOML file of its own: [[coil]] and [earth]. Throws Error(usage) naming file, line and reason.
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts);
 
+/// JSON Schema of a rig file.
+Json rig_json_schema(const Parts& parts);
+
 /// What a resolved rig, or any other field, is told by: everything but names, where maps were read from, and
 /// the currents that flow when nothing commands them.
 std::string rig_fingerprint(const Json& resolved);

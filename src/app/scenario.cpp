@@ -271,6 +271,8 @@ Json scenario_json_schema(const Parts& parts) {
       Json one = registry.json_schema(name);
       one["properties"]["type"] = {{"const", name}};
       one["required"] = Json::array({"type"});
+      if (name == "rig")  // include_rig() puts the file's content in its place
+        one["properties"]["file"] = {{"type", "string"}, {"description", "A rig file, taken in as it is"}};
       any.push_back(one);
     }
     const Json choice = {{"description", registry.doc()}, {"oneOf", any}};

@@ -149,10 +149,9 @@ int field_library(const LibraryVerb& v, const Common& c) {
   if (!v.spacing.empty()) o.spacing = metres("--spacing", v.spacing);
   if (!(o.spacing >= 0)) throw Error(Errc::usage, "--spacing", "must not be negative");
   o.levels = v.levels, o.threads = v.threads, o.force = v.force;
-  catch_signals();
   Progress bar("library", !c.json && !c.quiet);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
-  o.stop = [] { return stop_requested().load(); };
+  o.stop = [&stop = stop_requested()] { return stop.load(); };
   const auto j = build_field_library(v.rig, v.out, o);
   bar.clear();
   if (c.json) {

@@ -176,9 +176,12 @@ int dispatch(int argc, char** argv) {
   v->add_option("name", parts_options.name, "One part in full");
   v->callback([&] { code = parts(parts_options, common); });
 
-  v = verb(app, common, "schema", "JSON Schema of a scenario file, for editors and forms",
-           "  faba schema > scenario.json");
-  v->callback([&] { code = schema(common); });
+  v = verb(app, common, "schema", "JSON Schema of a scenario or rig file, for editors and forms",
+           "  faba schema > scenario.json\n  faba schema rig > rig.json");
+  std::string schema_of = "scenario";
+  v->add_option("file", schema_of, "scenario (unless given) or rig")
+      ->check(CLI::IsMember({"scenario", "rig"}));
+  v->callback([&] { code = schema(schema_of, common); });
   v = verb(app, common, "doctor", "What this machine has", "  faba doctor");
   v->callback([&] { code = doctor(common); });
 
@@ -202,7 +205,21 @@ int dispatch(int argc, char** argv) {
 
 }  // namespace
 
-const std::atomic<bool>& stop_requested() { return stop; }
+const std::atomic<bool>& stop_requested() {
+  // Some senders signal a process and its group: a repeat within half a second is the same wish.
+  static std::atomic<long> first_ms{0};
+  const auto on_signal = [](int) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const long ms = now.tv_sec * 1000 + now.tv_nsec / 1000000;
+    if (!stop.exchange(true))
+      first_ms = ms;
+    else if (ms - first_ms > 500)
+      _Exit(int(Errc::interrupted));
+  };
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_signal);
+  return stop;
+}
 const std::string& program() { return called_as; }
 
 void tell(const std::string& line) {
@@ -220,27 +237,11 @@ std::string shell_word(const std::string& word) {
   return out + "'";
 }
 
-void catch_signals() {
-  // Some senders signal a process and its group: a repeat within half a second is the same wish.
-  static std::atomic<long> first_ms{0};
-  const auto on_signal = [](int) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const long ms = now.tv_sec * 1000 + now.tv_nsec / 1000000;
-    if (!stop.exchange(true))
-      first_ms = ms;
-    else if (ms - first_ms > 500)
-      _Exit(int(Errc::interrupted));
-  };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_signal);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early is an error of writing, not a death
-}
-
 }  // namespace faba::cli
 
 int main(int argc, char** argv) {
-  faba::cli::catch_signals();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early is an error of writing, not a death
   try {
     const int code = faba::cli::dispatch(argc, argv);
     if (std::fflush(stdout) != 0)

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "app/rig_file.h"
 #include "app/scenario.h"
 #include "cli/verbs.h"
 
@@ -100,8 +101,9 @@ int parts(const PartsVerb& v, const Common& c) {
   return 0;
 }
 
-int schema(const Common&) {
-  fmt::print("{}\n", scenario_json_schema(builtin_parts()).dump(2));
+int schema(const std::string& file, const Common&) {
+  const Parts parts = builtin_parts();
+  fmt::print("{}\n", (file == "rig" ? rig_json_schema(parts) : scenario_json_schema(parts)).dump(2));
   return 0;
 }
 

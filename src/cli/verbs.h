@@ -65,12 +65,11 @@ int field_fit(const FieldVerb& v, const Common& c);
 int field_tolerance(const FieldVerb& v, const Common& c);
 int field_null(const FieldVerb& v, const Common& c);
 int parts(const PartsVerb& v, const Common& c);
-int schema(const Common& c);
+int schema(const std::string& file, const Common& c);
 int doctor(const Common& c);
 
-/// Becomes true on Ctrl-C and SIGTERM; the second Ctrl-C ends the program at once.
+/// Becomes true on Ctrl-C and SIGTERM; the second Ctrl-C ends the program at once. Only who asks has to look
+/// at it: a program that never does is ended by the first signal.
 const std::atomic<bool>& stop_requested();
-/// Arranges for that.
-void catch_signals();
 
 }  // namespace faba::cli

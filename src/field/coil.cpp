@@ -3,14 +3,6 @@
 #include "core/portable_math.h"
 
 namespace faba {
-namespace {
-
-double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
-double along(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-
-}  // namespace
-
 Schema<CircuitParams> CircuitParams::schema() {
   return Schema<CircuitParams>("circuit", "What a coil is connected to")
       .add("name", &CircuitParams::name, {.doc = "What reports call it"})
@@ -66,26 +58,26 @@ Schema<PoseParams> PoseParams::schema() {
       });
 }
 
-Axis::Axis(Vec3 origin, Vec3 direction) : origin_(origin), direction_((1 / length(direction)) * direction) {
+Axis::Axis(Vec3 origin, Vec3 direction) : origin_(origin), direction_((1 / norm(direction)) * direction) {
   // Any two directions across; the axis least along the coil's keeps them well defined.
   const Vec3 d{std::fabs(direction_.x), std::fabs(direction_.y), std::fabs(direction_.z)};
   const Vec3 other = d.x <= d.y && d.x <= d.z ? Vec3{1, 0, 0} : d.y <= d.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   across_ = cross(direction_, other);
-  across_ = (1 / length(across_)) * across_;
+  across_ = (1 / norm(across_)) * across_;
   third_ = cross(direction_, across_);
 }
 
 void Axis::places(std::span<const Vec3> at, std::span<double> rho, std::span<double> z) const {
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Vec3 r = at[i] - origin_;
-    z[i] = along(r, direction_);
-    rho[i] = length(r - z[i] * direction_);
+    z[i] = dot(r, direction_);
+    rho[i] = norm(r - z[i] * direction_);
   }
 }
 
 Vec3 Axis::vector(Vec3 at, double b_rho, double b_z) const {
-  const Vec3 r = at - origin_, off = r - along(r, direction_) * direction_;
-  const double rho = length(off);
+  const Vec3 r = at - origin_, off = r - dot(r, direction_) * direction_;
+  const double rho = norm(off);
   return rho > 0 ? b_z * direction_ + (b_rho / rho) * off : b_z * direction_;
 }
 

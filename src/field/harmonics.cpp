@@ -114,7 +114,7 @@ void place(const std::vector<Vec3>& at, Harmonics& field) {
   }
   const Vec3 half = 0.5 * (high - low);
   field.centre = 0.5 * (low + high);
-  field.radius = std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z);
+  field.radius = norm(half);
 }
 
 Normal normal(const FieldData& data, const std::vector<std::size_t>& points, const Harmonics& about,

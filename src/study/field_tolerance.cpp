@@ -36,7 +36,6 @@ double number(const Json& j) {
 }
 Vec3 vector(const Json& j) { return {number(j[0]), number(j[1]), number(j[2])}; }
 Json json(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
-double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 /// The rig as its file says, and changed copies of it.
 class Rigs {
@@ -76,10 +75,10 @@ class Rigs {
         const bool turns = coil.contains("turn");  // a map has no axis: its x stands for it
         const double turn = turns ? number(coil["turn"]) : 0;
         const Vec3 raw = turns ? Vec3{std::cos(turn), std::sin(turn), 0} : vector(coil["axis"]);
-        const Vec3 axis = (1 / length(raw)) * raw;
+        const Vec3 axis = (1 / norm(raw)) * raw;
         // Across its axis in the plane of the sample, which is where a zero can move to.
         const Vec3 in_plane{-axis.y, axis.x, 0};
-        const Vec3 across = length(in_plane) > 1e-6 ? (1 / length(in_plane)) * in_plane : Vec3{1, 0, 0};
+        const Vec3 across = norm(in_plane) > 1e-6 ? (1 / norm(in_plane)) * in_plane : Vec3{1, 0, 0};
         if (name == "tilt" && turns)
           coil["turn"] = turn + side * amount;
         else if (name == "tilt")

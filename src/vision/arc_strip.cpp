@@ -141,7 +141,7 @@ ArcStrip read_arc_strip(const GrayF& im, const Circle& c, const ArcStripOptions&
   const double turn = range.last - range.first;
   const double far_x = std::max(c.centre.x, im.width - 1 - c.centre.x);
   const double far_y = std::max(c.centre.y, im.height - 1 - c.centre.y);
-  if (!(c.radius > 0 && c.radius < norm({far_x, far_y}))) return strip;  // passes outside the picture
+  if (!(c.radius > 0 && c.radius < norm(Vec2{far_x, far_y}))) return strip;  // passes outside the picture
   const std::size_t n = std::max<std::size_t>(8, std::size_t(std::ceil(turn * c.radius)));
   std::vector<double> angles(n);
   for (std::size_t i = 0; i < n; ++i) angles[i] = range.first + turn * (double(i) + 0.5) / double(n);

@@ -5,25 +5,14 @@
 #include <cmath>
 #include <random>
 
-#include "core/toml.h"
 #include "field/axial.h"
-#include "field/coils/coils.h"
 #include "field/field_table.h"
+#include "tests/field/field_of.h"
 #include "tests/field/wires.h"
 
 using namespace faba;
 
 namespace {
-
-std::unique_ptr<Field> made(const std::string& toml) {
-  FieldRegistry r{"field", ""};
-  add_coils(r);
-  add_rig(r);
-  const Document d = parse_toml(toml, "test");
-  return r.resolve(Node(d)).make({});
-}
-
-double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 /// Random coils of every kind, and points between a tenth of their size and ten times it from their windings.
 struct Draw {
@@ -73,7 +62,7 @@ TEST_CASE("every coil: no divergence, no curl (C2)") {
   for (const auto& kind : coil_kinds().names())
     for (int i = 0; i < 40; ++i) {
       const std::string toml = draw.coil(kind);
-      const auto f = made(toml);
+      const auto f = field_of(toml);
       const Vec3 p = draw.point(*f);
       Vec3 b;
       Mat3 g;
@@ -83,7 +72,7 @@ TEST_CASE("every coil: no divergence, no curl (C2)") {
         for (const double v : row) size = std::max(size, std::fabs(v));
       INFO(toml, "at ", p.x, " ", p.y, " ", p.z, ", clearance ", f->clearance(p));
       // Differences resolve b / clearance to 1e-10 (Field::basis), and C2 asks for 1e-7 of the gradient.
-      const double allowed = 1e-7 * size + 1e-9 * length(b) / f->clearance(p);
+      const double allowed = 1e-7 * size + 1e-9 * norm(b) / f->clearance(p);
       CHECK(std::fabs(g[0][0] + g[1][1] + g[2][2]) < allowed);
       CHECK(std::fabs(g[0][1] - g[1][0]) < allowed);
       CHECK(std::fabs(g[0][2] - g[2][0]) < allowed);
@@ -118,7 +107,7 @@ TEST_CASE("three rigs agree with the sum over their wires to 1e-8") {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<> u(-0.012, 0.012);
   for (const Case& c : cases) {
-    const auto f = made(c.toml);
+    const auto f = field_of(c.toml);
     REQUIRE(f->coils() == c.wires.size());
     for (int i = 0; i < 20; ++i) {
       const Vec3 p{u(random), u(random), u(random)};
@@ -127,7 +116,7 @@ TEST_CASE("three rigs agree with the sum over their wires to 1e-8") {
       for (std::size_t k = 0; k < b.size(); ++k) {
         const Vec3 sum = biot_savart(c.wires[k], p);
         INFO(c.name, ", coil ", k);
-        CHECK(length(b[k] - sum) < 1e-8 * length(sum));
+        CHECK(norm(b[k] - sum) < 1e-8 * norm(sum));
       }
     }
   }
@@ -156,21 +145,21 @@ TEST_CASE("from far away every coil is a dipole of moment N I pi a^2, whatever i
          n * pi * (a * a + a * b + b * b) / 3, norm(Vec2{b, l / 2})}};
     const Case& c = cases[i % 4];
     const std::string pose = fmt::format("position = {}\naxis = {}\n", draw.vec(0.1), draw.vec(1));
-    const auto coil = made(c.toml + pose);
+    const auto coil = field_of(c.toml + pose);
     const auto dipole =
-        made(fmt::format("type = 'dipole'\nmoment = {:.17g}\nradius = 1e-6\n", c.moment) + pose);
+        field_of(fmt::format("type = 'dipole'\nmoment = {:.17g}\nradius = 1e-6\n", c.moment) + pose);
     const Document place = parse_toml(pose, "pose");
     const auto at = [&](int k) { return place.root["position"][std::size_t(k)].get<double>(); };
     const Vec3 middle{at(0), at(1), at(2)};
     Vec3 away{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
-    away = (1 / length(away)) * away;
+    away = (1 / norm(away)) * away;
     double off[2];
     for (int far = 0; far < 2; ++far) {
       Vec3 x, y;
       const Vec3 p = middle + (50 * (far + 1) * c.size) * away;
       coil->basis(p, {&x, 1}, {});
       dipole->basis(p, {&y, 1}, {});
-      off[far] = length(x - y) / length(y);
+      off[far] = norm(x - y) / norm(y);
     }
     INFO(c.toml, pose);
     // The next multipole is (size / r)^2 of the dipole times at most 6, and falls with the square of r.
@@ -303,7 +292,7 @@ TEST_CASE("the table of a rig is the rig to its tolerance, and refuses coils in 
       "type = 'rig'\nearth = { field = ['10 uT', '-15 uT', 0] }\n[[coil]]\ntype = 'solenoid'\nposition = "
       "['35 mm', 0, 0]\naxis = [-1, 0, 0]\n[[coil]]\ntype = 'solenoid'\nposition = [0, '-35 mm', 0]\naxis = "
       "[0, 1, 0]\n";
-  const auto f = made(rig);
+  const auto f = field_of(rig);
   FieldTable table(*f, {-0.003, -0.002}, {0.003, 0.002});
   CHECK(table.error() <= FieldTable::kTolerance);
   const std::vector<double> current{0.4, -0.25};
@@ -316,7 +305,7 @@ TEST_CASE("the table of a rig is the rig to its tolerance, and refuses coils in 
     table.eval({{&x, 1}, {&y, 1}, 0}, {{&bx, 1}, {&by, 1}});
     const Vec3 exact = f->at({double(x), double(y), 0}, current);
     // Both coils' errors, each a share of its largest field, 0.5 mT/A at the near rim, and float's rounding.
-    const double allowed = FieldTable::kTolerance * 0.65 * 0.5e-3 + 1e-7 * length(exact);
+    const double allowed = FieldTable::kTolerance * 0.65 * 0.5e-3 + 1e-7 * norm(exact);
     CHECK(norm(Vec2{double(bx) - exact.x, double(by) - exact.y}) < allowed);
   }
   CHECK_THROWS_AS(FieldTable(*f, {-0.02, -0.02}, {0.02, 0.02}), Error);

@@ -3,8 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/toml.h"
-#include "field/coils/coils.h"
+#include "tests/field/field_of.h"
 #include "tests/temporary_folder.h"
 
 using namespace faba;
@@ -85,15 +84,9 @@ TEST_CASE("library: what was written before a crash is taken over, for the same 
 }
 
 TEST_CASE("library: another rig is refused, by its fingerprint and by its field") {
-  FieldRegistry r{"field", ""};
-  add_coils(r);
-  add_rig(r);
-  const auto made = [&](const char* radius) {
-    const Document d =
-        parse_toml(std::string("type = 'rig'\n[[coil]]\ntype = 'loop'\nposition = [0, 0, 0.02]\nradius = ") +
-                       radius + "\n[[coil]]\ntype = 'loop'\nposition = [0, 0.02, 0]\n",
-                   "test");
-    return r.resolve(Node(d)).make({});
+  const auto made = [](const std::string& radius) {
+    return field_of("type = 'rig'\n[[coil]]\ntype = 'loop'\nposition = [0, 0, 0.02]\nradius = " + radius +
+                    "\n[[coil]]\ntype = 'loop'\nposition = [0, 0.02, 0]\n");
   };
   const auto rig = made("0.005"), other = made("0.0051");
   test::TemporaryFolder folder("library");

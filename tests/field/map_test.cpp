@@ -6,25 +6,14 @@
 #include <fstream>
 #include <random>
 
-#include "core/toml.h"
-#include "field/coils/coils.h"
 #include "field/field_data.h"
 #include "field/harmonics.h"
+#include "tests/field/field_of.h"
 #include "tests/temporary_folder.h"
 
 using namespace faba;
 
 namespace {
-
-std::unique_ptr<Field> made(const std::string& toml) {
-  FieldRegistry r{"field", ""};
-  add_coils(r);
-  add_rig(r);
-  const Document d = parse_toml(toml, "test");
-  return r.resolve(Node(d)).make({});
-}
-
-double length(Vec3 v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
 const std::string kCoil =
     "type = 'solenoid'\nradius = 0.005\nlength = 0.04\nturns = 400\nposition = [0.03, 0.018, 0.004]\n"
@@ -35,7 +24,7 @@ struct Sampled {
   test::TemporaryFolder dir{"map"};
   std::string file = (dir.path() / "map.csv").string();
   Sampled(int n, int layers, double noise, const std::string& header = "x_mm,y_mm,z_mm,bx_mt,by_mt,bz_mt") {
-    const auto coil = made(kCoil);
+    const auto coil = field_of(kCoil);
     std::ofstream out(file);
     out << header << "\n";
     std::mt19937_64 random(3);
@@ -60,7 +49,7 @@ struct Off {
 };
 /// How far a map is from the coil within a box.
 Off off(const Field& map, double size, double depth) {
-  const auto coil = made(kCoil);
+  const auto coil = field_of(kCoil);
   std::mt19937_64 random(9);
   std::uniform_real_distribution<> u(-1, 1);
   Off o;
@@ -70,8 +59,8 @@ Off off(const Field& map, double size, double depth) {
     Vec3 a, b;
     coil->per_ampere(0, {&p, 1}, {&a, 1});
     map.per_ampere(0, {&p, 1}, {&b, 1});
-    const double d = length(a - b);
-    o.worst = std::max(o.worst, d / length(a)), o.rms += d * d / kPoints;
+    const double d = norm(a - b);
+    o.worst = std::max(o.worst, d / norm(a)), o.rms += d * d / kPoints;
   }
   o.rms = std::sqrt(o.rms);
   return o;
@@ -82,14 +71,14 @@ Off off(const Field& map, double size, double depth) {
 TEST_CASE("a map of a coil is that coil, from a box of points and from one plane") {
   // The series about the centre falls with the powers of r / d, and least squares does no worse: d is the
   // distance of the rim, 20 mm along and 5 mm beside the axis from the middle of the coil.
-  const double d = std::sqrt(std::pow(length({0.03, 0.018, 0.004}) - 0.02, 2) + 0.005 * 0.005);
+  const double d = std::sqrt(std::pow(norm({0.03, 0.018, 0.004}) - 0.02, 2) + 0.005 * 0.005);
   for (const int layers : {11, 1}) {
     const Sampled s(11, layers, 0);
-    const double depth = layers == 1 ? 0 : 5e-3, r = length({5e-3, 5e-3, depth});
+    const double depth = layers == 1 ? 0 : 5e-3, r = norm({5e-3, 5e-3, depth});
     const int degree = fit_harmonics(read_field_data(s.file)).field.degree();
     INFO(layers, " layers, degree ", degree);
     CHECK(degree >= 12);
-    CHECK(off(*made(s.toml()), 5e-3, depth).worst < std::pow(r / d, degree));
+    CHECK(off(*field_of(s.toml()), 5e-3, depth).worst < std::pow(r / d, degree));
   }
 }
 
@@ -101,7 +90,7 @@ TEST_CASE("noise is smoothed, not followed, and what is left over says how large
   const double n = 3.0 * 11 * 11 * 5, p = double(fit.field.coefficients.size()), s = 2e-6;
   CHECK(p < 0.1 * n);
   CHECK(fit.rms == doctest::Approx(s * std::sqrt(1 - p / n)).epsilon(4 / std::sqrt(2 * n)));
-  CHECK(off(*made(noisy.toml()), 5e-3, 2e-3).rms < 0.5 * std::sqrt(3.0) * s * std::sqrt(p / n));
+  CHECK(off(*field_of(noisy.toml()), 5e-3, 2e-3).rms < 0.5 * std::sqrt(3.0) * s * std::sqrt(p / n));
 }
 
 TEST_CASE("the first three coefficients are the field at the centre") {
@@ -113,8 +102,8 @@ TEST_CASE("the first three coefficients are the field at the centre") {
 }
 
 TEST_CASE("without bz and z the field is taken to be symmetric about the plane") {
-  const auto rig =
-      made("type = 'solenoid'\nradius = 0.005\nlength = 0.04\nposition = [0.045, 0, 0]\naxis = [-1, 0, 0]\n");
+  const auto rig = field_of(
+      "type = 'solenoid'\nradius = 0.005\nlength = 0.04\nposition = [0.045, 0, 0]\naxis = [-1, 0, 0]\n");
   test::TemporaryFolder dir{"map"};
   const auto file = dir.path() / "plane.csv";
   {
@@ -128,18 +117,18 @@ TEST_CASE("without bz and z the field is taken to be symmetric about the plane")
         out << fmt::format("{},{},{},{}\n", 0.1 * i, 0.1 * j, 1e4 * b.x, 1e4 * b.y);
       }
   }
-  const auto map = made(fmt::format("type = 'map'\nfile = '{}'\n", file.string()));
+  const auto map = field_of(fmt::format("type = 'map'\nfile = '{}'\n", file.string()));
   const Vec3 p{2e-3, -1e-3, 0.4e-3};
   Vec3 a, b;
   rig->per_ampere(0, {&p, 1}, {&a, 1});
   map->per_ampere(0, {&p, 1}, {&b, 1});
-  CHECK(length(a - b) < 1e-5 * length(a));  // (2.3 mm / 25 mm)^5, and at least degree 5 is found
+  CHECK(norm(a - b) < 1e-5 * norm(a));  // (2.3 mm / 25 mm)^5, and at least degree 5 is found
 }
 
 TEST_CASE("a map is moved and turned with its coil, and ends where it was measured") {
   const Sampled s(11, 3, 0);
-  const auto here = made(s.toml());
-  const auto there = made(s.toml("position = ['10 mm', '-4 mm', 0]\nturn = '90 deg'\n"));
+  const auto here = field_of(s.toml());
+  const auto there = field_of(s.toml("position = ['10 mm', '-4 mm', 0]\nturn = '90 deg'\n"));
   const Vec3 p{1e-3, 2e-3, 0}, q{0.010 - 2e-3, -0.004 + 1e-3, 0}, beyond{0.007, 0, 0};
   Vec3 a, b, c;
   here->per_ampere(0, {&p, 1}, {&a, 1});
@@ -154,7 +143,7 @@ TEST_CASE("a map is moved and turned with its coil, and ends where it was measur
 TEST_CASE("what is no map is refused, and says why") {
   const auto refused = [](const std::string& toml, const std::string& why) {
     try {
-      made(toml);
+      field_of(toml);
       FAIL("nothing was wrong with ", toml);
     } catch (const Error& e) {
       INFO(std::string(e.what()));
@@ -168,6 +157,6 @@ TEST_CASE("what is no map is refused, and says why") {
   refused(Sampled(7, 3, 0, "a,b,c,bx_mt,by_mt,bz_mt").toml(), "needs columns for the place");
   refused(Sampled(7, 3, 0).toml("within = '0.5 mm'\n"), "too few points");
   refused("type = 'map'\nfile = 'nowhere.csv'\n", "nowhere.csv");
-  CHECK_THROWS_AS(made("type = 'map'\n"), Error);
-  CHECK_THROWS_AS(made("type = 'map'\nexpansion = { coefficients = [1, 2] }\n"), Error);
+  CHECK_THROWS_AS(field_of("type = 'map'\n"), Error);
+  CHECK_THROWS_AS(field_of("type = 'map'\nexpansion = { coefficients = [1, 2] }\n"), Error);
 }

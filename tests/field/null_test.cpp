@@ -6,8 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/toml.h"
-#include "field/coils/coils.h"
+#include "tests/field/field_of.h"
 #include "tests/reference_rig.h"
 
 using namespace faba;
@@ -16,11 +15,7 @@ namespace {
 
 // The reference rig (C4) with the coils at these angles, in degrees.
 std::unique_ptr<Field> rig(const std::vector<double>& angles, const std::string& earth = "[0, 0, 0]") {
-  const std::string t = "type = 'rig'\nearth = { field = " + earth + " }\n" + reference_coils("coil", angles);
-  FieldRegistry r{"field", ""};
-  add_rig(r);
-  const Document d = parse_toml(t, "test");
-  return r.resolve(Node(d)).make({});
+  return field_of("type = 'rig'\nearth = { field = " + earth + " }\n" + reference_coils("coil", angles));
 }
 const std::vector<double> kFour{0, 90, 180, 270};
 

@@ -16,10 +16,7 @@ struct Wire {
   std::vector<Loop> loops;
 };
 
-inline Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Vec3 unit(Vec3 v) { return (1 / std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z)) * v; }
+inline Vec3 unit(Vec3 v) { return (1 / norm(v)) * v; }
 
 /// T/A. The pieces are equal angles: for a periodic integrand their error falls exponentially with the
 /// number.

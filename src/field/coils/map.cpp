@@ -127,7 +127,7 @@ class Map final : public Field {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < d.at.size(); ++i) {
       const Vec3 p = d.at[i];
-      if (p.x * p.x + p.y * p.y + p.z * p.z > distance * distance) continue;
+      if (norm(p) > distance) continue;
       d.at[kept] = p, d.b[kept++] = d.b[i];
     }
     d.at.resize(kept), d.b.resize(kept);

@@ -90,7 +90,7 @@ void MotilityThesis::start(State& s, std::size_t begin, std::size_t end, std::ui
   auto dose = a["dose"], tolerance = a["tolerance"], response = a["response"];
   const auto x = a["x"], y = a["y"];
   for (std::size_t i = begin; i < end; ++i) {
-    const double r = norm({double(x[i]), double(y[i])});
+    const double r = norm(Vec2{double(x[i]), double(y[i])});
     // Below the tolerated level nothing happens; the series has no closed form for that, so its end value
     // stands in.
     const double before = oxygen_ ? oxygen_->dose(r, exposure_) : exposure_;
