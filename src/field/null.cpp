@@ -29,32 +29,8 @@ struct Local {
 struct Slope {
   Vector mean, along, across;
   Vector at(double cos2, double sin2) const { return mean + cos2 * along + sin2 * across; }
+  double size() const { return mean.norm() + along.norm() + across.norm(); }
 };
-
-// The direction y of unit length for which the smallest of c(angle).y is largest is that of the point nearest
-// to the origin of the disc { mean + w_1 along + w_2 across, |w| <= 1 }: min and max change places, and the
-// disc is what the curve c(angle) spans. Not there when the disc holds the origin.
-Vector best_trap(const Slope& c) {
-  Matrix m(c.mean.size(), 2);
-  m << c.along, c.across;
-  const Eigen::Matrix2d h = m.transpose() * m;
-  const Eigen::Vector2d t = m.transpose() * c.mean;
-  const double size = std::sqrt(h.trace()) + c.mean.norm();
-  const auto w = [&](double lambda) -> Eigen::Vector2d {
-    return -(h + lambda * Eigen::Matrix2d::Identity()).ldlt().solve(t);
-  };
-  double low = 1e-14 * size * size, high = t.norm() + low;
-  Eigen::Vector2d best = w(low);
-  if (best.norm() > 1) {
-    for (int i = 0; i < 200; ++i) {
-      const double middle = 0.5 * (low + high);
-      (w(middle).norm() > 1 ? low : high) = middle;
-    }
-    best = w(high);
-  }
-  const Vector nearest = c.mean + m * best;
-  return nearest.norm() < 1e-6 * size ? Vector() : Vector(nearest.normalized());
-}
 
 // The steepest slope in any direction: what is left when nothing traps along both axes.
 Vector strongest_slope(const Slope& c) {
@@ -67,47 +43,112 @@ Vector strongest_slope(const Slope& c) {
   return best.norm() > 0 ? Vector(best.normalized()) : Vector();
 }
 
-/// The largest s for which |start + s direction| stays within `most`; negative when `start` does not.
-double room(const Vector& start, const Vector& direction, std::span<const double> most) {
+// Currents here are in units of each coil's limit, so that all limits are 1.
+
+/// The largest s for which no current of start + s direction is beyond its limit; negative when one of
+/// `start` is.
+double room(const Vector& start, const Vector& direction) {
   double s = std::numeric_limits<double>::infinity();
   for (Eigen::Index k = 0; k < start.size(); ++k) {
-    const double limit = most[std::size_t(k)];
-    if (std::fabs(start[k]) > limit * (1 + 1e-12)) return -1;
+    if (std::fabs(start[k]) > 1 + 1e-12) return -1;
     if (direction[k] != 0)
-      s = std::min(s, (limit - std::copysign(1.0, direction[k]) * start[k]) / std::fabs(direction[k]));
+      s = std::min(s, (1 - std::copysign(1.0, direction[k]) * start[k]) / std::fabs(direction[k]));
   }
   return s;
 }
 
-/// Slope of all coils along the direction in which currents `i` trap least, T/m; positive when they trap.
-double weakest(const Slope& c, const Vector& i) {
-  return c.mean.dot(i) - norm(Vec2{c.along.dot(i), c.across.dot(i)});
+/// Of all currents with a I = wanted those with the least sum of squares, or when these break a limit the
+/// ones whose largest is smallest, by Lawson's reweighting: who is near the limit counts more in the next
+/// sum.
+Vector least_currents(const Matrix& a, const Eigen::Vector2d& wanted) {
+  Vector weight = Vector::Ones(a.cols()), best;
+  for (int i = 0; i < 100; ++i) {
+    const Vector share = weight.cwiseSqrt().cwiseInverse();
+    Eigen::JacobiSVD<Matrix> svd(a * share.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
+    svd.setThreshold(kRank);
+    const Vector now = share.asDiagonal() * svd.solve(wanted);
+    const double most = now.cwiseAbs().maxCoeff();
+    if (best.size() == 0 || most < best.cwiseAbs().maxCoeff()) best = now;
+    if (most < 0.999) break;
+    weight = weight.cwiseProduct(now.cwiseAbs());
+    weight = (weight / weight.maxCoeff()).cwiseMax(1e-12);
+  }
+  return best;
 }
 
-// Turns the direction `y` in the free currents until the weaker trap is strongest at the current limits,
-// which favour directions that use all coils alike. With four coils that is a search along one angle with one
-// maximum; with more, a local search from the direction that is best for the norm of the currents.
-Vector turned_to_limits(const Slope& all, const Vector& start, const Matrix& free, Vector y,
-                        std::span<const double> most) {
-  const auto value = [&](const Vector& direction) {
-    const Vector through = free * direction;
-    return weakest(all, start + std::max(room(start, through, most), 0.0) * through);
-  };
-  constexpr int kHalvings = 32;  // down to 1e-10
-  double best = value(y), step = 0.5;
-  for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5)
-    for (bool better = true; better;) {
-      better = false;
-      for (Eigen::Index axis = 0; axis < y.size(); ++axis)
-        for (const double side : {-1.0, 1.0}) {
-          Vector next = y;
-          next[axis] += side * step;
-          next.normalize();
-          if (const double v = value(next); v > best * (1 + 1e-14)) best = v, y = next, better = true;
-        }
-    }
-  return y;
+/// Slope along the direction in which currents trap least; positive when they trap.
+double weakest(const Slope& c, const Vector& current) {
+  return c.mean.dot(current) - norm(Vec2{c.along.dot(current), c.across.dot(current)});
 }
+
+/// The currents start + free y within the limits for which weakest() is largest. It is a concave function of
+/// y and the limits are convex, so that there is one largest value, and a path leads there through the
+/// inside: Newton's method on a barrier,
+///   largest  weight t + log((mean - t)^2 - along^2 - across^2) + sum of log(1 - current^2)  over y and t,
+/// with more and more weight. `start` is inside the limits.
+class BestTrap {
+ public:
+  BestTrap(const Slope& c, const Vector& start, const Matrix& free) : start_(start), free_(free) {
+    const double unit = std::max({c.mean.norm(), c.along.norm(), c.across.norm(), 1e-300});
+    c_ = {c.mean / unit, c.along / unit, c.across / unit};
+    const Eigen::Index n = free.cols() + 1;
+    for (auto* g : {&mean_, &along_, &across_}) *g = Vector::Zero(n);
+    mean_ << free.transpose() * c_.mean, -1.0;
+    along_.head(n - 1) = free.transpose() * c_.along;
+    across_.head(n - 1) = free.transpose() * c_.across;
+  }
+  Vector solve() const {
+    constexpr double kLast = 1e10;  // largest value missed by some ten over this
+    Vector z = Vector::Zero(free_.cols() + 1);
+    z[z.size() - 1] = weakest(c_, start_) - 1;
+    for (double weight = 1; weight <= kLast; weight *= 10)
+      for (int i = 0; i < 50; ++i)
+        if (!step(weight, z)) break;
+    return current(z);
+  }
+
+ private:
+  Vector current(const Vector& z) const { return start_ + free_ * z.head(free_.cols()); }
+  /// What is made small; infinite outside.
+  double barrier(double weight, const Vector& z) const {
+    const Vector x = current(z), inside = 1 - x.array().square();
+    const double r = c_.mean.dot(x) - z[z.size() - 1], a = c_.along.dot(x), b = c_.across.dot(x);
+    const double cone = r * r - a * a - b * b;
+    if (!(r > 0 && cone > 0 && inside.minCoeff() > 0)) return std::numeric_limits<double>::infinity();
+    double sum = -weight * z[z.size() - 1] - portable::log(cone);
+    for (const double v : inside) sum -= portable::log(v);
+    return sum;
+  }
+  bool step(double weight, Vector& z) const {
+    const Eigen::Index n = z.size();
+    const Vector x = current(z), inside = 1 - x.array().square();
+    const double r = c_.mean.dot(x) - z[n - 1], a = c_.along.dot(x), b = c_.across.dot(x);
+    const double cone = r * r - a * a - b * b;
+    const Vector of_cone = 2 * (r * mean_ - a * along_ - b * across_);
+    Vector slope = -of_cone / cone;
+    slope[n - 1] -= weight;
+    slope.head(n - 1) += free_.transpose() * (2 * x.array() / inside.array()).matrix();
+    const Vector bend = 2 * (1 + x.array().square()) / inside.array().square();
+    Matrix h = of_cone * of_cone.transpose() / (cone * cone) -
+               (2 / cone) *
+                   (mean_ * mean_.transpose() - along_ * along_.transpose() - across_ * across_.transpose());
+    h.topLeftCorner(n - 1, n - 1) += free_.transpose() * bend.asDiagonal() * free_;
+    const Vector p = -h.ldlt().solve(slope);
+    const double gain = -slope.dot(p), before = barrier(weight, z);
+    if (!(gain > 1e-9)) return false;
+    for (double share = 1; share > 1e-9; share *= 0.5)
+      if (barrier(weight, z + share * p) < before - 0.1 * share * gain) {
+        z += share * p;
+        return true;
+      }
+    return false;
+  }
+
+  Slope c_;
+  Vector start_;
+  Matrix free_;
+  Vector mean_, along_, across_;  ///< slopes of r, a and b in step()
+};
 
 /// Eigenvalues of the in-plane part of the gradient, and dB_z/dz.
 struct Measured {
@@ -131,37 +172,39 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
   const Local local(field, at);
   const auto n = Eigen::Index(local.b.size());
   Matrix a(2, n);
-  for (Eigen::Index k = 0; k < n; ++k) a.col(k) << local.b[std::size_t(k)].x, local.b[std::size_t(k)].y;
+  Slope c{Vector(n), Vector(n), Vector(n)};
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double unit = most[std::size_t(k)];
+    const Vec3& b = local.b[std::size_t(k)];
+    const Mat3& g = local.g[std::size_t(k)];
+    a.col(k) << unit * b.x, unit * b.y;
+    c.mean[k] = -polarity * 0.5 * unit * (g[0][0] + g[1][1]);
+    c.along[k] = -polarity * 0.5 * unit * (g[0][0] - g[1][1]);
+    c.across[k] = -polarity * 0.5 * unit * (g[0][1] + g[1][0]);
+  }
   const Vec3 earth = with_earth ? field.ambient() : Vec3{};
   const Eigen::Vector2d wanted(-earth.x, -earth.y);
   Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   svd.setThreshold(kRank);
-  const Eigen::Index rank = svd.rank();
-  const Vector start = svd.solve(wanted);
-  const Matrix free = svd.matrixV().rightCols(n - rank);
+  const Matrix free = svd.matrixV().rightCols(n - svd.rank());
+  const Vector start = least_currents(a, wanted);
 
   FieldNull out;
-  out.current.assign(start.begin(), start.end());
+  Vector current = start;
   const bool zero = (a * start - wanted).norm() <= 1e-9 * (wanted.norm() + 1e-12);
   if (zero && free.cols() > 0) {
-    Slope c{Vector::Zero(n), Vector::Zero(n), Vector::Zero(n)};
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const Mat3& g = local.g[std::size_t(k)];
-      c.mean[k] = -polarity * 0.5 * (g[0][0] + g[1][1]);
-      c.along[k] = -polarity * 0.5 * (g[0][0] - g[1][1]);
-      c.across[k] = -polarity * 0.5 * (g[0][1] + g[1][0]);
-    }
     const Slope combined{free.transpose() * c.mean, free.transpose() * c.along, free.transpose() * c.across};
-    Vector y = best_trap(combined);
-    y = y.size() > 0 ? turned_to_limits(c, start, free, y, most) : strongest_slope(combined);
-    if (y.size() > 0) {
-      const Vector direction = free * y;
-      const double s = room(start, direction, most);
-      out.reachable = s > 0;
-      const Vector current = start + std::max(s, 0.0) * direction;
-      out.current.assign(current.begin(), current.end());
+    const double inside = room(start, Vector::Zero(n));
+    if (inside > 0 && combined.size() > 0) {
+      out.reachable = true;
+      if (start.cwiseAbs().maxCoeff() < 1) current = BestTrap(c, start, free).solve();
+      if (!(weakest(c, current) > 0)) {  // nothing traps here, or nothing within the limits
+        const Vector direction = free * strongest_slope(combined);
+        current = start + room(start, direction) * direction;
+      }
     }
   }
+  for (Eigen::Index k = 0; k < n; ++k) out.current.push_back(most[std::size_t(k)] * current[k]);
   const Measured m = measured(local, out.current);
   out.gradient = m.in_plane;
   out.out_of_plane = m.along_z;

@@ -23,10 +23,10 @@ struct FieldNull {
 
 /// Currents that put a zero of the in-plane field at `at` (m, world, z = 0), the Earth's field included
 /// unless `with_earth` is false, and trap cells of `polarity` (+1 north-seeking, -1 south-seeking) there as
-/// strongly as the limits allow (theory C6). The zero needs A I = -B_earth, A the 2 x coils matrix of field
-/// per ampere; what is free in I, the null space of A, is turned so that the weaker of the two trapping
-/// gradients is largest, and made as large as the current limits `most` (A, one per coil) allow. Where no
-/// direction of it traps along both axes, as with two coils, the saddle with the stronger trap is given.
+/// strongly as the current limits `most` (A, one per coil) allow (theory C6). The zero needs A I = -B_earth,
+/// A the 2 x coils matrix of field per ampere; of what is free in I the best is taken for the weaker of the
+/// two trapping gradients. Where no currents trap along both axes, as with two coils, the saddle with the
+/// stronger trap is given. Where the limits do not allow the zero, `reachable` is false.
 FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const double> most,
                   bool with_earth = true);
 

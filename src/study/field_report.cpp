@@ -45,11 +45,13 @@ nlohmann::ordered_json null_report(const std::filesystem::path& rig, Vec2 at, in
   j["dbz_dz_t_per_m"] = n.out_of_plane;
   j["reachable"] = n.reachable;
   j["saddle"] = n.saddle;
-  j["note"] = !n.reachable ? "these coils cannot put a zero of the field there within their current limits"
-              : n.saddle
-                  ? "the zero is a saddle: it draws cells together along one direction and drives them "
-                    "away along the other"
-                  : "";
+  j["note"] =
+      !n.reachable ? "these coils cannot put a zero of the field there within their current limits"
+      : n.saddle && (polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0
+          ? "the zero drives cells away along every direction: no currents within the limits trap there"
+      : n.saddle ? "the zero is a saddle: it draws cells together along one direction and drives them "
+                   "away along the other"
+                 : "";
   return j;
 }
 

@@ -2,6 +2,7 @@
 #include "field/null.h"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <random>
@@ -110,4 +111,56 @@ TEST_CASE("any rig: the zero is zero, limits are kept, Newton finds it again") {
       CHECK(norm(again - at) < 1e-10);
     }
   }
+}
+
+// Coils with unlike limits in a strong ambient field, where the currents of least squares may break a limit
+// that others keep, and where no trap may be left.
+TEST_CASE("unlike limits: no currents of a fine lattice do better, and what they can make is made") {
+  std::mt19937_64 random(23);
+  const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); };
+  int traps = 0, saddles = 0, none = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto f =
+        rig({uniform(-25, 25), 90 + uniform(-25, 25), 180 + uniform(-25, 25), 270 + uniform(-25, 25)},
+            fmt::format("[{}, {}, 0]", uniform(-1e-4, 1e-4), uniform(-1e-4, 1e-4)));
+    std::vector<double> most;
+    for (int k = 0; k < 4; ++k) most.push_back(std::exp(uniform(std::log(0.05), std::log(0.5))));
+    const Vec2 at{uniform(-2e-3, 2e-3), uniform(-2e-3, 2e-3)};
+    std::vector<Vec3> b(4);
+    std::vector<Mat3> g(4);
+    f->basis({at.x, at.y, 0}, b, g);
+    const Vec3 earth = f->ambient();
+    const double det = b[0].x * b[1].y - b[0].y * b[1].x;
+    bool possible = false;
+    double best = -1;  // T/m, of the weaker trap
+    constexpr int kSteps = 150;
+    for (int p = -kSteps; p <= kSteps; ++p)
+      for (int q = -kSteps; q <= kSteps; ++q) {
+        std::vector<double> c{0, 0, most[2] * p / kSteps, most[3] * q / kSteps};
+        const double x = -earth.x - c[2] * b[2].x - c[3] * b[3].x,
+                     y = -earth.y - c[2] * b[2].y - c[3] * b[3].y;
+        c[0] = (x * b[1].y - y * b[1].x) / det, c[1] = (b[0].x * y - b[0].y * x) / det;
+        if (std::fabs(c[0]) > most[0] || std::fabs(c[1]) > most[1]) continue;
+        possible = true;
+        double xx = 0, xy = 0, yy = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+          xx += c[k] * g[k][0][0], yy += c[k] * g[k][1][1], xy += c[k] * 0.5 * (g[k][0][1] + g[k][1][0]);
+        best = std::max(best, -(0.5 * (xx + yy) + norm(Vec2{0.5 * (xx - yy), xy})));
+      }
+    const FieldNull n = null_at(*f, at, 1, most);
+    INFO("case ", i, ", best of the lattice ", best);
+    if (possible) {
+      CHECK(n.reachable);
+      for (std::size_t k = 0; k < 4; ++k) CHECK(std::fabs(n.current[k]) <= most[k] * (1 + 1e-9));
+    }
+    if (n.reachable) CHECK(norm(in_plane(*f, at, n.current)) < 1e-14);
+    if (best > 0) {
+      CHECK_FALSE(n.saddle);
+      CHECK(-n.gradient[1] >= best - 1e-10);  // T/m: the barrier's last weight leaves 1e-9 of 0.05 T/m
+    }
+    ++(!n.reachable ? none : n.saddle ? saddles : traps);
+  }
+  CHECK(traps > 5);
+  CHECK(saddles > 5);
+  CHECK(none > 5);
 }

@@ -24,7 +24,7 @@ const Golden kGolden[] = {
     {"drop", 120, "7cca7cadd79c10a6"},
     {"step-response", 60, "d22d42993f989a9a"},
     {"aging", 60, "2460151d4914c719"},
-    {"null-route", 60, "efe84c05a0ecd7c2"},
+    {"null-route", 60, "544a9a838c98defc"},
     {"thesis-coils-c", 60, "f8b33655fe22ac22"},
 };
 
