@@ -158,6 +158,10 @@ H5File H5File::open(const std::filesystem::path& file) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+  // What a writer left half written is read again, each time after twice as long a pause, which by default
+  // goes on for hours: a millisecond is enough for a writer that lives.
+  constexpr unsigned kReadAttempts = 20;
+  H5Pset_metadata_read_attempts(access, kReadAttempts);
   if (impl->file < 0)  // its writer died: the mark "being written" is still set
     impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose);
   if (impl->file < 0) impl->fail(Errc::input, "open");

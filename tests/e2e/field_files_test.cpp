@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "field/library.h"
 #include "tests/e2e/program.h"
 
 using namespace faba;
@@ -149,4 +150,26 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
   REQUIRE(faba_in(f.path, "field library " + four + " --levels 11 --out l.h5 --force -q").exit == 0);
   refused(f, "run run/scenario.toml --out bad", 3, "another library");
   CHECK_FALSE(std::filesystem::exists(f.path / "bad"));
+}
+
+TEST_CASE("kill -9 at any moment of building a library: the same command goes on, to the same library") {
+  const TestFolder f;
+  const std::string build = "field library '" + kRigs + "thesis-four-coils.toml' --levels 16 --quiet --out ";
+  REQUIRE(faba_in(f.path, build + "whole.h5").exit == 0);
+  const FieldLibrary whole(f.path / "whole.h5");
+  for (int kill = 1; kill <= 6; ++kill) {
+    const std::string name = "cut" + std::to_string(kill) + ".h5", after = std::to_string(0.08 * kill);
+    for (int i = 0; i < 2; ++i) faba_in(f.path, build + name, "timeout -s KILL " + after);
+    Called c;
+    if (!std::filesystem::exists(f.path / name)) c = faba_in(f.path, build + name, "timeout 60");
+    INFO("killed after ", after, " s: ", c.err);
+    REQUIRE(std::filesystem::exists(f.path / name));
+    const FieldLibrary cut(f.path / name);
+    REQUIRE(cut.entries().size() == whole.entries().size());
+    for (std::size_t i = 0; i < cut.entries().size(); ++i) {
+      CHECK(cut.entries()[i].current == whole.entries()[i].current);
+      CHECK(cut.entries()[i].zero == whole.entries()[i].zero);
+    }
+    CHECK(cut.field(0) == whole.field(0));
+  }
 }
