@@ -29,7 +29,7 @@ WHERE = {
     "reference": ("[reference]", 'type = "%s"', "[reference]"),
     "controller": ("[controller]", 'type = "%s"', "[controller]"),
 }
-SECTIONS = ("scale", "camera", "simulation", "exclusion", "limits", "record")
+SECTIONS = ("scale", "camera", "simulation", "exclusion", "limits", "library", "record")
 
 
 def ask(program, *arguments):

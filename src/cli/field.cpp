@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -40,14 +41,22 @@ std::vector<double> amperes(const std::string& words) {
   return out;
 }
 
-void refuse_existing(const std::filesystem::path& file, bool force) {
+// Before a file is written. Not even --force replaces what the command reads, a folder or a device.
+void refuse_existing(const std::filesystem::path& file, bool force,
+                     const std::vector<std::filesystem::path>& inputs) {
   std::error_code ec;
-  if (!file.empty() && !force && std::filesystem::exists(file, ec))
+  if (file.empty() || !std::filesystem::exists(file, ec)) return;
+  if (!std::filesystem::is_regular_file(file, ec))
+    throw Error(Errc::usage, file.string(), "is no file that could be replaced; name another one");
+  for (const auto& input : inputs)
+    if (std::filesystem::equivalent(file, input, ec))
+      throw Error(Errc::usage, file.string(), "is what this command reads; name another file");
+  if (!force)
     throw Error(Errc::usage, file.string(), "already exists; name another file, or --force to replace it");
 }
 
-void refuse_svg(const std::filesystem::path& file, bool force) {
-  refuse_existing(file, force);
+void refuse_svg(const std::filesystem::path& file, const FieldVerb& v) {
+  refuse_existing(file, v.force, {v.rig, v.measured});
   if (!file.empty() && file.extension() != ".svg")
     throw Error(Errc::usage, file.string(), "must end in .svg, which is what is written");
 }
@@ -59,7 +68,10 @@ double millimetres(const nlohmann::ordered_json& metres) {
 
 // "1 mm, 0 mm" as metres.
 Vec2 place(const std::string& option, const std::string& words) {
-  const auto comma = std::min(words.find(','), words.size());
+  const auto comma = words.find(',');
+  if (comma == std::string::npos)
+    throw Error(Errc::usage, option,
+                fmt::format("needs two lengths, such as \"1 mm, -0.5 mm\"; \"{}\" is one", words));
   return {metres(option, words.substr(0, comma)),
           metres(option, words.substr(std::min(comma + 1, words.size())))};
 }
@@ -75,6 +87,12 @@ Vec2 rectangle(const std::string& words) {
 
 int field_at(const FieldVerb& v, const Common& c) {
   const FieldAtPoints f = field_at_points(v.rig, v.points);
+  const auto unknown =
+      std::count_if(f.b.begin(), f.b.end(), [](const Vec3& b) { return !std::isfinite(b.x + b.y + b.z); });
+  if (unknown > 0 && !c.quiet)
+    tell(fmt::format(
+        "faba: note: {} of {} points lie outside of what was measured, where the field is not a number",
+        unknown, f.b.size()));
   if (c.json) {
     nlohmann::ordered_json j{{"currents_a", f.current}, {"b_t", nlohmann::ordered_json::array()}};
     for (const Vec3& b : f.b) j["b_t"].push_back({b.x, b.y, b.z});
@@ -96,10 +114,13 @@ int field_map(const FieldVerb& v, const Common& c) {
   o.current = amperes(v.current);
   if (!v.view.empty()) o.view = place("--view", v.view);
   if (!v.drop.empty()) o.drop_radius = metres("--drop", v.drop);
+  if (o.drop_radius < 0) throw Error(Errc::usage, "--drop", "must not be negative");
   if (!v.check) {
     o.picture = v.picture, o.hdf5 = v.out;
-    refuse_existing(o.picture, v.force);
-    refuse_existing(o.hdf5, v.force);
+    refuse_existing(o.picture, v.force, {v.rig});
+    refuse_existing(o.hdf5, v.force, {v.rig});
+    if (!o.picture.empty() && o.picture.extension() != ".png")
+      throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
   }
   const auto j = faba::field_map(v.rig, o);
   if (c.json) {
@@ -111,6 +132,7 @@ int field_map(const FieldVerb& v, const Common& c) {
     fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", millimetres(z["at_m"][0]),
                millimetres(z["at_m"][1]), z["kind"].get<std::string>(),
                z["eigenvalues_t_per_m"][0].get<double>(), z["eigenvalues_t_per_m"][1].get<double>());
+  if (const auto note = j["note"].get<std::string>(); !note.empty() && !v.check) tell("faba: note: " + note);
   if (!v.check) fmt::print("strongest {:.4g} mT\n", j["strongest_t"].get<double>() * 1e3);
   if (const auto& t = j["table"]; !t.is_null())
     fmt::print("table {} x {} nodes, {:.3g} um apart; largest error {:.1e} of a coil's largest field\n",
@@ -122,7 +144,7 @@ int field_map(const FieldVerb& v, const Common& c) {
 }
 
 int field_tolerance(const FieldVerb& v, const Common& c) {
-  refuse_svg(v.picture, v.force);
+  refuse_svg(v.picture, v);
   const auto j = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
   if (c.json) {
     fmt::print("{}\n", j.dump());
@@ -142,7 +164,7 @@ int field_tolerance(const FieldVerb& v, const Common& c) {
 }
 
 int field_library(const LibraryVerb& v, const Common& c) {
-  refuse_existing(v.out, v.force);
+  refuse_existing(v.out, v.force, {v.rig});
   FieldLibraryOptions o;
   const Vec2 size = rectangle(v.size);
   o.width = size.x, o.height = size.y;
@@ -167,13 +189,19 @@ int field_library(const LibraryVerb& v, const Common& c) {
         off["median"].get<double>() * 1e6, off["largest"].get<double>() * 1e6);
   if (const auto& s = j["strength"]; !s.is_null())
     fmt::print("trap {:.3g} times as strong as the solver's in the median\n", s.get<double>());
+  if (j["entries"] == 0)
+    tell(
+        "faba: note: no set of currents makes a zero of the field in this rectangle; a library needs two "
+        "coils at least");
+  else if (j["traps"] == 0)
+    tell("faba: note: all zeros are saddles, which drive cells away along one direction");
   fmt::print("  {}\n", v.out.string());
   return 0;
 }
 
 int field_fit(const FieldVerb& v, const Common& c) {
-  refuse_existing(v.out, v.force);
-  refuse_svg(v.picture, v.force);
+  refuse_existing(v.out, v.force, {v.rig, v.measured});
+  refuse_svg(v.picture, v);
   const auto j = faba::field_fit(v.rig, v.measured, v.out, v.picture);
   if (c.json) {
     fmt::print("{}\n", j.dump());
@@ -194,6 +222,8 @@ int field_fit(const FieldVerb& v, const Common& c) {
              j["rms_field_t"].get<double>() * 1e6, j["values"].get<int>());
   for (const auto& file : {v.out, v.picture})
     if (!file.empty()) fmt::print("  {}\n", file.string());
+  if (const auto note = j["note"].get<std::string>(); !note.empty())
+    tell(fmt::format("faba: note: {}: {}", v.measured.string(), note));
   return 0;
 }
 

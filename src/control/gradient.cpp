@@ -15,9 +15,10 @@ class Gradient final : public Controller {
                           "Open loop: a zero of the field at the setpoint gathers the swarm there")
         .include(&Params::trap, Trap::Params::schema())
         .validity(
-            "Two coils make a saddle, which drives cells away along one direction. Far from the zero cells "
-            "are "
-            "drawn to it at their own speed at most; near it the cloud is as wide as sqrt(v f_r / (m g)).");
+            "Two coils make a saddle, which drives cells away along one direction. Cells are drawn "
+            "to the zero from this side of the next zeros, some millimetres away, and driven off from "
+            "beyond, also "
+            "when the setpoint is that far; near it the cloud is as wide as sqrt(v f_r / (m g)).");
   }
   Gradient(const Params& p, const ControlContext& c) : trap_(p.trap, c) {}
   Command update(const Estimate&, const Target& target, double) override { return trap_.at(target.position); }

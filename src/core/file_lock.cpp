@@ -58,7 +58,10 @@ FileLock::FileLock(const std::filesystem::path& file, const std::filesystem::pat
       ::pwrite(descriptor_, content.data(), content.size(), 0) != ssize_t(content.size()) ||
       ::fsync(descriptor_) != 0) {
     const int reason = errno;
-    if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+    if (descriptor_ >= 0) {
+      ::unlink(file_.c_str());
+      ::close(std::exchange(descriptor_, -1));
+    }
     errno = reason;
     fail(file_, "cannot be written");
   }

@@ -187,6 +187,7 @@ H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>&
     H5Pset_shuffle(made);
     H5Pset_deflate(made, 1);
   }
+  H5Pset_fletcher32(made);  // a flipped bit is an error of reading
   H5Pset_chunk_cache(access, 12421, kCacheBytes, 1.0);
   t->set = Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, made, access), H5Dclose);
   if (t->set < 0) impl_->fail(Errc::internal, "create a table in");

@@ -21,6 +21,7 @@ struct Unit {
   double in_si;
 };
 constexpr Unit kLengths[] = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
+constexpr double kLargest = 1e3;  // m and T
 constexpr Unit kFields[] = {{"t", 1}, {"mt", 1e-3}, {"ut", 1e-6}, {"nt", 1e-9}, {"gauss", 1e-4}};
 
 std::string lower(std::string s) {
@@ -78,6 +79,8 @@ FieldData from_csv(const std::filesystem::path& file) {
       if (place[k]) p[k] = (*place[k])[i];
       if (field[k]) b[k] = (*field[k])[i];
       if (std::isnan(p[k]) || std::isnan(b[k])) throw Error(Errc::input, t.place(i), "a value is missing");
+      if (std::fabs(p[k]) > kLargest || std::fabs(b[k]) > kLargest)
+        throw Error(Errc::input, t.place(i), "a value is beyond any laboratory's");
     }
     d.at.push_back({p[0], p[1], p[2]});
     d.b.push_back({b[0], b[1], b[2]});
@@ -114,8 +117,9 @@ FieldData from_hdf5(const std::filesystem::path& file) {
       d.at.push_back({grid ? x[c] : x[r], y[r], z.empty() ? 0 : z[r]});
       d.b.push_back({row[3 * c], row[3 * c + 1], row[3 * c + 2]});
       const Vec3 p = d.at.back(), v = d.b.back();
-      if (!std::isfinite(p.x + p.y + p.z + v.x + v.y + v.z))
-        throw Error(Errc::input, d.source, fmt::format("a value in row {} is not finite", r));
+      if (!(norm(p) <= kLargest && norm(v) <= kLargest))
+        throw Error(Errc::input, d.source,
+                    fmt::format("a value in row {} is not finite, or beyond any laboratory's", r));
     }
   }
   return d;

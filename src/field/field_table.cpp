@@ -73,12 +73,11 @@ void FieldTable::fill(const Field& field) {
       at.push_back({grid_.low.x + c * grid_.spacing, grid_.low.y + r * grid_.spacing, 0});
   for (const Vec3 p : at)
     if (field.clearance(p) <= grid_.spacing)
-      throw Error(
-          Errc::usage, "field",
-          fmt::format(
-              "a coil, or the end of a measured map, reaches into the sample at ({:.3g}, {:.3g}) mm from "
-              "its centre; move it away, or make the arena smaller",
-              p.x * 1e3, p.y * 1e3));
+      throw Error(Errc::usage, "field",
+                  fmt::format("a coil reaches into the sample, or a measured map does not cover it in the "
+                              "plane z = 0, at ({:.3g}, {:.3g}) mm from "
+                              "its centre; move it away, or make the arena smaller",
+                              p.x * 1e3, p.y * 1e3));
   basis_.assign(field.coils(), std::vector<Vec2>(at.size()));
   std::vector<Vec3> b(at.size());
   for (std::size_t k = 0; k < basis_.size(); ++k) {

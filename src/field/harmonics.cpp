@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
 // R_l^m = r^l P_l^m e^(i m phi) / (l + m)!, for which derivatives are neighbours:
 //   d/dz R_l^m = R_(l-1)^m,  (d/dx + i d/dy) R_l^m = -R_(l-1)^(m+1),  (d/dx - i d/dy) R_l^m = R_(l-1)^(m-1).
 struct Solid {
-  static std::size_t place(int l, int m) { return std::size_t(l * (l + 1) / 2 + m); }
+  static std::size_t place(int l, int m) { return std::size_t(l) * std::size_t(l + 1) / 2 + std::size_t(m); }
   std::vector<Complex> value;
   Complex of(int l, int m) const {
     if (std::abs(m) > l) return 0;
@@ -60,7 +60,8 @@ class Schmidt {
   double operator()(int l, int m) const { return factor_[Solid::place(l, m)]; }
 
  private:
-  std::array<double, std::size_t((kMostHarmonicDegree + 1) * (kMostHarmonicDegree + 2) / 2)> factor_{};
+  std::array<double, std::size_t(kMostHarmonicDegree + 1) * std::size_t(kMostHarmonicDegree + 2) / 2>
+      factor_{};
 };
 
 /// Sums for least squares over some of the points.
@@ -115,6 +116,19 @@ void place(const std::vector<Vec3>& at, Harmonics& field) {
   const Vec3 half = 0.5 * (high - low);
   field.centre = 0.5 * (low + high);
   field.radius = norm(half);
+}
+
+// Whether the points are spread along two directions at least.
+bool in_a_plane(const std::vector<Vec3>& at) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Vec3& p : at) mean += Eigen::Vector3d(p.x, p.y, p.z) / double(at.size());
+  for (const Vec3& p : at) {
+    const Eigen::Vector3d d = Eigen::Vector3d(p.x, p.y, p.z) - mean;
+    spread += d * d.transpose();
+  }
+  const Eigen::Vector3d size = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+  return size[1] > 1e-6 * size[2];  // a thousandth as wide as long
 }
 
 Normal normal(const FieldData& data, const std::vector<std::size_t>& points, const Harmonics& about,
@@ -174,7 +188,9 @@ HarmonicFit fit_harmonics(const FieldData& data) {
     throw Error(Errc::input, data.source, "has too few points for a field; at least 8 are needed");
   HarmonicFit fit;
   place(data.at, fit.field);
-  if (!(fit.field.radius > 0)) throw Error(Errc::input, data.source, "all of its points are at one place");
+  if (!in_a_plane(data.at))
+    throw Error(Errc::input, data.source,
+                "has all of its points on one line; a field needs a plane of points, or better a box");
   int most = 1;
   while (most < kMostHarmonicDegree && 2 * harmonic_terms(most + 1) <= given * points.size()) ++most;
 

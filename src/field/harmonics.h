@@ -40,7 +40,7 @@ struct HarmonicFit {
 };
 /// Least squares, with the degree for which every fifth point, left out for that, is best foretold from the
 /// others. Components of the field that were not given come out with the symmetry that asks for the least.
-/// Throws Error(input) with fewer than 8 points.
+/// Throws Error(input) with fewer than 8 points, or when they lie on one line.
 HarmonicFit fit_harmonics(const FieldData& data);
 
 }  // namespace faba

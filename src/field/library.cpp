@@ -128,12 +128,14 @@ std::vector<float> FieldLibrary::field(std::size_t entry) const {
 }
 
 void FieldLibrary::check(const Field& field, const std::string& fingerprint) const {
-  const Error other(
-      Errc::input, path_.string(),
-      "was made for another rig; make it again for this one with `faba field library RIG.toml --out "
-      "FILE --force`");
+  const auto other = [&] {
+    return Error(
+        Errc::input, path_.string(),
+        "was made for another rig; make it again for this one with `faba field library RIG.toml --out "
+        "FILE --force`");
+  };
   if (rig_ != fingerprint || (!entries_.empty() && entries_.front().current.size() != field.coils()))
-    throw other;
+    throw other();
   FieldTable table(field, grid_);
   for (const std::size_t i : {std::size_t(0), entries_.size() / 2, entries_.size() - 1}) {
     if (i >= entries_.size()) continue;
@@ -142,7 +144,7 @@ void FieldLibrary::check(const Field& field, const std::string& fingerprint) con
     if (!std::equal(kept.begin(), kept.end(), table.nodes().begin(), [](float a, float b) {
           return std::fabs(a - b) <= 1e-6f * std::max(std::fabs(a), 1e-6f);
         }))
-      throw other;
+      throw other();
   }
 }
 
@@ -171,6 +173,7 @@ LibraryWriter::LibraryWriter(const std::filesystem::path& file, const std::strin
   zero_ = file_.table<double>("zero_m", {2}, 1024, 2, false);
   gradient_ = file_.table<double>("gradient_t_per_m", {2}, 1024, 2, false);
   field_ = file_.table<float>("field_t", {rows, columns, 2}, 1, rows, true);
+  tried_ = file_.table<std::uint64_t>("tried", {}, 1024, 1, false);
   whole_ = file_.table<std::uint64_t>("entries", {}, 1, 1, false);
   file_.attribute("/", "format", std::string(kFormat));
   file_.attribute("/", "rig", rig);
@@ -210,6 +213,11 @@ void LibraryWriter::take_over(const std::string& task) {
           e.zero = {at[0], at[1]};
           add(from, e, nodes);
         }
+        std::uint64_t combinations = 0;
+        const H5Table tried_before = old.table("tried");
+        if (tried_before.rows() > 0)
+          tried_before.read<std::uint64_t>(tried_before.rows() - 1, {&combinations, 1});
+        if (combinations > done_) tried(combinations);
       }
     } catch (const Error& e) {
       if (e.code() != Errc::input) throw;  // else what could be read is kept, and the rest is made again
@@ -229,10 +237,17 @@ void LibraryWriter::add(std::uint64_t combination, const LibraryEntry& e, std::s
   done_ = combination + 1;
 }
 
+void LibraryWriter::tried(std::uint64_t combinations) {
+  file_.sync();  // entries first: what counts as tried must be there
+  tried_->append<std::uint64_t>({&combinations, 1});
+  done_ = combinations;
+}
+
 void LibraryWriter::finish() {
   const std::uint64_t n = entries();
   whole_->append<std::uint64_t>({&n, 1});
-  for (auto* table : {&combination_, &current_, &zero_, &gradient_, &field_, &whole_}) table->reset();
+  for (auto* table : {&combination_, &current_, &zero_, &gradient_, &field_, &tried_, &whole_})
+    table->reset();
   file_.close();
   std::filesystem::rename(part_, path_);
 }

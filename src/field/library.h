@@ -69,12 +69,13 @@ class LibraryWriter {
   /// its entries are taken over.
   LibraryWriter(const std::filesystem::path& file, const std::string& rig, const std::string& task,
                 const TableGrid& grid, std::size_t coils);
-  /// Combinations that the entries so far come from: where to go on.
+  /// Sets of currents that need not be tried again: where to go on.
   std::uint64_t done() const { return done_; }
   std::size_t entries() const;
   /// `combination` counts what was tried, upwards.
   void add(std::uint64_t combination, const LibraryEntry& e, std::span<const float> field);
-  void sync() { file_.sync(); }
+  /// All sets of currents before this one were tried: an unfinished library goes on from here.
+  void tried(std::uint64_t combinations);
   void finish();
 
  private:
@@ -82,7 +83,7 @@ class LibraryWriter {
 
   std::filesystem::path path_, part_;
   H5File file_;
-  std::optional<H5Table> combination_, current_, zero_, gradient_, field_, whole_;
+  std::optional<H5Table> combination_, current_, zero_, gradient_, field_, tried_, whole_;
   std::uint64_t done_ = 0;
 };
 

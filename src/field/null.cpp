@@ -98,10 +98,11 @@ class BestTrap {
     across_.head(n - 1) = free.transpose() * c_.across;
   }
   Vector solve() const {
-    constexpr double kLast = 1e10;  // largest value missed by some ten over this
+    constexpr int kDecades = 10;  // the largest value is missed by some ten over the last weight
     Vector z = Vector::Zero(free_.cols() + 1);
     z[z.size() - 1] = weakest(c_, start_) - 1;
-    for (double weight = 1; weight <= kLast; weight *= 10)
+    double weight = 1;
+    for (int decade = 0; decade <= kDecades; ++decade, weight *= 10)
       for (int i = 0; i < 50; ++i)
         if (!step(weight, z)) break;
     return current(z);
@@ -136,7 +137,8 @@ class BestTrap {
     const Vector p = -h.ldlt().solve(slope);
     const double gain = -slope.dot(p), before = barrier(weight, z);
     if (!(gain > 1e-9)) return false;
-    for (double share = 1; share > 1e-9; share *= 0.5)
+    double share = 1;
+    for (int halving = 0; halving < 30; ++halving, share *= 0.5)
       if (barrier(weight, z + share * p) < before - 0.1 * share * gain) {
         z += share * p;
         return true;

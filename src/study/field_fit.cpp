@@ -15,6 +15,8 @@
 namespace faba {
 namespace {
 
+constexpr double kMuch = 0.1;  // assumed: a rig that is right leaves a few hundredths, of probe and formula
+
 /// The measured values as one list, and what the rig says of them when it is stronger by `gain`, moved by
 /// `shift`, and has `offset` added.
 class Model {
@@ -28,7 +30,7 @@ class Model {
     for (const Vec3& p : data.at) size_ = std::max({size_, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     for (const double v : values_) strength_ += v * v / double(values_.size());
     strength_ = std::sqrt(strength_);
-    for (const std::size_t axis : {0, 1, 2})
+    for (const std::size_t axis : {0u, 1u, 2u})
       if (!data.about_axis || axis == 2) moves_.push_back(axis);
     for (std::size_t k = 0; k < 3; ++k)
       if (data.given[k]) offsets_.push_back(k);
@@ -173,6 +175,15 @@ nlohmann::ordered_json field_fit(const std::filesystem::path& rig, const std::fi
   report["offset_t"] = m.offset, report["offset_se_t"] = known(e.offset);
   report["rms_t"] = model.strength() * std::sqrt(left.squaredNorm() / double(n));
   report["rms_field_t"] = model.strength();
+  const double left_share = std::sqrt(left.squaredNorm() / double(n));
+  report["note"] =
+      left_share > kMuch ? fmt::format(
+                               "the fit leaves {:.0f} % of the field over: columns, units or a value may be "
+                               "wrong, or the rig is another one",
+                               100 * left_share)
+      : m.gain < 0                 ? "the gain is negative: the sense of a current or of an axis is reversed"
+      : m.gain < 0.5 || m.gain > 2 ? "the gain is far from 1: turns, current or units may be wrong"
+                                   : "";
   if (!out.empty()) write_rig(out, part.resolved, m, measured.filename().string());
   if (!picture.empty()) draw(picture, model, model.predicted(x));
   return report;

@@ -129,7 +129,8 @@ void compare_with_solver(const Field& field, const FieldLibrary& library, Vec2 h
       const LibraryEntry& e = library.entries()[*entry];
       off.push_back(norm(e.zero - at));
       const FieldNull solved = null_at(field, at, 1, most);
-      if (solved.reachable) strength.push_back(e.gradient[1] / solved.gradient[1]);
+      if (solved.reachable && !solved.saddle && e.gradient[1] < 0)
+        strength.push_back(e.gradient[1] / solved.gradient[1]);
     }
   const auto median = [](std::vector<double>& v) {
     std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(v.size() / 2), v.end());
@@ -188,7 +189,6 @@ nlohmann::ordered_json build_field_library(const std::filesystem::path& rig, con
   std::vector<std::optional<LibraryEntry>> found(kBlock);
   for (std::uint64_t begin = writer.done(); begin < lattice.size(); begin += kBlock) {
     if (o.stop()) {
-      writer.sync();
       throw Error(Errc::interrupted, out.string(),
                   fmt::format("stopped at {} of {} sets of currents; the same command goes on there", begin,
                               lattice.size()));
@@ -206,7 +206,7 @@ nlohmann::ordered_json build_field_library(const std::filesystem::path& rig, con
       table.set(found[i]->current);
       writer.add(begin + i, *found[i], table.nodes());
     }
-    writer.sync();
+    writer.tried(begin + n);
   }
   o.progress(lattice.size(), lattice.size());
   writer.finish();
@@ -215,6 +215,8 @@ nlohmann::ordered_json build_field_library(const std::filesystem::path& rig, con
   nlohmann::ordered_json j{
       {"out", out.string()}, {"combinations", lattice.size()}, {"entries", library.entries().size()},
       {"levels", levels},    {"columns", grid.columns},        {"rows", grid.rows}};
+  j["traps"] = std::count_if(library.entries().begin(), library.entries().end(),
+                             [](const LibraryEntry& e) { return e.gradient[1] < 0 || e.gradient[0] > 0; });
   compare_with_solver(*field, library, half, j);
   return j;
 }

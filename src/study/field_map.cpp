@@ -60,8 +60,21 @@ const char* kind_of(const NullGradient& g) {
   return g[1] < 0 ? "traps north-seekers" : g[0] > 0 ? "traps south-seekers" : "saddle";
 }
 
+/// Takes a file away that did not get its final name.
+struct Unfinished {
+  std::filesystem::path file;
+  explicit Unfinished(std::filesystem::path f) : file(std::move(f)) {}
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  ~Unfinished() {
+    std::error_code ec;
+    if (!file.empty()) std::filesystem::remove(file, ec);
+  }
+};
+
 void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vector<double>& current) {
   const std::filesystem::path part = file.string() + ".part";
+  Unfinished unfinished{part};
   H5File h5 = H5File::create(part);
   const auto columns = std::uint64_t(m.width);
   H5Table b = h5.table<double>("b_t", {columns, 3}, 16, columns, true);
@@ -84,6 +97,7 @@ void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vect
   for (std::size_t c = 0; c < columns; ++c) x.append<double>({&m.at[c].x, 1});
   h5.close();
   std::filesystem::rename(part, file);
+  unfinished.file.clear();
 }
 
 void draw(const FieldMapOptions& o, const Field& field, const Map& m, const nlohmann::ordered_json& zeros) {
@@ -125,9 +139,19 @@ nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMa
   if (current.size() != field->coils())
     throw Error(Errc::usage, "--current",
                 fmt::format("has {} currents, the rig has {} coils", current.size(), field->coils()));
+  std::string note;
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    if (!(std::fabs(current[k]) <= 1e4))
+      throw Error(Errc::usage, "--current", fmt::format("{:g} A is more than any coil bears", current[k]));
+    if (std::fabs(current[k]) > field->circuit(k).max_current)
+      note = fmt::format("{:g} A is more than the max_current of {}", current[k], field->circuit(k).name);
+  }
+  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
+    note = "no current flows; say which, such as --current 0.5,0.5";
   const Map m = computed(*field, current, o);
   nlohmann::ordered_json j;
   j["currents_a"] = current;
+  j["note"] = note;
   j["zeros"] = nlohmann::ordered_json::array();
   for (const Vec2 at : zeros_in(*field, current, o)) {
     const NullGradient g = null_gradient(*field, current, at);

@@ -34,8 +34,11 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
 nlohmann::ordered_json null_report(const std::filesystem::path& rig, Vec2 at, int polarity) {
   const auto field = rig_of(rig);
   if (!(field->clearance({at.x, at.y, 0}) > 0))
-    throw Error(Errc::usage, rig.string(), "there is a winding at that place");
+    throw Error(Errc::usage, rig.string(),
+                "there is a winding at that place, or it lies outside of a measured map");
   const FieldNull n = null_at(*field, at, polarity, current_limits(*field));
+  if (!std::isfinite(n.gradient[0] + n.gradient[1]))
+    throw Error(Errc::usage, rig.string(), "has no field that can be computed there");
   nlohmann::ordered_json j;
   j["at_m"] = {at.x, at.y};
   j["coils"] = nlohmann::ordered_json::array();

@@ -31,7 +31,7 @@ struct FieldMapOptions {
 };
 /// Draws the map and writes it as HDF5 (`b_t`, rows by columns by (x, y, z), from the top; `x_m`, `y_m`), and
 /// says
-/// `{"currents_a":[..],"zeros":[{"at_m":[x,y],"eigenvalues_t_per_m":[a,b],"kind":".."}],"strongest_t":..,
+/// `{"currents_a":[..],"note":"..","zeros":[{"at_m":[x,y],"eigenvalues_t_per_m":[a,b],"kind":".."}],"strongest_t":..,
 /// "table":{"spacing_m":..,"columns":..,"rows":..,"error":..}}`: the table is what a swarm would swim in over
 /// this rectangle, and its error the largest difference from the field, as a share of each coil's largest
 /// field. Throws Error(usage) when a coil reaches into the rectangle.
@@ -51,10 +51,10 @@ struct FieldLibraryOptions {
 /// least one coil at its limit (weaker currents in the same ratio make nearly the same zero, and trap less),
 /// those that make a zero in the rectangle which traps at least half as strongly as the best one at its
 /// centre. An unfinished library of the same task goes on where it was. Says
-/// `{"out":..,"combinations":n,"entries":m,"levels":..,"columns":..,"rows":..,"off_m":{"median":..,"largest":..},
+/// `{"out":..,"combinations":n,"entries":m,"traps":k,"levels":..,"columns":..,"rows":..,"off_m":{"median":..,"largest":..},
 /// "strength":..}`: how far the nearest zero of the library is from places all over the rectangle, and what
-/// share of the trap's gradient that the solver (null_at) reaches there it has in the median. Throws
-/// Error(interrupted) when stopped.
+/// share of the trap's gradient that the solver (null_at) reaches there it has in the median; `traps` are the
+/// entries that are no saddles. Throws Error(interrupted) when stopped.
 nlohmann::ordered_json build_field_library(const std::filesystem::path& rig, const std::filesystem::path& out,
                                            const FieldLibraryOptions& options);
 
@@ -71,9 +71,9 @@ nlohmann::ordered_json field_tolerance(const std::filesystem::path& rig, Vec2 at
 /// on all coils, one shift of all coils (along z only for data about an axis), and one added field. Standard
 /// errors take the errors of measurement as equal and independent.
 /// `{"values":n,"gain":..,"gain_se":..,"shift_m":[x,y,z],"shift_se_m":[..],"offset_t":[..],"offset_se_t":[..],
-/// "rms_t":..,"rms_field_t":..}`, a standard error null where nothing was fitted. Unless empty, `out` is
-/// written as the rig that fits, `picture` as SVG with what is left over. Throws Error(usage) for a rig
-/// without current, Error(input) for data that are wrong, too few, or do not tell.
+/// "rms_t":..,"rms_field_t":..,"note":".."}`, a standard error null where nothing was fitted. Unless empty,
+/// `out` is written as the rig that fits, `picture` as SVG with what is left over. Throws Error(usage) for a
+/// rig without current, Error(input) for data that are wrong, too few, or do not tell.
 nlohmann::ordered_json field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
                                  const std::filesystem::path& out, const std::filesystem::path& picture);
 

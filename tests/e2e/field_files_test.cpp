@@ -54,6 +54,10 @@ TEST_CASE(
   CHECK(again["rms_t"].get<double>() < 1e-6 * again["rms_field_t"].get<double>());
 
   refused(f, "field fit drawn.toml --map m.csv --out fitted.toml", 2, "already exists");
+  refused(f, "field fit drawn.toml --map m.csv --out m.csv --force", 2, "is what this command reads");
+  refused(f, "field fit drawn.toml --map m.csv --out ./drawn.toml --force", 2, "is what this command reads");
+  refused(f, "field map drawn.toml --picture /dev/null --force", 2, "is no file that could be replaced");
+  refused(f, "field map drawn.toml --current 1e300 --picture m.png", 2, "more than any coil bears");
   refused(f, "field fit drawn.toml --map nothing.csv", 3, "nothing.csv");
   refused(f, "field fit '" + kRigs + "thesis-four-coils.toml' --map m.csv", 2, "no current flows");
   write_file(f.path / "few.csv", "x_mm,y_mm,z_mm,bz_mt\n0,0,0,1\n0,0,1,1.1\n");

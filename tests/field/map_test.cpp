@@ -157,6 +157,19 @@ TEST_CASE("what is no map is refused, and says why") {
   refused(Sampled(7, 3, 0, "a,b,c,bx_mt,by_mt,bz_mt").toml(), "needs columns for the place");
   refused(Sampled(7, 3, 0).toml("within = '0.5 mm'\n"), "too few points");
   refused("type = 'map'\nfile = 'nowhere.csv'\n", "nowhere.csv");
+  test::TemporaryFolder dir("map");
+  const auto file = (dir.path() / "m.csv").string();
+  const auto written = [&](const std::string& b, bool line) {
+    std::ofstream out(file);
+    out << "x_mm,y_mm,bx_mt,by_mt\n";
+    for (int i = 0; i < 30; ++i)
+      out << i << "," << (line ? i : i * i % 7) << "," << (i == 5 ? b : "0") << ",0\n";
+  };
+  const std::string toml = "type = 'map'\nfile = '" + file + "'\n";
+  written("1", true), refused(toml, "on one line");
+  written("0", false), refused(toml, "all values are 0");
+  written("1e300", false), refused(toml, "beyond any laboratory");
+  written("1", false), refused(toml, "is not a magnetic field");
   CHECK_THROWS_AS(field_of("type = 'map'\n"), Error);
   CHECK_THROWS_AS(field_of("type = 'map'\nexpansion = { coefficients = [1, 2] }\n"), Error);
 }

@@ -26,7 +26,9 @@ class Helmholtz {
               .doc = "Between the loops; when absent the radius, and with opposed currents sqrt(3) times it"})
         .add("turns", &Params::turns, {.min = 1e-3, .max = 1e6, .doc = "Turns of each loop"})
         .add("opposed", &Params::opposed,
-             {.doc = "Currents run against each other: a gradient, zero in the middle"})
+             {.doc = "Currents run against each other, the loop on the side of the axis reversed: a "
+                     "gradient, zero in the "
+                     "middle, dB/dz < 0 along the axis for a positive current"})
         .add("wire_radius", &Params::wire_radius,
              {.unit = "m",
               .min = 1e-9,

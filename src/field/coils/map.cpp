@@ -84,7 +84,8 @@ class Map final : public Field {
           return p.measured_current == 0 ? "measured_current must not be 0" : "";
         })
         .validity(
-            "A box that holds a winding or a core. Up to a tenth of its size outside of the box the field is "
+            "A box that holds a winding or a core. Up to a twentieth of its diagonal outside of the box the "
+            "field is "
             "foretold, further out it is not a number.");
   }
   static void settle(Params& p, const Node& n) {
@@ -142,14 +143,16 @@ class Map final : public Field {
       e.half_size = {std::max(e.half_size.x, std::fabs(d.x)), std::max(e.half_size.y, std::fabs(d.y)),
                      std::max(e.half_size.z, std::fabs(d.z))};
     }
-    e.residual = fit.rms_field > 0 ? fit.rms / fit.rms_field : 0;
-    if (e.residual > kTooFar)
+    e.residual = fit.rms / fit.rms_field;
+    if (!(fit.rms_field > 0)) throw Error(Errc::input, data.source, "has no field in it: all values are 0");
+    if (!(e.residual <= kTooFar))
       throw Error(
           Errc::input, data.source,
-          fmt::format("is not a magnetic field without currents in it: the nearest such field is off by "
-                      "{:.2g} % rms. Are columns or signs mixed up, or does the map reach into a coil or "
-                      "core? Then use less of it, with within = \"5 mm\"",
-                      100 * e.residual));
+          fmt::format(
+              "is not a magnetic field without currents in it: the nearest such field is off by "
+              "{:.2g} % rms. Are columns or signs mixed up, is a value wrong, or is it mostly noise? If it "
+              "reaches into a coil or core use less of it, with `within`",
+              100 * e.residual));
     for (const double c : fit.field.coefficients) e.coefficients.push_back(c / measured_current);
     return e;
   }
