@@ -54,8 +54,8 @@ class Schmidt {
     for (std::size_t i = 1; i < factorial.size(); ++i) factorial[i] = factorial[i - 1] * double(i);
     for (int l = 0; l <= kMostHarmonicDegree; ++l)
       for (int m = 0; m <= l; ++m)
-        factor_[Solid::place(l, m)] =
-            std::sqrt((m ? 2 : 1) * factorial[std::size_t(l - m)] * factorial[std::size_t(l + m)]);
+        factor_[Solid::place(l, m)] = std::sqrt((m ? 2 : 1) * factorial[std::size_t(l) - std::size_t(m)] *
+                                                factorial[std::size_t(l) + std::size_t(m)]);
   }
   double operator()(int l, int m) const { return factor_[Solid::place(l, m)]; }
 
