@@ -23,28 +23,20 @@ double strongest(const WorldParts& w, double max_current) {
   return norm(sum);
 }
 
-// The rectangle that the arena lies in.
-FieldTable tabulated(const Field& field, const Grid& g) {
-  const Vec2 low{double(g.left), double(g.low)};
-  return {field, low, low + double(g.cell) * Vec2{double(g.columns), double(g.rows)}};
-}
-
-// The grid of a library, checked to be of this rig and to hold the arena.
-FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary& library, const Scenario& s) {
-  library.check(field, rig_fingerprint(s.field.resolved));
-  const TableGrid& grid = library.grid();
+// Over the rectangle that the arena lies in, or at the nodes of a library that must cover it.
+FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary* library, const Scenario& s) {
   const Vec2 low{double(g.left), double(g.low)};
   const Vec2 high = low + double(g.cell) * Vec2{double(g.columns), double(g.rows)};
+  if (!library) return {field, low, high};
+  const Vec2 from = library->grid().low, to = library->grid().high();
   constexpr double kRim = 1e-9;  // m
-  if (low.x < grid.low.x - kRim || low.y < grid.low.y - kRim || high.x > grid.high().x + kRim ||
-      high.y > grid.high().y + kRim)
+  if (low.x < from.x - kRim || low.y < from.y - kRim || high.x > to.x + kRim || high.y > to.y + kRim)
     throw Error(
         Errc::usage, "library",
         fmt::format("covers {:.4g} x {:.4g} mm about the centre, the arena reaches over {:.4g} x {:.4g} mm; "
                     "make it larger with --size",
-                    1e3 * (grid.high() - grid.low).x, 1e3 * (grid.high() - grid.low).y, 1e3 * (high - low).x,
-                    1e3 * (high - low).y));
-  return {field, grid};
+                    1e3 * (to - from).x, 1e3 * (to - from).y, 1e3 * (high - low).x, 1e3 * (high - low).y));
+  return library->table(field, rig_fingerprint(s.field.resolved));
 }
 
 // Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
@@ -84,12 +76,8 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
   w.arena = s.arena.make({scale});
   w.field = s.field.make({});
   std::shared_ptr<const FieldLibrary> library;
-  if (s.library) {
-    library = std::make_shared<FieldLibrary>(s.library->file);
-    w.table = tabulated(*w.field, w.arena->grid(), *library, s);
-  } else if (w.field->varies()) {
-    w.table = tabulated(*w.field, w.arena->grid());
-  }
+  if (s.library) library = std::make_shared<FieldLibrary>(s.library->file);
+  if (library || w.field->varies()) w.table = tabulated(*w.field, w.arena->grid(), library.get(), s);
   w.motility = s.motility.make({w.arena.get(), s.params.exposure});
   frame_ = w.arena->frame();
 

@@ -13,11 +13,29 @@ namespace {
 constexpr const char* kFormat = "faba field library 1";
 constexpr std::size_t kTies = 16;  // entries with one zero that are looked through for the least power
 
-std::uint64_t fewest(std::initializer_list<const H5Table*> tables) {
-  std::uint64_t n = std::numeric_limits<std::uint64_t>::max();
-  for (const H5Table* t : tables) n = std::min(n, t->rows());
-  return n;
-}
+/// What a library is made of, in its file.
+struct Tables {
+  H5Table current, zero, gradient, field;
+  explicit Tables(const H5File& f)
+      : current(f.table("current_a")),
+        zero(f.table("zero_m")),
+        gradient(f.table("gradient_t_per_m")),
+        field(f.table("field_t")) {}
+  /// Entries that are there in full.
+  std::uint64_t rows() const {
+    return std::min({current.rows(), zero.rows(), gradient.rows(), field.rows()});
+  }
+  LibraryEntry entry(std::uint64_t row) const {
+    LibraryEntry e;
+    e.current.resize(current.row_size());
+    std::array<double, 2> at{};
+    current.read<double>(row, e.current);
+    zero.read<double>(row, at);
+    gradient.read<double>(row, e.gradient);
+    e.zero = {at[0], at[1]};
+    return e;
+  }
+};
 
 double power(const LibraryEntry& e) {
   double p = 0;
@@ -84,27 +102,14 @@ FieldLibrary::FieldLibrary(const std::filesystem::path& file) : path_(file), fil
              number("spacing_m"),
              int(number("columns")),
              int(number("rows"))};
-    const H5Table current = file_.table("current_a"), zero = file_.table("zero_m"),
-                  gradient = file_.table("gradient_t_per_m"), field = file_.table("field_t"),
-                  whole = file_.table("entries");
+    const Tables tables(file_);
     std::uint64_t entries = 0;
-    whole.read<std::uint64_t>(0, {&entries, 1});
-    if (fewest({&current, &zero, &gradient, &field}) != entries || field.row_size() != 2 * grid_.nodes())
+    file_.table("entries").read<std::uint64_t>(0, {&entries, 1});
+    if (tables.rows() != entries || tables.field.row_size() != 2 * grid_.nodes())
       throw Error(Errc::input, "", "tables do not fit together");
-    for (std::uint64_t i = 0; i < entries; ++i) {
-      LibraryEntry e;
-      e.current.resize(current.row_size());
-      std::array<double, 2> at{};
-      current.read<double>(i, e.current);
-      zero.read<double>(i, at);
-      gradient.read<double>(i, e.gradient);
-      e.zero = {at[0], at[1]};
-      entries_.push_back(std::move(e));
-    }
+    for (std::uint64_t i = 0; i < entries; ++i) entries_.push_back(tables.entry(i));
   } catch (const Error& e) {
-    throw Error(
-        Errc::input, file.string(),
-        fmt::format("is not a whole field library ({}); make it with `faba field library`", e.what()));
+    throw no_library(file, e);
   }
   north_ = Tree::of(entries_, 1);
   south_ = Tree::of(entries_, -1);
@@ -127,7 +132,7 @@ std::vector<float> FieldLibrary::field(std::size_t entry) const {
   return nodes;
 }
 
-void FieldLibrary::check(const Field& field, const std::string& fingerprint) const {
+FieldTable FieldLibrary::table(const Field& field, const std::string& fingerprint) const {
   const auto other = [&] {
     return Error(
         Errc::input, path_.string(),
@@ -146,6 +151,7 @@ void FieldLibrary::check(const Field& field, const std::string& fingerprint) con
         }))
       throw other();
   }
+  return table;
 }
 
 std::optional<std::size_t> FieldLibrary::nearest(Vec2 at, int polarity) const {
@@ -195,23 +201,15 @@ void LibraryWriter::take_over(const std::string& task) {
   if (std::filesystem::exists(part_, ec)) try {
       const H5File old = H5File::open(part_);
       if (old.text_attribute("/", "task") == task) {
-        const H5Table combination = old.table("combination"), current = old.table("current_a"),
-                      zero = old.table("zero_m"), gradient = old.table("gradient_t_per_m"),
-                      field = old.table("field_t");
-        const std::uint64_t whole = fewest({&combination, &current, &zero, &gradient, &field});
+        const Tables tables(old);
+        const H5Table combination = old.table("combination");
+        const std::uint64_t whole = std::min(tables.rows(), combination.rows());
         std::vector<float> nodes(field_->row_size());
-        LibraryEntry e;
-        e.current.resize(current_->row_size());
         for (std::uint64_t i = 0; i < whole; ++i) {
           std::uint64_t from = 0;
-          std::array<double, 2> at{};
           combination.read<std::uint64_t>(i, {&from, 1});
-          current.read<double>(i, e.current);
-          zero.read<double>(i, at);
-          gradient.read<double>(i, e.gradient);
-          field.read<float>(i, nodes);
-          e.zero = {at[0], at[1]};
-          add(from, e, nodes);
+          tables.field.read<float>(i, nodes);
+          add(from, tables.entry(i), nodes);
         }
         std::uint64_t combinations = 0;
         const H5Table tried_before = old.table("tried");

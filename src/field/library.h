@@ -42,9 +42,9 @@ class FieldLibrary {
   const std::vector<LibraryEntry>& entries() const { return entries_; }
   /// The field of an entry at all nodes as in the file, T: x and y of every node, row by row from below.
   std::vector<float> field(std::size_t entry) const;
-  /// Throws Error(input) unless the file holds the field of this rig, at its own nodes: the fingerprints are
-  /// equal, and so are some of the entries.
-  void check(const Field& field, const std::string& fingerprint) const;
+  /// The field of a rig at the nodes of the library's grid. Throws Error(input) unless this is the rig that
+  /// the library was made for: the fingerprints are equal, and so is the field of some of the entries.
+  FieldTable table(const Field& field, const std::string& fingerprint) const;
 
   /// The entry whose zero is nearest to `at` (m) among those that trap cells of `polarity` (+1 north-seeking,
   /// -1 south-seeking); of equally near ones that with the least power. Where none traps along both axes, as

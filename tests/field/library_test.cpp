@@ -98,7 +98,7 @@ TEST_CASE("library: another rig is refused, by its fingerprint and by its field"
   w.add(0, e, table.nodes());
   w.finish();
   const FieldLibrary l(file);
-  CHECK_NOTHROW(l.check(*rig, "this rig"));
-  CHECK_THROWS_AS(l.check(*rig, "that rig"), Error);
-  CHECK_THROWS_AS(l.check(*other, "this rig"), Error);
+  CHECK_NOTHROW(l.table(*rig, "this rig"));
+  CHECK_THROWS_AS(l.table(*rig, "that rig"), Error);
+  CHECK_THROWS_AS(l.table(*other, "this rig"), Error);
 }

@@ -41,7 +41,7 @@ TEST_CASE("field library: every entry is a zero that traps, and its field is the
   const FieldLibrary l(f.path() / "l.h5");
   const auto rig = read_rig(kRig, builtin_parts());
   const auto field = rig.make({});
-  CHECK_NOTHROW(l.check(*field, rig_fingerprint(rig.resolved)));
+  CHECK_NOTHROW(l.table(*field, rig_fingerprint(rig.resolved)));
   REQUIRE(l.entries().size() == j["entries"].get<std::size_t>());
   REQUIRE(l.entries().size() > 20);
   const double best = -null_at(*field, {}, 1, current_limits(*field)).gradient[1];
