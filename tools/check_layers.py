@@ -9,7 +9,7 @@ MAY = {
     "field": "core",
     "vision": "core",
     "sim": "core field",
-    "control": "core field",
+    "control": "core field vision",
     "rig": "core field vision sim",
     "app": "core field vision sim control rig",
     "study": "core field vision sim control rig app",
@@ -24,6 +24,7 @@ HOME = {
     "hdf5": {"core"},
     "toml++": {"core"},
     "CLI/": {"cli"},
+    "lemon/": {"vision"},
     "Eigen/": {"vision", "study", "field"},
     "zlib": {"app"},
 }

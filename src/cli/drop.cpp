@@ -1,29 +1,13 @@
 #include <fmt/format.h>
 
+#include "cli/output_file.h"
 #include "cli/verbs.h"
-#include "core/error.h"
 #include "study/drop_report.h"
 
 namespace faba::cli {
 
-namespace {
-
-void check_overlay(const DropVerb& v) {
-  if (v.overlay.empty()) return;
-  const auto refuse = [&](const char* why) { throw Error(Errc::usage, v.overlay.string(), why); };
-  std::error_code ec;
-  if (std::filesystem::equivalent(v.overlay, v.picture, ec))
-    refuse("is the picture itself; choose another --overlay");
-  if (std::filesystem::is_directory(v.overlay, ec)) refuse("is a directory; name a file such as edge.png");
-  if (v.overlay.extension() != ".png") refuse("must end in .png, which is what is written");
-  if (!v.force && std::filesystem::exists(std::filesystem::symlink_status(v.overlay, ec)))
-    refuse("already exists; choose another --overlay, or --force to replace it");
-}
-
-}  // namespace
-
 int drop(const DropVerb& v, const Common& c) {
-  check_overlay(v);
+  check_output(v.overlay, ".png", v.force, {v.picture});
   const auto j = report_drop(v.picture, v.overlay);
   if (c.json) {
     fmt::print("{}\n", j.dump());

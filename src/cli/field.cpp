@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
 #include "core/error.h"
@@ -39,26 +40,6 @@ std::vector<double> amperes(const std::string& words) {
       throw Error(Errc::usage, "--current", fmt::format("\"{}\" is not a number of amperes", one));
   }
   return out;
-}
-
-// Before a file is written. Not even --force replaces what the command reads, a folder or a device.
-void refuse_existing(const std::filesystem::path& file, bool force,
-                     const std::vector<std::filesystem::path>& inputs) {
-  std::error_code ec;
-  if (file.empty() || !std::filesystem::exists(file, ec)) return;
-  if (!std::filesystem::is_regular_file(file, ec))
-    throw Error(Errc::usage, file.string(), "is no file that could be replaced; name another one");
-  for (const auto& input : inputs)
-    if (std::filesystem::equivalent(file, input, ec))
-      throw Error(Errc::usage, file.string(), "is what this command reads; name another file");
-  if (!force)
-    throw Error(Errc::usage, file.string(), "already exists; name another file, or --force to replace it");
-}
-
-void refuse_svg(const std::filesystem::path& file, const FieldVerb& v) {
-  refuse_existing(file, v.force, {v.rig, v.measured});
-  if (!file.empty() && file.extension() != ".svg")
-    throw Error(Errc::usage, file.string(), "must end in .svg, which is what is written");
 }
 
 // To four decimals, without a sign before zero.
@@ -117,8 +98,8 @@ int field_map(const FieldVerb& v, const Common& c) {
   if (o.drop_radius < 0) throw Error(Errc::usage, "--drop", "must not be negative");
   if (!v.check) {
     o.picture = v.picture, o.hdf5 = v.out;
-    refuse_existing(o.picture, v.force, {v.rig});
-    refuse_existing(o.hdf5, v.force, {v.rig});
+    check_output(o.picture, "", v.force, {v.rig});
+    check_output(o.hdf5, "", v.force, {v.rig});
     if (!o.picture.empty() && o.picture.extension() != ".png")
       throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
   }
@@ -144,7 +125,7 @@ int field_map(const FieldVerb& v, const Common& c) {
 }
 
 int field_tolerance(const FieldVerb& v, const Common& c) {
-  refuse_svg(v.picture, v);
+  check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
   const auto j = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
   if (c.json) {
     fmt::print("{}\n", j.dump());
@@ -164,7 +145,7 @@ int field_tolerance(const FieldVerb& v, const Common& c) {
 }
 
 int field_library(const LibraryVerb& v, const Common& c) {
-  refuse_existing(v.out, v.force, {v.rig});
+  check_output(v.out, "", v.force, {v.rig});
   FieldLibraryOptions o;
   const Vec2 size = rectangle(v.size);
   o.width = size.x, o.height = size.y;
@@ -200,8 +181,8 @@ int field_library(const LibraryVerb& v, const Common& c) {
 }
 
 int field_fit(const FieldVerb& v, const Common& c) {
-  refuse_existing(v.out, v.force, {v.rig, v.measured});
-  refuse_svg(v.picture, v);
+  check_output(v.out, "", v.force, {v.rig, v.measured});
+  check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
   const auto j = faba::field_fit(v.rig, v.measured, v.out, v.picture);
   if (c.json) {
     fmt::print("{}\n", j.dump());

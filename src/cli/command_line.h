@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+
+#include "cli/verbs.h"
+
+namespace CLI {
+class App;
+}
+
+namespace faba::cli {
+
+/// What comes of a command line while it is read: the flags that all verbs share, and the exit code.
+struct CommandLine {
+  Common common;
+  int code = 0;
+};
+
+/// A verb below `parent`, with the flags and the help that every verb has.
+CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* does, const char* examples);
+/// A check for options: "" or the complaint.
+std::string not_empty(const std::string& word);
+
+// The verbs with their options, in the order of the help. `line` outlives the parsing.
+
+void add_run_verbs(CLI::App& app, CommandLine& line);    ///< run, resume
+void add_video_verbs(CLI::App& app, CommandLine& line);  ///< what measures pictures and videos
+void add_field_verbs(CLI::App& app, CommandLine& line);  ///< field ...
+void add_help_verbs(CLI::App& app, CommandLine& line);   ///< parts, schema, doctor
+
+}  // namespace faba::cli

@@ -1,0 +1,13 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+namespace faba::cli {
+
+/// Before a file is written: refuses one that exists unless `force` is set, and in any case what the command
+/// reads (`inputs`), folders and devices, and another ending than `extension` (".png"; "" takes any). An
+/// empty `file` is not written and passes. Throws Error(usage, file).
+void check_output(const std::filesystem::path& file, const char* extension, bool force,
+                  const std::vector<std::filesystem::path>& inputs);
+
+}  // namespace faba::cli
