@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace faba::cli {
@@ -43,6 +44,24 @@ struct LibraryVerb {
   unsigned threads = 0;
   bool force = false;
 };
+/// A flow part and the parameters given for it, in words.
+struct FlowMethodOption {
+  std::string name = "horn_schunck";
+  std::vector<std::pair<std::string, std::string>> values;
+};
+struct FlowVerb {
+  std::filesystem::path a, b, out, picture, truth, overlay;
+  FlowMethodOption method;
+  int shrink = 0;
+  unsigned threads = 0;
+  bool force = false;
+};
+struct DistanceVerb {
+  std::filesystem::path p, similarity;
+  std::vector<std::filesystem::path> q;
+  double m = 0.9, threshold = 3;
+  bool normalise = false;
+};
 struct PartsVerb {
   std::string kind, name;
 };
@@ -58,6 +77,8 @@ std::string shell_word(const std::string& word);
 int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
+int flow(const FlowVerb& v, const Common& c);
+int distance(const DistanceVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
 int field_map(const FieldVerb& v, const Common& c);
 int field_library(const LibraryVerb& v, const Common& c);
