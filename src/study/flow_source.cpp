@@ -99,7 +99,7 @@ bool FlowSource::Impl::next_of_video(FlowPair& pair) {
   double t = 0;
   while (read(after, t)) {
     if (options.t1_s && t > *options.t1_s) return false;
-    const bool wanted = in_time(t_before, t);
+    const bool wanted = in_time(t_before, t) && frame % options.every == 0;
     if (wanted) {
       flow->between(before, after, pair.flow);
       if (side > 1)
@@ -118,7 +118,8 @@ bool FlowSource::Impl::next_of_video(FlowPair& pair) {
 
 bool FlowSource::Impl::next_of_file(FlowPair& pair) {
   for (; next < flows->size();) {
-    flows->read(next++, pair.frame, pair.t0_s, pair.t1_s, pair.flow);
+    flows->read(next, pair.frame, pair.t0_s, pair.t1_s, pair.flow);
+    next += options.every;
     if (in_time(pair.t0_s, pair.t1_s)) return true;
   }
   return false;

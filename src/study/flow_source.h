@@ -24,6 +24,7 @@ struct FlowSourceOptions {
   int shrink = 0;                 ///< frames are averaged over squares of so many px first; 0: see kLongSide
   double t0_s = 0;                ///< from this time on
   std::optional<double> t1_s;     ///< up to this time
+  std::uint64_t every = 1;        ///< only each pair whose number is a multiple of this
 };
 
 /// The flows of a video, a run directory or a file of flows, one after the other: memory does not grow with
