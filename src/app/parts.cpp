@@ -18,6 +18,7 @@ namespace faba {
   X(field, rig)                \
   X(motility, motility_none)   \
   X(motility, motility_thesis) \
+  X(estimator, estimator_none) \
   X(estimator, mean)           \
   X(estimator, visible)        \
   X(reference, none)           \

@@ -39,11 +39,20 @@ FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary* libr
   return library->table(field, rig_fingerprint(s.field.resolved));
 }
 
+constexpr double kJitterSteps = 4;  // in one sd of the frames' times, so that whole steps do not show
+
 // Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
 // whole.
 int steps_per_frame(const Scenario& s, double longest) {
   const double frame = s.frame_period();
+  if (s.camera.jitter > 0) longest = std::min(longest, s.camera.jitter / kJitterSteps);
   if (s.simulation.step) {
+    if (s.camera.jitter > 0 && *s.simulation.step > s.camera.jitter)
+      throw Error(
+          Errc::usage, "camera.jitter",
+          fmt::format("{:g} s is less than a step ({:g} s), and frames are taken at whole steps; a shorter "
+                      "simulation.step",
+                      s.camera.jitter, *s.simulation.step));
     const double n = frame / *s.simulation.step, whole = std::floor(n + 0.5);
     if (whole < 1 || std::fabs(n - whole) > 1e-6 * whole)
       throw Error(Errc::usage, "simulation.step",
@@ -115,7 +124,15 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
                                w.field->max_currents(s.limits.max_current),
                                library};
   world_ = std::make_unique<World>(std::move(w), pool);
-  rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});
+  SimRig::Params rig{steps, s.frame_period(), s.camera.delay_frames, s.camera.jitter};
+  rig.frames = s.camera.sensor == Camera::Sensor::frames;
+  if (s.renders()) {
+    const Outline edge = world_->parts().arena->outline();
+    rig.microscope = std::make_shared<Microscope>(
+        s.microscope, frame_, Circle{edge.centre_image, edge.radius_px}, s.frame_period(), seed);
+    rig.pool = &pool;
+  }
+  rig_ = std::make_unique<SimRig>(*world_, rig);
   estimator_ = s.estimator.make(control);
   reference_ = s.reference.make(control);
   controller_ = s.controller.make(control);
