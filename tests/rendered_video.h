@@ -15,7 +15,7 @@ struct RenderedVideo {
   double m_per_px = 1e-6;
   double fps = 15;
   int frames = 30;
-  Circle edge{};                  ///< the drop, image frame, px; radius 0: none
+  Circle edge{};  ///< the drop, image frame, px; radius 0: none
   MicroscopeParams microscope{};
   std::uint64_t seed = 1;
   /// Where the cells are at time t, s; image frame, px. Their way during the exposure is worked out from it.
@@ -49,8 +49,8 @@ void render_frames(const RenderedVideo& v, Take&& take) {
 /// Renders into `path`: exact when it ends in .avi, else H.264 in mp4.
 inline void write_rendered(const RenderedVideo& v, const std::filesystem::path& path) {
   const bool avi = path.extension() == ".avi";
-  VideoWriter writer(path.string() + ".part", avi ? VideoFormat::lossless_avi : VideoFormat::mp4, v.width, v.height,
-                     v.fps, 0, VideoPixels::grey8);
+  VideoWriter writer(path.string() + ".part", avi ? VideoFormat::lossless_avi : VideoFormat::mp4, v.width,
+                     v.height, v.fps, 0, VideoPixels::grey8);
   render_frames(v, [&](const Gray8& picture, int) { writer.write(picture); });
   writer.finish(path, false, v.time_s);
 }

@@ -15,6 +15,7 @@
 namespace faba {
 namespace {
 
+constexpr double kWidestSpot = 200;      // px, sd: tables of wider ones would fill the memory
 constexpr double kUsualExposure = 0.01;  // s
 constexpr std::uint32_t kLampDraws = 1;  // block of Stream::camera
 
@@ -26,6 +27,12 @@ double weight_of(const MicroscopeParams& p, double m_per_px) {
 }
 
 SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t seed) {
+  if (std::max({p.psf_sd, p.cell_diameter / 4, p.cell_length / 64}) > kWidestSpot * m_per_px)
+    throw Error(
+        Errc::usage, "microscope",
+        fmt::format("a cell is blurred over more than {:g} px at this scale; smaller psf_sd, cell_diameter "
+                    "and cell_length, or a larger scale.um_per_px",
+                    kWidestSpot));
   SplatShape s;
   s.psf_sd_px = p.psf_sd / m_per_px;
   s.diameter_px = p.cell_diameter / m_per_px;

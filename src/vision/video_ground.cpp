@@ -21,8 +21,8 @@ class Spread {
   void take(const GrayF& frame) {
     if (count_++ % stride_ != 0) return;
     if (kept_.size() == kMostFrames) {
-      for (std::size_t i = 0; 2 * i < kept_.size(); ++i) kept_[i] = std::move(kept_[2 * i]);
-      kept_.resize(kept_.size() / 2);
+      for (std::size_t i = 1; 2 * i < kept_.size(); ++i) kept_[i] = std::move(kept_[2 * i]);
+      kept_.resize(kMostFrames / 2);
       stride_ *= 2;
       if ((count_ - 1) % stride_ != 0) return;
     }
