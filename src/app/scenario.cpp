@@ -33,7 +33,7 @@ Schema<Record> Record::schema() {
            {.min = 1, .max = 1e6, .doc = "Every how many frames tracks are kept"})
       .add("compress", &Record::compress,
            {.doc = "Compress tracks.h5 (lossless; a quarter smaller, ten times slower)"})
-      .add("video", &Record::video, {.doc = "video.mp4: the rendered swarm, for browsers"})
+      .add("video", &Record::video, {.doc = "video.mp4: the swarm, for browsers"})
       .add("video_every", &Record::video_every,
            {.min = 1, .max = 1e6, .doc = "Every how many frames a picture is rendered"})
       .add("lossless", &Record::lossless, {.doc = "video.avi as well, exact to the grey level, for Fiji"})
