@@ -229,6 +229,12 @@ void check_camera(const Node& root, Scenario& s) {
         std::filesystem::absolute(root.child("microscope").file(s.microscope.background))
             .lexically_normal()
             .string();
+  if (s.steers() && s.estimator.type == "none")
+    throw Error(
+        Errc::usage, root.where("estimator"),
+        fmt::format(
+            "controller {} steers by an estimate, and \"none\" gives it none; use \"mean\" or \"visible\"",
+            s.controller.type));
   if (s.camera.sensor == Camera::Sensor::frames &&
       (s.estimator.type == "mean" || s.estimator.type == "visible"))
     throw Error(

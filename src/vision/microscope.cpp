@@ -15,7 +15,8 @@
 namespace faba {
 namespace {
 
-constexpr double kWidestSpot = 200;      // px, sd: tables of wider ones would fill the memory
+constexpr double kWidestSpot = 200;  // px, sd: tables of wider ones would fill the memory
+constexpr double kMostPixels = 1 << 28;
 constexpr double kUsualExposure = 0.01;  // s
 constexpr std::uint32_t kLampDraws = 1;  // block of Stream::camera
 
@@ -52,6 +53,15 @@ double exposure_of(const MicroscopeParams& p, double frame_period) {
   return t;
 }
 
+// Before anything of that size is made.
+const Frame& checked(const Frame& frame) {
+  if (double(frame.width) * double(frame.height) > kMostPixels)
+    throw Error(
+        Errc::usage, "arena",
+        fmt::format("a picture of {} x {} px cannot be rendered; a smaller view", frame.width, frame.height));
+  return frame;
+}
+
 }  // namespace
 
 Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circle& edge, double frame_period,
@@ -59,7 +69,7 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
     : params_(p),
       seed_(seed),
       exposure_time_(exposure_of(p, frame_period)),
-      sum_(frame.width, frame.height),
+      sum_(checked(frame).width, frame.height),
       splats_(shape_of(p, frame.m_per_px, seed)) {
   if (p.background.empty()) {
     ground_ = lit_ground(p, frame, edge, seed);

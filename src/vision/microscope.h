@@ -24,8 +24,8 @@ struct Exposure {
 class Microscope {
  public:
   /// `edge`: the drop, image frame, px; radius 0 for none. `frame_period` s. Reads params.background when it
-  /// is given. Throws Error(usage, "microscope...") when the exposure is longer than a frame or the
-  /// background has another size than the view, Error(input) when it cannot be read.
+  /// is given. Throws Error(usage) when the picture has more than 2^28 px, the exposure is longer than a
+  /// frame or the background has another size than the view, Error(input) when it cannot be read.
   Microscope(const MicroscopeParams& params, const Frame& frame, const Circle& edge, double frame_period,
              std::uint64_t seed);
 

@@ -49,7 +49,7 @@ void describe_light(Schema<MicroscopeParams>& s) {
         {.min = 0,
          .max = 1,
          .doc = "Light in the middle of the empty picture, as a share of white",
-         .source = "148 of 255, as in the real suspension of the guide"})
+         .source = "148 of 255, as in a real suspension (G3)"})
       .add("vignetting", &P::vignetting,
            {.min = 0, .max = 1, .doc = "Share of the light lost in the corners", .source = "assumed"})
       .add("unevenness", &P::unevenness,
@@ -96,8 +96,7 @@ void describe_camera(Schema<MicroscopeParams>& s) {
            {.min = 10,
             .max = 1e9,
             .doc = "Electrons at white: shot noise is the square root of their number",
-            .source =
-                "with read_noise gives the 2.1 grey levels measured in the real suspension of the guide"})
+            .source = "with read_noise gives 2.1 grey levels of 255, as in a real suspension (G3)"})
       .add("read_noise", &P::read_noise,
            {.min = 0, .max = 1e6, .doc = "Noise of the empty camera, electrons, sd", .source = "assumed"})
       .add(

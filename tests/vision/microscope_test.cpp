@@ -11,6 +11,7 @@
 #include "core/philox.h"
 #include "tests/rendered_video.h"
 #include "tests/vision/media.h"
+#include "vision/picture.h"
 #include "vision/video_reader.h"
 
 using namespace faba;
@@ -318,6 +319,14 @@ TEST_CASE("background and noise out of a video") {
   CHECK(m.noise_sd(0.5) > Microscope(v.microscope, frame, {}, 0.1, 1).noise_sd(0.58 * 0.6));
   CHECK(m.noise_sd(0.5) < Microscope(v.microscope, frame, {}, 0.1, 1).noise_sd(0.58));
 
+  Gray8 still_picture(160, 90, 100);
+  write_png(folder / "one.png", still_picture);
+  p.background = (folder / "one.png").string();
+  const Microscope one(p, frame, {}, 0.1, 1);
+  CHECK(double(one.ground().at(80, 40)) == doctest::Approx(100.0 / 255));
+  CHECK(one.noise_sd(0.5) == 0);
+
+  p.background = (folder / "real.avi").string();
   frame.width = 161;
   CHECK_THROWS_AS(Microscope(p, frame, {}, 0.1, 1), Error);
   p.background = (folder / "none.avi").string();
@@ -335,6 +344,7 @@ TEST_CASE("an exposure longer than a frame is refused, and a cell that fills the
   Frame fine = view();
   fine.m_per_px = 1e-9;
   CHECK_THROWS_AS(Microscope(p, fine, {}, 0.1, 1), Error);
+  CHECK_THROWS_AS(Microscope(MicroscopeParams(), view(65536, 65536), {}, 0.1, 1), Error);
 }
 
 TEST_CASE("times of a rendered video: mp4 carries them, as VideoReader reads them") {
