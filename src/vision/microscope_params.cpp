@@ -96,7 +96,7 @@ void describe_camera(Schema<MicroscopeParams>& s) {
            {.min = 10,
             .max = 1e9,
             .doc = "Electrons at white: shot noise is the square root of their number",
-            .source = "with read_noise gives 2.1 grey levels of 255, as in a real suspension (G3)"})
+            .source = "with read_noise gives 2.2 grey levels of 255, as in a real suspension (G3)"})
       .add("read_noise", &P::read_noise,
            {.min = 0, .max = 1e6, .doc = "Noise of the empty camera, electrons, sd", .source = "assumed"})
       .add(

@@ -22,7 +22,7 @@ struct MicroscopeParams {
   double edge_width = 2e-6;             ///< m, Gaussian sd of that line and of the step across the edge
   double outside_level = 0.95;          ///< light outside the drop relative to inside
   std::optional<double> exposure_time;  ///< s; 10 ms or half a frame, the shorter, when absent
-  double full_well = 9000;              ///< electrons at white
+  double full_well = 8000;              ///< electrons at white
   double read_noise = 8;                ///< electrons, sd
   std::optional<double> noise;          ///< share of white, sd; in place of shot and read noise
   double drift = 0;                     ///< relative change of the lamp per second
