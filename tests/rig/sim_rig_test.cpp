@@ -176,3 +176,7 @@ TEST_CASE("estimators that need positions are refused where a camera tells none"
     }
   }
 }
+
+TEST_CASE("a feedback controller is refused where nobody estimates") {
+  CHECK_THROWS_AS(TestSwarm("estimator = 'none'\n[[swarm]]\nmodel = 'basic'\n"), Error);
+}
