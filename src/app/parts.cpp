@@ -20,6 +20,7 @@ namespace faba {
   X(motility, motility_thesis)     \
   X(estimator, mean)               \
   X(estimator, visible)            \
+  X(estimator, estimator_none)     \
   X(reference, none)               \
   X(reference, hold)               \
   X(reference, route)              \

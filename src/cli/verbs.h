@@ -21,7 +21,7 @@ struct RunVerb {
   unsigned threads = 0;
   std::filesystem::path out;
   std::filesystem::path from_video;
-  bool force = false;
+  bool as_seen = false, force = false;
 };
 struct ResumeVerb {
   std::filesystem::path dir;

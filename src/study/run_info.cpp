@@ -81,6 +81,7 @@ RunInfo read_run_info(const std::filesystem::path& path) {
     throw Error(Errc::input, path.string(), "has no version; it is not the manifest of a run");
   info.title = keys.text("title");
   info.polarity = keys.text("polarity");
+  info.video_shows = keys.text("video_shows");
   info.seed = keys.text("seed");
   info.threads = keys.text("threads");
   info.state_hash = keys.text("state_hash");
