@@ -1,0 +1,116 @@
+#include "vision/ruler.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+constexpr int kMostMeasured = 60;       // hints that are looked into
+constexpr double kLeastComplete = 0.7;  // writing at a fixed advance has strokes at 0.4 to 0.6 of its places
+
+void check(const GrayF& picture, const RulerOptions& o) {
+  if (picture.width < 24 || picture.height < 12)
+    throw Error(Errc::input, o.name,
+                fmt::format("a picture of {} x {} px is too small to show a ruler; it takes 24 x 12 px",
+                            picture.width, picture.height));
+  const auto bad =
+      std::find_if(picture.px.begin(), picture.px.end(), [](float v) { return !std::isfinite(v); });
+  if (bad != picture.px.end()) throw Error(Errc::input, o.name, "has pixels that are not finite");
+  const auto [low, high] = std::minmax_element(picture.px.begin(), picture.px.end());
+  if (*low == *high) throw Error(Errc::input, o.name, "is one even grey: there is no ruler to see");
+}
+
+double direction_difference(double a, double b) {
+  return std::fabs(std::remainder(a - b, std::numbers::pi));
+}
+
+bool same_row(const MarkRow& a, const MarkRow& b) {
+  return direction_difference(a.angle, b.angle) < 0.05 &&
+         std::fabs(a.pitch_px / b.pitch_px - 1) < 0.02;
+}
+
+/// Whether the pitches are in a whole ratio, as far as both are known.
+bool goes_with(const MarkRow& fine, const MarkRow& coarse) {
+  const double ratio = coarse.pitch_px / fine.pitch_px, whole = std::round(ratio);
+  return whole >= 1 && std::fabs(ratio - whole) < 0.02 * ratio &&
+         direction_difference(fine.angle, coarse.angle) < 0.05;
+}
+
+bool believable(const MarkRow& row, const RulerOptions& o) {
+  const double share = row.used() < 8 ? 0.6 * o.max_residual_share : o.max_residual_share;
+  return row.used() >= o.min_marks && row.residual_px < share * row.pitch_px && row.height_px >= 4 &&
+         row.complete > kLeastComplete;
+}
+
+struct Measured {
+  std::vector<MarkRow> rows;  ///< one for each direction and pitch, the best supported
+  int most_marks = 0;         ///< of any row, believable or not
+};
+
+Measured measure(const GrayF& picture, const RulerOptions& o) {
+  Measured out;
+  std::vector<PeriodHint> tried;
+  for (const PeriodHint& hint : find_periods(picture)) {
+    // Three strips for each direction and pitch: one may cross a label or only the ends of marks.
+    const auto like = std::count_if(tried.begin(), tried.end(), [&](const PeriodHint& h) {
+      return direction_difference(h.angle, hint.angle) < 0.02 &&
+             std::fabs(h.pitch_px / hint.pitch_px - 1) < 0.04;
+    });
+    if (like >= 3) continue;
+    if (int(tried.size()) >= kMostMeasured) break;
+    tried.push_back(hint);
+    const auto row = measure_marks(picture, hint);
+    if (!row) continue;
+    out.most_marks = std::max(out.most_marks, row->used());
+    if (!believable(*row, o)) continue;
+    const auto known = std::find_if(out.rows.begin(), out.rows.end(),
+                                    [&](const MarkRow& r) { return same_row(r, *row); });
+    if (known == out.rows.end())
+      out.rows.push_back(*row);
+    else if (row->area_px > known->area_px)
+      *known = *row;
+  }
+  return out;
+}
+
+}  // namespace
+
+Ruler find_ruler(const GrayF& picture, const RulerOptions& options) {
+  check(picture, options);
+  Measured measured = measure(picture, options);
+  if (measured.rows.empty())
+    throw Error(Errc::input, options.name,
+                measured.most_marks >= 3
+                    ? fmt::format("shows no ruler: at most {} marks at equal distances in a row; it takes {}",
+                                  measured.most_marks, options.min_marks)
+                    : "shows no ruler: nothing in it repeats at equal distances");
+  std::sort(measured.rows.begin(), measured.rows.end(),
+            [](const MarkRow& a, const MarkRow& b) { return a.area_px > b.area_px; });
+  const MarkRow& strongest = measured.rows.front();
+  const MarkRow* finest = &strongest;
+  for (const MarkRow& row : measured.rows)
+    if (goes_with(row, strongest) && row.pitch_px < finest->pitch_px) finest = &row;
+  Ruler ruler;
+  for (const MarkRow& row : measured.rows) {
+    if (&row == finest || goes_with(*finest, row)) continue;
+    // The lines of a grid are as far apart both ways.
+    if (row.area_px > 0.4 * finest->area_px && std::fabs(row.pitch_px / finest->pitch_px - 1) > 0.02)
+      throw Error(Errc::input, options.name,
+                  fmt::format("shows two scales, with marks {:.2f} and {:.2f} px apart, and neither fits in "
+                              "with the other; cut one out of the picture",
+                              finest->pitch_px, row.pitch_px));
+  }
+  ruler.row = *finest;
+  ruler.angle_deg = std::remainder(finest->angle, std::numbers::pi) * 180 / std::numbers::pi;
+  ruler.image_width = picture.width;
+  ruler.image_height = picture.height;
+  return ruler;
+}
+
+}  // namespace faba
