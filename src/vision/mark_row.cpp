@@ -14,6 +14,8 @@ namespace faba {
 namespace {
 
 constexpr int kLeastMarks = 4, kPasses = 3;
+constexpr double kFloor = 0.02;      // px from end to end that shading may bring in (assumed)
+constexpr double kStraight = 3e-4;  // rad: marks leaning less need no other turned picture
 
 /// One mark in one strip.
 struct Reading {
@@ -41,14 +43,14 @@ double median(std::vector<double> v) {
 /// The place where the profile swings most strongly and purely at the pitch: the middle of a mark.
 double best_place(const MarkProfile& y, double pitch) {
   const double reach = 2.5 * pitch, wave = 2 * std::numbers::pi / pitch;
-  const int n = int(y.grey.size());
+  const int n = int(y.flat.size());
   double best = -1, place = 0;
   for (double middle = reach; middle < n - reach; middle += pitch / 2) {
     std::complex<double> sum = 0;
     double power = 0;
     bool whole = true;
     for (int i = std::max(0, int(middle - reach)); i < std::min(n, int(middle + reach) + 1); ++i) {
-      const double v = y.grey[std::size_t(i)], u = (i - middle) / reach;
+      const double v = y.flat[std::size_t(i)], u = (i - middle) / reach;
       if (!std::isfinite(v)) whole = false;
       const double weight = std::max(0.0, 1 - u * u);
       sum += weight * v * std::polar(1.0, -wave * (i - middle));
@@ -57,7 +59,7 @@ double best_place(const MarkProfile& y, double pitch) {
     const double worth = whole && power > 0 ? std::norm(sum) / std::sqrt(power) : -1;
     if (worth <= best) continue;
     best = worth;
-    place = middle - std::arg(-sum) / wave;  // a dark mark; a bright one is found half a pitch off, all alike
+    place = middle - std::arg(-sum) / wave;
   }
   return y.first_s + place;
 }
@@ -92,17 +94,24 @@ double mean_gap(const Chain& chain) {
 }
 
 Chain walk_both(const MarkProfile& y, double pitch) {
-  const double start = best_place(y, pitch);
+  double start = best_place(y, pitch);
   std::vector<double> near;
   for (int k = -2; k <= 2; ++k) near.push_back(start + k * pitch);
   Chain chain;
-  // First with the look of the five marks about the best place, then with that of all that were found.
-  for (int round = 0; round < 2; ++round) {
-    const MarkShape shape({&y, 1}, {&near, 1}, pitch);
+  // First with the look of the five marks about the best place, then with that of all that were found, from
+  // the middle of a mark: a bright one is half a pitch off at first.
+  for (int round = 0; round < 3; ++round) {
+    MarkShape shape({&y, 1}, {&near, 1}, pitch);
+    if (round == 1) {
+      start += shape.centre_px();
+      for (double& place : near) place += shape.centre_px();
+      shape = MarkShape({&y, 1}, {&near, 1}, pitch);
+    }
     chain.clear();
-    chain[0] = start;
     walk(y, start, pitch, shape, 1, chain);
     walk(y, start, pitch, shape, -1, chain);
+    const MarkReading first = read_mark(y, start, pitch, shape);
+    if (first.there) chain[0] = start + first.shift_px;
     if (int(chain.size()) < kLeastMarks) return {};
     const double gap = mean_gap(chain);
     if (!(gap > 0.85 * pitch && gap < 1.15 * pitch)) return {};
@@ -152,8 +161,8 @@ class Follower {
   bool inside(const MarkProfile& y, double at) const {
     const double reach = std::max(pitch_ / 2, 2.5) + 1;
     const int from = int(at - reach - y.first_s), to = int(at + reach - y.first_s) + 1;
-    return from >= 0 && to < int(y.grey.size()) && std::isfinite(y.grey[std::size_t(from)]) &&
-           std::isfinite(y.grey[std::size_t(to)]);
+    return from >= 0 && to < int(y.raw.size()) && std::isfinite(y.raw[std::size_t(from)]) &&
+           std::isfinite(y.raw[std::size_t(to)]);
   }
   const TurnedPicture& turned_;
   const Chain& chain_;
@@ -248,7 +257,7 @@ void turn(const TurnedPicture& turned, const GrayF& picture, Look& at) {
     high = std::max(high, r.t);
   }
   const Vec2 middle = turned.image(s / count, t / count);
-  at.angle -= std::atan(at.plane.lean);
+  if (std::fabs(at.plane.lean) > kStraight) at.angle -= std::atan(at.plane.lean);
   at.pitch = at.plane.pitch / std::hypot(1, at.plane.lean);
   const Vec2 centre{(picture.width - 1) / 2.0, (picture.height - 1) / 2.0};
   const Vec2 d = middle - centre;
@@ -312,9 +321,14 @@ void fit_line(MarkRow& row) {
     // Residuals that go along with their neighbours tell less than as many independent ones.
     const double rho = squares > 0 ? std::clamp(neighbours / squares, 0.0, 0.9) : 0;
     row.se_pitch_px = row.residual_px / std::sqrt(kk) * std::sqrt((1 + rho) / (1 - rho));
+    const double ends = row.marks.back().index - row.marks.front().index;
+    row.se_pitch_px = std::hypot(row.se_pitch_px, kFloor / ends);
     bool same = true;
+    std::vector<double> sizes;
+    for (const RowMark& m : row.marks) sizes.push_back(std::fabs(m.residual_px));
+    const double most = std::max(4 * 1.4826 * median(sizes), 0.02);
     for (RowMark& m : row.marks) {
-      const bool use = std::fabs(m.residual_px) <= 4 * row.residual_px + 1e-9;
+      const bool use = std::fabs(m.residual_px) <= most;
       same = same && use == m.used;
       m.used = use;
     }
@@ -328,17 +342,26 @@ int MarkRow::used() const {
   return int(std::count_if(marks.begin(), marks.end(), [](const RowMark& m) { return m.used; }));
 }
 
-std::optional<MarkRow> measure_marks(const GrayF& picture, const PeriodHint& hint) {
+const TurnedPicture& RowMeter::turned(double angle) {
+  const auto known = turned_.find(angle);
+  return known != turned_.end() ? known->second : turned_.try_emplace(angle, picture_, angle).first->second;
+}
+
+std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint) {
   Look at{hint.angle, hint.pitch_px, hint.across_px, hint.height_px, {}, {}};
+  std::optional<TurnedPicture> straight;
   for (int pass = 0;; ++pass) {
-    const TurnedPicture turned(picture, at.angle);
+    if (pass > 0 && std::fabs(at.plane.lean) > kStraight) straight.emplace(picture_, at.angle);
+    const TurnedPicture& turned = straight ? *straight : this->turned(at.angle);
     const int strip = pass == 0 ? std::clamp(int(at.pitch / 3), 3, std::max(3, std::min(8, at.height)))
                                 : std::clamp(at.height / 5, 3, 16);
     std::vector<MarkProfile> none;
     MarkShape shape(none, {}, at.pitch);
     if (!look(turned, at, strip, &shape)) return std::nullopt;
     if (pass + 1 < kPasses) {
-      turn(turned, picture, at);
+      if (at.plane.sd > 0.25 * at.pitch || double(at.readings.list.size()) < 0.4 * at.readings.possible)
+        return std::nullopt;
+      turn(turned, picture_, at);
       continue;
     }
     MarkRow row;

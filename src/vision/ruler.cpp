@@ -12,7 +12,9 @@ namespace faba {
 namespace {
 
 constexpr int kMostMeasured = 60;       // hints that are looked into
-constexpr double kLeastComplete = 0.7;  // writing at a fixed advance has strokes at 0.4 to 0.6 of its places
+// Writing at a fixed advance has strokes at 0.4 to 0.6 of its places, and lines of fewer letters than kLongRow.
+constexpr double kLeastComplete = 0.7, kLeastPossible = 0.4;
+constexpr int kLongRow = 30;
 
 void check(const GrayF& picture, const RulerOptions& o) {
   if (picture.width < 24 || picture.height < 12)
@@ -35,46 +37,67 @@ bool same_row(const MarkRow& a, const MarkRow& b) {
          std::fabs(a.pitch_px / b.pitch_px - 1) < 0.02;
 }
 
-/// Whether the pitches are in a whole ratio, as far as both are known.
-bool goes_with(const MarkRow& fine, const MarkRow& coarse) {
+/// Whether the pitches are in a whole ratio, to the share `tolerance`.
+bool goes_with(const MarkRow& fine, const MarkRow& coarse, double tolerance) {
   const double ratio = coarse.pitch_px / fine.pitch_px, whole = std::round(ratio);
-  return whole >= 1 && std::fabs(ratio - whole) < 0.02 * ratio &&
+  return whole >= 1 && std::fabs(ratio - whole) < tolerance * ratio &&
          direction_difference(fine.angle, coarse.angle) < 0.05;
 }
 
-bool believable(const MarkRow& row, const RulerOptions& o) {
+/// Whether a row might be marks: it takes more to say so on its own account than beside a coarser row that it
+/// goes with.
+bool possible(const MarkRow& row, const RulerOptions& o) {
   const double share = row.used() < 8 ? 0.6 * o.max_residual_share : o.max_residual_share;
   return row.used() >= o.min_marks && row.residual_px < share * row.pitch_px && row.height_px >= 4 &&
-         row.complete > kLeastComplete;
+         row.complete > kLeastPossible;
+}
+
+bool believable(const MarkRow& row, const RulerOptions& o) {
+  return possible(row, o) && (row.complete > kLeastComplete || row.used() >= kLongRow);
 }
 
 struct Measured {
-  std::vector<MarkRow> rows;  ///< one for each direction and pitch, the best supported
+  std::vector<MarkRow> rows;      ///< one for each direction and pitch, the best supported
+  std::vector<MarkRow> possible;  ///< the same of those that are not believable alone
   int most_marks = 0;         ///< of any row, believable or not
 };
+
+void keep(std::vector<MarkRow>& rows, const MarkRow& row) {
+  const auto known =
+      std::find_if(rows.begin(), rows.end(), [&](const MarkRow& r) { return same_row(r, row); });
+  if (known == rows.end())
+    rows.push_back(row);
+  else if (row.area_px > known->area_px)
+    *known = row;
+}
+
+bool alike(double angle, double pitch, const PeriodHint& hint, double by_angle) {
+  return direction_difference(angle, hint.angle) < by_angle && std::fabs(pitch / hint.pitch_px - 1) < 0.04;
+}
 
 Measured measure(const GrayF& picture, const RulerOptions& o) {
   Measured out;
   std::vector<PeriodHint> tried;
+  RowMeter meter(picture);
   for (const PeriodHint& hint : find_periods(picture)) {
-    // Three strips for each direction and pitch: one may cross a label or only the ends of marks.
+    // Three strips for each direction and pitch, for one may cross a label or only the ends of marks; and of
+    // what is known already one more.
     const auto like = std::count_if(tried.begin(), tried.end(), [&](const PeriodHint& h) {
-      return direction_difference(h.angle, hint.angle) < 0.02 &&
-             std::fabs(h.pitch_px / hint.pitch_px - 1) < 0.04;
+      return alike(h.angle, h.pitch_px, hint, 0.02);
     });
-    if (like >= 3) continue;
+    const bool known = std::any_of(out.rows.begin(), out.rows.end(), [&](const MarkRow& row) {
+      return alike(row.angle, row.pitch_px, hint, 0.2);
+    });
+    if (like >= (known ? 1 : 3)) continue;
     if (int(tried.size()) >= kMostMeasured) break;
     tried.push_back(hint);
-    const auto row = measure_marks(picture, hint);
+    const auto row = meter.measure(hint);
     if (!row) continue;
     out.most_marks = std::max(out.most_marks, row->used());
-    if (!believable(*row, o)) continue;
-    const auto known = std::find_if(out.rows.begin(), out.rows.end(),
-                                    [&](const MarkRow& r) { return same_row(r, *row); });
-    if (known == out.rows.end())
-      out.rows.push_back(*row);
-    else if (row->area_px > known->area_px)
-      *known = *row;
+    if (believable(*row, o))
+      keep(out.rows, *row);
+    else if (possible(*row, o))
+      keep(out.possible, *row);
   }
   return out;
 }
@@ -95,10 +118,12 @@ Ruler find_ruler(const GrayF& picture, const RulerOptions& options) {
   const MarkRow& strongest = measured.rows.front();
   const MarkRow* finest = &strongest;
   for (const MarkRow& row : measured.rows)
-    if (goes_with(row, strongest) && row.pitch_px < finest->pitch_px) finest = &row;
+    if (goes_with(row, strongest, 0.02) && row.pitch_px < finest->pitch_px) finest = &row;
+  for (const MarkRow& row : measured.possible)
+    if (goes_with(row, strongest, 0.005) && row.pitch_px < 0.98 * finest->pitch_px) finest = &row;
   Ruler ruler;
   for (const MarkRow& row : measured.rows) {
-    if (&row == finest || goes_with(*finest, row)) continue;
+    if (&row == finest || goes_with(*finest, row, 0.02)) continue;
     // The lines of a grid are as far apart both ways.
     if (row.area_px > 0.4 * finest->area_px && std::fabs(row.pitch_px / finest->pitch_px - 1) > 0.02)
       throw Error(Errc::input, options.name,
