@@ -119,8 +119,13 @@ Ruler find_ruler(const GrayF& picture, const RulerOptions& options) {
   const MarkRow* finest = &strongest;
   for (const MarkRow& row : measured.rows)
     if (goes_with(row, strongest, 0.02) && row.pitch_px < finest->pitch_px) finest = &row;
-  for (const MarkRow& row : measured.possible)
-    if (goes_with(row, strongest, 0.005) && row.pitch_px < 0.98 * finest->pitch_px) finest = &row;
+  for (const MarkRow& row : measured.possible) {
+    // A row at half or a third of the marks' distance finds one place in two or three taken.
+    const double alias = row.pitch_px / strongest.pitch_px;
+    if (goes_with(row, strongest, 0.005) && row.pitch_px < 0.98 * finest->pitch_px &&
+        row.complete > 1.3 * alias)
+      finest = &row;
+  }
   Ruler ruler;
   for (const MarkRow& row : measured.rows) {
     if (&row == finest || goes_with(*finest, row, 0.02)) continue;
