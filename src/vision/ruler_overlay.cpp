@@ -11,7 +11,7 @@ namespace faba {
 namespace {
 
 // Okabe and Ito's colour-blind-safe palette.
-const cv::Scalar kBlue(0, 114, 178), kYellow(240, 228, 66), kOrange(255, 120, 0), kRim(0, 0, 0);
+const cv::Scalar kSky(86, 180, 233), kYellow(240, 228, 66), kOrange(255, 120, 0), kRim(0, 0, 0);
 constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
 
 cv::Point fixed(Vec2 p) {
@@ -45,7 +45,7 @@ RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler) {
     const bool tenth = number % 10 == 0;
     // Every tenth reaches beyond the marks, where its number stands.
     const Vec2 end = tenth ? m.to_image + (10 * size * 2) * across : m.to_image;
-    cv::line(canvas, fixed(middle), fixed(end), !m.used ? kOrange : tenth ? kYellow : kBlue, width, cv::LINE_AA,
+    cv::line(canvas, fixed(middle), fixed(end), !m.used ? kOrange : tenth ? kYellow : kSky, width, cv::LINE_AA,
              kShift);
     if (number % every == 0) label(canvas, end + (14 * size * 2) * across, std::to_string(number), size);
   }

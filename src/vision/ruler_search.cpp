@@ -201,7 +201,7 @@ std::vector<double> edge_directions(const GrayF& picture, int most) {
     const bool known = std::any_of(out.begin(), out.end(), [angle](double b) {
       return std::fabs(std::remainder(angle - b, kPi)) < 2.5 * kPi / 180;
     });
-    if (!known && int(out.size()) < most) out.push_back(angle - kPi * std::floor(angle / kPi));
+    if (!known && int(out.size()) < most) out.push_back(angle - kPi * std::floor(angle / kPi + 0.5));
   };
   for (const auto& [height, angle] : all) {
     take(angle);

@@ -14,7 +14,7 @@ struct PeriodHint {
   double evidence = 0;  ///< periodicity times the root of the strip's length; noise stays below about 5
 };
 
-/// Directions that edges in the picture lie across, strongest first, rad in [0, pi): peaks of the histogram of
+/// Directions that edges in the picture lie across, strongest first, rad in [-pi/2, pi/2): peaks of the histogram of
 /// the grey gradient's direction, over two smoothings, each with the direction at right angles. At most `most`.
 std::vector<double> edge_directions(const GrayF& picture, int most);
 
