@@ -67,15 +67,15 @@ void include_calibration(Document& scenario) {
   if (!scale.contains("file")) return;
   const Node node = Node(scenario).child("scale").child("file");
   if (!scale["file"].is_string()) node.fail("expected the name of a calibration file in quotes");
-  if (scale.contains("um_per_px"))
-    node.fail("um_per_px is given beside it; keep the one that is to count");
+  if (scale.contains("um_per_px")) node.fail("um_per_px is given beside it; keep the one that is to count");
   const std::string named = scale["file"].get<std::string>();
   const std::filesystem::path file = node.file(named);
   std::error_code ec;
   if (!std::filesystem::exists(file, ec))
-    node.fail(fmt::format("there is no {}, neither beside the scenario nor where the program was called; "
-                          "`faba scale --out` writes one",
-                          named));
+    node.fail(
+        fmt::format("there is no {}, neither beside the scenario nor where the program was called; "
+                    "`faba scale --out` writes one",
+                    named));
   const Calibration calibration = read_calibration(file);
   scale.erase("file");
   scale["um_per_px"] = calibration.um_per_px;

@@ -260,7 +260,8 @@ Json scenario_json_schema(const Parts& parts) {
   j["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   Json& p = j["properties"];
   p["scale"] = ScaleParams::schema().json_schema();
-  p["scale"]["properties"]["file"] = {  // include_calibration() puts um_per_px in its place
+  p["scale"]["properties"]["file"] = {
+      // include_calibration() puts um_per_px in its place
       {"type", "string"},
       {"description", "A calibration file of `faba scale`, in place of um_per_px"}};
   p["camera"] = Camera::schema().json_schema();

@@ -33,26 +33,29 @@ void print_table(const nlohmann::ordered_json& j) {
   fmt::print("  width um   um per px\n");
   for (std::size_t i = 0; i < j["ratios"].size(); ++i)
     fmt::print("{:10g}   {:9.6f}\n", end("widths_um", int(i)), end("ratios", int(i)));
-  fmt::print("ratio-mean   {:.6f} um/px, s.d. {:.6f}, s.e.m. {:.4f}; trend with width (Spearman) {:.2f}, p {:.3f}\n",
-             number("ratio_mean"), number("ratio_sd"), number("ratio_sem"), number("spearman"),
-             number("spearman_p"));
+  fmt::print(
+      "ratio-mean   {:.6f} um/px, s.d. {:.6f}, s.e.m. {:.4f}; trend with width (Spearman) {:.2f}, p {:.3f}\n",
+      number("ratio_mean"), number("ratio_sd"), number("ratio_sem"), number("spearman"),
+      number("spearman_p"));
   fmt::print("regression   {:.4f} um/px, 95 % {:.3f} to {:.3f}\n", number("um_per_px"), end("ci95", 0),
              end("ci95", 1));
-  fmt::print("             reading = {:.2f} px + {:.4f} px/um x width; edges {:.1f} to {:.1f} px", number("intercept_px"),
-             number("slope_px_per_um"), end("intercept_ci95_px", 0), end("intercept_ci95_px", 1));
+  fmt::print("             reading = {:.2f} px + {:.4f} px/um x width; edges {:.1f} to {:.1f} px",
+             number("intercept_px"), number("slope_px_per_um"), end("intercept_ci95_px", 0),
+             end("intercept_ci95_px", 1));
   if (!j["repeatability_px"].is_null()) fmt::print("; repeatability {:.2f} px", number("repeatability_px"));
   fmt::print("\n");
 }
 
 void print_picture(const nlohmann::ordered_json& j) {
   const auto number = [&](const char* key) { return j[key].get<double>(); };
-  fmt::print("marks        {} {} ones, {:.4f} px apart (s.e. {:.4f}), {:.2f} degrees, scatter {:.2f} px: {}\n",
-             j["marks"].get<int>(), j["marks_are"].get<std::string>(), number("pitch_px"), number("pitch_se_px"),
-             number("angle_deg"), number("residual_px"), j["quality"].get<std::string>());
-  fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", number("ratio_mean"), number("ratio_sd"),
-             number("ratio_sem"));
-  fmt::print("regression   {:.5f} um/px, 95 % {:.5f} to {:.5f}\n", number("um_per_px"), j["ci95"][0].get<double>(),
-             j["ci95"][1].get<double>());
+  fmt::print(
+      "marks        {} {} ones, {:.4f} px apart (s.e. {:.4f}), {:.2f} degrees, scatter {:.2f} px: {}\n",
+      j["marks"].get<int>(), j["marks_are"].get<std::string>(), number("pitch_px"), number("pitch_se_px"),
+      number("angle_deg"), number("residual_px"), j["quality"].get<std::string>());
+  fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", number("ratio_mean"),
+             number("ratio_sd"), number("ratio_sem"));
+  fmt::print("regression   {:.5f} um/px, 95 % {:.5f} to {:.5f}\n", number("um_per_px"),
+             j["ci95"][0].get<double>(), j["ci95"][1].get<double>());
 }
 
 }  // namespace

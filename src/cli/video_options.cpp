@@ -11,12 +11,14 @@ void add_scale(CLI::App& app, CommandLine& line) {
   CLI::App* v = verb(app, line, "scale", "Micrometres per pixel, from a table or a picture of a ruler",
                      "  faba scale readings.csv --out calibration.toml\n"
                      "  faba scale ruler.png --tick \"10 um\" --overlay marks.png");
-  v->add_option("ruler", s->ruler, "Readings as CSV (width_um,px_1,px_2), or a picture of a ruler")->required();
+  v->add_option("ruler", s->ruler, "Readings as CSV (width_um,px_1,px_2), or a picture of a ruler")
+      ->required();
   v->add_option("--tick", s->tick, "Distance between neighbouring finest marks of a ruler in a picture")
       ->check(not_empty);
   v->add_option("--out", s->out, "Write a calibration file, which scenarios and analyses take in, as TOML")
       ->check(not_empty);
-  v->add_option("--overlay", s->overlay, "Write the picture with the marks drawn in, as PNG")->check(not_empty);
+  v->add_option("--overlay", s->overlay, "Write the picture with the marks drawn in, as PNG")
+      ->check(not_empty);
   v->add_flag("--force", s->force, "Replace existing files");
   v->callback([s, &line] { line.code = scale(*s, line.common); });
 }

@@ -24,7 +24,8 @@ namespace {
 using Report = nlohmann::ordered_json;
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   return text;
 }
 
@@ -67,9 +68,10 @@ std::pair<std::string, double> width_column(const Table& table) {
     if (const auto unit = length_unit(name)) found.emplace_back(name, *unit);
   if (found.size() == 1) return found.front();
   if (found.empty())
-    throw Error(Errc::input, table.source(),
-                "has no column of widths with their unit, such as width_um (or width_mm), beside the readings in "
-                "px");
+    throw Error(
+        Errc::input, table.source(),
+        "has no column of widths with their unit, such as width_um (or width_mm), beside the readings in "
+        "px");
   throw Error(Errc::input, table.source(),
               fmt::format("has two columns of lengths, {} and {}; name the readings in pixels px_1, px_2 ...",
                           found[0].first, found[1].first));
@@ -79,10 +81,11 @@ double positive(const Table& table, const std::string& column, std::size_t row) 
   const double v = table.column(column)[row];
   if (v > 0) return v;
   throw Error(Errc::input, table.place(row),
-              std::isnan(v) ? fmt::format("{} is empty or not a number; with unequal numbers of readings write "
-                                          "one row for each: width_um,px",
-                                          column)
-                            : fmt::format("{} is {}; it must be above 0", column, v));
+              std::isnan(v)
+                  ? fmt::format("{} is empty or not a number; with unequal numbers of readings write "
+                                "one row for each: width_um,px",
+                                column)
+                  : fmt::format("{} is {}; it must be above 0", column, v));
 }
 
 double mean_of(const std::vector<double>& v) {
@@ -121,9 +124,10 @@ std::string advice(const Report& j) {
         "every reading is {} too {}, whatever the width: edges, not scale. Take the regression; the mean of "
         "the ratios is off by {:+.1f} %",
         range, excess > 0 ? "wide" : "narrow", 100 * bias);
-  return fmt::format("the constant part of the readings, {}, may be 0: both estimators are free of bias as far as "
-                     "this table tells. Take the regression unless you know that edges do not matter",
-                     range);
+  return fmt::format(
+      "the constant part of the readings, {}, may be 0: both estimators are free of bias as far as "
+      "this table tells. Take the regression unless you know that edges do not matter",
+      range);
 }
 
 }  // namespace
@@ -162,10 +166,11 @@ nlohmann::ordered_json scale_json(const RulerReadings& readings, const std::stri
     by_width[width_um.back()].push_back(readings.reading_px[i]);
   }
   if (by_width.size() < 2 || width_um.size() < 3)
-    throw Error(Errc::input, name,
-                fmt::format("has {} of {}; a line through them takes two widths and three readings",
-                            width_um.size() == 1 ? "one reading" : fmt::format("{} readings", width_um.size()),
-                            by_width.size() == 1 ? "one width" : fmt::format("{} widths", by_width.size())));
+    throw Error(
+        Errc::input, name,
+        fmt::format("has {} of {}; a line through them takes two widths and three readings",
+                    width_um.size() == 1 ? "one reading" : fmt::format("{} readings", width_um.size()),
+                    by_width.size() == 1 ? "one width" : fmt::format("{} widths", by_width.size())));
   const LineFit line = fit_line(width_um, readings.reading_px);
   const auto slope = line.slope_ci95(), intercept = line.intercept_ci95();
   if (!(slope[0] > 0))
@@ -243,8 +248,9 @@ nlohmann::ordered_json report_scale_picture(const std::filesystem::path& picture
   const double share = row.residual_px / row.pitch_px;
   j["quality"] = share < 0.02 && used >= 20 ? "good" : share < 0.05 && used >= 8 ? "fair" : "poor";
   j["take"] = "regression";
-  j["note"] = "measured from mark to mark, so how wide the marks look plays no part; the interval is that of the "
-              "scatter alone: lens distortion and the ruler's own error come on top";
+  j["note"] =
+      "measured from mark to mark, so how wide the marks look plays no part; the interval is that of the "
+      "scatter alone: lens distortion and the ruler's own error come on top";
   j["method"] = fmt::format("{} marks of a ruler in a picture, {:g} um apart", used, tick_um);
   j["source"] = picture.string();
   if (!overlay.empty()) write_png(overlay, ruler_overlay(grey, ruler));

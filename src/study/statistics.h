@@ -4,8 +4,8 @@
 
 namespace faba {
 
-/// Regularised incomplete beta function I_x(a, b), 0 <= x <= 1, a, b > 0, to some 1e-14: the continued fraction
-/// of DLMF 8.17.22 (https://dlmf.nist.gov/8.17), on the side where it converges fast.
+/// Regularised incomplete beta function I_x(a, b), 0 <= x <= 1, a, b > 0, to some 1e-14: the continued
+/// fraction of DLMF 8.17.22 (https://dlmf.nist.gov/8.17), on the side where it converges fast.
 double incomplete_beta(double x, double a, double b);
 
 /// Probability that a value of Student's t distribution with `freedom` > 0 degrees of freedom is below t.
@@ -26,11 +26,12 @@ struct LineFit {
   std::array<double, 2> slope_ci95() const;
 };
 
-/// Fits a line to at least three points of at least two different x. Throws Error(Errc::internal) for fewer, and
-/// for spans of different length.
+/// Fits a line to at least three points of at least two different x. Throws Error(Errc::internal) for fewer,
+/// and for spans of different length.
 LineFit fit_line(std::span<const double> x, std::span<const double> y);
 
-/// Spearman's rank correlation, -1..1; equal values share the mean of their ranks. 0 when one side is constant.
+/// Spearman's rank correlation, -1..1; equal values share the mean of their ranks. 0 when one side is
+/// constant.
 double spearman(std::span<const double> x, std::span<const double> y);
 
 /// How often chance alone would give a rank correlation as far from 0, if all orders of y were as likely:

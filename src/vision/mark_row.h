@@ -12,10 +12,10 @@ namespace faba {
 
 /// One mark of a row, as measured.
 struct RowMark {
-  int index = 0;           ///< counted along the row; marks that were not seen are left out
-  double s = 0;            ///< place along the row, px from the picture's centre: mean over the strips
-  double residual_px = 0;  ///< from the straight line through all places
-  bool used = true;        ///< false for outliers, which the line ignores
+  int index = 0;              ///< counted along the row; marks that were not seen are left out
+  double s = 0;               ///< place along the row, px from the picture's centre: mean over the strips
+  double residual_px = 0;     ///< from the straight line through all places
+  bool used = true;           ///< false for outliers, which the line ignores
   Vec2 from_image, to_image;  ///< ends of the part that was read
 };
 
@@ -42,13 +42,14 @@ class RowMeter {
   explicit RowMeter(const GrayF& picture) : picture_(picture) {}
 
   /// Measures the marks that a hint points at. From the place where the strip repeats best the marks are
-  /// walked one by one to both sides, across up to three that cannot be seen; then they are followed from strip
-  /// to strip along their length as long as half of them are there, which gives the angle; this is done three
-  /// times over, at the angle and pitch found before. Marks whose place is off by more than 4 standard
+  /// walked one by one to both sides, across up to three that cannot be seen; then they are followed from
+  /// strip to strip along their length as long as half of them are there, which gives the angle; this is done
+  /// three times over, at the angle and pitch found before. Marks whose place is off by more than 4 standard
   /// deviations are left out. Nothing when fewer than four marks are in a row.
   std::optional<MarkRow> measure(const PeriodHint& hint);
 
  private:
+  std::optional<MarkRow> measure(const PeriodHint& hint, int strip_height);
   const TurnedPicture& turned(double angle);
   const GrayF& picture_;
   std::map<double, TurnedPicture> turned_;  // by the angles of hints, which are few

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-constexpr int kSteps = 480;  // of a tabulated shape
+constexpr int kSteps = 480;         // of a tabulated shape
 constexpr double kLeastSloped = 6;  // px
 
 }  // namespace
@@ -33,8 +33,8 @@ MarkProfile::MarkProfile(double first, std::vector<double> grey, double pitch_px
   };
   for (int i = 0; i < n; ++i) {
     const double from = i + 0.5 - pitch_px, to = i + 0.5 + pitch_px;
-    flat[std::size_t(i)] =
-        raw[std::size_t(i)] - (upto(sum, to) - upto(sum, from)) / std::max(0.5, upto(count, to) - upto(count, from));
+    flat[std::size_t(i)] = raw[std::size_t(i)] - (upto(sum, to) - upto(sum, from)) /
+                                                     std::max(0.5, upto(count, to) - upto(count, from));
   }
 }
 

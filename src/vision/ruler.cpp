@@ -11,8 +11,9 @@
 namespace faba {
 namespace {
 
-constexpr int kMostMeasured = 60;       // hints that are looked into
-// Writing at a fixed advance has strokes at 0.4 to 0.6 of its places, and lines of fewer letters than kLongRow.
+constexpr int kMostMeasured = 60;  // hints that are looked into
+// Writing at a fixed advance has strokes at 0.4 to 0.6 of its places, and lines of fewer letters than
+// kLongRow.
 constexpr double kLeastComplete = 0.7, kLeastPossible = 0.4;
 constexpr int kLongRow = 30;
 
@@ -28,13 +29,10 @@ void check(const GrayF& picture, const RulerOptions& o) {
   if (*low == *high) throw Error(Errc::input, o.name, "is one even grey: there is no ruler to see");
 }
 
-double direction_difference(double a, double b) {
-  return std::fabs(std::remainder(a - b, std::numbers::pi));
-}
+double direction_difference(double a, double b) { return std::fabs(std::remainder(a - b, std::numbers::pi)); }
 
 bool same_row(const MarkRow& a, const MarkRow& b) {
-  return direction_difference(a.angle, b.angle) < 0.05 &&
-         std::fabs(a.pitch_px / b.pitch_px - 1) < 0.02;
+  return direction_difference(a.angle, b.angle) < 0.05 && std::fabs(a.pitch_px / b.pitch_px - 1) < 0.02;
 }
 
 /// Whether the pitches are in a whole ratio, to the share `tolerance`.
@@ -59,7 +57,8 @@ bool believable(const MarkRow& row, const RulerOptions& o) {
 struct Measured {
   std::vector<MarkRow> rows;      ///< one for each direction and pitch, the best supported
   std::vector<MarkRow> possible;  ///< the same of those that are not believable alone
-  int most_marks = 0;         ///< of any row, believable or not
+  int most_marks = 0;             ///< of any row, believable or not
+  std::vector<PeriodHint> tried;
 };
 
 void keep(std::vector<MarkRow>& rows, const MarkRow& row) {
@@ -77,7 +76,7 @@ bool alike(double angle, double pitch, const PeriodHint& hint, double by_angle) 
 
 Measured measure(const GrayF& picture, const RulerOptions& o) {
   Measured out;
-  std::vector<PeriodHint> tried;
+  std::vector<PeriodHint>& tried = out.tried;
   RowMeter meter(picture);
   for (const PeriodHint& hint : find_periods(picture)) {
     // Three strips for each direction and pitch, for one may cross a label or only the ends of marks; and of
@@ -102,33 +101,54 @@ Measured measure(const GrayF& picture, const RulerOptions& o) {
   return out;
 }
 
+/// Refuses when finer marks than those measured were seen at least as clearly, but could not be read.
+void check_finest(const Measured& measured, const MarkRow& finest, const RulerOptions& o) {
+  double evidence = 0;
+  for (const PeriodHint& h : measured.tried)
+    if (alike(finest.angle, finest.pitch_px, h, 0.1)) evidence = std::max(evidence, h.evidence);
+  for (const PeriodHint& h : measured.tried) {
+    const double ratio = finest.pitch_px / h.pitch_px;
+    if (h.evidence > evidence && evidence > 0 && ratio > 1.5 &&
+        std::fabs(ratio - std::round(ratio)) < 0.03 * ratio &&
+        direction_difference(finest.angle, h.angle) < 0.1)
+      throw Error(
+          Errc::input, o.name,
+          fmt::format("shows marks {:.1f} px apart, and between them finer ones some {:.1f} px apart that "
+                      "are too faint to be measured; take a sharper picture",
+                      finest.pitch_px, h.pitch_px));
+  }
+}
+
 }  // namespace
 
 Ruler find_ruler(const GrayF& picture, const RulerOptions& options) {
   check(picture, options);
   Measured measured = measure(picture, options);
-  if (measured.rows.empty())
+  if (measured.rows.empty()) {
+    const int most = measured.most_marks;
     throw Error(Errc::input, options.name,
-                measured.most_marks >= 3
+                most >= options.min_marks ? "shows no ruler: what repeats in it is too faint or too irregular"
+                : most >= 3
                     ? fmt::format("shows no ruler: at most {} marks at equal distances in a row; it takes {}",
-                                  measured.most_marks, options.min_marks)
+                                  most, options.min_marks)
                     : "shows no ruler: nothing in it repeats at equal distances");
+  }
   std::sort(measured.rows.begin(), measured.rows.end(),
             [](const MarkRow& a, const MarkRow& b) { return a.area_px > b.area_px; });
   const MarkRow& strongest = measured.rows.front();
+  // A row at half or a third of the marks' distance finds one place in two or three taken.
+  const auto finer = [&](const MarkRow& row, const MarkRow& than) {
+    return row.pitch_px < 0.98 * than.pitch_px && row.complete > 1.3 * row.pitch_px / strongest.pitch_px;
+  };
   const MarkRow* finest = &strongest;
   for (const MarkRow& row : measured.rows)
-    if (goes_with(row, strongest, 0.02) && row.pitch_px < finest->pitch_px) finest = &row;
-  for (const MarkRow& row : measured.possible) {
-    // A row at half or a third of the marks' distance finds one place in two or three taken.
-    const double alias = row.pitch_px / strongest.pitch_px;
-    if (goes_with(row, strongest, 0.005) && row.pitch_px < 0.98 * finest->pitch_px &&
-        row.complete > 1.3 * alias)
-      finest = &row;
-  }
+    if (goes_with(row, strongest, 0.02) && finer(row, *finest)) finest = &row;
+  for (const MarkRow& row : measured.possible)
+    if (goes_with(row, strongest, 0.005) && finer(row, *finest)) finest = &row;
+  check_finest(measured, *finest, options);
   Ruler ruler;
   for (const MarkRow& row : measured.rows) {
-    if (&row == finest || goes_with(*finest, row, 0.02)) continue;
+    if (&row == finest || goes_with(*finest, row, 0.02) || goes_with(row, *finest, 0.02)) continue;
     // The lines of a grid are as far apart both ways.
     if (row.area_px > 0.4 * finest->area_px && std::fabs(row.pitch_px / finest->pitch_px - 1) > 0.02)
       throw Error(Errc::input, options.name,

@@ -45,8 +45,11 @@ RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler) {
     const bool tenth = number % 10 == 0;
     // Every tenth reaches beyond the marks, where its number stands.
     const Vec2 end = tenth ? m.to_image + (10 * size * 2) * across : m.to_image;
-    cv::line(canvas, fixed(middle), fixed(end), !m.used ? kOrange : tenth ? kYellow : kSky, width, cv::LINE_AA,
-             kShift);
+    cv::line(canvas, fixed(middle), fixed(end),
+             !m.used ? kOrange
+             : tenth ? kYellow
+                     : kSky,
+             width, cv::LINE_AA, kShift);
     if (number % every == 0) label(canvas, end + (14 * size * 2) * across, std::to_string(number), size);
   }
   RgbImage out(grey.width, grey.height);

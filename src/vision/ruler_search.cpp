@@ -11,8 +11,8 @@ namespace faba {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kBins = 180;          // of 1 degree
-constexpr int kWindow = 24;         // px of a halved copy to each side over which light is taken to be even
+constexpr int kBins = 180;   // of 1 degree
+constexpr int kWindow = 24;  // px of a halved copy to each side over which light is taken to be even
 constexpr double kLeastLag = 2.7, kMostLag = 22;  // px of a halved copy; the next copy takes over
 constexpr double kLeastScore = 0.25, kLeastEvidence = 6;
 
@@ -178,7 +178,8 @@ void search_copy(const GrayF& copy, double angle, double factor, std::vector<Per
     const double stride = std::max(height / 2.0, reach / 300);
     for (double t = turned.first_t() + (height - 1) / 2.0; t <= turned.last_t(); t += stride) {
       const std::vector<double> profile = turned.profile(t, height);
-      const auto there = std::count_if(profile.begin(), profile.end(), [](double v) { return std::isfinite(v); });
+      const auto there =
+          std::count_if(profile.begin(), profile.end(), [](double v) { return std::isfinite(v); });
       if (double(there) < 4 * kLeastLag) continue;
       const auto [score, lag] = repeats(profile);
       const double evidence = score * std::sqrt(double(there));

@@ -10,8 +10,7 @@ namespace {
 
 std::array<float, 4> cubic_weights(double fraction) {
   const float f = float(fraction), g = 1 - f;
-  return {-0.5F * f * g * g, 1 + f * f * (1.5F * f - 2.5F), 1 + g * g * (1.5F * g - 2.5F),
-          -0.5F * g * f * f};
+  return {-0.5F * f * g * g, 1 + f * f * (1.5F * f - 2.5F), 1 + g * g * (1.5F * g - 2.5F), -0.5F * g * f * f};
 }
 
 float sample(const GrayF& picture, Vec2 p) {
@@ -23,8 +22,7 @@ float sample(const GrayF& picture, Vec2 p) {
   for (int j = 0; j < 4; ++j) {
     const int r = std::clamp(row + j - 1, 0, h - 1);
     float line = 0;
-    for (int i = 0; i < 4; ++i)
-      line += wx[std::size_t(i)] * picture.at(std::clamp(col + i - 1, 0, w - 1), r);
+    for (int i = 0; i < 4; ++i) line += wx[std::size_t(i)] * picture.at(std::clamp(col + i - 1, 0, w - 1), r);
     sum += wy[std::size_t(j)] * line;
   }
   return sum;

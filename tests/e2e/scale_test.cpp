@@ -39,7 +39,8 @@ TEST_CASE("a table: numbers for people and programs, and a calibration that a sc
   const auto j = faba_in(f.path, "scale ruler.csv --json --out calibration.toml --force").json();
   for (const char* key : {"um_per_px", "ratio_mean", "ratio_sd"}) CHECK(j[key].is_number());
   CHECK(j["ci95"].size() == 2);
-  write_file(f.path / "s.toml", kSmallScene + "[scale]\nfile = 'calibration.toml'\n[record]\nvideo = false\n");
+  write_file(f.path / "s.toml",
+             kSmallScene + "[scale]\nfile = 'calibration.toml'\n[record]\nvideo = false\n");
   const Called run = faba_in(f.path, "run s.toml --seed 1 --out r --quiet");
   REQUIRE_MESSAGE(run.exit == 0, run.err);
   std::filesystem::remove(f.path / "calibration.toml");
@@ -56,7 +57,8 @@ TEST_CASE("a picture") {
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   CHECK(c.json()["um_per_px"].get<double>() == doctest::Approx(10 / 12.3).epsilon(1e-3));
   CHECK(std::filesystem::exists(f.path / "marks.png"));
-  CHECK(faba_in(f.path, "scale ruler.png --tick '0.01 mm' --json").json()["um_per_px"] == c.json()["um_per_px"]);
+  CHECK(faba_in(f.path, "scale ruler.png --tick '0.01 mm' --json").json()["um_per_px"] ==
+        c.json()["um_per_px"]);
   CHECK(faba_in(f.path, "scale ruler.png --tick '10 um' -q").out.empty());
 }
 
@@ -85,10 +87,11 @@ TEST_CASE("bad input is one clear line with the right code") {
     check(table + std::string(" --out c.toml"), 3);
   for (const char* picture : {"text.png", "few.png", "black.png", "tiny.png", "absent.png", "."})
     check(picture + std::string(" --tick '10 um' --out c.toml"), 3);
-  for (const char* usage : {"ruler.png", "ruler.png --tick ''", "ruler.png --tick 10", "ruler.png --tick '10 s'",
-                            "ruler.png --tick '-1 um'", "ruler.png --tick '0 um'", "ruler.png --tick 'nan um'",
-                            "ruler.png --tick '10 um' --overlay ruler.png --force", "good.csv --tick '10 um'",
-                            "good.csv --overlay o.png", "good.csv --out calibration.json", ""})
+  for (const char* usage :
+       {"ruler.png", "ruler.png --tick ''", "ruler.png --tick 10", "ruler.png --tick '10 s'",
+        "ruler.png --tick '-1 um'", "ruler.png --tick '0 um'", "ruler.png --tick 'nan um'",
+        "ruler.png --tick '10 um' --overlay ruler.png --force", "good.csv --tick '10 um'",
+        "good.csv --overlay o.png", "good.csv --out calibration.json", ""})
     check(usage, 2);
   CHECK_FALSE(std::filesystem::exists(f.path / "c.toml"));
 }

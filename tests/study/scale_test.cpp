@@ -46,7 +46,9 @@ bool says(const std::string& text, const char* words) { return text.find(words) 
 
 TEST_CASE("table 4.1 to all printed digits") {
   const auto j = report(kTable41);
-  const auto fixed = [&](const char* key, int digits) { return fmt::format("{:.{}f}", j[key].get<double>(), digits); };
+  const auto fixed = [&](const char* key, int digits) {
+    return fmt::format("{:.{}f}", j[key].get<double>(), digits);
+  };
   const auto end = [&](const char* key, int i, int digits) {
     return fmt::format("{:.{}f}", j[key][std::size_t(i)].get<double>(), digits);
   };
@@ -73,9 +75,13 @@ TEST_CASE("table 4.1 to all printed digits") {
 
 TEST_CASE("every way to write the same table") {
   const auto wanted = report(kTable41);
-  std::string narrow = "width_um,px\n", mm = "\"Width (mm)\",first,second\n", other = "n,pixels a,pixels b,um\n";
-  const double rows[][3] = {
-      {30, 41.42, 40.31}, {50, 63.25, 64.19}, {70, 87.52, 90.10}, {100, 121.44, 122.40}, {200, 228.55, 225.66}};
+  std::string narrow = "width_um,px\n", mm = "\"Width (mm)\",first,second\n",
+              other = "n,pixels a,pixels b,um\n";
+  const double rows[][3] = {{30, 41.42, 40.31},
+                            {50, 63.25, 64.19},
+                            {70, 87.52, 90.10},
+                            {100, 121.44, 122.40},
+                            {200, 228.55, 225.66}};
   mm = "Width (mm),first,second\n";
   int n = 0;
   for (const auto& r : rows) {
@@ -90,13 +96,14 @@ TEST_CASE("every way to write the same table") {
       CHECK(j[key].get<double>() == doctest::Approx(wanted[key].get<double>()).epsilon(1e-12));
     CHECK(j["widths_um"] == wanted["widths_um"]);
   }
-  CHECK(report("µm,px\n10,20\n20,40.1\n30,60\n")["um_per_px"].get<double>() == doctest::Approx(0.5).epsilon(0.02));
+  CHECK(report("µm,px\n10,20\n20,40.1\n30,60\n")["um_per_px"].get<double>() ==
+        doctest::Approx(0.5).epsilon(0.02));
   CHECK(report("width_microns,px\n10,20\n20,40.1\n30,60\n")["repeatability_px"].is_null());
 }
 
 TEST_CASE("the interval holds the truth as often as it says") {
-  // 400 tables of 6 widths read twice, 1.2 um/px, 7 px of edge, readings good to 1.5 px. The number of hits is
-  // binomial: 380 +- 4.4; 5 standard deviations to each side.
+  // 400 tables of 6 widths read twice, 1.2 um/px, 7 px of edge, readings good to 1.5 px. The number of hits
+  // is binomial: 380 +- 4.4; 5 standard deviations to each side.
   int hits = 0, ratio_hits = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     FrameNoise noise(seed);

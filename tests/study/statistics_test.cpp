@@ -54,7 +54,8 @@ TEST_CASE("a line with residuals that can be done by hand") {
 }
 
 TEST_CASE("Spearman's correlation and how likely it is") {
-  const std::vector<double> x{1, 2, 3, 4, 5}, up{2, 3, 50, 51, 1000}, down{9, 8, 7, 6, 5}, ties{1, 1, 2, 2, 3};
+  const std::vector<double> x{1, 2, 3, 4, 5}, up{2, 3, 50, 51, 1000}, down{9, 8, 7, 6, 5},
+      ties{1, 1, 2, 2, 3};
   CHECK(spearman(x, up) == doctest::Approx(1));
   CHECK(spearman(x, down) == doctest::Approx(-1));
   CHECK(spearman(x, std::vector<double>{4, 4, 4, 4, 4}) == 0);

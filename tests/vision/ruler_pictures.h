@@ -12,17 +12,17 @@ namespace faba {
 /// `middle`.
 struct RulerScene {
   int width = 696, height = 520;
-  Vec2 middle{340, 250};   ///< of the picture
-  double angle_deg = 0;    ///< along the ruler, from x towards y
-  double pitch = 12.3;     ///< px
-  double offset = 0.3;     ///< of mark 0, px
+  Vec2 middle{340, 250};           ///< of the picture
+  double angle_deg = 0;            ///< along the ruler, from x towards y
+  double pitch = 12.3;             ///< px
+  double offset = 0.3;             ///< of mark 0, px
   int first = -1000, last = 1000;  ///< marks drawn
   double mark = 3;                 ///< width, px
   double length = 40;              ///< of the short marks, px
-  double longer = 1.5;             ///< every fifth mark is this times as long, every tenth twice that much more
-  bool baseline = false;           ///< a line along the foot of the marks
-  bool two_sided = false;          ///< longer marks stand out on both sides
-  double contrast = -120;          ///< grey of a mark against the ground
+  double longer = 1.5;     ///< every fifth mark is this times as long, every tenth twice that much more
+  bool baseline = false;   ///< a line along the foot of the marks
+  bool two_sided = false;  ///< longer marks stand out on both sides
+  double contrast = -120;  ///< grey of a mark against the ground
   double ground = 190, gradient = 0;  ///< grey; share of the light lost from one side to the other
   double blur = 1;                    ///< px, Gaussian sd
   double noise = 2;                   ///< grey, sd
@@ -111,7 +111,8 @@ inline GrayF render(const RulerScene& s) {
     add_stroke(im, at, at + Vec2{0.25 * s.width, 0}, 24, ink);
   }
   for (int k = 0; k < s.dirt; ++k)
-    add_cell(im, {noise.uniform() * s.width, noise.uniform() * s.height}, s.contrast, 1 + 2 * noise.uniform());
+    add_cell(im, {noise.uniform() * s.width, noise.uniform() * s.height}, s.contrast,
+             1 + 2 * noise.uniform());
   const double gx = std::cos(double(s.seed)), gy = std::sin(double(s.seed));
   const double top = s.bits == 8 ? 255 : 65535, gain = s.bits == 8 ? 1 : 16;
   for (int r = 0; r < s.height; ++r)
@@ -129,6 +130,8 @@ inline RulerScene any_ruler(std::uint64_t seed) {
   FrameNoise lot(seed * 7919 + 17);
   const auto from = [&](double low, double high) { return low + (high - low) * lot.uniform(); };
   RulerScene s;
+  s.width = 560;
+  s.height = 420;
   s.seed = seed;
   s.angle_deg = from(-90, 90);
   s.pitch = 4 * std::pow(15.0, lot.uniform());

@@ -82,10 +82,10 @@ TEST_CASE("without noise the marks lie where they were drawn") {
 
 TEST_CASE("rulers by lot: never another pitch, and inside the interval as often as it says") {
   // Any angle, pitch 4 to 60 px, blur, light, noise, clutter, part of a ruler. A quarter of a per cent is far
-  // below the step from one whole ratio to the next. The interval is to hold 95 in 100: of 24 fewer than 19
+  // below the step from one whole ratio to the next. The interval is to hold 95 in 100: of 14 fewer than 11
   // has a chance of 0.4 % (binomial).
   int inside = 0, found = 0;
-  for (std::uint64_t seed = 400; seed < 424; ++seed) {
+  for (std::uint64_t seed = 400; seed < 414; ++seed) {
     const RulerScene s = any_ruler(seed);
     CAPTURE(seed);
     CAPTURE(s.pitch);
@@ -98,11 +98,12 @@ TEST_CASE("rulers by lot: never another pitch, and inside the interval as often 
     }
     ++found;
     CHECK(std::fabs(r.row.pitch_px / s.pitch - 1) < 0.0025);
-    CHECK(std::fabs(std::remainder(r.angle_deg - s.angle_deg, 180)) < 1.2);  // 14 px of mark, 0.3 px to a side
+    // A quarter of a pixel at either end of the marks, the shortest of which are 14 px long.
+    CHECK(std::fabs(std::remainder(r.angle_deg - s.angle_deg, 180)) < 57.3 * 0.5 / s.length);
     inside += std::fabs(r.row.pitch_px - s.pitch) < reach(r.row);
   }
-  CHECK(found >= 23);
-  CHECK(inside >= 19);
+  CHECK(found >= 13);
+  CHECK(inside >= 11);
 }
 
 TEST_CASE("the finest marks count, not the longer ones, whichever stand out") {
@@ -111,6 +112,9 @@ TEST_CASE("the finest marks count, not the longer ones, whichever stand out") {
   s.longer = 3;  // long marks: 48 and 80 px; short ones 16
   s.pitch = 8.6;
   s.mark = 2;
+  s.width = 420;
+  s.height = 300;
+  s.middle = {200, 140};
   for (const double angle : {0.0, 33.0, -90.0}) {
     s.angle_deg = angle;
     CHECK(pitch_of(s) == doctest::Approx(8.6).epsilon(1e-3));
@@ -129,9 +133,9 @@ TEST_CASE("the finest marks count, not the longer ones, whichever stand out") {
 
 TEST_CASE("a small part of a ruler, in a large picture with writing and a scale bar") {
   RulerScene s;
-  s.width = 1100;
-  s.height = 700;
-  s.middle = {700, 420};
+  s.width = 800;
+  s.height = 560;
+  s.middle = {500, 320};
   s.angle_deg = -23;
   s.pitch = 9.4;
   s.length = 30;
@@ -154,9 +158,9 @@ TEST_CASE("pictures without a ruler") {
   RulerScene s;
   s.first = 1;
   s.last = 0;  // no marks
-  s.width = 500;
-  s.height = 400;
-  for (std::uint64_t seed = 1; seed < 4; ++seed) {
+  s.width = 400;
+  s.height = 300;
+  for (std::uint64_t seed = 1; seed < 3; ++seed) {
     s.seed = seed;
     s.noise = 12;
     s.text = 0;
@@ -175,6 +179,8 @@ TEST_CASE("pictures without a ruler") {
   s.last = 2;
   CHECK(says(refused(render(s)), "no ruler"));
   DropScene drop;
+  drop.width = 420;
+  drop.height = 310;
   drop.centre = {200, 160};
   drop.radius = 120;
   drop.step = 40;
