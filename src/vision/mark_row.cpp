@@ -133,16 +133,15 @@ std::vector<RowMark> marks_of(const Look& at, const TurnedPicture& turned) {
   return marks;
 }
 
-/// Where only every second or third place has a mark, the pitch is twice or three times what was thought.
-/// Numbers the marks anew and returns how many places go to one.
-int thin_out(std::vector<RowMark>& marks) {
+/// Where only every second or third place has a mark, the pitch is twice or three times what was thought: how
+/// many places go to one mark.
+int places_for_one(const std::vector<RowMark>& marks) {
   for (const int step : {2, 3})
     for (int rest = 0; rest < step; ++rest) {
-      const auto off = [&](const RowMark& m) { return (m.index % step + step) % step != rest; };
-      if (double(std::count_if(marks.begin(), marks.end(), off)) > 0.15 * double(marks.size())) continue;
-      marks.erase(std::remove_if(marks.begin(), marks.end(), off), marks.end());
-      for (RowMark& m : marks) m.index = (m.index - rest) / step;
-      return step;
+      const auto off = std::count_if(marks.begin(), marks.end(), [&](const RowMark& m) {
+        return (m.index % step + step) % step != rest;
+      });
+      if (double(off) <= 0.15 * double(marks.size())) return step;
     }
   return 1;
 }
@@ -198,8 +197,6 @@ std::optional<MarkRow> row_of(const Look& at, const TurnedPicture& turned, int s
   MarkRow row;
   row.marks = marks_of(at, turned);
   if (int(row.marks.size()) < kLeastMarks) return std::nullopt;
-  const int places = thin_out(row.marks);
-  if (int(row.marks.size()) < kLeastMarks) return std::nullopt;
   fit_line(row);
   row.angle = at.angle - std::atan(at.plane.lean);
   const double shrink = 1 / std::hypot(1, at.plane.lean);
@@ -217,7 +214,7 @@ std::optional<MarkRow> row_of(const Look& at, const TurnedPicture& turned, int s
   row.height_px = high - low + strip;
   row.area_px = count * strip * row.pitch_px;
   const int span = row.marks.back().index - row.marks.front().index + 1;
-  row.complete = std::min(1.0, count * places / at.readings.possible * double(row.marks.size()) / span);
+  row.complete = std::min(1.0, count / at.readings.possible * double(row.marks.size()) / span);
   const Vec2 centre{shape.centre_px() * std::cos(row.angle), shape.centre_px() * std::sin(row.angle)};
   for (RowMark& m : row.marks) {
     m.from_image = m.from_image + centre;
@@ -240,13 +237,23 @@ const TurnedPicture& RowMeter::turned(double angle) {
 std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint) {
   // Thin strips forgive a wrong angle, tall ones a noisy picture.
   const auto thin =
-      measure(hint, std::clamp(int(hint.pitch_px / 3), 3, std::max(3, std::min(8, hint.height_px))));
+      measure_marks(hint, std::clamp(int(hint.pitch_px / 3), 3, std::max(3, std::min(8, hint.height_px))));
   if ((thin && thin->complete > 0.8) || hint.height_px < 12) return thin;
-  const auto tall = measure(hint, std::min(hint.height_px, 18));
+  const auto tall = measure_marks(hint, std::min(hint.height_px, 18));
   return !thin || (tall && tall->complete * tall->area_px > thin->complete * thin->area_px) ? tall : thin;
 }
 
-std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint, int strip) {
+std::optional<MarkRow> RowMeter::measure_marks(const PeriodHint& hint, int strip) {
+  const auto row = measure_places(hint, strip);
+  const int places = row ? places_for_one(row->marks) : 1;
+  if (places == 1) return row;
+  PeriodHint wider = hint;
+  wider.pitch_px *= places;
+  const auto again = measure_places(wider, strip);
+  return again && places_for_one(again->marks) == 1 ? again : std::nullopt;
+}
+
+std::optional<MarkRow> RowMeter::measure_places(const PeriodHint& hint, int strip) {
   Look at{hint.angle, hint.pitch_px, hint.across_px, hint.height_px, {}, {}};
   std::optional<TurnedPicture> straight;
   MarkShape shape({}, {}, at.pitch);

@@ -49,7 +49,8 @@ class RowMeter {
   std::optional<MarkRow> measure(const PeriodHint& hint);
 
  private:
-  std::optional<MarkRow> measure(const PeriodHint& hint, int strip_height);
+  std::optional<MarkRow> measure_marks(const PeriodHint& hint, int strip_height);
+  std::optional<MarkRow> measure_places(const PeriodHint& hint, int strip_height);
   const TurnedPicture& turned(double angle);
   const GrayF& picture_;
   std::map<double, TurnedPicture> turned_;  // by the angles of hints, which are few

@@ -16,6 +16,7 @@ constexpr int kMostMeasured = 60;  // hints that are looked into
 // kLongRow.
 constexpr double kLeastComplete = 0.7, kLeastPossible = 0.4;
 constexpr int kLongRow = 30;
+constexpr int kScaleMarks = 8;  // fewer do not make a second scale
 
 void check(const GrayF& picture, const RulerOptions& o) {
   if (picture.width < 24 || picture.height < 12)
@@ -149,8 +150,9 @@ Ruler find_ruler(const GrayF& picture, const RulerOptions& options) {
   Ruler ruler;
   for (const MarkRow& row : measured.rows) {
     if (&row == finest || goes_with(*finest, row, 0.02) || goes_with(row, *finest, 0.02)) continue;
-    // The lines of a grid are as far apart both ways.
-    if (row.area_px > 0.4 * finest->area_px && std::fabs(row.pitch_px / finest->pitch_px - 1) > 0.02)
+    // As much length of marks, or nearly; the lines of a grid are as far apart both ways.
+    const double share = row.area_px / row.pitch_px / (finest->area_px / finest->pitch_px);
+    if (share > 0.4 && row.used() >= kScaleMarks && std::fabs(row.pitch_px / finest->pitch_px - 1) > 0.02)
       throw Error(Errc::input, options.name,
                   fmt::format("shows two scales, with marks {:.2f} and {:.2f} px apart, and neither fits in "
                               "with the other; cut one out of the picture",
