@@ -16,7 +16,8 @@ constexpr int kMostMeasured = 60;  // hints that are looked into
 // kLongRow.
 constexpr double kLeastComplete = 0.7, kLeastPossible = 0.4;
 constexpr int kLongRow = 30;
-constexpr int kScaleMarks = 8;  // fewer do not make a second scale
+constexpr double kExact = 0.004;  // of the pitch; its strokes scatter by 0.008 and more
+constexpr int kScaleMarks = 8;    // fewer do not make a second scale
 
 void check(const GrayF& picture, const RulerOptions& o) {
   if (picture.width < 24 || picture.height < 12)
@@ -52,7 +53,8 @@ bool possible(const MarkRow& row, const RulerOptions& o) {
 }
 
 bool believable(const MarkRow& row, const RulerOptions& o) {
-  return possible(row, o) && (row.complete > kLeastComplete || row.used() >= kLongRow);
+  const bool exact = row.used() >= 8 && row.complete > 0.5 && row.residual_px < kExact * row.pitch_px;
+  return possible(row, o) && (row.complete > kLeastComplete || row.used() >= kLongRow || exact);
 }
 
 struct Measured {

@@ -93,7 +93,7 @@ TEST_CASE("rulers by lot: never another pitch, and inside the interval as often 
     try {
       r = find_ruler(render(s));
     } catch (const Error& e) {
-      MESSAGE(e.what());  // too faint a one may be refused, and counts as outside
+      MESSAGE(std::string(e.what()));  // too faint a one may be refused, and counts as outside
       continue;
     }
     ++found;
