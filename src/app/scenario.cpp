@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/calibration_file.h"
 #include "app/rig_file.h"
 #include "core/hash.h"
 #include "field/library.h"
@@ -260,6 +261,7 @@ void check_top_level(const Node& root) {
 
 Scenario read_scenario(Document d, const Parts& parts) {
   include_rig(d);
+  include_calibration(d);
   const Node root(d);
   check_top_level(root);
   Scenario s;
@@ -300,6 +302,10 @@ Json scenario_json_schema(const Parts& parts) {
   j["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   Json& p = j["properties"];
   p["scale"] = ScaleParams::schema().json_schema();
+  p["scale"]["properties"]["file"] = {
+      // include_calibration() puts um_per_px in its place
+      {"type", "string"},
+      {"description", "A calibration file of `faba scale`, in place of um_per_px"}};
   p["camera"] = Camera::schema().json_schema();
   p["microscope"] = MicroscopeParams::schema().json_schema();
   p["simulation"] = SimulationParams::schema().json_schema();

@@ -31,6 +31,11 @@ struct DropVerb {
   std::filesystem::path picture, overlay;
   bool force = false;
 };
+struct ScaleVerb {
+  std::filesystem::path ruler, out, overlay;
+  std::string tick;
+  bool force = false;
+};
 struct FieldVerb {
   std::filesystem::path rig, points, measured;
   std::string at = "0 mm, 0 mm", polarity = "north", size = "6 mm, 4.5 mm", current, view, drop;
@@ -79,6 +84,7 @@ int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
 int flow(const FlowVerb& v, const Common& c);
 int distance(const DistanceVerb& v, const Common& c);
+int scale(const ScaleVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
 int field_map(const FieldVerb& v, const Common& c);
 int field_library(const LibraryVerb& v, const Common& c);
