@@ -98,7 +98,8 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   a.fit = fit_gaussian(a.t_s, a.amount);
   mark_points(a);
   a.signal_to_noise = signal_to_noise(a);
-  a.responds = a.signal_to_noise >= kResponds;
+  a.responds =
+      a.signal_to_noise >= kResponds || (a.fit.good && a.fit.amplitude >= kResponds * a.fit.se_amplitude);
   if (!a.direction_given)
     a.notes.push_back(
         a.segments.empty()

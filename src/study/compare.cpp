@@ -15,6 +15,7 @@ namespace faba {
 namespace {
 
 constexpr double kReversalGap = 0.7;  // s between two opposite motions that make a reversal
+constexpr double kRise = 0.4;         // s before and after that a rise of activity is measured over
 constexpr double kOpposite = 120;     // degrees
 constexpr double kSamePeriod = 0.02;  // share by which frame periods may differ unsaid
 
@@ -22,20 +23,50 @@ bool is_run(const std::filesystem::path& p) { return std::filesystem::exists(p /
 
 /// Where a video's response begins.
 struct Beginning {
+  enum class By { nothing, rise, motion, reversal };
   double t0_s = 0, direction_deg = 0;
-  bool found = false, reversal = false;
+  By by = By::nothing;
 };
+const char* words_of(Beginning::By by) {
+  switch (by) {
+    case Beginning::By::reversal:
+      return "from the reversal of the motion on";
+    case Beginning::By::motion:
+      return "from the beginning of the first motion on";
+    case Beginning::By::rise:
+      return "from the steepest rise of activity on";
+    default:
+      return "from the first frame on: nothing moves";
+  }
+}
+
+// Where cells jump further than their size from frame to frame their flow has no direction, but begins all
+// the same.
+Beginning steepest_rise(const Signature& s) {
+  Beginning b;
+  double most = 0;
+  for (std::size_t k = 1; k < s.size(); ++k) {
+    double before = 0, after = 0;
+    int n = 0, m = 0;
+    for (std::size_t i = k; i-- > 0 && s.t0_s(k) - s.t0_s(i) <= kRise;) before += s.speed(i), ++n;
+    for (std::size_t i = k; i < s.size() && s.t1_s(i) - s.t0_s(k) <= kRise; ++i) after += s.speed(i), ++m;
+    if (n < 2 || m < 2) continue;
+    if (const double rise = after / m - before / n; rise > most)
+      most = rise, b = {s.t0_s(k), 0, Beginning::By::rise};
+  }
+  return b;
+}
 
 Beginning beginning_of(const Signature& s, std::optional<double> direction) {
   const std::vector<MotionSegment> segments = motion_segments(s, direction);
   Beginning b;
-  if (segments.empty()) return b;
-  b = {segments.front().t0_s, segments.front().direction_deg, true, false};
+  if (segments.empty()) return steepest_rise(s);
+  b = {segments.front().t0_s, segments.front().direction_deg, Beginning::By::motion};
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const double turn =
         std::fabs(std::remainder(segments[i].direction_deg - segments[i - 1].direction_deg, 360));
     if (turn < kOpposite || segments[i].t0_s - segments[i - 1].t1_s > kReversalGap) continue;
-    return {segments[i].t0_s, segments[i].direction_deg, true, true};
+    return {segments[i].t0_s, segments[i].direction_deg, Beginning::By::reversal};
   }
   return b;
 }
@@ -257,25 +288,24 @@ Comparison compare_videos(const CompareJob& job) {
     reference = beginning_of(comparer.signature(job.reference, c.filter.threshold_px), job.direction_deg);
   c.direction_given = job.direction_deg.has_value();
   c.filter.direction_deg = job.direction_deg.value_or(reference.direction_deg);
-  if (!c.direction_given && !reference.found)
+  if (!c.direction_given && reference.by < Beginning::By::motion)
     c.notes.push_back(
-        "nothing in the reference moves in one direction; give --direction, or expect the legacy distance "
-        "to be of noise");
+        "nothing in the reference goes one way, so that the legacy distance is that of all flow to the "
+        "right; "
+        "give --direction");
   c.reference_t0_s = job.reference_t0_s.value_or(job.align ? reference.t0_s : 0);
-  c.alignment = !job.align           ? "none: from the first frame on"
-                : job.reference_t0_s ? "as given"
-                : reference.reversal ? "from the reversal of the motion on"
-                : reference.found    ? "from the beginning of the first motion on"
-                                     : "nothing found: from the first frame on";
+  c.alignment = !job.align           ? "from the first frame on"
+                : job.reference_t0_s ? "from the moment given on"
+                                     : words_of(reference.by);
   for (const auto& file : job.runs) {
     double t0 = job.t0_s.value_or(0);
     bool lost = false;
     if (job.align && !job.t0_s) {
       const Beginning b = beginning_of(comparer.signature(file, c.filter.threshold_px), job.direction_deg);
-      t0 = b.t0_s, lost = !b.found;
+      t0 = b.t0_s, lost = b.by == Beginning::By::nothing;
     }
     ComparedRun run = comparer.compare(file, c.reference_t0_s, t0, c.filter);
-    if (lost) run.notes.push_back("nothing in it moves in one direction: taken from its first frame on");
+    if (lost) run.notes.push_back("nothing in it moves: taken from its first frame on");
     c.runs.push_back(std::move(run));
   }
   c.naive = comparer.compare({}, c.reference_t0_s, 0, c.filter).distance;
