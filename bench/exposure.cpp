@@ -67,9 +67,11 @@ void record(const std::string& scene, const Sample& sample, const std::filesyste
   writer.close();
 }
 
-ActivityResult study(const std::string& scene, std::uint64_t seed, bool noise,
+// Without noise, flow above `noise_free_above` counts; with it, what the videos themselves say.
+ActivityResult study(const std::string& scene, std::uint64_t seed, std::optional<double> noise_free_above,
                      const std::filesystem::path& folder, Pool& pool) {
   ActivityJob job;
+  job.threshold_px = noise_free_above;
   job.method = flow_part({}, published_flow());
   job.threads = pool.threads();
   for (int e = 0; e < kExperiments; ++e)
