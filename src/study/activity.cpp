@@ -12,7 +12,7 @@ namespace faba {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kBlock = 0.5;      // s, over which flow across the direction is taken for independent
+constexpr int kBlocks = 6;          // of a video, whose flow across the direction is taken for independent
 constexpr double kResponds = 4;     // standard errors
 constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
 
@@ -46,16 +46,15 @@ void mark_points(VideoActivity& a) {
 double signal_to_noise(const VideoActivity& a) {
   const Signature& s = a.signature;
   const Vec2 across{-std::sin(a.direction_deg * kDegree), std::cos(a.direction_deg * kDegree)};
-  double squares = 0, block = 0, begin = s.t0_s(0);
-  std::size_t in_block = 0, blocks = 0;
+  if (s.size() < 2 * kBlocks) return 0;  // too short to tell
+  double squares = 0, block = 0;
   for (std::size_t k = 0; k < s.size(); ++k) {
-    block += dot(s.sum(k), across), ++in_block;
-    if (s.t1_s(k) - begin < kBlock && k + 1 < s.size()) continue;
-    squares += block * block, ++blocks;
-    block = 0, in_block = 0, begin = s.t1_s(k);
+    block += dot(s.sum(k), across);
+    if ((k + 1) * kBlocks / s.size() == k * kBlocks / s.size()) continue;
+    squares += block * block;
+    block = 0;
   }
   const double total = a.mean_along * double(s.size()), error = std::sqrt(squares);
-  if (blocks < 4) return 0;  // too short to tell
   return error > 0 ? total / error : total > 0 ? 1e9 : 0;
 }
 
@@ -98,8 +97,9 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   a.fit = fit_gaussian(a.t_s, a.amount);
   mark_points(a);
   a.signal_to_noise = signal_to_noise(a);
-  a.responds =
-      a.signal_to_noise >= kResponds || (a.fit.good && a.fit.amplitude >= kResponds * a.fit.se_amplitude);
+  // Cells that respond to nothing crowd together by chance, too: a peak alone must at least double what there
+  // is.
+  a.responds = a.signal_to_noise >= kResponds || (a.fit.good && a.fit.amplitude > a.fit.offset);
   if (!a.direction_given)
     a.notes.push_back(
         a.segments.empty()
@@ -122,8 +122,7 @@ void conclude(ActivityResult& r) {
   r.cutoff = response_cutoff(responses);
   // A peak of a sample that no longer responds is one of noise.
   for (const VideoActivity& a : r.videos)
-    if (a.input.exposure_s && a.fit.good && a.responds &&
-        (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
+    if (a.input.exposure_s && has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
       peaks.push_back({*a.input.exposure_s, a.fit.peak_s, a.input.experiment});
   r.peak_line = mixed_line(peaks), r.peak_line_pooled = pooled_line(peaks);
   r.mean_line = mixed_line(means), r.mean_line_pooled = pooled_line(means);
@@ -164,6 +163,8 @@ struct Study {
 };
 
 }  // namespace
+
+bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
 
 ActivityResult measure_activity(const ActivityJob& job) {
   Pool pool(job.threads);

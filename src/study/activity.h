@@ -60,6 +60,10 @@ struct VideoActivity {
   std::vector<std::string> notes;
 };
 
+/// A good peak that at least doubles what there is: cells that respond to nothing crowd together by chance,
+/// too.
+bool has_peak(const VideoActivity& video);
+
 /// Everything about one or several videos.
 struct ActivityResult {
   std::vector<VideoActivity> videos;

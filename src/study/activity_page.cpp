@@ -86,8 +86,7 @@ Figure line_figure(const ActivityResult& r, bool of_peaks) {
     dots.label = name.empty() ? "" : "experiment " + name;
     for (const VideoActivity& a : r.videos) {
       if (!a.input.exposure_s || a.input.experiment != name) continue;
-      if (of_peaks && !(a.fit.good && a.responds && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s)))
-        continue;
+      if (of_peaks && !(has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))) continue;
       dots.x.push_back(*a.input.exposure_s), dots.y.push_back(of_peaks ? a.fit.peak_s : a.mean_amount);
     }
     p.add(std::move(dots));

@@ -9,6 +9,10 @@
 namespace faba {
 namespace {
 
+// F of the fit over a constant: of 3 and many degrees of freedom chance exceeds it once in a million, and
+// there are some hundred places and widths that a peak could have.
+constexpr double kGain = 10;
+
 /// Residuals in units of the largest value, over times in units of the series' length. The last unknown is
 /// the root of the offset: an activity is not below zero, and without that a broad peak would be the top of
 /// an endless one.
@@ -101,11 +105,21 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   fit.se_amplitude = se(0) * range, fit.se_peak_s = se(1) * length, fit.se_sigma_s = se(2) * length;
   fit.se_offset = 2 * std::fabs(x[3]) * se(3) * range;
   fit.scatter = std::sqrt(variance) * range;
+  double constant = 0, mean = 0;
+  for (const double v : y) mean += v / double(y.size());
+  for (const double v : y) constant += (v - mean) * (v - mean);
+  const double free_values = double(y.size()) / values_to_one(r) - 4;
+  const double gain =
+      free_values > 1 ? (constant / std::max(r.squaredNorm(), 1e-300) - 1) / 3 * free_values : 0;
   if (!(std::isfinite(x.sum()))) {
     fit = {};
     fit.why = "the fit came to no end";
   } else if (!(x[0] > 3 * std::sqrt(variance)))
     fit.why = "the peak is no higher than three times the scatter about it";
+  else if (!(fit.amplitude > 2 * fit.se_amplitude))
+    fit.why = "its height cannot be told from its width and offset";
+  else if (!(gain > kGain))
+    fit.why = "a constant fits nearly as well";
   else if (!(x[1] > 0 && x[1] < 1))
     fit.why = "the peak lies outside of the video";
   else if (!(x[2] < 1))
