@@ -1,0 +1,378 @@
+#include "study/track_statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kGroups = 20;  // of tracks, by number: the jackknife leaves out one after the other
+constexpr std::size_t kPilotPoints = 50000;
+constexpr std::size_t kTimeBins = 512;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLowSpeed = 1e-4;    // px per interval, where the logarithmic bins begin
+constexpr double kBinsPerDecade = 400;
+constexpr std::size_t kSpeedBins = 3600, kTurnBins = 720;
+
+// 1 to 8, then each a quarter longer.
+std::vector<int> lags_up_to(int most) {
+  std::vector<int> lags;
+  for (int k = 1; k <= most; k = k < 8 ? k + 1 : std::max(k + 1, k + k / 4)) lags.push_back(k);
+  return lags;
+}
+
+// Sums over pairs of sightings one lag apart.
+struct LagSums {
+  double n = 0, dt = 0, dx = 0, dy = 0, rr = 0;
+  LagSums& operator+=(const LagSums& o) {
+    n += o.n, dt += o.dt, dx += o.dx, dy += o.dy, rr += o.rr;
+    return *this;
+  }
+  LagSums without(const LagSums& o) const { return {n - o.n, dt - o.dt, dx - o.dx, dy - o.dy, rr - o.rr}; }
+  // Mean-square displacement about the mean one.
+  double msd() const { return (rr - (dx * dx + dy * dy) / n) / n; }
+};
+
+// Sums over pairs of displacements two frames apart.
+struct ProductSums {
+  double n = 0, dot = 0;
+};
+struct SpeedSums {
+  double n = 0, v = 0;
+};
+struct TurnSums {
+  double n = 0, size = 0, with_sign = 0;
+};
+
+struct Group {
+  std::vector<LagSums> lags;
+  ProductSums product;
+  SpeedSums speed;
+  TurnSums turn;
+  double tracks = 0;
+};
+
+// Where a track was, by the number of frame times since its first sighting; -1: not seen then.
+std::vector<int> slots_of(const Track& track, double frame_s) {
+  std::vector<int> slots;
+  for (std::size_t i = 0; i < track.points.size(); ++i) {
+    const auto at = std::size_t(std::lround((track.points[i].t_s - track.points[0].t_s) / frame_s));
+    if (at > 10000000) break;  // a pause of months in the time stamps
+    slots.resize(std::max(slots.size(), at + 1), -1);
+    slots[at] = int(i);
+  }
+  return slots;
+}
+
+// delete-one jackknife over the groups that hold tracks: value(left out) for each of them.
+template <class Value>
+double jackknife_se(const std::vector<Group>& groups, const Value& value) {
+  std::vector<double> v;
+  for (const Group& g : groups)
+    if (g.tracks > 0) v.push_back(value(g));
+  if (v.size() < 4) return kNaN;
+  double mean = 0, square = 0;
+  for (const double x : v) mean += x / double(v.size());
+  for (const double x : v) square += (x - mean) * (x - mean);
+  return std::sqrt(square * double(v.size() - 1) / double(v.size()));
+}
+
+// Sums over displacements in spans of time; when time runs out of spans they become twice as long.
+class TimeBins {
+ public:
+  explicit TimeBins(double span_s) : span_s_(span_s), x_(kTimeBins), y_(kTimeBins), length_(kTimeBins), n_(kTimeBins) {}
+  void add(double t_s, double vx, double vy) {
+    while (t_s / span_s_ >= double(kTimeBins)) fold();
+    const auto i = std::size_t(std::max(0.0, t_s / span_s_));
+    x_[i] += vx, y_[i] += vy, length_[i] += std::hypot(vx, vy), n_[i] += 1;
+  }
+  void give(TrackSummary& s) const {
+    std::size_t last = kTimeBins;
+    while (last > 0 && n_[last - 1] == 0) --last;
+    for (std::size_t i = 0; i < last; ++i) {
+      s.time_s.push_back((double(i) + 0.5) * span_s_);
+      s.velocity_x_px_s.push_back(n_[i] > 0 ? x_[i] / n_[i] : kNaN);
+      s.velocity_y_px_s.push_back(n_[i] > 0 ? y_[i] / n_[i] : kNaN);
+      s.order_in_time.push_back(length_[i] > 0 ? std::hypot(x_[i], y_[i]) / length_[i] : kNaN);
+    }
+  }
+
+ private:
+  void fold() {
+    for (auto* v : {&x_, &y_, &length_, &n_})
+      for (std::size_t i = 0; i < kTimeBins; ++i) {
+        const double sum = 2 * i + 1 < kTimeBins ? (*v)[2 * i] + (*v)[2 * i + 1] : 0;
+        (*v)[i] = sum;
+      }
+    span_s_ *= 2;
+  }
+  double span_s_;
+  std::vector<double> x_, y_, length_, n_;
+};
+
+double quantile_of(const std::vector<double>& counts, double share, const auto& value_at) {
+  double total = 0, sum = 0;
+  for (const double c : counts) total += c;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (sum + counts[i] >= share * total && counts[i] > 0)
+      return value_at(double(i) + std::clamp((share * total - sum) / counts[i], 0.0, 1.0));
+    sum += counts[i];
+  }
+  return kNaN;
+}
+
+}  // namespace
+
+struct TrackStatistics::Impl {
+  double frame_s;
+  int interval = 0;
+  bool settled = false;
+  double noise2 = 0;  // variance of an axis of a sighting, px^2
+  std::vector<int> lags;
+  std::vector<Group> groups = std::vector<Group>(kGroups);
+  std::vector<Track> pilot;
+  std::size_t pilot_points = 0;
+  std::uint64_t points = 0;
+  double track_count = 0;
+  std::vector<double> speed_bins = std::vector<double>(kSpeedBins), turn_bins = std::vector<double>(kTurnBins);
+  double sum_x = 0, sum_y = 0, sum_length = 0;
+  TimeBins in_time;
+
+  Impl(double frame, int frames) : frame_s(frame), interval(frames), lags(lags_up_to(400)), in_time(frame) {
+    for (Group& g : groups) g.lags.resize(lags.size());
+  }
+
+  void add_displacements(const Track& t);
+  void add_motion(const Track& t);
+  void settle();
+  LagSums all(std::size_t lag) const;
+  Msd msd_without(const Group* left_out) const;
+  double persistence_without(const Group* left_out) const;
+  void fit(TrackSummary& s) const;
+  void motion(TrackSummary& s) const;
+};
+
+LagSums TrackStatistics::Impl::all(std::size_t lag) const {
+  LagSums sum;
+  for (const Group& g : groups) sum += g.lags[lag];
+  return sum;
+}
+
+void TrackStatistics::Impl::add_displacements(const Track& t) {
+  Group& g = groups[t.number % kGroups];
+  const std::vector<int> slots = slots_of(t, frame_s);
+  const auto seen = [&](std::size_t slot) { return slot < slots.size() ? slots[slot] : -1; };
+  for (std::size_t k = 0; k < lags.size(); ++k) {
+    LagSums& sum = g.lags[k];
+    for (std::size_t i = 0; i + std::size_t(lags[k]) < slots.size(); ++i) {
+      const int a = seen(i), b = seen(i + std::size_t(lags[k]));
+      if (a < 0 || b < 0) continue;
+      const TrackPoint &p = t.points[std::size_t(a)], &q = t.points[std::size_t(b)];
+      const double dx = q.x_px - p.x_px, dy = q.y_px - p.y_px;
+      sum += {1, q.t_s - p.t_s, dx, dy, dx * dx + dy * dy};
+    }
+  }
+  for (std::size_t i = 0; i + 3 < slots.size(); ++i) {
+    std::array<int, 4> at{};
+    for (std::size_t k = 0; k < 4; ++k) at[k] = slots[i + k];
+    if (*std::min_element(at.begin(), at.end()) < 0) continue;
+    const auto& p = t.points;
+    const auto step = [&](std::size_t k) {
+      return Vec2{p[std::size_t(at[k + 1])].x_px - p[std::size_t(at[k])].x_px,
+                  p[std::size_t(at[k + 1])].y_px - p[std::size_t(at[k])].y_px};
+    };
+    g.product.n += 1, g.product.dot += dot(step(0), step(2));
+  }
+}
+
+// Speeds and turns over the interval, from displacements that follow one on the other.
+void TrackStatistics::Impl::add_motion(const Track& t) {
+  Group& g = groups[t.number % kGroups];
+  const std::vector<int> slots = slots_of(t, frame_s);
+  const auto step = std::size_t(interval);
+  Vec2 last;
+  bool has_last = false;
+  for (std::size_t i = 0; i + step < slots.size(); i += step) {
+    const int a = slots[i], b = slots[i + step];
+    if (a < 0 || b < 0) {
+      has_last = false;
+      continue;
+    }
+    const TrackPoint &p = t.points[std::size_t(a)], &q = t.points[std::size_t(b)];
+    const Vec2 d{q.x_px - p.x_px, q.y_px - p.y_px};
+    const double dt = q.t_s - p.t_s;
+    // Across the direction of motion the error makes displacements longer, along it neither (theory G2).
+    const double length = std::sqrt(std::max(0.0, dot(d, d) - 2 * noise2)), v = length / dt;
+    g.speed.n += 1, g.speed.v += v;
+    const double bin = length > kLowSpeed ? kBinsPerDecade * std::log10(length / kLowSpeed) : 0;
+    speed_bins[std::min(kSpeedBins - 1, std::size_t(bin))] += 1;
+    sum_x += d.x / dt, sum_y += d.y / dt, sum_length += norm(d) / dt;
+    in_time.add(0.5 * (p.t_s + q.t_s), d.x / dt, d.y / dt);
+    const bool clear = dot(d, d) > 9 * 2 * noise2 && dot(d, d) > 0;
+    if (clear && has_last) {
+      const double turn = std::atan2(last.x * d.y - last.y * d.x, dot(last, d));
+      g.turn.n += 1, g.turn.size += std::fabs(turn) / dt, g.turn.with_sign += turn / dt;
+      turn_bins[std::min(kTurnBins - 1, std::size_t(std::fabs(turn) / std::numbers::pi * double(kTurnBins)))] += 1;
+    }
+    last = d, has_last = clear;
+  }
+}
+
+Msd TrackStatistics::Impl::msd_without(const Group* left_out) const {
+  Msd m;
+  double first = 0;
+  for (std::size_t k = 0; k < lags.size(); ++k) {
+    LagSums sum = all(k);
+    if (k == 0) first = sum.n;
+    if (sum.n < 20 || sum.n < 0.02 * first) break;
+    double se = 0;
+    if (left_out) {
+      sum = sum.without(left_out->lags[k]);
+      if (sum.n < 2) break;
+    } else {
+      se = jackknife_se(groups, [&](const Group& g) {
+        const LagSums rest = sum.without(g.lags[k]);
+        return rest.n > 1 ? rest.msd() : sum.msd();
+      });
+    }
+    m.lag_s.push_back(sum.dt / sum.n), m.msd_px2.push_back(sum.msd());
+    m.se_px2.push_back(se), m.pairs.push_back(sum.n);
+  }
+  return m;
+}
+
+double TrackStatistics::Impl::persistence_without(const Group* left_out) const {
+  double n = 0, sum = 0;
+  for (const Group& g : groups)
+    if (&g != left_out) n += g.product.n, sum += g.product.dot;
+  LagSums one = all(0);
+  if (left_out) one = one.without(left_out->lags[0]);
+  if (n < 1 || one.n < 1) return kNaN;
+  return sum / n - (one.dx * one.dx + one.dy * one.dy) / (one.n * one.n);
+}
+
+void TrackStatistics::Impl::fit(TrackSummary& s) const {
+  s.msd = msd_without(nullptr);
+  const LagSums one = all(0);
+  const auto drift = [&](bool x) {
+    const auto value = [&](const LagSums& l) { return l.dt > 0 ? (x ? l.dx : l.dy) / l.dt : kNaN; };
+    return Estimated{value(one), jackknife_se(groups, [&](const Group& g) { return value(one.without(g.lags[0])); })};
+  };
+  s.drift_x_px_s = drift(true), s.drift_y_px_s = drift(false);
+  s.persistence_px2 = {persistence_without(nullptr),
+                       jackknife_se(groups, [&](const Group& g) { return persistence_without(&g); })};
+  s.persists = s.persistence_px2.value > 3 * s.persistence_px2.se;
+  s.diffusion = fit_diffusion(s.msd);
+  s.persistent = fit_persistent(s.msd);
+  const double offset = s.persists && s.persistent.good ? s.persistent.offset_px2 : s.diffusion.offset_px2;
+  s.localisation_px = std::sqrt(std::max(0.0, offset / 4));
+  // The same lags and weights with each group left out.
+  const auto left_out = [&](const Group& g) {
+    Msd m = msd_without(&g);
+    for (std::size_t k = 0; k < m.size(); ++k) m.se_px2[k] = s.msd.se_px2[k];
+    return m;
+  };
+  s.d_px2_s = {s.diffusion.d_px2_s,
+               jackknife_se(groups, [&](const Group& g) { return fit_diffusion(left_out(g), s.diffusion.lags).d_px2_s; })};
+  s.speed_rms_px_s = {s.persistent.speed_px_s,
+                      jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).speed_px_s; })};
+  s.tau_s = {s.persistent.tau_s, jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).tau_s; })};
+  s.alpha = {fit_exponent(s.msd, offset),
+             jackknife_se(groups, [&](const Group& g) { return fit_exponent(left_out(g), offset); })};
+}
+
+void TrackStatistics::Impl::settle() {
+  settled = true;
+  TrackSummary s;
+  fit(s);
+  noise2 = s.localisation_px * s.localisation_px;
+  if (interval <= 0) {
+    interval = 1;
+    const double enough = 100 * 2 * noise2;
+    const double most_s = s.persists && s.persistent.good ? 0.1 * s.persistent.tau_s : frame_s;
+    for (std::size_t k = 0; k < s.msd.size(); ++k) {
+      if (k > 0 && s.msd.lag_s[k] > most_s) break;
+      interval = lags[k];
+      if (s.msd.msd_px2[k] - 4 * noise2 > enough) break;
+    }
+  }
+  for (const Track& t : pilot) add_motion(t);
+  pilot.clear();
+}
+
+void TrackStatistics::Impl::motion(TrackSummary& s) const {
+  s.interval_frames = interval;
+  s.interval_s = interval * frame_s;
+  const auto mean_of = [&](const auto& n_of, const auto& sum_of, double scale) {
+    double n = 0, sum = 0;
+    for (const Group& g : groups) n += n_of(g), sum += sum_of(g);
+    if (n < 1) return Estimated{kNaN, kNaN};
+    const auto rest = [&](const Group& g) { return n - n_of(g) > 0 ? scale * (sum - sum_of(g)) / (n - n_of(g)) : kNaN; };
+    return Estimated{scale * sum / n, jackknife_se(groups, rest)};
+  };
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  s.mean_speed_px_s = mean_of([](const Group& g) { return g.speed.n; }, [](const Group& g) { return g.speed.v; }, 1);
+  s.turn_deg_s = mean_of([](const Group& g) { return g.turn.n; }, [](const Group& g) { return g.turn.size; }, kDegrees);
+  s.signed_turn_deg_s =
+      mean_of([](const Group& g) { return g.turn.n; }, [](const Group& g) { return g.turn.with_sign; }, kDegrees);
+  for (const Group& g : groups) s.speed_count += std::uint64_t(g.speed.n), s.turn_count += std::uint64_t(g.turn.n);
+  const auto speed_at = [&](double bin) {
+    return bin < 1 ? 0.0 : kLowSpeed * std::pow(10, bin / kBinsPerDecade) / s.interval_s;
+  };
+  const auto turn_at = [&](double bin) { return bin / double(kTurnBins) * 180 / s.interval_s; };
+  for (const double q : {0.1, 0.5, 0.9}) {
+    s.speed_quantiles_px_s.push_back(quantile_of(speed_bins, q, speed_at));
+    s.turn_quantiles_deg_s.push_back(quantile_of(turn_bins, q, turn_at));
+  }
+  s.order = sum_length > 0 ? std::hypot(sum_x, sum_y) / sum_length : kNaN;
+  const double typical = s.speed_quantiles_px_s[1] * s.interval_s;
+  if (typical > 0)
+    s.turn_noise_deg_s = std::sqrt(2 / std::numbers::pi) * kDegrees * std::sqrt(6 * noise2) / typical / s.interval_s;
+  in_time.give(s);
+  // Bins of equal width out to the 99.5 % quantile; the last one takes the rest.
+  const double most = quantile_of(speed_bins, 0.995, speed_at);
+  if (!(most > 0)) return;
+  const auto bins = std::size_t(std::clamp(std::sqrt(double(s.speed_count)), 8.0, 40.0));
+  s.speeds_px_s.counts.resize(bins);
+  for (std::size_t i = 0; i <= bins; ++i) s.speeds_px_s.edges.push_back(most * double(i) / double(bins));
+  for (std::size_t i = 0; i < kSpeedBins; ++i) {
+    const double v = speed_at(double(i) + 0.5);
+    if (v <= most) s.speeds_px_s.counts[std::min(bins - 1, std::size_t(v / most * double(bins)))] += speed_bins[i];
+  }
+}
+
+TrackStatistics::TrackStatistics(double frame_s, int interval_frames)
+    : impl_(std::make_unique<Impl>(frame_s, interval_frames)) {}
+TrackStatistics::~TrackStatistics() = default;
+TrackStatistics::TrackStatistics(TrackStatistics&&) noexcept = default;
+TrackStatistics& TrackStatistics::operator=(TrackStatistics&&) noexcept = default;
+
+void TrackStatistics::take(const Track& track) {
+  Impl& me = *impl_;
+  if (track.points.empty()) return;
+  me.points += track.points.size();
+  if (!track.goes_on) me.track_count += 1, me.groups[track.number % kGroups].tracks += 1;
+  me.add_displacements(track);
+  if (me.settled) return me.add_motion(track);
+  me.pilot.push_back(track);
+  me.pilot_points += track.points.size();
+  if (me.pilot_points >= kPilotPoints) me.settle();
+}
+
+TrackSummary TrackStatistics::summary() {
+  Impl& me = *impl_;
+  TrackSummary s;
+  s.tracks = std::uint64_t(me.track_count);
+  s.points = me.points;
+  s.mean_points = me.track_count > 0 ? double(me.points) / me.track_count : 0;
+  if (me.points == 0) return s;
+  if (!me.settled) me.settle();
+  me.fit(s);
+  me.motion(s);
+  return s;
+}
+
+}  // namespace faba
