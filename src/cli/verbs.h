@@ -30,6 +30,14 @@ struct DropVerb {
   std::filesystem::path picture, overlay;
   bool force = false;
 };
+struct TrackVerb {
+  std::filesystem::path video, overlay, report, picture, figures;
+  std::vector<std::filesystem::path> out;
+  std::string polarity = "auto", background = "auto", motion = "auto";
+  double fps = 0, um_per_px = 0, size_px = 0, threshold = 0, reach_px = 0;
+  int memory = 2, least = 3, interval = 0;
+  bool drop = false, force = false;
+};
 struct FieldVerb {
   std::filesystem::path rig, points, measured;
   std::string at = "0 mm, 0 mm", polarity = "north", size = "6 mm, 4.5 mm", current, view, drop;
@@ -58,6 +66,7 @@ std::string shell_word(const std::string& word);
 int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
+int track(const TrackVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
 int field_map(const FieldVerb& v, const Common& c);
 int field_library(const LibraryVerb& v, const Common& c);

@@ -57,22 +57,23 @@ Linear solve_for(const Msd& m, double tau) {
 
 }  // namespace
 
-DiffusionFit fit_diffusion(const Msd& m, std::size_t lags) {
+DiffusionFit fit_diffusion(const Msd& m, std::size_t first, std::size_t lags) {
   DiffusionFit fit;
-  const std::size_t all = m.size();
-  if (all < 2) return fit;
-  std::size_t use = lags > 0 ? lags : std::min<std::size_t>(4, all);
+  const std::size_t all = m.size() > first ? m.size() - first : 0;
+  if (all < 2) return first > 0 ? fit_diffusion(m, 0, lags) : fit;
+  const std::size_t least = first > 0 ? 4 : 2;
+  std::size_t use = lags > 0 ? lags : 4;
   for (int round = 0; round < 10; ++round) {
-    use = std::clamp<std::size_t>(use, 2, all);
+    use = std::min(std::max(use, least), all);
     std::vector<double> x, y, w;
-    for (std::size_t k = 0; k < use; ++k)
+    for (std::size_t k = first; k < first + use; ++k)
       x.push_back(m.lag_s[k]), y.push_back(m.msd_px2[k]), w.push_back(weight_of(m, k));
     const StraightLine line = straight_line(x, y, w);
-    fit = {true, line.slope / 4, line.offset, use};
+    fit = {true, line.slope / 4, line.offset, first, use};
     if (lags > 0 || !(line.slope > 0)) break;
     // Ratio of the localisation error to the displacement of one frame.
     const double ratio = std::max(0.0, line.offset / 4) / (fit.d_px2_s * m.lag_s[0]);
-    const auto best = std::size_t(std::floor(2 + 2.3 * std::pow(ratio, 0.52)));
+    const auto best = std::max(least, std::size_t(std::floor(2 + 2.3 * std::pow(ratio, 0.52))));
     if (best == use) break;
     use = best;
   }
@@ -98,10 +99,10 @@ PersistentFit fit_persistent(const Msd& m) {
   return fit;
 }
 
-double fit_exponent(const Msd& m, double offset) {
+double fit_exponent(const Msd& m, double offset, std::size_t first) {
   std::vector<double> x, y, w;
   const double taken_off = std::max(0.0, offset);
-  for (std::size_t k = 0; k < m.size(); ++k) {
+  for (std::size_t k = first; k < m.size(); ++k) {
     const double left = m.msd_px2[k] - offset;
     if (!(left > taken_off) || !(left > 0)) continue;
     x.push_back(std::log(m.lag_s[k])), y.push_back(std::log(left));

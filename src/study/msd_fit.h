@@ -17,7 +17,7 @@ struct DiffusionFit {
   bool good = false;
   double d_px2_s = 0;
   double offset_px2 = 0;  ///< 4 s^2; negative when motion blur outweighs the localisation error
-  std::size_t lags = 0;   ///< the first ones, that the fit rests on
+  std::size_t first = 0, lags = 0;  ///< the lags that the fit rests on: where they begin, and how many
 };
 
 /// MSD = 2 v^2 tau^2 (t/tau - 1 + exp(-t/tau)) + 4 s^2 (theory G4): what swims at a speed v and forgets its
@@ -30,18 +30,19 @@ struct PersistentFit {
   double offset_px2 = 0;   ///< 4 s^2, not negative
 };
 
-/// Straight line through the first lags by weighted least squares. `lags`: how many; 0 takes the number that is
-/// best for the ratio of localisation error to displacement (Michalet and Berglund, theory G3), found by
-/// repeating the fit. At least two values, else not good.
-DiffusionFit fit_diffusion(const Msd& msd, std::size_t lags = 0);
+/// Straight line by weighted least squares through `lags` values from the index `first` on. lags = 0 takes the
+/// number that is best for the ratio of localisation error to displacement (Michalet and Berglund, theory G3),
+/// found by repeating the fit, and four at least when first > 0. At least two values, else not good.
+DiffusionFit fit_diffusion(const Msd& msd, std::size_t first = 0, std::size_t lags = 0);
 
 /// Weighted least squares over all lags: tau by a search over four decades, v^2 and s^2, both not negative, in
 /// closed form for each tau. At least four values, else not good.
 PersistentFit fit_persistent(const Msd& msd);
 
-/// Exponent alpha of MSD - offset ~ t^alpha, weighted straight line through the logarithms of the lags at which
-/// the MSD is over twice the offset: 1 diffusion, 2 straight motion. NaN with fewer than three such lags.
-double fit_exponent(const Msd& msd, double offset_px2);
+/// Exponent alpha of MSD - offset ~ t^alpha, weighted straight line through the logarithms of the lags from
+/// the index `first` on at which the MSD is over twice the offset: 1 diffusion, 2 straight motion. NaN with fewer
+/// than three such lags.
+double fit_exponent(const Msd& msd, double offset_px2, std::size_t first = 0);
 
 /// The curves, for drawing.
 double diffusion_msd(const DiffusionFit& fit, double lag_s);

@@ -85,6 +85,7 @@ RunInfo read_run_info(const std::filesystem::path& path) {
   info.threads = keys.text("threads");
   info.state_hash = keys.text("state_hash");
   info.scenario_hash = keys.text("scenario_hash");
+  info.video_shows = keys.text("video_shows");
   if (const Json* complete = keys.find("complete")) {
     if (!complete->is_boolean()) keys.fail("complete", "true or false");
     info.complete = complete->get<bool>();

@@ -1,8 +1,8 @@
 #include "study/track_statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -16,6 +16,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLowSpeed = 1e-4;    // px per interval, where the logarithmic bins begin
 constexpr double kBinsPerDecade = 400;
 constexpr std::size_t kSpeedBins = 3600, kTurnBins = 720;
+constexpr std::size_t kScales[] = {1, 2, 4, 8};  // frames, over which it is asked whether direction is kept
+constexpr std::size_t kMostMemory = 12;          // frames, for which places may hang together by blur or codec
+constexpr double kClear = 3;                     // standard errors
+constexpr double kKept = 0.2;  // of the squared displacement; a walk that forgets in one frame has 0.2
 
 // 1 to 8, then each a quarter longer.
 std::vector<int> lags_up_to(int most) {
@@ -36,8 +40,9 @@ struct LagSums {
   double msd() const { return (rr - (dx * dx + dy * dy) / n) / n; }
 };
 
-// Sums over pairs of displacements two frames apart.
+// Sums over pairs of displacements: of `over` frames, the second beginning `apart` frames after the first.
 struct ProductSums {
+  std::size_t over = 1, apart = 2;
   double n = 0, dot = 0;
 };
 struct SpeedSums {
@@ -49,7 +54,8 @@ struct TurnSums {
 
 struct Group {
   std::vector<LagSums> lags;
-  ProductSums product;
+  std::vector<ProductSums> kept;    ///< one for each of kScales: the pause between is as long as the displacements
+  std::vector<ProductSums> memory;  ///< displacements of one frame, 2 to kMostMemory frames apart
   SpeedSums speed;
   TurnSums turn;
   double tracks = 0;
@@ -142,7 +148,11 @@ struct TrackStatistics::Impl {
   TimeBins in_time;
 
   Impl(double frame, int frames) : frame_s(frame), interval(frames), lags(lags_up_to(400)), in_time(frame) {
-    for (Group& g : groups) g.lags.resize(lags.size());
+    for (Group& g : groups) {
+      g.lags.resize(lags.size());
+      for (const std::size_t m : kScales) g.kept.push_back({m, 2 * m});
+      for (std::size_t k = 2; k <= kMostMemory; ++k) g.memory.push_back({1, k});
+    }
   }
 
   void add_displacements(const Track& t);
@@ -150,7 +160,8 @@ struct TrackStatistics::Impl {
   void settle();
   LagSums all(std::size_t lag) const;
   Msd msd_without(const Group* left_out) const;
-  double persistence_without(const Group* left_out) const;
+  Estimated product(std::size_t which, std::vector<ProductSums> Group::*list) const;
+  void weigh_persistence(TrackSummary& s) const;
   void fit(TrackSummary& s) const;
   void motion(TrackSummary& s) const;
 };
@@ -175,17 +186,14 @@ void TrackStatistics::Impl::add_displacements(const Track& t) {
       sum += {1, q.t_s - p.t_s, dx, dy, dx * dx + dy * dy};
     }
   }
-  for (std::size_t i = 0; i + 3 < slots.size(); ++i) {
-    std::array<int, 4> at{};
-    for (std::size_t k = 0; k < 4; ++k) at[k] = slots[i + k];
-    if (*std::min_element(at.begin(), at.end()) < 0) continue;
-    const auto& p = t.points;
-    const auto step = [&](std::size_t k) {
-      return Vec2{p[std::size_t(at[k + 1])].x_px - p[std::size_t(at[k])].x_px,
-                  p[std::size_t(at[k + 1])].y_px - p[std::size_t(at[k])].y_px};
-    };
-    g.product.n += 1, g.product.dot += dot(step(0), step(2));
-  }
+  const auto place = [&](int at) { return Vec2{t.points[std::size_t(at)].x_px, t.points[std::size_t(at)].y_px}; };
+  for (auto* products : {&g.kept, &g.memory})
+    for (ProductSums& p : *products)
+      for (std::size_t i = 0; i + p.apart + p.over < slots.size(); ++i) {
+        const int a = slots[i], b = slots[i + p.over], c = slots[i + p.apart], d = slots[i + p.apart + p.over];
+        if (a < 0 || b < 0 || c < 0 || d < 0) continue;
+        p.n += 1, p.dot += dot(place(b) - place(a), place(d) - place(c));
+      }
 }
 
 // Speeds and turns over the interval, from displacements that follow one on the other.
@@ -244,14 +252,38 @@ Msd TrackStatistics::Impl::msd_without(const Group* left_out) const {
   return m;
 }
 
-double TrackStatistics::Impl::persistence_without(const Group* left_out) const {
-  double n = 0, sum = 0;
-  for (const Group& g : groups)
-    if (&g != left_out) n += g.product.n, sum += g.product.dot;
-  LagSums one = all(0);
-  if (left_out) one = one.without(left_out->lags[0]);
-  if (n < 1 || one.n < 1) return kNaN;
-  return sum / n - (one.dx * one.dx + one.dy * one.dy) / (one.n * one.n);
+// Mean product of two displacements, about what the common drift alone would give.
+Estimated TrackStatistics::Impl::product(std::size_t which, std::vector<ProductSums> Group::*list) const {
+  const auto without = [&](const Group* left_out) {
+    double n = 0, sum = 0, over = 0;
+    for (const Group& g : groups)
+      if (&g != left_out) n += (g.*list)[which].n, sum += (g.*list)[which].dot, over = double((g.*list)[which].over);
+    LagSums one = all(0);
+    if (left_out) one = one.without(left_out->lags[0]);
+    if (n < 1 || one.n < 1) return kNaN;
+    const Vec2 drift{over * one.dx / one.n, over * one.dy / one.n};
+    return sum / n - dot(drift, drift);
+  };
+  return {without(nullptr), jackknife_se(groups, [&](const Group& g) { return without(&g); })};
+}
+
+void TrackStatistics::Impl::weigh_persistence(TrackSummary& s) const {
+  s.persistence = {0, kNaN};
+  for (std::size_t i = 0; i < std::size(kScales); ++i) {
+    const auto lag = std::size_t(std::find(lags.begin(), lags.end(), int(kScales[i])) - lags.begin());
+    if (lag >= s.msd.size()) break;
+    const Estimated p = product(i, &Group::kept);
+    const double share = p.value / s.msd.msd_px2[lag], se = p.se / s.msd.msd_px2[lag];
+    // With too few tracks for a standard error only what is plain counts.
+    const bool clear = std::isfinite(se) ? share > kClear * se && share > kKept : share > 2 * kKept;
+    if (clear) s.persists = true;
+    if (share > s.persistence.value) s.persistence = {share, se}, s.persistence_scale_s = s.msd.lag_s[lag];
+  }
+  for (std::size_t k = 0; k < kMostMemory - 1; ++k) {
+    const Estimated p = product(k, &Group::memory);
+    if (!(p.value > kClear * p.se)) break;
+    s.memory_frames = int(k) + 2;
+  }
 }
 
 void TrackStatistics::Impl::fit(TrackSummary& s) const {
@@ -262,10 +294,9 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
     return Estimated{value(one), jackknife_se(groups, [&](const Group& g) { return value(one.without(g.lags[0])); })};
   };
   s.drift_x_px_s = drift(true), s.drift_y_px_s = drift(false);
-  s.persistence_px2 = {persistence_without(nullptr),
-                       jackknife_se(groups, [&](const Group& g) { return persistence_without(&g); })};
-  s.persists = s.persistence_px2.value > 3 * s.persistence_px2.se;
-  s.diffusion = fit_diffusion(s.msd);
+  weigh_persistence(s);
+  const auto skipped = s.persists ? 0 : std::size_t(std::lower_bound(lags.begin(), lags.end(), s.memory_frames) - lags.begin());
+  s.diffusion = fit_diffusion(s.msd, skipped);
   s.persistent = fit_persistent(s.msd);
   const double offset = s.persists && s.persistent.good ? s.persistent.offset_px2 : s.diffusion.offset_px2;
   s.localisation_px = std::sqrt(std::max(0.0, offset / 4));
@@ -276,12 +307,12 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
     return m;
   };
   s.d_px2_s = {s.diffusion.d_px2_s,
-               jackknife_se(groups, [&](const Group& g) { return fit_diffusion(left_out(g), s.diffusion.lags).d_px2_s; })};
+               jackknife_se(groups, [&](const Group& g) { return fit_diffusion(left_out(g), s.diffusion.first, s.diffusion.lags).d_px2_s; })};
   s.speed_rms_px_s = {s.persistent.speed_px_s,
                       jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).speed_px_s; })};
   s.tau_s = {s.persistent.tau_s, jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).tau_s; })};
-  s.alpha = {fit_exponent(s.msd, offset),
-             jackknife_se(groups, [&](const Group& g) { return fit_exponent(left_out(g), offset); })};
+  s.alpha = {fit_exponent(s.msd, offset, skipped),
+             jackknife_se(groups, [&](const Group& g) { return fit_exponent(left_out(g), offset, skipped); })};
 }
 
 void TrackStatistics::Impl::settle() {

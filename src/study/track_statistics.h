@@ -31,8 +31,15 @@ struct TrackSummary {
   PersistentFit persistent;
   Estimated speed_rms_px_s, tau_s;         ///< of the persistent walk
   Estimated alpha;
-  Estimated persistence_px2;  ///< mean product of displacements two frames apart, about the drift: 0 for diffusion
-  bool persists = false;      ///< persistence over 3 standard errors above nothing: the walk is the persistent one
+  /// Mean product of two displacements with a pause of the same length between them, about the drift, over the
+  /// mean-square displacement; over 1, 2, 4 or 8 frames, where it is largest. 0 for diffusion, whatever the
+  /// localisation error; 1 for straight motion.
+  Estimated persistence;
+  double persistence_scale_s = 0;
+  bool persists = false;  ///< at some scale over 0.2 and over 3 standard errors: the walk is the persistent one
+  /// Frames over which successive places hang together more than chance, as by exposure or a codec that carries
+  /// pixels over from the frame before; 0: not at all. Lags up to it are left out of the diffusion fit.
+  int memory_frames = 0;
   double localisation_px = 0;  ///< sd of an axis, from the offset of the fit that is supported; 0 when negative
 
   int interval_frames = 1;

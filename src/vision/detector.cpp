@@ -154,14 +154,17 @@ double spot_size(const GrayF& frame, const Background& background, Polarity pola
   for (double size = 2; size < 31; size *= 1.2) {
     const double sd = size / kFwhmPerSd;
     if (8 * sd > std::min(frame.width, frame.height)) break;
+    // Over what white noise would leave: the picture's own noise is no measure here, since what is out of focus
+    // and what a codec smoothed away make it differ from size to size.
+    const double gain = noise_law(sd).gain;
     std::vector<double> snr;
     for (const double sign : {-1.0, 1.0}) {
       if (polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
       const GrayF response = band_passed(difference_of(frame, background, sign), sd);
-      const float noise = std::max(spread_of(response), float(noise_law(sd).gain) * 0.25F);
+      const float noise = std::max(spread_of(response), float(gain) * 0.25F);
       const float least = float(kLeastSnr) * noise;
       for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, [&](std::size_t) { return least; }))
-        snr.push_back(double(m.value) / double(noise));
+        snr.push_back(double(m.value) / gain);
     }
     std::sort(snr.begin(), snr.end(), std::greater<>());
     // The same number of maxima at every size: that of the strongest fifth where they first stand out.

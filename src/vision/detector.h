@@ -72,8 +72,8 @@ class Detector {
 /// behind the band pass for spots of `size_px`.
 double detection_threshold(double size_px, double pixels, double false_alarms);
 
-/// The size that fits a frame's spots best: of 2, 2.4, 2.9 ... 30 px the one whose matched filter gives the
-/// most signal-to-noise at the strongest maxima. 0 when nothing stands out at any size.
+/// The size that fits a frame's spots best: of 2, 2.4, 2.9 ... 30 px the one whose matched filter would
+/// stand out most from white noise at the strongest maxima. 0 when nothing stands out at any size.
 double spot_size(const GrayF& frame, const Background& background, Polarity polarity);
 
 }  // namespace faba
