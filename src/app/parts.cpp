@@ -20,6 +20,8 @@ namespace faba {
   X(motility, motility_thesis) \
   X(estimator, mean)           \
   X(estimator, visible)        \
+  X(estimator, image)          \
+  X(estimator, groups)         \
   X(reference, none)           \
   X(reference, hold)           \
   X(reference, route)          \

@@ -43,12 +43,13 @@ void check_outputs(const TrackVerb& v) {
   check_output(v.report, ".html", v.force, {v.video});
   check_output(v.picture, ".png", v.force, {v.video});
   if (!v.figures.empty())
-    for (const char* name : {"speeds.svg", "msd.svg", "heading.svg"}) check_output(v.figures / name, ".svg", v.force, {v.video});
+    for (const char* name : {"speeds.svg", "msd.svg", "heading.svg"})
+      check_output(v.figures / name, ".svg", v.force, {v.video});
 }
 
 // "12.3 +- 0.4 um/s", in um where there is a scale.
-std::string value_of(const nlohmann::ordered_json& from, const std::string& name, const char* px, const char* um,
-                     const char* px_words, const char* um_words) {
+std::string value_of(const nlohmann::ordered_json& from, const std::string& name, const char* px,
+                     const char* um, const char* px_words, const char* um_words) {
   const bool scaled = from.contains(name + "_" + um);
   const std::string key = name + "_" + (scaled ? um : px);
   if (from[key].is_null()) return "-";
@@ -65,7 +66,8 @@ void print_summary(const nlohmann::ordered_json& j) {
   fmt::print("tracks   {} in {} frames, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
              j["frames"].get<std::int64_t>(), j["mean_points"].get<double>());
   if (j["speed"].is_object() && j["supported"] != "diffusion")
-    fmt::print("speed    {} on average, over {:.3g} s\n", value_of(j["speed"], "mean", "px_s", "um_s", "px/s", "um/s"),
+    fmt::print("speed    {} on average, over {:.3g} s\n",
+               value_of(j["speed"], "mean", "px_s", "um_s", "px/s", "um/s"),
                j["speed"]["interval_s"].get<double>());
   if (j["supported"] == "diffusion")
     fmt::print("motion   no direction is kept: diffusion, D = {}\n",
@@ -73,8 +75,9 @@ void print_summary(const nlohmann::ordered_json& j) {
   if (j["supported"] == "persistent_walk" && j["persistent_walk"].is_object())
     fmt::print("motion   direction is kept: walk at {} (rms), for {}\n",
                value_of(j["persistent_walk"], "speed_rms", "px_s", "um_s", "px/s", "um/s"),
-               j["persistent_walk"]["tau_longer_than_seen"].get<bool>() ? "longer than was seen"
-                                                                      : value_of(j["persistent_walk"], "tau", "s", "-", "s", ""));
+               j["persistent_walk"]["tau_longer_than_seen"].get<bool>()
+                   ? "longer than was seen"
+                   : value_of(j["persistent_walk"], "tau", "s", "-", "s", ""));
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ double weight_of(const Msd& m, std::size_t k) {
 struct StraightLine {
   double slope = 0, offset = 0;
 };
-StraightLine straight_line(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& w) {
+StraightLine straight_line(const std::vector<double>& x, const std::vector<double>& y,
+                           const std::vector<double>& w) {
   double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     s += w[i], sx += w[i] * x[i], sy += w[i] * y[i], sxx += w[i] * x[i] * x[i], sxy += w[i] * x[i] * y[i];
@@ -38,7 +39,8 @@ struct Linear {
 };
 Linear solve_for(const Msd& m, double tau) {
   std::vector<double> g, w;
-  for (std::size_t k = 0; k < m.size(); ++k) g.push_back(persistent_shape(m.lag_s[k], tau)), w.push_back(weight_of(m, k));
+  for (std::size_t k = 0; k < m.size(); ++k)
+    g.push_back(persistent_shape(m.lag_s[k], tau)), w.push_back(weight_of(m, k));
   Linear out;
   const StraightLine both = straight_line(g, m.msd_px2, w);
   out.v2 = both.slope, out.offset = both.offset;

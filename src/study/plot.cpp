@@ -109,9 +109,10 @@ Scale decades_of(Range r, int wanted, const std::string& label) {
       const double at = decade + std::log10(lead);
       if (at < r.lo - 1e-9 || at > r.hi + 1e-9 || (lead > 1 && !between)) continue;
       if (lead == 1 && (decade - first) % every != 0) continue;
-      const std::string plain = decade >= -2 && decade <= 3 ? fmt::format("{:g}", lead * std::pow(10.0, decade))
-                                : lead == 1                 ? power_of_ten(decade)
-                                                            : fmt::format("{}\u00B7{}", lead, power_of_ten(decade));
+      const std::string plain = decade >= -2 && decade <= 3
+                                    ? fmt::format("{:g}", lead * std::pow(10.0, decade))
+                                : lead == 1 ? power_of_ten(decade)
+                                            : fmt::format("{}\u00B7{}", lead, power_of_ten(decade));
       scale.at.push_back(at);
       scale.width = std::max(scale.width, kDigit * letters(plain));
       scale.words.push_back(plain);
@@ -138,7 +139,10 @@ Plot in_logarithms(Plot plot) {
     std::visit(
         [&](auto& l) {
           const bool x = plot.x.logarithmic, y = plot.y.logarithmic;
-          if constexpr (requires { l.of_x; l.at; }) {
+          if constexpr (requires {
+                          l.of_x;
+                          l.at;
+                        }) {
             if (l.of_x ? x : y) l.at = logarithm(l.at);
           } else if constexpr (requires { l.of_x; }) {
             if (l.of_x ? x : y) l.lo = logarithm(l.lo), l.hi = logarithm(l.hi);

@@ -21,7 +21,7 @@ struct RunInfo {
   std::string version;          ///< of the program that made the run
   std::string title, polarity;  ///< empty when not given, like all texts here
   std::string seed, threads, state_hash, scenario_hash;
-  std::string video_shows;  ///< "camera" or "drawing"
+  std::string video_shows;          ///< "camera" or "drawing"
   bool complete = true;             ///< false when the run was stopped before its end
   std::optional<double> um_per_px;  ///< picture scale, micrometre per pixel, > 0
   std::optional<double> duration_s, wall_time_s;
@@ -33,10 +33,10 @@ struct RunInfo {
 };
 
 /// Reads a manifest: a JSON object with `version`, and as far as known `seed, threads, state_hash,
-/// scenario_hash, duration_s, um_per_px, title, video_shows, wall_time_s, view_px = [w, h], arena = {type, centre_px,
-/// radius_px | size_px}, polarity, swarms = [{...}], setpoints, notes = [..]`. null counts as missing;
-/// unknown keys are left alone. Throws Error(Errc::input) naming the file and the key when the file is
-/// missing or not JSON, and for a value of the wrong kind.
+/// scenario_hash, duration_s, um_per_px, title, video_shows, wall_time_s, view_px = [w, h], arena = {type,
+/// centre_px, radius_px | size_px}, polarity, swarms = [{...}], setpoints, notes = [..]`. null counts as
+/// missing; unknown keys are left alone. Throws Error(Errc::input) naming the file and the key when the file
+/// is missing or not JSON, and for a value of the wrong kind.
 RunInfo read_run_info(const std::filesystem::path& path);
 
 }  // namespace faba

@@ -19,8 +19,9 @@ struct Unit {
 
 Figure speed_figure(const TrackSummary& s, const Unit& unit) {
   Figure f{"Speeds",
-           fmt::format("Displacement over {} s divided by that time, the localisation error taken off; {} of them.",
-                       three_digits(s.interval_s), s.speed_count),
+           fmt::format(
+               "Displacement over {} s divided by that time, the localisation error taken off; {} of them.",
+               three_digits(s.interval_s), s.speed_count),
            {}};
   f.plot.description = "Distribution of speeds";
   f.plot.inlined = true;
@@ -45,8 +46,10 @@ Figure speed_figure(const TrackSummary& s, const Unit& unit) {
 
 Figure msd_figure(const TrackSummary& s, const Unit& unit) {
   const double area = unit.length * unit.length;
-  Figure f{"Mean-square displacement",
-           "About the common drift, against lag. Shaded: two standard errors each way, from groups of tracks.", {}};
+  Figure f{
+      "Mean-square displacement",
+      "About the common drift, against lag. Shaded: two standard errors each way, from groups of tracks.",
+      {}};
   f.plot.description = "Mean-square displacement against lag";
   f.plot.inlined = true;
   f.plot.x.logarithmic = f.plot.y.logarithmic = true;
@@ -61,9 +64,9 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
     band.lo.push_back(area * std::max(m - two, 0.02 * m)), band.hi.push_back(area * (m + two));
   }
   f.plot.add(band);
-  const auto curve = [&](const char* label, Ink ink, bool dashed, const auto& msd) {
+  const auto curve = [&](const char* label, Ink ink, bool dashed, double first, const auto& msd) {
     Line line{{}, {}, label, ink, dashed};
-    const double first = s.msd.lag_s.front(), last = s.msd.lag_s.back();
+    const double last = s.msd.lag_s.back();
     for (int i = 0; i <= 60; ++i) {
       line.x.push_back(first * std::pow(last / first, i / 60.0));
       line.y.push_back(area * msd(line.x.back()));
@@ -71,9 +74,11 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
     f.plot.add(line);
   };
   if (s.diffusion.good)
-    curve("4 D t + 4 s²", Ink::vermillion, s.persists, [&](double t) { return diffusion_msd(s.diffusion, t); });
+    curve("4 D t + 4 s²", Ink::vermillion, s.persists, s.msd.lag_s[s.diffusion.first],
+          [&](double t) { return diffusion_msd(s.diffusion, t); });
   if (s.persistent.good && s.persists)
-    curve("persistent walk", Ink::green, false, [&](double t) { return persistent_msd(s.persistent, t); });
+    curve("persistent walk", Ink::green, false, s.msd.lag_s.front(),
+          [&](double t) { return persistent_msd(s.persistent, t); });
   f.plot.add(points);
   if (s.diffusion.good)
     f.caption += fmt::format(" The line is fitted to {} lags from {} s on.", s.diffusion.lags,
@@ -83,8 +88,9 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
 
 Figure heading_figure(const TrackSummary& s) {
   Figure f{"Direction over time",
-           "Direction of the mean velocity in the picture (0 right, 90 degrees down), where at least a fifth of the "
-           "movement is common.",
+           "Direction of the mean velocity in the picture (0 right, 90 degrees down), where the movement has "
+           "more in "
+           "common than chance would give it. Line: what all have in common, 0 nothing, 1 all move alike.",
            {}};
   f.plot.description = "Mean heading over time";
   f.plot.inlined = true;
@@ -92,11 +98,12 @@ Figure heading_figure(const TrackSummary& s) {
   f.plot.y.lo = -180, f.plot.y.hi = 180;
   Scatter heading{{}, {}, "heading", Ink::blue};
   heading.size = 4;
-  Line order{{}, {}, "common share of the movement × 180", Ink::orange};
+  Line order{{}, {}, "in common (from the bottom, 0, to the top, 1)", Ink::orange};
   order.width = 1.2;
   for (std::size_t i = 0; i < s.time_s.size(); ++i) {
-    order.x.push_back(s.time_s[i]), order.y.push_back(180 * s.order_in_time[i]);
-    if (!(s.order_in_time[i] > 0.2)) continue;
+    order.x.push_back(s.time_s[i]), order.y.push_back(360 * s.order_in_time[i] - 180);
+    // Directions at random leave 1 / sqrt(n) in common.
+    if (!(s.order_in_time[i] > std::max(0.2, 2.5 / std::sqrt(s.count_in_time[i])))) continue;
     heading.x.push_back(s.time_s[i]);
     heading.y.push_back(std::atan2(s.velocity_y_px_s[i], s.velocity_x_px_s[i]) * 180 / std::numbers::pi);
   }

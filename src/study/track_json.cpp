@@ -20,7 +20,8 @@ struct Writer {
   Json json;
   double um_per_px = 0;
 
-  void put(const std::string& name, const std::string& px, const std::string& um, int power, const Estimated& e) {
+  void put(const std::string& name, const std::string& px, const std::string& um, int power,
+           const Estimated& e) {
     one(name + "_" + px, 1, e);
     if (um_per_px > 0) one(name + "_" + um, power == 2 ? um_per_px * um_per_px : um_per_px, e);
   }
@@ -45,7 +46,10 @@ Json list_of(const std::vector<double>& v) {
 }
 
 Json msd_of(const Msd& m) {
-  return {{"lag_s", list_of(m.lag_s)}, {"msd_px2", list_of(m.msd_px2)}, {"se_px2", list_of(m.se_px2)}, {"pairs", list_of(m.pairs)}};
+  return {{"lag_s", list_of(m.lag_s)},
+          {"msd_px2", list_of(m.msd_px2)},
+          {"se_px2", list_of(m.se_px2)},
+          {"pairs", list_of(m.pairs)}};
 }
 
 Json diffusion_of(const TrackSummary& s, double um) {

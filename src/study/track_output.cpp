@@ -31,8 +31,8 @@ class CsvTracks final : public TrackOutput {
   void write(const Track& track) override {
     std::string lines;
     for (const TrackPoint& p : track.points)
-      fmt::format_to(std::back_inserter(lines), "{},{},{:.6f},{:.3f},{:.3f},{:.4g},{:.4g}\n", track.number, p.frame,
-                     p.t_s, p.x_px, p.y_px, p.mass, p.snr);
+      fmt::format_to(std::back_inserter(lines), "{},{},{:.6f},{:.3f},{:.3f},{:.4g},{:.4g}\n", track.number,
+                     p.frame, p.t_s, p.x_px, p.y_px, p.mass, p.snr);
     file_.append(lines);
   }
   void complete() override {
@@ -53,7 +53,8 @@ class H5Tracks final : public TrackOutput {
   H5Tracks(std::filesystem::path path, const TrackedVideo& video)
       : path_(std::move(path)), file_(H5File::create(temporary(path_))) {
     constexpr std::uint64_t kRows = 4096;
-    for (const char* name : {"track", "frame"}) whole_numbers_.push_back(file_.table<std::uint64_t>(name, {}, kRows, 1, true));
+    for (const char* name : {"track", "frame"})
+      whole_numbers_.push_back(file_.table<std::uint64_t>(name, {}, kRows, 1, true));
     for (const char* name : {"t_s", "x_px", "y_px", "mass", "snr"})
       numbers_.push_back(file_.table<double>(name, {}, kRows, 1, true));
     file_.attribute("/", "format", std::string("faba tracked 1"));

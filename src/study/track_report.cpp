@@ -27,8 +27,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kTail = 30;          // places behind each cell in the overlay
-constexpr std::size_t kDrawn = 3000;       // tracks on the picture of all tracks: more cannot be told apart
+constexpr std::size_t kTail = 30;     // places behind each cell in the overlay
+constexpr std::size_t kDrawn = 3000;  // tracks on the picture of all tracks: more cannot be told apart
 constexpr std::size_t kDrawnPoints = 300000;
 
 // What is read, and the scale when a run directory states it.
@@ -41,11 +41,13 @@ Source source_of(const TrackOptions& o) {
   Source s{o.video, o.um_per_px.value_or(0)};
   std::error_code ignored;
   const auto manifest = o.video / "manifest.json";
-  if (!std::filesystem::is_directory(o.video, ignored) || !std::filesystem::exists(manifest, ignored)) return s;
+  if (!std::filesystem::is_directory(o.video, ignored) || !std::filesystem::exists(manifest, ignored))
+    return s;
   const RunInfo info = read_run_info(manifest);
   if (info.video_shows != "camera")
     throw Error(Errc::input, o.video.string(),
-                "its video is a drawing, not what a camera sees; record the run with --as-seen, or take its tracks.h5");
+                "its video is a drawing, not what a camera sees; record the run with --as-seen, or take its "
+                "tracks.h5");
   s.video = o.video / "video.avi";
   if (!std::filesystem::exists(s.video, ignored)) s.video = o.video / "video.mp4";
   if (s.um_per_px == 0) s.um_per_px = info.um_per_px.value_or(0);
@@ -58,8 +60,9 @@ class Overlay {
   Overlay(std::filesystem::path path, const TrackSurvey& s)
       : path_(std::move(path)),
         survey_(s),
-        writer_(part(), path_.extension() == ".avi" ? VideoFormat::lossless_avi : VideoFormat::mp4, s.first.width,
-                s.first.height, std::clamp(s.timed ? 1 / s.frame_s : 25.0, kSlowestVideo, kFastestVideo)) {}
+        writer_(part(), path_.extension() == ".avi" ? VideoFormat::lossless_avi : VideoFormat::mp4,
+                s.first.width, s.first.height,
+                std::clamp(s.timed ? 1 / s.frame_s : 25.0, kSlowestVideo, kFastestVideo)) {}
   ~Overlay() {
     std::error_code ignored;
     if (!whole_) std::filesystem::remove(part(), ignored);
@@ -72,7 +75,8 @@ class Overlay {
         line.path.push_back({t->points[i].x_px, t->points[i].y_px});
       lines.push_back(std::move(line));
     }
-    writer_.write(draw_tracks(frame, survey_.black, survey_.white, lines, true, std::max(4.0, survey_.size_px)));
+    writer_.write(
+        draw_tracks(frame, survey_.black, survey_.white, lines, true, std::max(4.0, survey_.size_px)));
   }
   void complete() {
     writer_.finish(path_);
@@ -119,7 +123,8 @@ class Pass {
     for (std::uint64_t index = 0; reader.read(frame, t_s); ++index) {
       make_finite(frame);
       if (!survey_.temporal)
-        detector = Detector(spatial_background(frame, survey_.smoothing_px), detector_options(options_, survey_, drop_));
+        detector = Detector(spatial_background(frame, survey_.smoothing_px),
+                            detector_options(options_, survey_, drop_));
       const std::vector<Spot> spots = detector.find(frame);
       count_spots(spots);
       if (t_s > last) {
@@ -178,7 +183,9 @@ class Pass {
   std::size_t drawn_points_ = 0;
 };
 
-const char* word_of(Polarity p) { return p == Polarity::bright ? "bright" : p == Polarity::both ? "both" : "dark"; }
+const char* word_of(Polarity p) {
+  return p == Polarity::bright ? "bright" : p == Polarity::both ? "both" : "dark";
+}
 
 Json found_json(const TrackSurvey& s, const Pass& pass, const TrackOptions& o) {
   const double n = std::max(1.0, pass.spots_found);
@@ -238,7 +245,8 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   j.update(track_json(summary, source.um_per_px));
   Json notes = survey.notes;
   if (pass.repeated_times > 0)
-    notes.push_back(fmt::format("{} frames have the time of the one before and were not tracked", pass.repeated_times));
+    notes.push_back(
+        fmt::format("{} frames have the time of the one before and were not tracked", pass.repeated_times));
   if (survey.frames > 1 && summary.tracks == 0) notes.push_back("nothing was tracked");
   j["notes"] = notes;
 

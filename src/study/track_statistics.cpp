@@ -13,12 +13,12 @@ constexpr std::size_t kGroups = 20;  // of tracks, by number: the jackknife leav
 constexpr std::size_t kPilotPoints = 50000;
 constexpr std::size_t kTimeBins = 512;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLowSpeed = 1e-4;    // px per interval, where the logarithmic bins begin
+constexpr double kLowSpeed = 1e-4;  // px per interval, where the logarithmic bins begin
 constexpr double kBinsPerDecade = 400;
 constexpr std::size_t kSpeedBins = 3600, kTurnBins = 720;
 constexpr std::size_t kScales[] = {1, 2, 4, 8};  // frames, over which it is asked whether direction is kept
-constexpr std::size_t kMostMemory = 12;          // frames, for which places may hang together by blur or codec
-constexpr double kClear = 3;                     // standard errors
+constexpr std::size_t kMostMemory = 12;  // frames, for which places may hang together by blur or codec
+constexpr double kClear = 3;             // standard errors
 constexpr double kKept = 0.2;  // of the squared displacement; a walk that forgets in one frame has 0.2
 
 // 1 to 8, then each a quarter longer.
@@ -54,7 +54,8 @@ struct TurnSums {
 
 struct Group {
   std::vector<LagSums> lags;
-  std::vector<ProductSums> kept;    ///< one for each of kScales: the pause between is as long as the displacements
+  std::vector<ProductSums>
+      kept;  ///< one for each of kScales: the pause between is as long as the displacements
   std::vector<ProductSums> memory;  ///< displacements of one frame, 2 to kMostMemory frames apart
   SpeedSums speed;
   TurnSums turn;
@@ -89,7 +90,8 @@ double jackknife_se(const std::vector<Group>& groups, const Value& value) {
 // Sums over displacements in spans of time; when time runs out of spans they become twice as long.
 class TimeBins {
  public:
-  explicit TimeBins(double span_s) : span_s_(span_s), x_(kTimeBins), y_(kTimeBins), length_(kTimeBins), n_(kTimeBins) {}
+  explicit TimeBins(double span_s)
+      : span_s_(span_s), x_(kTimeBins), y_(kTimeBins), length_(kTimeBins), n_(kTimeBins) {}
   void add(double t_s, double vx, double vy) {
     while (t_s / span_s_ >= double(kTimeBins)) fold();
     const auto i = std::size_t(std::max(0.0, t_s / span_s_));
@@ -102,7 +104,8 @@ class TimeBins {
       s.time_s.push_back((double(i) + 0.5) * span_s_);
       s.velocity_x_px_s.push_back(n_[i] > 0 ? x_[i] / n_[i] : kNaN);
       s.velocity_y_px_s.push_back(n_[i] > 0 ? y_[i] / n_[i] : kNaN);
-      s.order_in_time.push_back(length_[i] > 0 ? std::hypot(x_[i], y_[i]) / length_[i] : kNaN);
+      s.order_in_time.push_back(length_[i] > 0 && n_[i] >= 5 ? std::hypot(x_[i], y_[i]) / length_[i] : kNaN);
+      s.count_in_time.push_back(n_[i]);
     }
   }
 
@@ -143,7 +146,8 @@ struct TrackStatistics::Impl {
   std::size_t pilot_points = 0;
   std::uint64_t points = 0;
   double track_count = 0;
-  std::vector<double> speed_bins = std::vector<double>(kSpeedBins), turn_bins = std::vector<double>(kTurnBins);
+  std::vector<double> speed_bins = std::vector<double>(kSpeedBins),
+                      turn_bins = std::vector<double>(kTurnBins);
   double sum_x = 0, sum_y = 0, sum_length = 0;
   TimeBins in_time;
 
@@ -186,11 +190,14 @@ void TrackStatistics::Impl::add_displacements(const Track& t) {
       sum += {1, q.t_s - p.t_s, dx, dy, dx * dx + dy * dy};
     }
   }
-  const auto place = [&](int at) { return Vec2{t.points[std::size_t(at)].x_px, t.points[std::size_t(at)].y_px}; };
+  const auto place = [&](int at) {
+    return Vec2{t.points[std::size_t(at)].x_px, t.points[std::size_t(at)].y_px};
+  };
   for (auto* products : {&g.kept, &g.memory})
     for (ProductSums& p : *products)
       for (std::size_t i = 0; i + p.apart + p.over < slots.size(); ++i) {
-        const int a = slots[i], b = slots[i + p.over], c = slots[i + p.apart], d = slots[i + p.apart + p.over];
+        const int a = slots[i], b = slots[i + p.over], c = slots[i + p.apart],
+                  d = slots[i + p.apart + p.over];
         if (a < 0 || b < 0 || c < 0 || d < 0) continue;
         p.n += 1, p.dot += dot(place(b) - place(a), place(d) - place(c));
       }
@@ -212,20 +219,26 @@ void TrackStatistics::Impl::add_motion(const Track& t) {
     const TrackPoint &p = t.points[std::size_t(a)], &q = t.points[std::size_t(b)];
     const Vec2 d{q.x_px - p.x_px, q.y_px - p.y_px};
     const double dt = q.t_s - p.t_s;
-    // Across the direction of motion the error makes displacements longer, along it neither (theory G2).
+    // Across the direction of motion the error makes displacements longer, along it neither (theory H2).
     const double length = std::sqrt(std::max(0.0, dot(d, d) - 2 * noise2)), v = length / dt;
     g.speed.n += 1, g.speed.v += v;
     const double bin = length > kLowSpeed ? kBinsPerDecade * std::log10(length / kLowSpeed) : 0;
     speed_bins[std::min(kSpeedBins - 1, std::size_t(bin))] += 1;
     sum_x += d.x / dt, sum_y += d.y / dt, sum_length += norm(d) / dt;
-    in_time.add(0.5 * (p.t_s + q.t_s), d.x / dt, d.y / dt);
     const bool clear = dot(d, d) > 9 * 2 * noise2 && dot(d, d) > 0;
     if (clear && has_last) {
       const double turn = std::atan2(last.x * d.y - last.y * d.x, dot(last, d));
       g.turn.n += 1, g.turn.size += std::fabs(turn) / dt, g.turn.with_sign += turn / dt;
-      turn_bins[std::min(kTurnBins - 1, std::size_t(std::fabs(turn) / std::numbers::pi * double(kTurnBins)))] += 1;
+      turn_bins[std::min(kTurnBins - 1,
+                         std::size_t(std::fabs(turn) / std::numbers::pi * double(kTurnBins)))] += 1;
     }
     last = d, has_last = clear;
+  }
+  for (std::size_t i = 0; i + step < slots.size(); ++i) {  // overlapping: every moment has its say
+    if (slots[i] < 0 || slots[i + step] < 0) continue;
+    const TrackPoint &p = t.points[std::size_t(slots[i])], &q = t.points[std::size_t(slots[i + step])];
+    const double dt = q.t_s - p.t_s;
+    in_time.add(0.5 * (p.t_s + q.t_s), (q.x_px - p.x_px) / dt, (q.y_px - p.y_px) / dt);
   }
 }
 
@@ -257,7 +270,8 @@ Estimated TrackStatistics::Impl::product(std::size_t which, std::vector<ProductS
   const auto without = [&](const Group* left_out) {
     double n = 0, sum = 0, over = 0;
     for (const Group& g : groups)
-      if (&g != left_out) n += (g.*list)[which].n, sum += (g.*list)[which].dot, over = double((g.*list)[which].over);
+      if (&g != left_out)
+        n += (g.*list)[which].n, sum += (g.*list)[which].dot, over = double((g.*list)[which].over);
     LagSums one = all(0);
     if (left_out) one = one.without(left_out->lags[0]);
     if (n < 1 || one.n < 1) return kNaN;
@@ -291,11 +305,14 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
   const LagSums one = all(0);
   const auto drift = [&](bool x) {
     const auto value = [&](const LagSums& l) { return l.dt > 0 ? (x ? l.dx : l.dy) / l.dt : kNaN; };
-    return Estimated{value(one), jackknife_se(groups, [&](const Group& g) { return value(one.without(g.lags[0])); })};
+    return Estimated{value(one),
+                     jackknife_se(groups, [&](const Group& g) { return value(one.without(g.lags[0])); })};
   };
   s.drift_x_px_s = drift(true), s.drift_y_px_s = drift(false);
   weigh_persistence(s);
-  const auto skipped = s.persists ? 0 : std::size_t(std::lower_bound(lags.begin(), lags.end(), s.memory_frames) - lags.begin());
+  const auto skipped =
+      s.persists ? 0
+                 : std::size_t(std::lower_bound(lags.begin(), lags.end(), s.memory_frames) - lags.begin());
   s.diffusion = fit_diffusion(s.msd, skipped);
   s.persistent = fit_persistent(s.msd);
   const double offset = s.persists && s.persistent.good ? s.persistent.offset_px2 : s.diffusion.offset_px2;
@@ -306,13 +323,17 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
     for (std::size_t k = 0; k < m.size(); ++k) m.se_px2[k] = s.msd.se_px2[k];
     return m;
   };
-  s.d_px2_s = {s.diffusion.d_px2_s,
-               jackknife_se(groups, [&](const Group& g) { return fit_diffusion(left_out(g), s.diffusion.first, s.diffusion.lags).d_px2_s; })};
-  s.speed_rms_px_s = {s.persistent.speed_px_s,
-                      jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).speed_px_s; })};
-  s.tau_s = {s.persistent.tau_s, jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).tau_s; })};
-  s.alpha = {fit_exponent(s.msd, offset, skipped),
-             jackknife_se(groups, [&](const Group& g) { return fit_exponent(left_out(g), offset, skipped); })};
+  s.d_px2_s = {s.diffusion.d_px2_s, jackknife_se(groups, [&](const Group& g) {
+                 return fit_diffusion(left_out(g), s.diffusion.first, s.diffusion.lags).d_px2_s;
+               })};
+  s.speed_rms_px_s = {s.persistent.speed_px_s, jackknife_se(groups, [&](const Group& g) {
+                        return fit_persistent(left_out(g)).speed_px_s;
+                      })};
+  s.tau_s = {s.persistent.tau_s,
+             jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).tau_s; })};
+  s.alpha = {fit_exponent(s.msd, offset, skipped), jackknife_se(groups, [&](const Group& g) {
+               return fit_exponent(left_out(g), offset, skipped);
+             })};
 }
 
 void TrackStatistics::Impl::settle() {
@@ -341,15 +362,20 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
     double n = 0, sum = 0;
     for (const Group& g : groups) n += n_of(g), sum += sum_of(g);
     if (n < 1) return Estimated{kNaN, kNaN};
-    const auto rest = [&](const Group& g) { return n - n_of(g) > 0 ? scale * (sum - sum_of(g)) / (n - n_of(g)) : kNaN; };
+    const auto rest = [&](const Group& g) {
+      return n - n_of(g) > 0 ? scale * (sum - sum_of(g)) / (n - n_of(g)) : kNaN;
+    };
     return Estimated{scale * sum / n, jackknife_se(groups, rest)};
   };
   constexpr double kDegrees = 180 / std::numbers::pi;
-  s.mean_speed_px_s = mean_of([](const Group& g) { return g.speed.n; }, [](const Group& g) { return g.speed.v; }, 1);
-  s.turn_deg_s = mean_of([](const Group& g) { return g.turn.n; }, [](const Group& g) { return g.turn.size; }, kDegrees);
-  s.signed_turn_deg_s =
-      mean_of([](const Group& g) { return g.turn.n; }, [](const Group& g) { return g.turn.with_sign; }, kDegrees);
-  for (const Group& g : groups) s.speed_count += std::uint64_t(g.speed.n), s.turn_count += std::uint64_t(g.turn.n);
+  s.mean_speed_px_s =
+      mean_of([](const Group& g) { return g.speed.n; }, [](const Group& g) { return g.speed.v; }, 1);
+  s.turn_deg_s =
+      mean_of([](const Group& g) { return g.turn.n; }, [](const Group& g) { return g.turn.size; }, kDegrees);
+  s.signed_turn_deg_s = mean_of([](const Group& g) { return g.turn.n; },
+                                [](const Group& g) { return g.turn.with_sign; }, kDegrees);
+  for (const Group& g : groups)
+    s.speed_count += std::uint64_t(g.speed.n), s.turn_count += std::uint64_t(g.turn.n);
   const auto speed_at = [&](double bin) {
     return bin < 1 ? 0.0 : kLowSpeed * std::pow(10, bin / kBinsPerDecade) / s.interval_s;
   };
@@ -361,7 +387,8 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
   s.order = sum_length > 0 ? std::hypot(sum_x, sum_y) / sum_length : kNaN;
   const double typical = s.speed_quantiles_px_s[1] * s.interval_s;
   if (typical > 0)
-    s.turn_noise_deg_s = std::sqrt(2 / std::numbers::pi) * kDegrees * std::sqrt(6 * noise2) / typical / s.interval_s;
+    s.turn_noise_deg_s =
+        std::sqrt(2 / std::numbers::pi) * kDegrees * std::sqrt(6 * noise2) / typical / s.interval_s;
   in_time.give(s);
   // Bins of equal width out to the 99.5 % quantile; the last one takes the rest.
   const double most = quantile_of(speed_bins, 0.995, speed_at);
@@ -371,7 +398,8 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
   for (std::size_t i = 0; i <= bins; ++i) s.speeds_px_s.edges.push_back(most * double(i) / double(bins));
   for (std::size_t i = 0; i < kSpeedBins; ++i) {
     const double v = speed_at(double(i) + 0.5);
-    if (v <= most) s.speeds_px_s.counts[std::min(bins - 1, std::size_t(v / most * double(bins)))] += speed_bins[i];
+    if (v <= most)
+      s.speeds_px_s.counts[std::min(bins - 1, std::size_t(v / most * double(bins)))] += speed_bins[i];
   }
 }
 

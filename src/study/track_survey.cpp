@@ -26,13 +26,15 @@ Polarity found_polarity(const GrayF& frame, const Background& b) {
   return polarity_of(fine.px);
 }
 
-std::int64_t count_spots(const TrackOptions& o, const TrackSurvey& s, const Background& b, const GrayF& frame) {
+std::int64_t count_spots(const TrackOptions& o, const TrackSurvey& s, const Background& b,
+                         const GrayF& frame) {
   return std::int64_t(Detector(b, detector_options(o, s, {})).find(frame).size());
 }
 
 void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler) {
   const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
-  const Background fine = spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
+  const Background fine =
+      spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
   Background median = sampler.background();
   const bool many = s.frames >= kFewFrames;
   const Background& first_guess = many ? median : fine;
@@ -54,7 +56,8 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
 
 }  // namespace
 
-DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s, const std::optional<DropMask>& drop) {
+DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
+                                 const std::optional<DropMask>& drop) {
   DetectorOptions d;
   d.size_px = s.size_px;
   d.polarity = s.polarity;
@@ -104,16 +107,20 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   };
   s.black = at(0.001), s.white = at(0.999);
   if (reader.truncated() || reader.damaged_frames() > 0)
-    s.notes.push_back(fmt::format("{}: {} frames could be read; {}", video.string(), s.frames, reader.damage()));
+    s.notes.push_back(
+        fmt::format("{}: {} frames could be read; {}", video.string(), s.frames, reader.damage()));
   if (s.frames == 1) s.notes.emplace_back("one frame only: spots are found, nothing is tracked");
   if (!s.timed && s.frames > 1)
     s.notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");
   choose_background(o, s, sampler);
-  if (!s.size_found) s.notes.push_back(fmt::format("nothing stands out of the noise at any size; spots of {} px are looked for", s.size_px));
+  if (!s.size_found)
+    s.notes.push_back(
+        fmt::format("nothing stands out of the noise at any size; spots of {} px are looked for", s.size_px));
   if (s.temporal && s.still_spots * 4 > s.spots)
-    s.notes.push_back(fmt::format("{} things of this size never move and are left out as background; to keep them, "
-                                  "--background spatial",
-                                  s.still_spots));
+    s.notes.push_back(
+        fmt::format("{} things of this size never move and are left out as background; to keep them, "
+                    "--background spatial",
+                    s.still_spots));
   return s;
 }
 

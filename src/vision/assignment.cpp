@@ -21,7 +21,8 @@ class Parts {
  public:
   explicit Parts(int n) : parent_(std::size_t(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
   int root(int i) {
-    while (parent_[std::size_t(i)] != i) i = parent_[std::size_t(i)] = parent_[std::size_t(parent_[std::size_t(i)])];
+    while (parent_[std::size_t(i)] != i)
+      i = parent_[std::size_t(i)] = parent_[std::size_t(parent_[std::size_t(i)])];
     return i;
   }
   void join(int a, int b) { parent_[std::size_t(root(a))] = root(b); }

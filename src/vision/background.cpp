@@ -22,6 +22,20 @@ float middle(std::vector<float>& v) {
   return *at;
 }
 
+// Standard deviation of what lies within three robust ones: whole grey steps make the robust one coarse.
+float fine_spread(const std::vector<float>& values) {
+  constexpr double kOfNormal = 0.98658;  // sd of a normal distribution cut off at three sd
+  std::vector<float> work = values;
+  const RobustSpread rough = robust_spread(work);
+  double n = 0, sum = 0, squares = 0;
+  for (const float v : values) {
+    const double d = double(v) - double(rough.median);
+    if (std::fabs(d) > 3 * double(rough.sd)) continue;
+    n += 1, sum += d, squares += d * d;
+  }
+  return n > 1 ? float(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) / kOfNormal) : 0.0F;
+}
+
 }  // namespace
 
 RobustSpread robust_spread(std::vector<float>& values) {
@@ -89,8 +103,9 @@ Background spatial_background(const GrayF& frame, double sd_px) {
   b.frames = 1;
   std::vector<float> steps;
   for (int row = 0; row < frame.height; ++row)
-    for (int col = 0; col + 1 < frame.width; ++col) steps.push_back(frame.at(col + 1, row) - frame.at(col, row));
-  const float sd = steps.empty() ? 0 : robust_spread(steps).sd / std::sqrt(2.0F);
+    for (int col = 0; col + 1 < frame.width; ++col)
+      steps.push_back(frame.at(col + 1, row) - frame.at(col, row));
+  const float sd = steps.empty() ? 0 : fine_spread(steps) / std::sqrt(2.0F);
   b.noise_sd = GrayF(frame.width, frame.height, std::max(sd, kLeastNoise));
   return b;
 }

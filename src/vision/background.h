@@ -48,15 +48,16 @@ class BackgroundSampler {
   std::vector<GrayF> kept_;
 };
 
-/// A pass over the whole video at `path` (anything VideoReader reads; `fps` as there) with a BackgroundSampler.
-/// `progress`, when given, is called with frames done and stated (0: unknown) after each frame. Throws what
-/// VideoReader throws.
+/// A pass over the whole video at `path` (anything VideoReader reads; `fps` as there) with a
+/// BackgroundSampler. `progress`, when given, is called with frames done and stated (0: unknown) after each
+/// frame. Throws what VideoReader throws.
 Background video_background(const std::filesystem::path& path, int most_frames = 50,
                             const std::function<void(std::int64_t, std::int64_t)>& progress = {});
 
-/// Background of a single frame: the frame smoothed by a Gaussian of `sd_px`, which should be several times the
-/// size of what is looked for and smaller than what the light varies over. Noise: one value for all pixels,
-/// from the median absolute difference of neighbours in a row, which smooth structure hardly changes.
+/// Background of a single frame: the frame smoothed by a Gaussian of `sd_px`, which should be several times
+/// the size of what is looked for and smaller than what the light varies over. Noise: one value for all
+/// pixels, from the differences of neighbours in a row without the largest, which smooth structure hardly
+/// changes.
 Background spatial_background(const GrayF& frame, double sd_px);
 
 /// Dark or bright, by the sign of the third moment of the differences from their median, those beyond 3

@@ -69,8 +69,8 @@ std::vector<Maximum> maxima(const GrayF& g, int reach, int margin, const Thresho
       for (int dy = -reach; dy <= reach && largest; ++dy)
         for (int dx = -reach; dx <= reach && largest; ++dx) {
           const int c = col + dx, r = row + dy;
-          if ((dx == 0 && dy == 0) || dx * dx + dy * dy > reach * reach + 1 || c < 0 || r < 0 || c >= g.width ||
-              r >= g.height)
+          if ((dx == 0 && dy == 0) || dx * dx + dy * dy > reach * reach + 1 || c < 0 || r < 0 ||
+              c >= g.width || r >= g.height)
             continue;
           const float other = g.at(c, r);
           largest = v > other || (v == other && (dy > 0 || (dy == 0 && dx > 0)));
@@ -108,9 +108,10 @@ Detector::Detector(Background background, DetectorOptions options)
     throw Error(Errc::internal, "detector", "needs a background, a size of 1 to 60 px and a polarity");
   sd_px_ = options_.size_px / kFwhmPerSd;
   if (options_.separation_px <= 0) options_.separation_px = std::max(1.0, 0.5 * options_.size_px);
-  threshold_ = options_.threshold_sd > 0
-                   ? options_.threshold_sd
-                   : detection_threshold(options_.size_px, double(background_.level.px.size()), options_.false_alarms);
+  threshold_ =
+      options_.threshold_sd > 0
+          ? options_.threshold_sd
+          : detection_threshold(options_.size_px, double(background_.level.px.size()), options_.false_alarms);
   noise_gain_ = noise_law(sd_px_).gain;
   relative_noise_ = background_.noise_sd;
   std::vector<float> work = relative_noise_.px;
@@ -136,7 +137,7 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
     for (const Maximum& m : maxima(response, reach, margin, threshold)) {
       if (masked(options_.drop, m.col, m.row)) continue;
       const double local = double(noise * relative_noise_.at(m.col, m.row));
-      seeds.push_back({m.col, m.row, double(m.value) / local, local / noise_gain_});
+      seeds.push_back({m.col, m.row, double(m.value) / local, double(background_.noise_sd.at(m.col, m.row))});
     }
     for (Spot& spot : fit_spots(difference, seeds, sd_px_)) {
       spot.bright = sign > 0;
@@ -154,8 +155,8 @@ double spot_size(const GrayF& frame, const Background& background, Polarity pola
   for (double size = 2; size < 31; size *= 1.2) {
     const double sd = size / kFwhmPerSd;
     if (8 * sd > std::min(frame.width, frame.height)) break;
-    // Over what white noise would leave: the picture's own noise is no measure here, since what is out of focus
-    // and what a codec smoothed away make it differ from size to size.
+    // Over what white noise would leave: the picture's own noise is no measure here, since what is out of
+    // focus and what a codec smoothed away make it differ from size to size.
     const double gain = noise_law(sd).gain;
     std::vector<double> snr;
     for (const double sign : {-1.0, 1.0}) {

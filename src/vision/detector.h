@@ -12,31 +12,33 @@ namespace faba {
 /// numbers.
 struct Spot {
   double x_px = 0, y_px = 0;
-  double sd_px = 0;   ///< standard error of x and of y from the picture's noise; blur and overlap are not in it
-  double mass = 0;    ///< integrated difference from the background, grey px^2, > 0 whatever the polarity
-  double size_px = 0;  ///< full width at half maximum of a round Gaussian of the same area
+  double sd_px =
+      0;            ///< standard error of x and of y from the picture's noise; blur and overlap are not in it
+  double mass = 0;  ///< integrated difference from the background, grey px^2, > 0 whatever the polarity
+  double size_px = 0;     ///< full width at half maximum of a round Gaussian of the same area
   double elongation = 1;  ///< long over short standard deviation, >= 1
-  double angle_rad = 0;   ///< of the long axis in the picture, (-pi/2, pi/2]; meaningless when elongation is near 1
-  double snr = 0;         ///< matched-filter response over its noise sd
-  bool bright = false;    ///< brighter than the background
+  double angle_rad =
+      0;           ///< of the long axis in the picture, (-pi/2, pi/2]; meaningless when elongation is near 1
+  double snr = 0;  ///< matched-filter response over its noise sd
+  bool bright = false;  ///< brighter than the background
 };
 
 /// Parts of the picture in which nothing is looked for.
 struct DropMask {
-  Vec2 centre_image;    ///< px
+  Vec2 centre_image;  ///< px
   double radius_px = 0;
-  bool inside = true;   ///< whether spots lie inside the circle
+  bool inside = true;    ///< whether spots lie inside the circle
   double margin_px = 0;  ///< width of the rim at the edge that is left out, too
 };
 
 /// Parameters of Detector.
 struct DetectorOptions {
-  double size_px = 4;            ///< full width at half maximum of what is looked for, 1 to 60 px
+  double size_px = 4;                  ///< full width at half maximum of what is looked for, 1 to 60 px
   Polarity polarity = Polarity::dark;  ///< not automatic
   /// Noise alone gives this many spots per frame on average; sets the threshold by the expected number of
   /// maxima of a Gaussian random field (Adler). Real noise has longer tails and gives more.
   double false_alarms = 0.1;
-  double threshold_sd = 0;  ///< > 0: least signal-to-noise itself, in place of false_alarms
+  double threshold_sd = 0;   ///< > 0: least signal-to-noise itself, in place of false_alarms
   double separation_px = 0;  ///< of two maxima that both count, 0: half of size_px, at least 1 px
   std::optional<DropMask> drop;
 };

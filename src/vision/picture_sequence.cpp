@@ -37,7 +37,8 @@ int compare_numbers(std::string_view a, std::string_view b) {
 
 bool has_picture_ending(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
   constexpr std::array kEndings{".tif", ".tiff", ".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".webp"};
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
@@ -143,7 +144,8 @@ bool natural_less(const std::string& a, const std::string& b) {
   while (i < a.size() && j < b.size()) {
     const std::size_t i_end = digits_end(a, i), j_end = digits_end(b, j);
     if (i_end > i && j_end > j) {
-      const int order = compare_numbers(std::string_view(a).substr(i, i_end - i), std::string_view(b).substr(j, j_end - j));
+      const int order =
+          compare_numbers(std::string_view(a).substr(i, i_end - i), std::string_view(b).substr(j, j_end - j));
       if (order != 0) return order < 0;
       i = i_end, j = j_end;
     } else {
@@ -161,12 +163,13 @@ bool is_picture_sequence(const std::filesystem::path& path) {
   return is_pattern(path.filename().string()) && !std::filesystem::exists(path, ignored);
 }
 
-PictureSequence::PictureSequence(const std::filesystem::path& path, double fps) : files_(files_of(path)), fps_(fps) {
+PictureSequence::PictureSequence(const std::filesystem::path& path, double fps)
+    : files_(files_of(path)), fps_(fps) {
   if (files_.empty())
     throw Error(Errc::input, path.string(),
-                std::filesystem::is_directory(path)
-                    ? "is a directory without pictures (.tif, .png, .jpg, .pgm ...); name a video or a folder of pictures"
-                    : "no file fits this pattern; check the name");
+                std::filesystem::is_directory(path) ? "is a directory without pictures (.tif, .png, .jpg, "
+                                                      ".pgm ...); name a video or a folder of pictures"
+                                                    : "no file fits this pattern; check the name");
   number();
   Picture first = read_picture(files_.front());
   first_ = std::move(first.grey);
@@ -205,12 +208,14 @@ bool PictureSequence::read(GrayF& frame, double& t_s) {
       continue;
     }
     const auto refuse = [&](const std::string& why) { throw Error(Errc::input, files_[at].string(), why); };
-    if (picture.pages > 1) refuse(fmt::format("has {} pages; name it alone to read them as a video", picture.pages));
+    if (picture.pages > 1)
+      refuse(fmt::format("has {} pages; name it alone to read them as a video", picture.pages));
     if (picture.grey.width != first_.width || picture.grey.height != first_.height)
       refuse(fmt::format("is {} x {} px, the pictures before it {} x {}; keep one size in a folder",
                          picture.grey.width, picture.grey.height, first_.width, first_.height));
     if (picture.bits != bits_)
-      refuse(fmt::format("has {} bits, the pictures before it {}; keep one kind in a folder", picture.bits, bits_));
+      refuse(fmt::format("has {} bits, the pictures before it {}; keep one kind in a folder", picture.bits,
+                         bits_));
     frame = std::move(picture.grey);
     t_s = place_[at] / (fps_ > 0 ? fps_ : 1);
     return true;

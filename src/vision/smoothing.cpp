@@ -64,7 +64,8 @@ void mean_rows(GrayF& picture, int half) {
     for (int i = -half; i <= half; ++i) sum += double(line[std::size_t(mirrored(i, w))]);
     for (int i = 0; i < w; ++i) {
       at[i] = float(sum * share);
-      sum += double(line[std::size_t(mirrored(i + half + 1, w))]) - double(line[std::size_t(mirrored(i - half, w))]);
+      sum += double(line[std::size_t(mirrored(i + half + 1, w))]) -
+             double(line[std::size_t(mirrored(i - half, w))]);
     }
   }
 }

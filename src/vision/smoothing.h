@@ -4,9 +4,9 @@
 namespace faba {
 
 /// The picture smoothed by a Gaussian of standard deviation `sd_px` > 0. Up to 8 px it is the sampled kernel
-/// out to 4 sd; wider ones are four running means, whose result differs from it by less than 1 % of a peak and
-/// whose time does not grow with the width. Beyond the border the picture counts as mirrored about its last
-/// pixel. Plain additions in a fixed order: same bits on every machine.
+/// out to 4 sd; wider ones are four running means, whose result differs from it by less than 1 % of a peak
+/// and whose time does not grow with the width. Beyond the border the picture counts as mirrored about its
+/// last pixel. Plain additions in a fixed order: same bits on every machine.
 GrayF smoothed(const GrayF& picture, double sd_px);
 
 /// Weights of the sampled kernel that smoothed() uses up to 8 px: index 0 is the middle, the others count

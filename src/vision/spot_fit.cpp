@@ -8,9 +8,9 @@
 namespace faba {
 namespace {
 
-constexpr int kPasses = 3;      // the first alone, the others with the neighbours' light taken off
-constexpr int kMoves = 12;      // of the window in one pass; it halves its error with each
-constexpr double kRing = 3.5;   // inner radius of the ring that gives the offset, in sd; its width is 1.5 sd
+constexpr int kPasses = 3;     // the first alone, the others with the neighbours' light taken off
+constexpr int kMoves = 12;     // of the window in one pass; it halves its error with each
+constexpr double kRing = 3.5;  // inner radius of the ring that gives the offset, in sd; its width is 1.5 sd
 
 // A spot as a Gaussian: amplitude and covariance.
 struct Shape {
@@ -70,7 +70,8 @@ class Window {
     for (int row = std::max(top_, int(y - reach)); row <= std::min(bottom_, int(y + reach + 1)); ++row)
       for (int col = std::max(left_, int(x - reach)); col <= std::min(right_, int(x + reach + 1)); ++col) {
         const double dx = col - x, dy = row - y;
-        const double v = px_[std::size_t(row - top_) * std::size_t(right_ - left_ + 1) + std::size_t(col - left_)];
+        const double v =
+            px_[std::size_t(row - top_) * std::size_t(right_ - left_ + 1) + std::size_t(col - left_)];
         const double w = std::exp(k * (dx * dx + dy * dy)) * (v - offset);
         m.mass += w, m.x += w * dx, m.y += w * dy;
         m.cov.xx += w * dx * dx, m.cov.xy += w * dx * dy, m.cov.yy += w * dy * dy;
@@ -124,7 +125,8 @@ Shape settle(const Window& window, const SpotSeed& seed, Shape from, double sd) 
     if (std::hypot(m.x, m.y) < 5e-4) break;
   }
   to.cov = without_window(m.cov, sd);
-  const double window_share = 2 * std::numbers::pi * std::sqrt(std::max(1e-12, m.cov.xx * m.cov.yy - m.cov.xy * m.cov.xy));
+  const double window_share =
+      2 * std::numbers::pi * std::sqrt(std::max(1e-12, m.cov.xx * m.cov.yy - m.cov.xy * m.cov.xy));
   to.amplitude = m.mass / std::max(window_share, 1e-3 * sd * sd);
   to.good = true;
   return to;
@@ -147,9 +149,12 @@ Spot spot_of(const Shape& s, const SpotSeed& seed) {
 class Neighbours {
  public:
   Neighbours(const std::vector<SpotSeed>& seeds, const GrayF& g, double reach)
-      : cell_(std::max(1, int(std::ceil(reach)))), columns_(g.width / cell_ + 1), rows_(g.height / cell_ + 1) {
+      : cell_(std::max(1, int(std::ceil(reach)))),
+        columns_(g.width / cell_ + 1),
+        rows_(g.height / cell_ + 1) {
     lists_.resize(std::size_t(columns_) * std::size_t(rows_));
-    for (std::size_t i = 0; i < seeds.size(); ++i) list(seeds[i].col / cell_, seeds[i].row / cell_).push_back(i);
+    for (std::size_t i = 0; i < seeds.size(); ++i)
+      list(seeds[i].col / cell_, seeds[i].row / cell_).push_back(i);
   }
   template <class Visit>
   void each(const SpotSeed& s, std::size_t self, const Visit& visit) {

@@ -8,7 +8,8 @@ namespace faba {
 namespace {
 
 // Okabe and Ito's palette without black and yellow, which are lost on grey.
-const cv::Scalar kInks[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
+const cv::Scalar kInks[] = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
+                            {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
 constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
 
 cv::Point fixed(Vec2 p) {
@@ -18,8 +19,8 @@ cv::Point fixed(Vec2 p) {
 
 }  // namespace
 
-RgbImage draw_tracks(const GrayF& frame, float black, float white, const std::vector<TrackLine>& tracks, bool rings,
-                     double ring_px) {
+RgbImage draw_tracks(const GrayF& frame, float black, float white, const std::vector<TrackLine>& tracks,
+                     bool rings, double ring_px) {
   RgbImage out(frame.width, frame.height);
   if (frame.empty()) return out;
   const float gain = white > black ? 255.0F / (white - black) : 0.0F;
@@ -35,7 +36,8 @@ RgbImage draw_tracks(const GrayF& frame, float black, float white, const std::ve
     for (const Vec2 p : t.path) points.push_back(fixed(p));
     cv::polylines(m, points, false, ink, width, cv::LINE_AA, kShift);
     if (rings && t.seen && !points.empty())
-      cv::circle(m, points.back(), int(std::lround(ring_px * (1 << kShift))), ink, width, cv::LINE_AA, kShift);
+      cv::circle(m, points.back(), int(std::lround(ring_px * (1 << kShift))), ink, width, cv::LINE_AA,
+                 kShift);
   }
   return out;
 }

@@ -17,7 +17,7 @@ struct TrackLine {
 /// A frame in grey (between the grey values `black` and `white`) with paths drawn on it: thin lines in one of
 /// six colours of the Okabe-Ito palette by number, and, when `rings` is set, a ring of `ring_px` around the
 /// last place of each track that is seen. Same size as the frame.
-RgbImage draw_tracks(const GrayF& frame, float black, float white, const std::vector<TrackLine>& tracks, bool rings,
-                     double ring_px);
+RgbImage draw_tracks(const GrayF& frame, float black, float white, const std::vector<TrackLine>& tracks,
+                     bool rings, double ring_px);
 
 }  // namespace faba

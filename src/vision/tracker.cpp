@@ -219,7 +219,7 @@ void Tracker::learn_common_velocity() {
 }
 
 double displacement_reach(const std::vector<std::vector<Spot>>& frames) {
-  constexpr int kNth = 6;           // neighbour that the density around a spot is taken from
+  constexpr int kNth = 6;  // neighbour that the density around a spot is taken from
   constexpr double kShare = 0.95, kMore = 1.25, kLeast = 2, kSpacings = 0.75;
   struct Pair {
     double nearest, density;

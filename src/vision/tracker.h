@@ -31,11 +31,13 @@ enum class Motion {
 
 /// Parameters of Tracker.
 struct TrackerOptions {
-  double reach_px = 0;  ///< farthest displacement from one frame to the next; 0: found, see displacement_reach()
+  double reach_px =
+      0;  ///< farthest displacement from one frame to the next; 0: found, see displacement_reach()
   Motion motion = Motion::automatic;
   int memory = 2;        ///< frames in a row that a cell may go unseen
   int least_points = 3;  ///< shorter tracks are noise and are not handed out
-  int most_points = 4096;  ///< longer tracks are handed out in pieces of this length, so that memory is bounded
+  int most_points =
+      4096;  ///< longer tracks are handed out in pieces of this length, so that memory is bounded
 };
 
 /// Joins spots into tracks, frame by frame: spots in, finished tracks out. Times are those of the frames;
@@ -44,9 +46,9 @@ struct TrackerOptions {
 /// Each frame, every live track foretells its place with an uncertainty; pairs of track and spot inside the
 /// gate are weighed by their likelihood against "the cell was missed and the spot is new", and the assignment
 /// with the largest total is taken (best_assignment). Tracks that got nothing may then take a left-over spot
-/// within reach of their last place, which is how reversals are followed. Spots left over begin tracks; tracks
-/// unseen for more than `memory` frames end. Velocities are taken from the track itself, and for a track of
-/// one point from the median of all tracks.
+/// within reach of their last place, which is how reversals are followed. Spots left over begin tracks;
+/// tracks unseen for more than `memory` frames end. Velocities are taken from the track itself, and for a
+/// track of one point from the median of all tracks.
 class Tracker {
  public:
   explicit Tracker(TrackerOptions options = {});
@@ -70,8 +72,8 @@ class Tracker {
  private:
   struct Live {
     Track track;
-    std::size_t points = 0;  ///< also those handed out
-    Vec2 at, velocity;       ///< px, px/s
+    std::size_t points = 0;                        ///< also those handed out
+    Vec2 at, velocity;                             ///< px, px/s
     double var_at = 0, cov = 0, var_velocity = 0;  ///< of each axis
     double t_s = 0;
     int missed = 0;
@@ -105,15 +107,15 @@ class Tracker {
   bool begun_ = false;
   double frame_s_ = 0, last_t_ = 0;
   std::uint64_t numbered_ = 0, dropped_ = 0;
-  Vec2 common_velocity_;              ///< px/s, median over the tracks
-  double acceleration_ = 0;           ///< variance of velocity gained per s, px^2/s^3
-  double scatter_ = 0;                ///< variance of a displacement about none, of an axis, px^2 per frame
+  Vec2 common_velocity_;     ///< px/s, median over the tracks
+  double acceleration_ = 0;  ///< variance of velocity gained per s, px^2/s^3
+  double scatter_ = 0;       ///< variance of a displacement about none, of an axis, px^2 per frame
   double error_nearest_ = 0, error_velocity_ = 0, weighed_ = 0;
 };
 
 /// How far things move from one frame to the next: the distance within which 95 % of those that have a
-/// successor find it, times 1.25. Nearest neighbours in the next frame are counted, and what chance gives at the
-/// density around each spot is taken off. At most three quarters of the mean spacing; at least 2 px.
+/// successor find it, times 1.25. Nearest neighbours in the next frame are counted, and what chance gives at
+/// the density around each spot is taken off. At most three quarters of the mean spacing; at least 2 px.
 double displacement_reach(const std::vector<std::vector<Spot>>& frames);
 
 }  // namespace faba

@@ -9,9 +9,9 @@
 namespace faba {
 
 /// Reads the frames of a video one after the other as grey pictures: any video FFmpeg reads, a TIFF stack, a
-/// still picture (one frame), or many pictures: a folder of them or a pattern such as `frames/frame_*.tif` and
-/// `frames/frame_%04d.tif` (see PictureSequence for their order and times). Memory does not grow with the length. Not to be shared between threads;
-/// several readers may work at the same time.
+/// still picture (one frame), or many pictures: a folder of them or a pattern such as `frames/frame_*.tif`
+/// and `frames/frame_%04d.tif` (see PictureSequence for their order and times). Memory does not grow with the
+/// length. Not to be shared between threads; several readers may work at the same time.
 ///
 /// Grey: see to_grey() in frame_grey.h (luma as it is, studio range spread to 0..255 or 0..65535) and
 /// TiffStack. Luma of coloured material weighs the colours as the video's own matrix says. Rotation tags and
@@ -25,8 +25,9 @@ namespace faba {
 class VideoReader {
  public:
   /// Opens the file and decodes its first frame. `fps` > 0: the mean frame rate, whatever the
-  /// file states (its time stamps are scaled); 0: as the file states. Throws Error(Errc::input, path) when it is missing, a directory without
-  /// pictures, empty, of no known kind, without a picture stream, or when not even one frame can be decoded.
+  /// file states (its time stamps are scaled); 0: as the file states. Throws Error(Errc::input, path) when it
+  /// is missing, a directory without pictures, empty, of no known kind, without a picture stream, or when not
+  /// even one frame can be decoded.
   explicit VideoReader(const std::filesystem::path& path, double fps = 0);
   ~VideoReader();
   VideoReader(VideoReader&&) noexcept;
