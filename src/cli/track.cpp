@@ -65,15 +65,19 @@ void print_summary(const nlohmann::ordered_json& j) {
              d["background"].get<std::string>());
   fmt::print("tracks   {} in {} frames, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
              j["frames"].get<std::int64_t>(), j["mean_points"].get<double>());
-  if (j["speed"].is_object() && j["supported"] != "diffusion")
+  const bool together = j["order"].is_number() && j["order"].get<double>() > 0.5;
+  if (j["speed"].is_object() && (together || j["supported"] != "diffusion"))
     fmt::print("speed    {} on average, over {:.3g} s\n",
                value_of(j["speed"], "mean", "px_s", "um_s", "px/s", "um/s"),
                j["speed"]["interval_s"].get<double>());
+  if (together)
+    fmt::print("drift    {} right, {} down\n", value_of(j["drift"], "x", "px_s", "um_s", "px/s", "um/s"),
+               value_of(j["drift"], "y", "px_s", "um_s", "px/s", "um/s"));
   if (j["supported"] == "diffusion")
-    fmt::print("motion   no direction is kept: diffusion, D = {}\n",
+    fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", together ? "about the drift " : "",
                value_of(j["diffusion"], "d", "px2_s", "um2_s", "px^2/s", "um^2/s"));
   if (j["supported"] == "persistent_walk" && j["persistent_walk"].is_object())
-    fmt::print("motion   direction is kept: walk at {} (rms), for {}\n",
+    fmt::print("motion   {}direction is kept: walk at {} (rms), for {}\n", together ? "about the drift " : "",
                value_of(j["persistent_walk"], "speed_rms", "px_s", "um_s", "px/s", "um/s"),
                j["persistent_walk"]["tau_longer_than_seen"].get<bool>()
                    ? "longer than was seen"

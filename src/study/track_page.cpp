@@ -105,6 +105,9 @@ std::string table(const Json& r) {
 std::string lead(const Json& r) {
   if (r["tracks"] == 0) return "Nothing was tracked.";
   const std::string tracks = r["tracks"].dump() + (r["tracks"] == 1 ? " track" : " tracks");
+  if (r["order"].is_number() && r["order"].get<double>() > 0.5)
+    return fmt::format("{}: they move together, at {} on average.", tracks,
+                       value_of(r["speed"], "mean", "px_s", "um_s", "px/s", "µm/s"));
   if (r["supported"] == "persistent_walk")
     return fmt::format("{}: they swim, at {} on average.", tracks,
                        value_of(r["speed"], "mean", "px_s", "um_s", "px/s", "µm/s"));

@@ -6,12 +6,13 @@
 #include <limits>
 #include <numbers>
 
+#include "study/track_bins.h"
+
 namespace faba {
 namespace {
 
 constexpr std::size_t kGroups = 20;  // of tracks, by number: the jackknife leaves out one after the other
 constexpr std::size_t kPilotPoints = 50000;
-constexpr std::size_t kTimeBins = 512;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLowSpeed = 1e-4;  // px per interval, where the logarithmic bins begin
 constexpr double kBinsPerDecade = 400;
@@ -85,52 +86,6 @@ double jackknife_se(const std::vector<Group>& groups, const Value& value) {
   for (const double x : v) mean += x / double(v.size());
   for (const double x : v) square += (x - mean) * (x - mean);
   return std::sqrt(square * double(v.size() - 1) / double(v.size()));
-}
-
-// Sums over displacements in spans of time; when time runs out of spans they become twice as long.
-class TimeBins {
- public:
-  explicit TimeBins(double span_s)
-      : span_s_(span_s), x_(kTimeBins), y_(kTimeBins), length_(kTimeBins), n_(kTimeBins) {}
-  void add(double t_s, double vx, double vy) {
-    while (t_s / span_s_ >= double(kTimeBins)) fold();
-    const auto i = std::size_t(std::max(0.0, t_s / span_s_));
-    x_[i] += vx, y_[i] += vy, length_[i] += std::hypot(vx, vy), n_[i] += 1;
-  }
-  void give(TrackSummary& s) const {
-    std::size_t last = kTimeBins;
-    while (last > 0 && n_[last - 1] == 0) --last;
-    for (std::size_t i = 0; i < last; ++i) {
-      s.time_s.push_back((double(i) + 0.5) * span_s_);
-      s.velocity_x_px_s.push_back(n_[i] > 0 ? x_[i] / n_[i] : kNaN);
-      s.velocity_y_px_s.push_back(n_[i] > 0 ? y_[i] / n_[i] : kNaN);
-      s.order_in_time.push_back(length_[i] > 0 && n_[i] >= 5 ? std::hypot(x_[i], y_[i]) / length_[i] : kNaN);
-      s.count_in_time.push_back(n_[i]);
-    }
-  }
-
- private:
-  void fold() {
-    for (auto* v : {&x_, &y_, &length_, &n_})
-      for (std::size_t i = 0; i < kTimeBins; ++i) {
-        const double sum = 2 * i + 1 < kTimeBins ? (*v)[2 * i] + (*v)[2 * i + 1] : 0;
-        (*v)[i] = sum;
-      }
-    span_s_ *= 2;
-  }
-  double span_s_;
-  std::vector<double> x_, y_, length_, n_;
-};
-
-double quantile_of(const std::vector<double>& counts, double share, const auto& value_at) {
-  double total = 0, sum = 0;
-  for (const double c : counts) total += c;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (sum + counts[i] >= share * total && counts[i] > 0)
-      return value_at(double(i) + std::clamp((share * total - sum) / counts[i], 0.0, 1.0));
-    sum += counts[i];
-  }
-  return kNaN;
 }
 
 }  // namespace
@@ -381,17 +336,21 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
   };
   const auto turn_at = [&](double bin) { return bin / double(kTurnBins) * 180 / s.interval_s; };
   for (const double q : {0.1, 0.5, 0.9}) {
-    s.speed_quantiles_px_s.push_back(quantile_of(speed_bins, q, speed_at));
-    s.turn_quantiles_deg_s.push_back(quantile_of(turn_bins, q, turn_at));
+    s.speed_quantiles_px_s.push_back(binned_quantile(speed_bins, q, speed_at));
+    s.turn_quantiles_deg_s.push_back(binned_quantile(turn_bins, q, turn_at));
   }
   s.order = sum_length > 0 ? std::hypot(sum_x, sum_y) / sum_length : kNaN;
   const double typical = s.speed_quantiles_px_s[1] * s.interval_s;
   if (typical > 0)
     s.turn_noise_deg_s =
         std::sqrt(2 / std::numbers::pi) * kDegrees * std::sqrt(6 * noise2) / typical / s.interval_s;
-  in_time.give(s);
+  for (const TimeBins::Span& span : in_time.spans()) {
+    s.time_s.push_back(span.time_s), s.count_in_time.push_back(span.count);
+    s.velocity_x_px_s.push_back(span.x), s.velocity_y_px_s.push_back(span.y);
+    s.order_in_time.push_back(span.order);
+  }
   // Bins of equal width out to the 99.5 % quantile; the last one takes the rest.
-  const double most = quantile_of(speed_bins, 0.995, speed_at);
+  const double most = binned_quantile(speed_bins, 0.995, speed_at);
   if (!(most > 0)) return;
   const auto bins = std::size_t(std::clamp(std::sqrt(double(s.speed_count)), 8.0, 40.0));
   s.speeds_px_s.counts.resize(bins);

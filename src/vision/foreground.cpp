@@ -154,7 +154,7 @@ Foreground::Foreground(ForegroundOptions options) : options_(options) {
 // The first background: the picture without its spots.
 void Foreground::begin(const GrayF& picture, double noise) {
   const int w = picture.width, h = picture.height;
-  const GrayF smooth = smoothed(picture, std::max(sd_px_, 0.8));
+  const GrayF fine = smoothed(picture, std::max(sd_px_, 0.8));
   // Noise of a second difference of the smoothed picture; its variance is 3 / (16 pi s^6) of the noise's.
   const double s = std::max(sd_px_, 0.8);
   const auto least = float(kCurvatureSd * noise * std::sqrt(3 / (16 * portable::kPi)) / (s * s * s));
@@ -163,13 +163,13 @@ void Foreground::begin(const GrayF& picture, double noise) {
   std::array<Marks, 2> marks;
   for (std::size_t k = 0; k < 2; ++k) {
     const float sign = k == 0 ? -1.0F : 1.0F;
-    marks[k] = find_marks(smooth, sign, least, border);
+    marks[k] = find_marks(fine, sign, least, border);
     if (marks[k].strengths.empty()) continue;
     // In a picture with little noise the foot of each cell is a surface with a shape, too.
     auto& v = marks[k].strengths;
     const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
     std::nth_element(v.begin(), middle, v.end());
-    marks[k] = find_marks(smooth, sign, std::max(least, kFaint * *middle), border);
+    marks[k] = find_marks(fine, sign, std::max(least, kFaint * *middle), border);
   }
   if (sign_ == 0) sign_ = marks[1].evidence > marks[0].evidence ? 1 : -1;
   std::vector<std::uint8_t>&marked = marks[sign_ > 0 ? 1 : 0].spots, &line = marks[sign_ > 0 ? 1 : 0].lines;
@@ -256,7 +256,7 @@ void Foreground::take_logarithms(const GrayF& picture, float gain, double noise)
 
 void Foreground::find_covered(double noise) {
   const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * noise * smoothing_gain()));
-  smooth_ = smoothed(weights_, std::max(sd_px_, 0.6));
+  smooth(weights_, std::max(sd_px_, 0.6), smooth_, scratch_);
   covered_.resize(smooth_.px.size());
   for (std::size_t i = 0; i < smooth_.px.size(); ++i) covered_[i] = smooth_.px[i] > threshold ? 1 : 0;
   measure_cell(double(threshold));

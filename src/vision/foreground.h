@@ -70,7 +70,7 @@ class Foreground {
   double cell_signal_ = 0;       ///< grey px^2
   double own_noise_ = 0;         ///< variance of the background over that of the picture's noise
   std::uint64_t frames_ = 0;     ///< that the background rests on
-  GrayF background_, weights_, smooth_, picture_;
+  GrayF background_, weights_, smooth_, picture_, scratch_;
   std::vector<std::uint8_t> covered_, work_;
 };
 

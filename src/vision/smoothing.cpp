@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/portable_math.h"
+#include "core/vectorised.h"
 
 namespace faba {
 namespace {
@@ -20,20 +21,30 @@ int mirrored(int i, int n) {
   return i < n ? i : period - i;
 }
 
+// out = w0 middle, or out += w (left + right), element by element.
+FABA_VECTORISED void begin_sum(float* out, const float* middle, float weight, int n) {
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) out[i] = weight * middle[i];
+}
+FABA_VECTORISED void add_pair(float* out, const float* left, const float* right, float weight, int n) {
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) out[i] += weight * (left[i] + right[i]);
+}
+
 void convolve_rows(const GrayF& from, const std::vector<float>& weights, GrayF& to) {
   const int reach = int(weights.size()) - 1, w = from.width;
   std::vector<float> line(std::size_t(w + 2 * reach));
   for (int row = 0; row < from.height; ++row) {
     const float* in = &from.px[std::size_t(row) * std::size_t(w)];
-    for (int i = -reach; i < w + reach; ++i)
-      line[std::size_t(i + reach)] = in[i >= 0 && i < w ? i : mirrored(i, w)];
+    std::copy(in, in + w, line.begin() + reach);
+    for (int i = 1; i <= reach; ++i) {
+      line[std::size_t(reach - i)] = in[mirrored(-i, w)];
+      line[std::size_t(reach + w - 1 + i)] = in[mirrored(w - 1 + i, w)];
+    }
     float* out = &to.px[std::size_t(row) * std::size_t(w)];
     const float* middle = line.data() + reach;
-    for (int i = 0; i < w; ++i) out[i] = weights[0] * middle[i];
-    for (int k = 1; k <= reach; ++k) {
-      const float weight = weights[std::size_t(k)];
-      for (int i = 0; i < w; ++i) out[i] += weight * (middle[i - k] + middle[i + k]);
-    }
+    begin_sum(out, middle, weights[0], w);
+    for (int k = 1; k <= reach; ++k) add_pair(out, middle - k, middle + k, weights[std::size_t(k)], w);
   }
 }
 
@@ -42,13 +53,8 @@ void convolve_columns(const GrayF& from, const std::vector<float>& weights, Gray
   const auto line = [&](int row) { return &from.px[std::size_t(mirrored(row, h)) * std::size_t(w)]; };
   for (int row = 0; row < h; ++row) {
     float* out = &to.px[std::size_t(row) * std::size_t(w)];
-    const float* middle = line(row);
-    for (int i = 0; i < w; ++i) out[i] = weights[0] * middle[i];
-    for (int k = 1; k <= reach; ++k) {
-      const float weight = weights[std::size_t(k)];
-      const float *above = line(row - k), *below = line(row + k);
-      for (int i = 0; i < w; ++i) out[i] += weight * (above[i] + below[i]);
-    }
+    begin_sum(out, line(row), weights[0], w);
+    for (int k = 1; k <= reach; ++k) add_pair(out, line(row - k), line(row + k), weights[std::size_t(k)], w);
   }
 }
 
@@ -104,20 +110,28 @@ std::vector<float> gaussian_weights(double sd_px) {
 }
 
 GrayF smoothed(const GrayF& picture, double sd_px) {
-  if (picture.empty()) return picture;
+  GrayF out, work;
+  smooth(picture, sd_px, out, work);
+  return out;
+}
+
+void smooth(const GrayF& picture, double sd_px, GrayF& out, GrayF& work) {
+  for (GrayF* g : {&out, &work}) {
+    g->width = picture.width, g->height = picture.height;
+    g->px.resize(picture.px.size());
+  }
+  if (picture.empty()) return;
   if (sd_px <= kWidestSampled) {
     const std::vector<float> weights = gaussian_weights(sd_px);
-    GrayF rows(picture.width, picture.height), out(picture.width, picture.height);
-    convolve_rows(picture, weights, rows);
-    convolve_columns(rows, weights, out);
-    return out;
+    convolve_rows(picture, weights, work);
+    convolve_columns(work, weights, out);
+    return;
   }
   // The variance of a mean over 2 h + 1 pixels is h (h + 1) / 3.
   const double wanted = 3 * sd_px * sd_px / kMeans;
   const int half = std::max(1, int(std::floor(std::sqrt(wanted + 0.25))));
-  GrayF out = picture;
+  out.px = picture.px;
   for (int i = 0; i < kMeans; ++i) mean_rows(out, half), mean_columns(out, half);
-  return out;
 }
 
 }  // namespace faba
