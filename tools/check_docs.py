@@ -172,8 +172,8 @@ class Checks:
                     self.fail(file, f"{len(lines)} lines; at most {MOST_LINES}")
                 for number, line in enumerate(lines, 1):
                     place = f"{file.relative_to(self.root)}:{number}"
-                    for cited in re.findall(r"\btheory ([A-F]\d{1,2}(?:(?:, | and )[A-F]\d{1,2})*)", line):
-                        for label in re.findall(r"[A-F]\d{1,2}", cited):
+                    for cited in re.findall(r"\btheory ([A-G]\d{1,2}(?:(?:, | and )[A-G]\d{1,2})*)", line):
+                        for label in re.findall(r"[A-G]\d{1,2}", cited):
                             if label not in labels:
                                 self.fail(place, f"cites theory {label}, which docs/theory/README.md does not list")
                     for tag in re.findall(r"\[(S\d{1,2})\]", line):

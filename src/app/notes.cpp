@@ -101,6 +101,11 @@ void note_helpless(const Scenario& s, const Simulation& simulation, Notes& notes
   if (s.params.exposure > 0 && s.motility.type == "none")
     notes.emplace_back(
         "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
+  if (!s.renders() &&
+      MicroscopeParams::schema().to_json(s.microscope) != MicroscopeParams::schema().to_json({}))
+    notes.emplace_back(
+        "microscope: has no effect; it needs camera.sensor = \"frames\", or record.as_seen = true "
+        "(--as-seen)");
   if (const double steps = s.frame_period() / simulation.step(); steps > 1e5)
     notes.push_back(
         fmt::format("simulation: the models need {:.2g} steps per frame to be accurate, which will take "

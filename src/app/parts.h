@@ -2,6 +2,7 @@
 #include "control/controller.h"
 #include "sim/motility.h"
 #include "sim/start.h"
+#include "vision/flow.h"
 
 namespace faba {
 
@@ -15,6 +16,7 @@ struct Parts {
   EstimatorRegistry estimator{"estimator", "What is believed of the swarm: [estimator]"};
   ReferenceRegistry reference{"reference", "Where the swarm should be: [reference]"};
   ControllerRegistry controller{"controller", "Feedback law: [controller]"};
+  FlowRegistry flow{"flow method", "Optical flow between two frames: [flow], --method"};
 };
 
 /// All parts that come with the program.
@@ -31,6 +33,7 @@ void each_kind(const Parts& p, Visit&& visit) {
   visit("estimator", p.estimator);
   visit("reference", p.reference);
   visit("controller", p.controller);
+  visit("flow", p.flow);
 }
 
 }  // namespace faba

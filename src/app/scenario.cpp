@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/calibration_file.h"
 #include "app/rig_file.h"
 #include "core/hash.h"
 #include "field/library.h"
@@ -33,10 +34,12 @@ Schema<Record> Record::schema() {
            {.min = 1, .max = 1e6, .doc = "Every how many frames tracks are kept"})
       .add("compress", &Record::compress,
            {.doc = "Compress tracks.h5 (lossless; a quarter smaller, ten times slower)"})
-      .add("video", &Record::video, {.doc = "video.mp4: the rendered swarm, for browsers"})
+      .add("video", &Record::video, {.doc = "video.mp4: the swarm, for browsers"})
       .add("video_every", &Record::video_every,
            {.min = 1, .max = 1e6, .doc = "Every how many frames a picture is rendered"})
       .add("lossless", &Record::lossless, {.doc = "video.avi as well, exact to the grey level, for Fiji"})
+      .add("as_seen", &Record::as_seen,
+           {.doc = "Videos show what the camera sees through the microscope of [microscope], not a drawing"})
       .add("checkpoint", &Record::checkpoint,
            {.unit = "s",
             .min = 0.1,
@@ -45,7 +48,7 @@ Schema<Record> Record::schema() {
 }
 
 Schema<Camera> Camera::schema() {
-  return Schema<Camera>("camera", "Frame rate and delay of the camera")
+  return Schema<Camera>("camera", "When the camera looks, and what it tells")
       .add("rate", &Camera::rate,
            {.unit = "Hz",
             .min = 0.01,
@@ -53,7 +56,16 @@ Schema<Camera> Camera::schema() {
             .doc = "Frames per second",
             .source = "thesis: 90 frames in 6 s (A0)"})
       .add("delay_frames", &Camera::delay_frames,
-           {.min = 0, .max = 1000, .doc = "Age of a picture, in frames, when the controller gets it"});
+           {.min = 0, .max = 1000, .doc = "Age of a picture, in frames, when the controller gets it"})
+      .add("jitter", &Camera::jitter,
+           {.unit = "s",
+            .min = 0,
+            .max = 1e3,
+            .doc = "Sd of the frames' times about the regular ones, at most 0.4 frames to either side"})
+      .add("sensor", &Camera::sensor,
+           {.doc = "positions: the loop is told where every cell is; frames: it gets pictures as the "
+                   "[microscope] renders them, and has to find the cells itself",
+            .choices = {"positions", "frames"}});
 }
 
 Schema<ScaleParams> ScaleParams::schema() {
@@ -129,6 +141,7 @@ Json Scenario::resolved() const {
   Json j = schema().to_json(params);
   j["scale"] = ScaleParams::schema().to_json(scale);
   j["camera"] = Camera::schema().to_json(camera);
+  if (renders()) j["microscope"] = MicroscopeParams::schema().to_json(microscope);
   j["simulation"] = SimulationParams::schema().to_json(simulation);
   j["arena"] = arena.resolved;
   j["exclusion"] = Exclusion::schema().to_json(exclusion);
@@ -153,6 +166,7 @@ Json Scenario::resolved() const {
 std::string Scenario::hash() const {
   Json j = resolved();
   for (const char* key : {"title", "seed", "record"}) j.erase(key);
+  if (camera.sensor == Camera::Sensor::positions) j.erase("microscope");  // of the recording only
   if (library) j["library"].erase("file");  // `made` says what is in it, wherever it lies
   Hash h;
   h.text(j.dump());
@@ -204,6 +218,33 @@ void read_swarms(const Node& root, const Parts& parts, Scenario& s) {
   if (total > 5e7) list.fail(fmt::format("{} cells in all; at most 5e7 are possible", total));
 }
 
+// Without feedback nobody needs to know where the cells are.
+const char* usual_estimator(const Scenario& s) {
+  if (s.camera.sensor == Camera::Sensor::positions) return "mean";
+  return s.steers() ? "image" : "none";
+}
+
+void check_camera(const Node& root, Scenario& s) {
+  if (!s.microscope.background.empty())
+    s.microscope.background =
+        std::filesystem::absolute(root.child("microscope").file(s.microscope.background))
+            .lexically_normal()
+            .string();
+  if (s.steers() && s.estimator.type == "none")
+    throw Error(
+        Errc::usage, root.where("estimator"),
+        fmt::format(
+            "controller {} steers by an estimate, and \"none\" gives it none; use \"mean\" or \"visible\"",
+            s.controller.type));
+  if (s.camera.sensor == Camera::Sensor::frames &&
+      (s.estimator.type == "mean" || s.estimator.type == "visible"))
+    throw Error(
+        Errc::usage, root.where("estimator"),
+        fmt::format("\"{}\" needs the position of every cell, and a camera with sensor = \"frames\" tells "
+                    "none; use \"image\" or \"groups\"",
+                    s.estimator.type));
+}
+
 // In TOML a key belongs to the last [header] before it, which is easily forgotten below the tables.
 void check_top_level(const Node& root) {
   for (const auto& [table, content] : root.json->items()) {
@@ -220,14 +261,16 @@ void check_top_level(const Node& root) {
 
 Scenario read_scenario(Document d, const Parts& parts) {
   include_rig(d);
+  include_calibration(d);
   const Node root(d);
   check_top_level(root);
   Scenario s;
   s.params = Scenario::schema().parse(
-      root, {"scale", "camera", "simulation", "arena", "exclusion", "field", "motility", "swarm", "estimator",
-             "reference", "controller", "limits", "library", "record"});
+      root, {"scale", "camera", "microscope", "simulation", "arena", "exclusion", "field", "motility",
+             "swarm", "estimator", "reference", "controller", "limits", "library", "record"});
   section(root, "scale", s.scale, ScaleParams::schema());
   section(root, "camera", s.camera, Camera::schema());
+  section(root, "microscope", s.microscope, MicroscopeParams::schema());
   section(root, "simulation", s.simulation, SimulationParams::schema());
   section(root, "limits", s.limits, Limits::schema());
   section(root, "exclusion", s.exclusion, Exclusion::schema());
@@ -235,11 +278,12 @@ Scenario read_scenario(Document d, const Parts& parts) {
   s.arena = part(root, "arena", parts.arena, "box");
   s.field = part(root, "field", parts.field, "uniform");
   s.motility = part(root, "motility", parts.motility, "none");
-  s.estimator = part(root, "estimator", parts.estimator, "mean");
   s.controller = part(root, "controller", parts.controller, "fuzzy");
+  s.estimator = part(root, "estimator", parts.estimator, usual_estimator(s));
   s.reference = part(root, "reference", parts.reference, s.steers() ? "hold" : "none");
   read_swarms(root, parts, s);
   read_library(root, s);
+  check_camera(root, s);
 
   if (s.params.duration * s.camera.rate > 1e8)
     root.child("duration").fail("is more than 1e8 frames; shorten it or lower camera.rate");
@@ -258,7 +302,12 @@ Json scenario_json_schema(const Parts& parts) {
   j["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   Json& p = j["properties"];
   p["scale"] = ScaleParams::schema().json_schema();
+  p["scale"]["properties"]["file"] = {
+      // include_calibration() puts um_per_px in its place
+      {"type", "string"},
+      {"description", "A calibration file of `faba scale`, in place of um_per_px"}};
   p["camera"] = Camera::schema().json_schema();
+  p["microscope"] = MicroscopeParams::schema().json_schema();
   p["simulation"] = SimulationParams::schema().json_schema();
   p["exclusion"] = Exclusion::schema().json_schema();
   p["limits"] = Limits::schema().json_schema();

@@ -2,6 +2,7 @@
 #include "app/loop.h"
 #include "app/parts.h"
 #include "sim/exclusion.h"
+#include "vision/microscope_params.h"
 
 namespace faba {
 
@@ -13,14 +14,18 @@ struct Record {
   bool video = true;
   int video_every = 1;
   bool lossless = false;
+  bool as_seen = false;
   double checkpoint = 10;
   static Schema<Record> schema();
 };
 
 /// The table [camera].
 struct Camera {
+  enum class Sensor { positions, frames };
   double rate = 15;
   int delay_frames = 0;
+  double jitter = 0;
+  Sensor sensor = Sensor::positions;
   static Schema<Camera> schema();
 };
 
@@ -73,6 +78,7 @@ struct Scenario {
   Params params;
   ScaleParams scale;
   Camera camera;
+  MicroscopeParams microscope;
   SimulationParams simulation;
   Limits::Params limits;
   Exclusion::Params exclusion;
@@ -88,6 +94,8 @@ struct Scenario {
 
   std::uint64_t frames() const;  ///< of the whole run, at least 1
   double frame_period() const { return 1 / camera.rate; }
+  /// Whether frames are rendered: for the loop or for the recording.
+  bool renders() const { return camera.sensor == Camera::Sensor::frames || record.as_seen; }
   Scale si_scale() const;
   /// Whether a feedback controller steers to a setpoint; false with a schedule of fields.
   bool steers() const { return controller.type != "manual"; }

@@ -152,7 +152,9 @@ void Session::open_sinks(Archive* resume) {
                       scenario_.si_scale(),
                       scenario_.camera.rate,
                       scenario_.record,
-                      scenario_.motility.type != "none"};
+                      scenario_.motility.type != "none",
+                      &simulation_->rig(),
+                      scenario_.camera.jitter > 0};
   sinks_.push_back(series_sink(c, resume));
   if (scenario_.record.tracks) sinks_.push_back(tracks_sink(c, resume));
   if (scenario_.record.video) sinks_.push_back(video_sink(c, false, resume));
@@ -235,6 +237,7 @@ Json Session::manifest() const {
           {"cells", world.state().agents.size()},
           {"swarms", swarms},
           {"setpoints", setpoints.size()},
+          {"video_shows", scenario_.record.as_seen ? "camera" : "drawing"},
           {"notes", notes_}};
 }
 

@@ -39,11 +39,20 @@ FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary* libr
   return library->table(field, rig_fingerprint(s.field.resolved));
 }
 
+constexpr double kJitterSteps = 4;  // in one sd of the frames' times, so that whole steps do not show
+
 // Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
 // whole.
 int steps_per_frame(const Scenario& s, double longest) {
   const double frame = s.frame_period();
+  if (s.camera.jitter > 0) longest = std::min(longest, s.camera.jitter / kJitterSteps);
   if (s.simulation.step) {
+    if (s.camera.jitter > 0 && *s.simulation.step > s.camera.jitter)
+      throw Error(
+          Errc::usage, "camera.jitter",
+          fmt::format("{:g} s is less than a step ({:g} s), and frames are taken at whole steps; a shorter "
+                      "simulation.step",
+                      s.camera.jitter, *s.simulation.step));
     const double n = frame / *s.simulation.step, whole = std::floor(n + 0.5);
     if (whole < 1 || std::fabs(n - whole) > 1e-6 * whole)
       throw Error(Errc::usage, "simulation.step",
@@ -64,6 +73,19 @@ int steps_per_frame(const Scenario& s, double longest) {
     if (per_iteration > 0.5 && std::fabs(per_iteration - std::floor(per_iteration + 0.5)) < 1e-6) return n;
   }
   return least;  // models that count in iterations will say what is wrong
+}
+
+std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool) {
+  SimRig::Params p{steps, s.frame_period(), s.camera.delay_frames, s.camera.jitter};
+  p.frames = s.camera.sensor == Camera::Sensor::frames;
+  if (s.renders()) {
+    const Outline edge = world.parts().arena->outline();
+    p.microscope =
+        std::make_shared<Microscope>(s.microscope, world.parts().arena->frame(),
+                                     Circle{edge.centre_image, edge.radius_px}, s.frame_period(), seed);
+    p.pool = &pool;
+  }
+  return std::make_unique<SimRig>(world, p);
 }
 
 }  // namespace
@@ -115,7 +137,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
                                w.field->max_currents(s.limits.max_current),
                                library};
   world_ = std::make_unique<World>(std::move(w), pool);
-  rig_ = std::make_unique<SimRig>(*world_, SimRig::Params{steps, s.frame_period(), s.camera.delay_frames});
+  rig_ = make_rig(s, *world_, steps, seed, pool);
   estimator_ = s.estimator.make(control);
   reference_ = s.reference.make(control);
   controller_ = s.controller.make(control);

@@ -22,6 +22,7 @@ void apply_settings(Document& d, const RunVerb& v) {
   }
   if (v.duration) d.set("duration", *v.duration, "--duration");
   if (v.seed) d.set("seed", *v.seed, "--seed");
+  if (v.as_seen) d.set("record.as_seen", Json(true), "--as-seen");
 }
 
 // 48 bits: short enough to type, and exact in every language that will read the manifest.
@@ -35,6 +36,7 @@ std::string again_with(const RunVerb& v, std::uint64_t seed) {
   std::string line = fmt::format("{} run {} --seed {}", shell_word(program()), shell_word(v.scene), seed);
   if (!v.from_video.empty()) line += " --from-video " + shell_word(v.from_video);
   if (v.duration) line += " --duration " + shell_word(*v.duration);
+  if (v.as_seen) line += " --as-seen";
   for (const std::string& s : v.set) line += " --set " + shell_word(s);
   return line;
 }

@@ -22,6 +22,7 @@ void add_run_verbs(CLI::App& app, CommandLine& line) {
   v->add_option("--duration", o->duration, "Simulated time, such as \"10 s\"");
   v->add_option("--from-video", o->from_video, "Take the drop's edge from this picture or video")
       ->check(not_empty);
+  v->add_flag("--as-seen", o->as_seen, "Videos show what the camera sees, not a drawing");
   v->add_flag("--force", o->force, "Replace an earlier run in the directory");
   v->callback([o, &line] { line.code = run(*o, line.common); });
 

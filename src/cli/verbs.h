@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace faba::cli {
@@ -20,7 +21,7 @@ struct RunVerb {
   unsigned threads = 0;
   std::filesystem::path out;
   std::filesystem::path from_video;
-  bool force = false;
+  bool as_seen = false, force = false;
 };
 struct ResumeVerb {
   std::filesystem::path dir;
@@ -38,6 +39,11 @@ struct TrackVerb {
   int memory = 2, least = 3, interval = 0;
   bool drop = false, force = false;
 };
+struct ScaleVerb {
+  std::filesystem::path ruler, out, overlay;
+  std::string tick;
+  bool force = false;
+};
 struct FieldVerb {
   std::filesystem::path rig, points, measured;
   std::string at = "0 mm, 0 mm", polarity = "north", size = "6 mm, 4.5 mm", current, view, drop;
@@ -50,6 +56,24 @@ struct LibraryVerb {
   int levels = 0;
   unsigned threads = 0;
   bool force = false;
+};
+/// A flow part and the parameters given for it, in words.
+struct FlowMethodOption {
+  std::string name = "horn_schunck";
+  std::vector<std::pair<std::string, std::string>> values;
+};
+struct FlowVerb {
+  std::filesystem::path a, b, out, picture, truth, overlay;
+  FlowMethodOption method;
+  int shrink = 0;
+  unsigned threads = 0;
+  bool force = false;
+};
+struct DistanceVerb {
+  std::filesystem::path p, similarity;
+  std::vector<std::filesystem::path> q;
+  double m = 0.9, threshold = 3;
+  bool normalise = false;
 };
 struct PartsVerb {
   std::string kind, name;
@@ -66,6 +90,9 @@ std::string shell_word(const std::string& word);
 int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
+int flow(const FlowVerb& v, const Common& c);
+int distance(const DistanceVerb& v, const Common& c);
+int scale(const ScaleVerb& v, const Common& c);
 int track(const TrackVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
 int field_map(const FieldVerb& v, const Common& c);

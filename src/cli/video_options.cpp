@@ -1,11 +1,98 @@
-#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/parts.h"
 #include "cli/command_line.h"
 #include "cli/verbs.h"
 
 namespace faba::cli {
-
 namespace {
+
+/// --method, and an option for every parameter of every flow part, as their schemas describe them.
+void add_flow_options(CLI::App* v, FlowMethodOption& o) {
+  const Parts parts = builtin_parts();
+  v->add_option("--method", o.name, "Flow part: " + fmt::format("{}", fmt::join(parts.flow.names(), ", ")))
+      ->check(CLI::IsMember(parts.flow.names()))
+      ->group("Flow");
+  std::vector<std::string> names = parts.flow.names();
+  std::partition(names.begin(), names.end(), [&](const std::string& n) { return n == o.name; });
+  for (const std::string& name : names)
+    for (const auto& [key, property] : parts.flow.json_schema(name)["properties"].items()) {
+      std::string words = property["description"].get<std::string>() + " (" + name;
+      if (property.contains("default")) words += ", " + property["default"].dump();
+      const std::string option = "--" + key;
+      if (v->get_option_no_throw(option)) continue;
+      CLI::Option* added =
+          property["type"] == "boolean"
+              ? v->add_flag_callback(
+                    option, [&o, k = key] { o.values.emplace_back(k, "true"); }, words + ")")
+              : v->add_option_function<std::string>(
+                    option, [&o, k = key](const std::string& text) { o.values.emplace_back(k, text); },
+                    words + ")");
+      added->group("Flow");
+    }
+}
+
+void add_flow(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<FlowVerb>();
+  CLI::App* v =
+      verb(app, line, "flow", "Optical flow between two pictures, or from frame to frame of a video",
+           "  faba flow a.png b.png --out ab.flo --picture ab.png\n"
+           "  faba flow a.png b.png --pyramid --truth true.flo\n"
+           "  faba flow film.mp4 --solver jacobi --iterations 100 --out film.h5 --overlay arrows.mp4");
+  v->add_option("a", o->a, "First picture; or a video, a folder of frames, a run directory")->required();
+  v->add_option("b", o->b, "Second picture");
+  v->add_option("-o,--out", o->out, "File to write: .flo (Middlebury) for two pictures, .h5 for a video")
+      ->check(not_empty);
+  v->add_option("--picture", o->picture, "Two pictures: the flow in colours, PNG")->check(not_empty);
+  v->add_option("--truth", o->truth, "Two pictures: the true flow (.flo), to say how far off this one is")
+      ->check(not_empty);
+  v->add_option("--overlay", o->overlay, "Video: arrows on its frames, MP4")->check(not_empty);
+  v->add_option(
+       "--shrink", o->shrink,
+       "Video: average frames over squares of so many px first; unless given, until no side is above 1024 px")
+      ->check(CLI::Range(1, 64));
+  v->add_option("--threads", o->threads,
+                "Threads; all of the machine's when absent. Never changes the result")
+      ->check(CLI::Range(1, 1024));
+  v->add_flag("--force", o->force, "Replace existing files");
+  add_flow_options(v, o->method);
+  v->callback([o, &line] { line.code = flow(*o, line.common); });
+}
+
+void add_distance(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<DistanceVerb>();
+  CLI::App* v =
+      verb(app, line, "distance", "Quadratic-Chi distance of histograms, one number per line in each file",
+           "  faba distance p.csv q.csv\n  faba distance p.csv q1.csv q2.csv --m 0.5 --threshold 20");
+  v->add_option("p", o->p, "Histogram")->required();
+  v->add_option("q", o->q, "Histograms to compare it with; a line of output for each")->required();
+  v->add_option("--m", o->m, "Exponent of the normalisation, 0 or more and below 1");
+  v->add_option("--threshold", o->threshold, "Bins that are as far apart as this have nothing in common");
+  v->add_option("--similarity", o->similarity, "Similarity of the bins instead: a CSV matrix")
+      ->check(not_empty);
+  v->add_flag("--normalise", o->normalise, "Compare shapes only: both histograms to a sum of 1 first");
+  v->callback([o, &line] { line.code = distance(*o, line.common); });
+}
+
+void add_scale(CLI::App& app, CommandLine& line) {
+  const auto s = std::make_shared<ScaleVerb>();
+  CLI::App* v = verb(app, line, "scale", "Micrometres per pixel, from a table or a picture of a ruler",
+                     "  faba scale readings.csv --out calibration.toml\n"
+                     "  faba scale ruler.png --tick \"10 um\" --overlay marks.png");
+  v->add_option("ruler", s->ruler, "Readings as CSV (width_um,px_1,px_2), or a picture of a ruler")
+      ->required();
+  v->add_option("--tick", s->tick, "Distance between neighbouring finest marks of a ruler in a picture")
+      ->check(not_empty);
+  v->add_option("--out", s->out, "Write a calibration file, which scenarios and analyses take in, as TOML")
+      ->check(not_empty);
+  v->add_option("--overlay", s->overlay, "Write the picture with the marks drawn in, as PNG")
+      ->check(not_empty);
+  v->add_flag("--force", s->force, "Replace existing files");
+  v->callback([s, &line] { line.code = scale(*s, line.common); });
+}
 
 void add_track(CLI::App& app, CommandLine& line) {
   const auto t = std::make_shared<TrackVerb>();
@@ -62,6 +149,9 @@ void add_video_verbs(CLI::App& app, CommandLine& line) {
   v->add_flag("--force", d->force, "Replace an existing overlay");
   v->callback([d, &line] { line.code = drop(*d, line.common); });
   add_track(app, line);
+  add_flow(app, line);
+  add_distance(app, line);
+  add_scale(app, line);
 }
 
 }  // namespace faba::cli

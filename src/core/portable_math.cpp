@@ -71,4 +71,12 @@ double atan2(double y, double x) {
   return y < 0 ? -a : a;
 }
 
+double normal_cdf(double x) {
+  const double a = x < 0 ? -x : x, t = 1 / (1 + 0.2316419 * a);
+  const double tail =
+      0.3989422804014327 * exp(-0.5 * a * a) * t *
+      (0.319381530 + t * (-0.356563782 + t * (1.781477937 + t * (-1.821255978 + t * 1.330274429))));
+  return x < 0 ? tail : 1 - tail;
+}
+
 }  // namespace faba::portable

@@ -78,5 +78,7 @@ struct SinCosD {
 };
 SinCosD sincos(double a);  ///< |a| <= 1e8
 double atan2(double y, double x);
+/// Share of a standard normal distribution below x; absolute error below 1e-7 (Abramowitz & Stegun 26.2.17).
+double normal_cdf(double x);
 
 }  // namespace faba::portable

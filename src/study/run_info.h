@@ -33,7 +33,7 @@ struct RunInfo {
 };
 
 /// Reads a manifest: a JSON object with `version`, and as far as known `seed, threads, state_hash,
-/// scenario_hash, duration_s, um_per_px, title, video_shows, wall_time_s, view_px = [w, h], arena = {type,
+/// scenario_hash, video_shows, duration_s, um_per_px, title, wall_time_s, view_px = [w, h], arena = {type,
 /// centre_px, radius_px | size_px}, polarity, swarms = [{...}], setpoints, notes = [..]`. null counts as
 /// missing; unknown keys are left alone. Throws Error(Errc::input) naming the file and the key when the file
 /// is missing or not JSON, and for a value of the wrong kind.

@@ -188,9 +188,9 @@ std::string video_figure(const RunInfo& info) {
   return fmt::format(
       "<figure class=\"video\">\n<h3>Video</h3>\n<video controls=\"controls\" preload=\"metadata\" "
       "width=\"{}\" "
-      "height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>The run as the camera saw it: "
+      "height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>{}: "
       "<a href=\"video.mp4\">video.mp4</a>, beside this page.</figcaption>\n</figure>\n",
-      size.x, size.y);
+      size.x, size.y, info.video_shows == "camera" ? "The run as the camera saw it" : "The run, drawn");
 }
 
 std::string figures_section(const std::vector<Figure>& figures, const std::string& video) {

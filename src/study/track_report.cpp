@@ -247,6 +247,14 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   if (pass.repeated_times > 0)
     notes.push_back(
         fmt::format("{} frames have the time of the one before and were not tracked", pass.repeated_times));
+  // Cells that are joined over a quarter of the mean spacing and more are often the wrong ones.
+  const double spacing = std::sqrt(double(survey.first.width) * survey.first.height /
+                                   std::max(1.0, pass.spots_found / pass.frames));
+  const double step = summary.speed_count > 0 ? summary.mean_speed_px_s.value * survey.frame_s : 0;
+  if (pass.tracker().crowded() || step > 0.3 * spacing)
+    notes.push_back(
+        "cells move about as far between frames as they are apart: many tracks join different cells, and "
+        "speeds are too small; record more frames per second, or fewer cells");
   if (survey.frames > 1 && summary.tracks == 0) notes.push_back("nothing was tracked");
   j["notes"] = notes;
 

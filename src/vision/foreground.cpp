@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/portable_math.h"
+#include "vision/line_closing.h"
 #include "vision/smoothing.h"
 
 namespace faba {
@@ -19,11 +20,9 @@ constexpr double kCurvatureSd =
     3.5;  // of the noise of a curvature, from which on a spot is one: a false one is harmless
 constexpr float kSpotShape =
     0.15F;  // smaller over larger curvature of a spot; a rod twice as long as wide has 0.25
-constexpr float kFaint = 0.3F;         // of the median spot's curvature, below which there is none
-constexpr int kGrowths = 8;            // by a cell each, of what the first spots cover
-constexpr double kGrowthSd = 3;        // of the smoothed noise, and at least
-constexpr double kGrowthShare = 0.2;   // of what one cell shows: the foot of a cell is not worth growing over
-constexpr double kGrowthWide = 8;      // sd of a cell: the surroundings that a crowd is compared with
+constexpr double kCellsPerLine = 9;    // length of the pieces that fill cells and leave lines, in cells
+constexpr float kOfLine = 0.3F;        // of a line's depth, below which a darker place on it is no cell
+constexpr double kFirstSd = 4;         // of the smoothed noise, from which on the first picture shows a cell
 constexpr double kLeastThreshold = 1;  // grey: rounding does not look like noise when the light changes
 constexpr double kCellMemory = 0.05;   // share of a new picture in what a cell is thought to weigh
 
@@ -63,34 +62,6 @@ Curvatures curvatures(const GrayF& g, int col, int row, float sign) {
   return {mean - apart, mean + apart};
 }
 
-// Where a picture is bent like a spot, and where like a line.
-struct Marks {
-  std::vector<std::uint8_t> spots, lines;
-  std::vector<float> strengths;  // smaller curvatures of the spots
-  double evidence = 0;           // their sum
-};
-
-// Curvatures from `least` on count; spots are not looked for within `border` px of the border.
-Marks find_marks(const GrayF& smooth, float sign, float least, int border) {
-  const int w = smooth.width, h = smooth.height;
-  Marks m;
-  m.spots.assign(smooth.px.size(), 0);
-  m.lines.assign(smooth.px.size(), 0);
-  for (int row = 1; row + 1 < h; ++row)
-    for (int col = 1; col + 1 < w; ++col) {
-      const Curvatures c = curvatures(smooth, col, row, sign);
-      if (c.large <= least) continue;
-      const std::size_t i = std::size_t(row) * std::size_t(w) + std::size_t(col);
-      const bool inside = col >= border && row >= border && col + border < w && row + border < h;
-      const bool spot = inside && c.small > least && c.small > kSpotShape * c.large;
-      (spot ? m.spots : m.lines)[i] = 1;
-      if (!spot) continue;
-      m.strengths.push_back(c.small);
-      m.evidence += double(c.small);
-    }
-  return m;
-}
-
 // Brightness of the picture over that of the background: median of the quotients, where no cells are.
 double common_gain(const GrayF& picture, const GrayF& background,
                    const std::vector<std::uint8_t>& leave_out) {
@@ -106,27 +77,6 @@ double common_gain(const GrayF& picture, const GrayF& background,
   while (2 * (sum + count[std::size_t(bin)]) < total) sum += count[std::size_t(bin++)];
   const double inside = (0.5 * total - sum) / std::max(1, count[std::size_t(bin)]);
   return std::max(0.05, (bin + inside) * 4 / kBins);
-}
-
-// What is marked is filled in from what is neither marked nor a line: means over wider and wider
-// surroundings.
-GrayF filled_in(const GrayF& picture, const std::vector<std::uint8_t>& marked,
-                const std::vector<std::uint8_t>& lines, double first_sd_px) {
-  GrayF out = picture, left = picture, weight(picture.width, picture.height);
-  std::vector<std::uint8_t> open = marked;
-  for (std::size_t i = 0; i < left.px.size(); ++i)
-    weight.px[i] = marked[i] || lines[i] ? 0.0F : 1.0F, left.px[i] *= weight.px[i];
-  for (double sd = first_sd_px; sd < 4.0 * (picture.width + picture.height); sd *= 2.5) {
-    const GrayF sums = smoothed(left, sd), weights = smoothed(weight, sd);
-    bool all = true;
-    for (std::size_t i = 0; i < out.px.size(); ++i) {
-      if (!open[i]) continue;
-      if (weights.px[i] > 0.1F) out.px[i] = sums.px[i] / weights.px[i], open[i] = 0;
-      all = all && !open[i];
-    }
-    if (all) break;
-  }
-  return out;
 }
 
 }  // namespace
@@ -151,56 +101,48 @@ Foreground::Foreground(ForegroundOptions options) : options_(options) {
   sign_ = options_.polarity == Polarity::dark ? -1 : options_.polarity == Polarity::bright ? 1 : 0;
 }
 
-// The first background: the picture without its spots.
+// The first background: the picture without what is dark (or bright) and small in every direction.
 void Foreground::begin(const GrayF& picture, double noise) {
-  const int w = picture.width, h = picture.height;
-  const GrayF fine = smoothed(picture, std::max(sd_px_, 0.8));
-  // Noise of a second difference of the smoothed picture; its variance is 3 / (16 pi s^6) of the noise's.
   const double s = std::max(sd_px_, 0.8);
-  const auto least = float(kCurvatureSd * noise * std::sqrt(3 / (16 * portable::kPi)) / (s * s * s));
+  const GrayF fine = smoothed(picture, s);
+  if (sign_ == 0) sign_ = told_polarity(fine, s, noise);
+  GrayF turned = fine;  // cells dark
+  if (sign_ > 0)
+    for (float& v : turned.px) v = -v;
+  const LineClosing closing = line_closing(turned, kCellsPerLine * options_.cell_px);
+  const GrayF& closed = closing.least;
+  // What the noise lifts, where no cells are: most of the picture.
+  std::vector<float> lifted;
+  for (std::size_t i = 0; i < closed.px.size(); i += 7) lifted.push_back(closed.px[i] - turned.px[i]);
+  const auto middle = lifted.begin() + std::ptrdiff_t(lifted.size() / 2);
+  if (!lifted.empty()) std::nth_element(lifted.begin(), middle, lifted.end());
+  const float lift = lifted.empty() ? 0 : *middle;
+  const auto threshold = float(std::max(kLeastThreshold, kFirstSd * noise * smoothing_gain()));
+  covered_.assign(picture.px.size(), 0);
+  for (std::size_t i = 0; i < closed.px.size(); ++i) {
+    const float depth = closing.largest.px[i] - closed.px[i];
+    covered_[i] = closed.px[i] - lift - turned.px[i] > std::max(threshold, kOfLine * depth) ? 1 : 0;
+  }
+  dilate(covered_, work_, picture.width, picture.height, std::max(1, int(std::ceil(0.7 * options_.cell_px))));
+  background_ = picture;
+  for (std::size_t i = 0; i < closed.px.size(); ++i)
+    if (covered_[i]) background_.px[i] = float(-sign_) * (closed.px[i] - lift);
+}
+
+// By the curvatures of spots: what is bent alike in all directions.
+int Foreground::told_polarity(const GrayF& fine, double sd, double noise) const {
+  // Noise of a second difference of the smoothed picture; its variance is 3 / (16 pi s^6) of the noise's.
+  const auto least = float(kCurvatureSd * noise * std::sqrt(3 / (16 * portable::kPi)) / (sd * sd * sd));
   // Mirrored at the border, a line that meets it looks bent.
-  const int border = 1 + int(std::ceil(4 * s));
-  std::array<Marks, 2> marks;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const float sign = k == 0 ? -1.0F : 1.0F;
-    marks[k] = find_marks(fine, sign, least, border);
-    if (marks[k].strengths.empty()) continue;
-    // In a picture with little noise the foot of each cell is a surface with a shape, too.
-    auto& v = marks[k].strengths;
-    const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-    std::nth_element(v.begin(), middle, v.end());
-    marks[k] = find_marks(fine, sign, std::max(least, kFaint * *middle), border);
-  }
-  if (sign_ == 0) sign_ = marks[1].evidence > marks[0].evidence ? 1 : -1;
-  std::vector<std::uint8_t>&marked = marks[sign_ > 0 ? 1 : 0].spots, &line = marks[sign_ > 0 ? 1 : 0].lines;
-  const int cell = int(std::ceil(options_.cell_px));
-  const std::vector<std::uint8_t> ridge = line;
-  dilate(marked, work_, w, h, cell);
-  dilate(line, work_, w, h, cell);
-  // Where cells lie on cells there are no spots; what differs from the surroundings next to spots belongs to
-  // them.
-  const auto differs = [&](const std::vector<std::uint8_t>& covered) {
-    const GrayF wide = filled_in(picture, covered, line, kGrowthWide * sd_px_);
-    GrayF d(w, h);
-    for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] = float(sign_) * (picture.px[i] - wide.px[i]);
-    return smoothed(d, std::max(sd_px_, 0.6));
-  };
-  smooth_ = differs(marked);
-  const double least_noise = kGrowthSd * noise * smoothing_gain();
-  measure_cell(least_noise);
-  const double s0 = std::max(sd_px_, 0.6),
-               peak = cell_signal_ / (2 * portable::kPi * (sd_px_ * sd_px_ + s0 * s0));
-  const auto threshold = float(std::max({kLeastThreshold, least_noise, kGrowthShare * peak}));
-  for (int round = 0; round < kGrowths; ++round) {
-    std::vector<std::uint8_t> near = marked;
-    dilate(near, work_, w, h, cell);
-    std::size_t added = 0;
-    for (std::size_t i = 0; i < near.size(); ++i)
-      if (near[i] && !marked[i] && !ridge[i] && smooth_.px[i] > threshold) marked[i] = 1, ++added;
-    if (added == 0) break;
-    smooth_ = differs(marked);
-  }
-  background_ = filled_in(picture, marked, line, 5 * sd_px_);
+  const int border = 1 + int(std::ceil(4 * sd));
+  std::array<double, 2> evidence{};
+  for (int row = border; row + border < fine.height; ++row)
+    for (int col = border; col + border < fine.width; ++col)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Curvatures c = curvatures(fine, col, row, k == 0 ? -1.0F : 1.0F);
+        if (c.small > least && c.small > kSpotShape * c.large) evidence[k] += double(c.small);
+      }
+  return evidence[1] > evidence[0] ? 1 : -1;
 }
 
 // What the smoothing leaves of white noise.
@@ -219,7 +161,7 @@ void Foreground::take(const Gray8& picture, double dt_s) {
   for (std::size_t i = 0; i < grey.px.size(); ++i) grey.px[i] = float(picture.px[i]);
   const bool anew =
       background_.width != picture.width || background_.height != picture.height || !options_.learn;
-  if (anew) begin(grey, noise), covered_.assign(grey.px.size(), 0);
+  if (anew) begin(grey, noise);
   weights_.width = grey.width, weights_.height = grey.height;
   weights_.px.resize(grey.px.size());
   const auto sign = float(sign_);
@@ -294,10 +236,13 @@ void Foreground::learn(const GrayF& picture, double gain, double dt_s, double no
   own_noise_ = (1 - double(follow)) * (1 - double(follow)) * own_noise_ + double(follow) * double(follow);
   const auto absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s));
   const auto uncovered = float(-4 * noise), back = float(1 / gain);
+  const auto smooth_uncovered = -float(std::max(kLeastThreshold, 4 * noise * smoothing_gain()));
   // The common brightness is followed too.
   const float next = 1 + follow * (float(gain) - 1);
   for (std::size_t i = 0; i < picture.px.size(); ++i) {
-    const float rate = weights_.px[i] < uncovered ? float(kUncover) : covered_[i] ? absorb : follow;
+    const float rate = weights_.px[i] < uncovered || smooth_.px[i] < smooth_uncovered ? float(kUncover)
+                       : covered_[i]                                                  ? absorb
+                                                                                      : follow;
     background_.px[i] = next * (background_.px[i] + rate * (back * picture.px[i] - background_.px[i]));
   }
 }

@@ -33,13 +33,11 @@ struct SwarmMoments {
 /// summed, in grey of the mean background: light lost to one cell is lost to the next, and a cell takes the
 /// same share of it everywhere.
 ///
-/// The background of the first picture is the picture itself, with the surroundings of all spots (both
-/// curvatures of the smoothed picture above noise: lines, as the edge of a drop, have only one) filled in
-/// from outside; what differs from this background next to such a spot is taken for more cells, and filled
-/// in, too. It then follows the picture within 2 s where no cells are, at once where the picture shows that
-/// the background is lighter (for dark cells) than believed, and where cells are by a share dt / absorb_s
-/// only: a swarm that stands still loses 6 % of its signal in ten seconds. A change of brightness by a common
-/// factor is taken off.
+/// The background of the first picture is the picture itself, with what is small in every direction filled in
+/// (line_closing): lines, as the edge of a drop, are background. It then follows the picture within 2 s where
+/// no cells are, at once where the picture shows that the background is lighter (for dark cells) than
+/// believed, and where cells are by a share dt / absorb_s only: a swarm that stands still loses 6 % of its
+/// signal in ten seconds. A change of brightness by a common factor is taken off.
 ///
 /// Only additions, multiplications and square roots in a fixed order: same bits on every machine.
 class Foreground {
@@ -59,6 +57,7 @@ class Foreground {
 
  private:
   void begin(const GrayF& picture, double noise);
+  int told_polarity(const GrayF& fine, double sd, double noise) const;
   void find_covered(double noise);
   void learn(const GrayF& picture, double gain, double dt_s, double noise);
   void take_logarithms(const GrayF& picture, float gain, double noise);

@@ -21,6 +21,10 @@ using Frame = std::unique_ptr<AVFrame, libav::Freed<av_frame_free>>;
 using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
 using Codec = std::unique_ptr<AVCodecContext, libav::Freed<avcodec_free_context>>;
 
+bool is_h264(FrameEncoder::Kind kind) {
+  return kind == FrameEncoder::Kind::h264 || kind == FrameEncoder::Kind::h264_grey;
+}
+
 int even(int length) { return length + length % 2; }
 
 void describe_h264(AVCodecContext& codec, FrameRate rate) {
@@ -62,15 +66,16 @@ struct FrameEncoder::Impl {
   std::span<const std::uint8_t> code();
   template <class Pixel>
   void copy(const Image<Pixel>& picture);
+  void fill_up();
 };
 
 void FrameEncoder::Impl::open() {
   libav::quiet();
-  const char* name = kind == Kind::h264 ? "libx264" : "png";
+  const char* name = is_h264(kind) ? "libx264" : "png";
   const AVCodec* encoder = avcodec_find_encoder_by_name(name);
   if (encoder == nullptr) {
     fail(std::string("this FFmpeg has no encoder ") + name +
-         (kind == Kind::h264 ? "; install one built with x264 or record lossless_avi" : ""));
+         (is_h264(kind) ? "; install one built with x264 or record lossless_avi" : ""));
   }
   codec.reset(avcodec_alloc_context3(encoder));
   codec->width = width;
@@ -78,10 +83,12 @@ void FrameEncoder::Impl::open() {
   codec->time_base = {rate.denominator, rate.numerator};
   codec->framerate = {rate.numerator, rate.denominator};
   codec->thread_count = 1;
-  if (kind == Kind::h264) {
+  if (is_h264(kind)) {
     describe_h264(*codec, rate);
   } else {
-    codec->pix_fmt = kind == Kind::png_grey ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_RGB24;
+    codec->pix_fmt = kind == Kind::png_grey     ? AV_PIX_FMT_GRAY8
+                     : kind == Kind::png_grey16 ? AV_PIX_FMT_GRAY16BE
+                                                : AV_PIX_FMT_RGB24;
     codec->compression_level = 1;
     av_opt_set(codec->priv_data, "pred", "none", 0);  // camera noise packs best, and fastest, as it is
   }
@@ -104,6 +111,23 @@ void FrameEncoder::Impl::copy(const Image<Pixel>& picture) {
     std::memcpy(frame->data[0] + std::ptrdiff_t{row} * frame->linesize[0],
                 picture.px.data() + std::ptrdiff_t{row} * width, row_bytes);
   }
+}
+
+// A grey picture in `frame` becomes 4:2:0 of even size.
+void FrameEncoder::Impl::fill_up() {
+  const std::ptrdiff_t stride = frame->linesize[0];
+  if (width % 2 != 0)
+    for (int row = 0; row < height; ++row) {
+      std::uint8_t* last = frame->data[0] + row * stride + width - 1;
+      last[1] = last[0];
+    }
+  if (height % 2 != 0)
+    std::memcpy(frame->data[0] + height * stride, frame->data[0] + (height - 1) * stride,
+                static_cast<std::size_t>(codec->width));
+  for (int plane = 1; plane <= 2; ++plane)
+    for (int row = 0; row < codec->height / 2; ++row)
+      std::memset(frame->data[plane] + std::ptrdiff_t{row} * frame->linesize[plane], 128,
+                  static_cast<std::size_t>(codec->width / 2));
 }
 
 std::span<const std::uint8_t> FrameEncoder::Impl::code() {
@@ -140,7 +164,7 @@ FrameEncoder& FrameEncoder::operator=(FrameEncoder&&) noexcept = default;
 
 std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
   Impl& self = *impl_;
-  self.check(picture, self.kind != Kind::png_grey);
+  self.check(picture, self.kind == Kind::png_colour || self.kind == Kind::h264);
   if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
   if (self.kind == Kind::h264) {
     const AVFrame& to = *self.frame;
@@ -154,9 +178,25 @@ std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
 
 std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
   Impl& self = *impl_;
-  self.check(picture, self.kind == Kind::png_grey);
+  self.check(picture, self.kind == Kind::png_grey || self.kind == Kind::h264_grey);
   if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
   self.copy(picture);
+  if (self.kind == Kind::h264_grey) self.fill_up();
+  return self.code();
+}
+
+std::span<const std::uint8_t> FrameEncoder::encode(const Image<std::uint16_t>& picture) {
+  Impl& self = *impl_;
+  self.check(picture, self.kind == Kind::png_grey16);
+  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
+  for (int row = 0; row < picture.height; ++row) {
+    std::uint8_t* to = self.frame->data[0] + std::ptrdiff_t{row} * self.frame->linesize[0];
+    const std::uint16_t* from = picture.px.data() + std::ptrdiff_t{row} * picture.width;
+    for (int col = 0; col < picture.width; ++col) {  // PNG is big-endian
+      *to++ = static_cast<std::uint8_t>(from[col] >> 8);
+      *to++ = static_cast<std::uint8_t>(from[col] & 0xFF);
+    }
+  }
   return self.code();
 }
 

@@ -6,6 +6,8 @@ extern "C" {
 #include <libavutil/rational.h>
 }
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -36,8 +38,12 @@ std::string file_url(const std::filesystem::path& path) { return "file:" + path.
 class Remuxer {
  public:
   Remuxer(const std::filesystem::path& part, VideoFormat format, FrameRate rate,
-          const std::filesystem::path& to)
-      : part_(part), to_(to), mp4_(format == VideoFormat::mp4), rate_(rate) {}
+          const std::filesystem::path& to, const std::function<double(long long)>& time_s)
+      : part_(part),
+        to_(to),
+        mp4_(format == VideoFormat::mp4),
+        rate_(rate),
+        time_s_(mp4_ ? time_s : nullptr) {}
   // Writes the whole of `temporary`; blames `to` for its failures.
   long long write(const std::filesystem::path& temporary) {
     open_input();
@@ -52,10 +58,17 @@ class Remuxer {
   void open_output(const std::filesystem::path& temporary);
   long long copy_frames();
   void finish();
+  AVRational tick() const {
+    return time_s_ ? AVRational{1, 1000000} : AVRational{rate_.denominator, rate_.numerator};
+  }
+  std::int64_t stamp(long long frame) const {
+    return time_s_ ? std::llround(time_s_(frame) * 1e6) : std::int64_t{frame};
+  }
 
   const std::filesystem::path &part_, &to_;
   const bool mp4_;
   const FrameRate rate_;
+  const std::function<double(long long)> time_s_;  // empty: regular times
   Input in_;
   Output out_;
 };
@@ -85,7 +98,7 @@ void Remuxer::open_output(const std::filesystem::path& temporary) {
   AVStream* stream = avformat_new_stream(raw, nullptr);
   avcodec_parameters_copy(stream->codecpar, in_->streams[0]->codecpar);
   stream->codecpar->codec_tag = mp4_ ? MKTAG('a', 'v', 'c', '1') : MKTAG('M', 'P', 'N', 'G');
-  stream->time_base = {rate_.denominator, rate_.numerator};
+  stream->time_base = tick();
   stream->avg_frame_rate = {rate_.numerator, rate_.denominator};
   result = avio_open(&raw->pb, file_url(temporary).c_str(), AVIO_FLAG_WRITE);
   if (result < 0) fail(to_, "cannot be written", result);
@@ -99,17 +112,16 @@ void Remuxer::open_output(const std::filesystem::path& temporary) {
 long long Remuxer::copy_frames() {
   const Packet packet(av_packet_alloc());
   AVStream* stream = out_->streams[0];
-  const AVRational tick = {rate_.denominator, rate_.numerator};
   long long frames = 0;
   for (;; ++frames) {
     int result = av_read_frame(in_.get(), packet.get());
     if (result == AVERROR_EOF) break;
     if (result < 0) fail(part_, "the recorded frames cannot be read back", result);
     packet->stream_index = 0;
-    packet->pts = packet->dts = frames;
-    packet->duration = 1;
+    packet->pts = packet->dts = stamp(frames);
+    packet->duration = std::max<std::int64_t>(1, stamp(frames + 1) - stamp(frames));
     packet->pos = -1;
-    av_packet_rescale_ts(packet.get(), tick, stream->time_base);
+    av_packet_rescale_ts(packet.get(), tick(), stream->time_base);
     result = av_write_frame(out_.get(), packet.get());
     av_packet_unref(packet.get());
     if (result < 0) fail(to_, "cannot be written", result);
@@ -131,11 +143,11 @@ void Remuxer::finish() {
 }  // namespace
 
 long long remux(const std::filesystem::path& part, VideoFormat format, FrameRate rate,
-                const std::filesystem::path& to) {
+                const std::filesystem::path& to, const std::function<double(long long)>& time_s) {
   libav::quiet();
   const std::filesystem::path temporary = to.string() + ".tmp";
   try {
-    const long long frames = Remuxer(part, format, rate, to).write(temporary);
+    const long long frames = Remuxer(part, format, rate, to, time_s).write(temporary);
     rename_complete(temporary, to);
     return frames;
   } catch (...) {

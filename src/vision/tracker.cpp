@@ -62,7 +62,7 @@ void Tracker::begin() {
   if (!(options_.reach_px > 0)) {
     std::vector<std::vector<Spot>> frames;
     for (const Waiting& w : first) frames.push_back(w.spots);
-    options_.reach_px = displacement_reach(frames);
+    options_.reach_px = displacement_reach(frames, &crowded_);
   }
   const double reach = options_.reach_px;
   scatter_ = reach * reach / 8;
@@ -218,7 +218,7 @@ void Tracker::learn_common_velocity() {
   common_velocity_ = {median_of(x), median_of(y)};
 }
 
-double displacement_reach(const std::vector<std::vector<Spot>>& frames) {
+double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cut) {
   constexpr int kNth = 6;  // neighbour that the density around a spot is taken from
   constexpr double kShare = 0.95, kMore = 1.25, kLeast = 2, kSpacings = 0.75;
   struct Pair {
@@ -257,7 +257,9 @@ double displacement_reach(const std::vector<std::vector<Spot>>& frames) {
   const double most = *std::max_element(found.begin(), found.end());
   int i = 0;
   while (i + 1 < steps && found[std::size_t(i)] < kShare * most) ++i;
-  return std::max(kLeast, std::min(far, kMore * far * (i + 1) / steps));
+  const double reach = kMore * far * (i + 1) / steps;
+  if (cut) *cut = !spacing.empty() && reach > far;
+  return std::max(kLeast, std::min(far, reach));
 }
 
 }  // namespace faba

@@ -64,7 +64,10 @@ class Tracker {
   /// frames are looked at to find reach and motion (12 of them at most).
   std::vector<const Track*> live() const;
   double reach_px() const { return options_.reach_px; }  ///< 0 as long as it is not known
-  Motion motion() const { return motion_; }              ///< in use now
+  /// Whether cells move as far from frame to frame as they are apart, so that reach had to be cut: then they
+  /// cannot be told from each other.
+  bool crowded() const { return crowded_; }
+  Motion motion() const { return motion_; }  ///< in use now
   std::uint64_t sure_tracks() const { return numbered_; }
   /// Tracks given up before they had `least_points`.
   std::uint64_t unsure_tracks() const { return dropped_; }
@@ -104,7 +107,7 @@ class Tracker {
   std::vector<Live> live_;
   std::vector<Track> finished_;
   std::vector<Waiting> waiting_;
-  bool begun_ = false;
+  bool begun_ = false, crowded_ = false;
   double frame_s_ = 0, last_t_ = 0;
   std::uint64_t numbered_ = 0, dropped_ = 0;
   Vec2 common_velocity_;     ///< px/s, median over the tracks
@@ -116,6 +119,6 @@ class Tracker {
 /// How far things move from one frame to the next: the distance within which 95 % of those that have a
 /// successor find it, times 1.25. Nearest neighbours in the next frame are counted, and what chance gives at
 /// the density around each spot is taken off. At most three quarters of the mean spacing; at least 2 px.
-double displacement_reach(const std::vector<std::vector<Spot>>& frames);
+double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cut = nullptr);
 
 }  // namespace faba

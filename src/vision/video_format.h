@@ -8,6 +8,13 @@ enum class VideoFormat {
   lossless_avi,  ///< PNG frames in AVI: exact, opens in Fiji and ImageJ; for measuring on
 };
 
+/// What pixels a recording is made of. In mp4 greys are coded as luma of 8 bits, whichever they are.
+enum class VideoPixels {
+  colour,  ///< RgbImage
+  grey8,   ///< Gray8
+  grey16,  ///< Image<std::uint16_t>; lossless_avi only
+};
+
 /// A frame rate as a fraction, numerator / denominator frames per second, both positive.
 struct FrameRate {
   int numerator = 25, denominator = 1;

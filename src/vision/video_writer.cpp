@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "vision/frame_encoder.h"
 #include "vision/remux.h"
@@ -22,23 +23,30 @@ struct VideoWriter::Impl {
 };
 
 namespace {
-FrameEncoder::Kind kind_of(VideoFormat format) {
-  return format == VideoFormat::mp4 ? FrameEncoder::Kind::h264 : FrameEncoder::Kind::png_colour;
+FrameEncoder::Kind kind_of(VideoFormat format, VideoPixels pixels) {
+  using Kind = FrameEncoder::Kind;
+  const bool mp4 = format == VideoFormat::mp4;
+  if (pixels == VideoPixels::colour) return mp4 ? Kind::h264 : Kind::png_colour;
+  if (pixels == VideoPixels::grey8) return mp4 ? Kind::h264_grey : Kind::png_grey;
+  if (mp4) throw Error(Errc::internal, "video", "mp4 has no grey of 16 bits");
+  return Kind::png_grey16;
 }
 }  // namespace
 
 VideoWriter::VideoWriter(const std::filesystem::path& part, VideoFormat format, int width, int height,
-                         double fps, std::uint64_t resume_at_bytes) {
+                         double fps, std::uint64_t resume_at_bytes, VideoPixels pixels) {
   const FrameRate rate = frame_rate_near(fps);
   // NOLINTNEXTLINE(modernize-make-unique): an aggregate
-  impl_.reset(new Impl{format, rate, FrameEncoder(kind_of(format), width, height, rate, part.string()),
+  impl_.reset(new Impl{format, rate,
+                       FrameEncoder(kind_of(format, pixels), width, height, rate, part.string()),
                        OutputFile(part, resume_at_bytes)});
 }
 VideoWriter::~VideoWriter() = default;
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 
-void VideoWriter::write(const RgbImage& frame) {
+template <class Pixel>
+void VideoWriter::append(const Image<Pixel>& frame) {
   Impl& self = *impl_;
   const auto coded = self.encoder.encode(frame);
   self.fresh = false;
@@ -50,15 +58,20 @@ void VideoWriter::write(const RgbImage& frame) {
   }
 }
 
+void VideoWriter::write(const RgbImage& frame) { append(frame); }
+void VideoWriter::write(const Gray8& frame) { append(frame); }
+void VideoWriter::write(const Image<std::uint16_t>& frame) { append(frame); }
+
 std::uint64_t VideoWriter::sync() {
   impl_->file.sync();
   impl_->restart();
   return impl_->file.size();
 }
 
-void VideoWriter::finish(const std::filesystem::path& final_path, bool keep_part) {
+void VideoWriter::finish(const std::filesystem::path& final_path, bool keep_part,
+                         const std::function<double(long long frame)>& time_s) {
   impl_->file.sync();
-  remux(impl_->file.path(), impl_->format, impl_->rate, final_path);
+  remux(impl_->file.path(), impl_->format, impl_->rate, final_path, time_s);
   impl_->file.close();
   if (keep_part) return;
   std::error_code ignored;

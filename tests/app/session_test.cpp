@@ -5,6 +5,7 @@
 #include "app/checkpoint.h"
 #include "core/h5.h"
 #include "tests/app/run_directory.h"
+#include "vision/video_reader.h"
 
 using namespace faba;
 
@@ -104,6 +105,70 @@ TEST_CASE("R5: stopped after any frame and resumed, every file is the same as wi
       REQUIRE(ra == rb);
     }
   }
+}
+
+TEST_CASE("stopped and resumed with rendered frames: the same frames, to the byte, and the same times") {
+  const TestFolder f;
+  const Scenario scene = scenario_from(R"(
+duration = "1.2 s"
+camera = { rate = "20 Hz", delay_frames = 2, sensor = "frames", jitter = "5 ms" }
+microscope = { cell_length = "3 um", flicker = 0.01, depth_spread = "3 um", bits = 16 }
+arena = { type = "drop", radius_px = 150, view_px = [121, 90], centre_px = [160, 45] }
+controller = { type = "manual", field = ["1 mT", "0 T"] }
+record = { checkpoint = "1000 s", lossless = true, as_seen = true }
+[[swarm]]
+count = 60
+)");
+  Session whole = Session::begin(scene, 7, options(f.path / "whole"));
+  REQUIRE(whole.run());
+  {
+    std::atomic<bool> stop{false};
+    RunOptions o = options(f.path / "cut");
+    o.stop = &stop;
+    o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == 9; };
+    CHECK_FALSE(Session::begin(scene, 7, o).run());
+  }
+  Session resumed = Session::resume(builtin_parts(), options(f.path / "cut", 2));
+  REQUIRE(resumed.run());
+  CHECK(state_hash(resumed) == state_hash(whole));
+  CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "whole/series.csv"));
+  // PNG has no memory between frames, so where checkpoints were made does not show
+  CHECK(read_file(f.path / "cut/video.avi") == read_file(f.path / "whole/video.avi"));
+  CHECK(whole.manifest()["video_shows"] == "camera");
+
+  VideoReader avi(f.path / "cut/video.avi"), mp4(f.path / "cut/video.mp4");
+  CHECK(avi.bits() == 16);
+  CHECK(avi.width() == 121);
+  const H5File tracks = H5File::open(f.path / "cut/tracks.h5");
+  const H5Table times = tracks.table("t_s");
+  GrayF a, b;
+  double ta = 0, tb = 0, truth = 0;
+  std::uint64_t k = 0;
+  for (; avi.read(a, ta); ++k) {
+    REQUIRE(mp4.read(b, tb));
+    times.read<double>(k, {&truth, 1});
+    CHECK(std::fabs(tb - truth) < 2e-6);           // the true times
+    CHECK(ta == doctest::Approx(double(k) / 20));  // the regular ones
+    CHECK(std::fabs(double(a.at(100, 40)) / 257 - double(b.at(100, 40))) <
+          25);  // noise of both and the coding
+  }
+  CHECK(k == 24);
+  CHECK(std::fabs(truth - 23 / 20.0) > 1e-4);
+}
+
+TEST_CASE("as seen without frames as sensor: the run is the same, only the video differs") {
+  const TestFolder f;
+  Document plain = parse_toml(kScene, "test"), seen = plain;
+  seen.set("record.as_seen", Json(true), "test");
+  const Scenario a = read_scenario(plain, builtin_parts()), b = read_scenario(seen, builtin_parts());
+  CHECK(a.hash() == b.hash());
+  Session first = Session::begin(a, 7, options(f.path / "a")),
+          second = Session::begin(b, 7, options(f.path / "b"));
+  REQUIRE(first.run());
+  REQUIRE(second.run());
+  CHECK(state_hash(first) == state_hash(second));
+  CHECK(read_file(f.path / "a/series.csv") == read_file(f.path / "b/series.csv"));
+  CHECK(read_file(f.path / "a/video.avi") != read_file(f.path / "b/video.avi"));
 }
 
 TEST_CASE("resume: refused when there is nothing to go on with") {

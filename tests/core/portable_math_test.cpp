@@ -57,3 +57,8 @@ TEST_CASE("frozen bits") {
   CHECK(std::bit_cast<std::uint32_t>(portable::log(0.7071f)) == 0xbeb1735b);
   CHECK(std::bit_cast<std::uint32_t>(portable::sincos(2.5f).sin) == 0x3f193579);
 }
+
+TEST_CASE("normal_cdf: against erfc") {
+  for (double x = -9; x <= 9; x += 0.01)
+    CHECK(std::fabs(portable::normal_cdf(x) - 0.5 * std::erfc(-x / std::sqrt(2.0))) < 1e-7);
+}

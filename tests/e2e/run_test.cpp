@@ -56,6 +56,34 @@ TEST_CASE("run: the tracks open in h5py with fps and um_per_px") {
   CHECK(read_file(f.path / "out.txt") == "(30, 50, 2) 15.0 0.9164 0.06666666666666667\n");
 }
 
+TEST_CASE("run --as-seen: the videos show what the camera sees, and say so") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene + "[record]\nlossless = true\n");
+  const Called drawn = faba_in(f.path, "run s.toml --seed 5 --out a --json");
+  const Called seen = faba_in(f.path, "run s.toml --seed 5 --out b --json --as-seen");
+  REQUIRE_MESSAGE(seen.exit == 0, seen.err);
+  CHECK(seen.json()["video_shows"] == "camera");
+  CHECK(drawn.json()["video_shows"] == "drawing");
+  CHECK(seen.json()["state_hash"] == drawn.json()["state_hash"]);
+  CHECK(read_file(f.path / "a/video.mp4") != read_file(f.path / "b/video.mp4"));
+  CHECK(read_file(f.path / "b/scenario.toml").find("[microscope]") != std::string::npos);
+  CHECK(faba_in(f.path, "run b/scenario.toml --out c --json").json()["video_shows"] == "camera");
+  CHECK(read_file(f.path / "c/video.avi") == read_file(f.path / "b/video.avi"));
+
+  const Called wrong = faba_in(f.path, "run s.toml --as-seen --set microscope.exposure_time='1 s'");
+  CHECK(wrong.exit == 2);
+  CHECK(one_clear_line(wrong.err));
+  const Called blind = faba_in(f.path, "run s.toml --set camera.sensor=frames --set estimator=visible");
+  CHECK(blind.exit == 2);
+  CHECK(one_clear_line(blind.err));
+  const Called absent = faba_in(f.path, "run s.toml --as-seen --set microscope.background=none.avi");
+  CHECK(absent.exit == 3);
+  CHECK(one_clear_line(absent.err));
+  const Called idle = faba_in(f.path, "run s.toml --out d --set microscope.contrast=-0.2");
+  CHECK(idle.exit == 0);
+  CHECK(idle.err.find("microscope: has no effect") != std::string::npos);
+}
+
 TEST_CASE("Ctrl-C: exit 130, what was recorded is readable, resume ends with the same hash") {
   const TestFolder f;
 

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "core/table.h"
 #include "program.h"
 #include "tests/temporary_folder.h"
 #include "tests/vision/rendered_cells.h"
@@ -51,4 +52,20 @@ TEST_CASE("track: words, JSON, files, and what it refuses") {
     CHECK(c.out.empty());
   }
   CHECK(faba_in(folder.path(), "track film --fps 15 --out t.csv --force --quiet").exit == 0);
+}
+
+TEST_CASE("image: from rendered frames at a drop's edge the loop knows where its swarm is") {
+  const test::TemporaryFolder folder("as-seen");
+  const Called run = faba_in(
+      folder.path(), "run '" FABA_SCENES
+                     "/as-seen.toml' --duration '2.6 s' --out run --quiet "
+                     "--set camera.sensor=frames --set estimator.type=image --set record.video=false");
+  REQUIRE(run.exit == 0);
+  const Table t = read_table(folder.path() / "run/series.csv");
+  // All cells are in view till then. The first pictures, of a pile at the edge, are good for 20 px only.
+  for (std::size_t k = 10; k < t.size(); ++k) {
+    CAPTURE(k);
+    CHECK(std::hypot(t.column("estimate_x_px")[k] - t.column("centroid_x_px")[k],
+                     t.column("estimate_y_px")[k] - t.column("centroid_y_px")[k]) < 2);
+  }
 }

@@ -61,7 +61,7 @@ TEST_CASE("a swarm at the edge of a drop") {
       CAPTURE(n);
       CAPTURE(noise);
       const Off off = swim_off(n, noise);
-      CHECK(off.first < 12);
+      CHECK(off.first < 20);  // of a spread of 70 px
       CHECK(off.centroid < 2);
       CHECK(off.spread < 0.05);
     }
@@ -87,7 +87,7 @@ TEST_CASE("a swarm that stands still is not absorbed in ten seconds") {
   CHECK(f.moments().signal > 0.9 * first);
   // Cells that the first picture took for background are found out as noise uncovers them.
   CHECK(norm(f.moments().centroid_image - at) < 3);
-  CHECK(norm(at - cells::spread(swarm).centroid) < 12);  // what the first picture is good for
+  CHECK(norm(at - cells::spread(swarm).centroid) < 20);  // what the first picture is good for
 }
 
 TEST_CASE("an empty picture shows no swarm, however uneven, noisy or flickering") {

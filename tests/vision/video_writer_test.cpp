@@ -330,3 +330,44 @@ TEST_CASE("when the disk fills up while recording, what was recorded stays whole
     std::filesystem::remove(folder / "v");
   }
 }
+
+TEST_CASE("grey frames: mp4 codes them as it codes the same greys in colour, odd sizes included") {
+  const media::ScratchFolder folder;
+  VideoWriter colour(folder / "c.part", VideoFormat::mp4, 121, 83, 15);
+  VideoWriter grey(folder / "g.part", VideoFormat::mp4, 121, 83, 15, 0, VideoPixels::grey8);
+  for (int k = 0; k < 5; ++k) {
+    const RgbImage picture = media::scene(121, 83, k);
+    Gray8 same(121, 83);
+    for (std::size_t i = 0; i < same.px.size(); ++i) same.px[i] = picture.px[i].r;
+    colour.write(picture);
+    grey.write(same);
+    CHECK_THROWS_AS(grey.write(picture), Error);
+  }
+  colour.finish(folder / "c.mp4");
+  grey.finish(folder / "g.mp4");
+  CHECK(media::read_bytes(folder / "c.mp4") == media::read_bytes(folder / "g.mp4"));
+}
+
+TEST_CASE("grey frames of 8 and 16 bits come back exactly from the lossless format") {
+  const media::ScratchFolder folder;
+  Gray8 low(33, 21);
+  Image<std::uint16_t> high(33, 21);
+  for (std::size_t i = 0; i < low.px.size(); ++i)
+    low.px[i] = std::uint8_t(i * 7), high.px[i] = std::uint16_t(i * 977);
+  VideoWriter a(folder / "a.part", VideoFormat::lossless_avi, 33, 21, 15, 0, VideoPixels::grey8);
+  VideoWriter b(folder / "b.part", VideoFormat::lossless_avi, 33, 21, 15, 0, VideoPixels::grey16);
+  for (int k = 0; k < 3; ++k) a.write(low), b.write(high);
+  a.finish(folder / "a.avi");
+  b.finish(folder / "b.avi");
+  VideoReader ra(folder / "a.avi"), rb(folder / "b.avi");
+  CHECK(ra.bits() == 8);
+  CHECK(rb.bits() == 16);
+  GrayF frame;
+  double t = 0;
+  REQUIRE(ra.read(frame, t));
+  for (std::size_t i = 0; i < low.px.size(); ++i) REQUIRE(frame.px[i] == float(low.px[i]));
+  REQUIRE(rb.read(frame, t));
+  for (std::size_t i = 0; i < high.px.size(); ++i) REQUIRE(frame.px[i] == float(high.px[i]));
+  CHECK_THROWS_AS(VideoWriter(folder / "c.part", VideoFormat::mp4, 33, 21, 15, 0, VideoPixels::grey16),
+                  Error);
+}

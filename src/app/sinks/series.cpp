@@ -34,7 +34,7 @@ class Series final : public RunSink {
     const Vec2 at = c_.frame.image_from_world(mean), to = c_.frame.image_from_world(t.target.position);
     const Vec2 believed = c_.frame.image_from_world(t.estimate.centroid);
     const Vec3 b = c_.world->parts().field->at({mean.x, mean.y, 0}, s.current);
-    std::string line = fmt::format("{},{:.9g}", t.index, double(t.index) / c_.frame_rate);
+    std::string line = fmt::format("{},{:.9g}", t.index, c_.time_of(t.index));
     for (const double v :
          {at.x, at.y, sigma_x, sigma_y, std::sqrt(sigma_x * sigma_x + sigma_y * sigma_y), norm(at - to)})
       line += cell(v);

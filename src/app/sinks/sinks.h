@@ -27,7 +27,14 @@ struct SinkContext {
   Scale scale;
   double frame_rate;  ///< Hz
   Record record;
-  bool dose = false;  ///< cells may stop responding during the run
+  bool dose = false;      ///< cells may stop responding during the run
+  SimRig* rig = nullptr;  ///< the camera
+  bool jitter = false;    ///< frames are not taken at regular times
+
+  /// Time of a frame, s.
+  double time_of(std::uint64_t index) const {
+    return jitter ? rig->time_of(index) : double(index) / frame_rate;
+  }
 };
 
 // One function per sink; `resume` is null, or the archive to read its checkpoint from.
@@ -36,7 +43,7 @@ struct SinkContext {
 std::unique_ptr<RunSink> series_sink(const SinkContext& c, Archive* resume);
 /// tracks.h5: positions of all cells.
 std::unique_ptr<RunSink> tracks_sink(const SinkContext& c, Archive* resume);
-/// video.mp4 and, on request, video.avi: the rendered swarm.
+/// video.mp4 and, on request, video.avi: the drawn swarm, or with record.as_seen what the camera sees.
 std::unique_ptr<RunSink> video_sink(const SinkContext& c, bool lossless, Archive* resume);
 
 }  // namespace faba

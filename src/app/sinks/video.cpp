@@ -11,18 +11,25 @@ class Video final : public RunSink {
  public:
   Video(const SinkContext& c, bool lossless, std::uint64_t keep)
       : c_(c),
+        lossless_(lossless),
         part_(c.dir / (lossless ? "video.avi.part" : "video.mp4.part")),
         final_(c.dir / (lossless ? "video.avi" : "video.mp4")) {
     // Killed after this file was completed and before the run was: there is nothing left to do.
     if (keep > 0 && !std::filesystem::exists(part_) && std::filesystem::exists(final_)) return;
     writer_.emplace(part_, lossless ? VideoFormat::lossless_avi : VideoFormat::mp4, c.frame.width,
-                    c.frame.height, c.frame_rate / c.record.video_every, keep);
+                    c.frame.height, c.frame_rate / c.record.video_every, keep, grey(c, lossless));
     for (const Vec2 p : c.reference->setpoints()) route_.push_back(c.frame.image_from_world(p));
   }
 
   void take(const Tick& t) override {
     if (t.index % std::uint64_t(c_.record.video_every)) return;
-    if (writer_) writer_->write(picture(t));
+    if (!writer_) return;
+    if (!c_.record.as_seen)
+      writer_->write(picture(t));
+    else if (lossless_ && c_.rig->bits() == 16)
+      writer_->write(c_.rig->deep_picture());
+    else
+      writer_->write(*c_.rig->picture());
   }
 
   void checkpoint(Archive& a) override {
@@ -32,7 +39,13 @@ class Video final : public RunSink {
 
   void finish(bool keep) override {
     if (!writer_) return;
-    writer_->finish(final_, keep);
+    if (c_.jitter) {
+      const auto every = std::uint64_t(c_.record.video_every);
+      writer_->finish(final_, keep,
+                      [&](long long frame) { return c_.time_of(std::uint64_t(frame) * every); });
+    } else {
+      writer_->finish(final_, keep);
+    }
   }
 
  private:
@@ -65,7 +78,13 @@ class Video final : public RunSink {
     return draw_swarm(scene, ground_);
   }
 
+  static VideoPixels grey(const SinkContext& c, bool lossless) {
+    if (!c.record.as_seen) return VideoPixels::colour;
+    return lossless && c.rig->bits() == 16 ? VideoPixels::grey16 : VideoPixels::grey8;
+  }
+
   SinkContext c_;
+  bool lossless_;
   std::filesystem::path part_, final_;
   std::optional<VideoWriter> writer_;
   std::vector<Vec2> route_;

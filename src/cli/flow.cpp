@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/verbs.h"
+#include "core/error.h"
+#include "study/distance_report.h"
+#include "study/flow_report.h"
+
+namespace faba::cli {
+namespace {
+
+void tell_notes(const nlohmann::ordered_json& j, const Common& c) {
+  if (c.quiet) return;
+  for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+}
+
+FlowJob job_of(const FlowVerb& v) {
+  FlowJob job;
+  job.method = flow_part({v.method.name, v.method.values});
+  job.out = v.out, job.picture = v.picture, job.truth = v.truth, job.overlay = v.overlay;
+  job.shrink = v.shrink;
+  job.threads = v.threads;
+  return job;
+}
+
+int flow_pair(const FlowVerb& v, const Common& c) {
+  check_output(v.out, ".flo", v.force, {v.a, v.b, v.truth});
+  check_output(v.picture, ".png", v.force, {v.a, v.b, v.truth});
+  if (!v.overlay.empty())
+    throw Error(Errc::usage, "--overlay", "is for a video; take --picture for two pictures");
+  if (v.shrink > 1) throw Error(Errc::usage, "--shrink", "is for a video");
+  const auto j = flow_of_pair(v.a, v.b, job_of(v));
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  tell_notes(j, c);
+  if (c.quiet) return 0;
+  fmt::print("flow     mean ({:.4g}, {:.4g}) px, mean speed {:.4g} px, largest {:.4g} px\n",
+             j["mean_px"][0].get<double>(), j["mean_px"][1].get<double>(), j["mean_speed_px"].get<double>(),
+             j["largest_px"].get<double>());
+  if (j.contains("iterations"))
+    fmt::print("solver   {} iterations, {}\n", j["iterations"].get<int>(),
+               j["converged"].get<bool>() ? "converged" : "not converged");
+  if (j.contains("truth"))
+    fmt::print(
+        "truth    endpoint error {:.4f} px, angular error {:.3f} degrees, over {:.1f} % of the pixels\n",
+        j["truth"]["endpoint_px"].get<double>(), j["truth"]["angular_deg"].get<double>(),
+        100 * j["truth"]["known"].get<double>());
+  for (const auto& file : {v.out, v.picture})
+    if (!file.empty()) fmt::print("wrote    {}\n", file.string());
+  return 0;
+}
+
+int flow_video(const FlowVerb& v, const Common& c) {
+  check_output(v.out, ".h5", v.force, {v.a});
+  check_output(v.overlay, ".mp4", v.force, {v.a});
+  for (const auto& [option, file] : {std::pair{"--picture", v.picture}, std::pair{"--truth", v.truth}})
+    if (!file.empty()) throw Error(Errc::usage, option, "is for two pictures; this is one video");
+  Progress bar("flow", !c.quiet && !c.json);
+  FlowJob job = job_of(v);
+  job.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  job.stop = [] { return stop_requested().load(); };
+  const auto j = flow_of_video(v.a, job);
+  bar.clear();
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  tell_notes(j, c);
+  if (c.quiet) return 0;
+  fmt::print("{} pairs of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
+             j["pairs"].get<std::uint64_t>(), j["seconds"].get<double>(), j["image_size"][0].get<int>(),
+             j["image_size"][1].get<int>(), j["mean_speed_px"].get<double>());
+  for (const auto& file : {v.out, v.overlay})
+    if (!file.empty()) fmt::print("wrote {}\n", file.string());
+  return 0;
+}
+
+}  // namespace
+
+int flow(const FlowVerb& v, const Common& c) { return v.b.empty() ? flow_video(v, c) : flow_pair(v, c); }
+
+int distance(const DistanceVerb& v, const Common& c) {
+  DistanceOptions o;
+  o.m = v.m, o.threshold = v.threshold, o.similarity = v.similarity, o.normalise = v.normalise;
+  const auto d = histogram_distances(v.p, v.q, o);
+  if (c.json) {
+    fmt::print("{}\n",
+               nlohmann::ordered_json{{"distance", d}, {"m", v.m}, {"threshold", v.threshold}}.dump());
+    return 0;
+  }
+  for (const double one : d) fmt::print("{:.17g}\n", one);
+  return 0;
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,31 @@
+#include <limits>
+
+#include "control/controller.h"
+
+namespace faba {
+namespace {
+
+/// Believes nothing: the centroid is no number and rests on no cells. For schedules of fields, which need no
+/// estimate.
+class EstimatorNone final : public Estimator {
+ public:
+  struct Params {};
+  static Schema<Params> schema() {
+    return Schema<Params>("none", "No estimate, for runs without feedback")
+        .validity("A feedback controller does nothing without an estimate.");
+  }
+  EstimatorNone(const Params&, const ControlContext&) {}
+  Estimate update(const Observation& o, const Command&) override {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    Estimate e;
+    e.t = o.t;
+    e.centroid = {kNone, kNone};
+    return e;
+  }
+};
+
+}  // namespace
+
+void add_estimator_none(EstimatorRegistry& r) { r.add<EstimatorNone>(); }
+
+}  // namespace faba

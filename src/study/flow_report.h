@@ -1,0 +1,54 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "vision/flow.h"
+
+namespace faba {
+
+/// A flow part as the command line names it: its name and the parameters that were given, in words.
+struct FlowChoice {
+  std::string method = "horn_schunck";
+  std::vector<std::pair<std::string, std::string>> values;  ///< such as {"alpha2", "30"}
+};
+/// The part. Parameters that are not given have the values of `defaults`, and else the part's own; a method
+/// that is not that of `defaults` takes nothing from there. Throws Error(usage, "--alpha2") with the reason.
+FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults = {});
+/// The published measure: Horn and Schunck, 100 sweeps of Jacobi from zero (theory A22). What activity() and
+/// compare() take unless told otherwise: with the iteration carried to the end the flow of a cell would
+/// spread over the empty ground around it.
+FlowChoice published_flow();
+
+/// What `faba flow` is asked for.
+struct FlowJob {
+  FlowRegistry::PartType method;
+  std::filesystem::path out;      ///< .flo for a pair, .h5 for a video; not written when empty
+  std::filesystem::path picture;  ///< of a pair: in colours, PNG
+  std::filesystem::path truth;    ///< of a pair: the true flow, .flo
+  std::filesystem::path overlay;  ///< of a video: arrows on its frames, MP4
+  int shrink = 0;                 ///< see FlowSourceOptions
+  bool compress = true;           ///< of .h5
+  unsigned threads = 0;           ///< 0: all
+  std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};
+  std::function<bool()> stop = [] { return false; };
+};
+
+/// The flow from one picture to another of the same size:
+/// `{"image_size":[w,h],"method":{..},"iterations":n,"converged":b,"mean_px":[u,v],"mean_speed_px":..,"largest_px":..,
+/// "truth":{"endpoint_px":..,"angular_deg":..,"known":share},"notes":[..]}`; `iterations` and `converged`
+/// where the method has them, `truth` when it was given: mean distance to the true flow, and mean angle
+/// between (u, v, 1) of both (Barron et al. 1994), over the pixels where it is known. Throws Error(input).
+nlohmann::ordered_json flow_of_pair(const std::filesystem::path& a, const std::filesystem::path& b,
+                                    const FlowJob& job);
+
+/// The flows of a video (or of a run's):
+/// `{"image_size":[w,h],"method":{..},"pairs":n,"seconds":..,"mean_speed_px":.., "notes":[..]}`. Throws
+/// Error(input), and Error(interrupted) when stopped.
+nlohmann::ordered_json flow_of_video(const std::filesystem::path& video, const FlowJob& job);
+
+}  // namespace faba

@@ -1,0 +1,160 @@
+#include "study/flow_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "study/run_info.h"
+#include "vision/flow_file.h"
+#include "vision/grey_scale.h"
+#include "vision/video_reader.h"
+
+namespace faba {
+namespace {
+
+/// What a path stands for.
+struct Input {
+  std::filesystem::path file;
+  bool flows = false;
+  std::optional<double> um_per_px;
+};
+
+Input resolve(const std::filesystem::path& path) {
+  const auto manifest = path / "manifest.json";
+  if (!std::filesystem::exists(manifest)) return {path, FlowFileReader::recognises(path), {}};
+  const auto scale = read_run_info(manifest).um_per_px;
+  if (std::filesystem::exists(path / "flow.h5")) return {path / "flow.h5", true, scale};
+  for (const char* video : {"video.avi", "video.mp4"})
+    if (std::filesystem::exists(path / video)) return {path / video, false, scale};
+  throw Error(
+      Errc::input, path.string(),
+      "is a run without flow.h5 and without a video; set record.flow or record.video in its scenario");
+}
+
+}  // namespace
+
+struct FlowSource::Impl {
+  std::filesystem::path path;
+  FlowSourceOptions options;
+  Input input;
+  std::string method;
+  int width = 0, height = 0, side = 1;
+
+  std::optional<FlowFileReader> flows;
+  std::uint64_t next = 0;
+
+  std::optional<VideoReader> video;
+  std::optional<GreyScale> greys;
+  std::unique_ptr<FlowMethod> flow;
+  GrayF raw, before, after;
+  double t_before = 0;
+  std::uint64_t frame = 0;
+
+  void open_video(Pool& pool);
+  bool read(GrayF& out, double& t);
+  bool next_of_video(FlowPair& pair);
+  bool next_of_file(FlowPair& pair);
+  bool in_time(double t0, double t1) const {
+    return t0 >= options.t0_s && (!options.t1_s || t1 <= *options.t1_s);
+  }
+};
+
+FlowSource::FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options, Pool& pool)
+    : impl_(new Impl) {
+  impl_->path = path, impl_->options = options;
+  impl_->input = resolve(path);
+  if (!impl_->input.flows) {
+    impl_->open_video(pool);
+    return;
+  }
+  impl_->flows.emplace(impl_->input.file);
+  impl_->width = impl_->flows->info().width, impl_->height = impl_->flows->info().height;
+  impl_->method = impl_->flows->info().method;
+  if (!impl_->input.um_per_px) impl_->input.um_per_px = impl_->flows->info().um_per_px;
+  if (impl_->flows->size() == 0) throw Error(Errc::input, path.string(), "holds no flow");
+}
+FlowSource::~FlowSource() = default;
+
+void FlowSource::Impl::open_video(Pool& pool) {
+  video.emplace(input.file);
+  const int w = video->width(), h = video->height();
+  side = options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);
+  width = w / side, height = h / side;
+  if (width < 2 || height < 2)
+    throw Error(Errc::usage, "shrink", fmt::format("of {} leaves nothing of {} x {} px", side, w, h));
+  flow = options.method.make({&pool});
+  method = options.method.resolved.dump();
+  if (!read(before, t_before)) throw Error(Errc::input, path.string(), "has no frame");
+}
+
+bool FlowSource::Impl::read(GrayF& out, double& t) {
+  if (!video->read(raw, t)) return false;
+  if (!greys) greys.emplace(video->bits(), raw);
+  greys->apply(raw);
+  faba::shrink(raw, side, out);
+  return true;
+}
+
+bool FlowSource::Impl::next_of_video(FlowPair& pair) {
+  double t = 0;
+  while (read(after, t)) {
+    if (options.t1_s && t > *options.t1_s) return false;
+    const bool wanted = in_time(t_before, t) && frame % options.every == 0;
+    if (wanted) {
+      flow->between(before, after, pair.flow);
+      if (side > 1)
+        for (GrayF* c : {&pair.flow.u, &pair.flow.v})
+          for (float& x : c->px) x *= float(side);
+      pair.frame = frame, pair.t0_s = t_before, pair.t1_s = t;
+      pair.image = after;
+    }
+    std::swap(before, after);
+    t_before = t, ++frame;
+    if (wanted) return true;
+  }
+  if (frame == 0) throw Error(Errc::input, path.string(), "has one frame only; motion needs two or more");
+  return false;
+}
+
+bool FlowSource::Impl::next_of_file(FlowPair& pair) {
+  for (; next < flows->size();) {
+    flows->read(next, pair.frame, pair.t0_s, pair.t1_s, pair.flow);
+    next += options.every;
+    if (in_time(pair.t0_s, pair.t1_s)) return true;
+  }
+  return false;
+}
+
+bool FlowSource::next(FlowPair& pair) {
+  return impl_->flows ? impl_->next_of_file(pair) : impl_->next_of_video(pair);
+}
+
+int FlowSource::width() const { return impl_->width; }
+int FlowSource::height() const { return impl_->height; }
+int FlowSource::shrink() const { return impl_->side; }
+double FlowSource::fps() const { return impl_->flows ? impl_->flows->info().fps : impl_->video->fps(); }
+std::uint64_t FlowSource::pairs() const {
+  if (impl_->flows) return impl_->flows->size();
+  const std::int64_t frames = impl_->video->frames_stated();
+  return frames > 1 ? std::uint64_t(frames - 1) : 0;
+}
+std::optional<double> FlowSource::um_per_px() const { return impl_->input.um_per_px; }
+const std::string& FlowSource::method() const { return impl_->method; }
+
+std::vector<std::string> FlowSource::notes() const {
+  std::vector<std::string> notes;
+  if (impl_->flows) return notes;
+  if (impl_->side > 1 && impl_->options.shrink == 0)
+    notes.push_back(
+        fmt::format("frames were averaged over squares of {} px; flows are in px of the video", impl_->side));
+  if (impl_->greys && !impl_->greys->words().empty()) notes.push_back(impl_->greys->words());
+  if (impl_->video->truncated())
+    notes.push_back(fmt::format("ends before it should ({}): {} frames could be read", impl_->video->damage(),
+                                impl_->frame + 1));
+  else if (impl_->video->damaged_frames() > 0)
+    notes.push_back(fmt::format("{} damaged frames were skipped ({})", impl_->video->damaged_frames(),
+                                impl_->video->damage()));
+  return notes;
+}
+
+}  // namespace faba

@@ -1,0 +1,44 @@
+#pragma once
+#include <array>
+#include <span>
+
+namespace faba {
+
+/// Regularised incomplete beta function I_x(a, b), 0 <= x <= 1, a, b > 0, to some 1e-14: the continued
+/// fraction of DLMF 8.17.22 (https://dlmf.nist.gov/8.17), on the side where it converges fast.
+double incomplete_beta(double x, double a, double b);
+
+/// Probability that a value of Student's t distribution with `freedom` > 0 degrees of freedom is below t.
+double student_t_cdf(double t, double freedom);
+
+/// The t below which a share p of Student's distribution lies, 0 < p < 1: the inverse of student_t_cdf, by
+/// bisection to the last bits. student_t_quantile(0.975, freedom) makes 95 % intervals.
+double student_t_quantile(double p, double freedom);
+
+/// A straight line y = intercept + slope * x by least squares.
+struct LineFit {
+  double intercept = 0, slope = 0;
+  double se_intercept = 0, se_slope = 0;  ///< standard errors, from the scatter about the line
+  double sd = 0;                          ///< of that scatter, n - 2 degrees of freedom
+  int freedom = 0;                        ///< n - 2
+  /// Ends of the 95 % interval, Student's t.
+  std::array<double, 2> intercept_ci95() const;
+  std::array<double, 2> slope_ci95() const;
+};
+
+/// Fits a line to at least three points of at least two different x. Throws Error(Errc::internal) for fewer,
+/// and for spans of different length.
+LineFit fit_line(std::span<const double> x, std::span<const double> y);
+
+/// Spearman's rank correlation, -1..1; equal values share the mean of their ranks. 0 when one side is
+/// constant.
+double spearman(std::span<const double> x, std::span<const double> y);
+
+/// How often chance alone would give a rank correlation as far from 0, if all orders of y were as likely:
+/// counted out up to 8 points, above that Student's t with n - 2 degrees of freedom.
+double spearman_p(std::span<const double> x, std::span<const double> y);
+
+/// Standard deviation with n - 1; 0 for fewer than two values.
+double sample_sd(std::span<const double> values);
+
+}  // namespace faba

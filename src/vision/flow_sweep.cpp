@@ -1,0 +1,166 @@
+#include "vision/flow_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "core/vectorised.h"
+
+namespace faba {
+namespace {
+
+constexpr int kTogether = 10;  // sweeps that go over the rows together: their rows fit a second-level cache
+constexpr int kStrip = 4;      // rows of one sweep that are done together
+
+/// What one sweep reads and writes in a strip of rows, the rows above and below it included; every row can be
+/// read one pixel beyond its ends.
+template <class T>
+struct Strip {
+  struct Row {
+    const T *u, *v, *mxx, *mxy, *myy, *cx, *cy;
+    T *u_out, *v_out;
+  };
+  int rows = 0;  ///< of the strip; row[0] lies above it, row[rows + 1] below
+  Row row[kStrip + 2];
+  int width = 0;
+};
+
+/// A vector of 64 bytes anywhere in memory: what it is computed with is the same on every processor.
+template <class T>
+struct Lanes {
+  typedef T type __attribute__((vector_size(64), aligned(alignof(T)), may_alias));
+};
+
+template <class T>
+[[gnu::always_inline]] inline void update(const Strip<T>& s) {
+  using V = typename Lanes<T>::type;
+  constexpr int kLanes = Plane<T>::kMargin;
+#define FABA_LANES(p) (*reinterpret_cast<const V*>((p) + x))
+  for (int x = 0; x < s.width; x += kLanes) {
+    // Of the rows above and here: what is beside, and what is there.
+    V u_side_up = FABA_LANES(s.row[0].u - 1) + FABA_LANES(s.row[0].u + 1), u_up = FABA_LANES(s.row[0].u);
+    V v_side_up = FABA_LANES(s.row[0].v - 1) + FABA_LANES(s.row[0].v + 1), v_up = FABA_LANES(s.row[0].v);
+    V u_side = FABA_LANES(s.row[1].u - 1) + FABA_LANES(s.row[1].u + 1), u_here = FABA_LANES(s.row[1].u);
+    V v_side = FABA_LANES(s.row[1].v - 1) + FABA_LANES(s.row[1].v + 1), v_here = FABA_LANES(s.row[1].v);
+    for (int i = 1; i <= s.rows; ++i) {
+      const auto& here = s.row[i];
+      const auto& below = s.row[i + 1];
+      const V u_side_down = FABA_LANES(below.u - 1) + FABA_LANES(below.u + 1), u_down = FABA_LANES(below.u);
+      const V v_side_down = FABA_LANES(below.v - 1) + FABA_LANES(below.v + 1), v_down = FABA_LANES(below.v);
+      const V u_next = u_side + (u_up + u_down), v_next = v_side + (v_up + v_down);
+      // Twelve times the mean of the neighbours.
+      const V u = (u_side_up + u_side_down) + (u_next + u_next);
+      const V v = (v_side_up + v_side_down) + (v_next + v_next);
+      const V mxy = FABA_LANES(here.mxy);
+      const V u_new = FABA_LANES(here.mxx) * u + (mxy * v + FABA_LANES(here.cx));
+      const V v_new = FABA_LANES(here.myy) * v + (mxy * u + FABA_LANES(here.cy));
+      *reinterpret_cast<V*>(here.u_out + x) = u_new;
+      *reinterpret_cast<V*>(here.v_out + x) = v_new;
+      u_side_up = u_side, u_side = u_side_down, u_up = u_here, u_here = u_down;
+      v_side_up = v_side, v_side = v_side_down, v_up = v_here, v_here = v_down;
+    }
+  }
+  for (int i = 1; i <= s.rows; ++i)
+    for (T* out : {s.row[i].u_out, s.row[i].v_out}) out[-1] = out[0], out[s.width] = out[s.width - 1];
+}
+FABA_VECTORISED void update_strip(const Strip<float>& s) { update(s); }
+FABA_VECTORISED void update_strip(const Strip<double>& s) { update(s); }
+
+template <class T>
+[[gnu::always_inline]] inline T largest(const T* a, const T* b, int n) {
+  T most = 0;
+  for (int x = 0; x < n; ++x) {
+    const T d = std::fabs(a[x] - b[x]);
+    most = d > most ? d : most;
+  }
+  return most;
+}
+FABA_VECTORISED float largest_change(const float* a, const float* b, int n) { return largest(a, b, n); }
+FABA_VECTORISED double largest_change(const double* a, const double* b, int n) { return largest(a, b, n); }
+
+/// Several sweeps over the rows [begin, end) in one go: sweep n works one row and a strip behind sweep n - 1,
+/// so that what it reads is still in the cache. Rows beyond the band are computed too where later sweeps need
+/// them.
+template <class T>
+class Wavefront {
+ public:
+  Wavefront(const FlowSystem<T>& s, const FlowPlanes<T>& from, FlowPlanes<T>& to, int sweeps)
+      : s_(s), from_(from), to_(to), sweeps_(sweeps) {
+    rings_u_.resize(s.width(), kRing * (sweeps - 1));
+    rings_v_.resize(s.width(), kRing * (sweeps - 1));
+  }
+
+  T run(int begin, int end, bool watch) {
+    T most = 0;
+    const int height = s_.height();
+    const int first = std::max(0, begin - sweeps_ + 1), last = std::min(height, end + sweeps_ - 1);
+    for (int front = first; front < last + sweeps_ - 1; front += kStrip)
+      for (int n = 1; n <= sweeps_; ++n) {
+        const int low = std::max({0, begin - (sweeps_ - n), front - (n - 1)});
+        const int high = std::min({height, end + (sweeps_ - n), front - (n - 1) + kStrip});
+        if (low >= high) continue;
+        strip(n, low, high);
+        if (watch && n == sweeps_)
+          for (int row = low; row < high; ++row)
+            most = std::max({most, largest_change(to_.u.row(row), u(n - 1, row), s_.width()),
+                             largest_change(to_.v.row(row), v(n - 1, row), s_.width())});
+      }
+    return most;
+  }
+
+ private:
+  static constexpr int kRing = 16;  // rows of a sweep that the next one may still read
+  static_assert(kRing >= kStrip + 2);
+
+  const T* u(int n, int row) const {
+    return n == 0 ? from_.u.row(row) : rings_u_.row(kRing * (n - 1) + row % kRing);
+  }
+  const T* v(int n, int row) const {
+    return n == 0 ? from_.v.row(row) : rings_v_.row(kRing * (n - 1) + row % kRing);
+  }
+  void strip(int n, int low, int high) {
+    Strip<T> s;
+    s.rows = high - low, s.width = s_.width();
+    for (int i = 0; i < s.rows + 2; ++i) {
+      const int row = std::clamp(low - 1 + i, 0, s_.height() - 1);
+      auto& r = s.row[i];
+      r = {u(n - 1, row),  v(n - 1, row),  s_.mxx.row(row), s_.mxy.row(row), s_.myy.row(row),
+           s_.cx.row(row), s_.cy.row(row), nullptr,         nullptr};
+      r.u_out = n == sweeps_ ? to_.u.row(row) : rings_u_.row(kRing * (n - 1) + row % kRing);
+      r.v_out = n == sweeps_ ? to_.v.row(row) : rings_v_.row(kRing * (n - 1) + row % kRing);
+    }
+    update_strip(s);
+  }
+
+  const FlowSystem<T>& s_;
+  const FlowPlanes<T>& from_;
+  FlowPlanes<T>& to_;
+  int sweeps_;
+  Plane<T> rings_u_, rings_v_;
+};
+
+}  // namespace
+
+template <class T>
+T sweep(const FlowSystem<T>& s, FlowPlanes<T>& w, FlowPlanes<T>& spare, int count, bool watch, Pool& pool) {
+  T most = 0;
+  std::mutex one;
+  for (int r = 0; r < s.height(); ++r) w.extend(r);
+  for (int done = 0; done < count;) {
+    const int now = std::min(kTogether, count - done);
+    done += now;
+    const bool look = watch && done == count;
+    for_rows(s.height(), pool, [&](int begin, int end) {
+      const T change = Wavefront<T>(s, w, spare, now).run(begin, end, look);
+      const std::lock_guard lock(one);
+      most = std::max(most, change);
+    });
+    std::swap(w, spare);
+  }
+  return most;
+}
+
+template float sweep(const FlowSystem<float>&, FlowPlanes<float>&, FlowPlanes<float>&, int, bool, Pool&);
+template double sweep(const FlowSystem<double>&, FlowPlanes<double>&, FlowPlanes<double>&, int, bool, Pool&);
+
+}  // namespace faba

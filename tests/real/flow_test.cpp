@@ -1,0 +1,71 @@
+// Optical flow on material that was made elsewhere: the reference values of theory A22 and RubberWhale of the
+// Middlebury set. Skipped where they are not there.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/table.h"
+#include "study/flow_report.h"
+#include "vision/horn_schunck.h"
+
+using namespace faba;
+
+namespace {
+
+const std::filesystem::path kData = FABA_SHARED_DATA;
+const std::filesystem::path kReference = kData / "../oracles/hs_reference.csv";
+
+// The pictures that the reference was computed from: 16 x 16 px, a Gaussian of 200 grey levels and 2.5 px
+// standard deviation about (7, 7.5), moved by (0.6, -0.3).
+Plane<double> spot(double dx, double dy) {
+  Plane<double> p(16, 16);
+  for (int r = 0; r < 16; ++r)
+    for (int c = 0; c < 16; ++c) {
+      const double x = c - 7 - dx, y = r - 7.5 - dy;
+      p.row(r)[c] = 200 * std::exp(-(x * x + y * y) / (2 * 2.5 * 2.5));
+    }
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("every row of the reference to 1e-9" * doctest::skip(!std::filesystem::exists(kReference))) {
+  const Table table = read_table(kReference);
+  Pool pool(1);
+  const auto column = [&](const char* name) { return table.column(name); };
+  REQUIRE(table.size() == 40);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    HornSchunckParams p;
+    p.solver = FlowSolver::jacobi, p.tolerance = 0;
+    p.alpha2 = column("alpha2")[i], p.iterations = int(column("iterations")[i]);
+    HornSchunck<double> solver(p, pool);
+    auto a = spot(0, 0), b = spot(0.6, -0.3);
+    const auto& flow = solver.between(a, b);
+    const int row = int(column("row")[i]), col = int(column("col")[i]);
+    CHECK(std::fabs(flow.u.row(row)[col] - column("u")[i]) < 1e-9);
+    CHECK(std::fabs(flow.v.row(row)[col] - column("v")[i]) < 1e-9);
+    FlowDerivatives<double> d;
+    differentiate(a, b, d, pool);
+    // Twelve digits of numbers up to 40 are printed.
+    CHECK(std::fabs(d.ix.row(row)[col] - column("Ex")[i]) < 1e-9);
+    CHECK(std::fabs(d.iy.row(row)[col] - column("Ey")[i]) < 1e-9);
+    CHECK(std::fabs(d.it.row(row)[col] - column("Et")[i]) < 1e-9);
+  }
+}
+
+TEST_CASE("RubberWhale: endpoint error of the plain method and with a pyramid" *
+          doctest::skip(!std::filesystem::exists(kData / "flow"))) {
+  const auto folder = kData / "flow";
+  const auto error_of = [&](const FlowChoice& choice) {
+    FlowJob job;
+    job.method = flow_part(choice);
+    job.truth = folder / "flow10.flo";
+    const auto j = flow_of_pair(folder / "frame10.png", folder / "frame11.png", job);
+    return j["truth"]["endpoint_px"].get<double>();
+  };
+  CHECK(error_of({}) < 0.35);
+  CHECK(error_of({"horn_schunck", {{"pyramid", "true"}}}) < 0.25);
+  // A hundred sweeps from zero are far from the solution.
+  CHECK(error_of(published_flow()) > error_of({}) + 0.05);
+}
