@@ -40,6 +40,8 @@ Schema<Record> Record::schema() {
       .add("lossless", &Record::lossless, {.doc = "video.avi as well, exact to the grey level, for Fiji"})
       .add("as_seen", &Record::as_seen,
            {.doc = "Videos show what the camera sees through the microscope of [microscope], not a drawing"})
+      .add("flow", &Record::flow,
+           {.doc = "flow.h5: optical flow between the frames that the camera sees, made with [flow]"})
       .add("checkpoint", &Record::checkpoint,
            {.unit = "s",
             .min = 0.1,
@@ -158,6 +160,7 @@ Json Scenario::resolved() const {
   j["reference"] = reference.resolved;
   j["controller"] = controller.resolved;
   j["limits"] = Limits::schema().to_json(limits);
+  if (record.flow) j["flow"] = flow.resolved;
   j["record"] = Record::schema().to_json(record);
   if (library) j["library"] = LibraryParams::schema().to_json(*library);
   return j;
@@ -165,7 +168,7 @@ Json Scenario::resolved() const {
 
 std::string Scenario::hash() const {
   Json j = resolved();
-  for (const char* key : {"title", "seed", "record"}) j.erase(key);
+  for (const char* key : {"title", "seed", "record", "flow"}) j.erase(key);
   if (camera.sensor == Camera::Sensor::positions) j.erase("microscope");  // of the recording only
   if (library) j["library"].erase("file");  // `made` says what is in it, wherever it lies
   Hash h;
@@ -181,10 +184,9 @@ void section(const Node& root, const char* key, P& out, const Schema<P>& schema)
 }
 
 template <class Registry>
-auto part(const Node& root, const char* key, const Registry& registry, const char* fallback) {
+auto part(const Node& root, const char* key, const Registry& registry, const Json& fallback) {
   if (root.has(key)) return registry.resolve(root.child(key));
-  const Json name = fallback;
-  return registry.resolve(Node(name, key, root.document));
+  return registry.resolve(Node(fallback, key, root.document));
 }
 
 void read_library(const Node& root, Scenario& s) {
@@ -267,7 +269,7 @@ Scenario read_scenario(Document d, const Parts& parts) {
   Scenario s;
   s.params = Scenario::schema().parse(
       root, {"scale", "camera", "microscope", "simulation", "arena", "exclusion", "field", "motility",
-             "swarm", "estimator", "reference", "controller", "limits", "library", "record"});
+             "swarm", "estimator", "reference", "controller", "limits", "library", "record", "flow"});
   section(root, "scale", s.scale, ScaleParams::schema());
   section(root, "camera", s.camera, Camera::schema());
   section(root, "microscope", s.microscope, MicroscopeParams::schema());
@@ -281,6 +283,7 @@ Scenario read_scenario(Document d, const Parts& parts) {
   s.controller = part(root, "controller", parts.controller, "fuzzy");
   s.estimator = part(root, "estimator", parts.estimator, usual_estimator(s));
   s.reference = part(root, "reference", parts.reference, s.steers() ? "hold" : "none");
+  s.flow = part(root, "flow", parts.flow, {{"type", "horn_schunck"}, {"preset", "published"}});
   read_swarms(root, parts, s);
   read_library(root, s);
   check_camera(root, s);

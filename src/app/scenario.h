@@ -15,6 +15,7 @@ struct Record {
   int video_every = 1;
   bool lossless = false;
   bool as_seen = false;
+  bool flow = false;
   double checkpoint = 10;
   static Schema<Record> schema();
 };
@@ -90,12 +91,13 @@ struct Scenario {
   EstimatorRegistry::PartType estimator;
   ReferenceRegistry::PartType reference;
   ControllerRegistry::PartType controller;
+  FlowRegistry::PartType flow;  ///< that record.flow is made with
   std::vector<Swarm> swarms;
 
   std::uint64_t frames() const;  ///< of the whole run, at least 1
   double frame_period() const { return 1 / camera.rate; }
   /// Whether frames are rendered: for the loop or for the recording.
-  bool renders() const { return camera.sensor == Camera::Sensor::frames || record.as_seen; }
+  bool renders() const { return camera.sensor == Camera::Sensor::frames || record.as_seen || record.flow; }
   Scale si_scale() const;
   /// Whether a feedback controller steers to a setpoint; false with a schedule of fields.
   bool steers() const { return controller.type != "manual"; }

@@ -154,11 +154,14 @@ void Session::open_sinks(Archive* resume) {
                       scenario_.record,
                       scenario_.motility.type != "none",
                       &simulation_->rig(),
-                      scenario_.camera.jitter > 0};
+                      scenario_.camera.jitter > 0,
+                      scenario_.flow,
+                      pool_.get()};
   sinks_.push_back(series_sink(c, resume));
   if (scenario_.record.tracks) sinks_.push_back(tracks_sink(c, resume));
   if (scenario_.record.video) sinks_.push_back(video_sink(c, false, resume));
   if (scenario_.record.lossless) sinks_.push_back(video_sink(c, true, resume));
+  if (scenario_.record.flow) sinks_.push_back(flow_sink(c, resume));
   for (auto& s : sinks_) simulation_->loop().sinks.push_back(s.get());
 }
 

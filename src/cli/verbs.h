@@ -69,6 +69,26 @@ struct FlowVerb {
   unsigned threads = 0;
   bool force = false;
 };
+struct ActivityVerb {
+  std::vector<std::filesystem::path> videos;  ///< or one study file
+  std::filesystem::path noise, out, report, picture;
+  std::optional<double> direction, threshold;
+  FlowMethodOption method;
+  int shrink = 0;
+  unsigned threads = 0;
+  bool force = false;
+};
+struct CompareVerb {
+  std::filesystem::path reference, out, report;
+  std::vector<std::filesystem::path> runs;
+  std::optional<double> direction, flow_threshold, reference_t0, t0, duration;
+  double m = 0.9, threshold = 3;
+  bool no_align = false, no_floor = false;
+  FlowMethodOption method;
+  int shrink = 0;
+  unsigned threads = 0;
+  bool force = false;
+};
 struct DistanceVerb {
   std::filesystem::path p, similarity;
   std::vector<std::filesystem::path> q;
@@ -91,6 +111,8 @@ int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
 int flow(const FlowVerb& v, const Common& c);
+int activity(const ActivityVerb& v, const Common& c);
+int compare(const CompareVerb& v, const Common& c);
 int distance(const DistanceVerb& v, const Common& c);
 int scale(const ScaleVerb& v, const Common& c);
 int track(const TrackVerb& v, const Common& c);

@@ -62,6 +62,78 @@ void add_flow(CLI::App& app, CommandLine& line) {
   v->callback([o, &line] { line.code = flow(*o, line.common); });
 }
 
+void add_activity(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<ActivityVerb>();
+  CLI::App* v = verb(app, line, "activity",
+                     "Activity of videos: when something moves in one direction, how much, and when most",
+                     "  faba activity film.mp4 --report activity.html\n"
+                     "  faba activity film.mp4 --direction 90 --noise dead.mp4 --out signature.csv\n"
+                     "  faba activity study.toml --report study.html");
+  v->add_option("videos", o->videos,
+                "Videos, run directories or files of flows; or a study file (TOML) that lists them")
+      ->required();
+  v->add_option("--direction", o->direction,
+                "Direction of the response in degrees: 0 right, 90 down; found when absent")
+      ->check(CLI::Range(-360.0, 360.0));
+  v->add_option("--flow-threshold", o->threshold, "Flows of less are noise, px per pair; found when absent")
+      ->check(CLI::NonNegativeNumber);
+  v->add_option("--noise", o->noise, "A video of a dead sample to find the threshold from")->check(not_empty);
+  v->add_option("-o,--out", o->out, "Signatures to write, CSV")->check(not_empty);
+  v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
+  v->add_option("--picture", o->picture,
+                "One video: flow of the busiest pair before and after filtering, PNG")
+      ->check(not_empty);
+  v->add_option(
+       "--shrink", o->shrink,
+       "Average frames over squares of so many px first; unless given, until no side is above 1024 px")
+      ->check(CLI::Range(1, 64));
+  v->add_option("--threads", o->threads,
+                "Threads; all of the machine's when absent. Never changes the result")
+      ->check(CLI::Range(1, 1024));
+  v->add_flag("--force", o->force, "Replace existing files");
+  add_flow_options(v, o->method);
+  v->callback([o, &line] { line.code = activity(*o, line.common); });
+}
+
+void add_compare(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<CompareVerb>();
+  CLI::App* v =
+      verb(app, line, "compare",
+           "How far the motion in videos or runs is from that in a reference, frame by frame",
+           "  faba compare experiment.mp4 runs/basic-1 runs/basic-2 --report compare.html\n"
+           "  faba compare experiment.mp4 simulation.avi --direction 0 --reference-t0 1.2 --t0 0.5");
+  v->add_option("reference", o->reference, "Video, run directory or file of flows")->required();
+  v->add_option("runs", o->runs, "Videos, run directories or files of flows to compare with it")->required();
+  v->add_option("--direction", o->direction,
+                "Direction of the response in degrees: 0 right, 90 down; found when absent")
+      ->check(CLI::Range(-360.0, 360.0));
+  v->add_option("--flow-threshold", o->flow_threshold,
+                "Flows of less are noise, px per pair; found when absent")
+      ->check(CLI::NonNegativeNumber);
+  v->add_option("--reference-t0", o->reference_t0,
+                "First moment after the reversal in the reference, s; found when absent");
+  v->add_option("--t0", o->t0, "The same in the runs");
+  v->add_flag("--no-align", o->no_align, "Compare from the first frames on");
+  v->add_option("--duration", o->duration, "Compare so many seconds from there on")
+      ->check(CLI::PositiveNumber);
+  v->add_option("--m", o->m, "Exponent of the distance's normalisation, 0 or more and below 1");
+  v->add_option("--threshold", o->threshold,
+                "Columns or rows as far apart as this have nothing in common, px");
+  v->add_flag("--no-floor", o->no_floor, "Do not run a scenario again to find the noise floor");
+  v->add_option("-o,--out", o->out, "Distances to write, CSV")->check(not_empty);
+  v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
+  v->add_option(
+       "--shrink", o->shrink,
+       "Average frames over squares of so many px first; unless given, until no side is above 1024 px")
+      ->check(CLI::Range(1, 64));
+  v->add_option("--threads", o->threads,
+                "Threads; all of the machine's when absent. Never changes the result")
+      ->check(CLI::Range(1, 1024));
+  v->add_flag("--force", o->force, "Replace existing files");
+  add_flow_options(v, o->method);
+  v->callback([o, &line] { line.code = compare(*o, line.common); });
+}
+
 void add_distance(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<DistanceVerb>();
   CLI::App* v =
@@ -150,6 +222,8 @@ void add_video_verbs(CLI::App& app, CommandLine& line) {
   v->callback([d, &line] { line.code = drop(*d, line.common); });
   add_track(app, line);
   add_flow(app, line);
+  add_activity(app, line);
+  add_compare(app, line);
   add_distance(app, line);
   add_scale(app, line);
 }

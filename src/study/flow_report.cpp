@@ -113,9 +113,7 @@ FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& def
   return builtin_parts().flow.resolve(Node(d).child("flow"));
 }
 
-FlowChoice published_flow() {
-  return {"horn_schunck", {{"solver", "jacobi"}, {"iterations", "100"}, {"tolerance", "0"}}};
-}
+FlowChoice published_flow() { return {"horn_schunck", {{"preset", "published"}}}; }
 
 nlohmann::ordered_json flow_of_pair(const std::filesystem::path& a, const std::filesystem::path& b,
                                     const FlowJob& job) {

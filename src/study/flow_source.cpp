@@ -22,8 +22,13 @@ struct Input {
 Input resolve(const std::filesystem::path& path) {
   const auto manifest = path / "manifest.json";
   if (!std::filesystem::exists(manifest)) return {path, FlowFileReader::recognises(path), {}};
-  const auto scale = read_run_info(manifest).um_per_px;
+  const RunInfo info = read_run_info(manifest);
+  const auto scale = info.um_per_px;
   if (std::filesystem::exists(path / "flow.h5")) return {path / "flow.h5", true, scale};
+  if (info.video_shows == "drawing")
+    throw Error(
+        Errc::input, path.string(),
+        "its video is a drawing, not what a camera sees; run it with --as-seen, or with record.flow = true");
   for (const char* video : {"video.avi", "video.mp4"})
     if (std::filesystem::exists(path / video)) return {path / video, false, scale};
   throw Error(

@@ -9,7 +9,9 @@
 namespace faba {
 namespace {
 
-/// Residuals in units of the data's range, over times in units of the series' length.
+/// Residuals in units of the largest value, over times in units of the series' length. The last unknown is
+/// the root of the offset: an activity is not below zero, and without that a broad peak would be the top of
+/// an endless one.
 struct Peak : Eigen::DenseFunctor<double> {
   const std::vector<double>&t, &y;
   Peak(const std::vector<double>& times, const std::vector<double>& values)
@@ -17,14 +19,14 @@ struct Peak : Eigen::DenseFunctor<double> {
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
     for (std::size_t i = 0; i < y.size(); ++i) {
       const double z = (t[i] - x[1]) / x[2];
-      r[Eigen::Index(i)] = x[0] * std::exp(-z * z / 2) + x[3] - y[i];
+      r[Eigen::Index(i)] = x[0] * std::exp(-z * z / 2) + x[3] * x[3] - y[i];
     }
     return 0;
   }
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& j) const {
     for (std::size_t i = 0; i < y.size(); ++i) {
       const double z = (t[i] - x[1]) / x[2], e = std::exp(-z * z / 2);
-      j.row(Eigen::Index(i)) << e, x[0] * e * z / x[2], x[0] * e * z * z / x[2], 1;
+      j.row(Eigen::Index(i)) << e, x[0] * e * z / x[2], x[0] * e * z * z / x[2], 2 * x[3];
     }
     return 0;
   }
@@ -54,7 +56,8 @@ Eigen::VectorXd start(const std::vector<double>& t, const std::vector<double>& y
   while (left > 0 && s[left] > half) --left;
   while (right + 1 < s.size() && s[right] > half) ++right;
   Eigen::VectorXd x(4);
-  x << s[top] - floor, t[top], std::max((t[right] - t[left]) / 2.355, 1.5 / double(t.size())), floor;
+  x << s[top] - floor, t[top], std::max((t[right] - t[left]) / 2.355, 1.5 / double(t.size())),
+      std::sqrt(std::max(floor, 1e-4));
   return x;
 }
 
@@ -71,15 +74,15 @@ double values_to_one(const Eigen::VectorXd& r) {
 GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> values) {
   GaussianFit fit;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  if (values.size() < 6 || !(*high > *low)) {
+  if (values.size() < 6 || !(*high > *low) || !(*high > 0)) {
     fit.why = values.size() < 6 ? "fewer than six values" : "all values are equal";
     if (!values.empty()) fit.offset = values.front();
     return fit;
   }
-  const double begin = t_s.front(), length = t_s.back() - begin, floor = *low, range = *high - *low;
+  const double begin = t_s.front(), length = t_s.back() - begin, range = *high;
   std::vector<double> t, y;
   for (std::size_t i = 0; i < values.size(); ++i)
-    t.push_back((t_s[i] - begin) / length), y.push_back((values[i] - floor) / range);
+    t.push_back((t_s[i] - begin) / length), y.push_back(values[i] / range);
 
   Peak peak(t, y);
   Eigen::VectorXd x = start(t, y);
@@ -94,9 +97,9 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
       (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse() * variance * values_to_one(r);
   const auto se = [&](int i) { return std::sqrt(std::max(covariance(i, i), 0.0)); };
   fit.amplitude = x[0] * range, fit.peak_s = begin + x[1] * length, fit.sigma_s = x[2] * length;
-  fit.offset = floor + x[3] * range;
+  fit.offset = x[3] * x[3] * range;
   fit.se_amplitude = se(0) * range, fit.se_peak_s = se(1) * length, fit.se_sigma_s = se(2) * length;
-  fit.se_offset = se(3) * range;
+  fit.se_offset = 2 * std::fabs(x[3]) * se(3) * range;
   fit.scatter = std::sqrt(variance) * range;
   if (!(std::isfinite(x.sum()))) {
     fit = {};

@@ -18,8 +18,8 @@ struct GaussianFit {
   std::string why = {};  ///< what is against it; empty when good
 };
 
-/// `t_s` increasing, `values` of the same length. With fewer than six values, or values that are all equal,
-/// nothing is fitted.
+/// `t_s` increasing, `values` of the same length and not negative; nor is the offset. With fewer than six
+/// values, or values that are all equal, nothing is fitted.
 GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> values);
 
 }  // namespace faba

@@ -45,6 +45,8 @@ void forget_unknown(FlowDerivatives<T>& d) {
 
 Schema<HornSchunckParams> HornSchunckParams::schema() {
   using P = HornSchunckParams;
+  P published;
+  published.solver = FlowSolver::jacobi, published.tolerance = 0;
   return Schema<P>("horn_schunck",
                    "Optical flow after Horn and Schunck: brightness stays, and neighbours move alike")
       .add("alpha2", &P::alpha2,
@@ -75,6 +77,10 @@ Schema<HornSchunckParams> HornSchunckParams::schema() {
       .add("pyramid", &P::pyramid,
            {.doc = "From coarse to fine with warping: for motion of more than two pixels between frames"})
       .add("warps", &P::warps, {.min = 1, .max = 100, .doc = "Warps on each scale of the pyramid"})
+      .preset("published", published,
+              "100 sweeps from zero, as in common programs of the thesis's time (A22): a measure of activity "
+              "that stays "
+              "near what moves")
       .validity(
           "Without a pyramid motion of up to about twice the size of what moves (a spot of 1 px standard "
           "deviation: "

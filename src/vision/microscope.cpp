@@ -22,13 +22,13 @@ constexpr std::uint32_t kLampDraws = 1;  // block of Stream::camera
 
 // Sum over the pixels of what one cell adds: an optical density, or light scattered in.
 double weight_of(const MicroscopeParams& p, double m_per_px) {
-  const double d = p.cell_diameter / m_per_px, rod = (p.cell_length - p.cell_diameter) / m_per_px;
+  const double d = p.cell_diameter / m_per_px, rod = (p.length() - p.cell_diameter) / m_per_px;
   const double area = portable::kPi / 4 * d * d + d * rod;
   return area * (p.contrast < 0 ? -portable::log(1 + p.contrast) : p.contrast);
 }
 
 SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t seed) {
-  if (std::max({p.psf_sd, p.cell_diameter / 4, p.cell_length / 64}) > kWidestSpot * m_per_px)
+  if (std::max({p.psf_sd, p.cell_diameter / 4, p.length() / 64}) > kWidestSpot * m_per_px)
     throw Error(
         Errc::usage, "microscope",
         fmt::format("a cell is blurred over more than {:g} px at this scale; smaller psf_sd, cell_diameter "
@@ -37,7 +37,7 @@ SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t se
   SplatShape s;
   s.psf_sd_px = p.psf_sd / m_per_px;
   s.diameter_px = p.cell_diameter / m_per_px;
-  s.length_px = p.cell_length / m_per_px;
+  s.length_px = p.length() / m_per_px;
   s.depth_spread = p.depth_spread / p.depth_of_field;
   s.weight = weight_of(p, m_per_px);
   s.seed = seed;

@@ -22,7 +22,7 @@ void describe_cells(Schema<MicroscopeParams>& s) {
             .min = 1e-7,
             .max = 1e-4,
             .doc = "Length of a cell, end to end: a rod along its heading where the model has one, else a "
-                   "round cell of the same area",
+                   "round cell of the same area; as its width, a coccus, when absent",
             .source = "IT-1: a coccus (B2)"})
       .add("contrast", &P::contrast,
            {.min = -0.95,
@@ -119,7 +119,7 @@ Schema<MicroscopeParams> MicroscopeParams::schema() {
   describe_camera(s);
   return s
       .check([](const P& p) -> std::string {
-        if (p.cell_length < p.cell_diameter)
+        if (p.length() < p.cell_diameter)
           return "cell_length is the longer side: it cannot be below cell_diameter";
         if (p.bits != 8 && p.bits != 16) return "bits must be 8 or 16";
         return {};

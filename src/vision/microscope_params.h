@@ -9,11 +9,11 @@ namespace faba {
 /// The table [microscope]: optics, camera and light of a rendered video. Light is counted in shares of white,
 /// the brightest grey that the camera gives, so that nothing here depends on the number of bits.
 struct MicroscopeParams {
-  double psf_sd = 0.46e-6;        ///< m, Gaussian sd of the point-spread function in focus
-  double cell_diameter = 1.4e-6;  ///< m
-  double cell_length = 1.4e-6;    ///< m, end to end; equal to the diameter for a coccus
-  double contrast = -0.4;         ///< grey change at the middle of a cell much larger than the blur, relative
-  double depth_spread = 0;        ///< m, sd of the cells' distances from the focal plane
+  double psf_sd = 0.46e-6;            ///< m, Gaussian sd of the point-spread function in focus
+  double cell_diameter = 1.4e-6;      ///< m
+  std::optional<double> cell_length;  ///< m, end to end; a coccus, as long as wide, when absent
+  double contrast = -0.4;   ///< grey change at the middle of a cell much larger than the blur, relative
+  double depth_spread = 0;  ///< m, sd of the cells' distances from the focal plane
   double depth_of_field = 6.4e-6;       ///< m, defocus at which the blur is sqrt(2) times that in focus
   double level = 0.58;                  ///< share of white in the middle of the empty picture
   double vignetting = 0.1;              ///< share of the light lost in the corners
@@ -30,6 +30,7 @@ struct MicroscopeParams {
   int bits = 8;                         ///< 8 or 16
   std::string background;  ///< a video whose temporal median and noise stand in for light and noise
 
+  double length() const { return cell_length.value_or(cell_diameter); }  ///< m
   /// Every key with unit, range, sentence and source.
   static Schema<MicroscopeParams> schema();
 };

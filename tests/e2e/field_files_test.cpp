@@ -165,7 +165,7 @@ TEST_CASE("kill -9 at any moment of building a library: the same command goes on
     const std::string name = "cut" + std::to_string(kill) + ".h5", after = std::to_string(0.08 * kill);
     for (int i = 0; i < 2; ++i) faba_in(f.path, build + name, "timeout -s KILL " + after);
     Called c;
-    if (!std::filesystem::exists(f.path / name)) c = faba_in(f.path, build + name, "timeout 60");
+    if (!std::filesystem::exists(f.path / name)) c = faba_in(f.path, build + name, "timeout 900");
     INFO("killed after ", after, " s: ", c.err);
     REQUIRE(std::filesystem::exists(f.path / name));
     const FieldLibrary cut(f.path / name);

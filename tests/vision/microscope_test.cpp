@@ -68,7 +68,7 @@ Moments moments(const Image<std::uint16_t>& im, double ground) {
 
 constexpr double kWhite16 = 65535;
 double area_px(const MicroscopeParams& p) {
-  const double d = p.cell_diameter / 1e-6, rod = (p.cell_length - p.cell_diameter) / 1e-6;
+  const double d = p.cell_diameter / 1e-6, rod = (p.length() - p.cell_diameter) / 1e-6;
   return std::numbers::pi / 4 * d * d + d * rod;
 }
 double spot_variance(const MicroscopeParams& p) {
@@ -103,7 +103,7 @@ TEST_CASE(
     "width: the point-spread function and the disc add up; a rod and a moving cell are longer along one "
     "axis") {
   MicroscopeParams p = still();
-  p.psf_sd = 0.9e-6, p.cell_diameter = p.cell_length = 2e-6;
+  p.psf_sd = 0.9e-6, p.cell_diameter = 2e-6;
   const double ground = std::floor(0.8 * kWhite16 + 0.5), round = spot_variance(p);
   const double pixel = 1.0 / 12;  // light is summed over each pixel
   const Moments disc = moments(shot(p, {{40.3F, 30.1F}}), ground);

@@ -6,6 +6,7 @@
 #include "app/scenario.h"
 #include "core/archive.h"
 #include "rig/sim_rig.h"
+#include "vision/flow.h"
 
 namespace faba {
 
@@ -27,9 +28,11 @@ struct SinkContext {
   Scale scale;
   double frame_rate;  ///< Hz
   Record record;
-  bool dose = false;      ///< cells may stop responding during the run
-  SimRig* rig = nullptr;  ///< the camera
-  bool jitter = false;    ///< frames are not taken at regular times
+  bool dose = false;                 ///< cells may stop responding during the run
+  SimRig* rig = nullptr;             ///< the camera
+  bool jitter = false;               ///< frames are not taken at regular times
+  FlowRegistry::PartType flow = {};  ///< that flow.h5 is made with
+  Pool* pool = nullptr;              ///< to make it with
 
   /// Time of a frame, s.
   double time_of(std::uint64_t index) const {
@@ -45,5 +48,7 @@ std::unique_ptr<RunSink> series_sink(const SinkContext& c, Archive* resume);
 std::unique_ptr<RunSink> tracks_sink(const SinkContext& c, Archive* resume);
 /// video.mp4 and, on request, video.avi: the drawn swarm, or with record.as_seen what the camera sees.
 std::unique_ptr<RunSink> video_sink(const SinkContext& c, bool lossless, Archive* resume);
+/// flow.h5: optical flow from frame to frame of what the camera sees (docs/formats/flow.md).
+std::unique_ptr<RunSink> flow_sink(const SinkContext& c, Archive* resume);
 
 }  // namespace faba

@@ -1,0 +1,148 @@
+// Does `faba activity` find what it should in a study like the thesis's (theory A16, eq. 4.1)? Videos of four
+// experiments at eight exposures are rendered with the camera's noise, and the lines and the cut-off found in
+// them are compared with those of the same experiments rendered without noise. Prints one JSON object per
+// seed, and one for the whole.
+//
+//   bench_exposure SCENE SEEDS [FOLDER]
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/simulation.h"
+#include "study/activity_report.h"
+#include "study/flow_report.h"
+#include "vision/flow_file.h"
+
+using namespace faba;
+
+namespace {
+
+constexpr double kFrom = 19;  // s: cells gather at the edge until 20 s
+constexpr int kExposures = 8, kExperiments = 4;
+
+struct Sample {
+  double exposure_s;
+  int experiment;
+  std::uint64_t seed;
+  bool noise;
+};
+
+Scenario scenario_of(const std::string& scene, const Sample& s) {
+  Document d = read_toml(scene);
+  d.set("exposure", Json(fmt::format("{} s", s.exposure_s)), "bench");
+  d.set("swarm[0].count", Json(240 + 40 * s.experiment), "bench");  // drops differ
+  if (!s.noise) d.set("microscope.noise", Json(0.0), "bench");
+  return read_scenario(d, builtin_parts());
+}
+
+// The flows of one rendered video, from kFrom on, as `faba run` would record them.
+void record(const std::string& scene, const Sample& sample, const std::filesystem::path& file, Pool& pool) {
+  const Scenario s = scenario_of(scene, sample);
+  Simulation simulation(s, sample.seed, pool);
+  const auto method = s.flow.make({&pool});
+  const FlowInfo info{
+      simulation.frame().width, simulation.frame().height, s.camera.rate, {}, s.flow.resolved.dump(), scene};
+  FlowFileWriter writer(file, info, false);
+  GrayF before, after;
+  Flow flow;
+  struct Camera final : Sink {
+    std::function<void(const Tick&)> take_one;
+    void take(const Tick& t) override { take_one(t); }
+  } camera;
+  camera.take_one = [&](const Tick& t) {
+    const double now = double(t.index) / s.camera.rate;
+    if (now < kFrom) return;
+    const ImageRef picture = simulation.rig().picture();
+    after = GrayF(picture->width, picture->height);
+    after.px.assign(picture->px.begin(), picture->px.end());
+    if (!before.empty()) {
+      method->between(before, after, flow);
+      writer.write(t.index, now - kFrom - 1 / s.camera.rate, now - kFrom, flow);
+    }
+    std::swap(before, after);
+  };
+  simulation.loop().sinks = {&camera};
+  run(simulation.loop(), s.frames(), [] { return true; });
+  writer.close();
+}
+
+// Without noise, flow above `noise_free_above` counts; with it, what the videos themselves say.
+ActivityResult study(const std::string& scene, std::uint64_t seed, std::optional<double> noise_free_above,
+                     const std::filesystem::path& folder, Pool& pool) {
+  ActivityJob job;
+  job.threshold_px = noise_free_above;
+  job.method = flow_part({}, published_flow());
+  job.threads = pool.threads();
+  for (int e = 0; e < kExperiments; ++e)
+    for (int i = 1; i <= kExposures; ++i) {
+      const Sample sample{100.0 * i, e, seed * 1000 + std::uint64_t(10 * e + i), !noise_free_above};
+      const auto file = folder / fmt::format("{}-{}.h5", e, i);
+      record(scene, sample, file, pool);
+      job.videos.push_back({file, sample.exposure_s, std::to_string(e), 0.0});
+    }
+  return measure_activity(job);
+}
+
+nlohmann::ordered_json shown(const ActivityResult& r) {
+  const auto j = activity_json(r);
+  std::size_t good = 0;
+  for (const auto& v : r.videos) good += v.fit.good;
+  return {{"peak_line", j["peak_line"]}, {"cutoff_s", j["cutoff_s"]}, {"good", good}};
+}
+
+}  // namespace
+
+static void print(const nlohmann::ordered_json& j) {
+  fmt::print("{}\n", j.dump());
+  std::fflush(stdout);
+}
+
+int main(int argc, char** argv) try {
+  if (argc < 3) return fmt::print(stderr, "bench_exposure SCENE SEEDS [FOLDER]\n"), 2;
+  const std::string scene = argv[1];
+  const int seeds = std::atoi(argv[2]);
+  const std::filesystem::path folder =
+      argc > 3 ? argv[3] : std::filesystem::temp_directory_path() / "faba-exposure";
+  std::filesystem::create_directories(folder);
+  Pool pool;
+  std::vector<ActivityResult> noisy;
+  double threshold = 0;
+  for (int k = 0; k < seeds; ++k) {
+    noisy.push_back(study(scene, std::uint64_t(1 + k), {}, folder, pool));
+    threshold += noisy.back().videos.front().threshold_px / seeds;
+    print({{"noise", true},
+           {"seed", 1 + k},
+           {"threshold_px", noisy.back().videos.front().threshold_px},
+           {"result", shown(noisy.back())}});
+  }
+  // The line of the noise-free runs: of as many seeds of their own, what counts as motion being the same.
+  double slope = 0, intercept = 0, cutoff = 0;
+  for (int k = 0; k < seeds; ++k) {
+    const auto r = study(scene, std::uint64_t(501 + k), threshold, folder, pool);
+    if (!r.peak_line || !r.cutoff) throw Error(Errc::internal, scene, "shows no line without noise");
+    slope += r.peak_line->slope / seeds, intercept += r.peak_line->intercept / seeds;
+    cutoff += r.cutoff->cutoff_s / seeds;
+    print({{"noise", false}, {"seed", 501 + k}, {"result", shown(r)}});
+  }
+  int slope_inside = 0, intercept_inside = 0, cutoff_near = 0;
+  for (const ActivityResult& r : noisy) {
+    if (r.peak_line) {
+      const auto& line = *r.peak_line;
+      slope_inside += line.slope_ci95[0] <= slope && slope <= line.slope_ci95[1];
+      intercept_inside += line.intercept_ci95[0] <= intercept && intercept <= line.intercept_ci95[1];
+    }
+    cutoff_near += r.cutoff && std::abs(r.cutoff->cutoff_s - cutoff) <= 60;
+  }
+  print({{"seeds", seeds},
+         {"slope", slope},
+         {"intercept_s", intercept},
+         {"cutoff_s", cutoff},
+         {"slope_inside", slope_inside},
+         {"intercept_inside", intercept_inside},
+         {"cutoff_near", cutoff_near}});
+  return 0;
+} catch (const std::exception& e) {
+  fmt::print(stderr, "bench_exposure: {}\n", e.what());
+  return 1;
+}

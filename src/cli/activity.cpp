@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/verbs.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "study/activity_report.h"
+#include "study/flow_report.h"
+
+namespace faba::cli {
+namespace {
+
+ActivityJob job_of(const ActivityVerb& v) {
+  ActivityJob job;
+  const FlowChoice choice{v.method.name, v.method.values};
+  job.method = flow_part(choice, published_flow());
+  job.noise = v.noise, job.shrink = v.shrink, job.threads = v.threads;
+  if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
+    read_activity_study(v.videos.front(), job);
+    if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
+  } else {
+    for (const auto& video : v.videos) job.videos.push_back({video, {}, "", {}});
+  }
+  for (ActivityInput& one : job.videos)
+    if (v.direction) one.direction_deg = v.direction;
+  if (v.threshold) job.threshold_px = v.threshold;
+  return job;
+}
+
+void summary(const nlohmann::ordered_json& j) {
+  for (const auto& a : j["videos"]) {
+    fmt::print(
+        "{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {:.0f} degrees, signal to "
+        "noise {:.3g}\n",
+        a["video"].get<std::string>(), a["mean_activity"].get<double>(), a["threshold_px"].get<double>(),
+        a["direction_deg"].get<double>(), a["signal_to_noise"].get<double>());
+    if (a["gaussian"]["good"].get<bool>())
+      fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a["gaussian"]["peak_s"].get<double>(),
+                 a["gaussian"]["se_peak_s"].get<double>(), a["gaussian"]["sigma_s"].get<double>());
+    else
+      fmt::print("  no Gaussian: {}\n", a["gaussian"]["why"].get<std::string>());
+    for (const auto& s : a["segments"])
+      fmt::print("  {:7.2f} to {:7.2f} s  towards {:3.0f} degrees\n", s["t0_s"].get<double>(),
+                 s["t1_s"].get<double>(), s["direction_deg"].get<double>());
+    if (a["segments"].empty()) fmt::print("  nothing moves in one direction\n");
+  }
+  for (const auto& [name, words] :
+       {std::pair{"peak_line", "time of the maximum"}, std::pair{"mean_line", "mean activity"}})
+    if (!j[name].is_null())
+      fmt::print("{} = {:.4g} + {:.4g} x exposure; 95 % of the slope {:.4g} to {:.4g}\n", words,
+                 j[name]["intercept"].get<double>(), j[name]["slope"].get<double>(),
+                 j[name]["ci95"][0].get<double>(), j[name]["ci95"][1].get<double>());
+  if (!j["cutoff_s"].is_null())
+    fmt::print("no response beyond {:.4g} s in air\n", j["cutoff_s"].get<double>());
+}
+
+}  // namespace
+
+int activity(const ActivityVerb& v, const Common& c) {
+  std::vector<std::filesystem::path> inputs = v.videos;
+  inputs.push_back(v.noise);
+  check_output(v.out, ".csv", v.force, inputs);
+  check_output(v.report, ".html", v.force, inputs);
+  check_output(v.picture, ".png", v.force, inputs);
+  ActivityJob job = job_of(v);
+  if (!v.picture.empty() && job.videos.size() != 1) throw Error(Errc::usage, "--picture", "is for one video");
+  Progress bar("measuring", !c.quiet && !c.json);
+  job.progress = [&](std::size_t video, std::uint64_t done, std::uint64_t total) {
+    if (total > 0) bar.update(video * total + std::min(done, total), job.videos.size() * total);
+  };
+  job.stop = [] { return stop_requested().load(); };
+  const ActivityResult result = measure_activity(job);
+  bar.clear();
+  if (!v.out.empty()) write_file(v.out, activity_csv(result));
+  if (!v.report.empty()) write_file(v.report, activity_page(result));
+  if (!v.picture.empty()) write_activity_picture(v.picture, result.videos.front());
+  const auto j = activity_json(result);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  for (const auto& a : j["videos"])
+    for (const auto& note : a["notes"])
+      tell(fmt::format("faba: note: {}: {}", a["video"].get<std::string>(), note.get<std::string>()));
+  summary(j);
+  for (const auto& file : {v.out, v.report, v.picture})
+    if (!file.empty()) fmt::print("wrote {}\n", file.string());
+  return 0;
+}
+
+}  // namespace faba::cli

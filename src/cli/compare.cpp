@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/verbs.h"
+#include "core/file.h"
+#include "study/compare_report.h"
+#include "study/flow_report.h"
+
+namespace faba::cli {
+namespace {
+
+void summary(const nlohmann::ordered_json& j) {
+  fmt::print("compared {}; direction {:.0f} degrees, flow above {:.3g} px\n",
+             j["alignment"].get<std::string>(), j["direction_deg"].get<double>(),
+             j["flow_threshold_px"].get<double>());
+  fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
+  for (const auto& r : j["runs"])
+    fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r["mean"].get<double>(), r["sd"].get<double>(),
+               r["slope"].get<double>(),
+               r["score"].is_null() ? "-" : fmt::format("{:.3f}", r["score"].get<double>()),
+               r["run"].get<std::string>());
+  if (!j["floor"].is_null())
+    fmt::print("{:10.4f} {:43}floor: {}\n", j["floor"].get<double>(), "", j["floor_from"].get<std::string>());
+  else
+    fmt::print("{:>10} {:43}floor: {}\n", "-", "", j["floor_from"].get<std::string>());
+  fmt::print("{:10.4f} {:43}naive: nothing moves\n", j["naive"].get<double>(), "");
+}
+
+}  // namespace
+
+int compare(const CompareVerb& v, const Common& c) {
+  std::vector<std::filesystem::path> inputs = v.runs;
+  inputs.push_back(v.reference);
+  check_output(v.out, ".csv", v.force, inputs);
+  check_output(v.report, ".html", v.force, inputs);
+  CompareJob job;
+  job.reference = v.reference, job.runs = v.runs;
+  job.direction_deg = v.direction, job.flow_threshold_px = v.flow_threshold;
+  job.reference_t0_s = v.reference_t0, job.t0_s = v.t0, job.align = !v.no_align;
+  if (v.duration) job.duration_s = *v.duration;
+  job.m = v.m, job.threshold = v.threshold;
+  job.method = flow_part({v.method.name, v.method.values}, published_flow());
+  job.shrink = v.shrink, job.threads = v.threads, job.simulate_floor = !v.no_floor;
+  std::string doing;
+  std::optional<Progress> bar;
+  job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
+    if (what != doing || done <= 1) bar.reset(), bar.emplace(doing = what, !c.quiet && !c.json);
+    if (total > 0) bar->update(std::min(done, total), total);
+  };
+  job.stop = [] { return stop_requested().load(); };
+  const Comparison result = compare_videos(job);
+  bar.reset();
+  if (!v.out.empty()) write_file(v.out, compare_csv(result));
+  if (!v.report.empty()) write_file(v.report, compare_page(result, job));
+  const auto j = compare_json(result, job);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+  for (const auto& r : j["runs"])
+    for (const auto& note : r["notes"])
+      tell(fmt::format("faba: note: {}: {}", r["run"].get<std::string>(), note.get<std::string>()));
+  summary(j);
+  for (const auto& file : {v.out, v.report})
+    if (!file.empty()) fmt::print("wrote {}\n", file.string());
+  return 0;
+}
+
+}  // namespace faba::cli

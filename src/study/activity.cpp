@@ -1,0 +1,215 @@
+#include "study/activity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/parts.h"
+#include "core/toml.h"
+
+namespace faba {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kBlock = 0.5;      // s, over which flow across the direction is taken for independent
+constexpr double kResponds = 4;     // standard errors
+constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
+
+void check_stop(const ActivityJob& job, const ActivityInput& v) {
+  if (job.stop()) throw Error(Errc::interrupted, v.file.string(), "stopped");
+}
+
+double angle_of(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
+
+double found_direction(const VideoActivity& a) {
+  double longest = -1, deg = 0;
+  for (const MotionSegment& s : a.segments)
+    if (s.t1_s - s.t0_s > longest) longest = s.t1_s - s.t0_s, deg = s.direction_deg;
+  if (longest >= 0) return deg;
+  Vec2 all{0, 0};
+  for (std::size_t k = 0; k < a.signature.size(); ++k) all = all + a.signature.sum(k);
+  return angle_of(all);
+}
+
+// Where the fitted curve is a tenth of its height to either side of the maximum, inside the video.
+void mark_points(VideoActivity& a) {
+  if (!a.fit.good) return;
+  a.maximum_s = a.fit.peak_s;
+  const double reach = a.fit.sigma_s * std::sqrt(-2 * std::log(kOfTheRise));
+  if (a.fit.peak_s - reach > a.t_s.front()) a.onset_s = a.fit.peak_s - reach;
+  if (a.fit.peak_s + reach < a.t_s.back()) a.leaving_s = a.fit.peak_s + reach;
+}
+
+// The flow across the direction has no business there: its means over blocks tell how far chance takes a
+// mean.
+double signal_to_noise(const VideoActivity& a) {
+  const Signature& s = a.signature;
+  const Vec2 across{-std::sin(a.direction_deg * kDegree), std::cos(a.direction_deg * kDegree)};
+  double squares = 0, block = 0, begin = s.t0_s(0);
+  std::size_t in_block = 0, blocks = 0;
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    block += dot(s.sum(k), across), ++in_block;
+    if (s.t1_s(k) - begin < kBlock && k + 1 < s.size()) continue;
+    squares += block * block, ++blocks;
+    block = 0, in_block = 0, begin = s.t1_s(k);
+  }
+  const double total = a.mean_along * double(s.size()), error = std::sqrt(squares);
+  if (blocks < 4) return 0;  // too short to tell
+  return error > 0 ? total / error : total > 0 ? 1e9 : 0;
+}
+
+NoiseLevel threshold_of(const ActivityJob& job, const std::filesystem::path& video, std::size_t index,
+                        Pool& pool) {
+  return noise_level(video, {job.method, job.shrink, 0, {}, 1}, pool,
+                     [&](std::uint64_t done, std::uint64_t total) { job.progress(index, done, total); });
+}
+
+VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {
+  VideoActivity a;
+  a.input = job.videos[index];
+  a.threshold_px = threshold;
+  a.direction_given = a.input.direction_deg.has_value();
+  const double zero = a.input.direction_deg.value_or(0);
+  a.signature = Signature(threshold, zero);
+  FlowSource source(a.input.file, {job.method, job.shrink, 0, {}, 1}, pool);
+  FlowPair pair;
+  double most = -1;
+  while (source.next(pair)) {
+    a.signature.add(pair, source.shrink());
+    const std::size_t k = a.signature.size() - 1;
+    const double now = a.direction_given ? a.signature.along(k, zero) : norm(a.signature.sum(k));
+    if (now > most) most = now, a.busiest = pair, a.busiest_deg = angle_of(a.signature.sum(k));
+    job.progress(index, k + 1, source.pairs());
+    check_stop(job, a.input);
+  }
+  a.notes = source.notes();
+  if (a.signature.size() == 0)
+    throw Error(Errc::input, a.input.file.string(), "has one frame only; motion needs two or more");
+  a.segments = motion_segments(a.signature, a.input.direction_deg);
+  a.direction_deg = a.direction_given ? zero : found_direction(a);
+  const double cone = a.signature.nearest_deg(a.direction_deg);
+  for (std::size_t k = 0; k < a.signature.size(); ++k) {
+    a.t_s.push_back(a.signature.t_s(k));
+    a.amount.push_back(a.signature.amount(k, cone)), a.along.push_back(a.signature.along(k, cone));
+    a.mean_amount += a.amount.back(), a.mean_along += a.along.back();
+  }
+  a.mean_amount /= double(a.t_s.size()), a.mean_along /= double(a.t_s.size());
+  a.fit = fit_gaussian(a.t_s, a.amount);
+  mark_points(a);
+  a.signal_to_noise = signal_to_noise(a);
+  a.responds =
+      a.signal_to_noise >= kResponds || (a.fit.good && a.fit.amplitude >= kResponds * a.fit.se_amplitude);
+  if (!a.direction_given)
+    a.notes.push_back(
+        a.segments.empty()
+            ? fmt::format("no direction was given and nothing goes one way; {:.0f} degrees is where all "
+                          "flow together points",
+                          a.direction_deg)
+            : fmt::format("no direction was given; {:.0f} degrees is that of the longest motion found",
+                          a.direction_deg));
+  return a;
+}
+
+void conclude(ActivityResult& r) {
+  std::vector<ExposureValue> peaks, means;
+  std::vector<ExposureResponse> responses;
+  for (const VideoActivity& a : r.videos) {
+    if (!a.input.exposure_s) continue;
+    responses.push_back({*a.input.exposure_s, a.responds});
+    means.push_back({*a.input.exposure_s, a.mean_amount, a.input.experiment});
+  }
+  r.cutoff = response_cutoff(responses);
+  // A peak of a sample that no longer responds is one of noise.
+  for (const VideoActivity& a : r.videos)
+    if (a.input.exposure_s && a.fit.good && a.responds &&
+        (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
+      peaks.push_back({*a.input.exposure_s, a.fit.peak_s, a.input.experiment});
+  r.peak_line = mixed_line(peaks), r.peak_line_pooled = pooled_line(peaks);
+  r.mean_line = mixed_line(means), r.mean_line_pooled = pooled_line(means);
+}
+
+struct StudyVideo {
+  std::string file, experiment;
+  std::optional<double> exposure, direction;
+  static Schema<StudyVideo> schema() {
+    return Schema<StudyVideo>("video", "One video of the study")
+        .add("file", &StudyVideo::file,
+             {.doc = "Video, run directory or file of flows; beside the study file"})
+        .add("exposure", &StudyVideo::exposure,
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time of the sample in air before the video"})
+        .add("experiment", &StudyVideo::experiment,
+             {.doc = "Which experiment, that is which drop, it belongs to"})
+        .add("direction", &StudyVideo::direction,
+             {.min = -360,
+              .max = 360,
+              .doc = "Direction of the response in degrees: 0 right, 90 down in the picture"})
+        .check([](const StudyVideo& v) -> std::string {
+          return v.file.empty() ? "needs file = \"a video\"" : "";
+        });
+  }
+};
+
+struct Study {
+  std::optional<double> direction, threshold;
+  std::string noise;
+  static Schema<Study> schema() {
+    return Schema<Study>("study", "Videos of samples after different times in air")
+        .add("direction", &Study::direction,
+             {.min = -360, .max = 360, .doc = "For all videos that give none"})
+        .add("threshold", &Study::threshold,
+             {.unit = "px", .min = 0, .max = 1e3, .doc = "Flows of less are noise"})
+        .add("noise", &Study::noise, {.doc = "A video of a dead sample, to find the threshold from"});
+  }
+};
+
+}  // namespace
+
+ActivityResult measure_activity(const ActivityJob& job) {
+  Pool pool(job.threads);
+  ActivityResult r;
+  std::vector<double> thresholds(job.videos.size(), job.threshold_px.value_or(0));
+  std::vector<bool> quiet(job.videos.size(), true);
+  if (!job.threshold_px && !job.noise.empty()) {
+    const double level = threshold_of(job, job.noise, 0, pool).threshold_px;
+    std::fill(thresholds.begin(), thresholds.end(), level);
+  } else if (!job.threshold_px) {
+    for (std::size_t i = 0; i < job.videos.size(); ++i) {
+      const NoiseLevel level = threshold_of(job, job.videos[i].file, i, pool);
+      thresholds[i] = level.threshold_px, quiet[i] = level.quiet;
+      check_stop(job, job.videos[i]);
+    }
+    // Measured with one measure, so that what differs is the videos.
+    const double least = *std::min_element(thresholds.begin(), thresholds.end());
+    std::fill(thresholds.begin(), thresholds.end(), least);
+  }
+  for (std::size_t i = 0; i < job.videos.size(); ++i) {
+    r.videos.push_back(measure(job, i, thresholds[i], pool));
+    if (!quiet[i] && job.videos.size() == 1)
+      r.videos.back().notes.push_back(
+          "the video has no quiet moment to tell noise from; give a dead sample with --noise, or "
+          "--threshold");
+  }
+  conclude(r);
+  return r;
+}
+
+void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
+  const Document d = read_toml(file);
+  const Node root(d);
+  const Study study = Study::schema().parse(root, {"video", "flow"});
+  if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
+  if (study.threshold) job.threshold_px = study.threshold;
+  if (!study.noise.empty()) job.noise = root.file(study.noise);
+  if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
+    root.fail("needs [[video]], once for each video");
+  const Node list = root.child("video");
+  for (std::size_t i = 0; i < list.json->size(); ++i) {
+    const Node n = list.item(i);
+    const StudyVideo v = StudyVideo::schema().parse(n);
+    job.videos.push_back(
+        {n.file(v.file), v.exposure, v.experiment, v.direction ? v.direction : study.direction});
+  }
+}
+
+}  // namespace faba

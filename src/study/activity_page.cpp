@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "study/activity_report.h"
+#include "study/flow_histograms.h"
+#include "study/markup.h"
+#include "study/report_page.h"
+#include "vision/flow_picture.h"
+#include "vision/picture.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kMostSignatures = 24;  // drawn one by one
+
+std::string title_of(const VideoActivity& a) {
+  std::string words = a.input.file.filename().string();
+  if (words.empty()) words = a.input.file.parent_path().filename().string();
+  if (a.input.exposure_s) words += fmt::format(", {} s in air", three_digits(*a.input.exposure_s));
+  return words;
+}
+
+std::string compass(double deg) {
+  static const char* const kNames[] = {"right", "down and right", "down", "down and left",
+                                       "left",  "up and left",    "up",   "up and right"};
+  return kNames[int(std::lround(deg / 45)) % 8];
+}
+
+Figure signature_figure(const VideoActivity& a) {
+  Figure f;
+  f.heading = title_of(a);
+  Plot& p = f.plot;
+  p.inlined = true;
+  p.description = "Activity of " + f.heading + " over time";
+  p.x.label = "time (s)", p.y.label = "activity (px × px² per pair)";
+  p.width = 620;
+  for (const MotionSegment& s : a.segments) p.add(Band{s.t0_s, s.t1_s, {}, true, Ink::muted});
+  p.add(Rule{.at = 0, .of_x = false});
+  p.add(Line{
+      .x = a.t_s, .y = a.amount, .label = "within 45° of the direction", .ink = Ink::blue, .width = 1.2});
+  p.add(Line{
+      .x = a.t_s, .y = a.along, .label = "along it, less against it", .ink = Ink::vermillion, .width = 1.2});
+  if (a.fit.good) {
+    Line curve;
+    curve.label = "Gaussian", curve.ink = Ink::text, curve.dashed = true;
+    for (const double t : a.t_s) {
+      const double z = (t - a.fit.peak_s) / a.fit.sigma_s;
+      curve.x.push_back(t), curve.y.push_back(a.fit.amplitude * std::exp(-z * z / 2) + a.fit.offset);
+    }
+    p.add(std::move(curve));
+  }
+  const std::pair<const std::optional<double>*, const char*> points[] = {
+      {&a.onset_s, "(1)"}, {&a.maximum_s, "(2)"}, {&a.leaving_s, "(3)"}};
+  for (const auto& [at, name] : points)
+    if (*at) p.add(Rule{.at = **at, .label = name});
+  f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
+                          a.direction_deg, compass(a.direction_deg));
+  if (!a.segments.empty()) f.caption += "Grey: times of motion in one direction. ";
+  f.caption +=
+      a.fit.good
+          ? "(1) onset, (2) maximum, (3) the swarm leaves: where the Gaussian is at a tenth and at its top."
+          : "No Gaussian: " + a.fit.why + ".";
+  return f;
+}
+
+Figure line_figure(const ActivityResult& r, bool of_peaks) {
+  Figure f;
+  const auto& line = of_peaks ? r.peak_line : r.mean_line;
+  f.heading = of_peaks ? "Time of the maximum against exposure" : "Mean activity against exposure";
+  Plot& p = f.plot;
+  p.inlined = true;
+  p.x.label = "time in air (s)";
+  p.y.label = of_peaks ? "time of the maximum (s)" : "mean activity (px × px² per pair)";
+  p.width = 620, p.height = 300;
+  double longest = 0;
+  std::vector<std::string> experiments;
+  for (const VideoActivity& a : r.videos) {
+    if (!a.input.exposure_s) continue;
+    longest = std::max(longest, *a.input.exposure_s);
+    if (std::find(experiments.begin(), experiments.end(), a.input.experiment) == experiments.end())
+      experiments.push_back(a.input.experiment);
+  }
+  for (const std::string& name : experiments) {
+    Scatter dots;
+    dots.label = name.empty() ? "" : "experiment " + name;
+    for (const VideoActivity& a : r.videos) {
+      if (!a.input.exposure_s || a.input.experiment != name) continue;
+      if (of_peaks && !(a.fit.good && a.responds && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s)))
+        continue;
+      dots.x.push_back(*a.input.exposure_s), dots.y.push_back(of_peaks ? a.fit.peak_s : a.mean_amount);
+    }
+    p.add(std::move(dots));
+  }
+  if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "no response beyond"});
+  if (line) {
+    p.add(Line{.x = {0, longest},
+               .y = {line->intercept, line->intercept + line->slope * longest},
+               .label = "line, a shift for each experiment",
+               .ink = Ink::text});
+    f.caption = fmt::format(
+        "Slope {:.4g}, 95 % from {:.4g} to {:.4g}; intercept {:.4g} ({:.4g} to {:.4g}); {} videos in {} "
+        "experiments.",
+        line->slope, line->slope_ci95[0], line->slope_ci95[1], line->intercept, line->intercept_ci95[0],
+        line->intercept_ci95[1], line->values, line->experiments);
+  } else {
+    f.caption = "Too few videos for a line.";
+  }
+  return f;
+}
+
+std::string row(const std::vector<std::string>& cells, const char* tag) {
+  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", escape_markup(cells.front()));
+  for (std::size_t i = 1; i < cells.size(); ++i)
+    out += fmt::format("<{0}>{1}</{0}>", tag, escape_markup(cells[i]));
+  return out + "</tr>\n";
+}
+
+std::string table(const ActivityResult& r) {
+  std::string out = "<h2>Numbers</h2>\n<table class=\"numbers\">\n";
+  out += row({"video", "direction", "threshold (px)", "mean activity", "signal to noise", "maximum (s)",
+              "width (s)"},
+             "th");
+  for (const VideoActivity& a : r.videos)
+    out += row(
+        {title_of(a), fmt::format("{:.0f}°", a.direction_deg), three_digits(a.threshold_px),
+         three_digits(a.mean_amount), three_digits(a.signal_to_noise),
+         a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.peak_s), three_digits(a.fit.se_peak_s)) : "–",
+         a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.sigma_s), three_digits(a.fit.se_sigma_s))
+                    : "–"},
+        "td");
+  out += "</table>\n<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n";
+  out += row({"video", "from (s)", "to (s)", "direction"}, "th");
+  for (const VideoActivity& a : r.videos)
+    for (const MotionSegment& s : a.segments)
+      out += row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
+                  fmt::format("{:.0f}° ({})", s.direction_deg, compass(s.direction_deg))},
+                 "td");
+  return out + "</table>\n";
+}
+
+std::string lead(const ActivityResult& r) {
+  if (r.videos.size() == 1) {
+    const VideoActivity& a = r.videos.front();
+    return a.segments.empty() ? "Nothing in this video moves in one direction beyond chance."
+                              : fmt::format("{} times something moves in one direction.", a.segments.size());
+  }
+  std::size_t respond = 0;
+  for (const VideoActivity& a : r.videos) respond += a.responds;
+  std::string words = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
+  if (r.cutoff)
+    words += fmt::format(" None beyond {} s in air (between {} and {} s).", three_digits(r.cutoff->cutoff_s),
+                         three_digits(r.cutoff->between_s[0]), three_digits(r.cutoff->between_s[1]));
+  return words;
+}
+
+}  // namespace
+
+std::vector<Figure> activity_figures(const ActivityResult& r) {
+  std::vector<Figure> figures;
+  bool exposures = false;
+  for (const VideoActivity& a : r.videos) exposures = exposures || a.input.exposure_s;
+  if (exposures) figures.push_back(line_figure(r, true)), figures.push_back(line_figure(r, false));
+  for (std::size_t i = 0; i < std::min(r.videos.size(), kMostSignatures); ++i)
+    figures.push_back(signature_figure(r.videos[i]));
+  return figures;
+}
+
+std::string activity_page(const ActivityResult& r) {
+  std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
+  for (const VideoActivity& a : r.videos)
+    for (const std::string& note : a.notes)
+      out += fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(title_of(a)), escape_markup(note));
+  int number = 0;
+  for (const Figure& f : activity_figures(r))
+    out += fmt::format(
+        "<figure class=\"wide\">\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
+        escape_markup(f.heading), svg(f.plot), ++number, escape_markup(f.caption));
+  return html_page("Activity", out + table(r));
+}
+
+void write_activity_picture(const std::filesystem::path& file, const VideoActivity& a) {
+  if (a.busiest.image.empty())
+    throw Error(Errc::usage, "--picture", "needs the frames, and a file of flows holds none");
+  const double direction = a.direction_given ? a.direction_deg : a.busiest_deg;
+  const Flow kept = kept_flow(a.busiest.flow, {a.threshold_px, direction});
+  FlowDrawing how;
+  how.full_px = std::max(full_speed(a.busiest.flow), 1e-6);
+  how.arrow_step_px = 0;
+  const RgbImage all = draw_flow(a.busiest.flow, how), left = draw_flow(kept, how);
+  RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
+  for (int y = 0; y < all.height; ++y)
+    for (int x = 0; x < all.width; ++x)
+      out.at(x, y) = all.at(x, y), out.at(all.width + 8 + x, y) = left.at(x, y);
+  write_png(file, out);
+}
+
+}  // namespace faba
