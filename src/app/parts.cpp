@@ -21,6 +21,8 @@ namespace faba {
   X(estimator, mean)               \
   X(estimator, visible)            \
   X(estimator, estimator_none)     \
+  X(estimator, image)              \
+  X(estimator, groups)             \
   X(reference, none)               \
   X(reference, hold)               \
   X(reference, route)              \

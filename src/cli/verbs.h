@@ -31,6 +31,14 @@ struct DropVerb {
   std::filesystem::path picture, overlay;
   bool force = false;
 };
+struct TrackVerb {
+  std::filesystem::path video, overlay, report, picture, figures;
+  std::vector<std::filesystem::path> out;
+  std::string polarity = "auto", background = "auto", motion = "auto";
+  double fps = 0, um_per_px = 0, size_px = 0, threshold = 0, reach_px = 0;
+  int memory = 2, least = 3, interval = 0;
+  bool drop = false, force = false;
+};
 struct ScaleVerb {
   std::filesystem::path ruler, out, overlay;
   std::string tick;
@@ -107,6 +115,7 @@ int activity(const ActivityVerb& v, const Common& c);
 int compare(const CompareVerb& v, const Common& c);
 int distance(const DistanceVerb& v, const Common& c);
 int scale(const ScaleVerb& v, const Common& c);
+int track(const TrackVerb& v, const Common& c);
 int field_at(const FieldVerb& v, const Common& c);
 int field_map(const FieldVerb& v, const Common& c);
 int field_library(const LibraryVerb& v, const Common& c);

@@ -31,7 +31,9 @@ struct Observation {
 /// One of several swarms in view.
 struct Group {
   Vec2 centroid;  ///< m, world
-  double share = 0;
+  double share =
+      0;     ///< of what is in view; for a single group of a picture, of the most that ever was in view
+  Mat2 cov;  ///< of the positions of its cells, m^2
 };
 
 /// What the estimator believes at time t. World frame, m.

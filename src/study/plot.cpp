@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -97,6 +98,66 @@ Scale scale_of(Range r, int wanted, const std::string& label) {
   return scale;
 }
 
+// Of an axis that was taken to logarithms: decades, with 2 and 5 between them where there is room.
+Scale decades_of(Range r, int wanted, const std::string& label) {
+  Scale scale{{}, {}, label};
+  const int first = int(std::ceil(r.lo - 1e-9)), last = int(std::floor(r.hi + 1e-9));
+  const bool between = last - first + 1 < wanted / 2 + 1;
+  const int every = std::max(1, (last - first + 1 + wanted) / std::max(1, wanted));
+  for (int decade = first - 1; decade <= last; ++decade)
+    for (const int lead : {1, 2, 5}) {
+      const double at = decade + std::log10(lead);
+      if (at < r.lo - 1e-9 || at > r.hi + 1e-9 || (lead > 1 && !between)) continue;
+      if (lead == 1 && (decade - first) % every != 0) continue;
+      const std::string plain = decade >= -2 && decade <= 3
+                                    ? fmt::format("{:g}", lead * std::pow(10.0, decade))
+                                : lead == 1 ? power_of_ten(decade)
+                                            : fmt::format("{}\u00B7{}", lead, power_of_ten(decade));
+      scale.at.push_back(at);
+      scale.width = std::max(scale.width, kDigit * letters(plain));
+      scale.words.push_back(plain);
+    }
+  return scale;
+}
+
+Scale scale_along(const Axis& axis, Range r, int wanted) {
+  return axis.logarithmic ? decades_of(r, wanted, axis.label) : scale_of(r, wanted, axis.label);
+}
+
+double logarithm(double v) { return v > 0 ? std::log10(v) : std::numeric_limits<double>::quiet_NaN(); }
+
+// The same figure with the values of its logarithmic axes taken to logarithms; the axes keep their flag.
+Plot in_logarithms(Plot plot) {
+  const auto all = [](std::vector<double>& v) { std::transform(v.begin(), v.end(), v.begin(), logarithm); };
+  const auto axis = [](Axis& a) {
+    if (!a.logarithmic) return;
+    if (a.lo) a.lo = logarithm(*a.lo);
+    if (a.hi) a.hi = logarithm(*a.hi);
+  };
+  axis(plot.x), axis(plot.y);
+  for (Plot::Layer& layer : plot.layers)
+    std::visit(
+        [&](auto& l) {
+          const bool x = plot.x.logarithmic, y = plot.y.logarithmic;
+          if constexpr (requires {
+                          l.of_x;
+                          l.at;
+                        }) {
+            if (l.of_x ? x : y) l.at = logarithm(l.at);
+          } else if constexpr (requires { l.of_x; }) {
+            if (l.of_x ? x : y) l.lo = logarithm(l.lo), l.hi = logarithm(l.hi);
+          } else if constexpr (requires { l.y.size(); }) {
+            if (x) all(l.x);
+            if (y) all(l.y);
+          } else if constexpr (requires { l.lo.size(); }) {
+            if (x) all(l.x);
+            if (y) all(l.lo), all(l.hi);
+          }
+        },
+        layer);
+  return plot;
+}
+
 std::string turned(Spot p, const std::string& words) {
   const std::string turn = fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})")svg", p.x, p.y);
   return text_at(p, "middle", shade(Ink::text), words, turn.c_str());
@@ -155,7 +216,7 @@ Layout layout_of(const Plot& plot) {
                                  [](const auto& l) { return std::holds_alternative<Scatter>(l); });
   map = {settled(x, plot.x, marks ? 0.03 : 0), settled(y, plot.y, 0.05), plot.x.reversed, plot.y.reversed};
   map.h = plot.height - 50;
-  out.left = scale_of(map.y, std::max(2, int(map.h / 42)), plot.y.label);
+  out.left = scale_along(plot.y, map.y, std::max(2, int(map.h / 42)));
   if (plot.right) {
     if (std::isfinite(plot.right->per_unit)) out.per_unit = plot.right->per_unit;
     out.right = scale_of({map.y.lo * out.per_unit, map.y.hi * out.per_unit}, 5, plot.right->label);
@@ -164,9 +225,9 @@ Layout layout_of(const Plot& plot) {
   map.w = std::max(60.0, plot.width - map.left - (plot.right ? out.right.width + 27 : 14));
   if (plot.equal_aspect) {
     equalise(map);
-    out.left = scale_of(map.y, std::max(2, int(map.h / 62)), plot.y.label);
+    out.left = scale_along(plot.y, map.y, std::max(2, int(map.h / 62)));
   }
-  out.below = scale_of(map.x, std::max(2, int(map.w / 62)), plot.x.label);
+  out.below = scale_along(plot.x, map.x, std::max(2, int(map.w / 62)));
 
   out.inks = inks_of(plot.layers);
   const double title_height = plot.title.empty() ? 0 : 24;
@@ -201,7 +262,8 @@ std::vector<double> tick_positions(double lo, double hi, int wanted) {
   return at;
 }
 
-std::string svg(const Plot& plot) {
+std::string svg(const Plot& given) {
+  const Plot plot = given.x.logarithmic || given.y.logarithmic ? in_logarithms(given) : given;
   const Layout at = layout_of(plot);
   std::string out = opening(plot, at.height) + fmt::format("<style>{}</style>", style_sheet());
   out += rectangle(fill(kPaper), {0, 0}, {plot.width, at.height});

@@ -76,6 +76,9 @@ struct Axis {
   std::string label = {};        ///< quantity and unit: "time (s)"
   std::optional<double> lo, hi;  ///< ends of the range; from the data when empty; must be finite
   bool reversed = false;         ///< small values at the right or on top, as the rows of a picture
+  /// Equal ratios are equally long; values that are not positive are left out, and lo and hi must be
+  /// positive. Not together with equal_aspect or a second scale.
+  bool logarithmic = false;
 };
 
 /// A second scale at the right, for the same curves in another unit.

@@ -81,11 +81,11 @@ RunInfo read_run_info(const std::filesystem::path& path) {
     throw Error(Errc::input, path.string(), "has no version; it is not the manifest of a run");
   info.title = keys.text("title");
   info.polarity = keys.text("polarity");
-  info.video_shows = keys.text("video_shows");
   info.seed = keys.text("seed");
   info.threads = keys.text("threads");
   info.state_hash = keys.text("state_hash");
   info.scenario_hash = keys.text("scenario_hash");
+  info.video_shows = keys.text("video_shows");
   if (const Json* complete = keys.find("complete")) {
     if (!complete->is_boolean()) keys.fail("complete", "true or false");
     info.complete = complete->get<bool>();

@@ -6,14 +6,18 @@
 #include "core/error.h"
 #include "vision/av_stream.h"
 #include "vision/input_file.h"
+#include "vision/picture_sequence.h"
 #include "vision/tiff_stack.h"
 
 namespace faba {
 
-// Exactly one of the two is there.
+// Exactly one of the three is there.
 struct VideoReader::Impl {
   std::optional<TiffStack> stack;
   std::optional<AvStream> stream;
+  std::optional<PictureSequence> sequence;
+
+  double fps = 0;  // as given; 0: as the file states
 
   std::filesystem::path path;
   int width = 0, height = 0;
@@ -49,9 +53,14 @@ bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
   return true;
 }
 
-VideoReader::VideoReader(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
+VideoReader::VideoReader(const std::filesystem::path& path, double fps) : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
-  if (check_input_file(path) == InputKind::tiff) {
+  impl_->fps = fps;
+  if (is_picture_sequence(path)) {
+    impl_->sequence.emplace(path, fps);
+    impl_->width = impl_->sequence->width();
+    impl_->height = impl_->sequence->height();
+  } else if (check_input_file(path) == InputKind::tiff) {
     impl_->stack.emplace(path);
     impl_->stack->read(impl_->first_page);
     impl_->width = impl_->stack->width();
@@ -68,23 +77,39 @@ VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
 
 int VideoReader::width() const { return impl_->width; }
 int VideoReader::height() const { return impl_->height; }
-int VideoReader::bits() const { return impl_->stack ? impl_->stack->bits() : impl_->stream->bits(); }
-double VideoReader::fps() const { return impl_->stack ? impl_->stack->fps() : impl_->stream->fps(); }
+int VideoReader::bits() const {
+  if (impl_->sequence) return impl_->sequence->bits();
+  return impl_->stack ? impl_->stack->bits() : impl_->stream->bits();
+}
+double VideoReader::fps() const {
+  if (impl_->fps > 0 || impl_->sequence) return impl_->fps;
+  return impl_->stack ? impl_->stack->fps() : impl_->stream->fps();
+}
 std::int64_t VideoReader::frames_stated() const {
+  if (impl_->sequence) return impl_->sequence->pictures();
   return impl_->stack ? impl_->stack->pages() : impl_->stream->frames_stated();
 }
 bool VideoReader::truncated() const {
+  if (impl_->sequence) return false;
   return impl_->stack ? impl_->stack_cut_short : impl_->stream->truncated();
 }
 std::int64_t VideoReader::damaged_frames() const {
+  if (impl_->sequence) return impl_->sequence->damaged_pictures();
   return impl_->stack ? std::int64_t{impl_->stack_cut_short} : impl_->stream->damaged_frames();
 }
 const std::string& VideoReader::damage() const {
+  if (impl_->sequence) return impl_->sequence->damage();
   return impl_->stack ? impl_->stack_damage : impl_->stream->damage();
 }
 
 bool VideoReader::read(GrayF& frame, double& t_s) {
-  return impl_->stack ? impl_->read_page(frame, t_s) : impl_->stream->read(frame, t_s);
+  if (impl_->sequence) return impl_->sequence->read(frame, t_s);
+  if (!(impl_->stack ? impl_->read_page(frame, t_s) : impl_->stream->read(frame, t_s))) return false;
+  if (impl_->fps > 0) {
+    const double stated = impl_->stack ? impl_->stack->fps() : impl_->stream->fps();
+    t_s *= (stated > 0 ? stated : 1) / impl_->fps;
+  }
+  return true;
 }
 
 }  // namespace faba

@@ -8,9 +8,10 @@
 
 namespace faba {
 
-/// Reads the frames of a video one after the other as grey pictures: any video FFmpeg reads, a TIFF stack, or
-/// a still picture (one frame). Memory does not grow with the length. Not to be shared between threads;
-/// several readers may work at the same time.
+/// Reads the frames of a video one after the other as grey pictures: any video FFmpeg reads, a TIFF stack, a
+/// still picture (one frame), or many pictures: a folder of them or a pattern such as `frames/frame_*.tif`
+/// and `frames/frame_%04d.tif` (see PictureSequence for their order and times). Memory does not grow with the
+/// length. Not to be shared between threads; several readers may work at the same time.
 ///
 /// Grey: see to_grey() in frame_grey.h (luma as it is, studio range spread to 0..255 or 0..65535) and
 /// TiffStack. Luma of coloured material weighs the colours as the video's own matrix says. Rotation tags and
@@ -23,9 +24,11 @@ namespace faba {
 /// B-frames up to a few frames shown just before one that is damaged inside may have been predicted from it.
 class VideoReader {
  public:
-  /// Opens the file and decodes its first frame. Throws Error(Errc::input, path) when it is missing, a
-  /// directory, empty, of no known kind, without a picture stream, or when not even one frame can be decoded.
-  explicit VideoReader(const std::filesystem::path& path);
+  /// Opens the file and decodes its first frame. `fps` > 0: the mean frame rate, whatever the
+  /// file states (its time stamps are scaled); 0: as the file states. Throws Error(Errc::input, path) when it
+  /// is missing, a directory without pictures, empty, of no known kind, without a picture stream, or when not
+  /// even one frame can be decoded.
+  explicit VideoReader(const std::filesystem::path& path, double fps = 0);
   ~VideoReader();
   VideoReader(VideoReader&&) noexcept;
   VideoReader& operator=(VideoReader&&) noexcept;
@@ -34,8 +37,8 @@ class VideoReader {
   int height() const;  ///< px
   /// Bits of the grey scale: white is 2^bits - 1 (8 or 16; for TIFF see TiffStack::bits).
   int bits() const;
-  /// Mean frames per second as the file states it; 0 when it states none (TIFF without ImageJ's text, still
-  /// pictures).
+  /// Mean frames per second as given or as the file states it; 0 when it states none (TIFF without ImageJ's
+  /// text, still pictures, folders of pictures).
   double fps() const;
   /// Number of frames as the file states it, good for a progress bar only; 0 when not stated.
   std::int64_t frames_stated() const;

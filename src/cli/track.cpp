@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/verbs.h"
+#include "core/error.h"
+#include "study/track_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+template <class Enum>
+Enum chosen(const std::string& word, const std::vector<const char*>& words) {
+  return Enum(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+TrackOptions options_of(const TrackVerb& v) {
+  TrackOptions o;
+  o.video = v.video, o.fps = v.fps, o.out = v.out;
+  if (v.um_per_px > 0) o.um_per_px = v.um_per_px;
+  o.overlay = v.overlay, o.report = v.report, o.picture = v.picture, o.figures = v.figures;
+  o.size_px = v.size_px, o.threshold_sd = v.threshold, o.inside_drop = v.drop, o.interval_frames = v.interval;
+  o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
+  o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
+  o.tracker.motion = chosen<Motion>(v.motion, {"auto", "nearest", "velocity"});
+  o.tracker.reach_px = v.reach_px, o.tracker.memory = v.memory, o.tracker.least_points = v.least;
+  return o;
+}
+
+void check_outputs(const TrackVerb& v) {
+  for (const auto& path : v.out) {
+    if (path.extension() != ".csv" && path.extension() != ".h5")
+      throw Error(Errc::usage, path.string(), "must end in .csv or .h5, which is what is written");
+    check_output(path, "", v.force, {v.video});
+  }
+  if (!v.overlay.empty() && v.overlay.extension() != ".mp4" && v.overlay.extension() != ".avi")
+    throw Error(Errc::usage, v.overlay.string(), "must end in .mp4 or .avi, which is what is written");
+  check_output(v.overlay, "", v.force, {v.video});
+  check_output(v.report, ".html", v.force, {v.video});
+  check_output(v.picture, ".png", v.force, {v.video});
+  if (!v.figures.empty())
+    for (const char* name : {"speeds.svg", "msd.svg", "heading.svg"})
+      check_output(v.figures / name, ".svg", v.force, {v.video});
+}
+
+// "12.3 +- 0.4 um/s", in um where there is a scale.
+std::string value_of(const nlohmann::ordered_json& from, const std::string& name, const char* px,
+                     const char* um, const char* px_words, const char* um_words) {
+  const bool scaled = from.contains(name + "_" + um);
+  const std::string key = name + "_" + (scaled ? um : px);
+  if (from[key].is_null()) return "-";
+  std::string words = fmt::format("{:.3g}", from[key].get<double>());
+  if (!from[key + "_se"].is_null()) words += fmt::format(" +- {:.2g}", from[key + "_se"].get<double>());
+  return words + " " + (scaled ? um_words : px_words);
+}
+
+void print_summary(const nlohmann::ordered_json& j) {
+  const auto& d = j["detection"];
+  fmt::print("spots    {:.4g} in a frame, {} and {:.2g} px wide, against the {} background\n",
+             d["spots_per_frame"].get<double>(), d["polarity"].get<std::string>(), d["size_px"].get<double>(),
+             d["background"].get<std::string>());
+  fmt::print("tracks   {} in {} frames, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
+             j["frames"].get<std::int64_t>(), j["mean_points"].get<double>());
+  const bool together = j["order"].is_number() && j["order"].get<double>() > 0.5;
+  if (j["speed"].is_object() && (together || j["supported"] != "diffusion"))
+    fmt::print("speed    {} on average, over {:.3g} s\n",
+               value_of(j["speed"], "mean", "px_s", "um_s", "px/s", "um/s"),
+               j["speed"]["interval_s"].get<double>());
+  if (together)
+    fmt::print("drift    {} right, {} down\n", value_of(j["drift"], "x", "px_s", "um_s", "px/s", "um/s"),
+               value_of(j["drift"], "y", "px_s", "um_s", "px/s", "um/s"));
+  if (j["supported"] == "diffusion")
+    fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", together ? "about the drift " : "",
+               value_of(j["diffusion"], "d", "px2_s", "um2_s", "px^2/s", "um^2/s"));
+  if (j["supported"] == "persistent_walk" && j["persistent_walk"].is_object())
+    fmt::print("motion   {}direction is kept: walk at {} (rms), for {}\n", together ? "about the drift " : "",
+               value_of(j["persistent_walk"], "speed_rms", "px_s", "um_s", "px/s", "um/s"),
+               j["persistent_walk"]["tau_longer_than_seen"].get<bool>()
+                   ? "longer than was seen"
+                   : value_of(j["persistent_walk"], "tau", "s", "-", "s", ""));
+}
+
+}  // namespace
+
+int track(const TrackVerb& v, const Common& c) {
+  check_outputs(v);
+  const auto& stop = stop_requested();
+  Progress bar("tracking", !c.quiet);
+  const auto j = track_video(options_of(v), [&](std::int64_t done, std::int64_t total) {
+    bar.update(std::uint64_t(done), std::uint64_t(total));
+    return !stop;
+  });
+  bar.clear();
+  if (!c.quiet)
+    for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  print_summary(j);
+  for (const auto& path : v.out) fmt::print("written  {}\n", path.string());
+  for (const auto* path : {&v.overlay, &v.report, &v.picture, &v.figures})
+    if (!path->empty()) fmt::print("written  {}\n", path->string());
+  return 0;
+}
+
+}  // namespace faba::cli

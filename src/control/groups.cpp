@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "control/controller.h"
+#include "control/foreground_params.h"
+#include "vision/fuzzy_groups.h"
+
+namespace faba {
+namespace {
+
+constexpr int kBins = 32;         // across, for grouping: a thousand places say as much as a million cells
+constexpr double kLarger = 1.25;  // times the share of the followed group, from which on another is followed
+
+/// Several swarms: the cells in view, or the light of the camera's picture where the rig gives no positions,
+/// put into groups by fuzzy c-means (vision/fuzzy_groups.h). The estimate is that of one group.
+class EstimatorGroups final : public Estimator {
+ public:
+  enum class Follow { largest, first };
+  struct Params {
+    ForegroundParams foreground;
+    int count = 0, most = 4;
+    double separation = 4.5;
+    Follow follow = Follow::largest;
+    std::optional<Vec2> near;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("groups", "Several swarms by fuzzy clustering; steers by one of them")
+        .add("count", &Params::count,
+             {.min = 0, .max = 10, .doc = "Number of groups; 0: found in every frame", .source = "H6"})
+        .add("most", &Params::most,
+             {.min = 1, .max = 10, .doc = "Most groups that are looked for", .source = "assumed"})
+        .add("separation", &Params::separation,
+             {.min = 1,
+              .max = 100,
+              .doc = "Least distance of two groups over their spread along the line between them",
+              .source = "H6"})
+        .add("follow", &Params::follow,
+             {.doc = "Which group the estimate is about: the largest, changed when another is a quarter "
+                     "larger, or "
+                     "for good the first: the largest of the first frame, or the one nearest to `near`",
+              .choices = {"largest", "first"}})
+        .add("near", &Params::near,
+             {.unit = "m",
+              .min = -1,
+              .max = 1,
+              .doc = "Where the group to follow for good is at first, world frame"})
+        .include(&Params::foreground, foreground_schema("", ""))
+        .validity(
+            "Groups that are not rounder than they are far apart are taken for one. A single cell or a few "
+            "are no group.");
+  }
+  EstimatorGroups(const Params& p, const ControlContext& c)
+      : p_(p), frame_(c.frame), foreground_(p.foreground.options()) {}
+
+  Estimate update(const Observation& o, const Command&) override {
+    double cells = 0;
+    const std::vector<WeightedPlace> places =
+        o.seen.empty() && o.image ? from_picture(o, cells) : from_cells(o, cells);
+    FuzzyGroupOptions options;
+    options.count = p_.count, options.most = p_.most, options.separation = p_.separation;
+    const std::vector<FuzzyGroup> groups = fuzzy_groups(places, options);
+    Estimate e;
+    e.t = o.t, e.centroid = at_;
+    if (groups.empty()) return e;
+    const FuzzyGroup& mine = groups[chosen(groups)];
+    e.centroid = mine.centroid, e.cov = mine.cov, e.visible = cells * mine.share;
+    if (has_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
+    at_ = e.centroid, t_ = o.t, has_ = true;
+    for (const FuzzyGroup& g : groups) e.groups.push_back({g.centroid, g.share, g.cov});
+    return e;
+  }
+  void archive(Archive& a) override { a& foreground_& at_& t_& frame_t_& has_& looked_; }
+
+ private:
+  std::vector<WeightedPlace> from_cells(const Observation& o, double& cells) const {
+    std::vector<WeightedPlace> places;
+    for (const Detection& d : o.seen)
+      if (d.in_view && std::isfinite(d.x) && std::isfinite(d.y))
+        places.push_back({{double(d.x), double(d.y)}, 1});
+    cells = double(places.size());
+    return places.size() > 2000 ? binned(places, kBins) : places;
+  }
+  std::vector<WeightedPlace> from_picture(const Observation& o, double& cells) {
+    foreground_.take(camera_picture(o, frame_), looked_ ? o.t - frame_t_ : 0);
+    frame_t_ = o.t, looked_ = true;
+    cells = foreground_.moments().cells;
+    const GrayF& w = foreground_.weights();
+    std::vector<WeightedPlace> places;
+    for (int row = 0; row < w.height; ++row)
+      for (int col = 0; col < w.width; ++col)
+        if (w.at(col, row) > 0)
+          places.push_back({frame_.world_from_image({double(col), double(row)}), double(w.at(col, row))});
+    if (cells == 0) places.clear();
+    return binned(places, kBins);
+  }
+  std::size_t chosen(const std::vector<FuzzyGroup>& groups) const {
+    if (!has_ && (!p_.near || p_.follow == Follow::largest)) return 0;
+    const Vec2 from = has_ ? at_ : *p_.near;
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < groups.size(); ++k)
+      if (norm(groups[k].centroid - from) < norm(groups[nearest].centroid - from)) nearest = k;
+    const bool stay = p_.follow == Follow::first || groups[0].share < kLarger * groups[nearest].share;
+    return stay ? nearest : 0;
+  }
+
+  Params p_;
+  Frame frame_;
+  Foreground foreground_;
+  Vec2 at_;  ///< last centroid, m, world
+  double t_ = 0, frame_t_ = 0;
+  bool has_ = false, looked_ = false;
+};
+
+}  // namespace
+
+void add_groups(EstimatorRegistry& r) { r.add<EstimatorGroups>(); }
+
+}  // namespace faba

@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include "control/controller.h"
+#include "control/foreground_params.h"
+#include "vision/image.h"
+
+namespace faba {
+namespace {
+
+/// The swarm as the camera's picture shows it, without looking for single cells (vision/foreground.h):
+/// centroid and covariance of the light that cells take away or add. `groups` holds one group whose share is
+/// the signal now over the largest so far: how much of the swarm is in view.
+class EstimatorImage final : public Estimator {
+ public:
+  using Params = ForegroundParams;
+  static Schema<Params> schema() {
+    return foreground_schema("image", "Centroid, spread and visible share from the camera's picture")
+        .validity(
+            "Needs camera.sensor = \"frames\". Cells on top of each other count as fewer. Counts cells to "
+            "some "
+            "30 % only. Dirt of the size of cells counts as cells until it is absorbed.");
+  }
+  EstimatorImage(const Params& p, const ControlContext& c) : frame_(c.frame), foreground_(p.options()) {}
+
+  Estimate update(const Observation& o, const Command&) override {
+    const Gray8& picture = camera_picture(o, frame_);
+    foreground_.take(picture, seen_ ? o.t - t_ : 0);
+    const SwarmMoments m = foreground_.moments();
+    Estimate e;
+    e.t = o.t, e.centroid = at_, e.visible = m.cells;
+    if (m.signal > 0) {
+      const double area = frame_.m_per_px * frame_.m_per_px;
+      e.centroid = frame_.world_from_image(m.centroid_image);
+      e.cov = {area * m.cov_px2.xx, -area * m.cov_px2.xy, area * m.cov_px2.yy};
+      if (has_place_ && o.t > place_t_) e.velocity = (1 / (o.t - place_t_)) * (e.centroid - at_);
+      at_ = e.centroid, place_t_ = o.t, has_place_ = true;
+      most_ = std::max(most_, m.signal);
+      e.groups.push_back({e.centroid, m.signal / most_, e.cov});
+    }
+    t_ = o.t, seen_ = true;
+    return e;
+  }
+  void archive(Archive& a) override { a& foreground_& at_& t_& place_t_& most_& seen_& has_place_; }
+
+ private:
+  Frame frame_;
+  Foreground foreground_;
+  Vec2 at_;  ///< last centroid, m, world
+  double t_ = 0, place_t_ = 0, most_ = 0;
+  bool seen_ = false, has_place_ = false;
+};
+
+}  // namespace
+
+void add_image(EstimatorRegistry& r) { r.add<EstimatorImage>(); }
+
+}  // namespace faba

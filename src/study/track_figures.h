@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "study/run_figures.h"
+#include "study/track_statistics.h"
+
+namespace faba {
+
+/// The figures of tracks: distribution of speeds, mean-square displacement with both fits on logarithmic
+/// scales, and direction over time. In um where `um_per_px` > 0, else in px. One is left out when there is
+/// nothing to show.
+std::vector<Figure> track_figures(const TrackSummary& summary, double um_per_px);
+
+}  // namespace faba

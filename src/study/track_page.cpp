@@ -1,0 +1,154 @@
+#include "study/track_page.h"
+
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/file.h"
+#include "study/markup.h"
+#include "study/report_page.h"
+#include "vision/frame_encoder.h"
+
+namespace faba {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0U; };
+    const std::uint32_t word = byte(0) << 16 | byte(1) << 8 | byte(2);
+    for (std::size_t k = 0; k < 4; ++k)
+      out += i + k > bytes.size() ? '=' : kLetters[word >> (18 - 6 * k) & 63];
+  }
+  return out;
+}
+
+// "12.3 ± 0.4 µm/s", in um where the report has it.
+std::string value_of(const Json& from, const std::string& name, const char* px, const char* um,
+                     const char* px_words, const char* um_words) {
+  if (!from.is_object()) return "–";
+  const bool scaled = from.contains(name + "_" + um);
+  const std::string key = name + "_" + (scaled ? um : px);
+  if (!from.contains(key) || from[key].is_null()) return "–";
+  std::string words = three_digits(from[key].get<double>());
+  if (!from[key + "_se"].is_null()) words += " ± " + three_digits(from[key + "_se"].get<double>());
+  return words + "\u00A0" + (scaled ? um_words : px_words);
+}
+
+std::string number(const Json& v, const char* unit) {
+  return v.is_number() ? three_digits(v.get<double>()) + unit : std::string("–");
+}
+
+std::string card(const std::string& name, const std::string& value, const std::string& detail) {
+  return fmt::format("<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n", escape_markup(name),
+                     escape_markup(value), escape_markup(detail));
+}
+std::string row(const std::string& name, const std::string& value) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escape_markup(name),
+                     escape_markup(value));
+}
+
+std::string cards(const Json& r) {
+  std::string out = "<dl class=\"cards\">\n";
+  out += card("Tracks", r["tracks"].dump(),
+              fmt::format("{} places in {} frames", r["points"].dump(), r["frames"].dump()));
+  if (r["supported"] == "diffusion")
+    out += card("Diffusion", value_of(r["diffusion"], "d", "px2_s", "um2_s", "px²/s", "µm²/s"),
+                "± standard error");
+  if (r["supported"] == "persistent_walk")
+    out +=
+        card("Speed of the walk", value_of(r["persistent_walk"], "speed_rms", "px_s", "um_s", "px/s", "µm/s"),
+             "root mean square");
+  out += card("Mean speed", value_of(r["speed"], "mean", "px_s", "um_s", "px/s", "µm/s"),
+              r["speed"].is_object() ? "over " + number(r["speed"]["interval_s"], " s") : "");
+  out += card("Localisation", number(r["localisation_px"], "\u00A0px"), "sd of an axis");
+  return out + "</dl>\n";
+}
+
+std::string table(const Json& r) {
+  const Json &d = r["detection"], &t = r["tracking"];
+  std::string out = "<h2>Numbers</h2>\n<table class=\"facts\"><tbody>\n";
+  out += row("Video", fmt::format("{}, {} frames, {} s", r["video"].get<std::string>(), r["frames"].dump(),
+                                  number(r["duration_s"], "")));
+  out += row("Scale", r["um_per_px"].is_null() ? "not given" : number(r["um_per_px"], " µm per px"));
+  out += row("Spots", fmt::format("{}, {} wide, signal-to-noise from {}; {} in a frame",
+                                  d["polarity"].get<std::string>(), number(d["size_px"], " px"),
+                                  number(d["threshold_snr"], ""), number(d["spots_per_frame"], "")));
+  out += row("Background", d["background"] == "median"
+                               ? fmt::format("median of {} frames; {} still spots in it",
+                                             d["background_frames"].dump(), d["still_spots"].dump())
+                               : "each frame, smoothed");
+  out += row("Joined",
+             fmt::format("reach {}, by {}, {} frames of memory; {} tracks shorter than {} left out",
+                         number(t["reach_px"], " px"), t["motion"].get<std::string>(),
+                         t["memory_frames"].dump(), t["unsure_tracks"].dump(), t["least_points"].dump()));
+  out += row("Drift", value_of(r["drift"], "x", "px_s", "um_s", "px/s", "µm/s") + " right, " +
+                          value_of(r["drift"], "y", "px_s", "um_s", "px/s", "µm/s") + " down");
+  out += row("Diffusion", value_of(r["diffusion"], "d", "px2_s", "um2_s", "px²/s", "µm²/s"));
+  out += row("Persistent walk", value_of(r["persistent_walk"], "speed_rms", "px_s", "um_s", "px/s", "µm/s") +
+                                    ", direction kept for " +
+                                    value_of(r["persistent_walk"], "tau", "s", "-", "s", ""));
+  out += row("Exponent α",
+             number(r["alpha"], "") + (r["alpha_se"].is_null() ? "" : " ± " + number(r["alpha_se"], "")));
+  if (r["turn"].is_object())
+    out += row("Turning", fmt::format("{} on average, of which {} by localisation error",
+                                      number(r["turn"]["mean_size_deg_s"], "°/s"),
+                                      number(r["turn"]["noise_deg_s"], "°/s")));
+  return out + "</tbody></table>\n";
+}
+
+std::string lead(const Json& r) {
+  if (r["tracks"] == 0) return "Nothing was tracked.";
+  const std::string tracks = r["tracks"].dump() + (r["tracks"] == 1 ? " track" : " tracks");
+  if (r["order"].is_number() && r["order"].get<double>() > 0.5)
+    return fmt::format("{}: they move together, at {} on average.", tracks,
+                       value_of(r["speed"], "mean", "px_s", "um_s", "px/s", "µm/s"));
+  if (r["supported"] == "persistent_walk")
+    return fmt::format("{}: they swim, at {} on average.", tracks,
+                       value_of(r["speed"], "mean", "px_s", "um_s", "px/s", "µm/s"));
+  if (r["supported"] == "diffusion")
+    return fmt::format("{}: no direction is kept from one frame to the next; D = {}.", tracks,
+                       value_of(r["diffusion"], "d", "px2_s", "um2_s", "px²/s", "µm²/s"));
+  return tracks + ".";
+}
+
+}  // namespace
+
+std::string track_page(const Json& r, const std::vector<Figure>& figures, const RgbImage& tracks) {
+  std::string out = fmt::format("<h1>Tracks</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
+  for (const Json& note : r["notes"])
+    out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note.get<std::string>()));
+  out += cards(r);
+  FrameEncoder encoder(FrameEncoder::Kind::png_colour, tracks.width, tracks.height, {}, "report");
+  out += fmt::format(
+      "<h2>Figures</h2>\n<figure class=\"wide\">\n<h3>Tracks</h3>\n<img style=\"max-width:100%\" "
+      "alt=\"Tracks on the first frame\" "
+      "src=\"data:image/png;base64,{}\" />\n<figcaption>All tracks on the first "
+      "frame.</figcaption>\n</figure>\n",
+      base64(encoder.encode(tracks)));
+  out += "<div class=\"figures\">\n";
+  int number_of_figure = 0;
+  for (const Figure& f : figures)
+    out += fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
+                       escape_markup(f.heading), svg(f.plot), ++number_of_figure, escape_markup(f.caption));
+  out += "</div>\n" + table(r);
+  return html_page("Tracks", out);
+}
+
+void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures) {
+  std::filesystem::create_directories(where);
+  for (Figure f : figures) {
+    f.plot.inlined = false;
+    const char* name = f.heading == "Speeds"  ? "speeds.svg"
+                       : f.plot.x.logarithmic ? "msd.svg"
+                                              : "heading.svg";
+    write_file(where / name, svg(f.plot));
+  }
+}
+
+}  // namespace faba

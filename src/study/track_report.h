@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "vision/detector.h"
+#include "vision/tracker.h"
+
+namespace faba {
+
+/// How the background of a video is found.
+enum class BackgroundKind {
+  automatic,  ///< the median, unless more than half of the spots would vanish with it because they stand
+              ///< still
+  median,     ///< temporal median: removes all that never moves, as the edge of a drop
+  spatial     ///< smoothing of each frame: keeps what stands still
+};
+
+/// What `faba track` is asked to do. What is not given is found from the video.
+struct TrackOptions {
+  std::filesystem::path video;  ///< anything VideoReader reads, or a run directory
+  double fps = 0;               ///< > 0: in place of what the video states
+  std::optional<double> um_per_px;
+  std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
+  std::filesystem::path overlay;           ///< video with the tracks drawn in, .mp4 or .avi
+  std::filesystem::path report;            ///< page with the figures, .html
+  std::filesystem::path picture;           ///< all tracks on the first frame, .png
+  std::filesystem::path figures;           ///< folder for the figures, one .svg each
+  double size_px = 0;                      ///< full width at half maximum of a spot; 0: found
+  Polarity polarity = Polarity::automatic;
+  BackgroundKind background = BackgroundKind::automatic;
+  double threshold_sd = 0;   ///< least signal-to-noise; 0: one false spot in ten frames by noise
+  bool inside_drop = false;  ///< find the edge of the drop in the first frame and look inside it only
+  TrackerOptions tracker;
+  int interval_frames = 0;  ///< of displacements for speeds and turns; 0: found
+};
+
+/// Called between frames with the work done and to do (0: not known). When it gives false the work is broken
+/// off with Error(Errc::interrupted), and no file is left behind.
+using TrackProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
+/// Detects and tracks what moves in a video and measures how it moves: two passes over the frames, the first
+/// for background, size and times. Writes the files that are named, each when it is whole. Returns what
+/// docs/formats/cli.md lists: how spots were found and joined, mean-square displacement, diffusion and
+/// persistent walk, speeds, turns, all with units in their names and, where a scale is known, in um too.
+/// Throws Error(Errc::input) for what cannot be read, and for a run directory whose video is a drawing.
+nlohmann::ordered_json track_video(const TrackOptions& options, const TrackProgress& progress = {});
+
+}  // namespace faba

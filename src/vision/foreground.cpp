@@ -1,0 +1,294 @@
+#include "vision/foreground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "core/portable_math.h"
+#include "vision/line_closing.h"
+#include "vision/smoothing.h"
+
+namespace faba {
+namespace {
+
+constexpr double kFwhmToSd = 1 / 2.354820045;
+constexpr double kFollow_s = 2;   // in which uncovered background follows the picture
+constexpr double kUncover = 0.6;  // share by which background that proves too dark (or bright) is corrected
+constexpr double kCurvatureSd =
+    3.5;  // of the noise of a curvature, from which on a spot is one: a false one is harmless
+constexpr float kSpotShape =
+    0.15F;  // smaller over larger curvature of a spot; a rod twice as long as wide has 0.25
+constexpr double kCellsPerLine = 9;    // length of the pieces that fill cells and leave lines, in cells
+constexpr float kOfLine = 0.3F;        // of a line's depth, below which a darker place on it is no cell
+constexpr double kFirstSd = 4;         // of the smoothed noise, from which on the first picture shows a cell
+constexpr double kLeastThreshold = 1;  // grey: rounding does not look like noise when the light changes
+constexpr double kCellMemory = 0.05;   // share of a new picture in what a cell is thought to weigh
+
+// Marks every pixel within `reach` of a marked one, in a square.
+void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w, int h, int reach) {
+  work.assign(m.size(), 0);
+  for (int row = 0; row < h; ++row) {
+    const std::uint8_t* in = &m[std::size_t(row) * std::size_t(w)];
+    std::uint8_t* out = &work[std::size_t(row) * std::size_t(w)];
+    for (int k = -reach; k <= reach; ++k) {
+      const int first = std::max(0, -k), end = std::min(w, w - k);
+      for (int i = first; i < end; ++i) out[i] |= in[i + k];
+    }
+  }
+  m.assign(m.size(), 0);
+  for (int row = 0; row < h; ++row) {
+    std::uint8_t* out = &m[std::size_t(row) * std::size_t(w)];
+    for (int r = std::max(0, row - reach); r <= std::min(h - 1, row + reach); ++r) {
+      const std::uint8_t* in = &work[std::size_t(r) * std::size_t(w)];
+      for (int i = 0; i < w; ++i) out[i] |= in[i];
+    }
+  }
+}
+
+// The two curvatures of a surface, in the direction of `sign` (+1: of bright spots), the smaller first.
+struct Curvatures {
+  float small, large;
+};
+Curvatures curvatures(const GrayF& g, int col, int row, float sign) {
+  const float v = g.at(col, row), l = g.at(col - 1, row), r = g.at(col + 1, row), u = g.at(col, row - 1),
+              d = g.at(col, row + 1);
+  const float xx = sign * (2 * v - l - r), yy = sign * (2 * v - u - d);
+  const float xy =
+      sign * 0.25F *
+      (g.at(col + 1, row - 1) + g.at(col - 1, row + 1) - g.at(col + 1, row + 1) - g.at(col - 1, row - 1));
+  const float half = 0.5F * (xx - yy), mean = 0.5F * (xx + yy), apart = std::sqrt(half * half + xy * xy);
+  return {mean - apart, mean + apart};
+}
+
+// Brightness of the picture over that of the background: median of the quotients, where no cells are.
+double common_gain(const GrayF& picture, const GrayF& background,
+                   const std::vector<std::uint8_t>& leave_out) {
+  constexpr int kBins = 8192;  // of quotients from 0 to 4
+  std::vector<int> count(kBins);
+  int total = 0;
+  for (std::size_t i = 0; i < picture.px.size(); i += 7) {
+    if (leave_out[i] || !(background.px[i] > 1)) continue;
+    ++count[std::size_t(std::min(int(picture.px[i] / background.px[i] * (kBins / 4)), kBins - 1))], ++total;
+  }
+  if (total < 100) return 1;
+  int sum = 0, bin = 0;
+  while (2 * (sum + count[std::size_t(bin)]) < total) sum += count[std::size_t(bin++)];
+  const double inside = (0.5 * total - sum) / std::max(1, count[std::size_t(bin)]);
+  return std::max(0.05, (bin + inside) * 4 / kBins);
+}
+
+}  // namespace
+
+double picture_noise(const Gray8& picture) {
+  std::array<int, 256> count{};
+  int total = 0;
+  for (int row = 0; row < picture.height; row += 2)
+    for (int col = 0; col + 1 < picture.width; col += 2)
+      ++count[std::size_t(std::abs(int(picture.at(col + 1, row)) - int(picture.at(col, row))))], ++total;
+  if (total == 0) return 0.3;
+  int sum = 0, bin = 0;
+  while (2 * (sum + count[std::size_t(bin)]) < total) sum += count[std::size_t(bin++)];
+  // A whole step stands for the values half a step about it; differences of nothing for half that width.
+  const double inside = (0.5 * total - sum) / count[std::size_t(bin)];
+  const double median = bin == 0 ? 0.5 * inside : bin - 0.5 + inside;
+  return std::max(0.3, median / (0.6744897502 * 1.4142135624));
+}
+
+Foreground::Foreground(ForegroundOptions options) : options_(options) {
+  sd_px_ = options_.cell_px * kFwhmToSd;
+  sign_ = options_.polarity == Polarity::dark ? -1 : options_.polarity == Polarity::bright ? 1 : 0;
+}
+
+// The first background: the picture without what is dark (or bright) and small in every direction.
+void Foreground::begin(const GrayF& picture, double noise) {
+  const double s = std::max(sd_px_, 0.8);
+  const GrayF fine = smoothed(picture, s);
+  if (sign_ == 0) sign_ = told_polarity(fine, s, noise);
+  GrayF turned = fine;  // cells dark
+  if (sign_ > 0)
+    for (float& v : turned.px) v = -v;
+  const LineClosing closing = line_closing(turned, kCellsPerLine * options_.cell_px);
+  const GrayF& closed = closing.least;
+  // What the noise lifts, where no cells are: most of the picture.
+  std::vector<float> lifted;
+  for (std::size_t i = 0; i < closed.px.size(); i += 7) lifted.push_back(closed.px[i] - turned.px[i]);
+  const auto middle = lifted.begin() + std::ptrdiff_t(lifted.size() / 2);
+  if (!lifted.empty()) std::nth_element(lifted.begin(), middle, lifted.end());
+  const float lift = lifted.empty() ? 0 : *middle;
+  const auto threshold = float(std::max(kLeastThreshold, kFirstSd * noise * smoothing_gain()));
+  covered_.assign(picture.px.size(), 0);
+  for (std::size_t i = 0; i < closed.px.size(); ++i) {
+    const float depth = closing.largest.px[i] - closed.px[i];
+    covered_[i] = closed.px[i] - lift - turned.px[i] > std::max(threshold, kOfLine * depth) ? 1 : 0;
+  }
+  dilate(covered_, work_, picture.width, picture.height, std::max(1, int(std::ceil(0.7 * options_.cell_px))));
+  background_ = picture;
+  for (std::size_t i = 0; i < closed.px.size(); ++i)
+    if (covered_[i]) background_.px[i] = float(-sign_) * (closed.px[i] - lift);
+}
+
+// By the curvatures of spots: what is bent alike in all directions.
+int Foreground::told_polarity(const GrayF& fine, double sd, double noise) const {
+  // Noise of a second difference of the smoothed picture; its variance is 3 / (16 pi s^6) of the noise's.
+  const auto least = float(kCurvatureSd * noise * std::sqrt(3 / (16 * portable::kPi)) / (sd * sd * sd));
+  // Mirrored at the border, a line that meets it looks bent.
+  const int border = 1 + int(std::ceil(4 * sd));
+  std::array<double, 2> evidence{};
+  for (int row = border; row + border < fine.height; ++row)
+    for (int col = border; col + border < fine.width; ++col)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Curvatures c = curvatures(fine, col, row, k == 0 ? -1.0F : 1.0F);
+        if (c.small > least && c.small > kSpotShape * c.large) evidence[k] += double(c.small);
+      }
+  return evidence[1] > evidence[0] ? 1 : -1;
+}
+
+// What the smoothing leaves of white noise.
+double Foreground::smoothing_gain() const {
+  const std::vector<float> kernel = gaussian_weights(std::max(sd_px_, 0.6));
+  double square = double(kernel[0]) * double(kernel[0]);
+  for (std::size_t k = 1; k < kernel.size(); ++k) square += 2 * double(kernel[k]) * double(kernel[k]);
+  return square;
+}
+
+void Foreground::take(const Gray8& picture, double dt_s) {
+  const double noise = picture_noise(picture);
+  GrayF& grey = picture_;
+  grey.width = picture.width, grey.height = picture.height;
+  grey.px.resize(picture.px.size());
+  for (std::size_t i = 0; i < grey.px.size(); ++i) grey.px[i] = float(picture.px[i]);
+  const bool anew =
+      background_.width != picture.width || background_.height != picture.height || !options_.learn;
+  if (anew) begin(grey, noise);
+  weights_.width = grey.width, weights_.height = grey.height;
+  weights_.px.resize(grey.px.size());
+  const auto sign = float(sign_);
+  const double common = anew ? 1 : common_gain(grey, background_, covered_);
+  const auto gain = float(common);
+  for (std::size_t i = 0; i < grey.px.size(); ++i)
+    weights_.px[i] = sign * (grey.px[i] - gain * background_.px[i]);
+  // A background that rests on few frames has their noise.
+  if (anew) frames_ = 0;
+  find_covered(noise * std::sqrt(1 + (anew ? 0 : own_noise_)));
+  if (anew) own_noise_ = 1;
+  if (sign_ < 0) take_logarithms(grey, gain, noise);
+  if (options_.learn && !anew) learn(grey, common, dt_s, noise);
+  ++frames_;
+  for (std::size_t i = 0; i < weights_.px.size(); ++i)
+    if (!covered_[i]) weights_.px[i] = 0;
+}
+
+// Cells in transmitted light take away a share of it, and so do cells behind cells: the logarithm of the
+// light that is left adds up, whatever the light (theory H5). In grey of the middle brightness.
+void Foreground::take_logarithms(const GrayF& picture, float gain, double noise) {
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < background_.px.size(); i += 13) sum += double(background_.px[i]), n += 1;
+  const float level = gain * float(sum / n);
+  for (std::size_t i = 0; i < weights_.px.size(); ++i) {
+    if (!covered_[i]) continue;
+    const float light = std::max(1.0F, gain * background_.px[i]);
+    const float left = std::max(std::max(1.0F, 0.02F * light), picture.px[i]) / light;
+    // Noise alone makes the mean logarithm smaller by half its square.
+    const float relative = float(noise) / light;
+    weights_.px[i] = level * (-portable::log(left) - 0.5F * relative * relative);
+  }
+}
+
+void Foreground::find_covered(double noise) {
+  const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * noise * smoothing_gain()));
+  smooth(weights_, std::max(sd_px_, 0.6), smooth_, scratch_);
+  covered_.resize(smooth_.px.size());
+  for (std::size_t i = 0; i < smooth_.px.size(); ++i) covered_[i] = smooth_.px[i] > threshold ? 1 : 0;
+  measure_cell(double(threshold));
+  dilate(covered_, work_, weights_.width, weights_.height,
+         std::max(1, int(std::ceil(0.7 * options_.cell_px))));
+}
+
+// A cell's signal from the lower quartile of the maxima of the smoothed difference: the others are several
+// cells, or in them.
+void Foreground::measure_cell(double threshold) {
+  std::vector<float> peaks;
+  const int w = smooth_.width;
+  const auto least = float(threshold);
+  for (int row = 1; row + 1 < smooth_.height; ++row)
+    for (int col = 1; col + 1 < w; ++col) {
+      const float* at = &smooth_.px[std::size_t(row) * std::size_t(w) + std::size_t(col)];
+      const float v = *at;
+      if (v <= least || v < at[-1] || v <= at[1] || v < at[-w] || v <= at[w] || v < at[-w - 1] ||
+          v < at[1 - w] || v <= at[w - 1] || v <= at[w + 1])
+        continue;
+      peaks.push_back(v);
+    }
+  if (peaks.size() < 5) return;
+  const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
+  std::nth_element(peaks.begin(), quartile, peaks.end());
+  const double s = std::max(sd_px_, 0.6);
+  const double signal = double(*quartile) * 2 * portable::kPi * (sd_px_ * sd_px_ + s * s);
+  cell_signal_ = cell_signal_ == 0 ? signal : cell_signal_ + kCellMemory * (signal - cell_signal_);
+}
+
+void Foreground::learn(const GrayF& picture, double gain, double dt_s, double noise) {
+  // At first the mean of all frames so far.
+  const auto follow =
+      float(std::max(1.0 / double(frames_ + 1), std::min(0.5, std::max(0.0, dt_s) / kFollow_s)));
+  own_noise_ = (1 - double(follow)) * (1 - double(follow)) * own_noise_ + double(follow) * double(follow);
+  const auto absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s));
+  const auto uncovered = float(-4 * noise), back = float(1 / gain);
+  const auto smooth_uncovered = -float(std::max(kLeastThreshold, 4 * noise * smoothing_gain()));
+  // The common brightness is followed too.
+  const float next = 1 + follow * (float(gain) - 1);
+  for (std::size_t i = 0; i < picture.px.size(); ++i) {
+    const float rate = weights_.px[i] < uncovered || smooth_.px[i] < smooth_uncovered ? float(kUncover)
+                       : covered_[i]                                                  ? absorb
+                                                                                      : follow;
+    background_.px[i] = next * (background_.px[i] + rate * (back * picture.px[i] - background_.px[i]));
+  }
+}
+
+SwarmMoments Foreground::moments() const {
+  SwarmMoments m;
+  const int w = weights_.width;
+  // Calls visit(row, first column, end column) for what each row may hold.
+  const auto each_row = [&](const auto& visit) {
+    for (int row = 0; row < weights_.height; ++row) {
+      const std::uint8_t* covered = &covered_[std::size_t(row) * std::size_t(w)];
+      const auto* first = static_cast<const std::uint8_t*>(std::memchr(covered, 1, std::size_t(w)));
+      if (!first) continue;
+      int end = w;
+      while (!covered[end - 1]) --end;
+      visit(row, int(first - covered), end);
+    }
+  };
+  double x = 0, y = 0;
+  each_row([&](int row, int first, int end) {
+    double sum = 0, sum_x = 0;
+    for (int col = first; col < end; ++col) {
+      const auto v = double(weights_.at(col, row));
+      sum += v, sum_x += v * col;
+    }
+    m.signal += sum, x += sum_x, y += sum * row;
+  });
+  if (!(m.signal > 0.5 * cell_signal_) || cell_signal_ == 0) return {};
+  m.centroid_image = {x / m.signal, y / m.signal};
+  each_row([&](int row, int first, int end) {
+    const double dy = row - m.centroid_image.y;
+    for (int col = first; col < end; ++col) {
+      const double v = double(weights_.at(col, row)), dx = col - m.centroid_image.x;
+      m.cov_px2.xx += v * dx * dx, m.cov_px2.xy += v * dx * dy, m.cov_px2.yy += v * dy * dy;
+    }
+  });
+  const double own = sd_px_ * sd_px_;
+  m.cov_px2 = {std::max(0.0, m.cov_px2.xx / m.signal - own), m.cov_px2.xy / m.signal,
+               std::max(0.0, m.cov_px2.yy / m.signal - own)};
+  m.cells = std::max(1.0, m.signal / cell_signal_);
+  return m;
+}
+
+void Foreground::archive(Archive& a) {
+  a& sign_& cell_signal_& own_noise_& frames_& background_.width& background_.height& background_
+      .px& covered_;
+}
+
+}  // namespace faba

@@ -1,0 +1,79 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/archive.h"
+#include "core/vec.h"
+#include "vision/background.h"
+#include "vision/image.h"
+
+namespace faba {
+
+/// Parameters of Foreground.
+struct ForegroundOptions {
+  double cell_px = 3;  ///< full width at half maximum of a cell in the picture, px, 1 to 20
+  Polarity polarity = Polarity::automatic;  ///< automatic: told by the first picture; not both
+  double threshold_sd = 5;  ///< of the smoothed noise, from which on a place counts as covered by cells
+  double absorb_s = 150;    ///< time in which what stands still becomes background, s
+  bool learn = true;        ///< false: the background is found in each picture anew
+};
+
+/// What a picture shows of a swarm. Image frame, px, y down.
+struct SwarmMoments {
+  double signal = 0;  ///< integrated difference from the background, grey px^2; 0: no swarm is seen
+  Vec2 centroid_image;
+  Mat2 cov_px2;      ///< of the cells' positions: the width of a cell is taken off; x right, y down
+  double cells = 0;  ///< estimate of their number, from the signal and that of the weakest distinct spots
+};
+
+/// Where a swarm is in a picture, without finding its cells one by one: the difference from a background,
+/// counted only where cells are. Differences are summed with their sign, so that noise cancels, over the
+/// places whose smoothed difference is above a threshold and their surroundings, so that uneven light far
+/// from cells does not count. Where cells are dark it is the logarithm of light over background that is
+/// summed, in grey of the mean background: light lost to one cell is lost to the next, and a cell takes the
+/// same share of it everywhere.
+///
+/// The background of the first picture is the picture itself, with what is small in every direction filled in
+/// (line_closing): lines, as the edge of a drop, are background. It then follows the picture within 2 s where
+/// no cells are, at once where the picture shows that the background is lighter (for dark cells) than
+/// believed, and where cells are by a share dt / absorb_s only: a swarm that stands still loses 6 % of its
+/// signal in ten seconds. A change of brightness by a common factor is taken off.
+///
+/// Only additions, multiplications and square roots in a fixed order: same bits on every machine.
+class Foreground {
+ public:
+  explicit Foreground(ForegroundOptions options = {});
+
+  /// Looks at the picture that was taken `dt_s` after the one before (any value for the first). When the size
+  /// changes it begins anew.
+  void take(const Gray8& picture, double dt_s);
+
+  /// What the last picture shows.
+  SwarmMoments moments() const;
+  /// Difference from the background of each pixel, with its sign (positive where cells are), 0 where none
+  /// are.
+  const GrayF& weights() const { return weights_; }
+  void archive(Archive& a);
+
+ private:
+  void begin(const GrayF& picture, double noise);
+  int told_polarity(const GrayF& fine, double sd, double noise) const;
+  void find_covered(double noise);
+  void learn(const GrayF& picture, double gain, double dt_s, double noise);
+  void take_logarithms(const GrayF& picture, float gain, double noise);
+  void measure_cell(double threshold);
+  double smoothing_gain() const;
+
+  ForegroundOptions options_;
+  double sd_px_ = 1, sign_ = 0;  ///< of a cell; -1 dark, +1 bright, 0 not yet known
+  double cell_signal_ = 0;       ///< grey px^2
+  double own_noise_ = 0;         ///< variance of the background over that of the picture's noise
+  std::uint64_t frames_ = 0;     ///< that the background rests on
+  GrayF background_, weights_, smooth_, picture_, scratch_;
+  std::vector<std::uint8_t> covered_, work_;
+};
+
+/// Standard deviation of a picture's noise, grey, from the differences of neighbours in a row; at least 0.3.
+double picture_noise(const Gray8& picture);
+
+}  // namespace faba

@@ -1,0 +1,71 @@
+#include <doctest/doctest.h>
+
+#include "core/table.h"
+#include "program.h"
+#include "tests/temporary_folder.h"
+#include "tests/vision/rendered_cells.h"
+
+using namespace faba;
+
+namespace {
+
+void film(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  cells::Look l;
+  std::vector<Vec2> at = cells::scattered(l, 30, 20, 10, 3);
+  for (int k = 0; k < 12; ++k) {
+    const Gray8 b = cells::bytes(cells::picture(l, at, std::uint64_t(k)));
+    std::string pgm = "P5\n320 240\n255\n" + std::string(b.px.begin(), b.px.end());
+    write_file(folder / ("f" + std::to_string(k) + ".pgm"), pgm);
+    for (Vec2& p : at) p.x += 3;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("track: words, JSON, files, and what it refuses") {
+  const test::TemporaryFolder folder("track");
+  film(folder.path() / "film");
+  const Called words =
+      faba_in(folder.path(), "track film --fps 15 --um-per-px 0.5 --out t.csv --report t.html");
+  CHECK(words.exit == 0);
+  CHECK(words.out.find("um/s") != std::string::npos);
+  CHECK(words.out.find("t.csv") != std::string::npos);
+  CHECK(std::filesystem::exists(folder.path() / "t.html"));
+
+  const Called json = faba_in(folder.path(), "track 'film/f%d.pgm' --fps 15 --json");
+  CHECK(json.exit == 0);
+  CHECK(json.json()["order"].get<double>() > 0.95);
+  CHECK(json.json()["speed"]["mean_px_s"].get<double>() == doctest::Approx(45).epsilon(0.03));
+  CHECK(json.json()["um_per_px"].is_null());
+
+  for (const auto& [arguments, code] : {std::pair{"track film --out t.csv", 2},
+                                        {"track film --out t.txt", 2},
+                                        {"track film --overlay o.gif", 2},
+                                        {"track film --size 0", 2},
+                                        {"track nothing.avi", 3},
+                                        {"track 'no*.png'", 3}}) {
+    CAPTURE(arguments);
+    const Called c = faba_in(folder.path(), arguments);
+    CHECK(c.exit == code);
+    CHECK(one_clear_line(c.err));
+    CHECK(c.out.empty());
+  }
+  CHECK(faba_in(folder.path(), "track film --fps 15 --out t.csv --force --quiet").exit == 0);
+}
+
+TEST_CASE("image: from rendered frames at a drop's edge the loop knows where its swarm is") {
+  const test::TemporaryFolder folder("as-seen");
+  const Called run = faba_in(
+      folder.path(), "run '" FABA_SCENES
+                     "/as-seen.toml' --duration '2.6 s' --out run --quiet "
+                     "--set camera.sensor=frames --set estimator.type=image --set record.video=false");
+  REQUIRE(run.exit == 0);
+  const Table t = read_table(folder.path() / "run/series.csv");
+  // All cells are in view till then. The first pictures, of a pile at the edge, are good for 20 px only.
+  for (std::size_t k = 10; k < t.size(); ++k) {
+    CAPTURE(k);
+    CHECK(std::hypot(t.column("estimate_x_px")[k] - t.column("centroid_x_px")[k],
+                     t.column("estimate_y_px")[k] - t.column("centroid_y_px")[k]) < 2);
+  }
+}

@@ -1,0 +1,32 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "study/track_report.h"
+
+using namespace faba;
+
+namespace {
+const std::filesystem::path kFolder = std::filesystem::path(FABA_SHARED_DATA) / "suspension";
+}
+
+TEST_CASE("rods in a suspension swim, straight and each its own way") {
+  if (!std::filesystem::exists(kFolder)) {
+    MESSAGE("skipped: no real data");
+    return;
+  }
+  TrackOptions o;
+  o.video = kFolder / "frame_*.tif";
+  o.fps = 26.87, o.um_per_px = 1 / 2.2;
+  const auto j = track_video(o);
+  CHECK(j["frames"] == 25);
+  CHECK(j["supported"] == "persistent_walk");
+  // Swimming rods of this size are known for 10 to 40 um/s; most of the things that stand still are dirt and
+  // spheres.
+  const auto q = j["speed"]["quantiles_10_50_90_um_s"];
+  CHECK(q[2].get<double>() > 25);
+  CHECK(q[2].get<double>() < 45);
+  CHECK(j["alpha"].get<double>() > 1.8);
+  CHECK(j["order"].get<double>() < 0.25);  // no common direction
+}
