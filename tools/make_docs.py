@@ -28,6 +28,7 @@ WHERE = {
     "estimator": ("[estimator]", 'type = "%s"', "[estimator]"),
     "reference": ("[reference]", 'type = "%s"', "[reference]"),
     "controller": ("[controller]", 'type = "%s"', "[controller]"),
+    "flow": ("[flow]", 'type = "%s"', "[flow]"),
 }
 SECTIONS = ("scale", "camera", "microscope", "simulation", "exclusion", "limits", "library", "record")
 

@@ -1,0 +1,154 @@
+// faba flow, activity, compare and distance: files, notes and refusals, as a user meets them.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/file.h"
+#include "tests/app/run_directory.h"
+#include "tests/e2e/program.h"
+
+using namespace faba;
+
+namespace {
+
+void refused(const TestFolder& f, const std::string& arguments, int code, const std::string& words) {
+  const Called c = faba_in(f.path, arguments);
+  INFO(arguments, " -> ", c.exit, ": ", c.err);
+  CHECK(c.exit == code);
+  CHECK(one_clear_line(c.err));
+  CHECK(c.err.find(words) != std::string::npos);
+}
+
+/// A grey picture, PGM, with a bright spot at (x, y).
+std::string spot(int width, int height, double x, double y, double grey = 120) {
+  std::string out = "P5 " + std::to_string(width) + " " + std::to_string(height) + " 255\n";
+  for (int r = 0; r < height; ++r)
+    for (int c = 0; c < width; ++c)
+      out += char(std::lround(60 + grey * std::exp(-((c - x) * (c - x) + (r - y) * (r - y)) / 18)));
+  return out;
+}
+
+/// A folder of frames in which a spot goes right for a second and back again, 15 frames a second.
+void write_film(const TestFolder& f, const std::string& name, int frames = 30) {
+  std::filesystem::create_directories(f.path / name);
+  for (int k = 0; k < frames; ++k) {
+    const double x = 12 + (k < frames / 2 ? k : frames - k);
+    char file[32];
+    std::snprintf(file, sizeof file, "/f%03d.pgm", k);
+    write_file(f.path / (name + file), spot(48, 36, x, 17));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("flow of two pictures: a file of flows, a picture, the truth, and what is refused") {
+  const TestFolder f;
+  write_file(f.path / "a.pgm", spot(40, 30, 18, 15));
+  write_file(f.path / "b.pgm", spot(40, 30, 18.5, 14.75));
+  const Called c = faba_in(f.path, "flow a.pgm b.pgm --out ab.flo --picture ab.png --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["image_size"] == nlohmann::json{40, 30});
+  CHECK(c.json()["converged"] == true);
+  CHECK(std::filesystem::file_size(f.path / "ab.flo") == 12 + 8 * 40 * 30);
+  CHECK(read_file(f.path / "ab.png").substr(1, 3) == "PNG");
+  CHECK(faba_in(f.path, "flow a.pgm b.pgm --truth ab.flo --json").json()["truth"]["endpoint_px"] == 0);
+  const Called two = faba_in(f.path, "flow a.pgm b.pgm --threads 2 --out two.flo");
+  CHECK(two.exit == 0);
+  CHECK(read_file(f.path / "two.flo") == read_file(f.path / "ab.flo"));
+
+  refused(f, "flow a.pgm b.pgm --out ab.flo", 2, "already exists");
+  refused(f, "flow a.pgm b.pgm --out a.pgm --force", 2, "must end in .flo");
+  refused(f, "flow a.pgm none.pgm", 3, "no such file");
+  refused(f, "flow a.pgm b.pgm --alpha2 0", 2, "out of range");
+  refused(f, "flow a.pgm b.pgm --solver gauss", 2, "solver");
+  refused(f, "flow a.pgm b.pgm --quality fast", 2, "unknown key");
+  refused(f, "flow a.pgm b.pgm --overlay o.mp4", 2, "--picture");
+  refused(f, "flow a.pgm", 3, "one frame only");
+  write_file(f.path / "c.pgm", spot(41, 30, 18, 15));
+  refused(f, "flow a.pgm c.pgm", 3, "one size");
+  write_file(f.path / "t.flo", "no flow");
+  refused(f, "flow a.pgm b.pgm --truth t.flo", 3, "no flow in the Middlebury format");
+  CHECK_FALSE(std::filesystem::exists(f.path / "o.mp4"));
+}
+
+TEST_CASE("flow, activity and compare of a folder of frames and of its file of flows say the same") {
+  const TestFolder f;
+  write_film(f, "film");
+  REQUIRE(faba_in(f.path, "flow film --preset published --out film.h5 --overlay o.mp4 --quiet").exit == 0);
+  CHECK(std::filesystem::exists(f.path / "o.mp4"));
+  CHECK_FALSE(std::filesystem::exists(f.path / "film.h5.part"));
+  const auto a = faba_in(f.path, "activity film --json --flow-threshold 0.05").json();
+  const auto b = faba_in(f.path, "activity film.h5 --json --flow-threshold 0.05").json();
+  CHECK(a["videos"][0]["mean_activity"] == b["videos"][0]["mean_activity"]);
+  const Called c = faba_in(f.path, "compare film film.h5 --json --no-align --flow-threshold 0.05");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["runs"][0]["mean"] == 0);
+  CHECK(c.json()["floor"].is_null());
+  CHECK(c.json()["naive"].get<double>() > 0);
+  refused(f, "activity film.h5 --picture p.png --flow-threshold 0.05", 2, "needs the frames");
+  refused(f, "compare film none", 3, "no such file");
+}
+
+TEST_CASE("black frames, still frames, one frame and frames that change size: a result or one clear line") {
+  const TestFolder f;
+  for (const char* name : {"black", "still", "mixed"}) std::filesystem::create_directories(f.path / name);
+  for (int k = 0; k < 12; ++k) {
+    const std::string file = "/" + std::to_string(k) + ".pgm";
+    write_file(f.path / ("black" + file), "P5 32 24 255\n" + std::string(32 * 24, '\0'));
+    write_file(f.path / ("still" + file), spot(32, 24, 15, 11));
+    write_file(f.path / ("mixed" + file), spot(k < 8 ? 32 : 30, 24, 15, 11));
+  }
+  for (const char* name : {"black", "still"}) {
+    const Called c = faba_in(f.path, std::string("activity ") + name + " --json");
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    CHECK(c.json()["videos"][0]["segments"].empty());
+    CHECK(c.json()["videos"][0]["gaussian"]["good"] == false);
+    CHECK(c.json()["videos"][0]["responds"] == false);
+  }
+  refused(f, "activity mixed", 3, "size");
+  refused(f, "flow mixed --out m.h5", 3, "size");
+  CHECK_FALSE(std::filesystem::exists(f.path / "m.h5"));
+  CHECK_FALSE(std::filesystem::exists(f.path / "m.h5.part"));
+  write_file(f.path / "one.pgm", spot(32, 24, 15, 11));
+  refused(f, "activity one.pgm", 3, "one frame only");
+}
+
+TEST_CASE("a drawing is no video to measure, and a run's own flows are") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out drawn --quiet").exit == 0);
+  refused(f, "activity drawn", 3, "drawing");
+  REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out flows --quiet --set record.flow=true").exit == 0);
+  CHECK(std::filesystem::exists(f.path / "flows/flow.h5"));
+  const Called c = faba_in(f.path, "activity flows --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["videos"][0]["pairs"] == 29);  // two seconds at 15 Hz
+  const Called d = faba_in(f.path, "compare flows flows --json --no-align");
+  REQUIRE_MESSAGE(d.exit == 0, d.err);
+  CHECK(d.json()["runs"][0]["mean"] == 0);
+}
+
+TEST_CASE("study files and distances: what is wrong is named") {
+  const TestFolder f;
+  write_file(f.path / "none.toml", "direction = 0\n");
+  refused(f, "activity none.toml", 2, "[[video]]");
+  write_file(f.path / "typo.toml", "[[video]]\nfile = 'a.avi'\nexposur = '100 s'\n");
+  refused(f, "activity typo.toml", 2, "exposure");
+  write_file(f.path / "gone.toml", "[[video]]\nfile = 'a.avi'\nexposure = '100 s'\n");
+  refused(f, "activity gone.toml", 3, "no such file");
+
+  write_file(f.path / "p", "1\n0\n2\n3\n0\n0\n");
+  write_file(f.path / "q", "0\n1\n2\n5\n0\n0\n");
+  const Called c = faba_in(f.path, "distance p q q");
+  CHECK(c.out.substr(0, 8) == "0.403214");
+  CHECK(std::count(c.out.begin(), c.out.end(), '\n') == 2);
+  write_file(f.path / "words", "1\nmany\n");
+  refused(f, "distance p words", 3, "words:2");
+  write_file(f.path / "short", "1\n2\n");
+  refused(f, "distance p short", 3, "has 2 bins");
+  write_file(f.path / "below", "1\n-2\n");
+  refused(f, "distance below p", 3, "below 0");
+  refused(f, "distance p q --m 1", 2, "below 1");
+  refused(f, "distance p q --threshold 0", 2, "above 0");
+}
