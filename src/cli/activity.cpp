@@ -30,11 +30,12 @@ ActivityJob job_of(const ActivityVerb& v) {
 
 void summary(const nlohmann::ordered_json& j) {
   for (const auto& a : j["videos"]) {
-    fmt::print(
-        "{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {:.0f} degrees, signal to "
-        "noise {:.3g}\n",
-        a["video"].get<std::string>(), a["mean_activity"].get<double>(), a["threshold_px"].get<double>(),
-        a["direction_deg"].get<double>(), a["signal_to_noise"].get<double>());
+    fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {:.0f} degrees{}\n",
+               a["video"].get<std::string>(), a["mean_activity"].get<double>(),
+               a["threshold_px"].get<double>(), a["direction_deg"].get<double>(),
+               a["signal_to_noise"].is_null()
+                   ? ""
+                   : fmt::format(", signal to noise {:.3g}", a["signal_to_noise"].get<double>()));
     if (a["gaussian"]["good"].get<bool>())
       fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a["gaussian"]["peak_s"].get<double>(),
                  a["gaussian"]["se_peak_s"].get<double>(), a["gaussian"]["sigma_s"].get<double>());

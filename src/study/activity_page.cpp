@@ -123,7 +123,7 @@ std::string table(const ActivityResult& r) {
   for (const VideoActivity& a : r.videos)
     out += row(
         {title_of(a), fmt::format("{:.0f}°", a.direction_deg), three_digits(a.threshold_px),
-         three_digits(a.mean_amount), three_digits(a.signal_to_noise),
+         three_digits(a.mean_amount), a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
          a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.peak_s), three_digits(a.fit.se_peak_s)) : "–",
          a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.sigma_s), three_digits(a.fit.se_sigma_s))
                     : "–"},

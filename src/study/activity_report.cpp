@@ -42,7 +42,7 @@ Json video_json(const VideoActivity& a) {
     j["segments"].push_back({{"t0_s", s.t0_s}, {"t1_s", s.t1_s}, {"direction_deg", s.direction_deg}});
   j["mean_activity"] = a.mean_amount;
   j["mean_along"] = a.mean_along;
-  j["signal_to_noise"] = a.signal_to_noise;
+  j["signal_to_noise"] = or_null(a.signal_to_noise);
   j["responds"] = a.responds;
   j["gaussian"] = gaussian_json(a.fit);
   j["onset_s"] = or_null(a.onset_s);

@@ -122,6 +122,8 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
     fit.why = "a constant fits nearly as well";
   else if (!(x[1] > 0 && x[1] < 1))
     fit.why = "the peak lies outside of the video";
+  else if (!(x[2] * double(y.size() - 1) > 1))
+    fit.why = "the peak is narrower than two values";
   else if (!(x[2] < 1))
     fit.why = "the peak is wider than the video is long";
   fit.good = fit.why.empty();
