@@ -96,10 +96,8 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   a.mean_amount /= double(a.t_s.size()), a.mean_along /= double(a.t_s.size());
   a.fit = fit_gaussian(a.t_s, a.amount);
   mark_points(a);
-  a.signal_to_noise = signal_to_noise(a);
-  // Cells that respond to nothing crowd together by chance, too: a peak alone must at least double what there
-  // is.
-  a.responds = a.signal_to_noise >= kResponds || (a.fit.good && a.fit.amplitude > a.fit.offset);
+  if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
+  a.responds = has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds : !a.segments.empty());
   if (!a.direction_given)
     a.notes.push_back(
         a.segments.empty()
@@ -189,7 +187,7 @@ ActivityResult measure_activity(const ActivityJob& job) {
     if (!quiet[i] && job.videos.size() == 1)
       r.videos.back().notes.push_back(
           "the video has no quiet moment to tell noise from; give a dead sample with --noise, or "
-          "--threshold");
+          "--flow-threshold");
   }
   conclude(r);
   return r;
