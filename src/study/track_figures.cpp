@@ -122,4 +122,22 @@ std::vector<Figure> track_figures(const TrackSummary& s, double um_per_px) {
   return figures;
 }
 
+Plot path_plot(const std::vector<TrackLine>& tracks, int width, int height) {
+  Plot p;
+  p.description = "Paths of the tracks";
+  p.x.label = "x (px)", p.y.label = "y (px)";
+  p.x.lo = 0, p.x.hi = width, p.y.lo = 0, p.y.hi = height;
+  p.y.reversed = true;
+  p.equal_aspect = true;
+  p.width = 620;
+  constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange, Ink::sky};
+  for (const TrackLine& track : tracks) {
+    Line line;
+    line.ink = kInks[track.number % std::size(kInks)], line.width = 1;
+    for (const Vec2 at : track.path) line.x.push_back(at.x), line.y.push_back(at.y);
+    p.add(std::move(line));
+  }
+  return p;
+}
+
 }  // namespace faba

@@ -1,32 +1,19 @@
 #include "study/track_page.h"
 
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "study/inline_picture.h"
 #include "study/markup.h"
 #include "study/report_page.h"
-#include "vision/frame_encoder.h"
 
 namespace faba {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0U; };
-    const std::uint32_t word = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k > bytes.size() ? '=' : kLetters[word >> (18 - 6 * k) & 63];
-  }
-  return out;
-}
 
 // "12.3 ± 0.4 µm/s", in um where the report has it.
 std::string value_of(const Json& from, const std::string& name, const char* px, const char* um,
@@ -124,13 +111,9 @@ std::string track_page(const Json& r, const std::vector<Figure>& figures, const 
   for (const Json& note : r["notes"])
     out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note.get<std::string>()));
   out += cards(r);
-  FrameEncoder encoder(FrameEncoder::Kind::png_colour, tracks.width, tracks.height, {}, "report");
-  out += fmt::format(
-      "<h2>Figures</h2>\n<figure class=\"wide\">\n<h3>Tracks</h3>\n<img style=\"max-width:100%\" "
-      "alt=\"Tracks on the first frame\" "
-      "src=\"data:image/png;base64,{}\" />\n<figcaption>All tracks on the first "
-      "frame.</figcaption>\n</figure>\n",
-      base64(encoder.encode(tracks)));
+  out += "<h2>Figures</h2>\n<figure class=\"wide\">\n<h3>Tracks</h3>\n" +
+         inline_picture(tracks, "Tracks on the first frame") +
+         "<figcaption>All tracks on the first frame.</figcaption>\n</figure>\n";
   out += "<div class=\"figures\">\n";
   int number_of_figure = 0;
   for (const Figure& f : figures)
@@ -140,8 +123,10 @@ std::string track_page(const Json& r, const std::vector<Figure>& figures, const 
   return html_page("Tracks", out);
 }
 
-void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures) {
+void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures,
+                         const Plot& paths) {
   std::filesystem::create_directories(where);
+  write_file(where / "tracks.svg", svg(paths));
   for (Figure f : figures) {
     f.plot.inlined = false;
     const char* name = f.heading == "Speeds"  ? "speeds.svg"

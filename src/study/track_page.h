@@ -15,7 +15,9 @@ namespace faba {
 std::string track_page(const nlohmann::ordered_json& report, const std::vector<Figure>& figures,
                        const RgbImage& tracks);
 
-/// speeds.svg, msd.svg and heading.svg in the folder `where`, made when it is not there.
-void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures);
+/// tracks.svg (`paths`), speeds.svg, msd.svg and heading.svg in the folder `where`, made when it is not
+/// there.
+void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures,
+                         const Plot& paths);
 
 }  // namespace faba

@@ -262,7 +262,8 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   const std::vector<Figure> figures = track_figures(summary, source.um_per_px);
   pass.complete();
   if (!o.picture.empty()) write_png(o.picture, picture);
-  if (!o.figures.empty()) write_track_figures(o.figures, figures);
+  if (!o.figures.empty())
+    write_track_figures(o.figures, figures, path_plot(pass.drawn(), survey.first.width, survey.first.height));
   if (!o.report.empty()) write_file(o.report, track_page(j, figures, picture));
   return j;
 }
