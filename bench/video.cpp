@@ -1,0 +1,238 @@
+// Optical flow and histogram distance: time of the published iteration, of the converged solution and of the
+// distance, on one and two threads, beside a plain loop, OpenCV's methods and the machine's memory. Every
+// answer is checked. Prints one JSON object per line; bench/video.py makes the table.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <random>
+
+#include <nlohmann/json.hpp>
+
+#include "app/parts.h"
+#include "machine.h"
+#include "timing.h"
+#include "vision/flow_sweep.h"
+#include "vision/histogram_distance.h"
+#include "vision/horn_schunck.h"
+
+using namespace faba;
+using namespace faba::bench;
+
+namespace {
+
+constexpr int kWidth = 640, kHeight = 480, kSweeps = 100;
+constexpr double kDx = 0.5, kDy = -0.25;  // px, of the texture
+
+// Waves of several lengths and directions, moved by (dx, dy).
+double texture(double x, double y) {
+  return 128 + 40 * std::sin(0.13 * x + 0.3 * std::sin(0.05 * y)) + 30 * std::sin(0.17 * y) +
+         20 * std::sin(0.2 * (x + y));
+}
+GrayF frame(double dx, double dy) {
+  GrayF f(kWidth, kHeight);
+  for (int r = 0; r < kHeight; ++r)
+    for (int c = 0; c < kWidth; ++c) f.at(c, r) = float(texture(c - dx, r - dy));
+  return f;
+}
+Plane<float> plane(const GrayF& f) {
+  Plane<float> p(f.width, f.height);
+  for (int r = 0; r < f.height; ++r) std::copy_n(&f.px[std::size_t(r) * kWidth], kWidth, p.row(r));
+  return p;
+}
+
+double endpoint_error(const GrayF& u, const GrayF& v) {
+  double sum = 0;
+  for (std::size_t i = 0; i < u.px.size(); ++i)
+    sum += std::hypot(double(u.px[i]) - kDx, double(v.px[i]) - kDy);
+  return sum / double(u.px.size());
+}
+
+/// The published iteration as one writes it first: one loop over the pixels, borders by clamping, two copies
+/// of the flow.
+class PlainLoop {
+ public:
+  PlainLoop(const GrayF& a, const GrayF& b) : a_(a), b_(b), u(kWidth, kHeight), v(kWidth, kHeight) {}
+  void run() {
+    ix_ = iy_ = it_ = GrayF(kWidth, kHeight);
+    for (int r = 0; r < kHeight; ++r)
+      for (int c = 0; c < kWidth; ++c) {
+        const int d = std::min(r + 1, kHeight - 1), e = std::min(c + 1, kWidth - 1);
+        ix_.at(c, r) = (a_.at(e, r) - a_.at(c, r) + a_.at(e, d) - a_.at(c, d) + b_.at(e, r) - b_.at(c, r) +
+                        b_.at(e, d) - b_.at(c, d)) /
+                       4;
+        iy_.at(c, r) = (a_.at(c, d) - a_.at(c, r) + a_.at(e, d) - a_.at(e, r) + b_.at(c, d) - b_.at(c, r) +
+                        b_.at(e, d) - b_.at(e, r)) /
+                       4;
+        it_.at(c, r) = (b_.at(c, r) - a_.at(c, r) + b_.at(e, r) - a_.at(e, r) + b_.at(c, d) - a_.at(c, d) +
+                        b_.at(e, d) - a_.at(e, d)) /
+                       4;
+      }
+    u = v = GrayF(kWidth, kHeight);
+    GrayF u0, v0;
+    for (int k = 0; k < kSweeps; ++k) {
+      u0 = u, v0 = v;
+      for (int r = 0; r < kHeight; ++r)
+        for (int c = 0; c < kWidth; ++c) {
+          const float um = mean(u0, c, r), vm = mean(v0, c, r), gx = ix_.at(c, r), gy = iy_.at(c, r);
+          const float s = (gx * um + gy * vm + it_.at(c, r)) / (100 + gx * gx + gy * gy);
+          u.at(c, r) = um - gx * s, v.at(c, r) = vm - gy * s;
+        }
+    }
+  }
+
+ private:
+  static float mean(const GrayF& p, int c, int r) {
+    const int l = std::max(c - 1, 0), e = std::min(c + 1, kWidth - 1), t = std::max(r - 1, 0),
+              d = std::min(r + 1, kHeight - 1);
+    return (p.at(l, r) + p.at(e, r) + p.at(c, t) + p.at(c, d)) / 6 +
+           (p.at(l, t) + p.at(e, t) + p.at(l, d) + p.at(e, d)) / 12;
+  }
+  const GrayF &a_, &b_;
+  GrayF ix_, iy_, it_;
+
+ public:
+  GrayF u, v;
+};
+
+GrayF grey(const Plane<float>& p) {
+  GrayF g(p.width(), p.height());
+  for (int r = 0; r < g.height; ++r) std::copy_n(p.row(r), g.width, &g.px[std::size_t(r) * kWidth]);
+  return g;
+}
+
+HornSchunckParams params(FlowSolver solver, int iterations, double tolerance) {
+  HornSchunckParams p;
+  p.solver = solver, p.iterations = iterations, p.tolerance = tolerance;
+  return p;
+}
+
+struct Row {
+  nlohmann::ordered_json about;
+  Timed timed;
+  std::function<double()> error;  ///< endpoint error after the work, px
+};
+
+std::vector<Row> flow_rows(const GrayF& a, const GrayF& b) {
+  std::vector<Row> rows;
+  const auto pa = std::make_shared<Plane<float>>(plane(a)), pb = std::make_shared<Plane<float>>(plane(b));
+  for (const unsigned threads : {1u, 2u}) {
+    const auto pool = std::make_shared<Pool>(threads);
+    for (const auto& [name, p] : {std::pair{"jacobi", params(FlowSolver::jacobi, kSweeps, 0)},
+                                  std::pair{"converged", params(FlowSolver::multigrid, 100, 0.003)}}) {
+      const auto solver = std::make_shared<HornSchunck<float>>(p, *pool);
+      const auto flow = std::make_shared<std::pair<GrayF, GrayF>>();
+      Row row;
+      row.about = {{"what", name}, {"threads", threads}};
+      row.timed.work = [=] { solver->between(*pa, *pb); };
+      row.error = [=] {
+        const auto& w = solver->between(*pa, *pb);
+        return endpoint_error(grey(w.u), grey(w.v));
+      };
+      row.timed.prepare = [pool] {};
+      rows.push_back(std::move(row));
+    }
+  }
+  const auto loop = std::make_shared<PlainLoop>(a, b);
+  rows.push_back({{{"what", "plain loop"}, {"threads", 1}}, {[] {}, [=] { loop->run(); }}, [=] {
+                    return endpoint_error(loop->u, loop->v);
+                  }});
+  const auto pool = std::make_shared<Pool>(1u);
+  for (const char* name : {"dis", "farneback"}) {
+    Document d;
+    d.root = {{"type", name}};
+    const std::shared_ptr<FlowMethod> method = builtin_parts().flow.resolve(Node(d)).make({pool.get()});
+    const auto flow = std::make_shared<Flow>();
+    rows.push_back({{{"what", name}, {"threads", 1}},
+                    {[pool] {}, [=, &a, &b] { method->between(a, b, *flow); }},
+                    [=] { return endpoint_error(flow->u, flow->v); }});
+  }
+  return rows;
+}
+
+// The distance of 640 and 480 bins, as a pair of frames has them.
+struct Bins {
+  std::vector<double> p, q;
+};
+Bins bins(std::size_t n, unsigned seed) {
+  std::mt19937 g(seed);
+  Bins b;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = double(i) / double(n);
+    b.p.push_back(50 * std::exp(-30 * (x - 0.4) * (x - 0.4)) + double(g() % 100) / 50);
+    b.q.push_back(50 * std::exp(-30 * (x - 0.5) * (x - 0.5)) + double(g() % 100) / 50);
+  }
+  return b;
+}
+double by_definition(const Bins& b, double m, double threshold) {
+  const int n = int(b.p.size()), reach = int(std::ceil(threshold));
+  std::vector<double> d(b.p.size());
+  const auto a = [&](int k) { return std::max(0.0, 1 - std::abs(k) / threshold); };
+  const auto each = [&](int i, auto&& take) {
+    for (int j = std::max(0, i - reach); j <= std::min(n - 1, i + reach); ++j) take(std::size_t(j), a(i - j));
+  };
+  for (int i = 0; i < n; ++i) {
+    double z = 0;
+    each(i, [&](std::size_t j, double w) { z += (b.p[j] + b.q[j]) * w; });
+    d[std::size_t(i)] = (b.p[std::size_t(i)] - b.q[std::size_t(i)]) / std::pow(z, m);
+  }
+  double sum = 0;
+  for (int i = 0; i < n; ++i) each(i, [&](std::size_t j, double w) { sum += d[std::size_t(i)] * d[j] * w; });
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+int main() {
+  const GrayF a = frame(0, 0), b = frame(kDx, kDy);
+  std::vector<Row> rows = flow_rows(a, b);
+  // Memory: what one sweep over all pixels moves when nothing stays in a cache, nine planes of 32 bits
+  // (triad: three).
+  const std::size_t pixels = std::size_t(kWidth) * kHeight;
+  for (const unsigned threads : {1u, 2u}) {
+    const auto pool = std::make_shared<Pool>(threads);
+    const auto machine = std::make_shared<Machine>(pixels, *pool);
+    rows.push_back({{{"what", "memory"}, {"threads", threads}},
+                    {[pool] {}, [=] { machine->run("triad", 3 * kSweeps); }},
+                    [] { return 0.0; }});
+  }
+  const Bins wide = bins(640, 1), high = bins(480, 2);
+  bool right = true;
+  for (const double threshold : {3.0, 20.0}) {
+    const auto distance =
+        std::make_shared<HistogramDistance>(BinSimilarity::truncated_linear(threshold), 0.9);
+    for (const Bins* one : {&wide, &high})
+      right =
+          right && std::fabs((*distance)(one->p, one->q) / by_definition(*one, 0.9, threshold) - 1) < 1e-12;
+    Row row;
+    row.about = {{"what", "distance"}, {"threshold", threshold}, {"threads", 1}};
+    row.timed.prepare = [] {};
+    row.timed.units = 1000;
+    row.timed.work = [=, &wide, &high] {
+      volatile double sum = 0;
+      for (int i = 0; i < 1000; ++i) sum = sum + (*distance)(wide.p, wide.q) + (*distance)(high.p, high.q);
+    };
+    row.error = [] { return 0.0; };
+    rows.push_back(std::move(row));
+  }
+  std::vector<Timed> all;
+  for (Row& r : rows) all.push_back(std::move(r.timed));
+  time_in_turns(all, 9, 8);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Spread s = spread(all[i].ns);
+    rows[i].about["ms"] = s.median / 1e6, rows[i].about["low_ms"] = s.low / 1e6,
+    rows[i].about["high_ms"] = s.high / 1e6;
+    rows[i].about["error_px"] = rows[i].error();
+    fmt::print("{}\n", rows[i].about.dump());
+  }
+  // The plain loop is the answer to the published iteration, to what floats can hold.
+  std::map<std::string, double> error;
+  for (const Row& r : rows) error[r.about["what"].get<std::string>()] = r.about["error_px"].get<double>();
+  right = right && std::fabs(error["jacobi"] - error["plain loop"]) < 1e-4;
+  fmt::print(
+      "{}\n",
+      nlohmann::ordered_json{{"what", "check"}, {"right", right}, {"vector_unit", vector_unit()}}.dump());
+  return right ? 0 : 1;
+}
