@@ -13,9 +13,9 @@ namespace {
 
 ActivityJob job_of(const ActivityVerb& v) {
   ActivityJob job;
-  const FlowChoice choice{v.method.name, v.method.values};
+  const FlowChoice choice{v.flow.method, v.flow.values};
   job.method = flow_part(choice, published_flow());
-  job.noise = v.noise, job.shrink = v.shrink, job.threads = v.threads;
+  job.noise = v.noise, job.shrink = v.flow.shrink, job.threads = v.flow.threads;
   if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
     read_activity_study(v.videos.front(), job);
     if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
@@ -23,8 +23,8 @@ ActivityJob job_of(const ActivityVerb& v) {
     for (const auto& video : v.videos) job.videos.push_back({video, {}, "", {}});
   }
   for (ActivityInput& one : job.videos)
-    if (v.direction) one.direction_deg = v.direction;
-  if (v.threshold) job.threshold_px = v.threshold;
+    if (v.response.direction) one.direction_deg = v.response.direction;
+  if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
   return job;
 }
 

@@ -36,12 +36,12 @@ int compare(const CompareVerb& v, const Common& c) {
   check_output(v.report, ".html", v.force, inputs);
   CompareJob job;
   job.reference = v.reference, job.runs = v.runs;
-  job.direction_deg = v.direction, job.flow_threshold_px = v.flow_threshold;
+  job.direction_deg = v.response.direction, job.flow_threshold_px = v.response.flow_threshold;
   job.reference_t0_s = v.reference_t0, job.t0_s = v.t0, job.align = !v.no_align;
   if (v.duration) job.duration_s = *v.duration;
   job.m = v.m, job.threshold = v.threshold;
-  job.method = flow_part({v.method.name, v.method.values}, published_flow());
-  job.shrink = v.shrink, job.threads = v.threads, job.simulate_floor = !v.no_floor;
+  job.method = flow_part({v.flow.method, v.flow.values}, published_flow());
+  job.shrink = v.flow.shrink, job.threads = v.flow.threads, job.simulate_floor = !v.no_floor;
   std::string doing;
   std::optional<Progress> bar;
   job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {

@@ -17,10 +17,10 @@ void tell_notes(const nlohmann::ordered_json& j, const Common& c) {
 
 FlowJob job_of(const FlowVerb& v) {
   FlowJob job;
-  job.method = flow_part({v.method.name, v.method.values});
+  job.method = flow_part({v.flow.method, v.flow.values});
   job.out = v.out, job.picture = v.picture, job.truth = v.truth, job.overlay = v.overlay;
-  job.shrink = v.shrink;
-  job.threads = v.threads;
+  job.shrink = v.flow.shrink;
+  job.threads = v.flow.threads;
   return job;
 }
 
@@ -29,7 +29,7 @@ int flow_pair(const FlowVerb& v, const Common& c) {
   check_output(v.picture, ".png", v.force, {v.a, v.b, v.truth});
   if (!v.overlay.empty())
     throw Error(Errc::usage, "--overlay", "is for a video; take --picture for two pictures");
-  if (v.shrink > 1) throw Error(Errc::usage, "--shrink", "is for a video");
+  if (v.flow.shrink > 1) throw Error(Errc::usage, "--shrink", "is for a video");
   const auto j = flow_of_pair(v.a, v.b, job_of(v));
   if (c.json) {
     fmt::print("{}\n", j.dump());

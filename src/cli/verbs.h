@@ -57,36 +57,38 @@ struct LibraryVerb {
   unsigned threads = 0;
   bool force = false;
 };
-/// A flow part and the parameters given for it, in words.
-struct FlowMethodOption {
-  std::string name = "horn_schunck";
+/// How flows are made: the flow part, the parameters given for it in words, and what comes before and beside
+/// it.
+struct FlowOptions {
+  std::string method = "horn_schunck";
   std::vector<std::pair<std::string, std::string>> values;
+  int shrink = 0;
+  unsigned threads = 0;
+};
+/// What counts as a response.
+struct ResponseOptions {
+  std::optional<double> direction, flow_threshold;
 };
 struct FlowVerb {
   std::filesystem::path a, b, out, picture, truth, overlay;
-  FlowMethodOption method;
-  int shrink = 0;
-  unsigned threads = 0;
+  FlowOptions flow;
   bool force = false;
 };
 struct ActivityVerb {
   std::vector<std::filesystem::path> videos;  ///< or one study file
   std::filesystem::path noise, out, report, picture;
-  std::optional<double> direction, threshold;
-  FlowMethodOption method;
-  int shrink = 0;
-  unsigned threads = 0;
+  ResponseOptions response;
+  FlowOptions flow;
   bool force = false;
 };
 struct CompareVerb {
   std::filesystem::path reference, out, report;
   std::vector<std::filesystem::path> runs;
-  std::optional<double> direction, flow_threshold, reference_t0, t0, duration;
+  ResponseOptions response;
+  std::optional<double> reference_t0, t0, duration;
   double m = 0.9, threshold = 3;
   bool no_align = false, no_floor = false;
-  FlowMethodOption method;
-  int shrink = 0;
-  unsigned threads = 0;
+  FlowOptions flow;
   bool force = false;
 };
 struct DistanceVerb {

@@ -10,14 +10,21 @@
 namespace faba::cli {
 namespace {
 
-/// --method, and an option for every parameter of every flow part, as their schemas describe them.
-void add_flow_options(CLI::App* v, FlowMethodOption& o) {
+/// --shrink, --threads, --method, and an option for every parameter of every flow part, as their schemas
+/// describe them.
+void add_flow_options(CLI::App* v, FlowOptions& o) {
+  v->add_option("--shrink", o.shrink,
+                "Videos: average frames over squares of so many px first; unless given, until no side is "
+                "above 1024 px")
+      ->check(CLI::Range(1, 64));
+  v->add_option("--threads", o.threads, "Threads; all of the machine's when absent. Never changes the result")
+      ->check(CLI::Range(1, 1024));
   const Parts parts = builtin_parts();
-  v->add_option("--method", o.name, "Flow part: " + fmt::format("{}", fmt::join(parts.flow.names(), ", ")))
+  v->add_option("--method", o.method, "Flow part: " + fmt::format("{}", fmt::join(parts.flow.names(), ", ")))
       ->check(CLI::IsMember(parts.flow.names()))
       ->group("Flow");
   std::vector<std::string> names = parts.flow.names();
-  std::partition(names.begin(), names.end(), [&](const std::string& n) { return n == o.name; });
+  std::partition(names.begin(), names.end(), [&](const std::string& n) { return n == o.method; });
   for (const std::string& name : names)
     for (const auto& [key, property] : parts.flow.json_schema(name)["properties"].items()) {
       std::string words = property["description"].get<std::string>() + " (" + name;
@@ -35,6 +42,15 @@ void add_flow_options(CLI::App* v, FlowMethodOption& o) {
     }
 }
 
+void add_response_options(CLI::App* v, ResponseOptions& o) {
+  v->add_option("--direction", o.direction,
+                "Direction of the response in degrees: 0 right, 90 down; found when absent")
+      ->check(CLI::Range(-360.0, 360.0));
+  v->add_option("--flow-threshold", o.flow_threshold,
+                "Flows of less are noise, px per pair; found when absent")
+      ->check(CLI::NonNegativeNumber);
+}
+
 void add_flow(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<FlowVerb>();
   CLI::App* v =
@@ -50,15 +66,8 @@ void add_flow(CLI::App& app, CommandLine& line) {
   v->add_option("--truth", o->truth, "Two pictures: the true flow (.flo), to say how far off this one is")
       ->check(not_empty);
   v->add_option("--overlay", o->overlay, "Video: arrows on its frames, MP4")->check(not_empty);
-  v->add_option(
-       "--shrink", o->shrink,
-       "Video: average frames over squares of so many px first; unless given, until no side is above 1024 px")
-      ->check(CLI::Range(1, 64));
-  v->add_option("--threads", o->threads,
-                "Threads; all of the machine's when absent. Never changes the result")
-      ->check(CLI::Range(1, 1024));
   v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->method);
+  add_flow_options(v, o->flow);
   v->callback([o, &line] { line.code = flow(*o, line.common); });
 }
 
@@ -72,26 +81,15 @@ void add_activity(CLI::App& app, CommandLine& line) {
   v->add_option("videos", o->videos,
                 "Videos, run directories or files of flows; or a study file (TOML) that lists them")
       ->required();
-  v->add_option("--direction", o->direction,
-                "Direction of the response in degrees: 0 right, 90 down; found when absent")
-      ->check(CLI::Range(-360.0, 360.0));
-  v->add_option("--flow-threshold", o->threshold, "Flows of less are noise, px per pair; found when absent")
-      ->check(CLI::NonNegativeNumber);
+  add_response_options(v, o->response);
   v->add_option("--noise", o->noise, "A video of a dead sample to find the threshold from")->check(not_empty);
   v->add_option("-o,--out", o->out, "Signatures to write, CSV")->check(not_empty);
   v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
   v->add_option("--picture", o->picture,
                 "One video: flow of the busiest pair before and after filtering, PNG")
       ->check(not_empty);
-  v->add_option(
-       "--shrink", o->shrink,
-       "Average frames over squares of so many px first; unless given, until no side is above 1024 px")
-      ->check(CLI::Range(1, 64));
-  v->add_option("--threads", o->threads,
-                "Threads; all of the machine's when absent. Never changes the result")
-      ->check(CLI::Range(1, 1024));
   v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->method);
+  add_flow_options(v, o->flow);
   v->callback([o, &line] { line.code = activity(*o, line.common); });
 }
 
@@ -104,12 +102,7 @@ void add_compare(CLI::App& app, CommandLine& line) {
            "  faba compare experiment.mp4 simulation.avi --direction 0 --reference-t0 1.2 --t0 0.5");
   v->add_option("reference", o->reference, "Video, run directory or file of flows")->required();
   v->add_option("runs", o->runs, "Videos, run directories or files of flows to compare with it")->required();
-  v->add_option("--direction", o->direction,
-                "Direction of the response in degrees: 0 right, 90 down; found when absent")
-      ->check(CLI::Range(-360.0, 360.0));
-  v->add_option("--flow-threshold", o->flow_threshold,
-                "Flows of less are noise, px per pair; found when absent")
-      ->check(CLI::NonNegativeNumber);
+  add_response_options(v, o->response);
   v->add_option("--reference-t0", o->reference_t0,
                 "First moment after the reversal in the reference, s; found when absent");
   v->add_option("--t0", o->t0, "The same in the runs");
@@ -122,15 +115,8 @@ void add_compare(CLI::App& app, CommandLine& line) {
   v->add_flag("--no-floor", o->no_floor, "Do not run a scenario again to find the noise floor");
   v->add_option("-o,--out", o->out, "Distances to write, CSV")->check(not_empty);
   v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
-  v->add_option(
-       "--shrink", o->shrink,
-       "Average frames over squares of so many px first; unless given, until no side is above 1024 px")
-      ->check(CLI::Range(1, 64));
-  v->add_option("--threads", o->threads,
-                "Threads; all of the machine's when absent. Never changes the result")
-      ->check(CLI::Range(1, 1024));
   v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->method);
+  add_flow_options(v, o->flow);
   v->callback([o, &line] { line.code = compare(*o, line.common); });
 }
 
