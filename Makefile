@@ -23,9 +23,10 @@ build: setup          ## build the program: build/faba
 
 bench: build          ## measure speed beside NumPy, Octave and the machine's limits; table in bench/results/
 	@$(SETUP) bench
-	@cmake --build build -j $(JOBS) --target bench_agents bench_coils
+	@cmake --build build -j $(JOBS) --target bench_agents bench_coils bench_video
 	@/usr/bin/python3 bench/agents.py
 	@/usr/bin/python3 bench/coils.py
+	@/usr/bin/python3 bench/video.py
 
 format:               ## clang-format every source
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
