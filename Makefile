@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run test setup build bench format lint asan tsan fuzz docs clean help
+.PHONY: run test setup build bench accuracy format lint asan tsan fuzz docs clean help
 
 run: build            ## build the program and run the main job: a swarm steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -27,6 +27,11 @@ bench: build          ## measure speed beside NumPy, Octave and the machine's li
 	@/usr/bin/python3 bench/agents.py
 	@/usr/bin/python3 bench/coils.py
 	@/usr/bin/python3 bench/video.py
+
+accuracy: build       ## render studies with known truth and see whether it is found; SEEDS=20 takes an hour
+	@$(SETUP) bench
+	@cmake --build build -j $(JOBS) --target bench_exposure
+	@build/bench/bench_exposure scenes/exposure.toml $(or $(SEEDS),2)
 
 format:               ## clang-format every source
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

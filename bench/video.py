@@ -17,7 +17,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 WORDS = {
     "jacobi": "100 sweeps of Jacobi, as published",
-    "converged": "converged (multigrid, 0.003 px)",
+    "converged": "converged (multigrid, until a cycle changes less than 0.003 px)",
     "plain loop": "100 sweeps, one plain loop",
     "dis": "OpenCV DIS, medium",
     "farneback": "OpenCV Farneback",
@@ -25,6 +25,7 @@ WORDS = {
 }
 # Goal in ms, by what and threads; of the distance in us, by threshold.
 GOALS = {("jacobi", 1): 18, ("jacobi", 2): 10, ("converged", 1): 50}
+MOST_ERROR = {"converged": 0.003}  # px: part of the goal
 DISTANCE_GOALS = {3: 6, 20: 12}
 
 
@@ -49,7 +50,9 @@ def main():
     text += "| | threads | ms per pair | endpoint error (px) | goal (ms) | times the memory's speed |\n|---|---|---|---|---|---|\n"
     for r in flows:
         goal = GOALS.get((r["what"], r["threads"]))
-        verdict = "" if goal is None else f"{goal}, {'met' if r['ms'] <= goal else 'not met'}"
+        asked = MOST_ERROR.get(r["what"])
+        met = goal is not None and r["ms"] <= goal and (asked is None or r["error_px"] <= asked)
+        verdict = "" if goal is None else f"{goal}{'' if asked is None else f' and {asked} px'}, {'met' if met else 'NOT MET'}"
         error = "" if r["what"] == "memory" else f"{r['error_px']:.4f}"
         text += (f"| {WORDS[r['what']]} | {r['threads']} | {r['ms']:.1f} ({r['low_ms']:.1f} to {r['high_ms']:.1f}) | {error} | "
                  f"{verdict} | {memory / r['ms']:.2f} |\n")
@@ -58,7 +61,7 @@ def main():
     for r in rows:
         if r["what"] == "distance":
             goal = DISTANCE_GOALS[int(r["threshold"])]
-            text += f"| {r['threshold']:g} | {1e3 * r['ms']:.1f} | {goal}, {'met' if 1e3 * r['ms'] <= goal else 'not met'} |\n"
+            text += f"| {r['threshold']:g} | {1e3 * r['ms']:.1f} | {goal}, {'met' if 1e3 * r['ms'] <= goal else 'NOT MET'} |\n"
     print(text)
     o.out.mkdir(parents=True, exist_ok=True)
     (o.out / "video.md").write_text(text)

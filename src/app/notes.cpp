@@ -104,8 +104,8 @@ void note_helpless(const Scenario& s, const Simulation& simulation, Notes& notes
   if (!s.renders() &&
       MicroscopeParams::schema().to_json(s.microscope) != MicroscopeParams::schema().to_json({}))
     notes.emplace_back(
-        "microscope: has no effect; it needs camera.sensor = \"frames\", or record.as_seen = true "
-        "(--as-seen)");
+        "microscope: has no effect; it needs camera.sensor = \"frames\", record.as_seen = true "
+        "(--as-seen) or record.flow = true");
   if (const double steps = s.frame_period() / simulation.step(); steps > 1e5)
     notes.push_back(
         fmt::format("simulation: the models need {:.2g} steps per frame to be accurate, which will take "

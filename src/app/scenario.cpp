@@ -233,11 +233,13 @@ void check_camera(const Node& root, Scenario& s) {
             .lexically_normal()
             .string();
   if (s.steers() && s.estimator.type == "none")
-    throw Error(
-        Errc::usage, root.where("estimator"),
-        fmt::format(
-            "controller {} steers by an estimate, and \"none\" gives it none; use \"mean\" or \"visible\"",
-            s.controller.type));
+    throw Error(Errc::usage, root.where("estimator"),
+                fmt::format("controller {} steers by an estimate, and \"none\" gives it none; use \"{}\"",
+                            s.controller.type, usual_estimator(s)));
+  if (s.camera.sensor == Camera::Sensor::positions && s.estimator.type == "image")
+    throw Error(Errc::usage, root.where("estimator"),
+                "\"image\" looks at pictures, and a camera with sensor = \"positions\" takes none; set "
+                "camera.sensor = \"frames\"");
   if (s.camera.sensor == Camera::Sensor::frames &&
       (s.estimator.type == "mean" || s.estimator.type == "visible"))
     throw Error(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/calibration_file.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
@@ -21,7 +22,7 @@ Enum chosen(const std::string& word, const std::vector<const char*>& words) {
 TrackOptions options_of(const TrackVerb& v) {
   TrackOptions o;
   o.video = v.video, o.fps = v.fps, o.out = v.out;
-  if (v.um_per_px > 0) o.um_per_px = v.um_per_px;
+  if (!v.scale.empty()) o.um_per_px = parse_calibration(v.scale, "--um-per-px").um_per_px;
   o.overlay = v.overlay, o.report = v.report, o.picture = v.picture, o.figures = v.figures;
   o.size_px = v.size_px, o.threshold_sd = v.threshold, o.inside_drop = v.drop, o.interval_frames = v.interval;
   o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
@@ -43,7 +44,7 @@ void check_outputs(const TrackVerb& v) {
   check_output(v.report, ".html", v.force, {v.video});
   check_output(v.picture, ".png", v.force, {v.video});
   if (!v.figures.empty())
-    for (const char* name : {"speeds.svg", "msd.svg", "heading.svg"})
+    for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
       check_output(v.figures / name, ".svg", v.force, {v.video});
 }
 

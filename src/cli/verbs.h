@@ -34,8 +34,9 @@ struct DropVerb {
 struct TrackVerb {
   std::filesystem::path video, overlay, report, picture, figures;
   std::vector<std::filesystem::path> out;
+  std::string scale;  ///< a number or a calibration file
   std::string polarity = "auto", background = "auto", motion = "auto";
-  double fps = 0, um_per_px = 0, size_px = 0, threshold = 0, reach_px = 0;
+  double fps = 0, size_px = 0, threshold = 0, reach_px = 0;
   int memory = 2, least = 3, interval = 0;
   bool drop = false, force = false;
 };

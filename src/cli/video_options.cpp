@@ -163,7 +163,9 @@ void add_track(CLI::App& app, CommandLine& line) {
       ->required();
   v->add_option("--fps", t->fps, "Frames per second, where the video does not state them or not truly")
       ->check(CLI::Range(1e-6, 1e7));
-  v->add_option("--um-per-px", t->um_per_px, "Scale: micrometres per pixel")->check(CLI::Range(1e-6, 1e6));
+  v->add_option("--um-per-px", t->scale,
+                "Scale: micrometres per pixel, or a calibration file of `faba scale`")
+      ->check(not_empty);
   v->add_option("--out", t->out, "Write the tracks, as CSV or HDF5 by the ending; may be given twice");
   v->add_option("--overlay", t->overlay, "Write the video with the tracks drawn in, as MP4 or AVI");
   v->add_option("--report", t->report, "Write a page with figures and numbers, as HTML");

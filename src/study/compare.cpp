@@ -8,6 +8,7 @@
 
 #include "app/session.h"
 #include "study/run_info.h"
+#include "study/run_video.h"
 #include "study/segments.h"
 #include "vision/histogram_distance.h"
 
@@ -18,8 +19,6 @@ constexpr double kReversalGap = 0.7;  // s between two opposite motions that mak
 constexpr double kRise = 0.4;         // s before and after that a rise of activity is measured over
 constexpr double kOpposite = 120;     // degrees
 constexpr double kSamePeriod = 0.02;  // share by which frame periods may differ unsaid
-
-bool is_run(const std::filesystem::path& p) { return std::filesystem::exists(p / run_files::kManifest); }
 
 /// Where a video's response begins.
 struct Beginning {
@@ -100,8 +99,7 @@ class Comparer {
                       const FlowFilter& filter) {
     ComparedRun result;
     result.file = run, result.t0_s = t0;
-    const double most = -1;
-    furthest_ = most;
+    furthest_ = -1;
     FlowSource reference(job_.reference, options(), pool_);
     std::optional<FlowSource> other;
     if (!run.empty()) {
@@ -170,10 +168,10 @@ class Comparer {
     }
     DistanceSeries& series = result.distance;
     series.t_s.push_back(at);
-    series.signed_.push_back(std::sqrt(squares));
+    series.value.push_back(std::sqrt(squares));
     series.legacy.push_back(distance_(p_.x, q_.x) + distance_(p_.y, q_.y));
-    if (b && series.signed_.back() > furthest_) {
-      furthest_ = series.signed_.back();
+    if (b && series.value.back() > furthest_) {
+      furthest_ = series.value.back();
       result.furthest = {at, a.flow, b->flow, p_, q_};
     }
   }
@@ -186,7 +184,7 @@ class Comparer {
       for (const double x : v) sum += x;
       return sum / double(v.size());
     };
-    s.mean = mean(s.signed_), s.sd = sample_sd(s.signed_), s.line = fit_line(frame, s.signed_);
+    s.mean = mean(s.value), s.sd = sample_sd(s.value), s.line = fit_line(frame, s.value);
     s.legacy_mean = mean(s.legacy), s.legacy_sd = sample_sd(s.legacy),
     s.legacy_line = fit_line(frame, s.legacy);
   }
@@ -213,7 +211,10 @@ class Twin {
       const std::string seed = read_run_info(run / run_files::kManifest).seed;
       RunOptions o;
       o.out = folder_ / "run", o.threads = job.threads;
-      o.progress = [&](auto done, auto total) { job.progress("simulating with another seed", done, total); };
+      o.progress = [&](auto done, auto total) {
+        job.progress("simulating with another seed", done, total);
+        if (job.stop()) throw Error(Errc::interrupted, run.string(), "stopped");
+      };
       Session session = Session::begin(s, seed.empty() ? 1 : std::stoull(seed) + 1, o);
       session.run();
       session.complete();

@@ -34,10 +34,10 @@ struct CompareJob {
 
 /// Distances frame by frame, and what they come to.
 struct DistanceSeries {
-  std::vector<double> t_s;  ///< after the alignment
-  std::vector<double> signed_, legacy;
-  double mean = 0, sd = 0;  ///< of signed_
-  LineFit line;             ///< of signed_ against the number of the frame
+  std::vector<double> t_s;            ///< after the alignment
+  std::vector<double> value, legacy;  ///< of the signed histograms, and of the thesis's
+  double mean = 0, sd = 0;            ///< of value
+  LineFit line;                       ///< of value against the number of the frame
   double legacy_mean = 0, legacy_sd = 0;
   LineFit legacy_line;
 };

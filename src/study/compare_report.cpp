@@ -31,7 +31,7 @@ Plot distances(const Comparison& c) {
   p.width = 620, p.height = 300;
   p.x.label = "time after the alignment (s)", p.y.label = "distance", p.y.lo = 0;
   for (const ComparedRun& r : c.runs) {
-    p.add(Line{.x = r.distance.t_s, .y = r.distance.signed_, .label = name_of(r.file), .width = 1.2});
+    p.add(Line{.x = r.distance.t_s, .y = r.distance.value, .label = name_of(r.file), .width = 1.2});
     const LineFit& fit = r.distance.line;
     const std::vector<double>& t = r.distance.t_s;
     p.add(Line{.x = {t.front(), t.back()},
@@ -39,8 +39,8 @@ Plot distances(const Comparison& c) {
                .ink = Ink::muted,
                .dashed = true});
   }
-  p.add(Line{
-      .x = c.naive.t_s, .y = c.naive.signed_, .label = "nothing moves", .ink = Ink::muted, .width = 1.2});
+  p.add(
+      Line{.x = c.naive.t_s, .y = c.naive.value, .label = "nothing moves", .ink = Ink::muted, .width = 1.2});
   if (c.floor) p.add(Rule{.at = *c.floor, .label = "same model, another seed", .of_x = false});
   return p;
 }
@@ -162,7 +162,7 @@ std::string compare_csv(const Comparison& c) {
   std::string out = "run,t_s,distance,legacy\n";
   const auto add = [&](std::size_t number, const DistanceSeries& d) {
     for (std::size_t i = 0; i < d.t_s.size(); ++i)
-      out += fmt::format("{},{:.6f},{:.9g},{:.9g}\n", number, d.t_s[i], d.signed_[i], d.legacy[i]);
+      out += fmt::format("{},{:.6f},{:.9g},{:.9g}\n", number, d.t_s[i], d.value[i], d.legacy[i]);
   };
   for (std::size_t i = 0; i < c.runs.size(); ++i) add(i + 1, c.runs[i].distance);
   add(0, c.naive);

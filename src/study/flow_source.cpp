@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "study/run_info.h"
+#include "study/run_video.h"
 #include "vision/flow_file.h"
 #include "vision/grey_scale.h"
 #include "vision/video_reader.h"
@@ -20,20 +20,9 @@ struct Input {
 };
 
 Input resolve(const std::filesystem::path& path) {
-  const auto manifest = path / "manifest.json";
-  if (!std::filesystem::exists(manifest)) return {path, FlowFileReader::recognises(path), {}};
-  const RunInfo info = read_run_info(manifest);
-  const auto scale = info.um_per_px;
-  if (std::filesystem::exists(path / "flow.h5")) return {path / "flow.h5", true, scale};
-  if (info.video_shows == "drawing")
-    throw Error(
-        Errc::input, path.string(),
-        "its video is a drawing, not what a camera sees; run it with --as-seen, or with record.flow = true");
-  for (const char* video : {"video.avi", "video.mp4"})
-    if (std::filesystem::exists(path / video)) return {path / video, false, scale};
-  throw Error(
-      Errc::input, path.string(),
-      "is a run without flow.h5 and without a video; set record.flow or record.video in its scenario");
+  if (is_run(path) && std::filesystem::exists(path / "flow.h5")) return {path / "flow.h5", true, {}};
+  const RunVideo video = run_video(path);
+  return {video.file, FlowFileReader::recognises(video.file), video.um_per_px};
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "study/run_info.h"
+#include "study/run_video.h"
 #include "study/track_figures.h"
 #include "study/track_json.h"
 #include "study/track_output.h"
@@ -30,29 +30,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kTail = 30;     // places behind each cell in the overlay
 constexpr std::size_t kDrawn = 3000;  // tracks on the picture of all tracks: more cannot be told apart
 constexpr std::size_t kDrawnPoints = 300000;
-
-// What is read, and the scale when a run directory states it.
-struct Source {
-  std::filesystem::path video;
-  double um_per_px = 0;
-};
-
-Source source_of(const TrackOptions& o) {
-  Source s{o.video, o.um_per_px.value_or(0)};
-  std::error_code ignored;
-  const auto manifest = o.video / "manifest.json";
-  if (!std::filesystem::is_directory(o.video, ignored) || !std::filesystem::exists(manifest, ignored))
-    return s;
-  const RunInfo info = read_run_info(manifest);
-  if (info.video_shows != "camera")
-    throw Error(Errc::input, o.video.string(),
-                "its video is a drawing, not what a camera sees; record the run with --as-seen, or take its "
-                "tracks.h5");
-  s.video = o.video / "video.avi";
-  if (!std::filesystem::exists(s.video, ignored)) s.video = o.video / "video.mp4";
-  if (s.um_per_px == 0) s.um_per_px = info.um_per_px.value_or(0);
-  return s;
-}
 
 // Overlay video under a temporary name, which is gone unless complete() is called.
 class Overlay {
@@ -102,7 +79,7 @@ std::optional<DropMask> drop_of(const TrackOptions& o, const TrackSurvey& s) {
 // The second pass.
 class Pass {
  public:
-  Pass(const TrackOptions& o, const Source& source, const TrackSurvey& s)
+  Pass(const TrackOptions& o, const RunVideo& source, const TrackSurvey& s)
       : options_(o),
         survey_(s),
         source_(source),
@@ -110,12 +87,12 @@ class Pass {
         statistics_(s.frame_s, o.interval_frames),
         drop_(drop_of(o, s)) {
     for (const auto& path : o.out)
-      outputs_.push_back(track_output(path, {s.first.width, s.first.height, source.um_per_px}));
+      outputs_.push_back(track_output(path, {s.first.width, s.first.height, source.um_per_px.value_or(0)}));
     if (!o.overlay.empty()) overlay_ = std::make_unique<Overlay>(o.overlay, s);
   }
 
   void run(const std::function<void(std::int64_t)>& tick) {
-    VideoReader reader(source_.video, options_.fps);
+    VideoReader reader(source_.file, options_.fps);
     Detector detector(survey_.background, detector_options(options_, survey_, drop_));
     threshold = detector.threshold_sd();
     GrayF frame;
@@ -173,7 +150,7 @@ class Pass {
 
   const TrackOptions& options_;
   const TrackSurvey& survey_;
-  const Source& source_;
+  const RunVideo& source_;
   Tracker tracker_;
   TrackStatistics statistics_;
   std::optional<DropMask> drop_;
@@ -217,13 +194,15 @@ Json found_json(const TrackSurvey& s, const Pass& pass, const TrackOptions& o) {
 }  // namespace
 
 nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& progress) {
-  const Source source = source_of(o);
+  RunVideo source = run_video(o.video);
+  if (o.um_per_px) source.um_per_px = o.um_per_px;
+  const double um_per_px = source.um_per_px.value_or(0);  // 0: not known
   std::int64_t total = 0;
   const auto tick = [&](std::int64_t done) {
     if (progress && !progress(done, total))
       throw Error(Errc::interrupted, o.video.string(), "stopped before its end; nothing was written");
   };
-  const TrackSurvey survey = survey_tracks(o, source.video, [&](std::int64_t done, std::int64_t stated) {
+  const TrackSurvey survey = survey_tracks(o, source.file, [&](std::int64_t done, std::int64_t stated) {
     total = 2 * stated;
     tick(done);
   });
@@ -232,17 +211,17 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   pass.run([&](std::int64_t done) { tick(survey.frames + done); });
   const TrackSummary summary = pass.summary();
 
-  Json j{{"video", source.video.string()},
+  Json j{{"video", source.file.string()},
          {"frames", survey.frames},
          {"duration_s", survey.duration_s},
          {"frame_s", survey.frame_s},
          {"image_size", {survey.first.width, survey.first.height}},
-         {"um_per_px", source.um_per_px > 0 ? Json(source.um_per_px) : Json(nullptr)}};
+         {"um_per_px", um_per_px > 0 ? Json(um_per_px) : Json(nullptr)}};
   j.update(found_json(survey, pass, o));
   j["tracks"] = summary.tracks;
   j["points"] = summary.points;
   j["mean_points"] = summary.mean_points;
-  j.update(track_json(summary, source.um_per_px));
+  j.update(track_json(summary, um_per_px));
   Json notes = survey.notes;
   if (pass.repeated_times > 0)
     notes.push_back(
@@ -259,7 +238,7 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   j["notes"] = notes;
 
   const RgbImage picture = draw_tracks(survey.first, survey.black, survey.white, pass.drawn(), false, 0);
-  const std::vector<Figure> figures = track_figures(summary, source.um_per_px);
+  const std::vector<Figure> figures = track_figures(summary, um_per_px);
   pass.complete();
   if (!o.picture.empty()) write_png(o.picture, picture);
   if (!o.figures.empty())

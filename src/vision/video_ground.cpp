@@ -3,52 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "vision/background.h"
 #include "vision/video_reader.h"
 
 namespace faba {
 namespace {
 
-constexpr std::size_t kMostFrames = 48;
+constexpr int kMostFrames = 48;
 constexpr int kFinest = 4096;  // bins of the histogram of changes
 constexpr double kOneSd = 0.6826894921370859;
-
-/// Frames evenly spread over a video of unknown length.
-class Spread {
- public:
-  void take(const GrayF& frame) {
-    if (count_++ % stride_ != 0) return;
-    if (kept_.size() == kMostFrames) {
-      for (std::size_t i = 1; 2 * i < kept_.size(); ++i) kept_[i] = std::move(kept_[2 * i]);
-      kept_.resize(kMostFrames / 2);
-      stride_ *= 2;
-      if ((count_ - 1) % stride_ != 0) return;
-    }
-    std::vector<std::uint16_t>& grey = kept_.emplace_back(frame.px.size());
-    for (std::size_t i = 0; i < grey.size(); ++i)
-      grey[i] = std::uint16_t(std::clamp(frame.px[i], 0.0F, 65535.0F) + 0.5F);
-  }
-  GrayF median(int width, int height, float white) const {
-    GrayF m(width, height);
-    std::vector<std::uint16_t> v(kept_.size());
-    const std::size_t middle = v.size() / 2;
-    for (std::size_t i = 0; i < m.px.size(); ++i) {
-      for (std::size_t k = 0; k < v.size(); ++k) v[k] = kept_[k][i];
-      std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(middle), v.end());
-      float grey = float(v[middle]);
-      if (v.size() % 2 == 0)
-        grey = 0.5F * (grey + float(*std::max_element(v.begin(), v.begin() + std::ptrdiff_t(middle))));
-      m.px[i] = grey / white;
-    }
-    return m;
-  }
-
- private:
-  std::vector<std::vector<std::uint16_t>> kept_;
-  std::size_t count_ = 0, stride_ = 1;
-};
 
 /// Sizes of the changes from frame to frame, in grey levels.
 class Changes {
@@ -88,15 +55,17 @@ VideoGround read_video_ground(const std::filesystem::path& video) {
     throw Error(Errc::input, video.string(),
                 "is no background: its grey scale has no white; save it in 8 or 16 bits");
   const auto white = float((1U << reader.bits()) - 1U);
-  Spread spread;
+  BackgroundSampler frames(kMostFrames);
   Changes changes;
   GrayF now, before;
   for (double t = 0; reader.read(now, t);) {
-    spread.take(now);
+    frames.take(now);
     if (!before.empty()) changes.take(before, now);
     std::swap(now, before);
   }
-  return {spread.median(reader.width(), reader.height(), white), changes.sd() / double(white)};
+  GrayF light = frames.background().level;
+  for (float& grey : light.px) grey /= white;
+  return {std::move(light), changes.sd() / double(white)};
 }
 
 }  // namespace faba

@@ -15,11 +15,11 @@ namespace {
 const std::filesystem::path kRollers = std::filesystem::path(FABA_SHARED_DATA) / "step-response/rollers.mp4";
 const std::filesystem::path kBeads = std::filesystem::path(FABA_SHARED_DATA) / "beads/bulk-water.mov";
 
-struct ByEye {
+struct Listed {
   double t0_s, t1_s, direction_deg;
 };
-const std::vector<ByEye> kDriven{{5.6, 8.5, 270},   {12.6, 18.2, 90}, {20.5, 23.2, 90},  {25.8, 32.3, 270},
-                                 {35.2, 38.4, 270}, {45.2, 58.4, 90}, {61.0, 68.9, 270}, {69.5, 73.6, 90}};
+const std::vector<Listed> kDriven{{5.6, 8.5, 270},   {12.6, 18.2, 90}, {20.5, 23.2, 90},  {25.8, 32.3, 270},
+                                  {35.2, 38.4, 270}, {45.2, 58.4, 90}, {61.0, 68.9, 270}, {69.5, 73.6, 90}};
 
 VideoActivity measured(const std::filesystem::path& video, int shrink) {
   ActivityJob job;
@@ -29,7 +29,7 @@ VideoActivity measured(const std::filesystem::path& video, int shrink) {
   return measure_activity(job).videos.at(0);
 }
 
-void compare_with_eye(const std::vector<MotionSegment>& found, double slack_deg) {
+void compare_with_list(const std::vector<MotionSegment>& found, double slack_deg) {
   REQUIRE(found.size() == kDriven.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     CHECK(std::fabs(found[i].t0_s - kDriven[i].t0_s) < 0.5);
@@ -46,9 +46,9 @@ TEST_CASE("rollers: every stretch of driving within half a second, the direct re
       measured(kRollers, 4);  // a sixteenth of the pixels, for the time that a test may take
   CHECK_FALSE(a.direction_given);
   // The list says up and down; what drives them is not quite upright, and some go sideways.
-  compare_with_eye(a.segments, 45);
+  compare_with_list(a.segments, 45);
   // The same flow, taken along the line that the list goes by.
-  compare_with_eye(motion_segments(a.signature, 90), 1e-9);
+  compare_with_list(motion_segments(a.signature, 90), 1e-9);
 }
 
 TEST_CASE("beads in water: no motion in one direction" * doctest::skip(!std::filesystem::exists(kBeads))) {

@@ -1,0 +1,26 @@
+#include "study/run_video.h"
+
+#include "app/session.h"
+#include "study/run_info.h"
+
+namespace faba {
+
+bool is_run(const std::filesystem::path& path) {
+  std::error_code absent;
+  return std::filesystem::exists(path / run_files::kManifest, absent);
+}
+
+RunVideo run_video(const std::filesystem::path& path) {
+  if (!is_run(path)) return {path, {}};
+  const RunInfo info = read_run_info(path / run_files::kManifest);
+  for (const char* video : {"video.avi", "video.mp4"}) {
+    if (!std::filesystem::exists(path / video)) continue;
+    if (info.video_shows != "camera")
+      throw Error(Errc::input, path.string(),
+                  "its video is a drawing, not what a camera sees; record the run with --as-seen");
+    return {path / video, info.um_per_px};
+  }
+  throw Error(Errc::input, path.string(), "is a run without a video; record it with --as-seen");
+}
+
+}  // namespace faba
