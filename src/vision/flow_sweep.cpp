@@ -35,29 +35,31 @@ template <class T>
 [[gnu::always_inline]] inline void update(const Strip<T>& s) {
   using V = typename Lanes<T>::type;
   constexpr int kLanes = Plane<T>::kMargin;
+  const T half = T(0.5);
 #define FABA_LANES(p) (*reinterpret_cast<const V*>((p) + x))
   for (int x = 0; x < s.width; x += kLanes) {
-    // Of the rows above and here: what is beside, and what is there.
-    V u_side_up = FABA_LANES(s.row[0].u - 1) + FABA_LANES(s.row[0].u + 1), u_up = FABA_LANES(s.row[0].u);
-    V v_side_up = FABA_LANES(s.row[0].v - 1) + FABA_LANES(s.row[0].v + 1), v_up = FABA_LANES(s.row[0].v);
-    V u_side = FABA_LANES(s.row[1].u - 1) + FABA_LANES(s.row[1].u + 1), u_here = FABA_LANES(s.row[1].u);
-    V v_side = FABA_LANES(s.row[1].v - 1) + FABA_LANES(s.row[1].v + 1), v_here = FABA_LANES(s.row[1].v);
+    // Six times the mean of the neighbours is what is beside, and of the rows above and below what is there
+    // and half of what is beside that. `beside` and `row` go down with the rows, so that each is added once.
+    V u_beside = FABA_LANES(s.row[0].u - 1) + FABA_LANES(s.row[0].u + 1);
+    V v_beside = FABA_LANES(s.row[0].v - 1) + FABA_LANES(s.row[0].v + 1);
+    V u_row_up = u_beside * half + FABA_LANES(s.row[0].u),
+      v_row_up = v_beside * half + FABA_LANES(s.row[0].v);
+    u_beside = FABA_LANES(s.row[1].u - 1) + FABA_LANES(s.row[1].u + 1);
+    v_beside = FABA_LANES(s.row[1].v - 1) + FABA_LANES(s.row[1].v + 1);
+    V u_row = u_beside * half + FABA_LANES(s.row[1].u), v_row = v_beside * half + FABA_LANES(s.row[1].v);
     for (int i = 1; i <= s.rows; ++i) {
       const auto& here = s.row[i];
       const auto& below = s.row[i + 1];
-      const V u_side_down = FABA_LANES(below.u - 1) + FABA_LANES(below.u + 1), u_down = FABA_LANES(below.u);
-      const V v_side_down = FABA_LANES(below.v - 1) + FABA_LANES(below.v + 1), v_down = FABA_LANES(below.v);
-      const V u_next = u_side + (u_up + u_down), v_next = v_side + (v_up + v_down);
-      // Twelve times the mean of the neighbours.
-      const V u = (u_side_up + u_side_down) + (u_next + u_next);
-      const V v = (v_side_up + v_side_down) + (v_next + v_next);
+      const V u_beside_down = FABA_LANES(below.u - 1) + FABA_LANES(below.u + 1);
+      const V v_beside_down = FABA_LANES(below.v - 1) + FABA_LANES(below.v + 1);
+      const V u_row_down = u_beside_down * half + FABA_LANES(below.u);
+      const V v_row_down = v_beside_down * half + FABA_LANES(below.v);
+      const V u = (u_row_up + u_row_down) + u_beside, v = (v_row_up + v_row_down) + v_beside;
       const V mxy = FABA_LANES(here.mxy);
-      const V u_new = FABA_LANES(here.mxx) * u + (mxy * v + FABA_LANES(here.cx));
-      const V v_new = FABA_LANES(here.myy) * v + (mxy * u + FABA_LANES(here.cy));
-      *reinterpret_cast<V*>(here.u_out + x) = u_new;
-      *reinterpret_cast<V*>(here.v_out + x) = v_new;
-      u_side_up = u_side, u_side = u_side_down, u_up = u_here, u_here = u_down;
-      v_side_up = v_side, v_side = v_side_down, v_up = v_here, v_here = v_down;
+      *reinterpret_cast<V*>(here.u_out + x) = FABA_LANES(here.mxx) * u + (mxy * v + FABA_LANES(here.cx));
+      *reinterpret_cast<V*>(here.v_out + x) = FABA_LANES(here.myy) * v + (mxy * u + FABA_LANES(here.cy));
+      u_beside = u_beside_down, u_row_up = u_row, u_row = u_row_down;
+      v_beside = v_beside_down, v_row_up = v_row, v_row = v_row_down;
     }
   }
   for (int i = 1; i <= s.rows; ++i)
@@ -78,6 +80,18 @@ template <class T>
 FABA_VECTORISED float largest_change(const float* a, const float* b, int n) { return largest(a, b, n); }
 FABA_VECTORISED double largest_change(const double* a, const double* b, int n) { return largest(a, b, n); }
 
+constexpr int kRing = 8;  // rows of a sweep that the next one may still read
+static_assert(kRing >= kStrip + 2);
+
+/// Rows between the sweeps of this thread, at least so wide; kept, since making them takes as long as a
+/// sweep.
+template <class T>
+FlowPlanes<T>& rings(int width) {
+  thread_local FlowPlanes<T> kept;
+  if (kept.u.width() < width) kept.resize(width, kRing * (kTogether - 1));
+  return kept;
+}
+
 /// Several sweeps over the rows [begin, end) in one go: sweep n works one row and a strip behind sweep n - 1,
 /// so that what it reads is still in the cache. Rows beyond the band are computed too where later sweeps need
 /// them.
@@ -85,10 +99,7 @@ template <class T>
 class Wavefront {
  public:
   Wavefront(const FlowSystem<T>& s, const FlowPlanes<T>& from, FlowPlanes<T>& to, int sweeps)
-      : s_(s), from_(from), to_(to), sweeps_(sweeps) {
-    rings_u_.resize(s.width(), kRing * (sweeps - 1));
-    rings_v_.resize(s.width(), kRing * (sweeps - 1));
-  }
+      : s_(s), from_(from), to_(to), sweeps_(sweeps), rings_(rings<T>(s.width())) {}
 
   T run(int begin, int end, bool watch) {
     T most = 0;
@@ -109,14 +120,11 @@ class Wavefront {
   }
 
  private:
-  static constexpr int kRing = 16;  // rows of a sweep that the next one may still read
-  static_assert(kRing >= kStrip + 2);
-
   const T* u(int n, int row) const {
-    return n == 0 ? from_.u.row(row) : rings_u_.row(kRing * (n - 1) + row % kRing);
+    return n == 0 ? from_.u.row(row) : rings_.u.row(kRing * (n - 1) + row % kRing);
   }
   const T* v(int n, int row) const {
-    return n == 0 ? from_.v.row(row) : rings_v_.row(kRing * (n - 1) + row % kRing);
+    return n == 0 ? from_.v.row(row) : rings_.v.row(kRing * (n - 1) + row % kRing);
   }
   void strip(int n, int low, int high) {
     Strip<T> s;
@@ -126,8 +134,8 @@ class Wavefront {
       auto& r = s.row[i];
       r = {u(n - 1, row),  v(n - 1, row),  s_.mxx.row(row), s_.mxy.row(row), s_.myy.row(row),
            s_.cx.row(row), s_.cy.row(row), nullptr,         nullptr};
-      r.u_out = n == sweeps_ ? to_.u.row(row) : rings_u_.row(kRing * (n - 1) + row % kRing);
-      r.v_out = n == sweeps_ ? to_.v.row(row) : rings_v_.row(kRing * (n - 1) + row % kRing);
+      r.u_out = n == sweeps_ ? to_.u.row(row) : rings_.u.row(kRing * (n - 1) + row % kRing);
+      r.v_out = n == sweeps_ ? to_.v.row(row) : rings_.v.row(kRing * (n - 1) + row % kRing);
     }
     update_strip(s);
   }
@@ -136,7 +144,7 @@ class Wavefront {
   const FlowPlanes<T>& from_;
   FlowPlanes<T>& to_;
   int sweeps_;
-  Plane<T> rings_u_, rings_v_;
+  FlowPlanes<T>& rings_;
 };
 
 }  // namespace

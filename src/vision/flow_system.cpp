@@ -31,15 +31,38 @@ template <class T>
   }
 }
 
+/// The iteration of the published method: J = g g^T is of rank one, so that M and c are known in closed form.
 template <class T>
-struct SystemRow {
+struct PublishedRow {
   const T *ix, *iy, *it;
   const T *u, *v;  ///< the flow that the unknown contains already
+  T *mxx, *mxy, *myy, *cx, *cy;
+  T lambda;
+  int width;
+};
+template <class T>
+[[gnu::always_inline]] inline void row(const PublishedRow<T>& r) {
+  const T *ix = r.ix, *iy = r.iy, *it = r.it, *u = r.u, *v = r.v;
+  T *mxx = r.mxx, *mxy = r.mxy, *myy = r.myy, *cx = r.cx, *cy = r.cy;
+  const T lambda = r.lambda, sixth = T(1) / 6;
+  FABA_ELEMENTWISE
+  for (int x = 0; x < r.width; ++x) {
+    const T gx = ix[x], gy = iy[x], gt = it[x] - (gx * u[x] + gy * v[x]);
+    const T xx = gx * gx, yy = gy * gy, scale = 1 / (lambda + (xx + yy)), by6 = scale * sixth;
+    mxx[x] = (lambda + yy) * by6, mxy[x] = -(gx * gy) * by6, myy[x] = (lambda + xx) * by6;
+    cx[x] = -(gx * gt) * scale, cy[x] = -(gy * gt) * scale;
+  }
+}
+
+template <class T>
+struct DataRow {
+  const T *ix, *iy, *it;
+  const T *u, *v;  ///< as above
   T *jxx, *jxy, *jyy, *fx, *fy;
   int width;
 };
 template <class T>
-[[gnu::always_inline]] inline void row(const SystemRow<T>& r) {
+[[gnu::always_inline]] inline void row(const DataRow<T>& r) {
   const T *ix = r.ix, *iy = r.iy, *it = r.it, *u = r.u, *v = r.v;
   T *jxx = r.jxx, *jxy = r.jxy, *jyy = r.jyy, *fx = r.fx, *fy = r.fy;
   FABA_ELEMENTWISE
@@ -65,7 +88,7 @@ template <class T>
   FABA_ELEMENTWISE
   for (int x = 0; x < r.width; ++x) {
     const T xx = lambda + jxx[x], yy = lambda + jyy[x], xy = jxy[x];
-    const T scale = lambda / ((xx * yy - xy * xy) * 12);
+    const T scale = lambda / ((xx * yy - xy * xy) * 6);
     mxx[x] = scale * yy, mxy[x] = -scale * xy, myy[x] = scale * xx;
   }
 }
@@ -81,7 +104,7 @@ template <class T>
 [[gnu::always_inline]] inline void row(const RightSideRow<T>& r) {
   const T *mxx = r.mxx, *mxy = r.mxy, *myy = r.myy, *fx = r.fx, *fy = r.fy;
   T *cx = r.cx, *cy = r.cy;
-  const T scale = 12 * r.by_lambda;
+  const T scale = 6 * r.by_lambda;
   FABA_ELEMENTWISE
   for (int x = 0; x < r.width; ++x) {
     const T gx = fx[x] * scale, gy = fy[x] * scale;
@@ -164,7 +187,8 @@ template <class T>
 
 #define FABA_ROWS(type)                                                 \
   FABA_VECTORISED void do_row(const DerivativeRow<type>& r) { row(r); } \
-  FABA_VECTORISED void do_row(const SystemRow<type>& r) { row(r); }     \
+  FABA_VECTORISED void do_row(const PublishedRow<type>& r) { row(r); }  \
+  FABA_VECTORISED void do_row(const DataRow<type>& r) { row(r); }       \
   FABA_VECTORISED void do_row(const UpdateRow<type>& r) { row(r); }     \
   FABA_VECTORISED void do_row(const RightSideRow<type>& r) { row(r); }  \
   FABA_VECTORISED void do_row(const ResidualRow<type>& r) { row(r); }   \
@@ -220,28 +244,37 @@ void differentiate(Plane<T>& a, Plane<T>& b, FlowDerivatives<T>& out, Pool& pool
 
 template <class T>
 void FlowSystem<T>::resize(int width, int height) {
-  for (Plane<T>* p : {&jxx, &jxy, &jyy, &fx, &fy, &mxx, &mxy, &myy, &cx, &cy}) p->resize(width, height);
+  for (Plane<T>* p : {&mxx, &mxy, &myy, &cx, &cy}) p->resize(width, height);
 }
 
 template <class T>
-void FlowSystem<T>::set_up(const FlowDerivatives<T>& d, const FlowPlanes<T>* around, Pool& pool) {
+void FlowSystem<T>::resize_data_term() {
+  for (Plane<T>* p : {&jxx, &jxy, &jyy, &fx, &fy}) p->resize(width(), height());
+}
+
+template <class T>
+void FlowSystem<T>::set_up(const FlowDerivatives<T>& d, const FlowPlanes<T>* around, bool data_term,
+                           Pool& pool) {
   resize(d.ix.width(), d.ix.height());
+  if (data_term) resize_data_term();
   const Plane<T> none(around ? 0 : width(), 1);
   for_rows(height(), pool, [&](int begin, int end) {
     for (int r = begin; r < end; ++r) {
-      do_row(SystemRow<T>{d.ix.row(r), d.iy.row(r), d.it.row(r), around ? around->u.row(r) : none.row(0),
-                          around ? around->v.row(r) : none.row(0), jxx.row(r), jxy.row(r), jyy.row(r),
-                          fx.row(r), fy.row(r), width()});
-      do_row(UpdateRow<T>{jxx.row(r), jxy.row(r), jyy.row(r), mxx.row(r), mxy.row(r), myy.row(r), lambda,
-                          width()});
+      const T *ix = d.ix.row(r), *iy = d.iy.row(r), *it = d.it.row(r);
+      const T *u = around ? around->u.row(r) : none.row(0), *v = around ? around->v.row(r) : none.row(0);
+      do_row(PublishedRow<T>{ix, iy, it, u, v, mxx.row(r), mxy.row(r), myy.row(r), cx.row(r), cy.row(r),
+                             lambda, width()});
+      if (data_term)
+        do_row(
+            DataRow<T>{ix, iy, it, u, v, jxx.row(r), jxy.row(r), jyy.row(r), fx.row(r), fy.row(r), width()});
     }
   });
-  set_up_right_side(pool);
 }
 
 template <class T>
 void FlowSystem<T>::set_up_coarser_than(const FlowSystem& fine, Pool& pool) {
   resize((fine.width() + 1) / 2, (fine.height() + 1) / 2);
+  resize_data_term();
   lambda = fine.lambda / 4;
   halve(fine.jxx, jxx, pool), halve(fine.jxy, jxy, pool), halve(fine.jyy, jyy, pool);
   for_rows(height(), pool, [&](int begin, int end) {

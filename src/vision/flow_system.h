@@ -33,21 +33,24 @@ void differentiate(Plane<T>& a, Plane<T>& b, FlowDerivatives<T>& out, Pool& pool
 template <class T>
 struct FlowSystem {
   T lambda = 0;            ///< weight of smoothness, grey levels^2
+  Plane<T> mxx, mxy, myy;  ///< M / 6, M = lambda (lambda + J)^-1
+  Plane<T> cx, cy;         ///< (lambda + J)^-1 f
   Plane<T> jxx, jxy, jyy;  ///< data term
   Plane<T> fx, fy;         ///< right side
-  Plane<T> mxx, mxy, myy;  ///< M / 12, M = lambda (lambda + J)^-1
-  Plane<T> cx, cy;         ///< (lambda + J)^-1 f
 
   int width() const { return cx.width(); }
   int height() const { return cx.height(); }
-  void resize(int width, int height);
-  /// Everything, for these derivatives. With `around` (a flow that the second frame was warped by) the
-  /// unknown stays the whole flow.
-  void set_up(const FlowDerivatives<T>& d, const FlowPlanes<T>* around, Pool& pool);
+  /// M and c for these derivatives; and J and f, which only coarser grids need, with `data_term`. With
+  /// `around` (a flow that the second frame was warped by) the unknown stays the whole flow.
+  void set_up(const FlowDerivatives<T>& d, const FlowPlanes<T>* around, bool data_term, Pool& pool);
   /// J of the next finer grid averaged, and M; lambda is a quarter, since pixels are twice as large.
   void set_up_coarser_than(const FlowSystem& fine, Pool& pool);
   /// c from f.
   void set_up_right_side(Pool& pool);
+
+ private:
+  void resize(int width, int height);
+  void resize_data_term();
 };
 
 /// f - A w averaged over two by two pixels, into the right side f of the next coarser grid.

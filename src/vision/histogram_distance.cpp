@@ -13,31 +13,34 @@
 namespace faba {
 namespace {
 
-// z^-m for normal z > 0 to about 1e-15 |m ln z|, by the series of atanh and of the exponential: a C library's
-// pow would take nine tenths of the time of the whole distance.
+typedef double Lanes __attribute__((vector_size(64), aligned(8), may_alias));
+typedef std::uint64_t Bits __attribute__((vector_size(64), aligned(8), may_alias));
+constexpr std::size_t kLanes = 8;
+
+// z^-m for normal z > 0, to about 5e-15 (1 + |m ln z|): by the series of atanh to s^17, 1e-16 of what is left
+// out, and of the exponential of a quarter to r^8, 3e-15. A C library's pow would take nine tenths of the
+// time of the whole distance. Whole blocks of lanes are read and written.
 FABA_VECTORISED void negative_power(const double* z, double m, double* out, std::size_t n) {
   constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to a whole number
-  FABA_ELEMENTWISE
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto bits = std::bit_cast<std::uint64_t>(z[i]);
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    const Bits bits = *reinterpret_cast<const Bits*>(z + i);
     // z = f 2^e with f in [sqrt(1/2), sqrt(2))
-    const std::uint64_t above = (bits - 0x3fe6a09e667f3bcdull) & 0xfff0000000000000ull;
-    const double f = std::bit_cast<double>(bits - above);
-    const double e = std::bit_cast<double>(((above >> 52) ^ 0x800) + 0x4338000000000000ull) - (kShift + 2048);
-    const double s = (f - 1) / (f + 1), q = s * s;
-    double sum = 1.0 / 21;
-    sum = sum * q + 1.0 / 19, sum = sum * q + 1.0 / 17, sum = sum * q + 1.0 / 15, sum = sum * q + 1.0 / 13;
-    sum = sum * q + 1.0 / 11, sum = sum * q + 1.0 / 9, sum = sum * q + 1.0 / 7, sum = sum * q + 1.0 / 5;
-    sum = sum * q + 1.0 / 3;
-    const double log2 = e + (s + s * q * sum) * 2.8853900817779268147;  // 2 / ln 2
-    const double x = -m * log2, whole = (x + kShift) - kShift, r = (x - whole) * 0.69314718055994530942;
-    double y = 1.0 / 6227020800;
-    y = y * r + 1.0 / 479001600, y = y * r + 1.0 / 39916800, y = y * r + 1.0 / 3628800;
-    y = y * r + 1.0 / 362880, y = y * r + 1.0 / 40320, y = y * r + 1.0 / 5040, y = y * r + 1.0 / 720;
-    y = y * r + 1.0 / 120, y = y * r + 1.0 / 24, y = y * r + 1.0 / 6, y = y * r + 0.5, y = y * r + 1;
-    y = y * r + 1;
-    const auto power = (std::bit_cast<std::uint64_t>(whole + (kShift + 1023)) & 0x7ff) << 52;
-    out[i] = y * std::bit_cast<double>(power);
+    const Bits above = (bits - 0x3fe6a09e667f3bcdull) & 0xfff0000000000000ull;
+    const Lanes f = reinterpret_cast<Lanes>(bits - above);
+    const Lanes e =
+        reinterpret_cast<Lanes>(((above >> 52) ^ 0x800) + 0x4338000000000000ull) - (kShift + 2048);
+    const Lanes s = (f - 1) / (f + 1), q = s * s;
+    Lanes sum = q * (1.0 / 17) + 1.0 / 15;
+    sum = sum * q + 1.0 / 13, sum = sum * q + 1.0 / 11, sum = sum * q + 1.0 / 9, sum = sum * q + 1.0 / 7;
+    sum = sum * q + 1.0 / 5, sum = sum * q + 1.0 / 3;
+    const Lanes log2 = e + (s + s * q * sum) * 2.8853900817779268147;  // 2 / ln 2
+    const Lanes x = log2 * -m, whole = (x + kShift) - kShift, r = (x - whole) * (0.69314718055994530942 / 4);
+    Lanes y = r * (1.0 / 40320) + 1.0 / 5040;
+    y = y * r + 1.0 / 720, y = y * r + 1.0 / 120, y = y * r + 1.0 / 24, y = y * r + 1.0 / 6;
+    y = y * r + 0.5, y = y * r + 1, y = y * r + 1;
+    y = y * y, y = y * y;
+    const Bits power = (reinterpret_cast<Bits>(whole + (kShift + 1023)) & 0x7ff) << 52;
+    *reinterpret_cast<Lanes*>(out + i) = y * reinterpret_cast<Lanes>(power);
   }
 }
 
@@ -46,7 +49,6 @@ FABA_VECTORISED void negative_power(const double* z, double m, double* out, std:
 constexpr std::size_t kBlock = 32;
 FABA_VECTORISED void add_taps(const double* in, double* out, std::size_t n, const double* taps,
                               std::size_t count) {
-  typedef double Lanes __attribute__((vector_size(64), aligned(8), may_alias));
   struct Four {
     Lanes a, b, c, d;
   };
@@ -73,6 +75,26 @@ FABA_VECTORISED double product(const double* a, const double* b, std::size_t n) 
   double sum = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
   for (; i < n; ++i) sum += a[i] * b[i];
   return sum;
+}
+
+FABA_VECTORISED void add(const double* a, const double* b, double* out, std::size_t n) {
+  FABA_ELEMENTWISE
+  for (std::size_t i = 0; i < n; ++i) out[i] = a[i] + b[i];
+}
+/// p - q where there is some weight. 0/0 = 0: where the weight vanishes so does P - Q. Numbers too small for
+/// the series of negative_power count as nothing.
+FABA_VECTORISED void differences(const double* p, const double* q, double* weight, double* out,
+                                 std::size_t n) {
+  FABA_ELEMENTWISE
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool some = weight[i] >= 1e-300;
+    out[i] = some ? p[i] - q[i] : 0;
+    weight[i] = some ? weight[i] : 1;
+  }
+}
+FABA_VECTORISED void multiply(double* a, const double* b, std::size_t n) {
+  FABA_ELEMENTWISE
+  for (std::size_t i = 0; i < n; ++i) a[i] *= b[i];
 }
 
 FABA_VECTORISED bool all_bins(const double* h, std::size_t n) {
@@ -141,21 +163,19 @@ double HistogramDistance::operator()(std::span<const double> p, std::span<const 
       for (std::size_t i = 0; i < n; ++i)
         if (!(h[i] >= 0 && std::isfinite(h[i])))
           throw Error(Errc::input, "histogram", fmt::format("bin {} is {}; bins are 0 or more", i + 1, h[i]));
-  // Around the bins zeros, as far as a similarity can reach.
+  // Around the bins zeros, as far as a similarity can reach; kept from call to call.
   const std::size_t margin = similarity_.reach(n);
-  sum_.assign(n + 2 * margin + kBlock, 0.0), d_.assign(n + 2 * margin + kBlock, 0.0);
-  weight_.resize(n + kBlock);
-  double *sum = &sum_[margin], *d = &d_[margin], *weight = weight_.data();
-  for (std::size_t i = 0; i < n; ++i) sum[i] = p[i] + q[i];
-  similarity_.apply(sum, weight, n);
-  // 0/0 = 0: where the weight vanishes so does P - Q. Numbers too small for the series count as nothing.
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool some = weight[i] >= 1e-300;
-    d[i] = some ? p[i] - q[i] : 0;
-    weight[i] = some ? weight[i] : 1;
+  if (n != bins_) {
+    bins_ = n;
+    sum_.assign(n + 2 * margin + kBlock, 0.0), d_.assign(n + 2 * margin + kBlock, 0.0);
+    weight_.assign(n + kBlock, 1.0);
   }
+  double *sum = &sum_[margin], *d = &d_[margin], *weight = weight_.data();
+  add(p.data(), q.data(), sum, n);
+  similarity_.apply(sum, weight, n);
+  differences(p.data(), q.data(), weight, d, n);
   negative_power(weight, m_, weight, n);
-  for (std::size_t i = 0; i < n; ++i) d[i] *= weight[i];
+  multiply(d, weight, n);
   similarity_.apply(d, weight, n);
   const double square = product(d, weight, n);
   return std::sqrt(square > 0 ? square : 0);  // below 0 only by rounding, for a positive definite A

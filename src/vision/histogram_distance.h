@@ -44,6 +44,7 @@ class HistogramDistance {
  private:
   BinSimilarity similarity_;
   double m_;
+  std::size_t bins_ = 0;  ///< of the last pair, for which the memory below is made
   std::vector<double> sum_, weight_, d_;
 };
 

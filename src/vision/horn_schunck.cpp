@@ -99,7 +99,7 @@ void HornSchunck<T>::solve(Plane<T>& a, Plane<T>& b, bool warped) {
   differentiate(a, b, derivatives_, pool_);
   if (warped) forget_unknown(derivatives_);
   system_.lambda = T(p_.alpha2);
-  system_.set_up(derivatives_, warped ? &w_ : nullptr, pool_);
+  system_.set_up(derivatives_, warped ? &w_ : nullptr, p_.solver == FlowSolver::multigrid, pool_);
   spare_.resize(a.width(), a.height());
   const auto within = [&](T change) { return p_.tolerance > 0 && double(change) < p_.tolerance; };
   converged_ = false;
