@@ -29,9 +29,10 @@ bench: build          ## measure speed beside NumPy, Octave and the machine's li
 	@/usr/bin/python3 bench/video.py
 
 accuracy: build       ## render studies with known truth and see whether it is found; SEEDS=20 takes an hour
-	@$(SETUP) bench
+	@$(SETUP) test bench
 	@cmake --build build -j $(JOBS) --target bench_exposure
-	@build/bench/bench_exposure scenes/exposure.toml $(or $(SEEDS),2)
+	@/usr/bin/python3 bench/tracking.py
+	@/usr/bin/python3 bench/exposure.py --seeds $(or $(SEEDS),2)
 
 format:               ## clang-format every source
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <cmath>
+#include <string>
+
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
@@ -28,6 +31,12 @@ ActivityJob job_of(const ActivityVerb& v) {
   return job;
 }
 
+std::string line_words(const nlohmann::ordered_json& line) {
+  const auto slope = line["slope"].get<double>();
+  return fmt::format("{:.4g} {} {:.4g} x exposure", line["intercept"].get<double>(), slope < 0 ? '-' : '+',
+                     std::fabs(slope));
+}
+
 void summary(const nlohmann::ordered_json& j) {
   for (const auto& a : j["videos"]) {
     fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {:.0f} degrees{}\n",
@@ -36,6 +45,9 @@ void summary(const nlohmann::ordered_json& j) {
                a["signal_to_noise"].is_null()
                    ? ""
                    : fmt::format(", signal to noise {:.3g}", a["signal_to_noise"].get<double>()));
+    if (!a["mean_activity_per_cell"].is_null())
+      fmt::print("  {:.3g} per visible cell, of which there are {:.3g}\n",
+                 a["mean_activity_per_cell"].get<double>(), a["visible_cells"].get<double>());
     if (a["gaussian"]["good"].get<bool>())
       fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a["gaussian"]["peak_s"].get<double>(),
                  a["gaussian"]["se_peak_s"].get<double>(), a["gaussian"]["sigma_s"].get<double>());
@@ -47,11 +59,15 @@ void summary(const nlohmann::ordered_json& j) {
     if (a["segments"].empty()) fmt::print("  nothing moves in one direction\n");
   }
   for (const auto& [name, words] :
-       {std::pair{"peak_line", "time of the maximum"}, std::pair{"mean_line", "mean activity"}})
-    if (!j[name].is_null())
-      fmt::print("{} = {:.4g} + {:.4g} x exposure; 95 % of the slope {:.4g} to {:.4g}\n", words,
-                 j[name]["intercept"].get<double>(), j[name]["slope"].get<double>(),
+       {std::pair{"peak_line", "time of the maximum"}, std::pair{"mean_line", "mean activity"},
+        std::pair{"per_cell_line", "mean activity per visible cell"}})
+    if (!j[name].is_null()) {
+      fmt::print("{} = {}; 95 % of the slope {:.4g} to {:.4g}\n", words, line_words(j[name]),
                  j[name]["ci95"][0].get<double>(), j[name]["ci95"][1].get<double>());
+      if (j[name].contains("frames"))
+        fmt::print("  in frames, at {:.3g} per second: {}\n", j[name]["frames"]["rate_hz"].get<double>(),
+                   line_words(j[name]["frames"]));
+    }
   if (!j["cutoff_s"].is_null())
     fmt::print("no response beyond {:.4g} s in air\n", j["cutoff_s"].get<double>());
 }

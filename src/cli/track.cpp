@@ -23,7 +23,7 @@ TrackOptions options_of(const TrackVerb& v) {
   TrackOptions o;
   o.video = v.video, o.fps = v.fps, o.out = v.out;
   if (!v.scale.empty()) o.um_per_px = parse_calibration(v.scale, "--um-per-px").um_per_px;
-  o.overlay = v.overlay, o.report = v.report, o.picture = v.picture, o.figures = v.figures;
+  o.swarm = v.swarm, o.overlay = v.overlay, o.report = v.report, o.picture = v.picture, o.figures = v.figures;
   o.size_px = v.size_px, o.threshold_sd = v.threshold, o.inside_drop = v.drop, o.interval_frames = v.interval;
   o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
   o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
@@ -40,6 +40,7 @@ void check_outputs(const TrackVerb& v) {
   }
   if (!v.overlay.empty() && v.overlay.extension() != ".mp4" && v.overlay.extension() != ".avi")
     throw Error(Errc::usage, v.overlay.string(), "must end in .mp4 or .avi, which is what is written");
+  check_output(v.swarm, ".csv", v.force, {v.video});
   check_output(v.overlay, "", v.force, {v.video});
   check_output(v.report, ".html", v.force, {v.video});
   check_output(v.picture, ".png", v.force, {v.video});
@@ -105,7 +106,7 @@ int track(const TrackVerb& v, const Common& c) {
   if (c.quiet) return 0;
   print_summary(j);
   for (const auto& path : v.out) fmt::print("written  {}\n", path.string());
-  for (const auto* path : {&v.overlay, &v.report, &v.picture, &v.figures})
+  for (const auto* path : {&v.swarm, &v.overlay, &v.report, &v.picture, &v.figures})
     if (!path->empty()) fmt::print("written  {}\n", path->string());
   return 0;
 }

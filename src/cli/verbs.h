@@ -32,7 +32,7 @@ struct DropVerb {
   bool force = false;
 };
 struct TrackVerb {
-  std::filesystem::path video, overlay, report, picture, figures;
+  std::filesystem::path video, swarm, overlay, report, picture, figures;
   std::vector<std::filesystem::path> out;
   std::string scale;  ///< a number or a calibration file
   std::string polarity = "auto", background = "auto", motion = "auto";

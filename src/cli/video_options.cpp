@@ -167,6 +167,7 @@ void add_track(CLI::App& app, CommandLine& line) {
                 "Scale: micrometres per pixel, or a calibration file of `faba scale`")
       ->check(not_empty);
   v->add_option("--out", t->out, "Write the tracks, as CSV or HDF5 by the ending; may be given twice");
+  v->add_option("--swarm", t->swarm, "Write centroid and spread of the swarm in each frame, as CSV");
   v->add_option("--overlay", t->overlay, "Write the video with the tracks drawn in, as MP4 or AVI");
   v->add_option("--report", t->report, "Write a page with figures and numbers, as HTML");
   v->add_option("--picture", t->picture, "Write the first frame with all tracks, as PNG");

@@ -7,13 +7,15 @@
 
 #include "app/parts.h"
 #include "core/toml.h"
+#include "study/swarm_view.h"
 
 namespace faba {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr int kBlocks = 6;          // of a video, whose flow across the direction is taken for independent
-constexpr double kResponds = 4;     // standard errors
+constexpr int kBlocks = 6;       // of a video, whose flow across the direction is taken for independent
+constexpr double kResponds = 4;  // standard errors
+constexpr double kSameRate = 0.01;
 constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
 
 void check_stop(const ActivityJob& job, const ActivityInput& v) {
@@ -94,6 +96,12 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
     a.mean_amount += a.amount.back(), a.mean_along += a.along.back();
   }
   a.mean_amount /= double(a.t_s.size()), a.mean_along /= double(a.t_s.size());
+  std::vector<double> gaps;
+  for (std::size_t k = 0; k < a.signature.size(); ++k)
+    gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
+  std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
+  a.frame_s = gaps[gaps.size() / 2];
+  a.visible_cells = visible_cells(a.input.file, [&] { return !job.stop(); });
   a.fit = fit_gaussian(a.t_s, a.amount);
   mark_points(a);
   if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
@@ -110,12 +118,14 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
 }
 
 void conclude(ActivityResult& r) {
-  std::vector<ExposureValue> peaks, means;
+  std::vector<ExposureValue> peaks, means, per_cell;
   std::vector<ExposureResponse> responses;
   for (const VideoActivity& a : r.videos) {
     if (!a.input.exposure_s) continue;
     responses.push_back({*a.input.exposure_s, a.responds});
     means.push_back({*a.input.exposure_s, a.mean_amount, a.input.experiment});
+    if (const auto value = activity_per_cell(a))
+      per_cell.push_back({*a.input.exposure_s, *value, a.input.experiment});
   }
   r.cutoff = response_cutoff(responses);
   // A peak of a sample that no longer responds is one of noise.
@@ -124,6 +134,11 @@ void conclude(ActivityResult& r) {
       peaks.push_back({*a.input.exposure_s, a.fit.peak_s, a.input.experiment});
   r.peak_line = mixed_line(peaks), r.peak_line_pooled = pooled_line(peaks);
   r.mean_line = mixed_line(means), r.mean_line_pooled = pooled_line(means);
+  r.per_cell_line = mixed_line(per_cell), r.per_cell_line_pooled = pooled_line(per_cell);
+  const double frame_s = r.videos.front().frame_s;
+  if (std::all_of(r.videos.begin(), r.videos.end(),
+                  [&](const VideoActivity& a) { return std::fabs(a.frame_s / frame_s - 1) < kSameRate; }))
+    r.frame_s = frame_s;
 }
 
 struct StudyVideo {
@@ -161,6 +176,11 @@ struct Study {
 };
 
 }  // namespace
+
+std::optional<double> activity_per_cell(const VideoActivity& a) {
+  if (!a.visible_cells || !(*a.visible_cells > 0)) return {};
+  return a.mean_amount / *a.visible_cells;
+}
 
 bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
 

@@ -45,7 +45,9 @@ struct VideoActivity {
   std::vector<double> t_s, amount,
       along;  ///< per pair: amount() and along() of the signature in that direction
   double mean_amount = 0, mean_along = 0;
-  GaussianFit fit;  ///< of `amount`
+  double frame_s = 0;                   ///< median time between the frames of a pair
+  std::optional<double> visible_cells;  ///< in the mean; empty for a file of flows
+  GaussianFit fit;                      ///< of `amount`
   std::optional<double> onset_s, maximum_s,
       leaving_s;  ///< points (1), (2), (3) of the thesis's Fig. 4.9; with a good fit
   /// Mean flow along the direction over the error that the flow across it has; only of a direction that was
@@ -64,12 +66,17 @@ struct VideoActivity {
 /// A good peak that at least doubles what there is: cells that respond to nothing crowd together by chance,
 /// too.
 bool has_peak(const VideoActivity& video);
+/// Mean activity over the number of cells in view; drops differ in how many they hold. Empty where that is
+/// not known, or none is seen.
+std::optional<double> activity_per_cell(const VideoActivity& video);
 
 /// Everything about one or several videos.
 struct ActivityResult {
   std::vector<VideoActivity> videos;
   std::optional<ExposureLine> peak_line, peak_line_pooled;  ///< time of the maximum against exposure, s
   std::optional<ExposureLine> mean_line, mean_line_pooled;  ///< mean activity against exposure
+  std::optional<ExposureLine> per_cell_line, per_cell_line_pooled;  ///< mean activity per visible cell
+  std::optional<double> frame_s;                                    ///< of all videos, when it is the same
   std::optional<Cutoff> cutoff;
 };
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "study/activity_report.h"
 #include "study/flow_histograms.h"
@@ -64,14 +65,33 @@ Figure signature_figure(const VideoActivity& a) {
   return f;
 }
 
-Figure line_figure(const ActivityResult& r, bool of_peaks) {
+// Something of each video that is drawn against its exposure; empty where the video has none.
+struct AgainstExposure {
+  std::string heading, label;
+  const std::optional<ExposureLine>& line;
+  std::function<std::optional<double>(const VideoActivity&)> value;
+};
+
+std::vector<AgainstExposure> against_exposure(const ActivityResult& r) {
+  return {{"Time of the maximum against exposure", "time of the maximum (s)", r.peak_line,
+           [&r](const VideoActivity& a) -> std::optional<double> {
+             if (!has_peak(a) || (r.cutoff && *a.input.exposure_s >= r.cutoff->cutoff_s)) return {};
+             return a.fit.peak_s;
+           }},
+          {"Mean activity against exposure", "mean activity (px × px² per pair)", r.mean_line,
+           [](const VideoActivity& a) { return std::optional(a.mean_amount); }},
+          {"Mean activity per visible cell against exposure", "mean activity per cell (px × px² per pair)",
+           r.per_cell_line, activity_per_cell}};
+}
+
+Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
   Figure f;
-  const auto& line = of_peaks ? r.peak_line : r.mean_line;
-  f.heading = of_peaks ? "Time of the maximum against exposure" : "Mean activity against exposure";
+  const auto& line = what.line;
+  f.heading = what.heading;
   Plot& p = f.plot;
   p.inlined = true;
   p.x.label = "time in air (s)";
-  p.y.label = of_peaks ? "time of the maximum (s)" : "mean activity (px × px² per pair)";
+  p.y.label = what.label;
   p.width = 620, p.height = 300;
   double longest = 0;
   std::vector<std::string> experiments;
@@ -86,25 +106,20 @@ Figure line_figure(const ActivityResult& r, bool of_peaks) {
     dots.label = name.empty() ? "" : "experiment " + name;
     for (const VideoActivity& a : r.videos) {
       if (!a.input.exposure_s || a.input.experiment != name) continue;
-      if (of_peaks && !(has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))) continue;
-      dots.x.push_back(*a.input.exposure_s), dots.y.push_back(of_peaks ? a.fit.peak_s : a.mean_amount);
+      if (const auto value = what.value(a)) dots.x.push_back(*a.input.exposure_s), dots.y.push_back(*value);
     }
     p.add(std::move(dots));
   }
   if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "no response beyond"});
-  if (line) {
-    p.add(Line{.x = {0, longest},
-               .y = {line->intercept, line->intercept + line->slope * longest},
-               .label = "line, a shift for each experiment",
-               .ink = Ink::text});
-    f.caption = fmt::format(
-        "Slope {:.4g}, 95 % from {:.4g} to {:.4g}; intercept {:.4g} ({:.4g} to {:.4g}); {} videos in {} "
-        "experiments.",
-        line->slope, line->slope_ci95[0], line->slope_ci95[1], line->intercept, line->intercept_ci95[0],
-        line->intercept_ci95[1], line->values, line->experiments);
-  } else {
-    f.caption = "Too few videos for a line.";
-  }
+  p.add(Line{.x = {0, longest},
+             .y = {line->intercept, line->intercept + line->slope * longest},
+             .label = "line, a shift for each experiment",
+             .ink = Ink::text});
+  f.caption = fmt::format(
+      "Slope {:.4g}, 95 % from {:.4g} to {:.4g}; intercept {:.4g} ({:.4g} to {:.4g}); {} videos in {} "
+      "experiments.",
+      line->slope, line->slope_ci95[0], line->slope_ci95[1], line->intercept, line->intercept_ci95[0],
+      line->intercept_ci95[1], line->values, line->experiments);
   return f;
 }
 
@@ -117,13 +132,14 @@ std::string row(const std::vector<std::string>& cells, const char* tag) {
 
 std::string table(const ActivityResult& r) {
   std::string out = "<h2>Numbers</h2>\n<table class=\"numbers\">\n";
-  out += row({"video", "direction", "threshold (px)", "mean activity", "signal to noise", "maximum (s)",
-              "width (s)"},
+  out += row({"video", "direction", "threshold (px)", "mean activity", "per visible cell", "signal to noise",
+              "maximum (s)", "width (s)"},
              "th");
   for (const VideoActivity& a : r.videos)
     out += row(
         {title_of(a), fmt::format("{:.0f}°", a.direction_deg), three_digits(a.threshold_px),
-         three_digits(a.mean_amount), a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
+         three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
+         a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
          a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.peak_s), three_digits(a.fit.se_peak_s)) : "–",
          a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.sigma_s), three_digits(a.fit.se_sigma_s))
                     : "–"},
@@ -159,7 +175,9 @@ std::vector<Figure> activity_figures(const ActivityResult& r) {
   std::vector<Figure> figures;
   bool exposures = false;
   for (const VideoActivity& a : r.videos) exposures = exposures || a.input.exposure_s;
-  if (exposures) figures.push_back(line_figure(r, true)), figures.push_back(line_figure(r, false));
+  if (exposures)
+    for (const AgainstExposure& what : against_exposure(r))
+      if (what.line) figures.push_back(line_figure(r, what));
   for (std::size_t i = 0; i < std::min(r.videos.size(), kMostSignatures); ++i)
     figures.push_back(signature_figure(r.videos[i]));
   return figures;

@@ -42,6 +42,9 @@ Json video_json(const VideoActivity& a) {
     j["segments"].push_back({{"t0_s", s.t0_s}, {"t1_s", s.t1_s}, {"direction_deg", s.direction_deg}});
   j["mean_activity"] = a.mean_amount;
   j["mean_along"] = a.mean_along;
+  j["visible_cells"] = or_null(a.visible_cells);
+  j["mean_activity_per_cell"] = or_null(activity_per_cell(a));
+  j["frame_s"] = a.frame_s;
   j["signal_to_noise"] = or_null(a.signal_to_noise);
   j["responds"] = a.responds;
   j["gaussian"] = gaussian_json(a.fit);
@@ -72,7 +75,13 @@ Json activity_json(const ActivityResult& r) {
     return one;
   };
   j["peak_line"] = with_pooled(r.peak_line, r.peak_line_pooled);
+  // As the thesis has it, in frames: the time of the maximum over the time of a frame.
+  if (r.peak_line && r.frame_s)
+    j["peak_line"]["frames"] = {{"rate_hz", 1 / *r.frame_s},
+                                {"slope", r.peak_line->slope / *r.frame_s},
+                                {"intercept", r.peak_line->intercept / *r.frame_s}};
   j["mean_line"] = with_pooled(r.mean_line, r.mean_line_pooled);
+  j["per_cell_line"] = with_pooled(r.per_cell_line, r.per_cell_line_pooled);
   j["cutoff_s"] = r.cutoff ? Json(r.cutoff->cutoff_s) : Json();
   j["cutoff_between_s"] = r.cutoff ? Json(r.cutoff->between_s) : Json();
   return j;

@@ -95,7 +95,16 @@ std::string table(const Comparison& c) {
   };
   for (const ComparedRun& r : c.runs) line(name_of(r.file), r.distance, score_of(c, r.distance.mean));
   line("nothing moves", c.naive, Json());
-  return out + "</tbody></table>\n";
+  out += "</tbody></table>\n<p>Mean, s.d. and slope are those of the distance from frame to frame.";
+  if (std::any_of(c.runs.begin(), c.runs.end(),
+                  [&](const ComparedRun& r) { return !score_of(c, r.distance.mean).is_null(); }))
+    out +=
+        " The score puts the mean on a scale of its own: 0 is the distance of two runs of the same scenario "
+        "with "
+        "different seeds, which no model can do better than, 1 that of a video in which nothing moves; a run "
+        "of "
+        "1 or more says no more than no model at all.";
+  return out + " Legacy is the thesis's sum, for comparison with its figures.</p>\n";
 }
 
 }  // namespace

@@ -76,6 +76,35 @@ std::array<double, 2> interval(double middle, double se, double freedom) {
   return {middle - t * se, middle + t * se};
 }
 
+// Covariance of the coefficients when the scatter is not the same everywhere: MacKinnon and White's HC3, from
+// the residuals of the whitened values (those of an experiment less their common part), each over one minus
+// its leverage. White noise about its own line would get the same on average.
+Eigen::Matrix2d uneven_covariance(std::span<const ExposureValue> values, Centre c, const Trial& t,
+                                  double ratio) {
+  struct Sum {
+    double n = 0, residual = 0;
+    Eigen::Vector2d row = Eigen::Vector2d::Zero();
+  };
+  const auto row_of = [&](const ExposureValue& v) { return Eigen::Vector2d(1, v.exposure_s - c.x); };
+  const auto residual_of = [&](const ExposureValue& v) { return v.value - c.y - row_of(v).dot(t.beta); };
+  std::map<std::string, Sum> sums;
+  for (const ExposureValue& v : values) {
+    Sum& s = sums[v.experiment];
+    s.n += 1, s.residual += residual_of(v), s.row += row_of(v);
+  }
+  const Eigen::Matrix2d inverse = t.information.inverse();
+  Eigen::Matrix2d meat = Eigen::Matrix2d::Zero();
+  for (const ExposureValue& v : values) {
+    const Sum& s = sums[v.experiment];
+    const double share = (1 - 1 / std::sqrt(1 + s.n * ratio)) / s.n;
+    const Eigen::Vector2d row = row_of(v) - share * s.row;
+    const double leverage = std::min(row.dot(inverse * row), 0.99);
+    const double residual = (residual_of(v) - share * s.residual) / (1 - leverage);
+    meat += row * row.transpose() * (residual * residual);
+  }
+  return inverse * meat * inverse;
+}
+
 }  // namespace
 
 std::optional<ExposureLine> pooled_line(std::span<const ExposureValue> values) {
@@ -111,15 +140,21 @@ std::optional<ExposureLine> mixed_line(std::span<const ExposureValue> values) {
   if (solve(groups, 0, n).criterion <= solve(groups, ratio, n).criterion) ratio = 0;
 
   const Trial t = solve(groups, ratio, n);
-  const Eigen::Matrix2d covariance = t.information.inverse() * t.variance;
+  const Eigen::Matrix2d even = t.information.inverse() * t.variance;
+  const Eigen::Matrix2d uneven = uneven_covariance(values, c, t, ratio);
   const bool differ = ratio > 1e-4;
   const double slope_freedom = differ ? n - line->experiments - 1 : n - 2;
   const double intercept_freedom = differ ? line->experiments - 1 : n - 2;
   line->slope = t.beta[1];
   line->intercept = c.y + t.beta[0] - t.beta[1] * c.x;
-  line->slope_ci95 = interval(line->slope, std::sqrt(covariance(1, 1)), slope_freedom);
-  const double at_zero = covariance(0, 0) - 2 * c.x * covariance(0, 1) + c.x * c.x * covariance(1, 1);
-  line->intercept_ci95 = interval(line->intercept, std::sqrt(std::max(at_zero, 0.0)), intercept_freedom);
+  // The wider one: few values can look more even than they are.
+  const double of_slope = std::max(even(1, 1), uneven(1, 1));
+  const auto at_zero = [&](const Eigen::Matrix2d& m) {
+    return m(0, 0) - 2 * c.x * m(0, 1) + c.x * c.x * m(1, 1);
+  };
+  const double of_intercept = std::max({at_zero(even), at_zero(uneven), 0.0});
+  line->slope_ci95 = interval(line->slope, std::sqrt(of_slope), slope_freedom);
+  line->intercept_ci95 = interval(line->intercept, std::sqrt(of_intercept), intercept_freedom);
   line->scatter_sd = std::sqrt(t.variance);
   line->experiment_sd = std::sqrt(ratio * t.variance);
   return line;

@@ -26,10 +26,10 @@ struct ExposureLine {
 /// for independent. Empty with fewer than three values or one exposure only.
 std::optional<ExposureLine> pooled_line(std::span<const ExposureValue> values);
 
-/// Line with a shift of its own for every experiment (random intercepts, restricted maximum likelihood):
-/// theory A16. The slope has values - experiments - 1 degrees of freedom, the intercept experiments - 1
-/// (values - 2 where the experiments do not differ). With one experiment it is the pooled line. Empty with
-/// fewer values than that takes.
+/// Line with a shift of its own for every experiment (random intercepts, restricted maximum likelihood), with
+/// intervals that hold where late values scatter more than early ones, too: theory A16. The slope has values
+/// - experiments - 1 degrees of freedom, the intercept experiments - 1 (values - 2 where the experiments do
+/// not differ). With one experiment it is the pooled line. Empty with fewer values than that takes.
 std::optional<ExposureLine> mixed_line(std::span<const ExposureValue> values);
 
 /// Whether a sample responded.

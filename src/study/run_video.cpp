@@ -1,19 +1,34 @@
 #include "study/run_video.h"
 
+#include <array>
+
 #include "app/session.h"
 #include "study/run_info.h"
 
 namespace faba {
+namespace {
+
+constexpr std::array kVideos = {"video.avi", "video.mp4"};  // the first one without loss
+
+}  // namespace
 
 bool is_run(const std::filesystem::path& path) {
   std::error_code absent;
   return std::filesystem::exists(path / run_files::kManifest, absent);
 }
 
+bool has_camera_video(const std::filesystem::path& run) {
+  std::error_code absent;
+  for (const char* video : kVideos)
+    if (std::filesystem::exists(run / video, absent))
+      return read_run_info(run / run_files::kManifest).video_shows == "camera";
+  return false;
+}
+
 RunVideo run_video(const std::filesystem::path& path) {
   if (!is_run(path)) return {path, {}};
   const RunInfo info = read_run_info(path / run_files::kManifest);
-  for (const char* video : {"video.avi", "video.mp4"}) {
+  for (const char* video : kVideos) {
     if (!std::filesystem::exists(path / video)) continue;
     if (info.video_shows != "camera")
       throw Error(Errc::input, path.string(),

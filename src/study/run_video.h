@@ -12,6 +12,8 @@ struct RunVideo {
 
 /// Whether `path` is a run directory: a folder with a manifest.
 bool is_run(const std::filesystem::path& path);
+/// Whether a run holds a video as a camera sees it.
+bool has_camera_video(const std::filesystem::path& run);
 
 /// The exact video of a run directory, or else the one for browsers; any other path stands for itself. Throws
 /// Error(input, path) for a run whose video is a drawing, or that has none.

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "study/run_video.h"
+#include "study/swarm_output.h"
 #include "study/track_figures.h"
 #include "study/track_json.h"
 #include "study/track_output.h"
@@ -95,6 +96,8 @@ class Pass {
     VideoReader reader(source_.file, options_.fps);
     Detector detector(survey_.background, detector_options(options_, survey_, drop_));
     threshold = detector.threshold_sd();
+    if (!options_.swarm.empty())
+      swarm_ = std::make_unique<SwarmOutput>(options_.swarm, survey_, reader.bits());
     GrayF frame;
     double t_s = 0, last = -1;
     for (std::uint64_t index = 0; reader.read(frame, t_s); ++index) {
@@ -111,6 +114,7 @@ class Pass {
         ++repeated_times;
       }
       if (overlay_) overlay_->write(frame, index, tracker_);
+      if (swarm_) swarm_->write(index, t_s, frame);
       hand_out();
       tick(std::int64_t(index) + 1);
     }
@@ -120,6 +124,7 @@ class Pass {
   void complete() {
     for (const auto& out : outputs_) out->complete();
     if (overlay_) overlay_->complete();
+    if (swarm_) swarm_->complete();
   }
 
   TrackSummary summary() { return statistics_.summary(); }
@@ -156,6 +161,7 @@ class Pass {
   std::optional<DropMask> drop_;
   std::vector<std::unique_ptr<TrackOutput>> outputs_;
   std::unique_ptr<Overlay> overlay_;
+  std::unique_ptr<SwarmOutput> swarm_;
   std::vector<TrackLine> drawn_;
   std::size_t drawn_points_ = 0;
 };

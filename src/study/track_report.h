@@ -26,6 +26,7 @@ struct TrackOptions {
   double fps = 0;               ///< > 0: in place of what the video states
   std::optional<double> um_per_px;
   std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
+  std::filesystem::path swarm;             ///< table of the swarm's place and spread in each frame, .csv
   std::filesystem::path overlay;           ///< video with the tracks drawn in, .mp4 or .avi
   std::filesystem::path report;            ///< page with the figures, .html
   std::filesystem::path picture;           ///< all tracks on the first frame, .png

@@ -8,21 +8,25 @@
 
 #include "core/portable_math.h"
 #include "vision/line_closing.h"
+#include "vision/patches.h"
 #include "vision/smoothing.h"
 
 namespace faba {
 namespace {
 
 constexpr double kFwhmToSd = 1 / 2.354820045;
-constexpr double kFollow_s = 2;   // in which uncovered background follows the picture
+constexpr double kFollow_s = 2;  // in which uncovered background follows the picture
+constexpr float kStillAfterChange_s = 1, kStillFromStart_s = 10;
 constexpr double kUncover = 0.6;  // share by which background that proves too dark (or bright) is corrected
 constexpr double kCurvatureSd =
     3.5;  // of the noise of a curvature, from which on a spot is one: a false one is harmless
 constexpr float kSpotShape =
     0.15F;  // smaller over larger curvature of a spot; a rod twice as long as wide has 0.25
-constexpr double kCellsPerLine = 9;    // length of the pieces that fill cells and leave lines, in cells
-constexpr float kOfLine = 0.3F;        // of a line's depth, below which a darker place on it is no cell
-constexpr double kFirstSd = 4;         // of the smoothed noise, from which on the first picture shows a cell
+constexpr double kCellsPerLine = 9;  // length of the pieces that fill cells and leave lines, in cells
+constexpr float kOfLine = 0.3F;      // of a line's depth, below which a darker place on it is no cell
+constexpr double kTail = 0.7;   // of a cell's width, that it reaches beyond where it is above the threshold
+constexpr double kFew = 4.5;    // cells in a patch, of which a whole number is taken
+constexpr double kFirstSd = 4;  // of the smoothed noise, from which on the first picture shows a cell
 constexpr double kLeastThreshold = 1;  // grey: rounding does not look like noise when the light changes
 constexpr double kCellMemory = 0.05;   // share of a new picture in what a cell is thought to weigh
 
@@ -125,8 +129,10 @@ void Foreground::begin(const GrayF& picture, double noise) {
   }
   dilate(covered_, work_, picture.width, picture.height, std::max(1, int(std::ceil(0.7 * options_.cell_px))));
   background_ = picture;
+  guess_.assign(picture.px.size(), seen);
+  still_grey_.assign(picture.px.size(), 0), still_s_.assign(picture.px.size(), 0);
   for (std::size_t i = 0; i < closed.px.size(); ++i)
-    if (covered_[i]) background_.px[i] = float(-sign_) * (closed.px[i] - lift);
+    if (covered_[i]) background_.px[i] = float(-sign_) * (closed.px[i] - lift), guess_[i] = guessed;
 }
 
 // By the curvatures of spots: what is bent alike in all directions.
@@ -153,15 +159,34 @@ double Foreground::smoothing_gain() const {
   return square;
 }
 
+void Foreground::know(const Background& background) {
+  constexpr double kOfMedian = 1.5707963268;  // variance of a median over that of a mean
+  background_ = background.level;
+  own_noise_ = kOfMedian / std::max(1, background.frames);
+  covered_.assign(background_.px.size(), 0);
+  known_ = true;
+}
+
 void Foreground::take(const Gray8& picture, double dt_s) {
-  const double noise = picture_noise(picture);
-  GrayF& grey = picture_;
-  grey.width = picture.width, grey.height = picture.height;
-  grey.px.resize(picture.px.size());
-  for (std::size_t i = 0; i < grey.px.size(); ++i) grey.px[i] = float(picture.px[i]);
-  const bool anew =
-      background_.width != picture.width || background_.height != picture.height || !options_.learn;
+  picture_.width = picture.width, picture_.height = picture.height;
+  picture_.px.resize(picture.px.size());
+  for (std::size_t i = 0; i < picture.px.size(); ++i) picture_.px[i] = float(picture.px[i]);
+  look(picture_noise(picture), dt_s);
+}
+
+void Foreground::take(const GrayF& picture, double noise, double dt_s) {
+  picture_ = picture;
+  look(noise, dt_s);
+}
+
+void Foreground::look(double noise, double dt_s) {
+  const GrayF& grey = picture_;
+  const bool resized = background_.width != grey.width || background_.height != grey.height;
+  if (resized) known_ = false;
+  const bool anew = !known_ && (resized || !options_.learn);
+  const bool learns = options_.learn && !anew && !known_;
   if (anew) begin(grey, noise);
+  if (sign_ == 0) sign_ = told_polarity(smoothed(grey, std::max(sd_px_, 0.8)), std::max(sd_px_, 0.8), noise);
   weights_.width = grey.width, weights_.height = grey.height;
   weights_.px.resize(grey.px.size());
   const auto sign = float(sign_);
@@ -174,10 +199,36 @@ void Foreground::take(const Gray8& picture, double dt_s) {
   find_covered(noise * std::sqrt(1 + (anew ? 0 : own_noise_)));
   if (anew) own_noise_ = 1;
   if (sign_ < 0) take_logarithms(grey, gain, noise);
-  if (options_.learn && !anew) learn(grey, common, dt_s, noise);
+  if (learns) learn(grey, common, dt_s, noise);
   ++frames_;
   for (std::size_t i = 0; i < weights_.px.size(); ++i)
     if (!covered_[i]) weights_.px[i] = 0;
+  count_cells();
+}
+
+void Foreground::count_cells() {
+  std::vector<double> signal(std::size_t(label_patches(covered_, weights_.width, weights_.height, patch_)) +
+                             1);
+  for (std::size_t i = 0; i < covered_.size(); ++i)
+    if (covered_[i]) signal[std::size_t(patch_[i])] += double(weights_.px[i]);
+  if (cell_guess_ == 0) cell_guess_ = cell_signal_;
+  if (cell_guess_ == 0) return;
+  std::vector<double> of_one;
+  for (const double s : signal)
+    if (const double n = s / cell_guess_; n > 0.5 && n < 2.5) of_one.push_back(s / std::round(n));
+  double now = cell_guess_;  // in a crowd that is one patch
+  if (of_one.size() >= 5) {
+    const auto middle = of_one.begin() + std::ptrdiff_t(of_one.size() / 2);
+    std::nth_element(of_one.begin(), middle, of_one.end());
+    now = *middle;
+  }
+  cell_signal_ = cell_signal_ == 0 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
+  std::vector<float> factor(signal.size(), 1.0F);
+  for (std::size_t k = 0; k < signal.size(); ++k)
+    if (const double n = signal[k] / cell_signal_; n < kFew)
+      factor[k] = n > 0.5 ? float(std::round(n) / n) : 0.0F;
+  for (std::size_t i = 0; i < covered_.size(); ++i)
+    if (covered_[i]) weights_.px[i] *= factor[std::size_t(patch_[i])];
 }
 
 // Cells in transmitted light take away a share of it, and so do cells behind cells: the logarithm of the
@@ -201,14 +252,14 @@ void Foreground::find_covered(double noise) {
   smooth(weights_, std::max(sd_px_, 0.6), smooth_, scratch_);
   covered_.resize(smooth_.px.size());
   for (std::size_t i = 0; i < smooth_.px.size(); ++i) covered_[i] = smooth_.px[i] > threshold ? 1 : 0;
-  measure_cell(double(threshold));
+  cell_guess_ = guess_cell_signal(double(threshold));
   dilate(covered_, work_, weights_.width, weights_.height,
-         std::max(1, int(std::ceil(0.7 * options_.cell_px))));
+         std::max(1, int(std::lround(kTail * options_.cell_px))));
 }
 
 // A cell's signal from the lower quartile of the maxima of the smoothed difference: the others are several
-// cells, or in them.
-void Foreground::measure_cell(double threshold) {
+// cells, or in them. 0 with fewer than five.
+double Foreground::guess_cell_signal(double threshold) const {
   std::vector<float> peaks;
   const int w = smooth_.width;
   const auto least = float(threshold);
@@ -221,12 +272,26 @@ void Foreground::measure_cell(double threshold) {
         continue;
       peaks.push_back(v);
     }
-  if (peaks.size() < 5) return;
+  if (peaks.size() < 5) return 0;
   const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
   std::nth_element(peaks.begin(), quartile, peaks.end());
   const double s = std::max(sd_px_, 0.6);
-  const double signal = double(*quartile) * 2 * portable::kPi * (sd_px_ * sd_px_ + s * s);
-  cell_signal_ = cell_signal_ == 0 ? signal : cell_signal_ + kCellMemory * (signal - cell_signal_);
+  return double(*quartile) * 2 * portable::kPi * (sd_px_ * sd_px_ + s * s);
+}
+
+bool Foreground::proves_background(std::size_t i, float least_change, float dt_s) {
+  const float grey = smooth_.px[i];
+  const float change = std::fabs(grey - still_grey_[i]);
+  if (change > least_change) {
+    // The first picture is no change.
+    if (guess_[i] == guessed && (still_grey_[i] != 0)) guess_[i] = changed;
+    still_grey_[i] = grey, still_s_[i] = 0;
+    return false;
+  }
+  still_s_[i] += dt_s;
+  if (still_s_[i] < (guess_[i] == changed ? kStillAfterChange_s : kStillFromStart_s)) return false;
+  still_grey_[i] = grey;  // which the background is about to take off
+  return true;
 }
 
 void Foreground::learn(const GrayF& picture, double gain, double dt_s, double noise) {
@@ -237,12 +302,15 @@ void Foreground::learn(const GrayF& picture, double gain, double dt_s, double no
   const auto absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s));
   const auto uncovered = float(-4 * noise), back = float(1 / gain);
   const auto smooth_uncovered = -float(std::max(kLeastThreshold, 4 * noise * smoothing_gain()));
+  const float least_change = -1.4142135F * smooth_uncovered;  // of two pictures, each with its noise
   // The common brightness is followed too.
   const float next = 1 + follow * (float(gain) - 1);
   for (std::size_t i = 0; i < picture.px.size(); ++i) {
-    const float rate = weights_.px[i] < uncovered || smooth_.px[i] < smooth_uncovered ? float(kUncover)
-                       : covered_[i]                                                  ? absorb
-                                                                                      : follow;
+    float rate = follow;
+    if (weights_.px[i] < uncovered || smooth_.px[i] < smooth_uncovered)
+      rate = float(kUncover), guess_[i] = seen;
+    else if (covered_[i])
+      rate = guess_[i] != seen && proves_background(i, least_change, float(dt_s)) ? float(kUncover) : absorb;
     background_.px[i] = next * (background_.px[i] + rate * (back * picture.px[i] - background_.px[i]));
   }
 }
@@ -288,7 +356,7 @@ SwarmMoments Foreground::moments() const {
 
 void Foreground::archive(Archive& a) {
   a& sign_& cell_signal_& own_noise_& frames_& background_.width& background_.height& background_
-      .px& covered_;
+      .px& covered_& guess_& still_grey_& still_s_;
 }
 
 }  // namespace faba

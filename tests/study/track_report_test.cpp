@@ -67,12 +67,6 @@ TEST_CASE("mean speed of tracked swimmers within 5 %") {
     }
 }
 
-TEST_CASE("table of docs/guide/tracks.md" * doctest::skip()) {
-  for (const int n : {200, 600, 2000})
-    for (const double noise : {1.0, 4.0, 8.0})
-      std::printf("| %d | %g | %+.1f |\n", n, noise, 100 * (tracked_speed(n, noise) - 1));
-}
-
 TEST_CASE("tables, overlay, picture, page and figures are written, whole and alike") {
   const media::ScratchFolder folder;
   std::filesystem::create_directories(folder / "frames");
@@ -82,7 +76,7 @@ TEST_CASE("tables, overlay, picture, page and figures are written, whole and ali
   o.video = folder / "frames", o.fps = 10, o.um_per_px = 0.5;
   o.out = {folder / "t.csv", folder / "t.h5"};
   o.overlay = folder / "o.mp4", o.report = folder / "r.html", o.picture = folder / "p.png",
-  o.figures = folder / "fig";
+  o.figures = folder / "fig", o.swarm = folder / "s.csv";
   const auto j = track_video(o);
   CHECK(j["frames"] == 12);
   CHECK(j["duration_s"].get<double>() == doctest::Approx(1.1));
@@ -93,6 +87,9 @@ TEST_CASE("tables, overlay, picture, page and figures are written, whole and ali
   const Table t = read_table(folder / "t.csv");
   CHECK(t.names() == std::vector<std::string>{"track", "frame", "t_s", "x_px", "y_px", "mass", "snr"});
   CHECK(t.size() == j["points"].get<std::size_t>());
+  const Table swarm = read_table(folder / "s.csv");
+  CHECK(swarm.size() == 12);
+  CHECK(swarm.column("cells")[0] == doctest::Approx(60).epsilon(0.1));  // later some have left
   const H5File h = H5File::open(folder / "t.h5");
   CHECK(h.number_attribute("/", "um_per_px") == 0.5);
   CHECK(h.table("x_px").rows() == t.size());

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "rendered_cells.h"
 
@@ -67,14 +66,6 @@ TEST_CASE("a swarm at the edge of a drop") {
     }
 }
 
-TEST_CASE("table of docs/guide/tracks.md" * doctest::skip()) {
-  for (const int n : {200, 600, 2000})
-    for (const double noise : {1.0, 4.0, 8.0}) {
-      const Off off = swim_off(n, noise);
-      std::printf("| %d | %g | %.1f | %.2f | %.1f |\n", n, noise, off.first, off.centroid, 100 * off.spread);
-    }
-}
-
 TEST_CASE("a swarm that stands still is not absorbed in ten seconds") {
   const cells::Look l = edge_look(3);
   const std::vector<Vec2> swarm = cells::at_the_edge(l, 300, 60, 30, 8, 6);
@@ -88,6 +79,30 @@ TEST_CASE("a swarm that stands still is not absorbed in ten seconds") {
   // Cells that the first picture took for background are found out as noise uncovers them.
   CHECK(norm(f.moments().centroid_image - at) < 3);
   CHECK(norm(at - cells::spread(swarm).centroid) < 20);  // what the first picture is good for
+}
+
+TEST_CASE("where cells on the edge were at first, nothing is left of them once they are gone") {
+  const cells::Look l = edge_look(1);
+  std::vector<Vec2> swarm = cells::at_the_edge(l, 200, 120, 3, 0, 9);  // on the line itself
+  Foreground f;
+  for (int frame = 0; frame < 45; ++frame) {
+    if (frame > 5)
+      for (Vec2& p : swarm) p.x += 8;
+    f.take(cells::bytes(cells::picture(l, swarm, std::uint64_t(frame))), 1.0 / 15);
+  }
+  CHECK(norm(f.moments().centroid_image - cells::spread(swarm).centroid) < 2);
+}
+
+TEST_CASE("with the background of a whole video the first picture is as good as any, and cells are counted") {
+  const cells::Look l = edge_look(2);
+  Background b;
+  b.level = cells::picture(edge_look(0), {}, 0), b.noise_sd = GrayF(l.width, l.height), b.frames = 50;
+  const std::vector<Vec2> swarm = cells::at_the_edge(l, 200, 120, 30, 0, 8);
+  Foreground f({.polarity = Polarity::dark});
+  f.know(b);
+  f.take(cells::bytes(cells::picture(l, swarm, 1)), 0);
+  CHECK(norm(f.moments().centroid_image - cells::spread(swarm).centroid) < 2);
+  CHECK(f.moments().cells == doctest::Approx(200).epsilon(0.1));
 }
 
 TEST_CASE("an empty picture shows no swarm, however uneven, noisy or flickering") {

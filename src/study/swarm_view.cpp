@@ -1,0 +1,83 @@
+#include "study/swarm_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "study/run_video.h"
+#include "study/series.h"
+#include "vision/flow_file.h"
+#include "vision/video_reader.h"
+
+namespace faba {
+namespace {
+
+constexpr std::int64_t kFramesCounted = 50;
+
+ForegroundOptions options_of(const TrackSurvey& s) {
+  ForegroundOptions o;
+  o.cell_px = std::clamp(s.size_px, 1.0, 20.0);
+  o.polarity = s.polarity == Polarity::both ? Polarity::automatic : s.polarity;
+  o.learn = s.temporal;  // else each frame has a background of its own
+  return o;
+}
+
+void multiply(GrayF& frame, float by) {
+  for (float& v : frame.px) v *= by;
+}
+
+// As the simulation counted them.
+std::optional<double> counted_by_run(const std::filesystem::path& run) {
+  const Series series = read_series(run / "series.csv");
+  double sum = 0, n = 0;
+  for (const double count : series.find("visible_count"))
+    if (std::isfinite(count)) sum += count, n += 1;
+  return n > 0 ? std::optional(sum / n) : std::nullopt;
+}
+
+}  // namespace
+
+SwarmView::SwarmView(const TrackSurvey& survey, int bits) : foreground_(options_of(survey)) {
+  // Light is to stay in proportion, so that its share that is lost does.
+  if (bits > 8 && survey.white > 0) scale_ = 255 / survey.white;
+  std::vector<float> noise = survey.background.noise_sd.px;
+  noise_ = double(scale_ * robust_spread(noise).median);
+  if (!survey.temporal) return;
+  Background b = survey.background;
+  multiply(b.level, scale_);
+  foreground_.know(b);
+}
+
+SwarmMoments SwarmView::take(const GrayF& frame, double t_s) {
+  GrayF grey = frame;
+  if (scale_ != 1) multiply(grey, scale_);
+  foreground_.take(grey, noise_, t_s - last_s_);
+  last_s_ = t_s;
+  return foreground_.moments();
+}
+
+std::optional<double> visible_cells(const std::filesystem::path& path, const std::function<bool()>& go_on) {
+  if (is_run(path) && !has_camera_video(path)) return counted_by_run(path);
+  const std::filesystem::path video = run_video(path).file;
+  if (FlowFileReader::recognises(video)) return {};
+  const auto check = [&] {
+    if (!go_on()) throw Error(Errc::interrupted, path.string(), "stopped");
+  };
+  TrackOptions options;
+  options.video = video;
+  const TrackSurvey survey = survey_tracks(options, video, [&](auto, auto) { check(); });
+  VideoReader reader(video);
+  SwarmView view(survey, reader.bits());
+  const std::int64_t step = std::max<std::int64_t>(1, survey.frames / kFramesCounted);
+  GrayF frame;
+  double t_s = 0, cells = 0, n = 0;
+  for (std::int64_t index = 0; reader.read(frame, t_s); ++index) {
+    check();
+    if (index % step != 0) continue;
+    make_finite(frame);
+    cells += view.take(frame, t_s).cells, n += 1;
+  }
+  return cells / n;
+}
+
+}  // namespace faba
