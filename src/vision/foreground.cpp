@@ -28,7 +28,7 @@ constexpr double kTail = 0.7;   // of a cell's width, that it reaches beyond whe
 constexpr double kFew = 4.5;    // cells in a patch, of which a whole number is taken
 constexpr double kFirstSd = 4;  // of the smoothed noise, from which on the first picture shows a cell
 constexpr double kLeastThreshold = 1;  // grey: rounding does not look like noise when the light changes
-constexpr double kCellMemory = 0.05;   // share of a new picture in what a cell is thought to weigh
+constexpr double kCellMemory = 0.2;   // share of a new picture in what a cell is thought to weigh
 
 // Marks every pixel within `reach` of a marked one, in a square.
 void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w, int h, int reach) {
@@ -206,23 +206,30 @@ void Foreground::look(double noise, double dt_s) {
   count_cells();
 }
 
+// What most patches weigh: single cells are the commonest until they touch. In a crowd of few patches the
+// maxima must do.
+double Foreground::signal_of_one(std::vector<double> patches) const {
+  constexpr std::size_t kEnough = 8;
+  constexpr double kAlike = 1.6;  // largest over smallest of what counts as one weight
+  std::sort(patches.begin(), patches.end());
+  std::size_t most = 0, at = 0;
+  for (std::size_t first = 0, end = 0; first < patches.size(); ++first) {
+    if (!(patches[first] > 0)) continue;
+    end = std::max(end, first);
+    while (end < patches.size() && patches[end] < kAlike * patches[first]) ++end;
+    if (end - first > most) most = end - first, at = first;
+  }
+  return most < kEnough ? cell_guess_ : patches[at + most / 2];
+}
+
 void Foreground::count_cells() {
   std::vector<double> signal(std::size_t(label_patches(covered_, weights_.width, weights_.height, patch_)) +
                              1);
   for (std::size_t i = 0; i < covered_.size(); ++i)
     if (covered_[i]) signal[std::size_t(patch_[i])] += double(weights_.px[i]);
-  if (cell_guess_ == 0) cell_guess_ = cell_signal_;
-  if (cell_guess_ == 0) return;
-  std::vector<double> of_one;
-  for (const double s : signal)
-    if (const double n = s / cell_guess_; n > 0.5 && n < 2.5) of_one.push_back(s / std::round(n));
-  double now = cell_guess_;  // in a crowd that is one patch
-  if (of_one.size() >= 5) {
-    const auto middle = of_one.begin() + std::ptrdiff_t(of_one.size() / 2);
-    std::nth_element(of_one.begin(), middle, of_one.end());
-    now = *middle;
-  }
-  cell_signal_ = cell_signal_ == 0 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
+  if (const double now = signal_of_one(signal); now > 0)
+    cell_signal_ = cell_signal_ == 0 || frames_ == 1 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
+  if (cell_signal_ == 0) return;
   std::vector<float> factor(signal.size(), 1.0F);
   for (std::size_t k = 0; k < signal.size(); ++k)
     if (const double n = signal[k] / cell_signal_; n < kFew)

@@ -5,8 +5,10 @@
 #include <cstdlib>
 
 #include "core/file.h"
+#include "core/table.h"
 #include "tests/app/run_directory.h"
 #include "tests/e2e/program.h"
+#include "tests/vision/raw_files.h"
 
 using namespace faba;
 
@@ -112,6 +114,48 @@ TEST_CASE("black frames, still frames, one frame and frames that change size: a 
   CHECK_FALSE(std::filesystem::exists(f.path / "m.h5.part"));
   write_file(f.path / "one.pgm", spot(32, 24, 15, 11));
   refused(f, "activity one.pgm", 3, "one frame only");
+}
+
+TEST_CASE("a video that was cut off is measured as far as it goes, and said to be cut; an unknown codec is named") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out r --as-seen --quiet --set record.lossless=true").exit == 0);
+  const std::string whole = read_file(f.path / "r/video.avi");
+  write_file(f.path / "cut.avi", whole.substr(0, whole.size() * 6 / 10));
+  for (const char* verb : {"activity cut.avi", "compare r/video.avi cut.avi --no-align", "flow cut.avi --out cut.h5",
+                           "track cut.avi"}) {
+    const Called c = faba_in(f.path, verb);
+    CAPTURE(verb);
+    CHECK_MESSAGE(c.exit == 0, c.err);
+    CHECK(c.err.find("frames could be read; the file ends before it should") != std::string::npos);
+  }
+  const auto pairs = [&](const char* video) {
+    return faba_in(f.path, std::string("activity --json ") + video).json()["videos"][0]["pairs"].get<int>();
+  };
+  CHECK(pairs("cut.avi") > 5);
+  CHECK(pairs("cut.avi") < pairs("r/video.avi"));
+
+  std::string odd = whole;
+  for (std::size_t at; (at = odd.find("MPNG")) != std::string::npos;) odd.replace(at, 4, "ZZZZ");
+  write_file(f.path / "odd.avi", odd);
+  for (const char* verb : {"activity odd.avi", "compare r/video.avi odd.avi", "flow odd.avi --out o.h5", "track odd.avi"})
+    refused(f, verb, 3, "odd.avi: is coded in a way that cannot be read here");
+}
+
+TEST_CASE("at a variable rate the times of the frames count, not their numbers") {
+  const TestFolder f;
+  write_file(f.path / "v.gif", media::gif_file(32, 24, {{20, 10}, {60, 30}, {100, 5}, {140, 20}}));
+  REQUIRE(faba_in(f.path, "activity v.gif --out v.csv --flow-threshold 0.1 --quiet").exit == 0);
+  const Table t = read_table(f.path / "v.csv");
+  const double ends[] = {0, 0.10, 0.40, 0.45};
+  REQUIRE(t.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(t.column("t0_s")[k] == doctest::Approx(ends[k]));
+    CHECK(t.column("t1_s")[k] == doctest::Approx(ends[k + 1]));
+  }
+  const Called c = faba_in(f.path, "compare v.gif v.gif --no-align --json --flow-threshold 0.1");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["runs"][0]["mean"] == 0);
 }
 
 TEST_CASE("a drawing is no video to measure, and a run's own flows are") {
