@@ -24,6 +24,7 @@ using namespace faba::bench;
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480, kSweeps = 100;
+constexpr int kPairs = 3;                 // of frames one after the other, as a video has them
 constexpr double kDx = 0.5, kDy = -0.25;  // px, of the texture
 
 // Waves of several lengths and directions, moved by (dx, dy).
@@ -239,8 +240,16 @@ int main() {
     rows.push_back(std::move(row));
   }
   std::vector<Timed> all;
-  for (Row& r : rows) all.push_back(std::move(r.timed));
-  time_in_turns(all, 9, 8);
+  for (Row& r : rows) {
+    if (r.about["what"] != "distance" && r.about["what"] != "clock") {
+      r.timed.units *= kPairs;
+      r.timed.work = [one = std::move(r.timed.work)] {
+        for (int i = 0; i < kPairs; ++i) one();
+      };
+    }
+    all.push_back(std::move(r.timed));
+  }
+  time_in_turns(all, 9, 20);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Spread s = spread(all[i].ns);
     rows[i].about["ms"] = s.median / 1e6, rows[i].about["low_ms"] = s.low / 1e6,

@@ -69,7 +69,8 @@ void summary(const nlohmann::ordered_json& j) {
                    line_words(j[name]["frames"]));
     }
   if (!j["cutoff_s"].is_null())
-    fmt::print("no response beyond {:.4g} s in air\n", j["cutoff_s"].get<double>());
+    fmt::print("cut-off at {:.4g} s in air; videos that do not fit it: {}\n", j["cutoff_s"].get<double>(),
+               j["cutoff_wrong"].get<int>());
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
     }
     p.add(std::move(dots));
   }
-  if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "no response beyond"});
+  if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "cut-off"});
   p.add(Line{.x = {0, longest},
              .y = {line->intercept, line->intercept + line->slope * longest},
              .label = "line, a shift for each experiment",
@@ -164,8 +164,12 @@ std::string lead(const ActivityResult& r) {
   for (const VideoActivity& a : r.videos) respond += a.responds;
   std::string words = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
   if (r.cutoff)
-    words += fmt::format(" None beyond {} s in air (between {} and {} s).", three_digits(r.cutoff->cutoff_s),
-                         three_digits(r.cutoff->between_s[0]), three_digits(r.cutoff->between_s[1]));
+    words += fmt::format(" The cut-off is at {} s in air (between {} and {} s); {}.",
+                         three_digits(r.cutoff->cutoff_s), three_digits(r.cutoff->between_s[0]),
+                         three_digits(r.cutoff->between_s[1]),
+                         r.cutoff->wrong == 0   ? "beyond it none does"
+                         : r.cutoff->wrong == 1 ? "one video does not fit it"
+                                                : fmt::format("{} videos do not fit it", r.cutoff->wrong));
   return words;
 }
 

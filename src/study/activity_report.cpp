@@ -83,6 +83,7 @@ Json activity_json(const ActivityResult& r) {
   j["mean_line"] = with_pooled(r.mean_line, r.mean_line_pooled);
   j["per_cell_line"] = with_pooled(r.per_cell_line, r.per_cell_line_pooled);
   j["cutoff_s"] = r.cutoff ? Json(r.cutoff->cutoff_s) : Json();
+  j["cutoff_wrong"] = r.cutoff ? Json(r.cutoff->wrong) : Json();
   j["cutoff_between_s"] = r.cutoff ? Json(r.cutoff->between_s) : Json();
   return j;
 }

@@ -143,8 +143,7 @@ std::vector<std::string> FlowSource::notes() const {
         fmt::format("frames were averaged over squares of {} px; flows are in px of the video", impl_->side));
   if (impl_->greys && !impl_->greys->words().empty()) notes.push_back(impl_->greys->words());
   if (impl_->video->truncated())
-    notes.push_back(
-        fmt::format("{} frames could be read; {}", impl_->frame + 1, impl_->video->damage()));
+    notes.push_back(fmt::format("{} frames could be read; {}", impl_->frame + 1, impl_->video->damage()));
   else if (impl_->video->damaged_frames() > 0)
     notes.push_back(fmt::format("{} damaged frames were skipped ({})", impl_->video->damaged_frames(),
                                 impl_->video->damage()));

@@ -37,6 +37,7 @@ padding:0}
 .cards span{color:var(--muted);font-size:.85rem}
 .figures{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:2rem 2.2rem;align-items:start}
 figure{margin:0;min-width:0}
+figure.wide{margin-bottom:1.6rem}
 figcaption{color:var(--muted);font-size:.85rem;line-height:1.4;margin-top:.3rem}
 .faba-plot{display:block;width:100%;height:auto}
 video{display:block;width:100%;height:auto;background:#000;border-radius:.3rem}

@@ -28,7 +28,7 @@ constexpr double kTail = 0.7;   // of a cell's width, that it reaches beyond whe
 constexpr double kFew = 4.5;    // cells in a patch, of which a whole number is taken
 constexpr double kFirstSd = 4;  // of the smoothed noise, from which on the first picture shows a cell
 constexpr double kLeastThreshold = 1;  // grey: rounding does not look like noise when the light changes
-constexpr double kCellMemory = 0.2;   // share of a new picture in what a cell is thought to weigh
+constexpr double kCellMemory = 0.2;    // share of a new picture in what a cell is thought to weigh
 
 // Marks every pixel within `reach` of a marked one, in a square.
 void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w, int h, int reach) {
@@ -228,7 +228,8 @@ void Foreground::count_cells() {
   for (std::size_t i = 0; i < covered_.size(); ++i)
     if (covered_[i]) signal[std::size_t(patch_[i])] += double(weights_.px[i]);
   if (const double now = signal_of_one(signal); now > 0)
-    cell_signal_ = cell_signal_ == 0 || frames_ == 1 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
+    cell_signal_ =
+        cell_signal_ == 0 || frames_ == 1 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
   if (cell_signal_ == 0) return;
   std::vector<float> factor(signal.size(), 1.0F);
   for (std::size_t k = 0; k < signal.size(); ++k)

@@ -116,14 +116,16 @@ TEST_CASE("black frames, still frames, one frame and frames that change size: a 
   refused(f, "activity one.pgm", 3, "one frame only");
 }
 
-TEST_CASE("a video that was cut off is measured as far as it goes, and said to be cut; an unknown codec is named") {
+TEST_CASE(
+    "a video that was cut off is measured as far as it goes, and said to be cut; an unknown codec is named") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
-  REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out r --as-seen --quiet --set record.lossless=true").exit == 0);
+  REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out r --as-seen --quiet --set record.lossless=true").exit ==
+          0);
   const std::string whole = read_file(f.path / "r/video.avi");
   write_file(f.path / "cut.avi", whole.substr(0, whole.size() * 6 / 10));
-  for (const char* verb : {"activity cut.avi", "compare r/video.avi cut.avi --no-align", "flow cut.avi --out cut.h5",
-                           "track cut.avi"}) {
+  for (const char* verb : {"activity cut.avi", "compare r/video.avi cut.avi --no-align",
+                           "flow cut.avi --out cut.h5", "track cut.avi"}) {
     const Called c = faba_in(f.path, verb);
     CAPTURE(verb);
     CHECK_MESSAGE(c.exit == 0, c.err);
@@ -138,7 +140,8 @@ TEST_CASE("a video that was cut off is measured as far as it goes, and said to b
   std::string odd = whole;
   for (std::size_t at; (at = odd.find("MPNG")) != std::string::npos;) odd.replace(at, 4, "ZZZZ");
   write_file(f.path / "odd.avi", odd);
-  for (const char* verb : {"activity odd.avi", "compare r/video.avi odd.avi", "flow odd.avi --out o.h5", "track odd.avi"})
+  for (const char* verb :
+       {"activity odd.avi", "compare r/video.avi odd.avi", "flow odd.avi --out o.h5", "track odd.avi"})
     refused(f, verb, 3, "odd.avi: is coded in a way that cannot be read here");
 }
 
