@@ -62,6 +62,7 @@ std::vector<Group> groups_of(std::span<const ExposureValue> values, Centre c) {
     g.n += 1, g.sx += row, g.xx += row * row.transpose(), g.xy += row * y, g.sy += y, g.yy += y * y;
   }
   std::vector<Group> groups;
+  groups.reserve(by_name.size());
   for (auto& [name, g] : by_name) groups.push_back(g);
   return groups;
 }
@@ -126,11 +127,12 @@ std::optional<ExposureLine> mixed_line(std::span<const ExposureValue> values) {
   for (const ExposureValue& v : values) c.x += v.exposure_s / line->values, c.y += v.value / line->values;
   const std::vector<Group> groups = groups_of(values, c);
   const double n = line->values;
-  // The criterion is smooth in the logarithm of the ratio: a walk over nine decades, then a golden section.
+  // The criterion is smooth in the logarithm of the ratio: a walk over ten decades, then a golden section.
   const auto criterion = [&](double log_ratio) { return solve(groups, std::exp(log_ratio), n).criterion; };
+  constexpr int kSteps = 92;
   double best = std::log(1e-5);
-  for (double l = best; l < std::log(1e5); l += 0.25)
-    if (criterion(l) < criterion(best)) best = l;
+  for (int i = 1; i <= kSteps; ++i)
+    if (const double l = std::log(1e-5) + 0.25 * i; criterion(l) < criterion(best)) best = l;
   double a = best - 0.25, b = best + 0.25;
   for (int i = 0; i < 60; ++i) {
     const double p = a + 0.381966 * (b - a), q = b - 0.381966 * (b - a);

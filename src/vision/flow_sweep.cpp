@@ -28,7 +28,7 @@ struct Strip {
 /// A vector of 64 bytes anywhere in memory: what it is computed with is the same on every processor.
 template <class T>
 struct Lanes {
-  typedef T type __attribute__((vector_size(64), aligned(alignof(T)), may_alias));
+  using type __attribute__((vector_size(64), aligned(alignof(T)), may_alias)) = T;
 };
 
 template <class T>

@@ -152,9 +152,10 @@ template <class T>
 [[gnu::always_inline]] inline void row(const HalvedRow<T>& r) {
   const T *a = r.a, *b = r.b;
   T* out = r.out;
-  const int whole = r.width / 2;
+  const std::ptrdiff_t whole = r.width / 2;
   FABA_ELEMENTWISE
-  for (int x = 0; x < whole; ++x) out[x] = ((a[2 * x] + a[2 * x + 1]) + (b[2 * x] + b[2 * x + 1])) * T(0.25);
+  for (std::ptrdiff_t x = 0; x < whole; ++x)
+    out[x] = ((a[2 * x] + a[2 * x + 1]) + (b[2 * x] + b[2 * x + 1])) * T(0.25);
   if (r.width % 2) out[whole] = (a[2 * whole] + b[2 * whole]) * T(0.25);
 }
 
@@ -174,7 +175,7 @@ template <class T>
   FABA_ELEMENTWISE
   for (int x = -1; x <= coarse; ++x) mixed[x] = near[x] * T(0.75) + far[x] * T(0.25);
   T most = r.most;
-  for (int x = 0; x < r.width / 2; ++x) {
+  for (std::ptrdiff_t x = 0; x < r.width / 2; ++x) {
     const T left = mixed[x] * T(0.75) + mixed[x - 1] * T(0.25);
     const T right = mixed[x] * T(0.75) + mixed[x + 1] * T(0.25);
     out[2 * x] += left, out[2 * x + 1] += right;

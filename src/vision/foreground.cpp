@@ -70,11 +70,12 @@ Curvatures curvatures(const GrayF& g, int col, int row, float sign) {
 double common_gain(const GrayF& picture, const GrayF& background,
                    const std::vector<std::uint8_t>& leave_out) {
   constexpr int kBins = 8192;  // of quotients from 0 to 4
+  constexpr float kPerUnit = kBins / 4.0F;
   std::vector<int> count(kBins);
   int total = 0;
   for (std::size_t i = 0; i < picture.px.size(); i += 7) {
     if (leave_out[i] || !(background.px[i] > 1)) continue;
-    ++count[std::size_t(std::min(int(picture.px[i] / background.px[i] * (kBins / 4)), kBins - 1))], ++total;
+    ++count[std::size_t(std::min(int(picture.px[i] / background.px[i] * kPerUnit), kBins - 1))], ++total;
   }
   if (total < 100) return 1;
   int sum = 0, bin = 0;

@@ -13,8 +13,8 @@
 namespace faba {
 namespace {
 
-typedef double Lanes __attribute__((vector_size(64), aligned(8), may_alias));
-typedef std::uint64_t Bits __attribute__((vector_size(64), aligned(8), may_alias));
+using Lanes __attribute__((vector_size(64), aligned(8), may_alias)) = double;
+using Bits __attribute__((vector_size(64), aligned(8), may_alias)) = std::uint64_t;
 constexpr std::size_t kLanes = 8;
 
 // z^-m for normal z > 0, to about 5e-15 (1 + |m ln z|): by the series of atanh to s^17, 1e-16 of what is left
