@@ -13,7 +13,7 @@ namespace faba {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr int kBlocks = 6;       // of a video, whose flow across the direction is taken for independent
+constexpr std::size_t kBlocks = 6;       // of a video, whose flow across the direction is taken for independent
 constexpr double kResponds = 4;  // standard errors
 constexpr double kSameRate = 0.01;
 constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
