@@ -18,12 +18,16 @@ ActivityJob job_of(const ActivityVerb& v) {
   ActivityJob job;
   const FlowChoice choice{v.flow.method, v.flow.values};
   job.method = flow_part(choice, published_flow());
-  job.noise = v.noise, job.shrink = v.flow.shrink, job.threads = v.flow.threads;
+  job.noise = v.noise, job.shrink = v.flow.shrink, job.fps = v.flow.fps, job.threads = v.flow.threads;
   if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
     read_activity_study(v.videos.front(), job);
     if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
   } else {
-    for (const auto& video : v.videos) job.videos.push_back({video, {}, "", {}});
+    for (const auto& video : v.videos) job.videos.push_back({.file = video});
+  }
+  for (ActivityInput& one : job.videos) {
+    if (v.from) one.from_s = *v.from;
+    if (v.to) one.to_s = *v.to;
   }
   for (ActivityInput& one : job.videos)
     if (v.response.direction) one.direction_deg = v.response.direction;
@@ -78,6 +82,7 @@ void summary(const nlohmann::ordered_json& j) {
 int activity(const ActivityVerb& v, const Common& c) {
   std::vector<std::filesystem::path> inputs = v.videos;
   inputs.push_back(v.noise);
+  check_distinct({v.out, v.report, v.picture});
   check_output(v.out, ".csv", v.force, inputs);
   check_output(v.report, ".html", v.force, inputs);
   check_output(v.picture, ".png", v.force, inputs);
@@ -87,7 +92,7 @@ int activity(const ActivityVerb& v, const Common& c) {
   job.progress = [&](std::size_t video, std::uint64_t done, std::uint64_t total) {
     if (total > 0) bar.update(video * total + std::min(done, total), job.videos.size() * total);
   };
-  job.stop = [] { return stop_requested().load(); };
+  job.stop = [&stop = stop_requested()] { return stop.load(); };
   const ActivityResult result = measure_activity(job);
   bar.clear();
   if (!v.out.empty()) write_file(v.out, activity_csv(result));

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 
 #include "cli/verbs.h"
@@ -19,6 +20,8 @@ struct CommandLine {
 CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* does, const char* examples);
 /// A check for options: "" or the complaint.
 std::string not_empty(const std::string& word);
+/// A check for options that are numbers: finite, `least` or more, and `most` or less.
+std::function<std::string(const std::string&)> between(double least, double most);
 
 // The verbs with their options, in the order of the help. `line` outlives the parsing.
 

@@ -32,6 +32,7 @@ void summary(const nlohmann::ordered_json& j) {
 int compare(const CompareVerb& v, const Common& c) {
   std::vector<std::filesystem::path> inputs = v.runs;
   inputs.push_back(v.reference);
+  check_distinct({v.out, v.report});
   check_output(v.out, ".csv", v.force, inputs);
   check_output(v.report, ".html", v.force, inputs);
   CompareJob job;
@@ -41,14 +42,15 @@ int compare(const CompareVerb& v, const Common& c) {
   if (v.duration) job.duration_s = *v.duration;
   job.m = v.m, job.threshold = v.threshold;
   job.method = flow_part({v.flow.method, v.flow.values}, published_flow());
-  job.shrink = v.flow.shrink, job.threads = v.flow.threads, job.simulate_floor = !v.no_floor;
+  job.shrink = v.flow.shrink, job.fps = v.flow.fps, job.threads = v.flow.threads,
+  job.simulate_floor = !v.no_floor;
   std::string doing;
   std::optional<Progress> bar;
   job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
     if (what != doing || done <= 1) bar.reset(), bar.emplace(doing = what, !c.quiet && !c.json);
     if (total > 0) bar->update(std::min(done, total), total);
   };
-  job.stop = [] { return stop_requested().load(); };
+  job.stop = [&stop = stop_requested()] { return stop.load(); };
   const Comparison result = compare_videos(job);
   bar.reset();
   if (!v.out.empty()) write_file(v.out, compare_csv(result));

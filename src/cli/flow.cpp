@@ -19,7 +19,7 @@ FlowJob job_of(const FlowVerb& v) {
   FlowJob job;
   job.method = flow_part({v.flow.method, v.flow.values});
   job.out = v.out, job.picture = v.picture, job.truth = v.truth, job.overlay = v.overlay;
-  job.shrink = v.flow.shrink;
+  job.shrink = v.flow.shrink, job.fps = v.flow.fps;
   job.threads = v.flow.threads;
   return job;
 }
@@ -61,7 +61,7 @@ int flow_video(const FlowVerb& v, const Common& c) {
   Progress bar("flow", !c.quiet && !c.json);
   FlowJob job = job_of(v);
   job.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
-  job.stop = [] { return stop_requested().load(); };
+  job.stop = [&stop = stop_requested()] { return stop.load(); };
   const auto j = flow_of_video(v.a, job);
   bar.clear();
   if (c.json) {

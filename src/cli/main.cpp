@@ -78,6 +78,16 @@ CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char
 
 std::string not_empty(const std::string& word) { return word.empty() ? "must not be empty" : ""; }
 
+std::function<std::string(const std::string&)> between(double least, double most) {
+  return [least, most](const std::string& word) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end != '\0') return fmt::format("\"{}\" is not a number", word);
+    if (value >= least && value <= most) return "";
+    return fmt::format("{} is out of range; it must be {:g} to {:g}", word, least, most);
+  };
+}
+
 const std::atomic<bool>& stop_requested() {
   // Some senders signal a process and its group: a repeat within half a second is the same wish.
   static std::atomic<long> first_ms{0};

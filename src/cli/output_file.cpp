@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.h"
 
 namespace faba::cli {
@@ -12,6 +14,8 @@ void check_output(const std::filesystem::path& file, const char* extension, bool
   const auto refuse = [&](const std::string& why) { throw Error(Errc::usage, file.string(), why); };
   std::error_code ec;
   if (std::filesystem::is_directory(file, ec)) refuse("is a directory; name a file");
+  if (const auto folder = file.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder, ec))
+    refuse(fmt::format("cannot be written: there is no folder {}", folder.string()));
   if (*extension && file.extension() != extension)
     refuse(fmt::format("must end in {}, which is what is written", extension));
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, ec))) return;
@@ -20,6 +24,14 @@ void check_output(const std::filesystem::path& file, const char* extension, bool
   for (const auto& input : inputs)
     if (std::filesystem::equivalent(file, input, ec)) refuse("is what this command reads; name another file");
   if (!force) refuse("already exists; name another file, or --force to replace it");
+}
+
+void check_distinct(std::vector<std::filesystem::path> outputs) {
+  std::erase_if(outputs, [](const auto& path) { return path.empty(); });
+  for (auto& path : outputs) path = std::filesystem::absolute(path).lexically_normal();
+  std::sort(outputs.begin(), outputs.end());
+  if (const auto twice = std::adjacent_find(outputs.begin(), outputs.end()); twice != outputs.end())
+    throw Error(Errc::usage, twice->string(), "is named for two outputs; give each a name of its own");
 }
 
 }  // namespace faba::cli

@@ -10,4 +10,7 @@ namespace faba::cli {
 void check_output(const std::filesystem::path& file, const char* extension, bool force,
                   const std::vector<std::filesystem::path>& inputs);
 
+/// Refuses outputs of one command that have the same name; empty ones do not count. Throws Error(usage).
+void check_distinct(std::vector<std::filesystem::path> outputs);
+
 }  // namespace faba::cli

@@ -22,8 +22,9 @@ double tick_of(const std::string& words) {
   } catch (const std::invalid_argument& e) {
     throw Error(Errc::usage, "--tick", e.what());
   }
-  if (q.dimension != parse_unit("m").dimension || !(q.value > 0) || !std::isfinite(q.value))
-    throw Error(Errc::usage, "--tick", fmt::format("\"{}\" is not a length such as \"10 um\"", words));
+  if (q.dimension != parse_unit("m").dimension || !(q.value >= 1e-9 && q.value <= 1))
+    throw Error(Errc::usage, "--tick",
+                fmt::format("\"{}\" is not a length of 1 nm to 1 m such as \"10 um\"", words));
   return q.value;
 }
 
@@ -70,6 +71,11 @@ int scale(const ScaleVerb& v, const Common& c) {
   const auto j =
       table ? report_scale_table(v.ruler) : report_scale_picture(v.ruler, tick_of(v.tick), v.overlay);
   if (!v.out.empty()) write_calibration(v.out, calibration_of(j));
+  if (!c.quiet && !table && j["quality"] != "good")
+    tell(fmt::format(
+        "faba: note: the marks are few or uneven ({}); look at them with --overlay before you use the "
+        "scale",
+        j["quality"].get<std::string>()));
   if (c.json) {
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {

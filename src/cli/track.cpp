@@ -40,6 +40,9 @@ void check_outputs(const TrackVerb& v) {
   }
   if (!v.overlay.empty() && v.overlay.extension() != ".mp4" && v.overlay.extension() != ".avi")
     throw Error(Errc::usage, v.overlay.string(), "must end in .mp4 or .avi, which is what is written");
+  std::vector<std::filesystem::path> all = v.out;
+  all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture});
+  check_distinct(std::move(all));
   check_output(v.swarm, ".csv", v.force, {v.video});
   check_output(v.overlay, "", v.force, {v.video});
   check_output(v.report, ".html", v.force, {v.video});
@@ -67,7 +70,7 @@ void print_summary(const nlohmann::ordered_json& j) {
              d["background"].get<std::string>());
   fmt::print("tracks   {} in {} frames, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
              j["frames"].get<std::int64_t>(), j["mean_points"].get<double>());
-  const bool together = j["order"].is_number() && j["order"].get<double>() > 0.5;
+  const bool together = j["order"].is_number() && j["order"].get<double>() > 0.5 && j["drift"].is_object();
   if (j["speed"].is_object() && (together || j["supported"] != "diffusion"))
     fmt::print("speed    {} on average, over {:.3g} s\n",
                value_of(j["speed"], "mean", "px_s", "um_s", "px/s", "um/s"),
@@ -75,7 +78,7 @@ void print_summary(const nlohmann::ordered_json& j) {
   if (together)
     fmt::print("drift    {} right, {} down\n", value_of(j["drift"], "x", "px_s", "um_s", "px/s", "um/s"),
                value_of(j["drift"], "y", "px_s", "um_s", "px/s", "um/s"));
-  if (j["supported"] == "diffusion")
+  if (j["supported"] == "diffusion" && j["diffusion"].is_object())
     fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", together ? "about the drift " : "",
                value_of(j["diffusion"], "d", "px2_s", "um2_s", "px^2/s", "um^2/s"));
   if (j["supported"] == "persistent_walk" && j["persistent_walk"].is_object())

@@ -64,6 +64,7 @@ struct FlowOptions {
   std::string method = "horn_schunck";
   std::vector<std::pair<std::string, std::string>> values;
   int shrink = 0;
+  double fps = 0;
   unsigned threads = 0;
 };
 /// What counts as a response.
@@ -76,6 +77,7 @@ struct FlowVerb {
   bool force = false;
 };
 struct ActivityVerb {
+  std::optional<double> from, to;
   std::vector<std::filesystem::path> videos;  ///< or one study file
   std::filesystem::path noise, out, report, picture;
   ResponseOptions response;

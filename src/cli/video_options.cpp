@@ -17,6 +17,8 @@ void add_flow_options(CLI::App* v, FlowOptions& o) {
                 "Videos: average frames over squares of so many px first; unless given, until no side is "
                 "above 1024 px")
       ->check(CLI::Range(1, 64));
+  v->add_option("--fps", o.fps, "Videos: frames per second, where they do not state them or not truly")
+      ->check(between(1e-6, 1e7));
   v->add_option("--threads", o.threads, "Threads; all of the machine's when absent. Never changes the result")
       ->check(CLI::Range(1, 1024));
   const Parts parts = builtin_parts();
@@ -45,10 +47,10 @@ void add_flow_options(CLI::App* v, FlowOptions& o) {
 void add_response_options(CLI::App* v, ResponseOptions& o) {
   v->add_option("--direction", o.direction,
                 "Direction of the response in degrees: 0 right, 90 down; found when absent")
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(between(-360, 360));
   v->add_option("--flow-threshold", o.flow_threshold,
                 "Flows of less are noise, px per pair; found when absent")
-      ->check(CLI::NonNegativeNumber);
+      ->check(between(0, 1e9));
 }
 
 void add_flow(CLI::App& app, CommandLine& line) {
@@ -82,7 +84,11 @@ void add_activity(CLI::App& app, CommandLine& line) {
                 "Videos, run directories or files of flows; or a study file (TOML) that lists them")
       ->required();
   add_response_options(v, o->response);
-  v->add_option("--noise", o->noise, "A video of a dead sample to find the threshold from")->check(not_empty);
+  v->add_option("--noise", o->noise, "A video of a dead sample to find the threshold from")
+      ->check(not_empty)
+      ->excludes("--flow-threshold");
+  v->add_option("--from", o->from, "Leave out what comes before this time, s")->check(between(0, 1e9));
+  v->add_option("--to", o->to, "Leave out what comes after this time, s")->check(between(0, 1e9));
   v->add_option("-o,--out", o->out, "Signatures to write, CSV")->check(not_empty);
   v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
   v->add_option("--picture", o->picture,
@@ -104,11 +110,14 @@ void add_compare(CLI::App& app, CommandLine& line) {
   v->add_option("runs", o->runs, "Videos, run directories or files of flows to compare with it")->required();
   add_response_options(v, o->response);
   v->add_option("--reference-t0", o->reference_t0,
-                "First moment after the reversal in the reference, s; found when absent");
-  v->add_option("--t0", o->t0, "The same in the runs");
-  v->add_flag("--no-align", o->no_align, "Compare from the first frames on");
+                "First moment after the reversal in the reference, s; found when absent")
+      ->check(between(0, 1e9));
+  v->add_option("--t0", o->t0, "The same in the runs")->check(between(0, 1e9));
+  v->add_flag("--no-align", o->no_align, "Compare from the first frames on")
+      ->excludes("--t0")
+      ->excludes("--reference-t0");
   v->add_option("--duration", o->duration, "Compare so many seconds from there on")
-      ->check(CLI::PositiveNumber);
+      ->check(between(1e-9, 1e9));
   v->add_option("--m", o->m, "Exponent of the distance's normalisation, 0 or more and below 1");
   v->add_option("--threshold", o->threshold,
                 "Columns or rows as far apart as this have nothing in common, px");
@@ -162,7 +171,7 @@ void add_track(CLI::App& app, CommandLine& line) {
                 "Video, TIFF stack, folder of pictures, pattern in quotes, or run directory")
       ->required();
   v->add_option("--fps", t->fps, "Frames per second, where the video does not state them or not truly")
-      ->check(CLI::Range(1e-6, 1e7));
+      ->check(between(1e-6, 1e7));
   v->add_option("--um-per-px", t->scale,
                 "Scale: micrometres per pixel, or a calibration file of `faba scale`")
       ->check(not_empty);
@@ -173,16 +182,16 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("--picture", t->picture, "Write the first frame with all tracks, as PNG");
   v->add_option("--figures", t->figures, "Write the figures into this folder, as SVG");
   v->add_option("--size", t->size_px, "Width of a cell at half its contrast, px; found when absent")
-      ->check(CLI::Range(1.0, 60.0));
+      ->check(between(1, 60));
   v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; found when absent")
       ->check(CLI::IsMember({"auto", "dark", "bright", "both"}));
   v->add_option("--background", t->background, "median of the video, or spatial: each frame, smoothed")
       ->check(CLI::IsMember({"auto", "median", "spatial"}));
   v->add_option("--threshold", t->threshold,
                 "Least signal-to-noise of a spot; 1 false one in 10 frames when absent")
-      ->check(CLI::Range(1.0, 1e6));
+      ->check(between(1, 1e6));
   v->add_option("--reach", t->reach_px, "Farthest displacement between two frames, px; found when absent")
-      ->check(CLI::Range(0.1, 1e5));
+      ->check(between(0.1, 1e5));
   v->add_option("--motion", t->motion, "Foretell by velocity or as nearest; found when absent")
       ->check(CLI::IsMember({"auto", "nearest", "velocity"}));
   v->add_option("--memory", t->memory, "Frames in a row that a cell may be unseen")

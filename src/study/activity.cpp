@@ -13,8 +13,8 @@ namespace faba {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr std::size_t kBlocks = 6;       // of a video, whose flow across the direction is taken for independent
-constexpr double kResponds = 4;  // standard errors
+constexpr std::size_t kBlocks = 6;  // of a video, whose flow across the direction is taken for independent
+constexpr double kResponds = 4;     // standard errors
 constexpr double kSameRate = 0.01;
 constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
 
@@ -60,9 +60,12 @@ double signal_to_noise(const VideoActivity& a) {
   return error > 0 ? total / error : total > 0 ? 1e9 : 0;
 }
 
-NoiseLevel threshold_of(const ActivityJob& job, const std::filesystem::path& video, std::size_t index,
-                        Pool& pool) {
-  return noise_level(video, {job.method, job.shrink, 0, {}, 1}, pool,
+FlowSourceOptions source_options(const ActivityJob& job, const ActivityInput& v) {
+  return {job.method, job.shrink, v.from_s, v.to_s, 1, job.fps};
+}
+
+NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std::size_t index, Pool& pool) {
+  return noise_level(video.file, source_options(job, video), pool,
                      [&](std::uint64_t done, std::uint64_t total) { job.progress(index, done, total); });
 }
 
@@ -73,7 +76,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   a.direction_given = a.input.direction_deg.has_value();
   const double zero = a.input.direction_deg.value_or(0);
   a.signature = Signature(threshold, zero);
-  FlowSource source(a.input.file, {job.method, job.shrink, 0, {}, 1}, pool);
+  FlowSource source(a.input.file, source_options(job, a.input), pool);
   FlowPair pair;
   double most = -1;
   while (source.next(pair)) {
@@ -86,7 +89,8 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   }
   a.notes = source.notes();
   if (a.signature.size() == 0)
-    throw Error(Errc::input, a.input.file.string(), "has one frame only; motion needs two or more");
+    throw Error(Errc::input, a.input.file.string(),
+                "has fewer than two frames in the time asked for; motion needs two or more");
   a.segments = motion_segments(a.signature, a.input.direction_deg);
   a.direction_deg = a.direction_given ? zero : found_direction(a);
   const double cone = a.signature.nearest_deg(a.direction_deg);
@@ -106,7 +110,14 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   mark_points(a);
   if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
   a.responds = has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds : !a.segments.empty());
-  if (!a.direction_given)
+  if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
+    a.notes.emplace_back(
+        "there is activity, but not in one direction: cells that move by more than twice their width from "
+        "frame "
+        "to frame are not followed; record more frames per second");
+  if (a.signature.still())
+    a.notes.emplace_back("nothing moves in it");
+  else if (!a.direction_given)
     a.notes.push_back(
         a.segments.empty()
             ? fmt::format("no direction was given and nothing goes one way; {:.0f} degrees is where all "
@@ -131,7 +142,7 @@ void conclude(ActivityResult& r) {
   // A peak of a sample that no longer responds is one of noise.
   for (const VideoActivity& a : r.videos)
     if (a.input.exposure_s && has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
-      peaks.push_back({*a.input.exposure_s, a.fit.peak_s, a.input.experiment});
+      peaks.push_back({*a.input.exposure_s, a.fit.peak_s - a.input.from_s, a.input.experiment});
   r.peak_line = mixed_line(peaks), r.peak_line_pooled = pooled_line(peaks);
   r.mean_line = mixed_line(means), r.mean_line_pooled = pooled_line(means);
   r.per_cell_line = mixed_line(per_cell), r.per_cell_line_pooled = pooled_line(per_cell);
@@ -143,7 +154,7 @@ void conclude(ActivityResult& r) {
 
 struct StudyVideo {
   std::string file, experiment;
-  std::optional<double> exposure, direction;
+  std::optional<double> exposure, direction, from, to;
   static Schema<StudyVideo> schema() {
     return Schema<StudyVideo>("video", "One video of the study")
         .add("file", &StudyVideo::file,
@@ -156,6 +167,12 @@ struct StudyVideo {
              {.min = -360,
               .max = 360,
               .doc = "Direction of the response in degrees: 0 right, 90 down in the picture"})
+        .add("from", &StudyVideo::from,
+             {.unit = "s",
+              .min = 0,
+              .max = 1e9,
+              .doc = "Leave out what comes before, and count time from here"})
+        .add("to", &StudyVideo::to, {.unit = "s", .min = 0, .max = 1e9, .doc = "Leave out what comes after"})
         .check([](const StudyVideo& v) -> std::string {
           return v.file.empty() ? "needs file = \"a video\"" : "";
         });
@@ -163,15 +180,21 @@ struct StudyVideo {
 };
 
 struct Study {
-  std::optional<double> direction, threshold;
+  std::optional<double> direction, threshold, from, to;
   std::string noise;
   static Schema<Study> schema() {
     return Schema<Study>("study", "Videos of samples after different times in air")
         .add("direction", &Study::direction,
              {.min = -360, .max = 360, .doc = "For all videos that give none"})
+        .add("from", &Study::from,
+             {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
+        .add("to", &Study::to, {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
         .add("threshold", &Study::threshold,
              {.unit = "px", .min = 0, .max = 1e3, .doc = "Flows of less are noise"})
-        .add("noise", &Study::noise, {.doc = "A video of a dead sample, to find the threshold from"});
+        .add("noise", &Study::noise, {.doc = "A video of a dead sample, to find the threshold from"})
+        .check([](const Study& s) -> std::string {
+          return s.threshold && !s.noise.empty() ? "give threshold or noise, not both" : "";
+        });
   }
 };
 
@@ -190,21 +213,23 @@ ActivityResult measure_activity(const ActivityJob& job) {
   std::vector<double> thresholds(job.videos.size(), job.threshold_px.value_or(0));
   std::vector<bool> quiet(job.videos.size(), true);
   if (!job.threshold_px && !job.noise.empty()) {
-    const double level = threshold_of(job, job.noise, 0, pool).threshold_px;
+    const double level = threshold_of(job, {.file = job.noise}, 0, pool).threshold_px;
     std::fill(thresholds.begin(), thresholds.end(), level);
   } else if (!job.threshold_px) {
     for (std::size_t i = 0; i < job.videos.size(); ++i) {
-      const NoiseLevel level = threshold_of(job, job.videos[i].file, i, pool);
+      const NoiseLevel level = threshold_of(job, job.videos[i], i, pool);
       thresholds[i] = level.threshold_px, quiet[i] = level.quiet;
       check_stop(job, job.videos[i]);
     }
     // Measured with one measure, so that what differs is the videos.
-    const double least = *std::min_element(thresholds.begin(), thresholds.end());
-    std::fill(thresholds.begin(), thresholds.end(), least);
+    double least = 1e300;  // black videos have no noise, and say nothing about it
+    for (const double t : thresholds)
+      if (t > 0) least = std::min(least, t);
+    if (least < 1e300) std::fill(thresholds.begin(), thresholds.end(), least);
   }
   for (std::size_t i = 0; i < job.videos.size(); ++i) {
     r.videos.push_back(measure(job, i, thresholds[i], pool));
-    if (!quiet[i] && job.videos.size() == 1)
+    if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
       r.videos.back().notes.push_back(
           "the video has no quiet moment to tell noise from; give a dead sample with --noise, or "
           "--flow-threshold");
@@ -226,8 +251,9 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   for (std::size_t i = 0; i < list.json->size(); ++i) {
     const Node n = list.item(i);
     const StudyVideo v = StudyVideo::schema().parse(n);
-    job.videos.push_back(
-        {n.file(v.file), v.exposure, v.experiment, v.direction ? v.direction : study.direction});
+    job.videos.push_back({n.file(v.file), v.exposure, v.experiment,
+                          v.direction ? v.direction : study.direction,
+                          v.from.value_or(study.from.value_or(0)), v.to ? v.to : study.to});
   }
 }
 

@@ -13,10 +13,12 @@ namespace faba {
 
 /// One video of an activity study.
 struct ActivityInput {
-  std::filesystem::path file;           ///< video, run directory or file of flows
-  std::optional<double> exposure_s;     ///< time of the sample in air before the video
-  std::string experiment;               ///< to which it belongs; may be empty
-  std::optional<double> direction_deg;  ///< of the response expected, image frame; found when empty
+  std::filesystem::path file;                ///< video, run directory or file of flows
+  std::optional<double> exposure_s = {};     ///< time of the sample in air before the video
+  std::string experiment = {};               ///< to which it belongs; may be empty
+  std::optional<double> direction_deg = {};  ///< of the response expected, image frame; found when empty
+  double from_s = 0;                ///< what comes before is left out; exposure lines count time from here
+  std::optional<double> to_s = {};  ///< what comes after is left out
 };
 
 /// What `faba activity` is asked for (theory A16).
@@ -26,6 +28,7 @@ struct ActivityJob {
   std::filesystem::path noise;         ///< a video without motion (a dead sample) to find it from
   FlowRegistry::PartType method;
   int shrink = 0;        ///< see FlowSourceOptions
+  double fps = 0;        ///< see FlowSourceOptions
   unsigned threads = 0;  ///< 0: all
   /// Called with the number of the video, and pairs of frames done and to do in it; to do is 0 when not
   /// known.

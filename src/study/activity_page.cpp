@@ -76,7 +76,7 @@ std::vector<AgainstExposure> against_exposure(const ActivityResult& r) {
   return {{"Time of the maximum against exposure", "time of the maximum (s)", r.peak_line,
            [&r](const VideoActivity& a) -> std::optional<double> {
              if (!has_peak(a) || (r.cutoff && *a.input.exposure_s >= r.cutoff->cutoff_s)) return {};
-             return a.fit.peak_s;
+             return a.fit.peak_s - a.input.from_s;
            }},
           {"Mean activity against exposure", "mean activity (px × px² per pair)", r.mean_line,
            [](const VideoActivity& a) { return std::optional(a.mean_amount); }},

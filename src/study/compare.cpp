@@ -75,7 +75,7 @@ class Comparer {
   explicit Comparer(const CompareJob& job)
       : job_(job), pool_(job.threads), distance_(BinSimilarity::truncated_linear(job.threshold), job.m) {}
 
-  FlowSourceOptions options() const { return {job_.method, job_.shrink, 0, {}, 1}; }
+  FlowSourceOptions options() const { return {job_.method, job_.shrink, 0, {}, 1, job_.fps}; }
 
   Signature signature(const std::filesystem::path& video, double threshold) {
     FlowSource source(video, options(), pool_);
@@ -129,7 +129,9 @@ class Comparer {
     }
     if (result.distance.t_s.size() < 3)
       throw Error(Errc::input, run.empty() ? job_.reference.string() : run.string(),
-                  "has fewer than three pairs of frames in common with the reference after the alignment");
+                  fmt::format("has fewer than three pairs of frames in common with the reference after the "
+                              "alignment ({:.2f} s in the reference, {:.2f} s here); see --t0 and --no-align",
+                              reference_t0, t0));
     finish(result.distance);
     if (other) result.notes = other->notes();
     if (ratio != 1)
@@ -300,13 +302,18 @@ Comparison compare_videos(const CompareJob& job) {
                                      : words_of(reference.by);
   for (const auto& file : job.runs) {
     double t0 = job.t0_s.value_or(0);
-    bool lost = false;
-    if (job.align && !job.t0_s) {
-      const Beginning b = beginning_of(comparer.signature(file, c.filter.threshold_px), job.direction_deg);
-      t0 = b.t0_s, lost = b.by == Beginning::By::nothing;
+    Beginning b;
+    const bool found = job.align && !job.t0_s;
+    if (found) {
+      b = beginning_of(comparer.signature(file, c.filter.threshold_px), job.direction_deg);
+      t0 = b.t0_s;
     }
     ComparedRun run = comparer.compare(file, c.reference_t0_s, t0, c.filter);
-    if (lost) run.notes.push_back("nothing in it moves: taken from its first frame on");
+    if (found && (job.reference_t0_s ? b.by != Beginning::By::reversal : b.by != reference.by))
+      run.notes.push_back(
+          fmt::format("taken {}, at {:.2f} s; the reference {}, at {:.2f} s. Give --t0 when that is "
+                      "not the same moment",
+                      words_of(b.by), t0, c.alignment, c.reference_t0_s));
     c.runs.push_back(std::move(run));
   }
   c.naive = comparer.compare({}, c.reference_t0_s, 0, c.filter).distance;

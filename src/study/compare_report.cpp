@@ -99,11 +99,10 @@ std::string table(const Comparison& c) {
   if (std::any_of(c.runs.begin(), c.runs.end(),
                   [&](const ComparedRun& r) { return !score_of(c, r.distance.mean).is_null(); }))
     out +=
-        " The score puts the mean on a scale of its own: 0 is the distance of two runs of the same scenario "
-        "with "
-        "different seeds, which no model can do better than, 1 that of a video in which nothing moves; a run "
-        "of "
-        "1 or more says no more than no model at all.";
+        " The score puts the mean on a scale of its own: 0 is the distance of two runs of one scenario with "
+        "different seeds, so that less than 0 is chance (or the same run), and 1 that of a video in which "
+        "nothing "
+        "moves, so that 1 or more says no more than no model at all.";
   return out + " Legacy is the thesis's sum, for comparison with its figures.</p>\n";
 }
 

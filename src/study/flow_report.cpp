@@ -157,7 +157,7 @@ nlohmann::ordered_json flow_of_pair(const std::filesystem::path& a, const std::f
 
 nlohmann::ordered_json flow_of_video(const std::filesystem::path& video, const FlowJob& job) {
   Pool pool(job.threads);
-  FlowSource source(video, {job.method, job.shrink, 0, {}}, pool);
+  FlowSource source(video, {job.method, job.shrink, 0, {}, 1, job.fps}, pool);
   FlowOutputs outputs(source, video, job);
   FlowPair pair;
   FlowSums sums;

@@ -32,6 +32,7 @@ struct FlowJob {
   std::filesystem::path truth;    ///< of a pair: the true flow, .flo
   std::filesystem::path overlay;  ///< of a video: arrows on its frames, MP4
   int shrink = 0;                 ///< see FlowSourceOptions
+  double fps = 0;                 ///< see FlowSourceOptions
   bool compress = true;           ///< of .h5
   unsigned threads = 0;           ///< 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};

@@ -70,7 +70,7 @@ FlowSource::FlowSource(const std::filesystem::path& path, const FlowSourceOption
 FlowSource::~FlowSource() = default;
 
 void FlowSource::Impl::open_video(Pool& pool) {
-  video.emplace(input.file);
+  video.emplace(input.file, options.fps);
   const int w = video->width(), h = video->height();
   side = options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);
   width = w / side, height = h / side;
@@ -141,6 +141,8 @@ std::vector<std::string> FlowSource::notes() const {
   if (impl_->side > 1 && impl_->options.shrink == 0)
     notes.push_back(
         fmt::format("frames were averaged over squares of {} px; flows are in px of the video", impl_->side));
+  if (!(impl_->video->fps() > 0))
+    notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");
   if (impl_->greys && !impl_->greys->words().empty()) notes.push_back(impl_->greys->words());
   if (impl_->video->truncated())
     notes.push_back(fmt::format("{} frames could be read; {}", impl_->frame + 1, impl_->video->damage()));

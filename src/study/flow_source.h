@@ -25,6 +25,7 @@ struct FlowSourceOptions {
   double t0_s = 0;                ///< from this time on
   std::optional<double> t1_s;     ///< up to this time
   std::uint64_t every = 1;        ///< only each pair whose number is a multiple of this
+  double fps = 0;                 ///< > 0: in place of what a video states
 };
 
 /// The flows of a video, a run directory or a file of flows, one after the other: memory does not grow with

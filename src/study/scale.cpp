@@ -251,7 +251,8 @@ nlohmann::ordered_json report_scale_picture(const std::filesystem::path& picture
   j["note"] =
       "measured from mark to mark, so how wide the marks look plays no part; the interval is that of the "
       "scatter alone: lens distortion and the ruler's own error come on top";
-  j["method"] = fmt::format("{} marks of a ruler in a picture, {:g} um apart", used, tick_um);
+  j["method"] = fmt::format("{} marks of a ruler in a picture, {:g} um apart; quality {}", used, tick_um,
+                            j["quality"].get<std::string>());
   j["source"] = picture.string();
   if (!overlay.empty()) write_png(overlay, ruler_overlay(grey, ruler));
   return j;

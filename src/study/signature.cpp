@@ -44,6 +44,12 @@ void Signature::add(const FlowPair& pair, int px_side) {
   sums_.push_back(sums);
 }
 
+bool Signature::still() const {
+  for (std::size_t k = 0; k < size(); ++k)
+    if (speed(k) > 0) return false;
+  return true;
+}
+
 double Signature::nearest_deg(double deg) const {
   return std::fmod(zero_deg_ + kSectorDeg * std::round((deg - zero_deg_) / kSectorDeg) + 720, 360);
 }

@@ -34,6 +34,7 @@ class Signature {
   double t1_s(std::size_t k) const { return t1_s_[k]; }
   double t_s(std::size_t k) const { return (t0_s_[k] + t1_s_[k]) / 2; }
 
+  bool still() const;  ///< whether nothing is above the threshold in any pair
   /// The direction nearest to `deg` whose cone is whole sectors.
   double nearest_deg(double deg) const;
   /// Sum of |u| + |v| over the pixels whose flow is within 45 degrees of `deg`, as the thesis has it.

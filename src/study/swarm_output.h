@@ -7,8 +7,8 @@
 namespace faba {
 
 /// What SwarmView sees, frame by frame, as CSV under a temporary name, which is gone unless complete() is
-/// called: `frame,t_s,cells,x_px,y_px,var_xx_px2,var_xy_px2,var_yy_px2`, image frame; places are empty where
-/// no swarm is seen.
+/// called: `frame,t_s,signal,x_px,y_px,var_xx_px2,var_xy_px2,var_yy_px2`, the signal in grey px^2 of a scale
+/// of 255, image frame; places are empty where no swarm is seen.
 class SwarmOutput {
  public:
   SwarmOutput(std::filesystem::path path, const TrackSurvey& survey, int bits);

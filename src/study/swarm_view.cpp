@@ -67,7 +67,7 @@ std::optional<double> visible_cells(const std::filesystem::path& path, const std
   options.video = video;
   const TrackSurvey survey = survey_tracks(options, video, [&](auto, auto) { check(); });
   VideoReader reader(video);
-  SwarmView view(survey, reader.bits());
+  const Detector detector(survey.background, detector_options(options, survey, {}));
   const std::int64_t step = std::max<std::int64_t>(1, survey.frames / kFramesCounted);
   GrayF frame;
   double t_s = 0, cells = 0, n = 0;
@@ -75,7 +75,12 @@ std::optional<double> visible_cells(const std::filesystem::path& path, const std
     check();
     if (index % step != 0) continue;
     make_finite(frame);
-    cells += view.take(frame, t_s).cells, n += 1;
+    cells += double(survey.temporal ? detector.find(frame).size()
+                                    : Detector(spatial_background(frame, survey.smoothing_px),
+                                               detector_options(options, survey, {}))
+                                          .find(frame)
+                                          .size());
+    n += 1;
   }
   return cells / n;
 }

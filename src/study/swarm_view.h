@@ -22,7 +22,8 @@ class SwarmView {
   double noise_ = 0, last_s_ = 0;
 };
 
-/// Cells in view, the mean over some fifty frames of a video (anything VideoReader reads, or a run). Of a run
+/// Cells in view, as spots that Detector finds: the mean over some fifty frames of a video (anything
+/// VideoReader reads, or a run). Of a run
 /// without a camera's video it is the number that is in its series. Empty for a file of flows, which shows no
 /// cells. `go_on` is asked between frames; Error(interrupted) when it says no. Throws as VideoReader.
 std::optional<double> visible_cells(const std::filesystem::path& path, const std::function<bool()>& go_on);

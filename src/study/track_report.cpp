@@ -236,7 +236,10 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   const double spacing = std::sqrt(double(survey.first.width) * survey.first.height /
                                    std::max(1.0, pass.spots_found / pass.frames));
   const double step = summary.speed_count > 0 ? summary.mean_speed_px_s.value * survey.frame_s : 0;
-  if (pass.tracker().crowded() || step > 0.3 * spacing)
+  // Steps that agree in direction for less than two frames are steps to the wrong cells.
+  const bool forgetful = summary.persistent.good && !summary.persistent.tau_open &&
+                         j["supported"] == "persistent_walk" && summary.tau_s.value < 1.5 * survey.frame_s;
+  if (pass.tracker().crowded() || step > 0.3 * spacing || forgetful)
     notes.push_back(
         "cells move about as far between frames as they are apart: many tracks join different cells, and "
         "speeds are too small; record more frames per second, or fewer cells");

@@ -257,8 +257,10 @@ void Foreground::take_logarithms(const GrayF& picture, float gain, double noise)
 }
 
 void Foreground::find_covered(double noise) {
-  const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * noise * smoothing_gain()));
   smooth(weights_, std::max(sd_px_, 0.6), smooth_, scratch_);
+  // Codecs and focus leave noise that hangs together, and more of it after smoothing than white noise would.
+  const double left = std::max(noise * smoothing_gain(), known_ ? noise_below_background() : 0.0);
+  const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * left));
   covered_.resize(smooth_.px.size());
   for (std::size_t i = 0; i < smooth_.px.size(); ++i) covered_[i] = smooth_.px[i] > threshold ? 1 : 0;
   cell_guess_ = guess_cell_signal(double(threshold));
@@ -266,8 +268,19 @@ void Foreground::find_covered(double noise) {
          std::max(1, int(std::lround(kTail * options_.cell_px))));
 }
 
+// Of the smoothed difference, from the values on the side where no cells are.
+double Foreground::noise_below_background() const {
+  std::vector<float> below;
+  for (std::size_t i = 0; i < smooth_.px.size(); i += 7)
+    if (smooth_.px[i] < 0) below.push_back(-smooth_.px[i]);
+  if (below.empty()) return 0;
+  const auto middle = below.begin() + std::ptrdiff_t(below.size() / 2);
+  std::nth_element(below.begin(), middle, below.end());
+  return double(*middle) / 0.6744897502;
+}
+
 // A cell's signal from the lower quartile of the maxima of the smoothed difference: the others are several
-// cells, or in them. 0 with fewer than five.
+// cells, or in them. 0 where there are too few to tell.
 double Foreground::guess_cell_signal(double threshold) const {
   std::vector<float> peaks;
   const int w = smooth_.width;
@@ -281,7 +294,7 @@ double Foreground::guess_cell_signal(double threshold) const {
         continue;
       peaks.push_back(v);
     }
-  if (peaks.size() < 5) return 0;
+  if (peaks.size() < (known_ ? 1 : 5)) return 0;
   const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
   std::nth_element(peaks.begin(), quartile, peaks.end());
   const double s = std::max(sd_px_, 0.6);

@@ -72,6 +72,7 @@ class Foreground {
   void learn(const GrayF& picture, double gain, double dt_s, double noise);
   void take_logarithms(const GrayF& picture, float gain, double noise);
   double guess_cell_signal(double threshold) const;
+  double noise_below_background() const;
   double signal_of_one(std::vector<double> patches) const;
   void count_cells();
   double smoothing_gain() const;
