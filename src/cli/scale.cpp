@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "cli/output_file.h"

@@ -207,8 +207,7 @@ void Foreground::look(double noise, double dt_s) {
   count_cells();
 }
 
-// What most patches weigh: single cells are the commonest until they touch. In a crowd of few patches the
-// maxima must do.
+// What most patches weigh: single cells are the commonest until they touch. 0 where there are too few.
 double Foreground::signal_of_one(std::vector<double> patches) const {
   constexpr std::size_t kEnough = 8;
   constexpr double kAlike = 1.6;  // largest over smallest of what counts as one weight
@@ -220,7 +219,7 @@ double Foreground::signal_of_one(std::vector<double> patches) const {
     while (end < patches.size() && patches[end] < kAlike * patches[first]) ++end;
     if (end - first > most) most = end - first, at = first;
   }
-  return most < kEnough ? cell_guess_ : patches[at + most / 2];
+  return most < kEnough ? 0 : patches[at + most / 2];
 }
 
 void Foreground::count_cells() {
@@ -228,10 +227,11 @@ void Foreground::count_cells() {
                              1);
   for (std::size_t i = 0; i < covered_.size(); ++i)
     if (covered_[i]) signal[std::size_t(patch_[i])] += double(weights_.px[i]);
-  if (const double now = signal_of_one(signal); now > 0)
+  const double found = signal_of_one(signal), now = found > 0 ? found : cell_guess_;
+  if (now > 0)
     cell_signal_ =
         cell_signal_ == 0 || frames_ == 1 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
-  if (cell_signal_ == 0) return;
+  if (!(found > 0)) return;  // what one cell weighs is but a guess
   std::vector<float> factor(signal.size(), 1.0F);
   for (std::size_t k = 0; k < signal.size(); ++k)
     if (const double n = signal[k] / cell_signal_; n < kFew)
@@ -294,7 +294,7 @@ double Foreground::guess_cell_signal(double threshold) const {
         continue;
       peaks.push_back(v);
     }
-  if (peaks.size() < (known_ ? 1 : 5)) return 0;
+  if (peaks.size() < (known_ || !options_.learn ? 1 : 5)) return 0;
   const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
   std::nth_element(peaks.begin(), quartile, peaks.end());
   const double s = std::max(sd_px_, 0.6);

@@ -145,6 +145,52 @@ TEST_CASE(
     refused(f, verb, 3, "odd.avi: is coded in a way that cannot be read here");
 }
 
+TEST_CASE("numbers, outputs and times that cannot be are refused before any work") {
+  const TestFolder f;
+  write_film(f, "film");
+  refused(f, "activity film --direction nan", 2, "out of range");
+  refused(f, "activity film --flow-threshold -1", 2, "must be 0 to");
+  refused(f, "activity film --fps nan", 2, "--fps");
+  refused(f, "compare film film --t0 nan", 2, "--t0");
+  refused(f, "compare film film --t0 0.1 --no-align", 2, "--no-align");
+  refused(f, "activity film --noise film --flow-threshold 0.1", 2, "--noise");
+  refused(f, "activity film --report none/r.html", 2, "there is no folder none");
+  refused(f, "track film --fps 15 --out a.csv --swarm a.csv", 2, "two outputs");
+  refused(f, "activity film --from 100", 3, "fewer than two frames in the time asked for");
+  CHECK_FALSE(std::filesystem::exists(f.path / "a.csv"));
+}
+
+TEST_CASE("a part of a video is measured with --from and --to, at the rate that --fps says") {
+  const TestFolder f;
+  write_film(f, "film");
+  const Called untimed = faba_in(f.path, "activity film --flow-threshold 0.05 --out all.csv --force");
+  CHECK(untimed.err.find("no frame rate is stated") != std::string::npos);
+  REQUIRE(faba_in(f.path,
+                  "activity film --fps 15 --from 0.5 --to 1.5 --flow-threshold 0.05 --out part.csv --quiet")
+              .exit == 0);
+  const Table all = read_table(f.path / "all.csv"), part = read_table(f.path / "part.csv");
+  CHECK(all.size() == 29);
+  CHECK(all.column("t1_s")[28] == 29);
+  REQUIRE(part.size() > 10);
+  CHECK(part.column("t0_s")[0] >= 0.5);
+  CHECK(part.column("t1_s")[part.size() - 1] <= 1.5);
+  const auto first = std::size_t(std::lround(part.column("t0_s")[0] * 15));
+  CHECK(part.column("activity")[0] == all.column("activity")[first]);
+}
+
+TEST_CASE("a single spot that moves is followed and summed up") {
+  const TestFolder f;
+  std::filesystem::create_directories(f.path / "dot");
+  for (int k = 0; k < 10; ++k)
+    write_file(f.path / ("dot/f" + std::to_string(k) + ".pgm"), spot(64, 48, 12 + 3 * k, 20));
+  const Called c = faba_in(f.path, "track dot --fps 10 --swarm s.csv");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.out.find("speed    30 px/s") != std::string::npos);
+  const Table t = read_table(f.path / "s.csv");
+  for (std::size_t k = 0; k < 10; ++k)
+    CHECK(t.column("x_px")[k] == doctest::Approx(12 + 3 * double(k)).epsilon(0.02));
+}
+
 TEST_CASE("at a variable rate the times of the frames count, not their numbers") {
   const TestFolder f;
   write_file(f.path / "v.gif", media::gif_file(32, 24, {{20, 10}, {60, 30}, {100, 5}, {140, 20}}));
