@@ -44,10 +44,16 @@ FABA_VECTORISED void make_grey(const Numbers& k, const float* light, const float
 }
 
 FABA_VECTORISED void make_whole(const float* grey, std::size_t n, std::uint8_t* out) {
-  for (std::size_t i = 0; i < n; ++i) out[i] = std::uint8_t(std::int32_t(grey[i] + 0.5F));
+  for (std::size_t i = 0; i < n; ++i) {
+    const float half_up = grey[i] + 0.5F;  // not below 0: cutting off is rounding
+    out[i] = std::uint8_t(std::int32_t(half_up));
+  }
 }
 FABA_VECTORISED void make_whole(const float* grey, std::size_t n, std::uint16_t* out) {
-  for (std::size_t i = 0; i < n; ++i) out[i] = std::uint16_t(std::int32_t(grey[i] + 0.5F));
+  for (std::size_t i = 0; i < n; ++i) {
+    const float half_up = grey[i] + 0.5F;  // not below 0: cutting off is rounding
+    out[i] = std::uint16_t(std::int32_t(half_up));
+  }
 }
 
 template <class T>

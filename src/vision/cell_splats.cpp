@@ -57,7 +57,7 @@ class CellSplats::Table {
   explicit Table(double sd_px)
       : sd_(sd_px),
         radius_(std::max(1, int(std::ceil(kReach * sd_px)))),
-        stride_((std::size_t(2 * radius_ + 1) + kLane - 1) / kLane * kLane),
+        stride_((2 * std::size_t(radius_) + 1 + kLane - 1) / kLane * kLane),
         weight_(std::size_t(kPlaces + 1) * stride_) {
     for (int place = 0; place <= kPlaces; ++place) {
       const double middle = double(place) / kPlaces - 0.5;
