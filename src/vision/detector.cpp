@@ -150,9 +150,10 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
 
 double spot_size(const GrayF& frame, const Background& background, Polarity polarity) {
   constexpr double kLeastSnr = 6;
+  constexpr int kSizes = 16;  // 2 to 30.8 px
   double best = 0, size_of_best = 0, size = 2;
   std::size_t count = 0;
-  for (; size < 31; size *= 1.2) {
+  for (int step = 0; step < kSizes; ++step, size *= 1.2) {
     const double sd = size / kFwhmPerSd;
     if (8 * sd > std::min(frame.width, frame.height)) break;
     // Over what white noise would leave: the picture's own noise is no measure here, since what is out of
