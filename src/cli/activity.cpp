@@ -28,9 +28,8 @@ ActivityJob job_of(const ActivityVerb& v) {
   for (ActivityInput& one : job.videos) {
     if (v.from) one.from_s = *v.from;
     if (v.to) one.to_s = *v.to;
-  }
-  for (ActivityInput& one : job.videos)
     if (v.response.direction) one.direction_deg = v.response.direction;
+  }
   if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
   return job;
 }

@@ -22,10 +22,19 @@ class SwarmView {
   double noise_ = 0, last_s_ = 0;
 };
 
-/// Cells in view, as spots that Detector finds: the mean over some fifty frames of a video (anything
-/// VideoReader reads, or a run). Of a run
-/// without a camera's video it is the number that is in its series. Empty for a file of flows, which shows no
-/// cells. `go_on` is asked between frames; Error(interrupted) when it says no. Throws as VideoReader.
-std::optional<double> visible_cells(const std::filesystem::path& path, const std::function<bool()>& go_on);
+/// Frames from one time to another, s; at `fps` > 0 in place of what the video states.
+struct VideoPart {
+  double from_s = 0;
+  std::optional<double> to_s = {};
+  double fps = 0;
+  bool holds(double t_s) const { return t_s >= from_s && (!to_s || t_s <= *to_s); }
+};
+
+/// Cells in view, as spots that Detector finds: the mean over fifty frames or more of a part of a video
+/// (anything VideoReader reads, or a run). Of a run without a camera's video it is the number that is in its
+/// series. Empty for a file of flows, which shows no cells. `go_on` is asked between frames;
+/// Error(interrupted) when it says no. Throws as VideoReader.
+std::optional<double> visible_cells(const std::filesystem::path& path, const VideoPart& part,
+                                    const std::function<bool()>& go_on);
 
 }  // namespace faba
