@@ -10,19 +10,21 @@ namespace faba {
 namespace {
 
 constexpr int kTogether = 10;  // sweeps that go over the rows together: their rows fit a second-level cache
-constexpr int kStrip = 4;      // rows of one sweep that are done together
+constexpr int kStrip = 6;      // rows of one sweep that are done together
 
 /// What one sweep reads and writes in a strip of rows, the rows above and below it included; every row can be
 /// read one pixel beyond its ends.
 template <class T>
 struct Strip {
   struct Row {
-    const T *u, *v, *mxx, *mxy, *myy, *cx, *cy;
+    const T *u, *v;
+    const T* c[5];  ///< coefficients: hx, hy, ht6 of the finest grid, or mxx, mxy, myy, cx, cy
     T *u_out, *v_out;
   };
   int rows = 0;  ///< of the strip; row[0] lies above it, row[rows + 1] below
   Row row[kStrip + 2];
   int width = 0;
+  bool finest = false;
 };
 
 /// A vector of 64 bytes anywhere in memory: what it is computed with is the same on every processor.
@@ -31,11 +33,12 @@ struct Lanes {
   using type __attribute__((vector_size(64), aligned(alignof(T)), may_alias)) = T;
 };
 
-template <class T>
+/// The number of rows is a constant, so that the sums of rows stay in their registers instead of moving down.
+template <bool finest, int rows, class T>
 [[gnu::always_inline]] inline void update(const Strip<T>& s) {
   using V = typename Lanes<T>::type;
   constexpr int kLanes = Plane<T>::kMargin;
-  const T half = T(0.5);
+  const T half = T(0.5), sixth = T(1) / 6;
 #define FABA_LANES(p) (*reinterpret_cast<const V*>((p) + x))
   for (int x = 0; x < s.width; x += kLanes) {
     // Six times the mean of the neighbours is what is beside, and of the rows above and below what is there
@@ -47,7 +50,8 @@ template <class T>
     u_beside = FABA_LANES(s.row[1].u - 1) + FABA_LANES(s.row[1].u + 1);
     v_beside = FABA_LANES(s.row[1].v - 1) + FABA_LANES(s.row[1].v + 1);
     V u_row = u_beside * half + FABA_LANES(s.row[1].u), v_row = v_beside * half + FABA_LANES(s.row[1].v);
-    for (int i = 1; i <= s.rows; ++i) {
+#pragma GCC unroll 8
+    for (int i = 1; i <= rows; ++i) {
       const auto& here = s.row[i];
       const auto& below = s.row[i + 1];
       const V u_beside_down = FABA_LANES(below.u - 1) + FABA_LANES(below.u + 1);
@@ -55,18 +59,30 @@ template <class T>
       const V u_row_down = u_beside_down * half + FABA_LANES(below.u);
       const V v_row_down = v_beside_down * half + FABA_LANES(below.v);
       const V u = (u_row_up + u_row_down) + u_beside, v = (v_row_up + v_row_down) + v_beside;
-      const V mxy = FABA_LANES(here.mxy);
-      *reinterpret_cast<V*>(here.u_out + x) = FABA_LANES(here.mxx) * u + (mxy * v + FABA_LANES(here.cx));
-      *reinterpret_cast<V*>(here.v_out + x) = FABA_LANES(here.myy) * v + (mxy * u + FABA_LANES(here.cy));
+      V &u_out = *reinterpret_cast<V*>(here.u_out + x), &v_out = *reinterpret_cast<V*>(here.v_out + x);
+      if constexpr (finest) {
+        const V hx = FABA_LANES(here.c[0]), hy = FABA_LANES(here.c[1]);
+        const V along = (hx * u + FABA_LANES(here.c[2])) + hy * v;
+        u_out = (u - hx * along) * sixth, v_out = (v - hy * along) * sixth;
+      } else {
+        const V mxy = FABA_LANES(here.c[1]);
+        u_out = FABA_LANES(here.c[0]) * u + (mxy * v + FABA_LANES(here.c[3]));
+        v_out = FABA_LANES(here.c[2]) * v + (mxy * u + FABA_LANES(here.c[4]));
+      }
       u_beside = u_beside_down, u_row_up = u_row, u_row = u_row_down;
       v_beside = v_beside_down, v_row_up = v_row, v_row = v_row_down;
     }
   }
-  for (int i = 1; i <= s.rows; ++i)
+  for (int i = 1; i <= rows; ++i)
     for (T* out : {s.row[i].u_out, s.row[i].v_out}) out[-1] = out[0], out[s.width] = out[s.width - 1];
 }
-FABA_VECTORISED void update_strip(const Strip<float>& s) { update(s); }
-FABA_VECTORISED void update_strip(const Strip<double>& s) { update(s); }
+template <int most, class T>
+[[gnu::always_inline]] inline void update_up_to(const Strip<T>& s) {
+  if (s.rows == most) return s.finest ? update<true, most>(s) : update<false, most>(s);
+  if constexpr (most > 1) update_up_to<most - 1>(s);
+}
+FABA_VECTORISED void update_strip(const Strip<float>& s) { update_up_to<kStrip>(s); }
+FABA_VECTORISED void update_strip(const Strip<double>& s) { update_up_to<kStrip>(s); }
 
 template <class T>
 [[gnu::always_inline]] inline T largest(const T* a, const T* b, int n) {
@@ -128,12 +144,16 @@ class Wavefront {
   }
   void strip(int n, int low, int high) {
     Strip<T> s;
-    s.rows = high - low, s.width = s_.width();
+    s.rows = high - low, s.width = s_.width(), s.finest = s_.finest();
     for (int i = 0; i < s.rows + 2; ++i) {
       const int row = std::clamp(low - 1 + i, 0, s_.height() - 1);
       auto& r = s.row[i];
-      r = {u(n - 1, row),  v(n - 1, row),  s_.mxx.row(row), s_.mxy.row(row), s_.myy.row(row),
-           s_.cx.row(row), s_.cy.row(row), nullptr,         nullptr};
+      r.u = u(n - 1, row), r.v = v(n - 1, row);
+      if (s.finest)
+        r.c[0] = s_.hx.row(row), r.c[1] = s_.hy.row(row), r.c[2] = s_.ht6.row(row);
+      else
+        r.c[0] = s_.mxx.row(row), r.c[1] = s_.mxy.row(row), r.c[2] = s_.myy.row(row), r.c[3] = s_.cx.row(row),
+        r.c[4] = s_.cy.row(row);
       r.u_out = n == sweeps_ ? to_.u.row(row) : rings_.u.row(kRing * (n - 1) + row % kRing);
       r.v_out = n == sweeps_ ? to_.v.row(row) : rings_.v.row(kRing * (n - 1) + row % kRing);
     }

@@ -31,26 +31,25 @@ template <class T>
   }
 }
 
-/// The iteration of the published method: J = g g^T is of rank one, so that M and c are known in closed form.
+/// The iteration of the published method.
 template <class T>
 struct PublishedRow {
   const T *ix, *iy, *it;
   const T *u, *v;  ///< the flow that the unknown contains already
-  T *mxx, *mxy, *myy, *cx, *cy;
+  T *hx, *hy, *ht6;
   T lambda;
   int width;
 };
 template <class T>
 [[gnu::always_inline]] inline void row(const PublishedRow<T>& r) {
   const T *ix = r.ix, *iy = r.iy, *it = r.it, *u = r.u, *v = r.v;
-  T *mxx = r.mxx, *mxy = r.mxy, *myy = r.myy, *cx = r.cx, *cy = r.cy;
-  const T lambda = r.lambda, sixth = T(1) / 6;
+  T *hx = r.hx, *hy = r.hy, *ht6 = r.ht6;
+  const T lambda = r.lambda;
   FABA_ELEMENTWISE
   for (int x = 0; x < r.width; ++x) {
     const T gx = ix[x], gy = iy[x], gt = it[x] - (gx * u[x] + gy * v[x]);
-    const T xx = gx * gx, yy = gy * gy, scale = 1 / (lambda + (xx + yy)), by6 = scale * sixth;
-    mxx[x] = (lambda + yy) * by6, mxy[x] = -(gx * gy) * by6, myy[x] = (lambda + xx) * by6;
-    cx[x] = -(gx * gt) * scale, cy[x] = -(gy * gt) * scale;
+    const T scale = 1 / std::sqrt(lambda + (gx * gx + gy * gy));
+    hx[x] = gx * scale, hy[x] = gy * scale, ht6[x] = 6 * gt * scale;
   }
 }
 
@@ -244,27 +243,21 @@ void differentiate(Plane<T>& a, Plane<T>& b, FlowDerivatives<T>& out, Pool& pool
 }
 
 template <class T>
-void FlowSystem<T>::resize(int width, int height) {
-  for (Plane<T>* p : {&mxx, &mxy, &myy, &cx, &cy}) p->resize(width, height);
-}
-
-template <class T>
-void FlowSystem<T>::resize_data_term() {
-  for (Plane<T>* p : {&jxx, &jxy, &jyy, &fx, &fy}) p->resize(width(), height());
+void FlowSystem<T>::resize_data_term(int width, int height) {
+  for (Plane<T>* p : {&jxx, &jxy, &jyy, &fx, &fy}) p->resize(width, height);
 }
 
 template <class T>
 void FlowSystem<T>::set_up(const FlowDerivatives<T>& d, const FlowPlanes<T>* around, bool data_term,
                            Pool& pool) {
-  resize(d.ix.width(), d.ix.height());
-  if (data_term) resize_data_term();
+  for (Plane<T>* p : {&hx, &hy, &ht6}) p->resize(d.ix.width(), d.ix.height());
+  if (data_term) resize_data_term(width(), height());
   const Plane<T> none(around ? 0 : width(), 1);
   for_rows(height(), pool, [&](int begin, int end) {
     for (int r = begin; r < end; ++r) {
       const T *ix = d.ix.row(r), *iy = d.iy.row(r), *it = d.it.row(r);
       const T *u = around ? around->u.row(r) : none.row(0), *v = around ? around->v.row(r) : none.row(0);
-      do_row(PublishedRow<T>{ix, iy, it, u, v, mxx.row(r), mxy.row(r), myy.row(r), cx.row(r), cy.row(r),
-                             lambda, width()});
+      do_row(PublishedRow<T>{ix, iy, it, u, v, hx.row(r), hy.row(r), ht6.row(r), lambda, width()});
       if (data_term)
         do_row(
             DataRow<T>{ix, iy, it, u, v, jxx.row(r), jxy.row(r), jyy.row(r), fx.row(r), fy.row(r), width()});
@@ -274,8 +267,9 @@ void FlowSystem<T>::set_up(const FlowDerivatives<T>& d, const FlowPlanes<T>* aro
 
 template <class T>
 void FlowSystem<T>::set_up_coarser_than(const FlowSystem& fine, Pool& pool) {
-  resize((fine.width() + 1) / 2, (fine.height() + 1) / 2);
-  resize_data_term();
+  const int w = (fine.width() + 1) / 2, h = (fine.height() + 1) / 2;
+  for (Plane<T>* p : {&mxx, &mxy, &myy, &cx, &cy}) p->resize(w, h);
+  resize_data_term(w, h);
   lambda = fine.lambda / 4;
   halve(fine.jxx, jxx, pool), halve(fine.jxy, jxy, pool), halve(fine.jyy, jyy, pool);
   for_rows(height(), pool, [&](int begin, int end) {
