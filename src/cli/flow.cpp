@@ -3,6 +3,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "study/distance_report.h"
 #include "study/flow_report.h"
@@ -70,9 +71,9 @@ int flow_video(const FlowVerb& v, const Common& c) {
   }
   tell_notes(j, c);
   if (c.quiet) return 0;
-  fmt::print("{} pairs of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
-             j["pairs"].get<std::uint64_t>(), j["seconds"].get<double>(), j["image_size"][0].get<int>(),
-             j["image_size"][1].get<int>(), j["mean_speed_px"].get<double>());
+  fmt::print("{} of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
+             counted(j["pairs"].get<std::uint64_t>(), "pair"), j["seconds"].get<double>(),
+             j["image_size"][0].get<int>(), j["image_size"][1].get<int>(), j["mean_speed_px"].get<double>());
   for (const auto& file : {v.out, v.overlay})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

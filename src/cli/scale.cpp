@@ -69,6 +69,12 @@ int scale(const ScaleVerb& v, const Common& c) {
   if (table && !v.overlay.empty()) throw Error(Errc::usage, "--overlay", "is for pictures");
   const auto j =
       table ? report_scale_table(v.ruler) : report_scale_picture(v.ruler, tick_of(v.tick), v.overlay);
+  if (!v.out.empty() && !table && !v.force && j["quality"] == "poor")
+    throw Error(
+        Errc::input, v.ruler.string(),
+        fmt::format("the marks found in it are too few or too uneven for a calibration ({} of them, scatter "
+                    "{:.2f} px): look at them with --overlay; --force writes {} all the same",
+                    j["marks"].get<int>(), j["residual_px"].get<double>(), v.out.string()));
   if (!v.out.empty()) write_calibration(v.out, calibration_of(j));
   if (!c.quiet && !table && j["quality"] != "good")
     tell(fmt::format(

@@ -6,6 +6,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "study/track_report.h"
 
@@ -47,6 +48,8 @@ void check_outputs(const TrackVerb& v) {
   check_output(v.overlay, "", v.force, {v.video});
   check_output(v.report, ".html", v.force, {v.video});
   check_output(v.picture, ".png", v.force, {v.video});
+  if (!v.figures.empty() && std::filesystem::exists(v.figures) && !std::filesystem::is_directory(v.figures))
+    throw Error(Errc::usage, v.figures.string(), "is a file; --figures names a folder");
   if (!v.figures.empty())
     for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
       check_output(v.figures / name, ".svg", v.force, {v.video});
@@ -68,8 +71,8 @@ void print_summary(const nlohmann::ordered_json& j) {
   fmt::print("spots    {:.4g} in a frame, {} and {:.2g} px wide, against the {} background\n",
              d["spots_per_frame"].get<double>(), d["polarity"].get<std::string>(), d["size_px"].get<double>(),
              d["background"].get<std::string>());
-  fmt::print("tracks   {} in {} frames, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
-             j["frames"].get<std::int64_t>(), j["mean_points"].get<double>());
+  fmt::print("tracks   {} in {}, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
+             counted(j["frames"].get<std::uint64_t>(), "frame"), j["mean_points"].get<double>());
   const bool together = j["order"].is_number() && j["order"].get<double>() > 0.5 && j["drift"].is_object();
   if (j["speed"].is_object() && (together || j["supported"] != "diffusion"))
     fmt::print("speed    {} on average, over {:.3g} s\n",

@@ -139,7 +139,8 @@ void add_distance(CLI::App& app, CommandLine& line) {
   v->add_option("--m", o->m, "Exponent of the normalisation, 0 or more and below 1");
   v->add_option("--threshold", o->threshold, "Bins that are as far apart as this have nothing in common");
   v->add_option("--similarity", o->similarity, "Similarity of the bins instead: a CSV matrix")
-      ->check(not_empty);
+      ->check(not_empty)
+      ->excludes("--threshold");
   v->add_flag("--normalise", o->normalise, "Compare shapes only: both histograms to a sum of 1 first");
   v->callback([o, &line] { line.code = distance(*o, line.common); });
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/counted.h"
 #include "study/activity_report.h"
 #include "study/flow_histograms.h"
 #include "study/markup.h"
@@ -144,7 +145,11 @@ std::string table(const ActivityResult& r) {
          a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.sigma_s), three_digits(a.fit.se_sigma_s))
                     : "–"},
         "td");
-  out += "</table>\n<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n";
+  out += "</table>\n";
+  if (std::all_of(r.videos.begin(), r.videos.end(),
+                  [](const VideoActivity& a) { return a.segments.empty(); }))
+    return out;
+  out += "<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n";
   out += row({"video", "from (s)", "to (s)", "direction"}, "th");
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
@@ -157,8 +162,9 @@ std::string table(const ActivityResult& r) {
 std::string lead(const ActivityResult& r) {
   if (r.videos.size() == 1) {
     const VideoActivity& a = r.videos.front();
-    return a.segments.empty() ? "Nothing in this video moves in one direction beyond chance."
-                              : fmt::format("{} times something moves in one direction.", a.segments.size());
+    return a.segments.empty()
+               ? "Nothing in this video moves in one direction beyond chance."
+               : fmt::format("Something moves in one direction {}.", counted(a.segments.size(), "time"));
   }
   std::size_t respond = 0;
   for (const VideoActivity& a : r.videos) respond += a.responds;
@@ -208,7 +214,10 @@ void write_activity_picture(const std::filesystem::path& file, const VideoActivi
   FlowDrawing how;
   how.full_px = std::max(full_speed(a.busiest.flow), 1e-6);
   how.arrow_step_px = 0;
-  const RgbImage all = draw_flow(a.busiest.flow, how), left = draw_flow(kept, how);
+  how.words = "all flow";
+  const RgbImage all = draw_flow(a.busiest.flow, how);
+  how.words = fmt::format("{:.3g} px and more along {:.0f} degrees", a.threshold_px, direction);
+  const RgbImage left = draw_flow(kept, how);
   RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
   for (int y = 0; y < all.height; ++y)
     for (int x = 0; x < all.width; ++x)

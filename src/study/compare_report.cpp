@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "core/counted.h"
 #include "study/inline_picture.h"
 #include "study/markup.h"
 #include "study/plot.h"
@@ -45,7 +46,7 @@ Plot distances(const Comparison& c) {
   return p;
 }
 
-std::vector<double> counted(std::size_t n) {
+std::vector<double> bins(std::size_t n) {
   std::vector<double> x(n);
   std::iota(x.begin(), x.end(), 0.0);
   return x;
@@ -57,8 +58,8 @@ Plot histogram(const char* axis, const std::vector<double>& reference, const std
   p.height = 190;
   p.x.label = axis, p.y.label = "flow (px × px)";
   p.add(Line{
-      .x = counted(reference.size()), .y = reference, .label = "reference", .ink = Ink::blue, .width = 1.2});
-  p.add(Line{.x = counted(run.size()), .y = run, .label = "run", .ink = Ink::vermillion, .width = 1.2});
+      .x = bins(reference.size()), .y = reference, .label = "reference", .ink = Ink::blue, .width = 1.2});
+  p.add(Line{.x = bins(run.size()), .y = run, .label = "run", .ink = Ink::vermillion, .width = 1.2});
   return p;
 }
 
@@ -145,10 +146,9 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
 
 std::string compare_page(const Comparison& c, const CompareJob& job) {
   std::string out = fmt::format("<h1>Comparison with {}</h1>\n", escape_markup(name_of(job.reference)));
-  out +=
-      fmt::format("<p class=\"lead\">{} compared with it, {}.</p>\n",
-                  c.runs.size() == 1 ? name_of(c.runs.front().file) : fmt::format("{} videos", c.runs.size()),
-                  escape_markup(c.alignment));
+  out += fmt::format("<p class=\"lead\">{} compared with it, {}.</p>\n",
+                     c.runs.size() == 1 ? name_of(c.runs.front().file) : counted(c.runs.size(), "video"),
+                     escape_markup(c.alignment));
   for (const std::string& note : c.notes)
     out += fmt::format("<p class=\"note\">{}.</p>\n", escape_markup(note));
   for (const ComparedRun& r : c.runs)

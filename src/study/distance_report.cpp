@@ -21,6 +21,8 @@ void each_line(const std::filesystem::path& file, Take&& take) {
   std::size_t number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF"))
+      line.erase(0, 3);  // what some spreadsheets begin with
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
     const std::size_t begin = line.find_first_not_of(" \t");
     if (begin != std::string::npos && line[begin] != '#') take(line.substr(begin), number);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "study/run_video.h"
 #include "vision/flow_file.h"
 #include "vision/grey_scale.h"
@@ -75,7 +76,10 @@ void FlowSource::Impl::open_video(Pool& pool) {
   side = options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);
   width = w / side, height = h / side;
   if (width < 2 || height < 2)
-    throw Error(Errc::usage, "shrink", fmt::format("of {} leaves nothing of {} x {} px", side, w, h));
+    throw side > 1
+        ? Error(Errc::usage, "shrink", fmt::format("of {} leaves nothing of {} x {} px", side, w, h))
+        : Error(Errc::input, path.string(),
+                fmt::format("has frames of {} x {} px; a flow needs 2 x 2", w, h));
   flow = options.method.make({&pool});
   method = options.method.resolved.dump();
   if (!read(before, t_before)) throw Error(Errc::input, path.string(), "has no frame");
@@ -137,7 +141,15 @@ const std::string& FlowSource::method() const { return impl_->method; }
 
 std::vector<std::string> FlowSource::notes() const {
   std::vector<std::string> notes;
-  if (impl_->flows) return notes;
+  if (impl_->flows) {
+    const std::string asked = impl_->options.method.resolved.dump();
+    if (impl_->options.shrink > 0 || impl_->options.fps > 0 || asked != impl_->method)
+      notes.push_back(
+          fmt::format("flows were taken from {} as they are, made with {}; what was said about making flows "
+                      "does not apply",
+                      impl_->input.file.filename().string(), impl_->method));
+    return notes;
+  }
   if (impl_->side > 1 && impl_->options.shrink == 0)
     notes.push_back(
         fmt::format("frames were averaged over squares of {} px; flows are in px of the video", impl_->side));
@@ -145,7 +157,8 @@ std::vector<std::string> FlowSource::notes() const {
     notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");
   if (impl_->greys && !impl_->greys->words().empty()) notes.push_back(impl_->greys->words());
   if (impl_->video->truncated())
-    notes.push_back(fmt::format("{} frames could be read; {}", impl_->frame + 1, impl_->video->damage()));
+    notes.push_back(
+        fmt::format("{} could be read; {}", counted(impl_->frame + 1, "frame"), impl_->video->damage()));
   else if (impl_->video->damaged_frames() > 0)
     notes.push_back(fmt::format("{} damaged frames were skipped ({})", impl_->video->damaged_frames(),
                                 impl_->video->damage()));

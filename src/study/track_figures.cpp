@@ -87,18 +87,19 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
 }
 
 Figure heading_figure(const TrackSummary& s) {
-  Figure f{"Direction over time",
-           "Direction of the mean velocity in the picture (0 right, 90 degrees down), where the movement has "
-           "more in "
-           "common than chance would give it. Line: what all have in common, 0 nothing, 1 all move alike.",
-           {}};
+  Figure f{
+      "Direction over time",
+      "Direction of the mean velocity in the picture (0 right, 90 degrees down), where the movement has "
+      "more in common than chance would give it. Line: what all have in common, from nothing at the bottom "
+      "to all moving alike at the top.",
+      {}};
   f.plot.description = "Mean heading over time";
   f.plot.inlined = true;
   f.plot.x.label = "time (s)", f.plot.y.label = "heading (degrees)";
   f.plot.y.lo = -180, f.plot.y.hi = 180;
   Scatter heading{{}, {}, "heading", Ink::blue};
   heading.size = 4;
-  Line order{{}, {}, "in common (from the bottom, 0, to the top, 1)", Ink::orange};
+  Line order{{}, {}, "in common (bottom: nothing, top: all)", Ink::orange};
   order.width = 1.2;
   for (std::size_t i = 0; i < s.time_s.size(); ++i) {
     order.x.push_back(s.time_s[i]), order.y.push_back(360 * s.order_in_time[i] - 180);

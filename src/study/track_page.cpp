@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.h"
 #include "core/file.h"
 #include "study/inline_picture.h"
 #include "study/markup.h"
@@ -43,7 +44,8 @@ std::string row(const std::string& name, const std::string& value) {
 std::string cards(const Json& r) {
   std::string out = "<dl class=\"cards\">\n";
   out += card("Tracks", r["tracks"].dump(),
-              fmt::format("{} places in {} frames", r["points"].dump(), r["frames"].dump()));
+              fmt::format("{} in {}", counted(r["points"].get<std::uint64_t>(), "place"),
+                          counted(r["frames"].get<std::uint64_t>(), "frame")));
   if (r["supported"] == "diffusion")
     out += card("Diffusion", value_of(r["diffusion"], "d", "px2_s", "um2_s", "px²/s", "µm²/s"),
                 "± standard error");
@@ -53,15 +55,17 @@ std::string cards(const Json& r) {
              "root mean square");
   out += card("Mean speed", value_of(r["speed"], "mean", "px_s", "um_s", "px/s", "µm/s"),
               r["speed"].is_object() ? "over " + number(r["speed"]["interval_s"], " s") : "");
-  out += card("Localisation", number(r["localisation_px"], "\u00A0px"), "sd of an axis");
+  out += card("Localisation", r["localisation_px"] == 0 ? "–" : number(r["localisation_px"], "\u00A0px"),
+              r["localisation_px"] == 0 ? "too small to be told" : "sd of an axis");
   return out + "</dl>\n";
 }
 
 std::string table(const Json& r) {
   const Json &d = r["detection"], &t = r["tracking"];
   std::string out = "<h2>Numbers</h2>\n<table class=\"facts\"><tbody>\n";
-  out += row("Video", fmt::format("{}, {} frames, {} s", r["video"].get<std::string>(), r["frames"].dump(),
-                                  number(r["duration_s"], "")));
+  out += row("Video",
+             fmt::format("{}, {}, {} s", r["video"].get<std::string>(),
+                         counted(r["frames"].get<std::uint64_t>(), "frame"), number(r["duration_s"], "")));
   out += row("Scale", r["um_per_px"].is_null() ? "not given" : number(r["um_per_px"], " µm per px"));
   out += row("Spots", fmt::format("{}, {} wide, signal-to-noise from {}; {} in a frame",
                                   d["polarity"].get<std::string>(), number(d["size_px"], " px"),
@@ -83,7 +87,7 @@ std::string table(const Json& r) {
   out += row("Exponent α",
              number(r["alpha"], "") + (r["alpha_se"].is_null() ? "" : " ± " + number(r["alpha_se"], "")));
   if (r["turn"].is_object())
-    out += row("Turning", fmt::format("{} on average, of which {} by localisation error",
+    out += row("Turning", fmt::format("{} on average; localisation error alone makes {}",
                                       number(r["turn"]["mean_size_deg_s"], "°/s"),
                                       number(r["turn"]["noise_deg_s"], "°/s")));
   return out + "</tbody></table>\n";
@@ -91,7 +95,7 @@ std::string table(const Json& r) {
 
 std::string lead(const Json& r) {
   if (r["tracks"] == 0) return "Nothing was tracked.";
-  const std::string tracks = r["tracks"].dump() + (r["tracks"] == 1 ? " track" : " tracks");
+  const std::string tracks = counted(r["tracks"].get<std::uint64_t>(), "track");
   if (r["order"].is_number() && r["order"].get<double>() > 0.5)
     return fmt::format("{}: they move together, at {} on average.", tracks,
                        value_of(r["speed"], "mean", "px_s", "um_s", "px/s", "µm/s"));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "study/run_video.h"
@@ -29,6 +30,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kTail = 30;     // places behind each cell in the overlay
+constexpr double kRing = 5;           // px between a cell and the ring around it
 constexpr std::size_t kDrawn = 3000;  // tracks on the picture of all tracks: more cannot be told apart
 constexpr std::size_t kDrawnPoints = 300000;
 
@@ -53,8 +55,7 @@ class Overlay {
         line.path.push_back({t->points[i].x_px, t->points[i].y_px});
       lines.push_back(std::move(line));
     }
-    writer_.write(
-        draw_tracks(frame, survey_.black, survey_.white, lines, true, std::max(4.0, survey_.size_px)));
+    writer_.write(draw_tracks(frame, survey_.black, survey_.white, lines, true, survey_.size_px + kRing));
   }
   void complete() {
     writer_.finish(path_);
@@ -230,8 +231,8 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   j.update(track_json(summary, um_per_px));
   Json notes = survey.notes;
   if (pass.repeated_times > 0)
-    notes.push_back(
-        fmt::format("{} frames have the time of the one before and were not tracked", pass.repeated_times));
+    notes.push_back(fmt::format("{} at the time of the one before: not tracked",
+                                counted(std::uint64_t(pass.repeated_times), "frame")));
   // Cells that are joined over a quarter of the mean spacing and more are often the wrong ones.
   const double spacing = std::sqrt(double(survey.first.width) * survey.first.height /
                                    std::max(1.0, pass.spots_found / pass.frames));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "vision/smoothing.h"
 #include "vision/video_reader.h"
@@ -107,8 +108,8 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   };
   s.black = at(0.001), s.white = at(0.999);
   if (reader.truncated() || reader.damaged_frames() > 0)
-    s.notes.push_back(
-        fmt::format("{}: {} frames could be read; {}", video.string(), s.frames, reader.damage()));
+    s.notes.push_back(fmt::format("{}: {} could be read; {}", video.string(),
+                                  counted(std::uint64_t(s.frames), "frame"), reader.damage()));
   if (s.frames == 1) s.notes.emplace_back("one frame only: spots are found, nothing is tracked");
   if (!s.timed && s.frames > 1)
     s.notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");

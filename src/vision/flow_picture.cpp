@@ -56,6 +56,7 @@ cv::Point fixed(double x, double y) {
 }
 
 // Mean flow about each arrow's foot, so that an arrow stands for its whole square.
+constexpr double kLeast = 0.2;  // of the full speed, of a flow that gets an arrow
 void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, double full, bool coloured) {
   const int step = how.arrow_step_px;
   for (int r = step / 2; r < flow.height(); r += step)
@@ -69,13 +70,28 @@ void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, dou
         }
       if (n == 0) continue;
       u /= n, v /= n;
-      if (std::hypot(u, v) < 0.1 * full) continue;
+      if (std::hypot(u, v) < kLeast * full) continue;
       const double scale = 0.9 * step / std::max(full, std::hypot(u, v));
       const cv::Vec3b k = coloured ? wheel().colour(u / full, v / full) : cv::Vec3b(0, 0, 0);
       cv::arrowedLine(canvas, fixed(c - u * scale / 2, r - v * scale / 2),
                       fixed(c + u * scale / 2, r + v * scale / 2), cv::Scalar(k[0], k[1], k[2]), 1,
                       cv::LINE_AA, kShift, 0.35);
     }
+}
+
+cv::Size measure(const std::string& words, double size) {
+  int base = 0;
+  return cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, size, 1, &base);
+}
+// Dark with a bright rim, to be read on any ground.
+void write(cv::Mat3b canvas, const std::string& words, cv::Point at, double size) {
+  cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, size, {255, 255, 255}, 3, cv::LINE_AA);
+  cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, size, {30, 30, 30}, 1, cv::LINE_AA);
+}
+
+void draw_words(cv::Mat3b canvas, const std::string& words) {
+  const double size = std::clamp(canvas.rows / 600.0, 0.4, 1.0);
+  write(canvas, words, {8, 8 + measure(words, size).height}, size);
 }
 
 void draw_key(cv::Mat3b canvas, double full) {
@@ -91,11 +107,8 @@ void draw_key(cv::Mat3b canvas, double full) {
   cv::circle(canvas, centre, radius, {90, 90, 90}, 1, cv::LINE_AA);
   const std::string words = fmt::format("{:.3g} px", full);
   const double size = std::clamp(radius / 40.0, 0.35, 0.8);
-  int base = 0;
-  const cv::Size box = cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, size, 1, &base);
-  const cv::Point at(canvas.cols - box.width - 6, centre.y + radius + box.height + 6);
-  cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, size, {255, 255, 255}, 3, cv::LINE_AA);
-  cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, size, {30, 30, 30}, 1, cv::LINE_AA);
+  const cv::Size box = measure(words, size);
+  write(canvas, words, {canvas.cols - box.width - 6, centre.y + radius + box.height + 6}, size);
 }
 
 double strength_of(const Flow& flow, const FlowDrawing& how) {
@@ -124,6 +137,7 @@ RgbImage draw_flow(const Flow& flow, const FlowDrawing& how) {
       canvas(r, c) = wheel().colour(double(flow.u.at(c, r)) / full, double(flow.v.at(c, r)) / full);
   if (how.arrow_step_px > 0) draw_arrows(canvas, flow, how, full, false);
   if (how.key) draw_key(canvas, full);
+  draw_words(canvas, how.words);
   return out;
 }
 
@@ -137,6 +151,7 @@ RgbImage draw_flow_on(const GrayF& frame, const Flow& flow, const FlowDrawing& h
   cv::Mat3b canvas = canvas_of(out);
   if (how.arrow_step_px > 0) draw_arrows(canvas, flow, how, full, true);
   if (how.key) draw_key(canvas, full);
+  draw_words(canvas, how.words);
   return out;
 }
 

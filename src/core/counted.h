@@ -1,0 +1,15 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace faba {
+
+/// "1 frame", "3 frames": a number with what it counts. `one` is a noun whose plural ends in s.
+inline std::string counted(std::uint64_t n, std::string_view one) {
+  return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
+}
+
+}  // namespace faba
