@@ -163,6 +163,7 @@ double HistogramDistance::operator()(std::span<const double> p, std::span<const 
       for (std::size_t i = 0; i < n; ++i)
         if (!(h[i] >= 0 && std::isfinite(h[i])))
           throw Error(Errc::input, "histogram", fmt::format("bin {} is {}; bins are 0 or more", i + 1, h[i]));
+  if (n == 0) return 0;
   // Around the bins zeros, as far as a similarity can reach; kept from call to call.
   const std::size_t margin = similarity_.reach(n);
   if (n != bins_) {
