@@ -18,16 +18,24 @@ ActivityJob job_of(const ActivityVerb& v) {
   ActivityJob job;
   const FlowChoice choice{v.flow.method, v.flow.values};
   job.method = flow_part(choice, published_flow());
+  job.said = options_said(choice, v.flow.shrink, v.flow.fps), job.frames = !v.picture.empty();
   job.noise = v.noise, job.shrink = v.flow.shrink, job.fps = v.flow.fps, job.threads = v.flow.threads;
   if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
     read_activity_study(v.videos.front(), job);
     if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
+    if (!v.noise.empty()) job.noise = v.noise, job.threshold_px.reset();
   } else {
+    for (const auto& video : v.videos)
+      if (video.extension() == ".toml")
+        throw Error(Errc::usage, video.string(), "is a study, which stands alone: one study or videos");
     for (const auto& video : v.videos) job.videos.push_back({.file = video});
   }
   for (ActivityInput& one : job.videos) {
     if (v.from) one.from_s = *v.from;
     if (v.to) one.to_s = *v.to;
+    if (one.to_s && *one.to_s <= one.from_s)
+      throw Error(Errc::usage, "--from, --to",
+                  fmt::format("{:g} s to {:g} s is no time", one.from_s, *one.to_s));
     if (v.response.direction) one.direction_deg = v.response.direction;
   }
   if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
@@ -42,9 +50,9 @@ std::string line_words(const nlohmann::ordered_json& line) {
 
 void summary(const nlohmann::ordered_json& j) {
   for (const auto& a : j["videos"]) {
-    fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {:.0f} degrees{}\n",
+    fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {} degrees{}\n",
                a["video"].get<std::string>(), a["mean_activity"].get<double>(),
-               a["threshold_px"].get<double>(), a["direction_deg"].get<double>(),
+               a["threshold_px"].get<double>(), whole_degrees(a["direction_deg"].get<double>()),
                a["signal_to_noise"].is_null()
                    ? ""
                    : fmt::format(", signal to noise {:.3g}", a["signal_to_noise"].get<double>()));
@@ -57,8 +65,8 @@ void summary(const nlohmann::ordered_json& j) {
     else
       fmt::print("  no Gaussian: {}\n", a["gaussian"]["why"].get<std::string>());
     for (const auto& s : a["segments"])
-      fmt::print("  {:7.2f} to {:7.2f} s  towards {:3.0f} degrees\n", s["t0_s"].get<double>(),
-                 s["t1_s"].get<double>(), s["direction_deg"].get<double>());
+      fmt::print("  {:7.2f} to {:7.2f} s  towards {:3} degrees\n", s["t0_s"].get<double>(),
+                 s["t1_s"].get<double>(), whole_degrees(s["direction_deg"].get<double>()));
     if (a["segments"].empty()) fmt::print("  nothing moves in one direction\n");
   }
   for (const auto& [name, words] :

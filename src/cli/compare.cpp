@@ -6,14 +6,14 @@
 #include "core/file.h"
 #include "study/compare_report.h"
 #include "study/flow_report.h"
+#include "study/segments.h"
 
 namespace faba::cli {
 namespace {
 
 void summary(const nlohmann::ordered_json& j) {
-  fmt::print("compared {}; direction {:.0f} degrees, flow above {:.3g} px\n",
-             j["alignment"].get<std::string>(), j["direction_deg"].get<double>(),
-             j["flow_threshold_px"].get<double>());
+  fmt::print("compared {}; direction {} degrees, flow above {:.3g} px\n", j["alignment"].get<std::string>(),
+             whole_degrees(j["direction_deg"].get<double>()), j["flow_threshold_px"].get<double>());
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
   for (const auto& r : j["runs"])
     fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r["mean"].get<double>(), r["sd"].get<double>(),
@@ -42,6 +42,7 @@ int compare(const CompareVerb& v, const Common& c) {
   if (v.duration) job.duration_s = *v.duration;
   job.m = v.m, job.threshold = v.threshold;
   job.method = flow_part({v.flow.method, v.flow.values}, published_flow());
+  job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
   job.shrink = v.flow.shrink, job.fps = v.flow.fps, job.threads = v.flow.threads,
   job.simulate_floor = !v.no_floor;
   std::string doing;

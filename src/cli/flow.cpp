@@ -11,9 +11,10 @@
 namespace faba::cli {
 namespace {
 
-void tell_notes(const nlohmann::ordered_json& j, const Common& c) {
+void tell_notes(const nlohmann::ordered_json& j, const std::filesystem::path& of, const Common& c) {
   if (c.quiet) return;
-  for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+  for (const auto& note : j["notes"])
+    tell(fmt::format("faba: note: {}: {}", of.string(), note.get<std::string>()));
 }
 
 FlowJob job_of(const FlowVerb& v) {
@@ -21,6 +22,7 @@ FlowJob job_of(const FlowVerb& v) {
   job.method = flow_part({v.flow.method, v.flow.values});
   job.out = v.out, job.picture = v.picture, job.truth = v.truth, job.overlay = v.overlay;
   job.shrink = v.flow.shrink, job.fps = v.flow.fps;
+  job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
   job.threads = v.flow.threads;
   return job;
 }
@@ -30,19 +32,21 @@ int flow_pair(const FlowVerb& v, const Common& c) {
   check_output(v.picture, ".png", v.force, {v.a, v.b, v.truth});
   if (!v.overlay.empty())
     throw Error(Errc::usage, "--overlay", "is for a video; take --picture for two pictures");
-  if (v.flow.shrink > 1) throw Error(Errc::usage, "--shrink", "is for a video");
+  for (const auto& [option, given] :
+       {std::pair{"--shrink", v.flow.shrink > 1}, std::pair{"--fps", v.flow.fps > 0}})
+    if (given) throw Error(Errc::usage, option, "is for a video");
   const auto j = flow_of_pair(v.a, v.b, job_of(v));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
   }
-  tell_notes(j, c);
+  tell_notes(j, v.a, c);
   if (c.quiet) return 0;
   fmt::print("flow     mean ({:.4g}, {:.4g}) px, mean speed {:.4g} px, largest {:.4g} px\n",
              j["mean_px"][0].get<double>(), j["mean_px"][1].get<double>(), j["mean_speed_px"].get<double>(),
              j["largest_px"].get<double>());
   if (j.contains("iterations"))
-    fmt::print("solver   {} iterations, {}\n", j["iterations"].get<int>(),
+    fmt::print("solver   {}, {}\n", counted(j["iterations"].get<std::uint64_t>(), "iteration"),
                j["converged"].get<bool>() ? "converged" : "not converged");
   if (j.contains("truth"))
     fmt::print(
@@ -69,7 +73,7 @@ int flow_video(const FlowVerb& v, const Common& c) {
     fmt::print("{}\n", j.dump());
     return 0;
   }
-  tell_notes(j, c);
+  tell_notes(j, v.a, c);
   if (c.quiet) return 0;
   fmt::print("{} of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
              counted(j["pairs"].get<std::uint64_t>(), "pair"), j["seconds"].get<double>(),

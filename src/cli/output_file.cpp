@@ -23,6 +23,10 @@ void check_output(const std::filesystem::path& file, const char* extension, bool
     refuse("is no file that could be replaced; name another one");
   for (const auto& input : inputs)
     if (std::filesystem::equivalent(file, input, ec)) refuse("is what this command reads; name another file");
+  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  for (const auto& input : inputs)
+    if (std::filesystem::is_directory(input, ec) && std::filesystem::equivalent(folder, input, ec))
+      refuse("is one of the files that this command reads; name another one");
   if (!force) refuse("already exists; name another file, or --force to replace it");
 }
 

@@ -76,7 +76,7 @@ int scale(const ScaleVerb& v, const Common& c) {
                     "{:.2f} px): look at them with --overlay; --force writes {} all the same",
                     j["marks"].get<int>(), j["residual_px"].get<double>(), v.out.string()));
   if (!v.out.empty()) write_calibration(v.out, calibration_of(j));
-  if (!c.quiet && !table && j["quality"] != "good")
+  if (!c.quiet && !c.json && !table && j["quality"] != "good")
     tell(fmt::format(
         "faba: note: the marks are few or uneven ({}); look at them with --overlay before you use the "
         "scale",

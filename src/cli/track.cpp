@@ -50,14 +50,14 @@ void check_outputs(const TrackVerb& v) {
   check_output(v.picture, ".png", v.force, {v.video});
   if (!v.figures.empty() && std::filesystem::exists(v.figures) && !std::filesystem::is_directory(v.figures))
     throw Error(Errc::usage, v.figures.string(), "is a file; --figures names a folder");
-  if (!v.figures.empty())
+  if (!v.figures.empty() && std::filesystem::is_directory(v.figures))
     for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
       check_output(v.figures / name, ".svg", v.force, {v.video});
 }
 
 // "12.3 +- 0.4 um/s", in um where there is a scale.
-std::string value_of(const nlohmann::ordered_json& from, const std::string& name, const char* px,
-                     const char* um, const char* px_words, const char* um_words) {
+std::string value_words(const nlohmann::ordered_json& from, const std::string& name, const char* px,
+                        const char* um, const char* px_words, const char* um_words) {
   const bool scaled = from.contains(name + "_" + um);
   const std::string key = name + "_" + (scaled ? um : px);
   if (from[key].is_null()) return "-";
@@ -73,19 +73,32 @@ void print_summary(const nlohmann::ordered_json& j) {
              d["background"].get<std::string>());
   fmt::print("tracks   {} in {}, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
              counted(j["frames"].get<std::uint64_t>(), "frame"), j["mean_points"].get<double>());
-  const bool together = j["order"].is_number() && j["order"].get<double>() > 0.5 && j["drift"].is_object();
+  const auto above_half = [&](const char* order) {
+    return j[order].is_number() && j[order].get<double>() > 0.5;
+  };
+  const bool drifts = above_half("order") && j["drift"].is_object();
+  const bool together = drifts || above_half("order_at_a_time");
+  const char* about = !together ? "" : drifts ? "about the drift " : "about the common motion ";
+  const bool timed = j["timed"].get<bool>();
+  const auto value_of = [&](const nlohmann::ordered_json& from, const std::string& name, const char* px,
+                            const char* um, const char* px_words, const char* um_words) {
+    std::string words = value_words(from, name, px, um, px_words, um_words);
+    if (const auto at = words.rfind("/s"); !timed && at != std::string::npos) words.replace(at, 2, "/frame");
+    if (!timed && words.ends_with(" s")) words.replace(words.size() - 1, 1, "frames");
+    return words;
+  };
   if (j["speed"].is_object() && (together || j["supported"] != "diffusion"))
-    fmt::print("speed    {} on average, over {:.3g} s\n",
+    fmt::print("speed    {} on average, over {:.3g} {}\n",
                value_of(j["speed"], "mean", "px_s", "um_s", "px/s", "um/s"),
-               j["speed"]["interval_s"].get<double>());
-  if (together)
+               j["speed"]["interval_s"].get<double>(), timed ? "s" : "frames");
+  if (drifts)
     fmt::print("drift    {} right, {} down\n", value_of(j["drift"], "x", "px_s", "um_s", "px/s", "um/s"),
                value_of(j["drift"], "y", "px_s", "um_s", "px/s", "um/s"));
   if (j["supported"] == "diffusion" && j["diffusion"].is_object())
-    fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", together ? "about the drift " : "",
+    fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", about,
                value_of(j["diffusion"], "d", "px2_s", "um2_s", "px^2/s", "um^2/s"));
   if (j["supported"] == "persistent_walk" && j["persistent_walk"].is_object())
-    fmt::print("motion   {}direction is kept: walk at {} (rms), for {}\n", together ? "about the drift " : "",
+    fmt::print("motion   {}direction is kept: walk at {} (rms), for {}\n", about,
                value_of(j["persistent_walk"], "speed_rms", "px_s", "um_s", "px/s", "um/s"),
                j["persistent_walk"]["tau_longer_than_seen"].get<bool>()
                    ? "longer than was seen"
@@ -103,7 +116,7 @@ int track(const TrackVerb& v, const Common& c) {
     return !stop;
   });
   bar.clear();
-  if (!c.quiet)
+  if (!c.quiet && !c.json)
     for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
   if (c.json) {
     fmt::print("{}\n", j.dump());

@@ -19,7 +19,7 @@ constexpr double kSameRate = 0.01;
 constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
 
 void check_stop(const ActivityJob& job, const ActivityInput& v) {
-  if (job.stop()) throw Error(Errc::interrupted, v.file.string(), "stopped");
+  if (job.stop()) throw Error(Errc::interrupted, v.file.string(), "stopped; nothing was written");
 }
 
 double angle_of(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
@@ -61,12 +61,21 @@ double signal_to_noise(const VideoActivity& a) {
 }
 
 FlowSourceOptions source_options(const ActivityJob& job, const ActivityInput& v) {
-  return {job.method, job.shrink, v.from_s, v.to_s, 1, job.fps};
+  return {.method = job.method,
+          .shrink = job.shrink,
+          .t0_s = v.from_s,
+          .t1_s = v.to_s,
+          .fps = job.fps,
+          .said = job.said,
+          .frames = job.frames};
 }
 
 NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std::size_t index, Pool& pool) {
   return noise_level(video.file, source_options(job, video), pool,
-                     [&](std::uint64_t done, std::uint64_t total) { job.progress(index, done, total); });
+                     [&](std::uint64_t done, std::uint64_t total) {
+                       job.progress(index, done, total);
+                       check_stop(job, video);
+                     });
 }
 
 VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {

@@ -138,7 +138,7 @@ std::string table(const ActivityResult& r) {
              "th");
   for (const VideoActivity& a : r.videos)
     out += row(
-        {title_of(a), fmt::format("{:.0f}°", a.direction_deg), three_digits(a.threshold_px),
+        {title_of(a), fmt::format("{}°", whole_degrees(a.direction_deg)), three_digits(a.threshold_px),
          three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
          a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
          a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.peak_s), three_digits(a.fit.se_peak_s)) : "–",
@@ -154,7 +154,7 @@ std::string table(const ActivityResult& r) {
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
       out += row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
-                  fmt::format("{:.0f}° ({})", s.direction_deg, compass(s.direction_deg))},
+                  fmt::format("{}° ({})", whole_degrees(s.direction_deg), compass(s.direction_deg))},
                  "td");
   return out + "</table>\n";
 }
@@ -214,9 +214,9 @@ void write_activity_picture(const std::filesystem::path& file, const VideoActivi
   FlowDrawing how;
   how.full_px = std::max(full_speed(a.busiest.flow), 1e-6);
   how.arrow_step_px = 0;
-  how.words = "all flow";
+  how.words = fmt::format("flow at {:.2f} s", a.busiest.t1_s);
   const RgbImage all = draw_flow(a.busiest.flow, how);
-  how.words = fmt::format("{:.3g} px and more along {:.0f} degrees", a.threshold_px, direction);
+  how.words = fmt::format("above {:.3g} px, about {} degrees", a.threshold_px, whole_degrees(direction));
   const RgbImage left = draw_flow(kept, how);
   RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
   for (int y = 0; y < all.height; ++y)

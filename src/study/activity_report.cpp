@@ -15,6 +15,11 @@ Json or_null(const std::optional<T>& v) {
 }
 
 Json gaussian_json(const GaussianFit& f) {
+  if (!f.good && f.amplitude == 0) {  // nothing to fit to
+    Json j{{"good", false}, {"why", f.why}};
+    for (const char* key : {"amplitude", "peak_s", "sigma_s", "offset"}) j[key] = nullptr;
+    return j;
+  }
   return {{"amplitude", f.amplitude},
           {"peak_s", f.peak_s},
           {"sigma_s", f.sigma_s},

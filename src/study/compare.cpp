@@ -75,7 +75,9 @@ class Comparer {
   explicit Comparer(const CompareJob& job)
       : job_(job), pool_(job.threads), distance_(BinSimilarity::truncated_linear(job.threshold), job.m) {}
 
-  FlowSourceOptions options() const { return {job_.method, job_.shrink, 0, {}, 1, job_.fps}; }
+  FlowSourceOptions options() const {
+    return {.method = job_.method, .shrink = job_.shrink, .fps = job_.fps, .said = job_.said};
+  }
 
   Signature signature(const std::filesystem::path& video, double threshold) {
     FlowSource source(video, options(), pool_);
@@ -87,6 +89,9 @@ class Comparer {
     }
     return s;
   }
+
+  /// Of the reference, once something was compared with it.
+  const std::vector<std::string>& reference_notes() const { return reference_notes_; }
 
   double noise(const std::filesystem::path& video) {
     return noise_level(video, options(), pool_,
@@ -134,6 +139,11 @@ class Comparer {
                               reference_t0, t0));
     finish(result.distance);
     if (other) result.notes = other->notes();
+    if (other && other->method() != reference.method())
+      result.notes.push_back(
+          fmt::format("its flows were made with {}, the reference's with {}: they are not alike",
+                      other->method(), reference.method()));
+    reference_notes_ = reference.notes();
     if (ratio != 1)
       result.notes.push_back(
           fmt::format("its frames are {:.3g} times as far apart as the reference's; flows were "
@@ -145,7 +155,7 @@ class Comparer {
  private:
   void tick(const char* what, std::uint64_t done, std::uint64_t total) {
     job_.progress(what, done, total);
-    if (job_.stop()) throw Error(Errc::interrupted, job_.reference.string(), "stopped");
+    if (job_.stop()) throw Error(Errc::interrupted, job_.reference.string(), "stopped; nothing was written");
   }
 
   void take(double at, const FlowPair& a, const FlowPair* b, double ratio, const FlowFilter& filter,
@@ -196,6 +206,7 @@ class Comparer {
   HistogramDistance distance_;
   FlowHistograms p_, q_;
   double furthest_ = -1;
+  std::vector<std::string> reference_notes_;
 };
 
 /// A run of the same scenario with another seed, in a folder of its own that goes with it.
@@ -317,6 +328,7 @@ Comparison compare_videos(const CompareJob& job) {
     c.runs.push_back(std::move(run));
   }
   c.naive = comparer.compare({}, c.reference_t0_s, 0, c.filter).distance;
+  for (const std::string& note : comparer.reference_notes()) c.notes.push_back("the reference: " + note);
   find_floor(job, c);
   return c;
 }

@@ -16,6 +16,8 @@ struct FlowChoice {
   std::string method = "horn_schunck";
   std::vector<std::pair<std::string, std::string>> values;  ///< such as {"alpha2", "30"}
 };
+/// The options that a choice came from, with --shrink and --fps where they were given: "--pyramid, --shrink".
+std::string options_said(const FlowChoice& choice, int shrink, double fps);
 /// The part. Parameters that are not given have the values of `defaults`, and else the part's own; a method
 /// that is not that of `defaults` takes nothing from there. Throws Error(usage, "--alpha2") with the reason.
 FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults = {});
@@ -33,6 +35,7 @@ struct FlowJob {
   std::filesystem::path overlay;  ///< of a video: arrows on its frames, MP4
   int shrink = 0;                 ///< see FlowSourceOptions
   double fps = 0;                 ///< see FlowSourceOptions
+  std::string said = {};          ///< see FlowSourceOptions
   bool compress = true;           ///< of .h5
   unsigned threads = 0;           ///< 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};

@@ -20,10 +20,14 @@ struct Input {
   std::optional<double> um_per_px;
 };
 
-Input resolve(const std::filesystem::path& path) {
-  if (is_run(path) && std::filesystem::exists(path / "flow.h5")) return {path / "flow.h5", true, {}};
+Input resolve(const std::filesystem::path& path, bool frames) {
+  if (!frames && is_run(path) && std::filesystem::exists(path / "flow.h5"))
+    return {path / "flow.h5", true, {}};
   const RunVideo video = run_video(path);
-  return {video.file, FlowFileReader::recognises(video.file), video.um_per_px};
+  const bool flows = FlowFileReader::recognises(video.file);
+  if (frames && flows)
+    throw Error(Errc::input, path.string(), "holds flows and no frames, which are asked for; give the video");
+  return {video.file, flows, video.um_per_px};
 }
 
 }  // namespace
@@ -57,7 +61,7 @@ struct FlowSource::Impl {
 FlowSource::FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options, Pool& pool)
     : impl_(new Impl) {
   impl_->path = path, impl_->options = options;
-  impl_->input = resolve(path);
+  impl_->input = resolve(path, options.frames);
   if (!impl_->input.flows) {
     impl_->open_video(pool);
     return;
@@ -141,13 +145,12 @@ const std::string& FlowSource::method() const { return impl_->method; }
 
 std::vector<std::string> FlowSource::notes() const {
   std::vector<std::string> notes;
+  if (is_run(impl_->path) && !is_whole(impl_->path))
+    notes.emplace_back("the run was interrupted; this is what was recorded");
   if (impl_->flows) {
-    const std::string asked = impl_->options.method.resolved.dump();
-    if (impl_->options.shrink > 0 || impl_->options.fps > 0 || asked != impl_->method)
-      notes.push_back(
-          fmt::format("flows were taken from {} as they are, made with {}; what was said about making flows "
-                      "does not apply",
-                      impl_->input.file.filename().string(), impl_->method));
+    if (!impl_->options.said.empty())
+      notes.push_back(fmt::format("its flows are taken from {} as they are: {} does not apply",
+                                  impl_->input.file.filename().string(), impl_->options.said));
     return notes;
   }
   if (impl_->side > 1 && impl_->options.shrink == 0)

@@ -23,9 +23,12 @@ struct FlowSourceOptions {
   FlowRegistry::PartType method;  ///< flow part; ignored for files of flows
   int shrink = 0;                 ///< frames are averaged over squares of so many px first; 0: see kLongSide
   double t0_s = 0;                ///< from this time on
-  std::optional<double> t1_s;     ///< up to this time
-  std::uint64_t every = 1;        ///< only each pair whose number is a multiple of this
-  double fps = 0;                 ///< > 0: in place of what a video states
+  std::optional<double> t1_s = {};  ///< up to this time
+  std::uint64_t every = 1;          ///< only each pair whose number is a multiple of this
+  double fps = 0;                   ///< > 0: in place of what a video states
+  std::string said =
+      {};  ///< which of these the user gave, "--pyramid, --shrink": a note when they do not apply
+  bool frames = false;  ///< frames are wanted with the flows: of a run its video is taken
 };
 
 /// The flows of a video, a run directory or a file of flows, one after the other: memory does not grow with
@@ -35,8 +38,8 @@ class FlowSource {
   /// Larger frames are shrunk, unless said otherwise, until their longer side is no longer than this, px.
   static constexpr int kLongSide = 1024;
 
-  /// Throws Error(input) when `path` cannot be read, or has fewer than two frames; Error(usage) for a
-  /// `shrink` that leaves nothing.
+  /// Throws Error(input) when `path` cannot be read, has fewer than two frames, or holds no frames where they
+  /// are wanted; Error(usage) for a `shrink` that leaves nothing.
   FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options, Pool& pool);
   ~FlowSource();
 

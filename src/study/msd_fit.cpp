@@ -94,7 +94,7 @@ PersistentFit fit_persistent(const Msd& m) {
     const Linear l = solve_for(m, tau);
     if (l.chi2 < best.chi2) best = l, fit.tau_s = tau, at = i;
   }
-  fit.good = best.v2 > 0;
+  fit.good = best.v2 > 0 && at > 0;  // at the shortest time tried nothing is told of it
   fit.speed_px_s = std::sqrt(std::max(0.0, best.v2));
   fit.offset_px2 = best.offset;
   fit.tau_open = at == kSteps || fit.tau_s > 5 * m.lag_s.back();

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "app/run_lock.h"
 #include "app/session.h"
 #include "study/run_info.h"
 
@@ -16,6 +17,8 @@ bool is_run(const std::filesystem::path& path) {
   std::error_code absent;
   return std::filesystem::exists(path / run_files::kManifest, absent);
 }
+
+bool is_whole(const std::filesystem::path& run) { return !RunLock::marks(run); }
 
 bool has_camera_video(const std::filesystem::path& run) {
   std::error_code absent;

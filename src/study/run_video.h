@@ -12,6 +12,8 @@ struct RunVideo {
 
 /// Whether `path` is a run directory: a folder with a manifest.
 bool is_run(const std::filesystem::path& path);
+/// Whether a run was recorded to its end.
+bool is_whole(const std::filesystem::path& run);
 /// Whether a run holds a video as a camera sees it.
 bool has_camera_video(const std::filesystem::path& run);
 

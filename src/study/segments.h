@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,9 @@ struct MotionSegment {
   double t0_s = 0, t1_s = 0;
   double direction_deg = 0;  ///< image frame: 0 right, 90 down; 0 to 360
 };
+
+/// A direction as one says it: whole degrees, 0 to 359.
+inline int whole_degrees(double deg) { return int(std::lround(deg) % 360 + 360) % 360; }
 
 /// Cuts a video into segments of directed motion. Over windows of 0.4 s (three pairs at least) half of all
 /// flow or more must go one way, and be a seventh or more of the most that the video has; a segment lasts

@@ -116,6 +116,11 @@ nlohmann::ordered_json track_json(const TrackSummary& s, double um) {
   j["speed"] = s.speed_count > 0 ? speed_of(s, um) : Json(nullptr);
   j["turn"] = s.turn_count > 0 ? turn_of(s) : Json(nullptr);
   j["order"] = number(s.speed_count > 0 ? s.order : std::nan(""));
+  double order = 0, n = 0;
+  for (std::size_t i = 0; i < s.order_in_time.size(); ++i)
+    if (std::isfinite(s.order_in_time[i]))
+      order += s.order_in_time[i] * s.count_in_time[i], n += s.count_in_time[i];
+  j["order_at_a_time"] = number(n > 0 ? order / n : std::nan(""));
   return j;
 }
 

@@ -42,7 +42,9 @@ class Overlay {
         survey_(s),
         writer_(part(), path_.extension() == ".avi" ? VideoFormat::lossless_avi : VideoFormat::mp4,
                 s.first.width, s.first.height,
-                std::clamp(s.timed ? 1 / s.frame_s : 25.0, kSlowestVideo, kFastestVideo)) {}
+                std::clamp(s.timed ? 1 / s.frame_s : 25.0, kSlowestVideo, kFastestVideo)),
+        tail_px_(std::max(10.0, std::sqrt(double(s.first.width) * s.first.height /
+                                          double(std::max<std::int64_t>(1, s.spots))))) {}
   ~Overlay() {
     std::error_code ignored;
     if (!whole_) std::filesystem::remove(part(), ignored);
@@ -51,8 +53,14 @@ class Overlay {
     std::vector<TrackLine> lines;
     for (const Track* t : tracker.live()) {
       TrackLine line{t->number, {}, !t->points.empty() && t->points.back().frame == index};
-      for (std::size_t i = t->points.size() > kTail ? t->points.size() - kTail : 0; i < t->points.size(); ++i)
-        line.path.push_back({t->points[i].x_px, t->points[i].y_px});
+      // The last places, newest first, as far back as another cell would be met.
+      double length = 0;
+      for (std::size_t i = t->points.size(); i-- > 0 && line.path.size() < kTail && length <= tail_px_;) {
+        const Vec2 at{t->points[i].x_px, t->points[i].y_px};
+        if (!line.path.empty()) length += norm(at - line.path.back());
+        line.path.push_back(at);
+      }
+      std::reverse(line.path.begin(), line.path.end());
       lines.push_back(std::move(line));
     }
     writer_.write(draw_tracks(frame, survey_.black, survey_.white, lines, true, survey_.size_px + kRing));
@@ -67,6 +75,7 @@ class Overlay {
   std::filesystem::path path_;
   const TrackSurvey& survey_;
   VideoWriter writer_;
+  double tail_px_;  ///< longest path behind a cell
   bool whole_ = false;
 };
 
@@ -222,6 +231,7 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
          {"frames", survey.frames},
          {"duration_s", survey.duration_s},
          {"frame_s", survey.frame_s},
+         {"timed", survey.timed},
          {"image_size", {survey.first.width, survey.first.height}},
          {"um_per_px", um_per_px > 0 ? Json(um_per_px) : Json(nullptr)}};
   j.update(found_json(survey, pass, o));
@@ -230,6 +240,8 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
   j["mean_points"] = summary.mean_points;
   j.update(track_json(summary, um_per_px));
   Json notes = survey.notes;
+  if (is_run(o.video) && !is_whole(o.video))
+    notes.push_back("the run was interrupted; this is what was recorded");
   if (pass.repeated_times > 0)
     notes.push_back(fmt::format("{} at the time of the one before: not tracked",
                                 counted(std::uint64_t(pass.repeated_times), "frame")));
@@ -238,12 +250,17 @@ nlohmann::ordered_json track_video(const TrackOptions& o, const TrackProgress& p
                                    std::max(1.0, pass.spots_found / pass.frames));
   const double step = summary.speed_count > 0 ? summary.mean_speed_px_s.value * survey.frame_s : 0;
   // Steps that agree in direction for less than two frames are steps to the wrong cells.
-  const bool forgetful = summary.persistent.good && !summary.persistent.tau_open &&
-                         j["supported"] == "persistent_walk" && summary.tau_s.value < 1.5 * survey.frame_s;
-  if (pass.tracker().crowded() || step > 0.3 * spacing || forgetful)
+  const bool forgetful = j["supported"] == "persistent_walk" && !summary.persistent.tau_open &&
+                         (!summary.persistent.good || summary.tau_s.value < 1.5 * survey.frame_s);
+  if (pass.tracker().crowded() || step > 0.3 * spacing)
     notes.push_back(
         "cells move about as far between frames as they are apart: many tracks join different cells, and "
         "speeds are too small; record more frames per second, or fewer cells");
+  else if (forgetful)
+    notes.push_back(
+        "directions last for less than two frames: cells turn faster than the camera looks, or tracks join "
+        "different "
+        "cells; speeds are too small");
   if (survey.frames > 1 && summary.tracks == 0) notes.push_back("nothing was tracked");
   j["notes"] = notes;
 

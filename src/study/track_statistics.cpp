@@ -286,6 +286,7 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
                       })};
   s.tau_s = {s.persistent.tau_s,
              jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).tau_s; })};
+  if (s.persistent.tau_open) s.tau_s.se = kNaN;
   s.alpha = {fit_exponent(s.msd, offset, skipped), jackknife_se(groups, [&](const Group& g) {
                return fit_exponent(left_out(g), offset, skipped);
              })};

@@ -117,11 +117,11 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   if (!s.size_found)
     s.notes.push_back(
         fmt::format("nothing stands out of the noise at any size; spots of {} px are looked for", s.size_px));
-  if (s.temporal && s.still_spots * 4 > s.spots)
-    s.notes.push_back(
-        fmt::format("{} things of this size never move and are left out as background; to keep them, "
-                    "--background spatial",
-                    s.still_spots));
+  if (s.temporal && s.size_found && s.still_spots * 4 > s.spots)
+    s.notes.push_back(fmt::format(
+        "{} things of this size stand in the median of all frames and are left out as background: they never "
+        "move, or others often come to where they are; to keep them, --background spatial",
+        s.still_spots));
   return s;
 }
 

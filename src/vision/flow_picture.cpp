@@ -55,27 +55,32 @@ cv::Point fixed(double x, double y) {
   return {int(std::lround(x * (1 << kShift))), int(std::lround(y * (1 << kShift)))};
 }
 
-// Mean flow about each arrow's foot, so that an arrow stands for its whole square.
+// The mean flow of a square, and its middle, weighed by its speed: an arrow stands where something moves.
 constexpr double kLeast = 0.2;  // of the full speed, of a flow that gets an arrow
 void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, double full, bool coloured) {
   const int step = how.arrow_step_px;
   for (int r = step / 2; r < flow.height(); r += step)
     for (int c = step / 2; c < flow.width(); c += step) {
-      double u = 0, v = 0;
-      int n = 0;
+      double u = 0, v = 0, x0 = 0, y0 = 0, sum = 0;
       for (int y = r - step / 2; y < std::min(r - step / 2 + step, flow.height()); ++y)
         for (int x = c - step / 2; x < std::min(c - step / 2 + step, flow.width()); ++x) {
-          const double a = double(flow.u.at(x, y)), b = double(flow.v.at(x, y));
-          if (std::isfinite(a) && std::isfinite(b)) u += a, v += b, ++n;
+          const double a = double(flow.u.at(x, y)), b = double(flow.v.at(x, y)), w = std::hypot(a, b);
+          if (std::isfinite(w)) u += w * a, v += w * b, x0 += w * x, y0 += w * y, sum += w;
         }
-      if (n == 0) continue;
-      u /= n, v /= n;
-      if (std::hypot(u, v) < kLeast * full) continue;
-      const double scale = 0.9 * step / std::max(full, std::hypot(u, v));
-      const cv::Vec3b k = coloured ? wheel().colour(u / full, v / full) : cv::Vec3b(0, 0, 0);
-      cv::arrowedLine(canvas, fixed(c - u * scale / 2, r - v * scale / 2),
-                      fixed(c + u * scale / 2, r + v * scale / 2), cv::Scalar(k[0], k[1], k[2]), 1,
-                      cv::LINE_AA, kShift, 0.35);
+      if (!(sum > 0)) continue;
+      u /= sum, v /= sum, x0 /= sum, y0 /= sum;
+      const double speed = std::hypot(u, v);
+      if (speed < kLeast * full) continue;
+      const double scale = 0.9 * step / std::max(full, speed);
+      const cv::Point from = fixed(x0 - u * scale / 2, y0 - v * scale / 2),
+                      to = fixed(x0 + u * scale / 2, y0 + v * scale / 2);
+      if (coloured) {  // the hue alone: how long it is tells the speed
+        const cv::Vec3b k = wheel().colour(u / speed, v / speed);
+        cv::arrowedLine(canvas, from, to, cv::Scalar(20, 20, 20), 3, cv::LINE_AA, kShift, 0.35);
+        cv::arrowedLine(canvas, from, to, cv::Scalar(k[0], k[1], k[2]), 1, cv::LINE_AA, kShift, 0.35);
+      } else {
+        cv::arrowedLine(canvas, from, to, cv::Scalar(0, 0, 0), 1, cv::LINE_AA, kShift, 0.35);
+      }
     }
 }
 
@@ -89,8 +94,10 @@ void write(cv::Mat3b canvas, const std::string& words, cv::Point at, double size
   cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, size, {30, 30, 30}, 1, cv::LINE_AA);
 }
 
+// Beside the key, or not at all where there is no room.
 void draw_words(cv::Mat3b canvas, const std::string& words) {
   const double size = std::clamp(canvas.rows / 600.0, 0.4, 1.0);
+  if (measure(words, size).width > canvas.cols - canvas.rows / 5 - 16) return;
   write(canvas, words, {8, 8 + measure(words, size).height}, size);
 }
 
