@@ -114,8 +114,9 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
     gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
   std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
   a.frame_s = gaps[gaps.size() / 2];
-  a.visible_cells =
-      visible_cells(a.input.file, {a.input.from_s, a.input.to_s, job.fps}, [&] { return !job.stop(); });
+  if (job.cells)
+    a.visible_cells =
+        visible_cells(a.input.file, {a.input.from_s, a.input.to_s, job.fps}, [&] { return !job.stop(); });
   a.fit = fit_gaussian(a.t_s, a.amount);
   mark_points(a);
   if (a.direction_given) a.signal_to_noise = signal_to_noise(a);

@@ -31,6 +31,7 @@ struct ActivityJob {
   double fps = 0;         ///< see FlowSourceOptions
   std::string said = {};  ///< see FlowSourceOptions
   bool frames = false;    ///< see FlowSourceOptions
+  bool cells = true;      ///< count the cells in view; costs another look at the video
   unsigned threads = 0;   ///< 0: all
   /// Called with the number of the video, and pairs of frames done and to do in it; to do is 0 when not
   /// known.

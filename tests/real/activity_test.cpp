@@ -26,6 +26,7 @@ VideoActivity measured(const std::filesystem::path& video, int shrink) {
   job.videos.push_back({video, {}, "", {}});
   job.method = flow_part({}, published_flow());
   job.shrink = shrink;
+  job.cells = false;  // for the time that a test may take; study.swarm_view counts
   return measure_activity(job).videos.at(0);
 }
 
