@@ -32,6 +32,7 @@ HOME = {
 
 def main(root):
     bad = 0
+    internal, headers, includes = set(), {}, []
     for file in sorted(root.rglob("*.[hc]*")):
         here = file.relative_to(root).parts[0]
         if here not in MAY:
@@ -40,14 +41,30 @@ def main(root):
             continue
         for number, line in enumerate(file.read_text().splitlines(), 1):
             own = re.match(r'\s*#\s*include "(\w+)/', line)
+            if own:
+                name = line.split('"')[1]
+                includes.append((file, name))
+                if file.suffix == ".h":
+                    headers.setdefault(str(file.relative_to(root)), set()).add(name)
             if own and own[1] != here and own[1] not in MAY[here].split():
                 print(f"{file}:{number}: {here} must not include {own[1]}")
                 bad = 1
             other = re.match(r"\s*#\s*include <([^>]+)>", line)
             for prefix, homes in HOME.items():
-                if other and other[1].startswith(prefix) and (here not in homes or file.suffix == ".h"):
-                    print(f"{file}:{number}: <{other[1]}> may be included by sources of {', '.join(sorted(homes))} only")
+                if other and other[1].startswith(prefix) and here not in homes:
+                    print(f"{file}:{number}: <{other[1]}> may be included by {', '.join(sorted(homes))} only")
                     bad = 1
+                elif other and other[1].startswith(prefix) and file.suffix == ".h":
+                    internal.add(str(file.relative_to(root)))
+    # A header that shows a library's types stays within its folder, and so does what includes it.
+    grown = True
+    while grown:
+        grown = {h for h, included in headers.items() if included & internal} - internal
+        internal |= grown
+    for file, own in includes:
+        if own in internal and file.relative_to(root).parts[0] != own.split("/")[0]:
+            print(f"{file}: {own} shows a library's types and may be included by its own folder only")
+            bad = 1
     return bad
 
 

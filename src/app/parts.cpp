@@ -11,6 +11,7 @@ namespace faba {
   X(start, start_visible)          \
   X(start, start_edge)             \
   X(start, start_disc)             \
+  X(start, start_places)           \
   X(arena, box)                    \
   X(arena, drop)                   \
   X(field, uniform)                \

@@ -145,18 +145,7 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
 }
 
 void Session::open_sinks(Archive* resume) {
-  const SinkContext c{dir_,
-                      &simulation_->world(),
-                      &simulation_->reference(),
-                      simulation_->frame(),
-                      scenario_.si_scale(),
-                      scenario_.camera.rate,
-                      scenario_.record,
-                      scenario_.motility.type != "none",
-                      &simulation_->rig(),
-                      scenario_.camera.jitter > 0,
-                      scenario_.flow,
-                      pool_.get()};
+  const SinkContext c = sink_context(scenario_, *simulation_, *pool_, dir_);
   sinks_.push_back(series_sink(c, resume));
   if (scenario_.record.tracks) sinks_.push_back(tracks_sink(c, resume));
   if (scenario_.record.video) sinks_.push_back(video_sink(c, false, resume));

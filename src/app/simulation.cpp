@@ -75,14 +75,15 @@ int steps_per_frame(const Scenario& s, double longest) {
   return least;  // models that count in iterations will say what is wrong
 }
 
-std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool) {
+std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool,
+                                 const VideoGround* ground) {
   SimRig::Params p{steps, s.frame_period(), s.camera.delay_frames, s.camera.jitter};
   p.frames = s.camera.sensor == Camera::Sensor::frames;
   if (s.renders()) {
     const Outline edge = world.parts().arena->outline();
-    p.microscope =
-        std::make_shared<Microscope>(s.microscope, world.parts().arena->frame(),
-                                     Circle{edge.centre_image, edge.radius_px}, s.frame_period(), seed);
+    p.microscope = std::make_shared<Microscope>(s.microscope, world.parts().arena->frame(),
+                                                Circle{edge.centre_image, edge.radius_px}, s.frame_period(),
+                                                seed, ground);
     p.pool = &pool;
   }
   return std::make_unique<SimRig>(world, p);
@@ -90,7 +91,8 @@ std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std
 
 }  // namespace
 
-Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
+Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
+                       const std::shared_ptr<const VideoGround>& ground) {
   const Scale scale = s.si_scale();
   WorldParts w;
   w.seed = seed;
@@ -137,7 +139,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool) {
                                w.field->max_currents(s.limits.max_current),
                                library};
   world_ = std::make_unique<World>(std::move(w), pool);
-  rig_ = make_rig(s, *world_, steps, seed, pool);
+  rig_ = make_rig(s, *world_, steps, seed, pool, ground.get());
   estimator_ = s.estimator.make(control);
   reference_ = s.reference.make(control);
   controller_ = s.controller.make(control);

@@ -10,8 +10,10 @@ namespace faba {
 /// what tests, benchmarks and studies step directly.
 class Simulation {
  public:
-  /// Throws Error(usage) when the parts do not fit together.
-  Simulation(const Scenario& s, std::uint64_t seed, Pool& pool);
+  /// Throws Error(usage) when the parts do not fit together. `ground`, when given, is what a video shows that
+  /// microscope.background names: those who simulate many times read it once.
+  Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
+             const std::shared_ptr<const VideoGround>& ground = nullptr);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 

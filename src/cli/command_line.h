@@ -28,6 +28,7 @@ std::function<std::string(const std::string&)> between(double least, double most
 void add_run_verbs(CLI::App& app, CommandLine& line);    ///< run, resume
 void add_video_verbs(CLI::App& app, CommandLine& line);  ///< what measures pictures and videos
 void add_field_verbs(CLI::App& app, CommandLine& line);  ///< field ...
+void add_study_verbs(CLI::App& app, CommandLine& line);  ///< what takes many simulations
 void add_help_verbs(CLI::App& app, CommandLine& line);   ///< parts, schema, doctor
 
 }  // namespace faba::cli

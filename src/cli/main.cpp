@@ -41,6 +41,7 @@ int dispatch(int argc, char** argv) {
   add_run_verbs(app, line);
   add_video_verbs(app, line);
   add_field_verbs(app, line);
+  add_study_verbs(app, line);
   add_help_verbs(app, line);
 
   std::vector<std::string> words(argv + 1, argv + argc);

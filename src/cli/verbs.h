@@ -100,6 +100,14 @@ struct DistanceVerb {
   double m = 0.9, threshold = 3;
   bool normalise = false;
 };
+/// A study of many simulations, in a directory of its own.
+struct StudyVerb {
+  std::filesystem::path study, out;
+  std::string shard;  ///< "3/16"
+  std::vector<std::filesystem::path> merge;
+  unsigned threads = 0;
+  bool force = false;
+};
 struct PartsVerb {
   std::string kind, name;
 };
@@ -127,6 +135,8 @@ int field_library(const LibraryVerb& v, const Common& c);
 int field_fit(const FieldVerb& v, const Common& c);
 int field_tolerance(const FieldVerb& v, const Common& c);
 int field_null(const FieldVerb& v, const Common& c);
+int identify(const StudyVerb& v, const Common& c);
+int compare_controllers(const StudyVerb& v, const Common& c);
 int parts(const PartsVerb& v, const Common& c);
 int schema(const std::string& file, const Common& c);
 int doctor(const Common& c);

@@ -14,7 +14,8 @@ enum class Stream : std::uint32_t {
   motility = 3,     ///< reversals, tumbles, tolerance to oxygen
   camera = 4,
   controller = 5,
-  exclusion = 6  ///< who wins a contested grid cell
+  exclusion = 6,  ///< who wins a contested grid cell
+  study = 7       ///< designs and draws of studies, not of a run
 };
 
 inline constexpr std::uint32_t kPhiloxM0 = 0xD2511F53u, kPhiloxM1 = 0xCD9E8D57u;  ///< multipliers

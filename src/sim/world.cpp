@@ -63,7 +63,7 @@ void World::place_all() {
                      : "the region lies outside of the arena; move it, or use another start");
         const auto w = draw(parts_.seed, Stream::start, id, attempt);
         const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
-        const auto candidate = p.start->place({u(0), u(1), u(2)});
+        const auto candidate = p.start->place({{u(0), u(1), u(2)}, i - p.begin, attempt});
         if (!candidate) continue;
         const Vec2 at = exclusion_.snapped(*candidate);
         if (parts_.arena->depth(at) < 0) continue;

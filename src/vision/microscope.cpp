@@ -65,7 +65,7 @@ const Frame& checked(const Frame& frame) {
 }  // namespace
 
 Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circle& edge, double frame_period,
-                       std::uint64_t seed)
+                       std::uint64_t seed, const VideoGround* ground)
     : params_(p),
       seed_(seed),
       exposure_time_(exposure_of(p, frame_period)),
@@ -77,7 +77,7 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
     shot_ = 1 / p.full_well;
     constant_ = read * read;
   } else {
-    VideoGround video = read_video_ground(p.background);
+    VideoGround video = ground ? *ground : read_video_ground(p.background);
     if (video.light.width != frame.width || video.light.height != frame.height)
       throw Error(
           Errc::usage, "microscope.background",

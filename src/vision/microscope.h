@@ -8,6 +8,7 @@
 #include "vision/circle_fit.h"
 #include "vision/image.h"
 #include "vision/microscope_params.h"
+#include "vision/video_ground.h"
 
 namespace faba {
 
@@ -26,8 +27,9 @@ class Microscope {
   /// `edge`: the drop, image frame, px; radius 0 for none. `frame_period` s. Reads params.background when it
   /// is given. Throws Error(usage) when the picture has more than 2^28 px, the exposure is longer than a
   /// frame or the background has another size than the view, Error(input) when it cannot be read.
+  /// `ground`, when given, stands for what would be read from params.background.
   Microscope(const MicroscopeParams& params, const Frame& frame, const Circle& edge, double frame_period,
-             std::uint64_t seed);
+             std::uint64_t seed, const VideoGround* ground = nullptr);
 
   /// The picture, 8 bits: white is 255. `out` is resized.
   void render(const Exposure& e, Pool& pool, Gray8& out);

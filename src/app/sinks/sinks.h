@@ -40,6 +40,11 @@ struct SinkContext {
   }
 };
 
+class Simulation;
+/// What the sinks of a simulation of `s` look at. `dir`: where they write.
+SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
+                         const std::filesystem::path& dir);
+
 // One function per sink; `resume` is null, or the archive to read its checkpoint from.
 
 /// series.csv: one line per frame (docs/formats/run-directory.md).

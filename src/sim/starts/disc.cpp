@@ -15,7 +15,8 @@ class StartDisc final : public Start {
   StartDisc(const Params& p, const StartContext& c) : radius_(p.radius_px * c.arena->frame().m_per_px) {
     if (p.centre_px) centre_ = c.arena->frame().world_from_image(*p.centre_px);
   }
-  std::optional<Vec2> place(const std::array<double, 3>& u) const override {
+  std::optional<Vec2> place(const PlaceDraw& d) const override {
+    const auto& u = d.u;
     const auto a = portable::sincos(2 * portable::kPi * u[1]);
     return centre_ + (radius_ * std::sqrt(u[0])) * Vec2{a.cos, a.sin};
   }

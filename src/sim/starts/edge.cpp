@@ -17,7 +17,8 @@ class StartEdge final : public Start {
   StartEdge(const Params& p, const StartContext& c)
       : p_(p), arena_(c.arena), frame_(c.arena->frame()), direction_(p.direction.value_or(towards_view())) {}
 
-  std::optional<Vec2> place(const std::array<double, 3>& u) const override {
+  std::optional<Vec2> place(const PlaceDraw& d) const override {
+    const auto& u = d.u;
     const double depth = -portable::log(u[1]) * p_.depth_px * frame_.m_per_px;
     const Vec2 at = arena_->wall_point(direction_, 2 * u[0] - 1, depth);
     if (p_.visible && !frame_.in_view(frame_.image_from_world(at))) return std::nullopt;

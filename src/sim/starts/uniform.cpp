@@ -9,7 +9,8 @@ class StartUniform final : public Start {
   struct Params {};
   static Schema<Params> schema() { return {"uniform", "Anywhere in the arena, all places alike"}; }
   StartUniform(const Params&, const StartContext& c) : grid_(c.arena->grid()) {}
-  std::optional<Vec2> place(const std::array<double, 3>& u) const override {
+  std::optional<Vec2> place(const PlaceDraw& d) const override {
+    const auto& u = d.u;
     return Vec2{double(grid_.left) + u[0] * grid_.columns * double(grid_.cell),
                 double(grid_.low) + u[1] * grid_.rows * double(grid_.cell)};
   }

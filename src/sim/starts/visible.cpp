@@ -9,7 +9,8 @@ class StartVisible final : public Start {
   struct Params {};
   static Schema<Params> schema() { return {"visible", "Anywhere in the visible part of the arena"}; }
   StartVisible(const Params&, const StartContext& c) : frame_(c.arena->frame()) {}
-  std::optional<Vec2> place(const std::array<double, 3>& u) const override {
+  std::optional<Vec2> place(const PlaceDraw& d) const override {
+    const auto& u = d.u;
     return frame_.world_from_image({u[0] * frame_.width - 0.5, u[1] * frame_.height - 0.5});
   }
 

@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+
+#include "cli/study.h"
+#include "core/counted.h"
+#include "core/file.h"
+#include "study/controller_report.h"
+#include "study/markup.h"
+
+namespace faba::cli {
+namespace {
+
+void summary(const ControllerComparison& r) {
+  fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", "controller", "model", "delay", "settled",
+             "settling time s", "steady error px", "dispersion px");
+  const auto words = [](const Combination& one, const char* name) {
+    const auto it = one.metrics.find(name);
+    return it == one.metrics.end()
+               ? std::string("-")
+               : fmt::format("{:.3g} +- {:.2g}", it->second.mean, it->second.mean - it->second.ci95[0]);
+  };
+  for (const Combination& one : r.combinations)
+    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", one.controller, one.model, one.delay,
+               fmt::format("{}/{}", one.settled, one.trials), words(one, "settling_time_s"),
+               words(one, "steady_rms_px"), words(one, "rms_radius_px"));
+  fmt::print("means over {} +- half of a 95 % interval\n", counted(std::uint64_t(r.study.seeds), "seed"));
+}
+
+}  // namespace
+
+int compare_controllers(const StudyVerb& v, const Common& c) {
+  const ControllerStudy study = read_controller_study(v.study);
+  Progress bar("trials", !c.quiet && !c.json);
+  const SweepOptions options = sweep_options(v, bar);
+  StudyDirectory dir = open_study(v, "compare-controllers", fingerprint(study));
+  const auto result = compare_controllers(study, dir.results(), options);
+  bar.clear();
+  if (!result) return tell_partial(v, c, dir);
+  auto j = controllers_json(*result);
+  write_file(dir.path() / "controllers.json", j.dump(2) + "\n");
+  write_file(dir.path() / "controllers.csv", controllers_csv(*result));
+  write_file(dir.path() / "report.html", controllers_page(*result));
+  dir.complete();
+  if (c.json) {
+    nlohmann::ordered_json out{{"out", dir.path().string()}, {"complete", true}};
+    out.update(j);
+    fmt::print("{}\n", out.dump());
+  } else if (!c.quiet) {
+    summary(*result);
+    fmt::print("wrote {}\n", (dir.path() / "report.html").string());
+  }
+  return 0;
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,57 @@
+#include "cli/study.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "core/error.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+Shard shard_of(const std::string& words) {
+  if (words.empty()) return {};
+  Shard s;
+  const auto slash = words.find('/');
+  const auto number = [&](std::size_t from, std::size_t to, std::uint64_t& out) {
+    const auto [end, error] = std::from_chars(words.data() + from, words.data() + to, out);
+    return error == std::errc() && end == words.data() + to;
+  };
+  if (slash == std::string::npos || !number(0, slash, s.index) || !number(slash + 1, words.size(), s.count) ||
+      s.index < 1 || s.index > s.count || s.count > 1000000)
+    throw Error(Errc::usage, "--shard",
+                fmt::format("\"{}\" is not like 3/16: which part of how many", words));
+  return s;
+}
+
+}  // namespace
+
+StudyDirectory open_study(const StudyVerb& v, const std::string& verb, const std::string& fingerprint) {
+  const std::filesystem::path out = v.out.empty() ? std::filesystem::path("runs") / v.study.stem() : v.out;
+  const std::string again = fmt::format("{} {} {} --out {}", shell_word(program()), verb,
+                                        shell_word(v.study.string()), shell_word(out.string()));
+  StudyDirectory dir(out, fingerprint, again, v.force);
+  dir.merge(v.merge);
+  return dir;
+}
+
+SweepOptions sweep_options(const StudyVerb& v, Progress& bar) {
+  SweepOptions o;
+  o.threads = v.threads, o.shard = shard_of(v.shard);
+  o.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  o.stop = [&stop = stop_requested()] { return stop.load(); };
+  return o;
+}
+
+int tell_partial(const StudyVerb& v, const Common& c, const StudyDirectory& dir) {
+  if (c.json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"out", dir.path().string()}, {"complete", false}}.dump());
+  else if (!c.quiet)
+    fmt::print("part {} is done; its results are in {}. When all parts are, --merge their directories\n",
+               v.shard, dir.path().string());
+  return 0;
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,71 @@
+// Where cells were seen: the n-th cell at the n-th place, and from the first place on again when there are
+// more cells than places. A normal scatter about each place stands for how well it is known, and finds room
+// for cells that would share a pixel.
+#include <cmath>
+
+#include "core/portable_math.h"
+#include "core/schema.h"
+#include "sim/arena.h"
+#include "sim/start.h"
+
+namespace faba {
+namespace {
+
+constexpr double kCrowded = 10;  // attempts after which the scatter has doubled
+
+// A cell that is seen beyond the edge lies at it: the way to the middle of the arena is halved until the edge
+// is met.
+Vec2 inside(const Arena& arena, Vec2 at) {
+  if (arena.depth(at) >= 0) return at;
+  double in = 0, out = 1;  // shares of the way from the middle
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (in + out) / 2;
+    (arena.depth(middle * at) >= 0 ? in : out) = middle;
+  }
+  return in * at;
+}
+
+/// At listed places of the picture.
+class StartPlaces final : public Start {
+ public:
+  struct Params {
+    std::vector<Vec2> places_px;
+    double scatter_px = 1;
+  };
+  static Schema<Params> schema();
+  StartPlaces(const Params& p, const StartContext& c) : scatter_(p.scatter_px * c.arena->frame().m_per_px) {
+    for (const Vec2 at : p.places_px)
+      places_.push_back(inside(*c.arena, c.arena->frame().world_from_image(at)));
+    if (places_.empty()) places_.emplace_back();
+  }
+  std::optional<Vec2> place(const PlaceDraw& d) const override {
+    const auto a = portable::sincos(2 * portable::kPi * d.u[1]);
+    // Where it is crowded the scatter grows until there is room.
+    const double far = scatter_ * (1 + d.attempt / kCrowded) * std::sqrt(-2 * portable::log(d.u[0]));
+    return places_[d.cell % places_.size()] + far * Vec2{a.cos, a.sin};
+  }
+
+ private:
+  std::vector<Vec2> places_;  ///< m, world
+  double scatter_;            ///< m
+};
+
+Schema<StartPlaces::Params> StartPlaces::schema() {
+  return Schema<Params>("places", "At listed places of the picture, such as those where cells were seen")
+      .add("places_px", &Params::places_px,
+           {.unit = "px",
+            .min = -1e5,
+            .max = 1e5,
+            .doc = "Places in the picture, y down, which cells take in turn; the arena's centre when absent"})
+      .add("scatter_px", &Params::scatter_px,
+           {.unit = "px",
+            .min = 0,
+            .max = 1e4,
+            .doc = "Standard deviation about the place, in x and in y: how well places are known"});
+}
+
+}  // namespace
+
+void add_start_places(StartRegistry& r) { r.add<StartPlaces>(); }
+
+}  // namespace faba

@@ -1,0 +1,147 @@
+#include "study/episode.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace faba {
+namespace {
+
+constexpr int kForBackground = 24;  // frames at least that the background is told from
+constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is spread over the view: where
+                                    // none is seen quantiles are then those of the view
+constexpr double kFew = 0.02;       // share in view that is as good as none
+constexpr const char* kWhat[] = {"cells in view", "10 % along", "median along", "90 % along", "width across"};
+constexpr int kNumbers = int(std::size(kWhat));
+
+Vec2 unit(double deg) {
+  const double a = deg * std::numbers::pi / 180;
+  return {std::cos(a), std::sin(a)};
+}
+
+/// A distribution along one direction of the view, by bins of a pixel.
+class Profile {
+ public:
+  Profile(Vec2 along, int width, int height) : along_(along) {
+    for (const Vec2 corner :
+         {Vec2{0, 0}, Vec2{double(width), 0}, Vec2{0, double(height)}, Vec2{double(width), double(height)}}) {
+      const double p = dot(corner, along);
+      low_ = std::min(low_, p), high_ = std::max(high_, p);
+    }
+    mass_.assign(std::size_t(std::ceil(high_ - low_)) + 1, 0.0);
+  }
+  void add(Vec2 at, double weight) {
+    const double place = std::clamp(dot(at, along_) - low_, 0.0, double(mass_.size() - 1));
+    mass_[std::size_t(place)] += weight;
+  }
+  void add_everywhere(double weight) {
+    for (double& m : mass_) m += weight / double(mass_.size());
+  }
+  /// Share p of the mass lies below it; as a share of the view's length.
+  double quantile(double p) const {
+    double sum = 0;
+    for (const double m : mass_) sum += std::max(m, 0.0);
+    double want = p * sum;
+    for (std::size_t i = 0; i < mass_.size(); ++i) {
+      const double m = std::max(mass_[i], 0.0);
+      if (want <= m) return (double(i) + (m > 0 ? want / m : 0)) / double(mass_.size());
+      want -= m;
+    }
+    return 1;
+  }
+
+ private:
+  Vec2 along_;
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+  std::vector<double> mass_;
+};
+
+}  // namespace
+
+EpisodeStatistics::EpisodeStatistics(const Episode& e, int width, int height, const ForegroundOptions& cells)
+    : episode_(e), width_(width), height_(height), cells_(cells) {
+  // Of each drive as many frames as it takes for the background, the moments among them.
+  const int between = std::max(
+      1,
+      int(std::ceil(double(kForBackground) / double(kMoments * std::max<std::size_t>(1, e.drives.size())))));
+  for (std::size_t d = 0; d < e.drives.size(); ++d)
+    for (int i = 1; i <= kMoments * between; ++i) {
+      const Drive& drive = e.drives[d];
+      times_s_.push_back(drive.t0_s + (drive.t1_s - drive.t0_s) * i / (kMoments * between));
+      drive_at_.push_back(d);
+      if (i % between == 0) looks_.push_back({times_s_.size() - 1, d});
+    }
+  for (const Look& l : looks_) drive_of_.insert(drive_of_.end(), std::size_t(kNumbers), l.drive);
+  drive_of_.push_back(0);
+}
+
+std::vector<std::string> EpisodeStatistics::names() const {
+  std::vector<std::string> names;
+  for (const Look& l : looks_)
+    for (const char* what : kWhat)
+      names.push_back(fmt::format("drive {}, {:.3g} s: {}", l.drive + 1, times_s_[l.frame], what));
+  names.emplace_back("number of cells");
+  return names;
+}
+
+std::vector<double> EpisodeStatistics::of_frames(const std::vector<GrayF>& frames) const {
+  BackgroundSampler sampler(int(frames.size()));
+  for (const GrayF& f : frames) sampler.take(f);
+  const Background background = sampler.background();
+  std::vector<float> noise = background.noise_sd.px;
+  const double sd = double(robust_spread(noise).median);
+  Foreground foreground(cells_);
+  foreground.know(background);
+  std::vector<std::vector<Mass>> seen;
+  double most = 0;
+  for (const Look& l : looks_) {
+    foreground.take(frames[l.frame], sd, 1);
+    const GrayF& w = foreground.weights();
+    std::vector<Mass>& one = seen.emplace_back();
+    for (int r = 0; r < w.height; ++r)
+      for (int c = 0; c < w.width; ++c)
+        if (const float v = w.at(c, r); v != 0) one.push_back({{double(c), double(r)}, double(v)});
+    most = std::max(most, foreground.moments().cells);
+  }
+  return numbers(seen, most);
+}
+
+std::vector<double> EpisodeStatistics::of_positions(const std::vector<std::vector<Vec2>>& positions) const {
+  std::vector<std::vector<Mass>> seen;
+  double most = 0;
+  for (const Look& l : looks_) {
+    std::vector<Mass>& one = seen.emplace_back();
+    for (const Vec2 at : positions[l.frame]) one.push_back({at, 1.0});
+    most = std::max(most, double(one.size()));
+  }
+  return numbers(seen, most);
+}
+
+std::vector<double> EpisodeStatistics::numbers(const std::vector<std::vector<Mass>>& seen,
+                                               double cells) const {
+  std::vector<double> mass;
+  double mean = 0;
+  for (const auto& one : seen) {
+    double sum = 0;
+    for (const Mass& m : one) sum += m.weight;
+    mass.push_back(std::max(0.0, sum));
+    mean += mass.back() / double(seen.size());
+  }
+  std::vector<double> out;
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    const Vec2 along = unit(episode_.drives[looks_[k].drive].direction_deg), across{-along.y, along.x};
+    Profile a(along, width_, height_), b(across, width_, height_);
+    for (const Mass& m : seen[k]) a.add(m.at, m.weight), b.add(m.at, m.weight);
+    a.add_everywhere(kAnywhere * mean), b.add_everywhere(kAnywhere * mean);
+    out.push_back(mean > 0 ? std::log(kFew + mass[k] / mean) : std::numeric_limits<double>::quiet_NaN());
+    for (const double p : {0.1, 0.5, 0.9}) out.push_back(a.quantile(p));
+    out.push_back(b.quantile(0.9) - b.quantile(0.1));
+  }
+  out.push_back(std::log1p(cells));
+  return out;
+}
+
+}  // namespace faba

@@ -1,0 +1,147 @@
+#include "study/episode_simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "app/simulation.h"
+#include "study/study_random.h"
+
+namespace faba {
+namespace {
+
+// A round cell of this share of the width that is seen, blurred by this one, is seen that wide (full width at
+// half maximum F: (F / 2.355)^2 = d^2 / 16 + s^2).
+constexpr double kDiameter = 0.85, kBlur = 0.3676;
+constexpr double kFar = 1e5;  // px: the edge of a place that has none
+
+std::string quantity(double value, const char* unit) { return fmt::format("{} {}", value, unit); }
+
+void merge(Json& into, const Json& from) {
+  for (const auto& [key, value] : from.items())
+    if (value.is_object() && into.contains(key) && into[key].is_object())
+      merge(into[key], value);
+    else
+      into[key] = value;
+}
+
+Json arena_of(const ResponseVideo& v, Boundary boundary) {
+  const Json view{v.width, v.height};
+  if (boundary == Boundary::box) return {{"type", "box"}, {"size_px", view}};
+  if (boundary == Boundary::drop)
+    return {{"type", "drop"},
+            {"view_px", view},
+            {"centre_px", {v.edge->centre_image.x, v.edge->centre_image.y}},
+            {"radius_px", v.edge->radius_px}};
+  return {{"type", "drop"},
+          {"view_px", view},
+          {"centre_px", {(v.width - 1) / 2.0, (v.height - 1) / 2.0}},
+          {"radius_px", std::min(kFar, 20.0 * std::hypot(v.width, v.height))}};
+}
+
+// South-seeking cells, which is what scenarios have unless they say otherwise, swim against the field; the
+// world's y axis points up.
+Json field_along(double direction_deg, double strength_t, bool north) {
+  const double a = direction_deg * std::numbers::pi / 180, b = north ? strength_t : -strength_t;
+  return {quantity(b * std::cos(a), "T"), quantity(-b * std::sin(a), "T")};
+}
+
+/// Looks at the moments that are measured.
+class Watch final : public Sink {
+ public:
+  /// `late_s`: of each drive.
+  Watch(const EpisodeStatistics& statistics, const std::vector<double>& late_s, Simulation& simulation,
+        const Scenario& s, Look look)
+      : simulation_(simulation), look_(look) {
+    const auto& times = statistics.times_s();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double frame = std::round((times[i] + late_s[statistics.drive_at()[i]]) * s.camera.rate);
+      wanted_[std::uint64_t(std::clamp(frame, 0.0, double(s.frames() - 1)))].push_back(i);
+    }
+    (look == Look::video ? frames.resize(times.size()) : positions.resize(times.size()));
+  }
+  void take(const Tick& t) override {
+    const auto it = wanted_.find(t.index);
+    if (it == wanted_.end()) return;
+    for (const std::size_t i : it->second)
+      look_ == Look::video ? take_picture(frames[i]) : take_positions(positions[i]);
+  }
+  std::vector<GrayF> frames;
+  std::vector<std::vector<Vec2>> positions;
+
+ private:
+  void take_picture(GrayF& out) {
+    const ImageRef picture = simulation_.rig().picture();
+    out = GrayF(picture->width, picture->height);
+    std::copy(picture->px.begin(), picture->px.end(), out.px.begin());
+  }
+  void take_positions(std::vector<Vec2>& out) {
+    const auto x = simulation_.world().state().agents["x"], y = simulation_.world().state().agents["y"];
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Vec2 at = simulation_.frame().image_from_world({double(x[i]), double(y[i])});
+      if (simulation_.frame().in_view(at)) out.push_back(at);
+    }
+  }
+  Simulation& simulation_;
+  Look look_;
+  std::map<std::uint64_t, std::vector<std::size_t>> wanted_;
+};
+
+}  // namespace
+
+Document episode_scenario(const ResponseVideo& v, const Episode& e, const EpisodeSettings& settings) {
+  Document d;
+  d.name = settings.model.origin;
+  Json places = Json::array();
+  for (const Vec2 at : e.places_image) places.push_back({at.x, at.y});
+  const double px = v.um_per_px;
+  d.root = {{"title", e.name},
+            {"duration", quantity(e.length_s() + 1 / v.fps, "s")},
+            {"exposure", quantity(v.input.exposure_s, "s")},
+            {"scale", {{"um_per_px", px}}},
+            {"camera", {{"rate", quantity(v.fps, "Hz")}}},
+            {"microscope",
+             {{"background", v.file.string()},
+              {"cell_diameter", quantity(kDiameter * v.cells.cell_px * px, "um")},
+              {"psf_sd", quantity(kBlur * v.cells.cell_px * px, "um")},
+              {"contrast", v.contrast}}},
+            {"arena", arena_of(v, settings.boundary)},
+            {"swarm", Json::array({{{"count", places.size()},
+                                    {"model", "dipole"},
+                                    {"start", {{"type", "places"}, {"places_px", places}}}}})},
+            {"estimator", "none"},
+            {"record", {{"tracks", false}, {"video", true}, {"as_seen", true}}}};
+  merge(d.root, settings.scene);
+  const Json& swarm = d.root["swarm"][0];
+  const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
+  Json segments = Json::array();
+  for (std::size_t i = 1; i < e.drives.size(); ++i)
+    segments.push_back({{"at", quantity(e.drives[i].t0_s, "s")},
+                        {"field", field_along(e.drives[i].direction_deg, settings.drive_t, north)}});
+  d.root["controller"] = {{"type", "manual"},
+                          {"field", field_along(e.drives[0].direction_deg, settings.drive_t, north)}};
+  if (!segments.empty()) d.root["controller"]["segment"] = segments;
+  apply(settings.model, "model", d);
+  return d;
+}
+
+std::vector<double> simulate_episode(const Scenario& s, std::uint64_t seed, double timing_s,
+                                     const EpisodeStatistics& statistics, Look look,
+                                     const std::shared_ptr<const VideoGround>& ground) {
+  Pool pool(1);
+  Scenario looked_at = s;
+  looked_at.record = {}, looked_at.record.as_seen = look == Look::video;
+  Simulation simulation(looked_at, seed, pool, ground);
+  StudyRandom random(seed, 9);
+  std::vector<double> late_s(statistics.drive_at().back() + 1);
+  for (double& late : late_s) late = timing_s * random.normal();
+  Watch watch(statistics, late_s, simulation, looked_at, look);
+  simulation.loop().sinks.push_back(&watch);
+  run(simulation.loop(), s.frames(), [] { return true; });
+  return look == Look::video ? statistics.of_frames(watch.frames) : statistics.of_positions(watch.positions);
+}
+
+}  // namespace faba

@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/toml.h"
+
+namespace faba {
+
+/// A number of a scenario that is not known.
+struct FreeParameter {
+  std::string path;  ///< "swarm[0].model.max_speed"
+  std::string unit;  ///< of the numbers below, as units.h knows it; "" for a pure number
+  bool whole = false;
+  double low = 0, high = 1;
+  /// Of the scale on which all values are taken for equally likely: 0 a linear one; else it is stretched, so
+  /// that the middle of it lies at the part's own default (bounds that come from a schema are wide).
+  double stretch = 0;
+  /// A normal law in place of an even one: what a calibration says.
+  struct Known {
+    double mean = 0, sd = 0;
+  };
+  std::optional<Known> known = {};
+
+  /// The value at share u of the range, 0 to 1, and back.
+  double value(double u) const;
+  double share(double value) const;
+  /// As it stands in a scenario: with unit, or whole.
+  Json json(double u) const;
+  /// Logarithm of the prior density at share u, up to a constant.
+  double log_prior(double u) const;
+};
+
+/// Reads the table or list `free` of a model: paths, or paths with `[low, high]`, `{ mean, sd }` or true.
+/// Bounds that are not given come from the schema of what stands at the path in `scenario`, and none may go
+/// beyond it. Throws Error(usage) for paths that do not exist, values that are no numbers, and bounds that
+/// make no range.
+std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& scenario);
+
+}  // namespace faba

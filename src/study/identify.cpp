@@ -1,0 +1,391 @@
+#include "study/identify.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "app/parts.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "study/parameter_search.h"
+#include "study/statistics.h"
+#include "study/study_random.h"
+
+namespace faba {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kDraws = 1000;     // from a posterior
+constexpr int kForetold = 200;   // of what an experiment will show
+constexpr double kLevel = 0.90;  // of the intervals
+
+/// One of the parts of the videos that are simulated: which, and where its numbers stand in the whole list.
+struct Part {
+  std::size_t video = 0, episode = 0;
+  Index begin = 0, count = 0;
+  std::shared_ptr<const EpisodeStatistics> statistics;
+};
+
+/// All that is observed, in one list of numbers, and how it falls into experiments.
+struct Observed {
+  std::vector<Part> parts;
+  VectorXd numbers;
+  std::vector<std::string> names;
+  std::vector<std::string> experiments;
+  std::vector<std::vector<Index>> columns;  ///< of each experiment
+};
+
+// With one experiment its drives are what stands for several.
+Observed gather(const std::vector<ResponseVideo>& videos) {
+  Observed o;
+  std::vector<double> numbers;
+  std::vector<std::string> experiment, drive;  // of each number
+  for (std::size_t v = 0; v < videos.size(); ++v)
+    for (std::size_t e = 0; e < videos[v].episodes.size(); ++e) {
+      const ResponseVideo& video = videos[v];
+      const auto statistics = std::make_shared<const EpisodeStatistics>(video.episodes[e], video.width,
+                                                                        video.height, video.cells);
+      const std::string own =
+          video.input.experiment.empty() ? fmt::format("video {}", v + 1) : video.input.experiment;
+      o.parts.push_back({v, e, Index(numbers.size()), Index(video.observed[e].size()), statistics});
+      for (std::size_t k = 0; k < video.observed[e].size(); ++k) {
+        numbers.push_back(video.observed[e][k]);
+        o.names.push_back(
+            (videos.size() > 1 || video.episodes.size() > 1 ? video.episodes[e].name + ": " : "") +
+            statistics->names()[k]);
+        experiment.push_back(own);
+        drive.push_back(fmt::format("{}, drive {}", own, e + statistics->drives()[k] + 1));
+      }
+    }
+  const bool one =
+      std::all_of(experiment.begin(), experiment.end(), [&](const auto& x) { return x == experiment[0]; });
+  const auto& label = one ? drive : experiment;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto at = std::find(o.experiments.begin(), o.experiments.end(), label[k]);
+    const auto i = std::size_t(at - o.experiments.begin());
+    if (at == o.experiments.end()) o.experiments.push_back(label[k]), o.columns.emplace_back();
+    o.columns[i].push_back(Index(k));
+  }
+  o.numbers = Eigen::Map<VectorXd>(numbers.data(), Index(numbers.size()));
+  return o;
+}
+
+std::string digest(const VectorXd& v) {
+  Hash h;
+  h.values(std::span<const double>(v.data(), std::size_t(v.size())));
+  return h.hex();
+}
+
+/// One candidate while it is being identified.
+struct Search {
+  const Candidate* candidate = nullptr;
+  std::unique_ptr<ParameterSearch> search;
+  std::string failed;
+};
+
+ParameterSearch::LogPrior prior_of(const Candidate& c) {
+  return [&c](const VectorXd& u) {
+    double sum = 0;
+    for (std::size_t j = 0; j < c.free.size(); ++j) sum += c.free[j].log_prior(u[Index(j)]);
+    return sum;
+  };
+}
+
+SearchRounds rounds_of(int simulations) {
+  const SearchRounds usual;
+  SearchRounds r;
+  r.first = simulations * usual.first / usual.total();
+  r.closer = simulations * usual.closer / usual.total();
+  r.last = simulations - r.first - 2 * r.closer;
+  return r;
+}
+
+Document scenario_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v, const Episode& e,
+                     const VectorXd& u) {
+  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_t});
+  for (std::size_t j = 0; j < c.free.size(); ++j) d.set(c.free[j].path, c.free[j].json(u[Index(j)]), "free");
+  return d;
+}
+
+/// The simulations of one round, and the place of each in what it is to be.
+class Round {
+ public:
+  Round(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos, const Observed& observed,
+        const Parts& parts)
+      : study_(study), videos_(videos), observed_(observed), parts_(parts), seen_(digest(observed.numbers)) {}
+
+  void add(const Search& s, std::size_t candidate, std::size_t number) {
+    const MatrixXd& u = *s.search->next();
+    for (Index i = 0; i < u.rows(); ++i)
+      for (std::size_t p = 0; p < observed_.parts.size(); ++p)
+        add_one(s, u.row(i).transpose(), candidate, number, i, p);
+  }
+  const std::vector<Task>& tasks() const { return tasks_; }
+
+ private:
+  void add_one(const Search& s, const VectorXd& u, std::size_t candidate, std::size_t number, Index i,
+               std::size_t p) {
+    const Part& part = observed_.parts[p];
+    const ResponseVideo& video = videos_[part.video];
+    const auto d = std::make_shared<const Document>(
+        scenario_of(study_, *s.candidate, video, video.episodes[part.episode], u));
+    // A seed of its own for each: what chance does to one simulation says nothing of the next.
+    Hash h;
+    h.value(study_.seed), h.value(candidate), h.value(number), h.value(i), h.value(p);
+    const std::uint64_t seed = h.result() >> 1;
+    const std::string key =
+        task_key(fmt::format("response 1 {} {} {} {} {}", d->root.dump(), seed, seen_, p, int(study_.look)));
+    tasks_.push_back({key, [this, d, seed, &part, &video] {
+                        try {
+                          return simulate_episode(read_scenario(*d, parts_), seed,
+                                                  study_.timing_s.value_or(0.5 / video.fps), *part.statistics,
+                                                  study_.look, video.ground);
+                        } catch (const Error& e) {
+                          if (e.code() != Errc::usage) throw;
+                          // Values that do not go together, such as speeds that want too many steps.
+                          return std::vector<double>(std::size_t(part.count), std::nan(""));
+                        }
+                      }});
+  }
+  const IdentifyStudy& study_;
+  const std::vector<ResponseVideo>& videos_;
+  const Observed& observed_;
+  const Parts& parts_;
+  std::string seen_;
+  std::vector<Task> tasks_;
+};
+
+// Rows of statistics for the simulations that a search waits for, in the order of their tasks.
+MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std::size_t& at, Index rows,
+                 const Observed& o) {
+  MatrixXd s = MatrixXd::Constant(rows, o.numbers.size(), std::nan(""));
+  for (Index i = 0; i < rows; ++i)
+    for (const Part& part : o.parts) {
+      const std::vector<double>& values = *results.find(tasks[at++].key);
+      if (Index(values.size()) == part.count)
+        s.row(i).segment(part.begin, part.count) =
+            Eigen::Map<const VectorXd>(values.data(), part.count).transpose();
+    }
+  return s;
+}
+
+double quantile(std::vector<double> v, double p) {
+  std::sort(v.begin(), v.end());
+  const double at = p * double(v.size() - 1);
+  const auto i = std::size_t(at);
+  return i + 1 < v.size() ? v[i] + (at - double(i)) * (v[i + 1] - v[i]) : v[i];
+}
+
+double weighed_quantile(const VectorXd& v, const VectorXd& weight, double p) {
+  std::vector<Index> order(std::size_t(v.size()));
+  std::iota(order.begin(), order.end(), Index(0));
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return v[a] < v[b]; });
+  double sum = 0;
+  for (const Index i : order)
+    if ((sum += weight[i]) >= p) return v[i];
+  return v[order.back()];
+}
+
+FoundParameter found(const FreeParameter& p, const VectorXd& u, const VectorXd& abc_u,
+                     const VectorXd& abc_weight) {
+  FoundParameter f{.parameter = p};
+  for (const double x : u) f.draws.push_back(p.value(x));
+  const double low = (1 - kLevel) / 2, high = 1 - low;
+  const std::vector<double> shares(u.begin(), u.end());
+  f.median = p.value(quantile(shares, 0.5));
+  f.ci90 = {p.value(quantile(shares, low)), p.value(quantile(shares, high))};
+  f.share_of_range = quantile(shares, high) - quantile(shares, low);
+  f.abc_median = p.value(weighed_quantile(abc_u, abc_weight, 0.5));
+  f.abc_ci90 = {p.value(weighed_quantile(abc_u, abc_weight, low)),
+                p.value(weighed_quantile(abc_u, abc_weight, high))};
+  return f;
+}
+
+/// Energy score of draws (rows) for what came, in units of `scale`; divided by the square root of how many
+/// numbers there are, so that experiments of different length count alike.
+double energy_score(const MatrixXd& draws, const VectorXd& came, const VectorXd& scale) {
+  const MatrixXd x = draws * scale.cwiseInverse().asDiagonal();
+  const VectorXd y = came.cwiseQuotient(scale);
+  double to = 0, among = 0;
+  for (Index i = 0; i < x.rows(); ++i) {
+    to += (x.row(i).transpose() - y).norm();
+    for (Index j = 0; j < i; ++j) among += (x.row(i) - x.row(j)).norm();
+  }
+  const double m = double(x.rows());
+  return (to / m - among / (m * (m - 1))) / std::sqrt(double(came.size()));
+}
+
+// What an experiment would show at parameters drawn from the others' posterior: the expected numbers, and
+// what is left over of a simulation.
+MatrixXd foretell(const ParameterSearch& s, const MatrixXd& u, const std::vector<Index>& columns,
+                  StudyRandom& random) {
+  const MatrixXd& left = s.emulator().residuals();
+  MatrixXd x(u.rows(), Index(columns.size()));
+  for (Index i = 0; i < u.rows(); ++i) {
+    const VectorXd mean = s.emulator().mean(u.row(i).transpose());
+    const Index other = Index(random.below(std::size_t(left.rows())));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      x(i, Index(k)) = mean[columns[k]] + left(other, columns[k]);
+  }
+  return x;
+}
+
+// How far from its own mean a simulation is, by all numbers together; as a share of simulations that are
+// further.
+double fit_p(const ParameterSearch& s, const VectorXd& mode, const VectorXd& observed) {
+  const MatrixXd& left = s.emulator().residuals();
+  const VectorXd scale = (left.array().square().colwise().mean().sqrt().max(1e-9)).matrix().transpose();
+  const auto far = [&](const VectorXd& off) { return off.cwiseQuotient(scale).squaredNorm(); };
+  const double here = far(observed - s.emulator().mean(mode));
+  double further = 0;
+  for (Index i = 0; i < left.rows(); ++i) further += far(left.row(i).transpose()) >= here;
+  return (further + 1) / double(left.rows() + 1);
+}
+
+VectorXd noise_of(const ParameterSearch& s) {
+  return (s.emulator().residuals().array().square().colwise().mean().sqrt().max(1e-9)).matrix().transpose();
+}
+
+void conclude(const Search& s, const Observed& o, const VectorXd& scale, std::uint64_t seed, FoundModel& m) {
+  const MatrixXd draws = s.search->posterior({}, kDraws, seed);
+  const auto abc = s.search->by_distance();
+  VectorXd middle(draws.cols());
+  for (Index j = 0; j < draws.cols(); ++j) {
+    const FreeParameter& p = s.candidate->free[std::size_t(j)];
+    m.parameters.push_back(found(p, draws.col(j), abc.u.col(j), abc.weight));
+    middle[j] = quantile({draws.col(j).begin(), draws.col(j).end()}, 0.5);
+    m.best[p.path] = p.json(middle[j]);
+  }
+  m.simulations = std::size_t(s.search->simulations().size());
+  m.fit_p = fit_p(*s.search, middle, o.numbers);
+  const VectorXd mean = s.search->emulator().mean(middle), sd = noise_of(*s.search);
+  m.foretold.assign(mean.begin(), mean.end()), m.foretold_sd.assign(sd.begin(), sd.end());
+  StudyRandom random(seed, 2);
+  for (std::size_t e = 0; e < o.experiments.size(); ++e) {
+    MatrixXd u = draws.topRows(kForetold);
+    if (o.experiments.size() > 1) {
+      std::vector<Index> others;
+      for (std::size_t k = 0; k < o.experiments.size(); ++k)
+        if (k != e) others.insert(others.end(), o.columns[k].begin(), o.columns[k].end());
+      std::sort(others.begin(), others.end());
+      u = s.search->posterior(others, kForetold, seed + 1 + e);
+    }
+    const auto& columns = o.columns[e];
+    m.scores.push_back(
+        energy_score(foretell(*s.search, u, columns, random), o.numbers(columns), scale(columns)));
+    m.score += m.scores.back() / double(o.experiments.size());
+  }
+}
+
+void judge(Identification& r) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < r.models.size(); ++i)
+    if (r.models[i].failed.empty()) order.push_back(i);
+  if (order.empty()) throw Error(Errc::input, r.study.title, r.models.front().failed);
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return r.models[a].score < r.models[b].score; });
+  r.best = order[0];
+  const FoundModel& best = r.models[r.best];
+  r.evidence = "none";
+  const std::string poor = best.fit_p < 0.01 ? fmt::format(
+                                                   " None of them explains the videos: only {:.1g} % of the "
+                                                   "simulations of {} are as far from their mean.",
+                                                   100 * best.fit_p, best.name)
+                                             : "";
+  if (order.size() < 2) {
+    r.words = "One model only: there is nothing to compare it with." + poor;
+    return;
+  }
+  const FoundModel& next = r.models[order[1]];
+  const double n = double(best.scores.size());
+  std::vector<double> lead;
+  for (std::size_t e = 0; e < best.scores.size(); ++e) lead.push_back(next.scores[e] - best.scores[e]);
+  for (const double x : lead) r.ahead += x / n;
+  if (n < 2) {
+    r.words =
+        fmt::format("No evidence either way: one experiment cannot foretell another. {} is nearer than {}.",
+                    best.name, next.name) +
+        poor;
+    return;
+  }
+  const double se = sample_sd(lead) / std::sqrt(n), half = student_t_quantile(0.975, n - 1) * se;
+  r.ahead_ci95 = {r.ahead - half, r.ahead + half};
+  r.evidence = r.ahead - half > 0 ? "clear" : r.ahead > se ? "weak" : "none";
+  const std::string lead_words =
+      fmt::format("its energy score is {:.3g} less per experiment, 95 % {:.3g} to {:.3g}", r.ahead,
+                  (*r.ahead_ci95)[0], (*r.ahead_ci95)[1]);
+  r.words =
+      (r.evidence == "clear"
+           ? fmt::format("{} foretells experiments better than {}: {}.", best.name, next.name, lead_words)
+       : r.evidence == "weak"
+           ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
+           : fmt::format("No evidence either way between {} and {}: {}.", best.name, next.name, lead_words)) +
+      poor;
+}
+
+}  // namespace
+
+std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
+                                       const std::function<void(std::size_t)>& reading) {
+  Identification r;
+  r.study = study;
+  for (std::size_t v = 0; v < study.videos.size(); ++v)
+    r.videos.push_back(survey_response(study.videos[v], study.boundary, [&] {
+      reading(v);
+      if (options.stop())
+        throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
+    }));
+  const Observed o = gather(r.videos);
+  if (!o.numbers.allFinite())
+    throw Error(Errc::input, study.videos.front().file.string(), "shows no cells while they should move");
+  const Parts parts = builtin_parts();
+  std::vector<Search> searches;
+  for (std::size_t c = 0; c < study.candidates.size(); ++c) {
+    const Candidate& candidate = study.candidates[c];
+    searches.push_back(
+        {&candidate,
+         std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
+                                           rounds_of(study.simulations), study.seed + 1000 * (c + 1)),
+         {}});
+  }
+  for (std::size_t number = 0;; ++number) {
+    Round round(study, r.videos, o, parts);
+    for (std::size_t c = 0; c < searches.size(); ++c)
+      if (searches[c].failed.empty() && searches[c].search->next()) round.add(searches[c], c, number);
+    if (round.tasks().empty()) break;
+    if (!sweep(results, round.tasks(), options)) return {};
+    std::size_t at = 0;
+    for (Search& s : searches) {
+      if (!s.failed.empty() || !s.search->next()) continue;
+      try {
+        s.search->take(collect(results, round.tasks(), at, s.search->next()->rows(), o));
+      } catch (const Error& e) {
+        if (e.code() != Errc::input) throw;
+        s.failed = e.what();
+      }
+    }
+  }
+  VectorXd scale = VectorXd::Zero(o.numbers.size());
+  double models = 0;
+  for (const Search& s : searches)
+    if (s.failed.empty()) scale += noise_of(*s.search), models += 1;
+  scale = (scale / std::max(1.0, models)).cwiseMax(1e-9);
+  for (std::size_t c = 0; c < searches.size(); ++c) {
+    FoundModel m;
+    m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
+    if (m.failed.empty()) conclude(searches[c], o, scale, study.seed + 77 * (c + 1), m);
+    r.models.push_back(std::move(m));
+  }
+  r.statistics = o.names, r.experiments = o.experiments;
+  r.observed.assign(o.numbers.begin(), o.numbers.end());
+  judge(r);
+  return r;
+}
+
+}  // namespace faba

@@ -1,0 +1,90 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/episode_simulation.h"
+#include "study/free_parameter.h"
+#include "study/sweep.h"
+
+namespace faba {
+
+/// A model that may explain the videos, with what of it is not known.
+struct Candidate {
+  Variant model;
+  double drive_t = 1e-3;  ///< strength of the field, T
+  std::vector<FreeParameter> free;
+};
+
+/// What `faba identify` is asked for.
+struct IdentifyStudy {
+  std::string title;
+  std::uint64_t seed = 1;
+  Boundary boundary = Boundary::drop;
+  Look look = Look::video;
+  int simulations = 600;  ///< of each episode with each candidate
+  std::optional<double>
+      timing_s;  ///< how well the moments are known at which the field turns, sd; half a frame
+  Json scene = Json::object();
+  std::vector<ResponseInput> videos;
+  std::vector<Candidate> candidates;
+};
+/// Reads a study file. Everything that can be wrong without looking at a video is found here. Throws
+/// Error(usage).
+IdentifyStudy read_identify_study(const std::filesystem::path& file);
+/// Fingerprint of all that the result depends on but the videos themselves.
+std::string fingerprint(const IdentifyStudy& study);
+
+/// What was found of one parameter.
+struct FoundParameter {
+  FreeParameter parameter;
+  double median = 0;
+  std::array<double, 2> ci90{};
+  double abc_median = 0;  ///< by approximate Bayesian computation, from the same simulations
+  std::array<double, 2> abc_ci90{};
+  /// Share of its prior range that the interval covers: near 0.9 nothing was learnt.
+  double share_of_range = 1;
+  std::vector<double> draws = {};
+};
+
+/// What was found of one candidate.
+struct FoundModel {
+  std::string name;
+  std::string failed;  ///< why it could not be identified; empty when it could
+  std::vector<FoundParameter> parameters;
+  double score = 0;            ///< mean of the energy scores
+  std::vector<double> scores;  ///< of each experiment, foretold from the others; less is better
+  /// How often simulations of this model are as far from their own mean as what was observed: small values
+  /// say that the model does not explain the videos.
+  double fit_p = 0;
+  std::vector<double> foretold, foretold_sd;  ///< statistics at the posterior
+  std::size_t simulations = 0;
+  Json best;  ///< values of the parameters at the posterior's median, by path
+};
+
+struct Identification {
+  IdentifyStudy study;
+  std::vector<ResponseVideo> videos;
+  std::vector<std::string> statistics;  ///< what each number is
+  std::vector<double> observed;
+  std::vector<std::string> experiments;  ///< that scores are of
+  std::vector<FoundModel> models;
+  std::size_t best = 0;
+  std::string evidence;  ///< "clear", "weak" or "none"
+  std::string words;     ///< the same as a sentence
+  std::optional<std::array<double, 2>>
+      ahead_ci95;  ///< of the best model's lead over the next, per experiment
+  double ahead = 0;
+};
+
+/// Surveys the videos, simulates what `results` has not yet, and concludes. Empty when other shards have
+/// tasks left. `reading` is called with the video's number after each of its frames. Throws Error(input) for
+/// videos that do not do, and what sweep() throws.
+std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
+                                       const std::function<void(std::size_t video)>& reading);
+
+}  // namespace faba

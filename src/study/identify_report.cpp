@@ -1,0 +1,51 @@
+#include "study/identify_report.h"
+
+namespace faba {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parameter_json(const FoundParameter& p) {
+  return {{"median", p.median},
+          {"ci90", p.ci90},
+          {"unit", p.parameter.unit},
+          {"range", {p.parameter.low, p.parameter.high}},
+          {"share_of_range", p.share_of_range},
+          {"abc", {{"median", p.abc_median}, {"ci90", p.abc_ci90}}}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json identify_json(const Identification& r) {
+  Json j{{"title", r.study.title}, {"models", Json::array()}};
+  for (const FoundModel& m : r.models) {
+    Json one{{"name", m.name}};
+    if (!m.failed.empty()) {
+      one["failed"] = m.failed;
+    } else {
+      one["score"] = m.score, one["scores"] = m.scores, one["fit_p"] = m.fit_p,
+      one["simulations"] = m.simulations;
+      for (const FoundParameter& p : m.parameters) one["parameters"][p.parameter.path] = parameter_json(p);
+    }
+    j["models"].push_back(std::move(one));
+  }
+  j["best"] = r.models[r.best].name;
+  j["evidence"] = r.evidence;
+  j["words"] = r.words;
+  j["experiments"] = r.experiments;
+  j["ahead"] = r.ahead_ci95 ? Json{{"mean", r.ahead}, {"ci95", *r.ahead_ci95}} : Json();
+  j["statistics"] = Json::array();
+  for (std::size_t k = 0; k < r.statistics.size(); ++k) {
+    Json one{{"what", r.statistics[k]}, {"observed", r.observed[k]}, {"foretold", Json::object()}};
+    for (const FoundModel& m : r.models)
+      if (m.failed.empty()) one["foretold"][m.name] = {{"mean", m.foretold[k]}, {"sd", m.foretold_sd[k]}};
+    j["statistics"].push_back(std::move(one));
+  }
+  Json notes = Json::array();
+  for (const ResponseVideo& v : r.videos)
+    for (const std::string& note : v.notes) notes.push_back(v.input.file.string() + ": " + note);
+  j["notes"] = notes;
+  return j;
+}
+
+}  // namespace faba

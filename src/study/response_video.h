@@ -1,0 +1,56 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/episode.h"
+#include "vision/drop_edge.h"
+#include "vision/video_ground.h"
+
+namespace faba {
+
+/// What keeps the cells together.
+enum class Boundary {
+  drop,  ///< the edge of a drop, which is found in the first frame
+  box,   ///< a rectangle, all of it in view
+  none   ///< nothing that is near: cells that leave the view are gone
+};
+
+/// What is said of a video of an experiment.
+struct ResponseInput {
+  std::filesystem::path file;  ///< video or run directory
+  std::string experiment;      ///< to which it belongs
+  double exposure_s = 0;       ///< time of the sample in air before the video
+  double fps = 0;              ///< > 0: in place of what the video states
+  std::optional<double> um_per_px;
+  std::optional<double> reversal_s;     ///< when the field is reversed; found when absent
+  std::optional<double> direction_deg;  ///< in which cells swim from then on; found when absent
+  std::optional<double> duration_s;     ///< from there on; to the video's end when absent
+  std::vector<Drive> drives;            ///< in place of these three; times in the video
+};
+
+/// What the video tells: all that is needed to simulate the same and to measure both alike.
+struct ResponseVideo {
+  ResponseInput input;
+  std::filesystem::path file;  ///< the video itself
+  int width = 0, height = 0;   ///< px
+  double fps = 0, um_per_px = 0;
+  std::optional<DropEdge> edge;               ///< with Boundary::drop
+  std::shared_ptr<const VideoGround> ground;  ///< light and noise
+  ForegroundOptions cells;                    ///< how they look
+  double contrast = 0;                        ///< of a cell, as in [microscope]
+  std::vector<Episode> episodes;
+  std::vector<std::vector<double>> observed;  ///< statistics of each episode
+  std::vector<std::string> notes;
+};
+
+/// Reads the video three times or four: for its background, the noise, the drives where they are not given,
+/// and the frames that are measured. `tick` is called after every frame. Throws Error(input) for videos that
+/// cannot be read, show no cells, no motion, or no edge with Boundary::drop.
+ResponseVideo survey_response(const ResponseInput& input, Boundary boundary,
+                              const std::function<void()>& tick);
+
+}  // namespace faba

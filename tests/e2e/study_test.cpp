@@ -1,0 +1,126 @@
+// `faba compare-controllers`: what it writes, that shards and one process come to the same, that it goes on
+// where it was, and what it says to bad input.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/e2e/program.h"
+
+using namespace faba;
+
+namespace {
+
+const std::string kScene =
+    "duration = \"3 s\"\n[arena]\ntype = \"box\"\nsize_px = [160, 120]\n[[swarm]]\ncount = 40\n"
+    "model = { type = \"basic\", max_speed = 2 }\nstart = { type = \"edge\", direction = \"180 deg\" }\n"
+    "[controller]\ntype = \"fuzzy\"\n[reference]\ntype = \"hold\"\nsetpoint_px = [80, 60]\n";
+const std::string kStudy =
+    "scene = \"scene.toml\"\nseeds = 3\ndelays = [0, 2]\n"
+    "[[controller]]\nname = \"published\"\ntype = \"fuzzy\"\nmax_output = 5\n"
+    "[[controller]]\ntype = \"proportional\"\n"
+    "[[model]]\nname = \"slow\"\ntype = \"basic\"\nmax_speed = 2\nset = { \"swarm[0].count\" = 30 }\n"
+    "[[model]]\nname = \"fast\"\ntype = \"adapted\"\nmax_speed = 4\n";
+
+void write_study(const TestFolder& f, const std::string& study = kStudy) {
+  write_file(f.path / "scene.toml", kScene);
+  write_file(f.path / "study.toml", study);
+}
+
+void refused(const std::string& study, const std::string& words) {
+  const TestFolder f;
+  write_study(f, study);
+  const Called c = faba_in(f.path, "compare-controllers study.toml --out out");
+  INFO(study);
+  CHECK(c.exit == 2);
+  CHECK(one_clear_line(c.err));
+  CHECK_MESSAGE(c.err.find(words) != std::string::npos, c.err);
+  CHECK_FALSE(std::filesystem::exists(f.path / "out"));
+}
+
+}  // namespace
+
+TEST_CASE("a study of controllers: all combinations, and the numbers that single runs have") {
+  const TestFolder f;
+  write_study(f);
+  const Called c = faba_in(f.path, "compare-controllers study.toml --out out --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  const auto all = c.json()["combinations"];
+  REQUIRE(all.size() == 8);
+  CHECK(all[0]["controller"] == "published");
+  CHECK(all[3]["controller"] == "proportional");
+  CHECK(all[3]["delay_frames"] == 2);
+  CHECK(all[4]["model"] == "fast");
+  for (const char* name : {"controllers.json", "controllers.csv", "report.html"})
+    CHECK(std::filesystem::exists(f.path / "out" / name));
+  CHECK_FALSE(std::filesystem::exists(f.path / "out/incomplete"));
+  // The third combination by hand.
+  double mean = 0;
+  for (const char* seed : {"1", "2", "3"}) {
+    const Called one = faba_in(f.path, std::string("run scene.toml --json --force --out one --seed ") + seed +
+                                           " --set swarm[0].count=30 --set camera.delay_frames=2 "
+                                           "--set controller.max_output=5");
+    REQUIRE_MESSAGE(one.exit == 0, one.err);
+    mean += one.json()["steady_rms_px"].get<double>() / 3;
+  }
+  CHECK(all[2]["metrics"]["steady_rms_px"]["mean"].get<double>() == doctest::Approx(mean).epsilon(1e-7));
+  CHECK(all[2]["metrics"]["steady_rms_px"]["n"] == 3);
+}
+
+TEST_CASE("four shards and their merger come to the same as one process, byte for byte") {
+  const TestFolder f;
+  write_study(f);
+  REQUIRE(faba_in(f.path, "compare-controllers study.toml --out whole --threads 2").exit == 0);
+  std::string parts;
+  for (const char* k : {"1", "2", "3", "4"}) {
+    const Called c = faba_in(
+        f.path, std::string("compare-controllers study.toml --json --shard ") + k + "/4 --out part" + k);
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    CHECK(c.json()["complete"] == false);
+    parts += std::string(" --merge part") + k;
+  }
+  const Called c = faba_in(f.path, "compare-controllers study.toml --out merged" + parts);
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  for (const char* name : {"controllers.json", "controllers.csv", "report.html"})
+    CHECK(read_file(f.path / "whole" / name) == read_file(f.path / "merged" / name));
+}
+
+TEST_CASE("a study is not overwritten, and goes on where it was") {
+  const TestFolder f;
+  write_study(f);
+  REQUIRE(faba_in(f.path, "compare-controllers study.toml --shard 1/2 --out out").exit == 0);
+  const std::string half = read_file(f.path / "out/results.jsonl");
+  REQUIRE(faba_in(f.path, "compare-controllers study.toml --out out").exit == 0);
+  CHECK(read_file(f.path / "out/results.jsonl").starts_with(half));
+  const Called again = faba_in(f.path, "compare-controllers study.toml --out out");
+  CHECK(again.exit == 2);
+  CHECK(one_clear_line(again.err));
+  write_file(f.path / "other.toml", kStudy + "set = { \"swarm[0].count\" = 31 }\n");
+  CHECK(faba_in(f.path, "compare-controllers other.toml --out out").exit == 2);
+  CHECK(faba_in(f.path, "compare-controllers other.toml --out out --force").exit == 0);
+}
+
+TEST_CASE("bad studies: one line that says where and what, before anything is written") {
+  refused("seeds = 3\n", "scene");
+  refused("scene = \"none.toml\"\n", "none.toml");
+  refused("scene = \"scene.toml\"\nsseds = 3\n", "did you mean \"seeds\"");
+  refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzy\"\n", "did you mean \"fuzzy\"");
+  refused("scene = \"scene.toml\"\n[[controller]]\nmax_output = 3\n", "type");
+  refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzzy\"\n[[controller]]\ntype = \"fuzzy\"\n",
+          "name of its own");
+  refused("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[3].count\" = 2 }\n",
+          "swarm[3]");
+  refused("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[0].cuont\" = 2 }\n",
+          "did you mean \"count\"");
+  refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"manual\"\nset = { reference = \"none\" }\n",
+          "setpoint");
+  refused("scene = \"scene.toml\"\nseeds = 1\n", "seeds");
+  const TestFolder f;
+  write_study(f);
+  for (const char* shard : {"5/4", "0/4", "1", "a/b", "1/4x"}) {
+    const Called c =
+        faba_in(f.path, std::string("compare-controllers study.toml --out out --shard ") + shard);
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+  }
+  CHECK(faba_in(f.path, "compare-controllers study.toml --out out --merge nowhere").exit == 3);
+}
