@@ -52,13 +52,12 @@ Json field_along(double direction_deg, double strength_t, bool north) {
 /// Looks at the moments that are measured.
 class Watch final : public Sink {
  public:
-  /// `late_s`: of each drive.
-  Watch(const EpisodeStatistics& statistics, const std::vector<double>& late_s, Simulation& simulation,
-        const Scenario& s, Look look)
+  Watch(const EpisodeStatistics& statistics, double lead_s, Simulation& simulation, const Scenario& s,
+        Look look)
       : simulation_(simulation), look_(look) {
     const auto& times = statistics.times_s();
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const double frame = std::round((times[i] + late_s[statistics.drive_at()[i]]) * s.camera.rate);
+      const double frame = std::round((times[i] + lead_s) * s.camera.rate);
       wanted_[std::uint64_t(std::clamp(frame, 0.0, double(s.frames() - 1)))].push_back(i);
     }
     (look == Look::video ? frames.resize(times.size()) : positions.resize(times.size()));
@@ -92,14 +91,31 @@ class Watch final : public Sink {
 
 }  // namespace
 
-Document episode_scenario(const ResponseVideo& v, const Episode& e, const EpisodeSettings& settings) {
+DriveTiming exact_timing(const Episode& e) {
+  DriveTiming t;
+  for (const Drive& d : e.drives) t.turns_s.push_back(d.t0_s);
+  return t;
+}
+
+DriveTiming drawn_timing(const Episode& e, double sd_s, std::uint64_t seed) {
+  StudyRandom random(seed, 9);
+  DriveTiming t;
+  for (const Drive& d : e.drives) t.turns_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
+  t.lead_s = std::max(0.0, -t.turns_s.front());
+  for (double& turn : t.turns_s) turn += t.lead_s;
+  std::sort(t.turns_s.begin(), t.turns_s.end());
+  return t;
+}
+
+Document episode_scenario(const ResponseVideo& v, const Episode& e, const EpisodeSettings& settings,
+                          const DriveTiming& timing) {
   Document d;
   d.name = settings.model.origin;
   Json places = Json::array();
   for (const Vec2 at : e.places_image) places.push_back({at.x, at.y});
   const double px = v.um_per_px;
   d.root = {{"title", e.name},
-            {"duration", quantity(e.length_s() + 1 / v.fps, "s")},
+            {"duration", quantity(timing.lead_s + e.length_s() + 1 / v.fps, "s")},
             {"exposure", quantity(v.input.exposure_s, "s")},
             {"scale", {{"um_per_px", px}}},
             {"camera", {{"rate", quantity(v.fps, "Hz")}}},
@@ -117,28 +133,28 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   merge(d.root, settings.scene);
   const Json& swarm = d.root["swarm"][0];
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
-  Json segments = Json::array();
-  for (std::size_t i = 1; i < e.drives.size(); ++i)
-    segments.push_back({{"at", quantity(e.drives[i].t0_s, "s")},
-                        {"field", field_along(e.drives[i].direction_deg, settings.drive_t, north)}});
-  d.root["controller"] = {{"type", "manual"},
-                          {"field", field_along(e.drives[0].direction_deg, settings.drive_t, north)}};
+  const auto along = [&](double deg) { return field_along(deg, settings.drive_t, north); };
+  Json first = along(e.drives[0].direction_deg), segments = Json::array();
+  if (timing.turns_s[0] > 0)
+    first = settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.drives[0].direction_deg + 180);
+  for (std::size_t i = 0; i < e.drives.size(); ++i)
+    if (timing.turns_s[i] > 0)
+      segments.push_back(
+          {{"at", quantity(timing.turns_s[i], "s")}, {"field", along(e.drives[i].direction_deg)}});
+  d.root["controller"] = {{"type", "manual"}, {"field", first}};
   if (!segments.empty()) d.root["controller"]["segment"] = segments;
   apply(settings.model, "model", d);
   return d;
 }
 
-std::vector<double> simulate_episode(const Scenario& s, std::uint64_t seed, double timing_s,
+std::vector<double> simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
                                      const EpisodeStatistics& statistics, Look look,
                                      const std::shared_ptr<const VideoGround>& ground) {
   Pool pool(1);
   Scenario looked_at = s;
   looked_at.record = {}, looked_at.record.as_seen = look == Look::video;
   Simulation simulation(looked_at, seed, pool, ground);
-  StudyRandom random(seed, 9);
-  std::vector<double> late_s(statistics.drive_at().back() + 1);
-  for (double& late : late_s) late = timing_s * random.normal();
-  Watch watch(statistics, late_s, simulation, looked_at, look);
+  Watch watch(statistics, lead_s, simulation, looked_at, look);
   simulation.loop().sinks.push_back(&watch);
   run(simulation.loop(), s.frames(), [] { return true; });
   return look == Look::video ? statistics.of_frames(watch.frames) : statistics.of_positions(watch.positions);

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "app/scenario.h"
 #include "core/toml.h"
 #include "study/response_video.h"
@@ -14,10 +16,22 @@ struct EpisodeSettings {
   double drive_t = 1e-3;  ///< strength of the field that drives the cells, T
 };
 
+/// When the field turns in a simulation of an episode.
+struct DriveTiming {
+  double lead_s = 0;            ///< how long the simulation runs before the episode is taken to begin
+  std::vector<double> turns_s;  ///< beginning of each drive, from the simulation's own on
+};
+/// As the episode says.
+DriveTiming exact_timing(const Episode& episode);
+/// Each turn off by a normal law of `sd_s`, but in order: the moments are known to a frame or so only, and at
+/// tens of pixels per frame that shows.
+DriveTiming drawn_timing(const Episode& episode, double sd_s, std::uint64_t seed);
+
 /// A scenario that repeats an episode: its place, light, noise and field of view, its cells where they were
-/// seen, and the field along its drives.
-Document episode_scenario(const ResponseVideo& video, const Episode& episode,
-                          const EpisodeSettings& settings);
+/// seen, and the field along its drives. Before the first one the field is the opposite, or none without a
+/// boundary.
+Document episode_scenario(const ResponseVideo& video, const Episode& episode, const EpisodeSettings& settings,
+                          const DriveTiming& timing);
 
 /// How a simulated episode is looked at.
 enum class Look {
@@ -25,9 +39,8 @@ enum class Look {
   positions  ///< every cell in view is known: quick, and blind to what a camera does
 };
 
-/// Simulates an episode on the calling thread and measures it. `timing_s`: how well the moments are known at
-/// which the field turns, sd: each drive is looked at so much too early or too late.
-std::vector<double> simulate_episode(const Scenario& s, std::uint64_t seed, double timing_s,
+/// Simulates an episode on the calling thread and measures it. `lead_s` as in DriveTiming.
+std::vector<double> simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
                                      const EpisodeStatistics& statistics, Look look,
                                      const std::shared_ptr<const VideoGround>& ground);
 

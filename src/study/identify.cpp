@@ -21,8 +21,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kDraws = 1000;     // from a posterior
-constexpr int kForetold = 200;   // of what an experiment will show
+constexpr int kDraws = 1000;    // from a posterior
+constexpr int kForetold = 200;  // of what an experiment will show
+constexpr double kTiming =
+    0.58;                        // frames, sd: the moment at which a field turns, known to a frame either way
 constexpr double kLevel = 0.90;  // of the intervals
 
 /// One of the parts of the videos that are simulated: which, and where its numbers stand in the whole list.
@@ -107,8 +109,8 @@ SearchRounds rounds_of(int simulations) {
 }
 
 Document scenario_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v, const Episode& e,
-                     const VectorXd& u) {
-  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_t});
+                     const VectorXd& u, const DriveTiming& timing) {
+  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_t}, timing);
   for (std::size_t j = 0; j < c.free.size(); ++j) d.set(c.free[j].path, c.free[j].json(u[Index(j)]), "free");
   return d;
 }
@@ -133,18 +135,19 @@ class Round {
                std::size_t p) {
     const Part& part = observed_.parts[p];
     const ResponseVideo& video = videos_[part.video];
-    const auto d = std::make_shared<const Document>(
-        scenario_of(study_, *s.candidate, video, video.episodes[part.episode], u));
     // A seed of its own for each: what chance does to one simulation says nothing of the next.
     Hash h;
     h.value(study_.seed), h.value(candidate), h.value(number), h.value(i), h.value(p);
     const std::uint64_t seed = h.result() >> 1;
-    const std::string key =
-        task_key(fmt::format("response 1 {} {} {} {} {}", d->root.dump(), seed, seen_, p, int(study_.look)));
-    tasks_.push_back({key, [this, d, seed, &part, &video] {
+    const Episode& episode = video.episodes[part.episode];
+    const DriveTiming timing = drawn_timing(episode, study_.timing_s.value_or(kTiming / video.fps), seed);
+    const auto d =
+        std::make_shared<const Document>(scenario_of(study_, *s.candidate, video, episode, u, timing));
+    const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
+                                                 timing.lead_s, seen_, p, int(study_.look)));
+    tasks_.push_back({key, [this, d, seed, lead = timing.lead_s, &part, &video] {
                         try {
-                          return simulate_episode(read_scenario(*d, parts_), seed,
-                                                  study_.timing_s.value_or(0.5 / video.fps), *part.statistics,
+                          return simulate_episode(read_scenario(*d, parts_), seed, lead, *part.statistics,
                                                   study_.look, video.ground);
                         } catch (const Error& e) {
                           if (e.code() != Errc::usage) throw;

@@ -28,7 +28,7 @@ struct IdentifyStudy {
   Look look = Look::video;
   int simulations = 600;  ///< of each episode with each candidate
   std::optional<double>
-      timing_s;  ///< how well the moments are known at which the field turns, sd; half a frame
+      timing_s;  ///< how well the moments are known at which the field turns, sd; 0.58 frames when empty
   Json scene = Json::object();
   std::vector<ResponseInput> videos;
   std::vector<Candidate> candidates;

@@ -46,7 +46,8 @@ struct StudyFile {
              {.unit = "s",
               .min = 0,
               .max = 10,
-              .doc = "How well the moments are known at which the field turns, sd; half a frame when absent"})
+              .doc = "How well the moments are known at which the field turns, sd; 0.58 frames, which is a "
+                     "frame either way, when absent"})
         .add("drive", &StudyFile::drive,
              {.unit = "T", .min = 0, .max = 1, .doc = "Strength of the field that drives the cells"});
   }
@@ -127,7 +128,8 @@ Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyS
     c.drive_t = schema_detail::read<double>(n, {.unit = "T", .min = 0, .max = 1});
   }
   const ResponseVideo video = any_video();
-  Document d = episode_scenario(video, video.episodes[0], {study.boundary, study.scene, c.model, c.drive_t});
+  Document d = episode_scenario(video, video.episodes[0], {study.boundary, study.scene, c.model, c.drive_t},
+                                exact_timing(video.episodes[0]));
   d.root["microscope"].erase("background");
   if (c.model.extra.contains("free"))
     c.free = read_free_parameters({c.model.extra["free"], here.path + ".free", root.document}, d.root);
