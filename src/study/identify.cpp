@@ -332,6 +332,21 @@ void judge(Identification& r) {
       poor;
 }
 
+// One camera: what differs between videos is to be the experiments.
+void check_alike(const std::vector<ResponseVideo>& videos) {
+  const ResponseVideo& first = videos.front();
+  for (const ResponseVideo& v : videos) {
+    if (v.width != first.width || v.height != first.height)
+      throw Error(Errc::input, v.input.file.string(),
+                  fmt::format("has pictures of {} x {} px, {} of {} x {}; one study is of one camera",
+                              v.width, v.height, first.input.file.string(), first.width, first.height));
+    if (std::fabs(v.fps / first.fps - 1) > 0.01)
+      throw Error(Errc::input, v.input.file.string(),
+                  fmt::format("has {:.4g} frames per second, {} has {:.4g}; one study is of one rate", v.fps,
+                              first.input.file.string(), first.fps));
+  }
+}
+
 }  // namespace
 
 std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
@@ -344,6 +359,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
       if (options.stop())
         throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
     }));
+  check_alike(r.videos);
   const Observed o = gather(r.videos);
   if (!o.numbers.allFinite())
     throw Error(Errc::input, study.videos.front().file.string(), "shows no cells while they should move");

@@ -148,7 +148,7 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary,
     std::vector<GrayF> frames = frames_at(v, moments, tick);
     e.places_image = places_in(frames.front(), survey.background, v, noise);
     if (e.places_image.empty())
-      throw Error(Errc::input, input.file.string(), fmt::format("shows no cells at {:.3g} s", e.begins_s));
+      throw Error(Errc::input, input.file.string(), fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
     if (v.episodes.empty()) {
       Foreground foreground(v.cells);
       foreground.know(survey.background);

@@ -1,0 +1,118 @@
+// `faba identify`: the loop from a rendered video to a model, the same for one process and for shards and
+// after a kill, and what it says to bad input before it simulates anything.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/e2e/program.h"
+
+using namespace faba;
+
+namespace {
+
+const std::string kScene =
+    "duration = \"3.2 s\"\n[arena]\ntype = \"box\"\nsize_px = [160, 120]\n[scale]\num_per_px = 1.2\n"
+    "[microscope]\ncell_diameter = \"2.5 um\"\n"
+    "[[swarm]]\ncount = 60\nmodel = { type = \"basic\", max_speed = 4 }\nstart = { type = \"edge\", "
+    "direction = \"180 deg\" }\n"
+    "[controller]\ntype = \"manual\"\nfield = [\"69 uT\", \"0 T\"]\n"
+    "[[controller.segment]]\nat = \"0.6 s\"\nfield = [\"-69 uT\", \"0 T\"]\n"
+    "[record]\nas_seen = true\nlossless = true\ntracks = false\n";
+const std::string kHead =
+    "boundary = \"box\"\nlook = \"positions\"\nsimulations = 150\nreversal = \"0.6 s\"\ndirection = "
+    "0\nduration = \"2.4 s\"\n"
+    "drive = \"69 uT\"\n[[video]]\nfile = \"film\"\n";
+const std::string kBasic = "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n";
+const std::string kAdapted =
+    "[[model]]\ntype = \"adapted\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n";
+
+void make_film(const TestFolder& f, const std::string& more = "") {
+  write_file(f.path / "scene.toml", kScene);
+  const Called c = faba_in(f.path, "run scene.toml --seed 3 --quiet --force --out film " + more);
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+}
+
+void refused(const TestFolder& f, const std::string& study, int code, const std::string& words) {
+  write_file(f.path / "study.toml", study);
+  const Called c = faba_in(f.path, "identify study.toml --out out");
+  INFO(study);
+  CHECK(c.exit == code);
+  CHECK_MESSAGE(one_clear_line(c.err), c.err);
+  CHECK_MESSAGE(c.err.find(words) != std::string::npos, c.err);
+  const auto results = f.path / "out/results.jsonl";
+  CHECK((!std::filesystem::exists(results) || std::filesystem::file_size(results) == 0));
+  std::filesystem::remove_all(f.path / "out");
+}
+
+}  // namespace
+
+TEST_CASE("a rendered step response: the model and its parameter; shards and a kill change nothing") {
+  const TestFolder f;
+  make_film(f);
+  write_file(f.path / "study.toml", kHead + kBasic + kAdapted);
+  const Called c = faba_in(f.path, "identify study.toml --json --out whole");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  const auto j = c.json();
+  CHECK(j["evidence"] == "none");  // one drive cannot foretell another
+  const auto p = j["models"][0]["parameters"]["swarm[0].model.max_speed"];
+  CHECK(p["ci90"][0].get<double>() < p["median"].get<double>());
+  CHECK(p["median"].get<double>() < p["ci90"][1].get<double>());
+  // Three in four: it is one draw of a 90 % interval, widened by half for what positions leave out of a
+  // picture.
+  const double half = 0.75 * (p["ci90"][1].get<double>() - p["ci90"][0].get<double>());
+  CHECK(std::fabs(p["median"].get<double>() - 4) < half);
+
+  std::string parts;
+  for (const char* k : {"1", "2", "3", "4"}) {
+    const Called one =
+        faba_in(f.path, std::string("identify study.toml --json --shard ") + k + "/4 --out part" + k);
+    REQUIRE_MESSAGE(one.exit == 0, one.err);
+    CHECK(one.json()["complete"] == false);
+    parts += std::string(" --merge part") + k;
+  }
+  REQUIRE(faba_in(f.path, "identify study.toml --quiet --out merged" + parts).exit == 0);
+  CHECK(read_file(f.path / "whole/identify.json") == read_file(f.path / "merged/identify.json"));
+
+  // Long enough to be killed in the middle.
+  std::string longer = kHead + kBasic;
+  longer.replace(longer.find("150"), 3, "3000");
+  write_file(f.path / "longer.toml", longer);
+  CHECK(faba_in(f.path, "identify longer.toml --quiet --out killed", "timeout -s KILL 1.5").exit == 137);
+  REQUIRE(std::filesystem::exists(f.path / "killed/incomplete"));
+  CHECK(std::filesystem::file_size(f.path / "killed/results.jsonl") > 0);
+  REQUIRE(faba_in(f.path, "identify longer.toml --quiet --out killed").exit == 0);
+  REQUIRE(faba_in(f.path, "identify longer.toml --quiet --out calm").exit == 0);
+  CHECK(read_file(f.path / "calm/identify.json") == read_file(f.path / "killed/identify.json"));
+}
+
+TEST_CASE("bad studies and bad videos: one line, before any simulation") {
+  const TestFolder f;
+  make_film(f);
+  refused(f, kHead, 2, "[[model]]");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\n", 2, "nothing to find");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = []\n", 2, "nothing to find");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].model.max_sped\"]\n", 2,
+          "did you mean \"max_speed\"");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[4].model.max_speed\"]\n", 2,
+          "no such value");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].polarity\"]\n", 2, "not a number");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2] }\n", 2,
+          "must be a range");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2000] }\n", 2,
+          "must be a range");
+  refused(f,
+          kHead + "[[model]]\ntype = \"dipole\"\nfree = { \"swarm[0].model.speed\" = [\"5 s\", \"9 s\"] }\n",
+          2, "not a quantity");
+  refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");
+  refused(f, kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
+  // Rates and sizes that differ, and nothing that moves.
+  std::filesystem::rename(f.path / "film", f.path / "slow");
+  make_film(f, "--set camera.rate='10 Hz'");
+  refused(f, kHead + "[[video]]\nfile = \"slow\"\n" + kBasic, 3, "one rate");
+  make_film(f, "--set arena.size_px='[200, 120]'");
+  refused(f, kHead + "[[video]]\nfile = \"slow\"\n" + kBasic, 3, "one camera");
+  make_film(f,
+            "--set swarm[0].model.type=dipole --set swarm[0].model='{type=\"dipole\", speed=0, speed_sd=0, "
+            "temperature=1}'");
+  refused(f, kHead + kBasic, 3, "no cells");
+}
