@@ -35,16 +35,11 @@ int compare_controllers(const StudyVerb& v, const Common& c) {
   const auto result = compare_controllers(study, dir.results(), options);
   bar.clear();
   if (!result) return tell_partial(v, c, dir);
-  auto j = controllers_json(*result);
-  write_file(dir.path() / "controllers.json", j.dump(2) + "\n");
+  const auto j = controllers_json(*result);
   write_file(dir.path() / "controllers.csv", controllers_csv(*result));
   write_file(dir.path() / "report.html", controllers_page(*result));
-  dir.complete();
-  if (c.json) {
-    nlohmann::ordered_json out{{"out", dir.path().string()}, {"complete", true}};
-    out.update(j);
-    fmt::print("{}\n", out.dump());
-  } else if (!c.quiet) {
+  finish(dir, "controllers", j, c);
+  if (!c.json && !c.quiet) {
     summary(*result);
     fmt::print("wrote {}\n", (dir.path() / "report.html").string());
   }

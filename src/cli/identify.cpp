@@ -33,13 +33,8 @@ int identify(const StudyVerb& v, const Common& c) {
   bar.clear();
   if (!result) return tell_partial(v, c, dir);
   const auto j = identify_json(*result);
-  write_file(dir.path() / "identify.json", j.dump(2) + "\n");
-  dir.complete();
-  if (c.json) {
-    nlohmann::ordered_json out{{"out", dir.path().string()}, {"complete", true}};
-    out.update(j);
-    fmt::print("{}\n", out.dump());
-  } else if (!c.quiet) {
+  finish(dir, "identify", j, c);
+  if (!c.json && !c.quiet) {
     for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
     summary(*result);
     fmt::print("wrote {}\n", (dir.path() / "identify.json").string());

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/error.h"
+#include "core/file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -43,6 +44,15 @@ SweepOptions sweep_options(const StudyVerb& v, Progress& bar) {
   o.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };
   return o;
+}
+
+void finish(StudyDirectory& dir, const std::string& name, const nlohmann::ordered_json& j, const Common& c) {
+  write_file(dir.path() / (name + ".json"), j.dump(2) + "\n");
+  dir.complete();
+  if (!c.json) return;
+  nlohmann::ordered_json out{{"out", dir.path().string()}, {"complete", true}};
+  out.update(j);
+  fmt::print("{}\n", out.dump());
 }
 
 int tell_partial(const StudyVerb& v, const Common& c, const StudyDirectory& dir) {

@@ -10,9 +10,8 @@
 #include "app/parts.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "study/found_model.h"
 #include "study/parameter_search.h"
-#include "study/statistics.h"
-#include "study/study_random.h"
 
 namespace faba {
 namespace {
@@ -21,11 +20,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kDraws = 1000;    // from a posterior
-constexpr int kForetold = 200;  // of what an experiment will show
 constexpr double kTiming =
-    0.58;                        // frames, sd: the moment at which a field turns, known to a frame either way
-constexpr double kLevel = 0.90;  // of the intervals
+    0.58;  // frames, sd: the moment at which a field turns, known to a frame either way
 
 /// One of the parts of the videos that are simulated: which, and where its numbers stand in the whole list.
 struct Part {
@@ -178,160 +174,6 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
   return s;
 }
 
-double quantile(std::vector<double> v, double p) {
-  std::sort(v.begin(), v.end());
-  const double at = p * double(v.size() - 1);
-  const auto i = std::size_t(at);
-  return i + 1 < v.size() ? v[i] + (at - double(i)) * (v[i + 1] - v[i]) : v[i];
-}
-
-double weighed_quantile(const VectorXd& v, const VectorXd& weight, double p) {
-  std::vector<Index> order(std::size_t(v.size()));
-  std::iota(order.begin(), order.end(), Index(0));
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return v[a] < v[b]; });
-  double sum = 0;
-  for (const Index i : order)
-    if ((sum += weight[i]) >= p) return v[i];
-  return v[order.back()];
-}
-
-FoundParameter found(const FreeParameter& p, const VectorXd& u, const VectorXd& abc_u,
-                     const VectorXd& abc_weight) {
-  FoundParameter f{.parameter = p};
-  for (const double x : u) f.draws.push_back(p.value(x));
-  const double low = (1 - kLevel) / 2, high = 1 - low;
-  const std::vector<double> shares(u.begin(), u.end());
-  f.median = p.value(quantile(shares, 0.5));
-  f.ci90 = {p.value(quantile(shares, low)), p.value(quantile(shares, high))};
-  f.share_of_range = quantile(shares, high) - quantile(shares, low);
-  f.abc_median = p.value(weighed_quantile(abc_u, abc_weight, 0.5));
-  f.abc_ci90 = {p.value(weighed_quantile(abc_u, abc_weight, low)),
-                p.value(weighed_quantile(abc_u, abc_weight, high))};
-  return f;
-}
-
-/// Energy score of draws (rows) for what came, in units of `scale`; divided by the square root of how many
-/// numbers there are, so that experiments of different length count alike.
-double energy_score(const MatrixXd& draws, const VectorXd& came, const VectorXd& scale) {
-  const MatrixXd x = draws * scale.cwiseInverse().asDiagonal();
-  const VectorXd y = came.cwiseQuotient(scale);
-  double to = 0, among = 0;
-  for (Index i = 0; i < x.rows(); ++i) {
-    to += (x.row(i).transpose() - y).norm();
-    for (Index j = 0; j < i; ++j) among += (x.row(i) - x.row(j)).norm();
-  }
-  const double m = double(x.rows());
-  return (to / m - among / (m * (m - 1))) / std::sqrt(double(came.size()));
-}
-
-// What an experiment would show at parameters drawn from the others' posterior: the expected numbers, and
-// what is left over of a simulation.
-MatrixXd foretell(const ParameterSearch& s, const MatrixXd& u, const std::vector<Index>& columns,
-                  StudyRandom& random) {
-  const MatrixXd& left = s.emulator().residuals();
-  MatrixXd x(u.rows(), Index(columns.size()));
-  for (Index i = 0; i < u.rows(); ++i) {
-    const VectorXd mean = s.emulator().mean(u.row(i).transpose());
-    const Index other = Index(random.below(std::size_t(left.rows())));
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      x(i, Index(k)) = mean[columns[k]] + left(other, columns[k]);
-  }
-  return x;
-}
-
-// How far from its own mean a simulation is, by all numbers together; as a share of simulations that are
-// further.
-double fit_p(const ParameterSearch& s, const VectorXd& mode, const VectorXd& observed) {
-  const MatrixXd& left = s.emulator().residuals();
-  const VectorXd scale = (left.array().square().colwise().mean().sqrt().max(1e-9)).matrix().transpose();
-  const auto far = [&](const VectorXd& off) { return off.cwiseQuotient(scale).squaredNorm(); };
-  const double here = far(observed - s.emulator().mean(mode));
-  double further = 0;
-  for (Index i = 0; i < left.rows(); ++i) further += far(left.row(i).transpose()) >= here;
-  return (further + 1) / double(left.rows() + 1);
-}
-
-VectorXd noise_of(const ParameterSearch& s) {
-  return (s.emulator().residuals().array().square().colwise().mean().sqrt().max(1e-9)).matrix().transpose();
-}
-
-void conclude(const Search& s, const Observed& o, const VectorXd& scale, std::uint64_t seed, FoundModel& m) {
-  const MatrixXd draws = s.search->posterior({}, kDraws, seed);
-  const auto abc = s.search->by_distance();
-  VectorXd middle(draws.cols());
-  for (Index j = 0; j < draws.cols(); ++j) {
-    const FreeParameter& p = s.candidate->free[std::size_t(j)];
-    m.parameters.push_back(found(p, draws.col(j), abc.u.col(j), abc.weight));
-    middle[j] = quantile({draws.col(j).begin(), draws.col(j).end()}, 0.5);
-    m.best[p.path] = p.json(middle[j]);
-  }
-  m.simulations = std::size_t(s.search->simulations().size());
-  m.fit_p = fit_p(*s.search, middle, o.numbers);
-  const VectorXd mean = s.search->emulator().mean(middle), sd = noise_of(*s.search);
-  m.foretold.assign(mean.begin(), mean.end()), m.foretold_sd.assign(sd.begin(), sd.end());
-  StudyRandom random(seed, 2);
-  for (std::size_t e = 0; e < o.experiments.size(); ++e) {
-    MatrixXd u = draws.topRows(kForetold);
-    if (o.experiments.size() > 1) {
-      std::vector<Index> others;
-      for (std::size_t k = 0; k < o.experiments.size(); ++k)
-        if (k != e) others.insert(others.end(), o.columns[k].begin(), o.columns[k].end());
-      std::sort(others.begin(), others.end());
-      u = s.search->posterior(others, kForetold, seed + 1 + e);
-    }
-    const auto& columns = o.columns[e];
-    m.scores.push_back(
-        energy_score(foretell(*s.search, u, columns, random), o.numbers(columns), scale(columns)));
-    m.score += m.scores.back() / double(o.experiments.size());
-  }
-}
-
-void judge(Identification& r) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < r.models.size(); ++i)
-    if (r.models[i].failed.empty()) order.push_back(i);
-  if (order.empty()) throw Error(Errc::input, r.study.title, r.models.front().failed);
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return r.models[a].score < r.models[b].score; });
-  r.best = order[0];
-  const FoundModel& best = r.models[r.best];
-  r.evidence = "none";
-  const std::string poor = best.fit_p < 0.01 ? fmt::format(
-                                                   " None of them explains the videos: only {:.1g} % of the "
-                                                   "simulations of {} are as far from their mean.",
-                                                   100 * best.fit_p, best.name)
-                                             : "";
-  if (order.size() < 2) {
-    r.words = "One model only: there is nothing to compare it with." + poor;
-    return;
-  }
-  const FoundModel& next = r.models[order[1]];
-  const double n = double(best.scores.size());
-  std::vector<double> lead;
-  for (std::size_t e = 0; e < best.scores.size(); ++e) lead.push_back(next.scores[e] - best.scores[e]);
-  for (const double x : lead) r.ahead += x / n;
-  if (n < 2) {
-    r.words =
-        fmt::format("No evidence either way: one experiment cannot foretell another. {} is nearer than {}.",
-                    best.name, next.name) +
-        poor;
-    return;
-  }
-  const double se = sample_sd(lead) / std::sqrt(n), half = student_t_quantile(0.975, n - 1) * se;
-  r.ahead_ci95 = {r.ahead - half, r.ahead + half};
-  r.evidence = r.ahead - half > 0 ? "clear" : r.ahead > se ? "weak" : "none";
-  const std::string lead_words =
-      fmt::format("its energy score is {:.3g} less per experiment, 95 % {:.3g} to {:.3g}", r.ahead,
-                  (*r.ahead_ci95)[0], (*r.ahead_ci95)[1]);
-  r.words =
-      (r.evidence == "clear"
-           ? fmt::format("{} foretells experiments better than {}: {}.", best.name, next.name, lead_words)
-       : r.evidence == "weak"
-           ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
-           : fmt::format("No evidence either way between {} and {}: {}.", best.name, next.name, lead_words)) +
-      poor;
-}
-
 // One camera: what differs between videos is to be the experiments.
 void check_alike(const std::vector<ResponseVideo>& videos) {
   const ResponseVideo& first = videos.front();
@@ -397,8 +239,9 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   scale = (scale / std::max(1.0, models)).cwiseMax(1e-9);
   for (std::size_t c = 0; c < searches.size(); ++c) {
     FoundModel m;
+    if (searches[c].failed.empty())
+      m = found_model(study.candidates[c], *searches[c].search, o.columns, scale, study.seed + 77 * (c + 1));
     m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
-    if (m.failed.empty()) conclude(searches[c], o, scale, study.seed + 77 * (c + 1), m);
     r.models.push_back(std::move(m));
   }
   r.statistics = o.names, r.experiments = o.experiments;

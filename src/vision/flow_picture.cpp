@@ -55,8 +55,9 @@ cv::Point fixed(double x, double y) {
   return {int(std::lround(x * (1 << kShift))), int(std::lround(y * (1 << kShift)))};
 }
 
-// The mean flow of a square, and its middle, weighed by its speed: an arrow stands where something moves.
 constexpr double kLeast = 0.2;  // of the full speed, of a flow that gets an arrow
+
+// The mean flow of a square, and its middle, weighed by its speed: an arrow stands where something moves.
 void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, double full, bool coloured) {
   const int step = how.arrow_step_px;
   for (int r = step / 2; r < flow.height(); r += step)
