@@ -49,7 +49,7 @@ bool SimRig::step_to(std::uint64_t frame) {
   std::uint64_t since = 1;
   if (p_.microscope)
     since = std::max<std::uint64_t>(
-        1, std::uint64_t(0.5 * p_.microscope->exposure_time() / world_.parts().dt + 0.5));
+        1, std::uint64_t(std::llround(0.5 * p_.microscope->exposure_time() / world_.parts().dt)));
   for (std::uint64_t i = 0; i < steps; ++i) {
     if (p_.microscope && i == steps - std::min(since, steps)) camera_.remember(world_.state());
     world_.step();

@@ -1,9 +1,10 @@
 #pragma once
-#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/vec.h"
+#include "vision/detector.h"
 #include "vision/foreground.h"
 
 namespace faba {
@@ -24,48 +25,52 @@ struct Episode {
   double length_s() const { return drives.empty() ? 0 : drives.back().t1_s; }
 };
 
-/// What is measured of an episode, of frames of a video and of simulated ones alike: at six moments of each
-/// drive how many cells are in view, where along the direction of the drive 10, 50 and 90 % of them are, and
-/// how wide they spread across it; and how many there are in all. All of it without finding cells one by one.
+/// How an episode is put into numbers.
+enum class Measure {
+  density,  ///< where the swarm is at six moments of each drive, without finding cells one by one
+  tracks    ///< how cells move that are followed for a moment, three times in each drive
+};
+
+/// What frames of an experiment look like, for whoever measures them.
+struct CellView {
+  int width = 0, height = 0;                     ///< px
+  double frame_s = 0;                            ///< between frames
+  ForegroundOptions cells;                       ///< how they look
+  std::shared_ptr<const Background> background;  ///< greys of 0 to 255
+  double threshold_sd = 0;                       ///< least signal-to-noise of a cell that is followed
+  double reach_px = 0;                           ///< farthest displacement of one from frame to frame
+};
+
+/// What is measured of an episode, of frames of a video and of simulated ones alike.
 class EpisodeStatistics {
  public:
-  static constexpr int kMoments = 6;  ///< of each drive
+  virtual ~EpisodeStatistics() = default;
 
-  EpisodeStatistics(const Episode& episode, int width, int height, const ForegroundOptions& cells);
-
-  /// Moments whose frames are needed, s, in order: those that are measured, and others that the background is
-  /// told from.
+  /// Moments whose frames are needed, s, in order.
   const std::vector<double>& times_s() const { return times_s_; }
-  /// The drive that each of them falls into.
-  const std::vector<std::size_t>& drive_at() const { return drive_at_; }
   /// What each number is, in words: "drive 1, 2.5 s: median along".
-  std::vector<std::string> names() const;
+  const std::vector<std::string>& names() const { return names_; }
   /// Which drive each number belongs to.
-  const std::vector<std::size_t>& drives() const { return drive_of_; }
+  const std::vector<std::size_t>& drives() const { return drives_; }
 
   /// From one frame for each of times_s(), greys of 0 to 255. Not numbers when nothing is seen in any of
   /// them.
-  std::vector<double> of_frames(const std::vector<GrayF>& frames) const;
+  virtual std::vector<double> of_frames(const std::vector<GrayF>& frames) const = 0;
   /// From the cells in view at each of times_s(), px.
-  std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const;
+  virtual std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const = 0;
 
- private:
-  struct Mass {
-    Vec2 at;
-    double weight;
-  };
-  struct Look {
-    std::size_t frame, drive;
-  };
-  std::vector<double> numbers(const std::vector<std::vector<Mass>>& seen, double cells) const;
-
-  Episode episode_;
-  int width_, height_;
-  ForegroundOptions cells_;
+ protected:
   std::vector<double> times_s_;
-  std::vector<std::size_t> drive_at_;
-  std::vector<Look> looks_;
-  std::vector<std::size_t> drive_of_;
+  std::vector<std::string> names_;
+  std::vector<std::size_t> drives_;
 };
+
+/// Finds cells one by one, as EpisodeStatistics does for tracks.
+Detector cell_detector(const CellView& view);
+
+std::unique_ptr<EpisodeStatistics> make_statistics(Measure measure, const Episode& episode,
+                                                   const CellView& view);
+std::unique_ptr<EpisodeStatistics> density_statistics(const Episode& episode, const CellView& view);
+std::unique_ptr<EpisodeStatistics> burst_statistics(const Episode& episode, const CellView& view);
 
 }  // namespace faba

@@ -29,7 +29,7 @@ void merge(Json& into, const Json& from) {
 }
 
 Json arena_of(const ResponseVideo& v, Boundary boundary) {
-  const Json view{v.width, v.height};
+  const Json view{v.view.width, v.view.height};
   if (boundary == Boundary::box) return {{"type", "box"}, {"size_px", view}};
   if (boundary == Boundary::drop)
     return {{"type", "drop"},
@@ -38,8 +38,8 @@ Json arena_of(const ResponseVideo& v, Boundary boundary) {
             {"radius_px", v.edge->radius_px}};
   return {{"type", "drop"},
           {"view_px", view},
-          {"centre_px", {(v.width - 1) / 2.0, (v.height - 1) / 2.0}},
-          {"radius_px", std::min(kFar, 20.0 * std::hypot(v.width, v.height))}};
+          {"centre_px", {(v.view.width - 1) / 2.0, (v.view.height - 1) / 2.0}},
+          {"radius_px", std::min(kFar, 20.0 * std::hypot(v.view.width, v.view.height))}};
 }
 
 // South-seeking cells, which is what scenarios have unless they say otherwise, swim against the field; the
@@ -52,24 +52,21 @@ Json field_along(double direction_deg, double strength_t, bool north) {
 /// Looks at the moments that are measured.
 class Watch final : public Sink {
  public:
-  Watch(const EpisodeStatistics& statistics, double lead_s, Simulation& simulation, const Scenario& s,
-        Look look)
+  Watch(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s, Look look)
       : simulation_(simulation), look_(look) {
-    const auto& times = statistics.times_s();
     for (std::size_t i = 0; i < times.size(); ++i) {
       const double frame = std::round((times[i] + lead_s) * s.camera.rate);
       wanted_[std::uint64_t(std::clamp(frame, 0.0, double(s.frames() - 1)))].push_back(i);
     }
-    (look == Look::video ? frames.resize(times.size()) : positions.resize(times.size()));
+    look == Look::video ? seen.frames.resize(times.size()) : seen.positions.resize(times.size());
   }
   void take(const Tick& t) override {
     const auto it = wanted_.find(t.index);
     if (it == wanted_.end()) return;
     for (const std::size_t i : it->second)
-      look_ == Look::video ? take_picture(frames[i]) : take_positions(positions[i]);
+      look_ == Look::video ? take_picture(seen.frames[i]) : take_positions(seen.positions[i]);
   }
-  std::vector<GrayF> frames;
-  std::vector<std::vector<Vec2>> positions;
+  SeenEpisode seen;
 
  private:
   void take_picture(GrayF& out) {
@@ -121,8 +118,8 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
             {"camera", {{"rate", quantity(v.fps, "Hz")}}},
             {"microscope",
              {{"background", v.file.string()},
-              {"cell_diameter", quantity(kDiameter * v.cells.cell_px * px, "um")},
-              {"psf_sd", quantity(kBlur * v.cells.cell_px * px, "um")},
+              {"cell_diameter", quantity(kDiameter * v.view.cells.cell_px * px, "um")},
+              {"psf_sd", quantity(kBlur * v.view.cells.cell_px * px, "um")},
               {"contrast", v.contrast}}},
             {"arena", arena_of(v, settings.boundary)},
             {"swarm", Json::array({{{"count", places.size()},
@@ -130,6 +127,8 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
                                     {"start", {{"type", "places"}, {"places_px", places}}}}})},
             {"estimator", "none"},
             {"record", {{"tracks", false}, {"video", true}, {"as_seen", true}}}};
+  // Few are in view and the place has no end: no grid of it.
+  if (settings.boundary == Boundary::none) d.root["exclusion"] = {{"order", "none"}};
   merge(d.root, settings.scene);
   const Json& swarm = d.root["swarm"][0];
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
@@ -147,17 +146,17 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   return d;
 }
 
-std::vector<double> simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
-                                     const EpisodeStatistics& statistics, Look look,
-                                     const std::shared_ptr<const VideoGround>& ground) {
+SeenEpisode simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
+                             const std::vector<double>& times_s, Look look,
+                             const std::shared_ptr<const VideoGround>& ground) {
   Pool pool(1);
   Scenario looked_at = s;
   looked_at.record = {}, looked_at.record.as_seen = look == Look::video;
   Simulation simulation(looked_at, seed, pool, ground);
-  Watch watch(statistics, lead_s, simulation, looked_at, look);
+  Watch watch(times_s, lead_s, simulation, looked_at, look);
   simulation.loop().sinks.push_back(&watch);
   run(simulation.loop(), s.frames(), [] { return true; });
-  return look == Look::video ? statistics.of_frames(watch.frames) : statistics.of_positions(watch.positions);
+  return std::move(watch.seen);
 }
 
 }  // namespace faba

@@ -39,9 +39,14 @@ enum class Look {
   positions  ///< every cell in view is known: quick, and blind to what a camera does
 };
 
-/// Simulates an episode on the calling thread and measures it. `lead_s` as in DriveTiming.
-std::vector<double> simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
-                                     const EpisodeStatistics& statistics, Look look,
-                                     const std::shared_ptr<const VideoGround>& ground);
+/// What is seen of a simulated episode at the moments asked for: one of the two.
+struct SeenEpisode {
+  std::vector<GrayF> frames;
+  std::vector<std::vector<Vec2>> positions;
+};
+/// Simulates an episode on the calling thread. `lead_s` as in DriveTiming.
+SeenEpisode simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
+                             const std::vector<double>& times_s, Look look,
+                             const std::shared_ptr<const VideoGround>& ground);
 
 }  // namespace faba

@@ -7,8 +7,7 @@
 #include "core/counted.h"
 #include "study/run_video.h"
 #include "vision/flow_file.h"
-#include "vision/grey_scale.h"
-#include "vision/video_reader.h"
+#include "vision/grey_video.h"
 
 namespace faba {
 namespace {
@@ -37,20 +36,18 @@ struct FlowSource::Impl {
   FlowSourceOptions options;
   Input input;
   std::string method;
-  int width = 0, height = 0, side = 1;
+  int width = 0, height = 0;
 
   std::optional<FlowFileReader> flows;
   std::uint64_t next = 0;
 
-  std::optional<VideoReader> video;
-  std::optional<GreyScale> greys;
+  std::optional<GreyVideo> video;
   std::unique_ptr<FlowMethod> flow;
-  GrayF raw, before, after;
+  GrayF before, after;
   double t_before = 0;
   std::uint64_t frame = 0;
 
   void open_video(Pool& pool);
-  bool read(GrayF& out, double& t);
   bool next_of_video(FlowPair& pair);
   bool next_of_file(FlowPair& pair);
   bool in_time(double t0, double t1) const {
@@ -77,7 +74,9 @@ FlowSource::~FlowSource() = default;
 void FlowSource::Impl::open_video(Pool& pool) {
   video.emplace(input.file, options.fps);
   const int w = video->width(), h = video->height();
-  side = options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);
+  const int side =
+      options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);
+  if (side > 1 && std::min(w, h) >= side) video.emplace(input.file, options.fps, side);
   width = w / side, height = h / side;
   if (width < 2 || height < 2)
     throw side > 1
@@ -86,20 +85,13 @@ void FlowSource::Impl::open_video(Pool& pool) {
                 fmt::format("has frames of {} x {} px; a flow needs 2 x 2", w, h));
   flow = options.method.make({&pool});
   method = options.method.resolved.dump();
-  if (!read(before, t_before)) throw Error(Errc::input, path.string(), "has no frame");
-}
-
-bool FlowSource::Impl::read(GrayF& out, double& t) {
-  if (!video->read(raw, t)) return false;
-  if (!greys) greys.emplace(video->bits(), raw);
-  greys->apply(raw);
-  faba::shrink(raw, side, out);
-  return true;
+  if (!video->read(before, t_before)) throw Error(Errc::input, path.string(), "has no frame");
 }
 
 bool FlowSource::Impl::next_of_video(FlowPair& pair) {
   double t = 0;
-  while (read(after, t)) {
+  const int side = video->side();
+  while (video->read(after, t)) {
     if (options.t1_s && t > *options.t1_s) return false;
     const bool wanted = in_time(t_before, t) && frame % options.every == 0;
     if (wanted) {
@@ -133,11 +125,13 @@ bool FlowSource::next(FlowPair& pair) {
 
 int FlowSource::width() const { return impl_->width; }
 int FlowSource::height() const { return impl_->height; }
-int FlowSource::shrink() const { return impl_->side; }
-double FlowSource::fps() const { return impl_->flows ? impl_->flows->info().fps : impl_->video->fps(); }
+int FlowSource::shrink() const { return impl_->video ? impl_->video->side() : 1; }
+double FlowSource::fps() const {
+  return impl_->flows ? impl_->flows->info().fps : impl_->video->reader().fps();
+}
 std::uint64_t FlowSource::pairs() const {
   if (impl_->flows) return impl_->flows->size();
-  const std::int64_t frames = impl_->video->frames_stated();
+  const std::int64_t frames = impl_->video->reader().frames_stated();
   return frames > 1 ? std::uint64_t(frames - 1) : 0;
 }
 std::optional<double> FlowSource::um_per_px() const { return impl_->input.um_per_px; }
@@ -153,18 +147,18 @@ std::vector<std::string> FlowSource::notes() const {
                                   impl_->input.file.filename().string(), impl_->options.said));
     return notes;
   }
-  if (impl_->side > 1 && impl_->options.shrink == 0)
-    notes.push_back(
-        fmt::format("frames were averaged over squares of {} px; flows are in px of the video", impl_->side));
-  if (!(impl_->video->fps() > 0))
+  const VideoReader& reader = impl_->video->reader();
+  if (impl_->video->side() > 1 && impl_->options.shrink == 0)
+    notes.push_back(fmt::format("frames were averaged over squares of {} px; flows are in px of the video",
+                                impl_->video->side()));
+  if (!(reader.fps() > 0))
     notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");
-  if (impl_->greys && !impl_->greys->words().empty()) notes.push_back(impl_->greys->words());
-  if (impl_->video->truncated())
+  if (!impl_->video->words().empty()) notes.push_back(impl_->video->words());
+  if (reader.truncated())
+    notes.push_back(fmt::format("{} could be read; {}", counted(impl_->frame + 1, "frame"), reader.damage()));
+  else if (reader.damaged_frames() > 0)
     notes.push_back(
-        fmt::format("{} could be read; {}", counted(impl_->frame + 1, "frame"), impl_->video->damage()));
-  else if (impl_->video->damaged_frames() > 0)
-    notes.push_back(fmt::format("{} damaged frames were skipped ({})", impl_->video->damaged_frames(),
-                                impl_->video->damage()));
+        fmt::format("{} damaged frames were skipped ({})", reader.damaged_frames(), reader.damage()));
   return notes;
 }
 

@@ -20,8 +20,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTiming =
-    0.58;  // frames, sd: the moment at which a field turns, known to a frame either way
+// Frames, sd: how well the moment is known at which a field turns, when it is given to a frame either way,
+// and when it is told from the swarm's way.
+constexpr double kTimingGiven = 0.58, kTimingFound = 1.5;
 
 /// One of the parts of the videos that are simulated: which, and where its numbers stand in the whole list.
 struct Part {
@@ -47,8 +48,7 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
   for (std::size_t v = 0; v < videos.size(); ++v)
     for (std::size_t e = 0; e < videos[v].episodes.size(); ++e) {
       const ResponseVideo& video = videos[v];
-      const auto statistics = std::make_shared<const EpisodeStatistics>(video.episodes[e], video.width,
-                                                                        video.height, video.cells);
+      const auto& statistics = video.statistics[e];
       const std::string own =
           video.input.experiment.empty() ? fmt::format("video {}", v + 1) : video.input.experiment;
       o.parts.push_back({v, e, Index(numbers.size()), Index(video.observed[e].size()), statistics});
@@ -136,15 +136,19 @@ class Round {
     h.value(study_.seed), h.value(candidate), h.value(number), h.value(i), h.value(p);
     const std::uint64_t seed = h.result() >> 1;
     const Episode& episode = video.episodes[part.episode];
-    const DriveTiming timing = drawn_timing(episode, study_.timing_s.value_or(kTiming / video.fps), seed);
+    const double usual = (video.drives_found ? kTimingFound : kTimingGiven) / video.fps;
+    const DriveTiming timing = drawn_timing(episode, study_.timing_s.value_or(usual), seed);
     const auto d =
         std::make_shared<const Document>(scenario_of(study_, *s.candidate, video, episode, u, timing));
     const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
                                                  timing.lead_s, seen_, p, int(study_.look)));
     tasks_.push_back({key, [this, d, seed, lead = timing.lead_s, &part, &video] {
                         try {
-                          return simulate_episode(read_scenario(*d, parts_), seed, lead, *part.statistics,
-                                                  study_.look, video.ground);
+                          const SeenEpisode seen =
+                              simulate_episode(read_scenario(*d, parts_), seed, lead,
+                                               part.statistics->times_s(), study_.look, video.ground);
+                          return study_.look == Look::video ? part.statistics->of_frames(seen.frames)
+                                                            : part.statistics->of_positions(seen.positions);
                         } catch (const Error& e) {
                           if (e.code() != Errc::usage) throw;
                           // Values that do not go together, such as speeds that want too many steps.
@@ -178,10 +182,14 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
 void check_alike(const std::vector<ResponseVideo>& videos) {
   const ResponseVideo& first = videos.front();
   for (const ResponseVideo& v : videos) {
-    if (v.width != first.width || v.height != first.height)
+    const auto differs = [&](int a, int b) {
+      return std::abs(a * v.side - b * first.side) >= std::max(v.side, first.side);
+    };
+    if (differs(v.view.width, first.view.width) || differs(v.view.height, first.view.height))
       throw Error(Errc::input, v.input.file.string(),
                   fmt::format("has pictures of {} x {} px, {} of {} x {}; one study is of one camera",
-                              v.width, v.height, first.input.file.string(), first.width, first.height));
+                              v.view.width * v.side, v.view.height * v.side, first.input.file.string(),
+                              first.view.width * first.side, first.view.height * first.side));
     if (std::fabs(v.fps / first.fps - 1) > 0.01)
       throw Error(Errc::input, v.input.file.string(),
                   fmt::format("has {:.4g} frames per second, {} has {:.4g}; one study is of one rate", v.fps,
@@ -196,15 +204,17 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   Identification r;
   r.study = study;
   for (std::size_t v = 0; v < study.videos.size(); ++v)
-    r.videos.push_back(survey_response(study.videos[v], study.boundary, [&] {
+    r.videos.push_back(survey_response(study.videos[v], study.boundary, study.measure, [&] {
       reading(v);
       if (options.stop())
         throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
     }));
   check_alike(r.videos);
   const Observed o = gather(r.videos);
-  if (!o.numbers.allFinite())
-    throw Error(Errc::input, study.videos.front().file.string(), "shows no cells while they should move");
+  for (Index k = 0; k < o.numbers.size(); ++k)
+    if (!std::isfinite(o.numbers[k]))
+      throw Error(Errc::input, study.videos.front().file.string(),
+                  fmt::format("shows no cells while they should move ({})", o.names[std::size_t(k)]));
   const Parts parts = builtin_parts();
   std::vector<Search> searches;
   for (std::size_t c = 0; c < study.candidates.size(); ++c) {
@@ -236,7 +246,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   double models = 0;
   for (const Search& s : searches)
     if (s.failed.empty()) scale += noise_of(*s.search), models += 1;
-  scale = (scale / std::max(1.0, models)).cwiseMax(1e-9);
+  scale = (scale / std::max(1.0, models));
   for (std::size_t c = 0; c < searches.size(); ++c) {
     FoundModel m;
     if (searches[c].failed.empty())

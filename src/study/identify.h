@@ -25,6 +25,7 @@ struct IdentifyStudy {
   std::uint64_t seed = 1;
   Boundary boundary = Boundary::drop;
   Look look = Look::video;
+  Measure measure = Measure::density;
   int simulations = 600;  ///< of each episode with each candidate
   std::optional<double>
       timing_s;  ///< how well the moments are known at which the field turns, sd; 0.58 frames when empty

@@ -17,6 +17,7 @@ struct StudyFile {
   std::uint64_t seed = 1;
   Boundary boundary = Boundary::drop;
   Look look = Look::video;
+  std::optional<Measure> measure;
   int simulations = 600;
   std::optional<double> um_per_px, reversal, direction, duration, timing;
   std::string scale;
@@ -32,6 +33,10 @@ struct StudyFile {
                      "positions "
                      "of the cells, which is quick and blind to what a camera does",
               .choices = {"video", "positions"}})
+        .add("measure", &StudyFile::measure,
+             {.doc = "What videos are compared by: where the swarm is (density), or how cells move that are "
+                     "followed for a moment (tracks); tracks without a boundary, else density, when absent",
+              .choices = {"density", "tracks"}})
         .add("simulations", &StudyFile::simulations,
              {.min = 100, .max = 1e6, .doc = "Simulations of each video with each model"})
         .add("um_per_px", &StudyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
@@ -111,7 +116,7 @@ ResponseInput input_of(const Node& n, const StudyFile& study, std::optional<doub
 // A video that there need not be, to check scenarios with.
 ResponseVideo any_video() {
   ResponseVideo v;
-  v.width = 64, v.height = 48, v.fps = 15, v.um_per_px = 1;
+  v.view.width = 64, v.view.height = 48, v.fps = 15, v.um_per_px = 1;
   v.edge.emplace();
   v.edge->centre_image = {32, 24}, v.edge->radius_px = 100;
   v.contrast = -0.4;
@@ -156,6 +161,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   IdentifyStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;
   study.seed = f.seed, study.boundary = f.boundary, study.look = f.look, study.simulations = f.simulations;
+  study.measure = f.measure.value_or(f.boundary == Boundary::none ? Measure::tracks : Measure::density);
   study.timing_s = f.timing;
   if (root.has("scene")) {
     if (!root.child("scene").json->is_object())
@@ -182,7 +188,8 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
 std::string fingerprint(const IdentifyStudy& study) {
   Hash h;
   h.text("identify");
-  h.value(study.seed), h.value(int(study.boundary)), h.value(int(study.look)), h.value(study.simulations);
+  h.value(study.seed), h.value(int(study.boundary)), h.value(int(study.look)), h.value(int(study.measure)),
+      h.value(study.simulations);
   h.value(study.timing_s.value_or(-1));
   h.text(study.scene.dump());
   for (const ResponseInput& v : study.videos) {

@@ -8,12 +8,12 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "study/found_drives.h"
 #include "study/run_video.h"
-#include "study/swarm_view.h"
 #include "study/track_survey.h"
 #include "vision/detector.h"
-#include "vision/grey_scale.h"
-#include "vision/video_reader.h"
+#include "vision/grey_video.h"
+#include "vision/tracker.h"
 
 namespace faba {
 namespace {
@@ -22,43 +22,40 @@ constexpr double kOwnWidth = 0.85;  // diameter of a cell over the width that it
 constexpr double kResolved =
     0.8;  // share of the cells that are seen one by one, from which on their places count
 constexpr double kShortestDrive = 0.2;  // s
+constexpr double kShortestBurst = 12;   // frames: a burst of eight in the part of a drive that is measured
+constexpr double kWidthEnough = 5;      // px: cells need be no wider
+constexpr double kFaint = 0.25;         // of the signal-to-noise that a tenth of what is seen exceeds
+constexpr double kLeastWay = 0.1;       // share of the view that a swarm goes, or it does not
+constexpr double kSameWay = 60;         // degrees
+constexpr double kReach = 2;            // times as far as what is seen
+constexpr double kWhite = 255;
 
 /// The frames of a video that are nearest to given moments, greys of 0 to 255.
 std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
                              const std::function<void()>& tick) {
-  VideoReader reader(v.file, v.input.fps);
+  GreyVideo video(v.file, v.input.fps, v.side);
   std::vector<GrayF> frames(times_s.size());
   std::vector<double> off(times_s.size(), std::numeric_limits<double>::infinity());
-  std::optional<GreyScale> greys;
+  const double last = times_s.empty() ? 0 : *std::max_element(times_s.begin(), times_s.end());
   GrayF frame;
-  for (double t = 0; reader.read(frame, t);) {
-    if (!greys) greys.emplace(reader.bits(), frame);
+  for (double t = 0; video.read(frame, t) && t <= last + 1;) {
     tick();
-    bool scaled = false;
     for (std::size_t i = 0; i < times_s.size(); ++i)
-      if (const double d = std::fabs(t - times_s[i]); d < off[i]) {
-        if (!scaled) greys->apply(frame), scaled = true;
-        frames[i] = frame, off[i] = d;
-      }
-    if (!times_s.empty() && t > times_s.back() + 1) break;
+      if (const double d = std::fabs(t - times_s[i]); d < off[i]) frames[i] = frame, off[i] = d;
   }
   return frames;
 }
 
 // Cells one by one where they can be told apart; where not, as many places as there are cells, spread as what
 // is seen.
-std::vector<Vec2> places_in(const GrayF& frame, const Background& background, const ResponseVideo& v,
-                            double noise) {
-  Foreground foreground(v.cells);
-  foreground.know(background);
+std::vector<Vec2> places_in(const GrayF& frame, const ResponseVideo& v, Measure measure, double noise) {
+  Foreground foreground(v.view.cells);
+  foreground.know(*v.view.background);
   foreground.take(frame, noise, 1);
   const double cells = foreground.moments().cells;
-  DetectorOptions d;
-  d.size_px = v.cells.cell_px,
-  d.polarity = v.cells.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
   std::vector<Vec2> places;
-  for (const Spot& s : Detector(background, d).find(frame)) places.push_back({s.x_px, s.y_px});
-  if (double(places.size()) >= kResolved * cells) return places;
+  for (const Spot& s : cell_detector(v.view).find(frame)) places.push_back({s.x_px, s.y_px});
+  if (measure == Measure::tracks || double(places.size()) >= kResolved * cells) return places;
   places.clear();
   const GrayF& w = foreground.weights();
   double sum = 0;
@@ -73,19 +70,164 @@ std::vector<Vec2> places_in(const GrayF& frame, const Background& background, co
   return places;
 }
 
-// What one cell does to the light, as the contrast of [microscope]: from all that is seen over the number of
-// cells.
-double contrast_of(const SwarmMoments& m, const Background& background, const ForegroundOptions& cells) {
+/// The contrast of [microscope] for cells that take this much of the light each, grey px^2.
+double contrast_of(double signal, const CellView& view, bool logarithmic) {
   double level = 0;
-  for (const float x : background.level.px) level += double(x) / double(background.level.px.size());
-  const double diameter = kOwnWidth * cells.cell_px, area = std::numbers::pi / 4 * diameter * diameter;
-  const double density = m.signal / std::max(1.0, m.cells) / std::max(1.0, level) / area;
-  return cells.polarity == Polarity::bright ? std::min(density, 10.0) : std::max(std::expm1(-density), -0.95);
+  for (const float x : view.background->level.px)
+    level += double(x) / double(view.background->level.px.size());
+  const double diameter = kOwnWidth * view.cells.cell_px, area = std::numbers::pi / 4 * diameter * diameter;
+  const double share = signal / std::max(1.0, level) / area;
+  if (view.cells.polarity == Polarity::bright) return std::min(share, 10.0);
+  return std::max(logarithmic ? std::expm1(-share) : -share, -0.95);
+}
+
+/// Where the swarm is in each frame.
+std::vector<Drive> drives_of_drop(const ResponseVideo& v, const std::function<void()>& tick) {
+  GreyVideo video(v.file, v.input.fps, v.side);
+  Foreground foreground(v.view.cells);
+  foreground.know(*v.view.background);
+  std::vector<double> t_s;
+  std::vector<Vec2> centroid;
+  GrayF frame;
+  for (double t = 0; video.read(frame, t); tick()) {
+    foreground.take(frame, v.ground->noise_sd * kWhite, 1 / v.fps);
+    const SwarmMoments m = foreground.moments();
+    t_s.push_back(t);
+    centroid.push_back(m.signal > 0 ? m.centroid_image : Vec2{std::nan(""), std::nan("")});
+  }
+  return drives_of_swarm(t_s, centroid, kLeastWay * std::min(v.view.width, v.view.height));
+}
+
+std::vector<Drive> drives_in(const ResponseVideo& v, Boundary boundary, double duration_s,
+                             const std::function<void()>& tick) {
+  const ResponseInput& in = v.input;
+  if (!in.drives.empty()) return in.drives;
+  const double end =
+      in.duration_s && in.reversal_s ? std::min(*in.reversal_s + *in.duration_s, duration_s) : duration_s;
+  if (in.reversal_s && in.direction_deg) return {{*in.reversal_s, end, *in.direction_deg}};
+  std::vector<Drive> found = boundary == Boundary::none
+                                 ? drives_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, tick)
+                                 : drives_of_drop(v, tick);
+  if (in.direction_deg)
+    std::erase_if(found, [&](const Drive& d) {
+      return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kSameWay;
+    });
+  std::erase_if(found, [&](const Drive& d) { return d.t1_s <= in.reversal_s.value_or(0); });
+  if (found.empty())
+    throw Error(
+        Errc::input, in.file.string(),
+        "shows nothing that moves one way; if it does, give reversal and direction, or [[video.drive]]");
+  if (in.reversal_s) found.front().t0_s = *in.reversal_s;
+  if (in.duration_s) {
+    const double until = found.front().t0_s + *in.duration_s;
+    std::erase_if(found, [&](const Drive& d) { return d.t0_s >= until; });
+    found.back().t1_s = std::min(found.back().t1_s, until);
+  }
+  return found;
+}
+
+// With nothing to hold them cells leave the view and others come: each drive then begins with what is seen.
+std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
+                                 const std::vector<Drive>& drives) {
+  std::vector<Episode> episodes;
+  for (Drive d : drives) {
+    if (boundary == Boundary::none || episodes.empty()) {
+      Episode& e = episodes.emplace_back();
+      e.begins_s = d.t0_s;
+      e.name = v.input.experiment.empty() ? v.input.file.stem().string() : v.input.experiment;
+      if (boundary == Boundary::none && drives.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
+    }
+    Episode& e = episodes.back();
+    d.t0_s -= e.begins_s, d.t1_s -= e.begins_s;
+    e.drives.push_back(d);
+  }
+  return episodes;
+}
+
+// Light, noise and looks of the cells, and the place.
+TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, const std::function<void()>& tick) {
+  const std::string name = v.input.file.string();
+  TrackOptions options;
+  options.video = v.input.file, options.fps = v.input.fps;
+  const auto survey = [&] {
+    return survey_tracks(
+        options, v.file, [&](auto, auto) { tick(); }, v.side);
+  };
+  TrackSurvey s = survey();
+  if (s.frames < 3) throw Error(Errc::input, name, "has fewer than three frames");
+  if (!s.timed) throw Error(Errc::input, name, "states no frame rate; give fps");
+  if (!s.size_found) throw Error(Errc::input, name, "shows no cells: nothing stands out of its noise");
+  v.side = std::max(1, int(s.size_px / kWidthEnough));
+  if (v.side > 1) {
+    v.notes.push_back(fmt::format("cells are {:.3g} px wide: its frames are averaged over squares of {} px",
+                                  s.size_px, v.side));
+    s = survey();
+  }
+  v.um_per_px *= v.side;
+  v.fps = 1 / s.frame_s;
+  v.view.width = s.first.width, v.view.height = s.first.height, v.view.frame_s = s.frame_s;
+  v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
+  v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
+  v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, v.side, tick));
+  Background b{v.ground->light, GrayF(v.view.width, v.view.height), int(s.frames)};
+  for (float& x : b.level.px) x *= float(kWhite);
+  std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, v.ground->noise_sd * kWhite)));
+  v.view.background = std::make_shared<const Background>(std::move(b));
+  if (boundary == Boundary::drop) {
+    DropEdgeOptions edge;
+    edge.name = name;
+    v.edge = find_drop_edge(s.first, edge);
+  }
+  v.notes.insert(v.notes.end(), s.notes.begin(), s.notes.end());
+  return s;
+}
+
+double quantile(std::vector<double> v, double p) {
+  if (v.empty()) return 0;
+  const auto at = v.begin() + std::ptrdiff_t(p * double(v.size() - 1));
+  std::nth_element(v.begin(), at, v.end());
+  return *at;
+}
+
+// How cells are followed one by one, and how dark they are. What is much fainter than most is dirt, or far
+// out of focus. Faster simulated cells are to be followed, too.
+void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
+  const Detector detector = cell_detector(v.view);
+  std::vector<std::vector<Spot>> spots;
+  std::vector<double> snr, mass;
+  for (const GrayF& f : frames) {
+    spots.push_back(detector.find(f));
+    for (const Spot& s : spots.back()) snr.push_back(s.snr);
+  }
+  v.view.threshold_sd = std::max(detector.threshold_sd(), kFaint * quantile(snr, 0.9));
+  for (auto& one : spots) {
+    std::erase_if(one, [&](const Spot& s) { return s.snr < v.view.threshold_sd; });
+    for (const Spot& s : one) mass.push_back(s.mass);
+  }
+  v.contrast = contrast_of(quantile(mass, 0.5), v.view, false);
+  const double count = 1 + double(mass.size()) / double(frames.size());
+  const double apart = std::sqrt(double(v.view.width) * v.view.height / count);
+  v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * apart);
+}
+
+// How dark cells are that are not seen one by one: from all that is seen over their number.
+double mean_contrast(const ResponseVideo& v, const GrayF& first, const GrayF& last, double noise) {
+  Foreground foreground(v.view.cells);
+  foreground.know(*v.view.background);
+  foreground.take(last, noise, 1);
+  SwarmMoments m = foreground.moments();
+  if (!(m.cells >= 3)) foreground.take(first, noise, 1), m = foreground.moments();
+  return contrast_of(m.signal / std::max(1.0, m.cells), v.view, true);
 }
 
 }  // namespace
 
-ResponseVideo survey_response(const ResponseInput& input, Boundary boundary,
+std::vector<double> picture_times(const Episode& e) {
+  const double length = e.drives.front().t1_s;
+  return {0.15 * length, 0.5 * length, length};
+}
+
+ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Measure measure,
                               const std::function<void()>& tick) {
   ResponseVideo v;
   v.input = input;
@@ -95,73 +237,48 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary,
   if (!scale)
     throw Error(Errc::input, input.file.string(), "has no scale; give um_per_px, or a calibration file");
   v.um_per_px = *scale;
+  const TrackSurvey survey = survey_view(v, boundary, tick);
 
-  TrackOptions options;
-  options.video = input.file, options.fps = input.fps;
-  const TrackSurvey survey = survey_tracks(options, v.file, [&](auto, auto) { tick(); });
-  if (survey.frames < 3) throw Error(Errc::input, input.file.string(), "has fewer than three frames");
-  if (!survey.timed) throw Error(Errc::input, input.file.string(), "states no frame rate; give fps");
-  v.fps = 1 / survey.frame_s, v.width = survey.first.width, v.height = survey.first.height;
-  v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file));
-  v.cells.cell_px = std::clamp(survey.size_px, 1.0, 20.0);
-  v.cells.polarity = survey.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
-  if (boundary == Boundary::drop) {
-    DropEdgeOptions edge;
-    edge.name = input.file.string();
-    v.edge = find_drop_edge(survey.first, edge);
-  }
-
-  std::vector<Drive> drives = input.drives;
-  if (drives.empty()) {
-    if (!input.reversal_s || !input.direction_deg)
-      throw Error(Errc::input, input.file.string(), "give reversal and direction, or [[video.drive]]");
-    const double end = input.duration_s ? *input.reversal_s + *input.duration_s : survey.duration_s;
-    drives.push_back({*input.reversal_s, std::min(end, survey.duration_s), *input.direction_deg});
-  }
+  const std::vector<Drive> drives = drives_in(v, boundary, survey.duration_s, tick);
+  v.drives_found = input.drives.empty() && !(input.reversal_s && input.direction_deg);
+  const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestDrive;
   for (const Drive& d : drives)
-    if (!(d.t1_s - d.t0_s >= kShortestDrive) || d.t1_s > survey.duration_s + survey.frame_s)
-      throw Error(Errc::input, input.file.string(),
-                  fmt::format("a drive from {:g} to {:g} s is too short, or beyond the video's {:g} s",
-                              d.t0_s, d.t1_s, survey.duration_s));
-  // With nothing to hold them cells leave the view and others come: each drive then begins with what is seen.
-  std::vector<std::vector<Drive>> parts;
-  for (const Drive& d : drives)
-    if (boundary == Boundary::none || parts.empty())
-      parts.push_back({d});
-    else
-      parts.back().push_back(d);
+    if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
+      throw Error(
+          Errc::input, input.file.string(),
+          fmt::format(
+              "a drive from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
+              d.t0_s, d.t1_s, shortest, survey.duration_s));
+  v.episodes = episodes_of(v, boundary, drives);
 
-  std::vector<float> noise_px = survey.background.noise_sd.px;
-  const double noise = double(robust_spread(noise_px).median);
-  for (const auto& part : parts) {
-    Episode e;
-    e.begins_s = part.front().t0_s;
-    e.name = input.experiment.empty() ? input.file.stem().string() : input.experiment;
-    if (parts.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
-    for (Drive d : part) {
-      d.t0_s -= e.begins_s, d.t1_s -= e.begins_s;
-      e.drives.push_back(d);
-    }
-    const EpisodeStatistics statistics(e, v.width, v.height, v.cells);
-    std::vector<double> moments{e.begins_s};
-    for (const double t : statistics.times_s()) moments.push_back(e.begins_s + t);
-    std::vector<GrayF> frames = frames_at(v, moments, tick);
-    e.places_image = places_in(frames.front(), survey.background, v, noise);
+  // One pass for all frames: where cells begin, what is measured, what is shown.
+  std::vector<double> moments;
+  const auto want = [&](const Episode& e, const std::vector<double>& times) {
+    for (const double t : times) moments.push_back(e.begins_s + t);
+  };
+  for (const Episode& e : v.episodes) {
+    want(e, {0});
+    want(e, make_statistics(measure, e, v.view)->times_s());
+    want(e, picture_times(e));
+  }
+  std::vector<GrayF> frames = frames_at(v, moments, tick);
+  if (measure == Measure::tracks) find_followed(v, frames);
+  const double noise = v.ground->noise_sd * kWhite;
+  auto next = frames.begin();
+  for (Episode& e : v.episodes) {
+    const GrayF first = std::move(*next++);
+    e.places_image = places_in(first, v, measure, noise);
     if (e.places_image.empty())
-      throw Error(Errc::input, input.file.string(), fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
-    if (v.episodes.empty()) {
-      Foreground foreground(v.cells);
-      foreground.know(survey.background);
-      foreground.take(frames.back(), noise, 1);
-      SwarmMoments m = foreground.moments();
-      if (!(m.cells >= 3)) foreground.take(frames.front(), noise, 1), m = foreground.moments();
-      v.contrast = contrast_of(m, survey.background, v.cells);
-    }
-    frames.erase(frames.begin());
-    v.observed.push_back(statistics.of_frames(frames));
-    v.episodes.push_back(std::move(e));
+      throw Error(Errc::input, input.file.string(),
+                  fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
+    v.statistics.push_back(make_statistics(measure, e, v.view));
+    const auto measured_end = next + std::ptrdiff_t(v.statistics.back()->times_s().size());
+    const std::vector<GrayF> measured(std::make_move_iterator(next), std::make_move_iterator(measured_end));
+    next = measured_end + std::ptrdiff_t(picture_times(e).size());
+    v.pictures.emplace_back(std::make_move_iterator(measured_end), std::make_move_iterator(next));
+    if (v.contrast == 0) v.contrast = mean_contrast(v, first, measured.back(), noise);
+    v.observed.push_back(v.statistics.back()->of_frames(measured));
   }
-  v.notes = survey.notes;
   return v;
 }
 

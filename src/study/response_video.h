@@ -26,7 +26,7 @@ struct ResponseInput {
   double exposure_s = 0;       ///< time of the sample in air before the video
   double fps = 0;              ///< > 0: in place of what the video states
   std::optional<double> um_per_px;
-  std::optional<double> reversal_s;     ///< when the field is reversed; found when absent
+  std::optional<double> reversal_s;     ///< when the field is reversed; found when absent, as is the next:
   std::optional<double> direction_deg;  ///< in which cells swim from then on; found when absent
   std::optional<double> duration_s;     ///< from there on; to the video's end when absent
   std::vector<Drive> drives;            ///< in place of these three; times in the video
@@ -36,21 +36,28 @@ struct ResponseInput {
 struct ResponseVideo {
   ResponseInput input;
   std::filesystem::path file;  ///< the video itself
-  int width = 0, height = 0;   ///< px
+  int side = 1;  ///< of the squares that frames are averaged over, px of the video; px below are
+                 ///< those of the averaged frames
+  CellView view;
   double fps = 0, um_per_px = 0;
   std::optional<DropEdge> edge;               ///< with Boundary::drop
   std::shared_ptr<const VideoGround> ground;  ///< light and noise
-  ForegroundOptions cells;                    ///< how they look
   double contrast = 0;                        ///< of a cell, as in [microscope]
+  bool drives_found = false;                  ///< else they were given
   std::vector<Episode> episodes;
-  std::vector<std::vector<double>> observed;  ///< statistics of each episode
+  std::vector<std::shared_ptr<const EpisodeStatistics>> statistics;  ///< of each episode
+  std::vector<std::vector<double>> observed;                         ///< what they give for the video
+  std::vector<std::vector<GrayF>> pictures;  ///< of each episode at its picture_times(), greys of 0 to 255
   std::vector<std::string> notes;
 };
 
-/// Reads the video three times or four: for its background, the noise, the drives where they are not given,
-/// and the frames that are measured. `tick` is called after every frame. Throws Error(input) for videos that
-/// cannot be read, show no cells, no motion, or no edge with Boundary::drop.
-ResponseVideo survey_response(const ResponseInput& input, Boundary boundary,
+/// Moments of an episode that pictures are shown of, s.
+std::vector<double> picture_times(const Episode& episode);
+
+/// Reads the video several times: for its background, the noise, the drives where they are not given, and the
+/// frames that are measured. `tick` is called after every frame. Throws Error(input) for videos that cannot
+/// be read, show no cells, no motion, or no edge with Boundary::drop.
+ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Measure measure,
                               const std::function<void()>& tick);
 
 }  // namespace faba

@@ -7,6 +7,7 @@
 
 #include "core/counted.h"
 #include "core/error.h"
+#include "vision/grey_scale.h"
 #include "vision/smoothing.h"
 #include "vision/video_reader.h"
 
@@ -68,17 +69,20 @@ DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
 }
 
 void make_finite(GrayF& frame) {
+  // What is not finite stays so when it is multiplied by nothing.
+  float sum = 0;
+  for (const float v : frame.px) sum += 0 * v;
+  if (sum == 0) return;
   std::vector<float> finite;
   for (const float v : frame.px)
     if (std::isfinite(v)) finite.push_back(v);
-  if (finite.size() == frame.px.size()) return;
   const float fill = finite.empty() ? 0 : robust_spread(finite).median;
   for (float& v : frame.px)
     if (!std::isfinite(v)) v = fill;
 }
 
 TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,
-                          const std::function<void(std::int64_t, std::int64_t)>& tick) {
+                          const std::function<void(std::int64_t, std::int64_t)>& tick, int side) {
   TrackSurvey s;
   VideoReader reader(video, o.fps);
   s.timed = reader.fps() > 0;
@@ -86,8 +90,9 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   std::vector<double> gaps;
   GrayF frame;
   double t_s = 0, last = 0;
-  for (; reader.read(frame, t_s); ++s.frames) {
-    make_finite(frame);
+  for (GrayF raw; reader.read(raw, t_s); ++s.frames) {
+    make_finite(raw);
+    side > 1 ? shrink(raw, side, frame) : std::swap(raw, frame);
     if (s.frames == 0) s.first = frame;
     if (s.frames > 0 && t_s > last && gaps.size() < kGaps) gaps.push_back(t_s - last);
     last = t_s;

@@ -33,8 +33,9 @@ DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
 /// Makes what is not finite, as in a TIFF of floats, the median of the rest.
 void make_finite(GrayF& frame);
 
-/// Reads the whole video once. `tick` is called after each frame.
+/// Reads the whole video once, each frame averaged over squares of `side` px. `tick` is called after each.
 TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,
-                          const std::function<void(std::int64_t done, std::int64_t stated)>& tick);
+                          const std::function<void(std::int64_t done, std::int64_t stated)>& tick,
+                          int side = 1);
 
 }  // namespace faba

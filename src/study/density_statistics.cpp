@@ -15,7 +15,7 @@ constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is
                                     // none is seen quantiles are then those of the view
 constexpr double kFew = 0.02;       // share in view that is as good as none
 constexpr const char* kWhat[] = {"cells in view", "10 % along", "median along", "90 % along", "width across"};
-constexpr int kNumbers = int(std::size(kWhat));
+constexpr int kMoments = 6;  // of each drive
 
 Vec2 unit(double deg) {
   const double a = deg * std::numbers::pi / 180;
@@ -59,10 +59,32 @@ class Profile {
   std::vector<double> mass_;
 };
 
-}  // namespace
+/// At six moments of each drive how many cells are in view, where along the direction of the drive 10, 50 and
+/// 90 % of them are, and how wide they spread across it; and how many there are in all.
+class DensityStatistics final : public EpisodeStatistics {
+ public:
+  DensityStatistics(const Episode& episode, const CellView& view);
+  std::vector<double> of_frames(const std::vector<GrayF>& frames) const override;
+  std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override;
 
-EpisodeStatistics::EpisodeStatistics(const Episode& e, int width, int height, const ForegroundOptions& cells)
-    : episode_(e), width_(width), height_(height), cells_(cells) {
+ private:
+  struct Mass {
+    Vec2 at;
+    double weight;
+  };
+  struct Look {
+    std::size_t frame, drive;
+  };
+  std::vector<double> numbers(const std::vector<std::vector<Mass>>& seen, double cells) const;
+
+  Episode episode_;
+  int width_, height_;
+  ForegroundOptions cells_;
+  std::vector<Look> looks_;
+};
+
+DensityStatistics::DensityStatistics(const Episode& e, const CellView& view)
+    : episode_(e), width_(view.width), height_(view.height), cells_(view.cells) {
   // Of each drive as many frames as it takes for the background, the moments among them.
   const int between = std::max(
       1,
@@ -71,23 +93,18 @@ EpisodeStatistics::EpisodeStatistics(const Episode& e, int width, int height, co
     for (int i = 1; i <= kMoments * between; ++i) {
       const Drive& drive = e.drives[d];
       times_s_.push_back(drive.t0_s + (drive.t1_s - drive.t0_s) * i / (kMoments * between));
-      drive_at_.push_back(d);
       if (i % between == 0) looks_.push_back({times_s_.size() - 1, d});
     }
-  for (const Look& l : looks_) drive_of_.insert(drive_of_.end(), std::size_t(kNumbers), l.drive);
-  drive_of_.push_back(0);
-}
-
-std::vector<std::string> EpisodeStatistics::names() const {
-  std::vector<std::string> names;
   for (const Look& l : looks_)
-    for (const char* what : kWhat)
-      names.push_back(fmt::format("drive {}, {:.3g} s: {}", l.drive + 1, times_s_[l.frame], what));
-  names.emplace_back("number of cells");
-  return names;
+    for (const char* what : kWhat) {
+      names_.push_back(fmt::format("drive {}, {:.3g} s: {}", l.drive + 1, times_s_[l.frame], what));
+      drives_.push_back(l.drive);
+    }
+  names_.emplace_back("number of cells");
+  drives_.push_back(0);
 }
 
-std::vector<double> EpisodeStatistics::of_frames(const std::vector<GrayF>& frames) const {
+std::vector<double> DensityStatistics::of_frames(const std::vector<GrayF>& frames) const {
   BackgroundSampler sampler(int(frames.size()));
   for (const GrayF& f : frames) sampler.take(f);
   const Background background = sampler.background();
@@ -109,7 +126,7 @@ std::vector<double> EpisodeStatistics::of_frames(const std::vector<GrayF>& frame
   return numbers(seen, most);
 }
 
-std::vector<double> EpisodeStatistics::of_positions(const std::vector<std::vector<Vec2>>& positions) const {
+std::vector<double> DensityStatistics::of_positions(const std::vector<std::vector<Vec2>>& positions) const {
   std::vector<std::vector<Mass>> seen;
   double most = 0;
   for (const Look& l : looks_) {
@@ -120,7 +137,7 @@ std::vector<double> EpisodeStatistics::of_positions(const std::vector<std::vecto
   return numbers(seen, most);
 }
 
-std::vector<double> EpisodeStatistics::numbers(const std::vector<std::vector<Mass>>& seen,
+std::vector<double> DensityStatistics::numbers(const std::vector<std::vector<Mass>>& seen,
                                                double cells) const {
   std::vector<double> mass;
   double mean = 0;
@@ -142,6 +159,17 @@ std::vector<double> EpisodeStatistics::numbers(const std::vector<std::vector<Mas
   }
   out.push_back(std::log1p(cells));
   return out;
+}
+
+}  // namespace
+
+std::unique_ptr<EpisodeStatistics> density_statistics(const Episode& episode, const CellView& view) {
+  return std::make_unique<DensityStatistics>(episode, view);
+}
+
+std::unique_ptr<EpisodeStatistics> make_statistics(Measure measure, const Episode& episode,
+                                                   const CellView& view) {
+  return measure == Measure::density ? density_statistics(episode, view) : burst_statistics(episode, view);
 }
 
 }  // namespace faba

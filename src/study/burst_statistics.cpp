@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "study/episode.h"
+#include "vision/detector.h"
+#include "vision/tracker.h"
+
+namespace faba {
+namespace {
+
+constexpr int kBursts = 3;       // of each drive
+constexpr int kFrames = 8;       // of each burst
+constexpr int kSeenIn = 6;       // frames of a burst at least, that a cell must be seen in
+constexpr double kFrom = 0.2;    // share of a drive after which the first burst begins: cells have turned
+constexpr double kTo = 0.9;      // and before which the last one ends: the end is not known to the frame
+constexpr double kStill = 0.01;  // px^2: added to squared steps before the logarithm
+constexpr const char* kWhat[] = {"10 % of speeds along",    "median speed along", "90 % of speeds along",
+                                 "spread of speeds across", "median step",        "cells followed"};
+
+double quantile(std::vector<double>& v, double p) {
+  const auto at = v.begin() + std::ptrdiff_t(p * double(v.size() - 1) + 0.5);
+  std::nth_element(v.begin(), at, v.end());
+  return *at;
+}
+
+/// Short pieces of tracks: how fast cells move along the drive and across it, and how far in one frame, which
+/// with diffusion is more than their speed says. Speeds are px per frame.
+class BurstStatistics final : public EpisodeStatistics {
+ public:
+  BurstStatistics(const Episode& episode, const CellView& view) : episode_(episode), view_(view) {
+    for (std::size_t d = 0; d < episode.drives.size(); ++d) {
+      const Drive& drive = episode.drives[d];
+      const double length = drive.t1_s - drive.t0_s, burst = (kFrames - 1) * view.frame_s;
+      const double first = kFrom * length, last = std::max(first, kTo * length - burst);
+      for (int b = 0; b < kBursts; ++b)
+        for (int k = 0; k < kFrames; ++k)
+          times_s_.push_back(drive.t0_s + first + (last - first) * b / (kBursts - 1) + k * view.frame_s);
+      for (const char* what : kWhat) {
+        names_.push_back(fmt::format("drive {}: {}", d + 1, what));
+        drives_.push_back(d);
+      }
+    }
+  }
+
+  std::vector<double> of_frames(const std::vector<GrayF>& frames) const override {
+    const Detector detector = cell_detector(view_);
+    std::vector<std::vector<Spot>> spots;
+    for (const GrayF& f : frames) spots.push_back(detector.find(f));
+    return numbers(spots);
+  }
+
+  std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override {
+    std::vector<std::vector<Spot>> spots;
+    for (const auto& frame : seen) {
+      auto& one = spots.emplace_back();
+      for (const Vec2 at : frame) one.push_back({.x_px = at.x, .y_px = at.y, .mass = 1, .snr = 10});
+    }
+    return numbers(spots);
+  }
+
+ private:
+  std::vector<Track> followed(const std::vector<std::vector<Spot>>& spots, std::size_t first) const {
+    TrackerOptions o;
+    o.reach_px = view_.reach_px, o.least_points = kSeenIn;
+    Tracker tracker(o);
+    for (std::size_t k = 0; k < kFrames; ++k) tracker.take(k, double(k) * view_.frame_s, spots[first + k]);
+    tracker.finish();
+    return tracker.finished();
+  }
+
+  std::vector<double> numbers(const std::vector<std::vector<Spot>>& spots) const {
+    std::vector<double> out;
+    for (std::size_t d = 0; d < episode_.drives.size(); ++d) {
+      const double a = episode_.drives[d].direction_deg * std::numbers::pi / 180;
+      const Vec2 way{std::cos(a), std::sin(a)};
+      std::vector<double> along, across, steps;
+      for (std::size_t b = 0; b < kBursts; ++b)
+        for (const Track& t : followed(spots, (d * kBursts + b) * kFrames)) {
+          const TrackPoint &p = t.points.front(), &q = t.points.back();
+          const Vec2 v = 1 / double(q.frame - p.frame) * Vec2{q.x_px - p.x_px, q.y_px - p.y_px};
+          along.push_back(dot(v, way)), across.push_back(dot(v, {-way.y, way.x}));
+          for (std::size_t k = 1; k < t.points.size(); ++k) {
+            const Vec2 step{t.points[k].x_px - t.points[k - 1].x_px, t.points[k].y_px - t.points[k - 1].y_px};
+            steps.push_back(dot(step, step));
+          }
+        }
+      const double cells = double(along.size()) / kBursts;
+      if (along.empty()) along = across = steps = {0};
+      for (const double p : {0.1, 0.5, 0.9}) out.push_back(quantile(along, p));
+      out.push_back(quantile(across, 0.9) - quantile(across, 0.1));
+      out.push_back(std::log(kStill + quantile(steps, 0.5)));
+      out.push_back(std::log1p(cells));
+    }
+    return out;
+  }
+
+  Episode episode_;
+  CellView view_;
+};
+
+}  // namespace
+
+Detector cell_detector(const CellView& view) {
+  DetectorOptions o;
+  o.size_px = view.cells.cell_px;
+  o.polarity = view.cells.polarity;
+  o.threshold_sd = view.threshold_sd;
+  return {*view.background, o};
+}
+
+std::unique_ptr<EpisodeStatistics> burst_statistics(const Episode& episode, const CellView& view) {
+  return std::make_unique<BurstStatistics>(episode, view);
+}
+
+}  // namespace faba
