@@ -2,6 +2,7 @@
 
 #include "cli/study.h"
 #include "core/file.h"
+#include "study/best_scene.h"
 #include "study/identify_report.h"
 
 namespace faba::cli {
@@ -33,11 +34,12 @@ int identify(const StudyVerb& v, const Common& c) {
   bar.clear();
   if (!result) return tell_partial(v, c, dir);
   const auto j = identify_json(*result);
+  write_best_scene(*result, dir.path());
   finish(dir, "identify", j, c);
   if (!c.json && !c.quiet) {
     for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
     summary(*result);
-    fmt::print("wrote {}\n", (dir.path() / "identify.json").string());
+    fmt::print("wrote {} and best.toml, the scene of the best model\n", (dir.path() / "identify.json").string());
   }
   return 0;
 }

@@ -10,7 +10,6 @@
 namespace faba {
 namespace {
 
-constexpr int kForBackground = 24;  // frames at least that the background is told from
 constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is spread over the view: where
                                     // none is seen quantiles are then those of the view
 constexpr double kFew = 0.02;       // share in view that is as good as none
@@ -72,50 +71,38 @@ class DensityStatistics final : public EpisodeStatistics {
     Vec2 at;
     double weight;
   };
-  struct Look {
-    std::size_t frame, drive;
-  };
   std::vector<double> numbers(const std::vector<std::vector<Mass>>& seen, double cells) const;
 
   Episode episode_;
-  int width_, height_;
-  ForegroundOptions cells_;
-  std::vector<Look> looks_;
+  CellView view_;
+  std::vector<std::size_t> drive_at_;  ///< of each moment
 };
 
 DensityStatistics::DensityStatistics(const Episode& e, const CellView& view)
-    : episode_(e), width_(view.width), height_(view.height), cells_(view.cells) {
-  // Of each drive as many frames as it takes for the background, the moments among them.
-  const int between = std::max(
-      1,
-      int(std::ceil(double(kForBackground) / double(kMoments * std::max<std::size_t>(1, e.drives.size())))));
+    : episode_(e), view_(view) {
   for (std::size_t d = 0; d < e.drives.size(); ++d)
-    for (int i = 1; i <= kMoments * between; ++i) {
+    for (int i = 1; i <= kMoments; ++i) {
       const Drive& drive = e.drives[d];
-      times_s_.push_back(drive.t0_s + (drive.t1_s - drive.t0_s) * i / (kMoments * between));
-      if (i % between == 0) looks_.push_back({times_s_.size() - 1, d});
+      times_s_.push_back(drive.t0_s + (drive.t1_s - drive.t0_s) * i / kMoments);
+      drive_at_.push_back(d);
     }
-  for (const Look& l : looks_)
+  for (std::size_t k = 0; k < times_s_.size(); ++k)
     for (const char* what : kWhat) {
-      names_.push_back(fmt::format("drive {}, {:.3g} s: {}", l.drive + 1, times_s_[l.frame], what));
-      drives_.push_back(l.drive);
+      names_.push_back(fmt::format("drive {}, {:.3g} s: {}", drive_at_[k] + 1, times_s_[k], what));
+      drives_.push_back(drive_at_[k]);
     }
   names_.emplace_back("number of cells");
   drives_.push_back(0);
 }
 
 std::vector<double> DensityStatistics::of_frames(const std::vector<GrayF>& frames) const {
-  BackgroundSampler sampler(int(frames.size()));
-  for (const GrayF& f : frames) sampler.take(f);
-  const Background background = sampler.background();
-  std::vector<float> noise = background.noise_sd.px;
-  const double sd = double(robust_spread(noise).median);
-  Foreground foreground(cells_);
-  foreground.know(background);
+  const auto sd = double(view_.background->noise_sd.px.front());
+  Foreground foreground(view_.cells);
+  foreground.know(*view_.background);
   std::vector<std::vector<Mass>> seen;
   double most = 0;
-  for (const Look& l : looks_) {
-    foreground.take(frames[l.frame], sd, 1);
+  for (const GrayF& frame : frames) {
+    foreground.take(frame, sd, 1);
     const GrayF& w = foreground.weights();
     std::vector<Mass>& one = seen.emplace_back();
     for (int r = 0; r < w.height; ++r)
@@ -129,9 +116,9 @@ std::vector<double> DensityStatistics::of_frames(const std::vector<GrayF>& frame
 std::vector<double> DensityStatistics::of_positions(const std::vector<std::vector<Vec2>>& positions) const {
   std::vector<std::vector<Mass>> seen;
   double most = 0;
-  for (const Look& l : looks_) {
+  for (const auto& frame : positions) {
     std::vector<Mass>& one = seen.emplace_back();
-    for (const Vec2 at : positions[l.frame]) one.push_back({at, 1.0});
+    for (const Vec2 at : frame) one.push_back({at, 1.0});
     most = std::max(most, double(one.size()));
   }
   return numbers(seen, most);
@@ -148,9 +135,9 @@ std::vector<double> DensityStatistics::numbers(const std::vector<std::vector<Mas
     mean += mass.back() / double(seen.size());
   }
   std::vector<double> out;
-  for (std::size_t k = 0; k < looks_.size(); ++k) {
-    const Vec2 along = unit(episode_.drives[looks_[k].drive].direction_deg), across{-along.y, along.x};
-    Profile a(along, width_, height_), b(across, width_, height_);
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const Vec2 along = unit(episode_.drives[drive_at_[k]].direction_deg), across{-along.y, along.x};
+    Profile a(along, view_.width, view_.height), b(across, view_.width, view_.height);
     for (const Mass& m : seen[k]) a.add(m.at, m.weight), b.add(m.at, m.weight);
     a.add_everywhere(kAnywhere * mean), b.add_everywhere(kAnywhere * mean);
     out.push_back(mean > 0 ? std::log(kFew + mass[k] / mean) : std::numeric_limits<double>::quiet_NaN());

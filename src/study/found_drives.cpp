@@ -92,7 +92,8 @@ std::vector<Drive> drives_of_motion(const std::filesystem::path& video, double f
   job.fps = fps, job.shrink = side, job.cells = false;
   job.progress = [&](auto, auto, auto) { tick(); };
   std::vector<Drive> drives;
-  for (const MotionSegment& s : measure_activity(job).videos.front().segments)
+  const ActivityResult activity = measure_activity(job);
+  for (const MotionSegment& s : activity.videos.front().segments)
     drives.push_back({s.t0_s, s.t1_s, s.direction_deg});
   return drives;
 }

@@ -95,15 +95,6 @@ ParameterSearch::LogPrior prior_of(const Candidate& c) {
   };
 }
 
-SearchRounds rounds_of(int simulations) {
-  const SearchRounds usual;
-  SearchRounds r;
-  r.first = simulations * usual.first / usual.total();
-  r.closer = simulations * usual.closer / usual.total();
-  r.last = simulations - r.first - 2 * r.closer;
-  return r;
-}
-
 Document scenario_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v, const Episode& e,
                      const VectorXd& u, const DriveTiming& timing) {
   Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_t}, timing);
@@ -222,7 +213,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
     searches.push_back(
         {&candidate,
          std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
-                                           rounds_of(study.simulations), study.seed + 1000 * (c + 1)),
+                                           SearchRounds::of(study.simulations), study.seed + 1000 * (c + 1)),
          {}});
   }
   for (std::size_t number = 0;; ++number) {

@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "core/units.h"
 #include "study/identify.h"
+#include "study/parameter_search.h"
 
 namespace faba {
 namespace {
@@ -119,7 +120,7 @@ ResponseVideo any_video() {
   v.view.width = 64, v.view.height = 48, v.fps = 15, v.um_per_px = 1;
   v.edge.emplace();
   v.edge->centre_image = {32, 24}, v.edge->radius_px = 100;
-  v.contrast = -0.4;
+  v.cell_px = 3, v.contrast = -0.4;
   v.episodes.push_back({"any", 0, {{0, 1, 0}}, {{32, 24}}});
   return v;
 }
@@ -142,6 +143,10 @@ Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyS
     throw Error(
         Errc::usage, c.model.origin,
         "has nothing to find: give free = [\"swarm[0].model.speed\"], or another path of the scenario");
+  if (const int least = ParameterSearch::least_simulations(int(c.free.size())); study.simulations < least)
+    throw Error(Errc::usage, c.model.origin,
+                fmt::format("{} parameters take {} simulations or more, not {}", c.free.size(), least,
+                            study.simulations));
   // Both ends of every range, and the middle.
   const Parts parts = builtin_parts();
   for (const double u : {0.5, 0.0, 1.0}) {

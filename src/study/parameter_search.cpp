@@ -85,6 +85,15 @@ std::vector<Index> all_columns(Index n) {
 
 }  // namespace
 
+SearchRounds SearchRounds::of(int simulations) {
+  const SearchRounds usual;
+  SearchRounds r;
+  r.first = simulations * usual.first / usual.total();
+  r.closer = simulations * usual.closer / usual.total();
+  r.last = simulations - r.first - 2 * r.closer;
+  return r;
+}
+
 double ParameterSearch::Proposal::density(const VectorXd& u) const {
   if (centres.rows() == 0) return 1;
   const Eigen::LLT<MatrixXd> root(covariance);

@@ -10,17 +10,21 @@
 namespace faba {
 
 /// How many simulations each round makes.
+/// `of` makes them of a number in all.
 struct SearchRounds {
   int first = 160;   ///< all over the ranges
   int closer = 120;  ///< twice, around those that come nearest to what was observed
   int last = 200;    ///< over the posterior and its surroundings
   int total() const { return first + 2 * closer + last; }
+  static SearchRounds of(int simulations);
 };
 
 /// Finds the parameters of one model from what was observed, in rounds: each proposes parameters from what
 /// the simulations of the rounds before have shown. Parameters are shares of their ranges, 0 to 1.
 class ParameterSearch {
  public:
+  /// Of all rounds together, for d parameters.
+  static int least_simulations(int d) { return 20 * Emulator::terms(d); }
   using LogPrior = std::function<double(const Eigen::VectorXd&)>;
 
   /// d parameters, 1 to 8; `log_prior` up to a constant, on the unit cube.

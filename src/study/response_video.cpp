@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.h"
 #include "study/found_drives.h"
+#include "study/matched_look.h"
 #include "study/run_video.h"
 #include "study/track_survey.h"
 #include "vision/detector.h"
@@ -18,7 +20,6 @@
 namespace faba {
 namespace {
 
-constexpr double kOwnWidth = 0.85;  // diameter of a cell over the width that it is seen with
 constexpr double kResolved =
     0.8;  // share of the cells that are seen one by one, from which on their places count
 constexpr double kShortestDrive = 0.2;  // s
@@ -27,6 +28,7 @@ constexpr double kWidthEnough = 5;      // px: cells need be no wider
 constexpr double kFaint = 0.25;         // of the signal-to-noise that a tenth of what is seen exceeds
 constexpr double kLeastWay = 0.1;       // share of the view that a swarm goes, or it does not
 constexpr double kSameWay = 60;         // degrees
+constexpr double kUncovered = 0.85;     // share of the frames in which a place may be covered by cells
 constexpr double kReach = 2;            // times as far as what is seen
 constexpr double kWhite = 255;
 
@@ -70,15 +72,17 @@ std::vector<Vec2> places_in(const GrayF& frame, const ResponseVideo& v, Measure 
   return places;
 }
 
-/// The contrast of [microscope] for cells that take this much of the light each, grey px^2.
-double contrast_of(double signal, const CellView& view, bool logarithmic) {
-  double level = 0;
-  for (const float x : view.background->level.px)
-    level += double(x) / double(view.background->level.px.size());
-  const double diameter = kOwnWidth * view.cells.cell_px, area = std::numbers::pi / 4 * diameter * diameter;
-  const double share = signal / std::max(1.0, level) / area;
-  if (view.cells.polarity == Polarity::bright) return std::min(share, 10.0);
-  return std::max(logarithmic ? std::expm1(-share) : -share, -0.95);
+// In an order of which every beginning is spread as the whole: a simulation of fewer cells takes the first of
+// them, one of more takes the first twice. The golden ratio does that.
+std::vector<Vec2> evenly_mixed(const std::vector<Vec2>& places) {
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto key = [](std::size_t k) { return std::fmod(kGolden * double(k), 1.0); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<Vec2> mixed;
+  for (const std::size_t k : order) mixed.push_back(places[k]);
+  return mixed;
 }
 
 /// Where the swarm is in each frame.
@@ -144,6 +148,19 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
   return episodes;
 }
 
+// The light behind cells that cover most of the places where they are held, and the noise.
+void find_ground(ResponseVideo& v, double from_s, double to_s, const std::function<void()>& tick) {
+  VideoGroundOptions o;
+  o.fps = v.input.fps, o.side = v.side, o.tick = tick;
+  o.share = v.view.cells.polarity == Polarity::bright ? 1 - kUncovered : kUncovered;
+  o.from_s = from_s - 0.5 * v.view.frame_s, o.to_s = to_s + 0.5 * v.view.frame_s;
+  v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, o));
+  Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
+  for (float& x : b.level.px) x *= float(kWhite);
+  std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, v.ground->noise_sd * kWhite)));
+  v.view.background = std::make_shared<const Background>(std::move(b));
+}
+
 // Light, noise and looks of the cells, and the place.
 TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, const std::function<void()>& tick) {
   const std::string name = v.input.file.string();
@@ -168,11 +185,7 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, const std::function
   v.view.width = s.first.width, v.view.height = s.first.height, v.view.frame_s = s.frame_s;
   v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
-  v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, v.side, tick));
-  Background b{v.ground->light, GrayF(v.view.width, v.view.height), int(s.frames)};
-  for (float& x : b.level.px) x *= float(kWhite);
-  std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, v.ground->noise_sd * kWhite)));
-  v.view.background = std::make_shared<const Background>(std::move(b));
+  find_ground(v, 0, s.duration_s, tick);
   if (boundary == Boundary::drop) {
     DropEdgeOptions edge;
     edge.name = name;
@@ -189,35 +202,24 @@ double quantile(std::vector<double> v, double p) {
   return *at;
 }
 
-// How cells are followed one by one, and how dark they are. What is much fainter than most is dirt, or far
+// How cells are followed one by one. What is much fainter than most is dirt, or far
 // out of focus. Faster simulated cells are to be followed, too.
 void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
   const Detector detector = cell_detector(v.view);
   std::vector<std::vector<Spot>> spots;
-  std::vector<double> snr, mass;
+  std::vector<double> snr;
   for (const GrayF& f : frames) {
     spots.push_back(detector.find(f));
     for (const Spot& s : spots.back()) snr.push_back(s.snr);
   }
   v.view.threshold_sd = std::max(detector.threshold_sd(), kFaint * quantile(snr, 0.9));
+  double count = 1;
   for (auto& one : spots) {
     std::erase_if(one, [&](const Spot& s) { return s.snr < v.view.threshold_sd; });
-    for (const Spot& s : one) mass.push_back(s.mass);
+    count += double(one.size()) / double(frames.size());
   }
-  v.contrast = contrast_of(quantile(mass, 0.5), v.view, false);
-  const double count = 1 + double(mass.size()) / double(frames.size());
   const double apart = std::sqrt(double(v.view.width) * v.view.height / count);
   v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * apart);
-}
-
-// How dark cells are that are not seen one by one: from all that is seen over their number.
-double mean_contrast(const ResponseVideo& v, const GrayF& first, const GrayF& last, double noise) {
-  Foreground foreground(v.view.cells);
-  foreground.know(*v.view.background);
-  foreground.take(last, noise, 1);
-  SwarmMoments m = foreground.moments();
-  if (!(m.cells >= 3)) foreground.take(first, noise, 1), m = foreground.moments();
-  return contrast_of(m.signal / std::max(1.0, m.cells), v.view, true);
 }
 
 }  // namespace
@@ -250,6 +252,9 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
               "a drive from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
               d.t0_s, d.t1_s, shortest, survey.duration_s));
   v.episodes = episodes_of(v, boundary, drives);
+  // Before the first drive a swarm may wait at one place for longer than it moves.
+  if (drives.front().t0_s > 0.2 * survey.duration_s || drives.back().t1_s < 0.8 * survey.duration_s)
+    find_ground(v, drives.front().t0_s, drives.back().t1_s, tick);
 
   // One pass for all frames: where cells begin, what is measured, what is shown.
   std::vector<double> moments;
@@ -267,7 +272,7 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   auto next = frames.begin();
   for (Episode& e : v.episodes) {
     const GrayF first = std::move(*next++);
-    e.places_image = places_in(first, v, measure, noise);
+    e.places_image = evenly_mixed(places_in(first, v, measure, noise));
     if (e.places_image.empty())
       throw Error(Errc::input, input.file.string(),
                   fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
@@ -276,7 +281,9 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
     const std::vector<GrayF> measured(std::make_move_iterator(next), std::make_move_iterator(measured_end));
     next = measured_end + std::ptrdiff_t(picture_times(e).size());
     v.pictures.emplace_back(std::make_move_iterator(measured_end), std::make_move_iterator(next));
-    if (v.contrast == 0) v.contrast = mean_contrast(v, first, measured.back(), noise);
+    // Where the swarm has spread cells are seen best.
+    if (v.contrast == 0)
+      match_look(v, measured[measured.size() / 2], boundary);
     v.observed.push_back(v.statistics.back()->of_frames(measured));
   }
   return v;

@@ -42,7 +42,7 @@ struct ResponseVideo {
   double fps = 0, um_per_px = 0;
   std::optional<DropEdge> edge;               ///< with Boundary::drop
   std::shared_ptr<const VideoGround> ground;  ///< light and noise
-  double contrast = 0;                        ///< of a cell, as in [microscope]
+  double cell_px = 0, contrast = 0;           ///< of a cell that is rendered: width as seen, and as in [microscope]
   bool drives_found = false;                  ///< else they were given
   std::vector<Episode> episodes;
   std::vector<std::shared_ptr<const EpisodeStatistics>> statistics;  ///< of each episode

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "vision/background.h"
 #include "vision/grey_video.h"
 
@@ -48,25 +49,47 @@ class Changes {
   std::vector<std::uint64_t> count_ = std::vector<std::uint64_t>(kFinest);
 };
 
+/// The value below which a share of a normal law lies, to 4.5e-4 (Abramowitz and Stegun 26.2.23).
+double normal_quantile(double share) {
+  const double t = std::sqrt(-2 * std::log(std::min(share, 1 - share)));
+  const double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
+                           (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+  return share < 0.5 ? -z : z;
+}
+
+GrayF quantile_over_time(const std::vector<GrayF>& frames, double share) {
+  GrayF out(frames.front().width, frames.front().height);
+  std::vector<float> values(frames.size());
+  const auto at = values.begin() + std::ptrdiff_t(share * double(frames.size() - 1) + 0.5);
+  for (std::size_t i = 0; i < out.px.size(); ++i) {
+    for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
+    std::nth_element(values.begin(), at, values.end());
+    out.px[i] = *at;
+  }
+  return out;
+}
+
 }  // namespace
 
-VideoGround read_video_ground(const std::filesystem::path& video, int side,
-                              const std::function<void()>& tick) {
+VideoGround read_video_ground(const std::filesystem::path& video, const VideoGroundOptions& o) {
   constexpr float kWhite = 255;
-  GreyVideo frames(video, 0, side);
+  GreyVideo frames(video, o.fps, o.side);
   BackgroundSampler sampler(kMostFrames);
-  const bool whole = side == 1 && frames.reader().bits() <= 8;
+  const bool whole = o.side == 1 && frames.reader().bits() <= 8;
   Changes changes(whole ? 1 : kFine);
   GrayF now, before;
-  for (double t = 0; frames.read(now, t);) {
+  for (double t = 0; frames.read(now, t); o.tick()) {
+    if (t < o.from_s || t > o.to_s) continue;
     sampler.take(now);
     if (!before.empty()) changes.take(before, now);
     std::swap(now, before);
-    tick();
   }
-  GrayF light = sampler.background().level;
-  for (float& grey : light.px) grey /= kWhite;
-  return {std::move(light), changes.sd() / double(kWhite)};
+  if (sampler.kept().empty()) throw Error(Errc::input, video.string(), "has no frame at the times asked for");
+  VideoGround ground{quantile_over_time(sampler.kept(), o.share), changes.sd()};
+  const auto off = o.share == 0.5 ? 0.0F : float(normal_quantile(o.share) * ground.noise_sd);
+  for (float& grey : ground.light.px) grey = (grey - off) / kWhite;
+  ground.noise_sd /= double(kWhite);
+  return ground;
 }
 
 }  // namespace faba

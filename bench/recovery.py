@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Whether `faba identify` finds what is known: experiments are rendered with a model, a speed and everything else drawn by chance,
+and identified from their videos alone.
+
+Each experiment is a drop of which an arc is in view, with a swarm at its edge and four drives to and fro along a line. Drawn are
+the model (basic, adapted or dipole), its speed or largest displacement, 150 to 800 cells, the camera's noise, the time in air, the
+size and place of the drop and the line. The study is told the scale, the strength of the field and the time in air; edge, cells,
+drives and directions are found. Prints a table and a verdict on every goal; keeps them in bench/results/.
+
+    bench/recovery.py [--program build/faba] [--experiments 40] [--simulations 400] [--seed 1] [--keep DIR] [--out bench/results]
+
+Results are kept in DIR as they come (build/recovery unless given): called again it goes on where it was. Exits 1 when a goal is not met.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import random
+import statistics
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+WIDTH, HEIGHT, UM_PER_PX, FIELD = 320, 240, 1.16, 115e-6
+DRIVE_S, FIRST_S, DRIVES = 3.0, 1.0, 4
+MODELS = ("basic", "adapted", "dipole")
+RANGE = {"basic": (1, 20), "adapted": (1, 20), "dipole": (20, 300)}
+TRUTH = {"basic": (3, 12), "adapted": (3, 12), "dipole": (60, 250)}
+
+
+def draw(number, seed):
+    r = random.Random(f"recovery {seed} {number}")
+    model = MODELS[number % len(MODELS)]
+    return {"number": number, "model": model, "value": round(r.uniform(*TRUTH[model]), 2), "cells": r.randint(150, 800),
+            "noise": round(r.uniform(0.004, 0.02), 4), "exposure": r.randint(0, 300), "radius": r.randint(300, 700),
+            "side": r.choice((0, 90, 180, 270)), "inset": r.randint(15, 45), "tilt": round(r.uniform(-10, 10), 1),
+            "contrast": round(r.uniform(-0.6, -0.3), 2)}
+
+
+def drop_centre(t):
+    """So that the edge crosses the view `inset` px from the side on which the swarm begins."""
+    along = t["radius"] + t["inset"]
+    return {0: (along, HEIGHT / 2), 180: (WIDTH - along, HEIGHT / 2), 90: (WIDTH / 2, along), 270: (WIDTH / 2, HEIGHT - along)}[t["side"]]
+
+
+def scene(t):
+    # Image frame: cells swim away from the edge at `side`, and back; the world's y axis points up, and cells are south-seeking.
+    way = math.radians(t["side"] + t["tilt"])
+
+    def field(sign):
+        b = -sign * FIELD * 1e6
+        return f'["{b * math.cos(way):.4f} uT", "{-b * math.sin(way):.4f} uT"]'
+
+    model = f'{{ type = "{t["model"]}", max_speed = {t["value"]} }}'
+    if t["model"] == "dipole":
+        model = f'{{ type = "dipole", speed = "{t["value"]} um/s", speed_sd = "{0.2 * t["value"]:.3f} um/s" }}'
+    x, y = drop_centre(t)
+    lines = [f'duration = "{FIRST_S + DRIVES * DRIVE_S} s"', f'exposure = "{t["exposure"]} s"', 'motility = "thesis"',
+             f"[scale]\num_per_px = {UM_PER_PX}", f'[camera]\nrate = "15 Hz"',
+             f'[microscope]\ncell_diameter = "2.5 um"\nnoise = {t["noise"]}\ncontrast = {t["contrast"]}',
+             f'[arena]\ntype = "drop"\nview_px = [{WIDTH}, {HEIGHT}]\nradius_px = {t["radius"]}\ncentre_px = [{x}, {y}]',
+             f'[[swarm]]\ncount = {t["cells"]}\nmodel = {model}',
+             f'start = {{ type = "edge", direction = "{-(t["side"] + 180)} deg", visible = true }}',
+             f'[controller]\ntype = "manual"\nfield = {field(-1)}']
+    for k in range(DRIVES):
+        lines.append(f'[[controller.segment]]\nat = "{FIRST_S + k * DRIVE_S} s"\nfield = {field(1 if k % 2 == 0 else -1)}')
+    return "\n".join(lines + ["[record]\nas_seen = true\nlossless = true\ntracks = false\n"])
+
+
+def main_parameter(model):
+    return "swarm[0].model.speed" if model == "dipole" else "swarm[0].model.max_speed"
+
+
+def study(t, simulations):
+    lines = [f"seed = {t['number'] + 1}", f"simulations = {simulations}", 'boundary = "drop"', f'drive = "{FIELD * 1e6} uT"',
+             "[scene]", 'motility = "thesis"', "[[video]]", 'file = "film"', f'exposure = "{t["exposure"]} s"']
+    for m in MODELS:
+        low, high = RANGE[m]
+        if m == "dipole":
+            free = (f'"{main_parameter(m)}" = ["{low} um/s", "{high} um/s"], '
+                    '"swarm[0].model.speed_sd" = ["0 um/s", "120 um/s"]')
+        else:
+            free = f'"{main_parameter(m)}" = [{low}, {high}]'
+        lines += ["[[model]]", f'name = "{m}"', f'type = "{m}"', f'free = {{ {free}, "swarm[0].count" = [50, 1200] }}']
+    return "\n".join(lines) + "\n"
+
+
+def call(program, *words, cwd):
+    done = subprocess.run([str(program), *words], cwd=cwd, capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def experiment(t, o):
+    """Renders it, identifies it, and reads the answer; a dictionary for the table."""
+    folder = o.keep / f"{o.seed}-{t['number']:02d}"
+    folder.mkdir(parents=True, exist_ok=True)
+    answer = folder / "out/identify.json"
+    if not answer.exists():
+        (folder / "scene.toml").write_text(scene(t))
+        (folder / "study.toml").write_text(study(t, o.simulations))
+        if not (folder / "film/manifest.json").exists():
+            code, _, error = call(o.program, "run", "scene.toml", "--seed", str(1000 * o.seed + t["number"]), "--quiet", "--force",
+                                  "--out", "film", cwd=folder)
+            if code:
+                sys.exit(f"experiment {t['number']}: {error}")
+        code, _, error = call(o.program, "identify", "study.toml", "--quiet", "--out", "out", cwd=folder)
+        if code:
+            return {**t, "failed": error.strip().splitlines()[-1]}
+    found = json.loads(answer.read_text())
+    own = next(m for m in found["models"] if m["name"] == t["model"])
+    if "failed" in own:
+        return {**t, "failed": own["failed"]}
+    unit = 1e-6 if t["model"] == "dipole" else 1
+    p = own["parameters"][main_parameter(t["model"])]
+    low, high = (x / unit for x in p["ci90"])
+    count = own["parameters"]["swarm[0].count"]
+    return {**t, "found": p["median"] / unit, "low": low, "high": high, "cells_found": count["median"], "cells_ci90": count["ci90"],
+            "best": found["best"], "evidence": found["evidence"], "fit_p": own["fit_p"]}
+
+
+def row(x):
+    truth = f"| {x['number']} | {x['model']} | {x['value']:g} | {x['cells']} | {x['noise'] * 255:.1f} | {x['exposure']} "
+    if "failed" in x:
+        return truth + f"| {x['failed']} | | | | |"
+    inside = "" if x["low"] <= x["value"] <= x["high"] else " outside"
+    return truth + (f"| {x['found']:.3g} | {x['low']:.3g} to {x['high']:.3g}{inside} | {100 * (x['found'] / x['value'] - 1):+.1f} % "
+                    f"| {x['best']} | {x['evidence']} |")
+
+
+def main():
+    a = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba")
+    a.add_argument("--experiments", type=int, default=40)
+    a.add_argument("--simulations", type=int, default=400)
+    a.add_argument("--seed", type=int, default=1)
+    a.add_argument("--keep", type=pathlib.Path, default=HERE.parent / "build/recovery")
+    a.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    o = a.parse_args()
+    o.program, o.keep = o.program.resolve(), o.keep.resolve()
+
+    rows = []
+    print("| | model | truth | cells | noise, grey | in air, s | found | 90 % | error | named | evidence |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    for number in range(o.experiments):
+        rows.append(experiment(draw(number, o.seed), o))
+        print(row(rows[-1]), flush=True)
+    good = [x for x in rows if "failed" not in x]
+    clear = [x for x in good if x["evidence"] == "clear"]
+    covered = sum(x["low"] <= x["value"] <= x["high"] for x in good)
+    error = statistics.median(abs(x["found"] / x["value"] - 1) for x in good) if good else math.nan
+    named = sum(x["best"] == x["model"] for x in clear)
+    goals = [("identified", len(good), len(rows), len(good) == len(rows)),
+             ("90 % intervals hold the truth", covered, len(good), 0.8 * len(good) <= covered <= 0.98 * len(good)),
+             ("median error of the main parameter under 5 %", f"{100 * error:.1f} %", "", error < 0.05),
+             ("evidence is clear, half or more", len(clear), len(good), 2 * len(clear) >= len(good)),
+             ("where it is, the right model is named, nine in ten", named, len(clear), named >= 0.9 * len(clear))]
+    print()
+    for what, n, of, met in goals:
+        print(f"- {what}: {n}{f' of {of}' if of != '' else ''}{'' if met else ' NOT MET'}")
+    o.out.mkdir(parents=True, exist_ok=True)
+    (o.out / "recovery.json").write_text(json.dumps({"experiments": rows, "simulations": o.simulations, "seed": o.seed}, indent=1) + "\n")
+    sys.exit(0 if all(g[3] for g in goals) else 1)
+
+
+if __name__ == "__main__":
+    main()
