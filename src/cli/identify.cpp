@@ -8,6 +8,14 @@
 namespace faba::cli {
 namespace {
 
+void say(const FoundParameter& p) {
+  const FreeParameter& q = p.parameter;
+  fmt::print("  {:<28} {:.4g} {}  90 % {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n", q.path,
+             q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), q.shown(p.abc_median),
+             q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
+  if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
+}
+
 void summary(const Identification& r) {
   for (const FoundModel& m : r.models) {
     if (!m.failed.empty()) {
@@ -16,9 +24,7 @@ void summary(const Identification& r) {
     }
     fmt::print("{}: score {:.3f}, fit p {:.2g}, {} simulations\n", m.name, m.score, m.fit_p, m.simulations);
     for (const FoundParameter& p : m.parameters)
-      fmt::print("  {:<28} {:.4g} {}  90 % {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n",
-                 p.parameter.path, p.median, p.parameter.unit, p.ci90[0], p.ci90[1], p.abc_median,
-                 p.abc_ci90[0], p.abc_ci90[1]);
+      say(p);
   }
   fmt::print("{}\n", r.words);
 }
@@ -35,11 +41,13 @@ int identify(const StudyVerb& v, const Common& c) {
   if (!result) return tell_partial(v, c, dir);
   const auto j = identify_json(*result);
   write_best_scene(*result, dir.path());
+  write_file(dir.path() / "identify.html", identify_page(*result));
   finish(dir, "identify", j, c);
   if (!c.json && !c.quiet) {
     for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
     summary(*result);
-    fmt::print("wrote {} and best.toml, the scene of the best model\n", (dir.path() / "identify.json").string());
+    fmt::print("wrote {}, and best.toml, the scene of the best model\n",
+               (dir.path() / "identify.html").string());
   }
   return 0;
 }

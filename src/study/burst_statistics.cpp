@@ -38,10 +38,7 @@ class BurstStatistics final : public EpisodeStatistics {
       for (int b = 0; b < kBursts; ++b)
         for (int k = 0; k < kFrames; ++k)
           times_s_.push_back(drive.t0_s + first + (last - first) * b / (kBursts - 1) + k * view.frame_s);
-      for (const char* what : kWhat) {
-        names_.push_back(fmt::format("drive {}: {}", d + 1, what));
-        drives_.push_back(d);
-      }
+      for (const char* what : kWhat) numbers_.push_back({what, d, drive.t1_s});
     }
   }
 
@@ -49,7 +46,7 @@ class BurstStatistics final : public EpisodeStatistics {
     const Detector detector = cell_detector(view_);
     std::vector<std::vector<Spot>> spots;
     for (const GrayF& f : frames) spots.push_back(detector.find(f));
-    return numbers(spots);
+    return summed(spots);
   }
 
   std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override {
@@ -58,7 +55,7 @@ class BurstStatistics final : public EpisodeStatistics {
       auto& one = spots.emplace_back();
       for (const Vec2 at : frame) one.push_back({.x_px = at.x, .y_px = at.y, .mass = 1, .snr = 10});
     }
-    return numbers(spots);
+    return summed(spots);
   }
 
  private:
@@ -71,7 +68,7 @@ class BurstStatistics final : public EpisodeStatistics {
     return tracker.finished();
   }
 
-  std::vector<double> numbers(const std::vector<std::vector<Spot>>& spots) const {
+  std::vector<double> summed(const std::vector<std::vector<Spot>>& spots) const {
     std::vector<double> out;
     for (std::size_t d = 0; d < episode_.drives.size(); ++d) {
       const double a = episode_.drives[d].direction_deg * std::numbers::pi / 180;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "study/study_random.h"
 #include "vision/detector.h"
 #include "vision/foreground.h"
 
@@ -48,21 +49,26 @@ class EpisodeStatistics {
 
   /// Moments whose frames are needed, s, in order.
   const std::vector<double>& times_s() const { return times_s_; }
-  /// What each number is, in words: "drive 1, 2.5 s: median along".
-  const std::vector<std::string>& names() const { return names_; }
-  /// Which drive each number belongs to.
-  const std::vector<std::size_t>& drives() const { return drives_; }
+  /// What one of the numbers is.
+  struct Number {
+    std::string what;       ///< "median along"
+    std::size_t drive = 0;  ///< to which it belongs
+    double t_s = 0;         ///< when it is measured; the end of the drive for what is of all of it
+  };
+  const std::vector<Number>& numbers() const { return numbers_; }
 
   /// From one frame for each of times_s(), greys of 0 to 255. Not numbers when nothing is seen in any of
   /// them.
   virtual std::vector<double> of_frames(const std::vector<GrayF>& frames) const = 0;
   /// From the cells in view at each of times_s(), px.
   virtual std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const = 0;
+  /// Makes numbers of a simulation as uncertain as the same measure of a video is, where rendered cells are not
+  /// the real ones.
+  virtual void blur(std::vector<double>& numbers, StudyRandom& random) const { (void)numbers, (void)random; }
 
  protected:
   std::vector<double> times_s_;
-  std::vector<std::string> names_;
-  std::vector<std::size_t> drives_;
+  std::vector<Number> numbers_;
 };
 
 /// Finds cells one by one, as EpisodeStatistics does for tracks.

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "study/profile.h"
 #include "study/statistics.h"
 #include "study/study_random.h"
 
@@ -27,6 +28,9 @@ namespace {
 constexpr int kDraws = 1000;     // from a posterior
 constexpr int kForetold = 200;   // of what an experiment will show
 constexpr double kLevel = 0.90;  // of the intervals
+constexpr int kProfile = 41;     // values of each parameter
+constexpr double kUnlearnt = 0.75;  // share of the range: 0.9 when nothing was learnt
+constexpr double kTogether = 0.9;   // correlation from which on two are one
 
 double quantile(std::vector<double> v, double p) {
   std::sort(v.begin(), v.end());
@@ -89,6 +93,24 @@ MatrixXd foretell(const ParameterSearch& s, const MatrixXd& u, const std::vector
   return x;
 }
 
+void tell_doubts(FoundModel& m, const MatrixXd& draws) {
+  const MatrixXd off = draws.rowwise() - draws.colwise().mean();
+  for (Index j = 0; j < draws.cols(); ++j) {
+    FoundParameter& p = m.parameters[std::size_t(j)];
+    if (p.share_of_range > kUnlearnt) {
+      p.doubt = fmt::format("{} cannot be found from these videos: 90 % of the posterior cover {:.0f} % of its range",
+                            p.parameter.path, 100 * p.share_of_range);
+      continue;
+    }
+    for (Index k = 0; k < draws.cols(); ++k) {
+      const double r = off.col(j).dot(off.col(k)) / (off.col(j).norm() * off.col(k).norm());
+      if (k != j && std::fabs(r) > kTogether)
+        p.doubt = fmt::format("{} is found together with {} only: one makes up for the other (correlation {:.2f})",
+                              p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
+    }
+  }
+}
+
 // How far from its own mean a simulation is, by all numbers together; as a share of simulations that are
 // further.
 double fit_p(const ParameterSearch& s, const VectorXd& mode, const VectorXd& observed) {
@@ -115,6 +137,15 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
     m.parameters.push_back(found(p, draws.col(j), abc.u.col(j), abc.weight));
     middle[j] = quantile({draws.col(j).begin(), draws.col(j).end()}, 0.5);
     m.best[p.path] = p.json(middle[j]);
+  }
+  tell_doubts(m, draws);
+  const SyntheticLikelihood l = s.likelihood({});
+  for (Index j = 0; j < draws.cols(); ++j) {
+    FoundParameter& p = m.parameters[std::size_t(j)];
+    const Profile profile = profile_likelihood([&](const VectorXd& u) { return l.log_likelihood(u); },
+                                               s.box(), middle, j, kProfile);
+    for (const double u : profile.u) p.profile_at.push_back(p.parameter.value(u));
+    p.profile.assign(profile.log_likelihood.begin(), profile.log_likelihood.end());
   }
   m.simulations = std::size_t(s.simulations().size());
   m.fit_p = fit_p(s, middle, s.observed());

@@ -13,6 +13,12 @@
 namespace faba {
 namespace {
 
+struct Shown {
+  const char *unit, *name;
+  double times;
+};
+constexpr Shown kShown[] = {{"m/s", "um/s", 1e6}, {"m", "um", 1e6}, {"m^2/s", "um^2/s", 1e12}, {"T", "uT", 1e6}};
+
 /// What the schemas say of the value at a path.
 struct Description {
   const Json* schema = nullptr;    ///< null: no such path
@@ -122,6 +128,18 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
 }
 
 }  // namespace
+
+std::string FreeParameter::shown_unit() const {
+  for (const Shown& s : kShown)
+    if (unit == s.unit) return s.name;
+  return unit;
+}
+
+double FreeParameter::shown(double value) const {
+  for (const Shown& s : kShown)
+    if (unit == s.unit) return value * s.times;
+  return value;
+}
 
 double FreeParameter::value(double u) const {
   const double share = stretch > 0 ? std::expm1(stretch * u) / std::expm1(stretch) : u;

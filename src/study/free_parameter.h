@@ -22,6 +22,9 @@ struct FreeParameter {
   };
   std::optional<Known> known = {};
 
+  /// The unit that people use for it, "um/s" for "m/s", and how many of them one of `unit` is.
+  std::string shown_unit() const;
+  double shown(double value) const;
   /// The value at share u of the range, 0 to 1, and back.
   double value(double u) const;
   double share(double value) const;

@@ -35,7 +35,7 @@ struct Part {
 struct Observed {
   std::vector<Part> parts;
   VectorXd numbers;
-  std::vector<std::string> names;
+  std::vector<Identification::Statistic> statistics;
   std::vector<std::string> experiments;
   std::vector<std::vector<Index>> columns;  ///< of each experiment
 };
@@ -54,11 +54,13 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
       o.parts.push_back({v, e, Index(numbers.size()), Index(video.observed[e].size()), statistics});
       for (std::size_t k = 0; k < video.observed[e].size(); ++k) {
         numbers.push_back(video.observed[e][k]);
-        o.names.push_back(
-            (videos.size() > 1 || video.episodes.size() > 1 ? video.episodes[e].name + ": " : "") +
-            statistics->names()[k]);
+        const EpisodeStatistics::Number& n = statistics->numbers()[k];
+        const bool several = videos.size() > 1 || video.episodes.size() > 1;
+        o.statistics.push_back({fmt::format("{}drive {}, {:.3g} s: {}",
+                                            several ? video.episodes[e].name + ": " : "", n.drive + 1, n.t_s, n.what),
+                                v, e, n, video.observed[e][k]});
         experiment.push_back(own);
-        drive.push_back(fmt::format("{}, drive {}", own, e + statistics->drives()[k] + 1));
+        drive.push_back(fmt::format("{}, drive {}", own, e + n.drive + 1));
       }
     }
   const bool one =
@@ -82,7 +84,6 @@ std::string digest(const VectorXd& v) {
 
 /// One candidate while it is being identified.
 struct Search {
-  const Candidate* candidate = nullptr;
   std::unique_ptr<ParameterSearch> search;
   std::string failed;
 };
@@ -109,16 +110,16 @@ class Round {
         const Parts& parts)
       : study_(study), videos_(videos), observed_(observed), parts_(parts), seen_(digest(observed.numbers)) {}
 
-  void add(const Search& s, std::size_t candidate, std::size_t number) {
-    const MatrixXd& u = *s.search->next();
+  /// Simulations of candidate number `candidate`, one for each row of `u`.
+  void add(const Candidate& c, const MatrixXd& u, std::size_t candidate, std::size_t number) {
     for (Index i = 0; i < u.rows(); ++i)
       for (std::size_t p = 0; p < observed_.parts.size(); ++p)
-        add_one(s, u.row(i).transpose(), candidate, number, i, p);
+        add_one(c, u.row(i).transpose(), candidate, number, i, p);
   }
   const std::vector<Task>& tasks() const { return tasks_; }
 
  private:
-  void add_one(const Search& s, const VectorXd& u, std::size_t candidate, std::size_t number, Index i,
+  void add_one(const Candidate& c, const VectorXd& u, std::size_t candidate, std::size_t number, Index i,
                std::size_t p) {
     const Part& part = observed_.parts[p];
     const ResponseVideo& video = videos_[part.video];
@@ -130,7 +131,7 @@ class Round {
     const double usual = (video.drives_found ? kTimingFound : kTimingGiven) / video.fps;
     const DriveTiming timing = drawn_timing(episode, study_.timing_s.value_or(usual), seed);
     const auto d =
-        std::make_shared<const Document>(scenario_of(study_, *s.candidate, video, episode, u, timing));
+        std::make_shared<const Document>(scenario_of(study_, c, video, episode, u, timing));
     const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
                                                  timing.lead_s, seen_, p, int(study_.look)));
     tasks_.push_back({key, [this, d, seed, lead = timing.lead_s, &part, &video] {
@@ -138,8 +139,11 @@ class Round {
                           const SeenEpisode seen =
                               simulate_episode(read_scenario(*d, parts_), seed, lead,
                                                part.statistics->times_s(), study_.look, video.ground);
-                          return study_.look == Look::video ? part.statistics->of_frames(seen.frames)
-                                                            : part.statistics->of_positions(seen.positions);
+                          if (study_.look == Look::positions) return part.statistics->of_positions(seen.positions);
+                          std::vector<double> numbers = part.statistics->of_frames(seen.frames);
+                          StudyRandom random(seed, 10);
+                          part.statistics->blur(numbers, random);
+                          return numbers;
                         } catch (const Error& e) {
                           if (e.code() != Errc::usage) throw;
                           // Values that do not go together, such as speeds that want too many steps.
@@ -167,6 +171,28 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
             Eigen::Map<const VectorXd>(values.data(), part.count).transpose();
     }
   return s;
+}
+
+// What the best model would show again and again, with all that is not known of it.
+bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSearch& search, const Observed& o,
+              const Parts& parts, ResultStore& results, const SweepOptions& options) {
+  constexpr int kAgain = 40;
+  constexpr std::size_t kNumber = 1000000;  // of a round that the search never has
+  const MatrixXd u = search.posterior({}, kAgain, study.seed + 5);
+  Round round(study, r.videos, o, parts);
+  round.add(study.candidates[r.best], u, r.best, kNumber);
+  if (!sweep(results, round.tasks(), options)) return false;
+  std::size_t at = 0;
+  const MatrixXd shown = collect(results, round.tasks(), at, u.rows(), o);
+  for (Index k = 0; k < shown.cols(); ++k) {
+    std::vector<double> v;
+    for (const double x : shown.col(k))
+      if (std::isfinite(x)) v.push_back(x);
+    std::sort(v.begin(), v.end());
+    const auto place = [&](double p) { return v.empty() ? std::nan("") : v[std::size_t(p * double(v.size() - 1) + 0.5)]; };
+    r.models[r.best].foretold90.push_back({place(0.05), place(0.95)});
+  }
+  return true;
 }
 
 // One camera: what differs between videos is to be the experiments.
@@ -205,21 +231,21 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   for (Index k = 0; k < o.numbers.size(); ++k)
     if (!std::isfinite(o.numbers[k]))
       throw Error(Errc::input, study.videos.front().file.string(),
-                  fmt::format("shows no cells while they should move ({})", o.names[std::size_t(k)]));
+                  fmt::format("shows no cells while they should move ({})", o.statistics[std::size_t(k)].name));
   const Parts parts = builtin_parts();
   std::vector<Search> searches;
   for (std::size_t c = 0; c < study.candidates.size(); ++c) {
     const Candidate& candidate = study.candidates[c];
     searches.push_back(
-        {&candidate,
-         std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
+        {std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
                                            SearchRounds::of(study.simulations), study.seed + 1000 * (c + 1)),
          {}});
   }
   for (std::size_t number = 0;; ++number) {
     Round round(study, r.videos, o, parts);
     for (std::size_t c = 0; c < searches.size(); ++c)
-      if (searches[c].failed.empty() && searches[c].search->next()) round.add(searches[c], c, number);
+      if (searches[c].failed.empty() && searches[c].search->next()) 
+        round.add(study.candidates[c], *searches[c].search->next(), c, number);
     if (round.tasks().empty()) break;
     if (!sweep(results, round.tasks(), options)) return {};
     std::size_t at = 0;
@@ -245,10 +271,10 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
     m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
     r.models.push_back(std::move(m));
   }
-  r.statistics = o.names, r.experiments = o.experiments;
-  r.observed.assign(o.numbers.begin(), o.numbers.end());
+  r.statistics = o.statistics, r.experiments = o.experiments;
   judge(r);
-  return r;
+  return foretell(study, r, *searches[r.best].search, o, parts, results, options) ? std::optional(r)
+                                                                                  : std::nullopt;
 }
 
 }  // namespace faba

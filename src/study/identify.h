@@ -49,6 +49,9 @@ struct FoundParameter {
   /// Share of its prior range that the interval covers: near 0.9 nothing was learnt.
   double share_of_range = 1;
   std::vector<double> draws = {};
+  /// Largest log-likelihood that the other parameters can give each value, relative to the best.
+  std::vector<double> profile_at = {}, profile = {};
+  std::string doubt = {};  ///< why it could not be told, or only together with another; empty when it could
 };
 
 /// What was found of one candidate.
@@ -62,6 +65,8 @@ struct FoundModel {
   /// say that the model does not explain the videos.
   double fit_p = 0;
   std::vector<double> foretold, foretold_sd;  ///< statistics at the posterior
+  /// Of the best model: where 90 % of the simulations at draws from the posterior have them.
+  std::vector<std::array<double, 2>> foretold90 = {};
   std::size_t simulations = 0;
   Json best;  ///< values of the parameters at the posterior's median, by path
 };
@@ -69,8 +74,14 @@ struct FoundModel {
 struct Identification {
   IdentifyStudy study;
   std::vector<ResponseVideo> videos;
-  std::vector<std::string> statistics;  ///< what each number is
-  std::vector<double> observed;
+  /// Each number that videos and simulations are compared by.
+  struct Statistic {
+    std::string name;  ///< "drive 1, 2.5 s: median along"
+    std::size_t video = 0, episode = 0;
+    EpisodeStatistics::Number number;
+    double observed = 0;
+  };
+  std::vector<Statistic> statistics;
   std::vector<std::string> experiments;  ///< that scores are of
   std::vector<FoundModel> models;
   std::size_t best = 0;

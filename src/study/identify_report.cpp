@@ -11,6 +11,7 @@ Json parameter_json(const FoundParameter& p) {
           {"unit", p.parameter.unit},
           {"range", {p.parameter.low, p.parameter.high}},
           {"share_of_range", p.share_of_range},
+          {"doubt", p.doubt.empty() ? Json() : Json(p.doubt)},
           {"abc", {{"median", p.abc_median}, {"ci90", p.abc_ci90}}}};
 }
 
@@ -36,9 +37,10 @@ nlohmann::ordered_json identify_json(const Identification& r) {
   j["ahead"] = r.ahead_ci95 ? Json{{"mean", r.ahead}, {"ci95", *r.ahead_ci95}} : Json();
   j["statistics"] = Json::array();
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
-    Json one{{"what", r.statistics[k]}, {"observed", r.observed[k]}, {"foretold", Json::object()}};
+    Json one{{"what", r.statistics[k].name}, {"observed", r.statistics[k].observed}, {"foretold", Json::object()}};
     for (const FoundModel& m : r.models)
       if (m.failed.empty()) one["foretold"][m.name] = {{"mean", m.foretold[k]}, {"sd", m.foretold_sd[k]}};
+    one["foretold90"] = r.models[r.best].foretold90[k];
     j["statistics"].push_back(std::move(one));
   }
   Json notes = Json::array();

@@ -1,0 +1,27 @@
+#pragma once
+#include <vector>
+
+#include "study/identify.h"
+#include "study/run_figures.h"
+
+namespace faba {
+
+/// What was observed and what the best model shows again and again: over time where the swarm is and how much
+/// of it is in view, or drive by drive how fast cells go.
+std::vector<Figure> predictive_figures(const Identification& result);
+
+/// The posterior of a parameter and its profile.
+Figure posterior_figure(const FoundParameter& parameter);
+Figure profile_figure(const FoundParameter& parameter);
+
+/// A drive of an episode as it was and as it is simulated, and how cells are spread along it.
+struct EpisodePictures {
+  std::string name;
+  std::vector<double> t_s;  ///< from the episode's beginning
+  std::vector<GrayF> real, simulated;
+  Figure spread;
+};
+/// Of the first episodes; simulates them with the best model.
+std::vector<EpisodePictures> episode_pictures(const Identification& result);
+
+}  // namespace faba

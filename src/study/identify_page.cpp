@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "study/identify_figures.h"
+#include "study/identify_report.h"
+#include "study/inline_picture.h"
+#include "study/markup.h"
+#include "study/report_page.h"
+#include "vision/picture.h"
+
+namespace faba {
+namespace {
+
+std::string with_interval(const FoundParameter& p) {
+  const FreeParameter& q = p.parameter;
+  return fmt::format("{} [{}, {}]{}", three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
+                     three_digits(q.shown(p.ci90[1])), q.shown_unit().empty() ? "" : " " + q.shown_unit());
+}
+
+std::string short_name(const std::string& path) {
+  const auto dot = path.find_last_of('.');
+  return dot == std::string::npos ? path : path.substr(dot + 1);
+}
+
+std::string lead(const Identification& r) {
+  const FoundModel& best = r.models[r.best];
+  std::string found;
+  for (const FoundParameter& p : best.parameters)
+    found += fmt::format("{}{} {}", found.empty() ? "" : ", ", short_name(p.parameter.path), with_interval(p));
+  std::string out = fmt::format("<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {}. Medians and 90 % of the posterior.</p>\n",
+                                escape_markup(r.words), escape_markup(best.name), escape_markup(found));
+  for (const FoundParameter& p : best.parameters)
+    if (!p.doubt.empty()) out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(p.doubt));
+  return out;
+}
+
+std::string models_table(const Identification& r) {
+  std::string out =
+      "<h2>Models</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead><tr><th>model</th><th>parameters, 90 "
+      "%</th><th>energy score</th><th>fit p</th><th>simulations</th></tr></thead>\n<tbody>\n";
+  for (const FoundModel& m : r.models) {
+    if (!m.failed.empty()) {
+      out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>–</td><td>–</td><td>–</td></tr>\n",
+                         escape_markup(m.name), escape_markup(m.failed));
+      continue;
+    }
+    std::string parameters;
+    for (const FoundParameter& p : m.parameters)
+      parameters += fmt::format("{}{} {}", parameters.empty() ? "" : "<br />", escape_markup(short_name(p.parameter.path)),
+                                escape_markup(with_interval(p)));
+    out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2g}</td><td>{}</td></tr>\n",
+                       escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
+  }
+  return out +
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments is foretold from "
+             "the others; less is better. Fit p: how often simulations of the model are as far from their own mean as "
+             "the videos are; below 0.01 the model does not explain them.</p>\n",
+             r.experiments.size());
+}
+
+std::string figure_of(const Figure& f) {
+  return fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>{}</figcaption>\n</figure>\n", escape_markup(f.heading),
+                     svg(f.plot), escape_markup(f.caption));
+}
+
+// Both in the greys of the real one.
+RgbImage side_by_side(const GrayF& real, const GrayF& simulated) {
+  const int gap = 4;
+  RgbImage out(2 * real.width + gap, real.height);
+  std::fill(out.px.begin(), out.px.end(), Rgb{255, 255, 255});
+  const auto put = [&](const GrayF& from, int at) {
+    for (int r = 0; r < from.height; ++r)
+      for (int c = 0; c < from.width; ++c) {
+        const auto g = std::uint8_t(std::lround(std::clamp(from.at(c, r), 0.0F, 255.0F)));
+        out.at(at + c, r) = {g, g, g};
+      }
+  };
+  put(real, 0), put(simulated, real.width + gap);
+  return out;
+}
+
+std::string pictures(const Identification& r) {
+  std::string out = "<h2>Video and simulation</h2>\n";
+  for (const EpisodePictures& e : episode_pictures(r)) {
+    out += "<div class=\"figures\">\n";
+    for (std::size_t k = 0; k < e.t_s.size(); ++k)
+      out += fmt::format("<figure>\n<h3>{}, {:.2g} s</h3>\n{}<figcaption>Left the video, right {} as it was "
+                         "found.</figcaption>\n</figure>\n",
+                         escape_markup(e.name), e.t_s[k],
+                         inline_picture(side_by_side(e.real[k], e.simulated[k]), "The video beside a simulation"),
+                         escape_markup(r.models[r.best].name));
+    if (r.study.measure == Measure::density) out += figure_of(e.spread);
+    out += "</div>\n";
+  }
+  return out;
+}
+
+std::string notes(const Identification& r) {
+  std::string out;
+  for (const ResponseVideo& v : r.videos) {
+    for (const std::string& note : v.notes)
+      out += fmt::format("<li>{}: {}</li>\n", escape_markup(v.input.file.filename().string()), escape_markup(note));
+    if (!v.drives_found) continue;
+    std::string drives;
+    for (const Episode& e : v.episodes)
+      for (const Drive& d : e.drives)
+        drives += fmt::format("{}{:.2f} to {:.2f} s at {:.0f}°", drives.empty() ? "" : ", ", e.begins_s + d.t0_s,
+                              e.begins_s + d.t1_s, d.direction_deg);
+    out += fmt::format("<li>{}: drives were found: {}</li>\n", escape_markup(v.input.file.filename().string()), drives);
+  }
+  return out.empty() ? "" : "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
+}
+
+}  // namespace
+
+std::string identify_page(const Identification& r) {
+  std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) + models_table(r);
+  out += "<h2>What was seen, and what the best model shows</h2>\n<div class=\"figures\">\n";
+  for (const Figure& f : predictive_figures(r)) out += figure_of(f);
+  out += "</div>\n" + pictures(r) + "<h2>Parameters of the best model</h2>\n<div class=\"figures\">\n";
+  for (const FoundParameter& p : r.models[r.best].parameters)
+    out += figure_of(posterior_figure(p)) + figure_of(profile_figure(p));
+  return html_page(r.study.title, out + "</div>\n" + notes(r));
+}
+
+}  // namespace faba
