@@ -23,8 +23,7 @@ void summary(const Identification& r) {
       continue;
     }
     fmt::print("{}: score {:.3f}, fit p {:.2g}, {} simulations\n", m.name, m.score, m.fit_p, m.simulations);
-    for (const FoundParameter& p : m.parameters)
-      say(p);
+    for (const FoundParameter& p : m.parameters) say(p);
   }
   fmt::print("{}\n", r.words);
 }

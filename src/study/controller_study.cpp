@@ -130,8 +130,9 @@ void curves(const std::vector<const std::vector<double>*>& trials, Combination& 
   };
   for (std::size_t k = 0; k < points; ++k) {
     c.t_s.push_back(value(*trials.front(), 0, k));
-    for (const std::size_t what : {1, 2}) {
+    for (const std::size_t what : {std::size_t(1), std::size_t(2)}) {
       std::vector<double> one;
+      one.reserve(trials.size());
       for (const auto* t : trials) one.push_back(value(*t, what, k));
       const MeanOverSeeds m = mean_of(one);
       (what == 1 ? c.distance_px : c.rms_radius_px).push_back(m.n > 0 ? m.mean : kNaN);

@@ -15,8 +15,9 @@ constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is
 constexpr double kFew = 0.02;       // share in view that is as good as none
 constexpr const char* kWhat[] = {"cells in view", "10 % along", "median along", "90 % along", "width across"};
 constexpr int kMoments = 6;  // of each drive
-// How many cells a crowd is taken for depends on how each of them looks: 150 to 800 rendered cells were counted
-// 5 to 12 % differently once their width and strength had been told from the video (bench/recovery.py).
+// How many cells a crowd is taken for depends on how each of them looks: 150 to 800 rendered cells were
+// counted 5 to 12 % differently once their width and strength had been told from the video
+// (bench/recovery.py).
 constexpr double kCount = 0.1;
 // So much more or less of them is seen in a crowd at the edge of a drop, where light is lost to both.
 constexpr double kMass = 0.05;
@@ -71,7 +72,8 @@ class DensityStatistics final : public EpisodeStatistics {
   std::vector<double> of_frames(const std::vector<GrayF>& frames) const override;
   std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override;
   void blur(std::vector<double>& numbers, StudyRandom& random) const override {
-    for (std::size_t k = 0; k + 1 < numbers.size(); k += std::size(kWhat)) numbers[k] += kMass * random.normal();
+    for (std::size_t k = 0; k + 1 < numbers.size(); k += std::size(kWhat))
+      numbers[k] += kMass * random.normal();
     numbers.back() += kCount * random.normal();
   }
 
@@ -87,8 +89,7 @@ class DensityStatistics final : public EpisodeStatistics {
   std::vector<std::size_t> drive_at_;  ///< of each moment
 };
 
-DensityStatistics::DensityStatistics(const Episode& e, const CellView& view)
-    : episode_(e), view_(view) {
+DensityStatistics::DensityStatistics(const Episode& e, const CellView& view) : episode_(e), view_(view) {
   for (std::size_t d = 0; d < e.drives.size(); ++d)
     for (int i = 1; i <= kMoments; ++i) {
       const Drive& drive = e.drives[d];
@@ -130,7 +131,7 @@ std::vector<double> DensityStatistics::of_positions(const std::vector<std::vecto
 }
 
 std::vector<double> DensityStatistics::summed(const std::vector<std::vector<Mass>>& seen,
-                                               double cells) const {
+                                              double cells) const {
   std::vector<double> mass;
   double mean = 0;
   for (const auto& one : seen) {

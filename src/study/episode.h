@@ -62,8 +62,8 @@ class EpisodeStatistics {
   virtual std::vector<double> of_frames(const std::vector<GrayF>& frames) const = 0;
   /// From the cells in view at each of times_s(), px.
   virtual std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const = 0;
-  /// Makes numbers of a simulation as uncertain as the same measure of a video is, where rendered cells are not
-  /// the real ones.
+  /// Makes numbers of a simulation as uncertain as the same measure of a video is, where rendered cells are
+  /// not the real ones.
   virtual void blur(std::vector<double>& numbers, StudyRandom& random) const { (void)numbers, (void)random; }
 
  protected:

@@ -161,7 +161,7 @@ nlohmann::ordered_json flow_of_pair(const std::filesystem::path& a, const std::f
   if (!job.truth.empty()) j["truth"] = against_truth(flow, job.truth);
   j["notes"] = nlohmann::ordered_json::array();
   if (!greys.words().empty()) j["notes"].push_back(greys.words());
-  if (j.value("converged", true) == false)
+  if (!j.value("converged", true))
     j["notes"].push_back("the iteration was not at its end: the flow is still drawn towards zero");
   if (!job.out.empty()) write_flo(job.out, flow);
   if (!job.picture.empty()) write_png(job.picture, draw_flow(flow));

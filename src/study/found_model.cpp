@@ -25,10 +25,10 @@ VectorXd noise_of(const ParameterSearch& s) {
 
 namespace {
 
-constexpr int kDraws = 1000;     // from a posterior
-constexpr int kForetold = 200;   // of what an experiment will show
-constexpr double kLevel = 0.90;  // of the intervals
-constexpr int kProfile = 41;     // values of each parameter
+constexpr int kDraws = 1000;        // from a posterior
+constexpr int kForetold = 200;      // of what an experiment will show
+constexpr double kLevel = 0.90;     // of the intervals
+constexpr int kProfile = 41;        // values of each parameter
 constexpr double kUnlearnt = 0.75;  // share of the range: 0.9 when nothing was learnt
 constexpr double kTogether = 0.9;   // correlation from which on two are one
 
@@ -98,15 +98,17 @@ void tell_doubts(FoundModel& m, const MatrixXd& draws) {
   for (Index j = 0; j < draws.cols(); ++j) {
     FoundParameter& p = m.parameters[std::size_t(j)];
     if (p.share_of_range > kUnlearnt) {
-      p.doubt = fmt::format("{} cannot be found from these videos: 90 % of the posterior cover {:.0f} % of its range",
-                            p.parameter.path, 100 * p.share_of_range);
+      p.doubt = fmt::format(
+          "{} cannot be found from these videos: 90 % of the posterior cover {:.0f} % of its range",
+          p.parameter.path, 100 * p.share_of_range);
       continue;
     }
     for (Index k = 0; k < draws.cols(); ++k) {
       const double r = off.col(j).dot(off.col(k)) / (off.col(j).norm() * off.col(k).norm());
       if (k != j && std::fabs(r) > kTogether)
-        p.doubt = fmt::format("{} is found together with {} only: one makes up for the other (correlation {:.2f})",
-                              p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
+        p.doubt =
+            fmt::format("{} is found together with {} only: one makes up for the other (correlation {:.2f})",
+                        p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
     }
   }
 }

@@ -17,7 +17,8 @@ struct Shown {
   const char *unit, *name;
   double times;
 };
-constexpr Shown kShown[] = {{"m/s", "um/s", 1e6}, {"m", "um", 1e6}, {"m^2/s", "um^2/s", 1e12}, {"T", "uT", 1e6}};
+constexpr Shown kShown[] = {
+    {"m/s", "um/s", 1e6}, {"m", "um", 1e6}, {"m^2/s", "um^2/s", 1e12}, {"T", "uT", 1e6}};
 
 /// What the schemas say of the value at a path.
 struct Description {
@@ -92,7 +93,7 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   const Description d = describe(path, scenario);
   if (!d.schema) {
     const std::string key =
-        path.substr(path.find_last_of(".") == std::string::npos ? 0 : path.find_last_of(".") + 1);
+        path.substr(path.find_last_of('.') == std::string::npos ? 0 : path.find_last_of('.') + 1);
     throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
                 "there is no such value in the scenario" + suggestion(key, d.known));
   }

@@ -56,9 +56,10 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
         numbers.push_back(video.observed[e][k]);
         const EpisodeStatistics::Number& n = statistics->numbers()[k];
         const bool several = videos.size() > 1 || video.episodes.size() > 1;
-        o.statistics.push_back({fmt::format("{}drive {}, {:.3g} s: {}",
-                                            several ? video.episodes[e].name + ": " : "", n.drive + 1, n.t_s, n.what),
-                                v, e, n, video.observed[e][k]});
+        o.statistics.push_back(
+            {fmt::format("{}drive {}, {:.3g} s: {}", several ? video.episodes[e].name + ": " : "",
+                         n.drive + 1, n.t_s, n.what),
+             v, e, n, video.observed[e][k]});
         experiment.push_back(own);
         drive.push_back(fmt::format("{}, drive {}", own, e + n.drive + 1));
       }
@@ -130,8 +131,7 @@ class Round {
     const Episode& episode = video.episodes[part.episode];
     const double usual = (video.drives_found ? kTimingFound : kTimingGiven) / video.fps;
     const DriveTiming timing = drawn_timing(episode, study_.timing_s.value_or(usual), seed);
-    const auto d =
-        std::make_shared<const Document>(scenario_of(study_, c, video, episode, u, timing));
+    const auto d = std::make_shared<const Document>(scenario_of(study_, c, video, episode, u, timing));
     const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
                                                  timing.lead_s, seen_, p, int(study_.look)));
     tasks_.push_back({key, [this, d, seed, lead = timing.lead_s, &part, &video] {
@@ -139,7 +139,8 @@ class Round {
                           const SeenEpisode seen =
                               simulate_episode(read_scenario(*d, parts_), seed, lead,
                                                part.statistics->times_s(), study_.look, video.ground);
-                          if (study_.look == Look::positions) return part.statistics->of_positions(seen.positions);
+                          if (study_.look == Look::positions)
+                            return part.statistics->of_positions(seen.positions);
                           std::vector<double> numbers = part.statistics->of_frames(seen.frames);
                           StudyRandom random(seed, 10);
                           part.statistics->blur(numbers, random);
@@ -189,7 +190,9 @@ bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSear
     for (const double x : shown.col(k))
       if (std::isfinite(x)) v.push_back(x);
     std::sort(v.begin(), v.end());
-    const auto place = [&](double p) { return v.empty() ? std::nan("") : v[std::size_t(p * double(v.size() - 1) + 0.5)]; };
+    const auto place = [&](double p) {
+      return v.empty() ? std::nan("") : v[std::size_t(p * double(v.size() - 1) + 0.5)];
+    };
     r.models[r.best].foretold90.push_back({place(0.05), place(0.95)});
   }
   return true;
@@ -230,8 +233,9 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   const Observed o = gather(r.videos);
   for (Index k = 0; k < o.numbers.size(); ++k)
     if (!std::isfinite(o.numbers[k]))
-      throw Error(Errc::input, study.videos.front().file.string(),
-                  fmt::format("shows no cells while they should move ({})", o.statistics[std::size_t(k)].name));
+      throw Error(
+          Errc::input, study.videos.front().file.string(),
+          fmt::format("shows no cells while they should move ({})", o.statistics[std::size_t(k)].name));
   const Parts parts = builtin_parts();
   std::vector<Search> searches;
   for (std::size_t c = 0; c < study.candidates.size(); ++c) {
@@ -244,7 +248,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   for (std::size_t number = 0;; ++number) {
     Round round(study, r.videos, o, parts);
     for (std::size_t c = 0; c < searches.size(); ++c)
-      if (searches[c].failed.empty() && searches[c].search->next()) 
+      if (searches[c].failed.empty() && searches[c].search->next())
         round.add(study.candidates[c], *searches[c].search->next(), c, number);
     if (round.tasks().empty()) break;
     if (!sweep(results, round.tasks(), options)) return {};

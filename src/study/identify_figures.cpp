@@ -76,10 +76,11 @@ Figure courses(const Identification& r, std::size_t video, std::size_t episode, 
 }
 
 Figure by_drive(const Identification& r) {
-  Figure f{"Speed along each drive",
-           "Median speed along the drive of the cells that were followed: in the video (dots), and where 90 % of "
-           "the simulations of the best model have it (bars).",
-           plot_of("Speed along each drive", "drive", "speed along (um/s)")};
+  Figure f{
+      "Speed along each drive",
+      "Median speed along the drive of the cells that were followed: in the video (dots), and where 90 % of "
+      "the simulations of the best model have it (bars).",
+      plot_of("Speed along each drive", "drive", "speed along (um/s)")};
   Line bars{.x = {}, .y = {}, .label = "simulated, 90 %", .ink = Ink::vermillion, .width = 5};
   Scatter dots{.x = {}, .y = {}, .label = "video", .ink = Ink::blue, .size = 8};
   double n = 0;
@@ -121,10 +122,11 @@ std::vector<double> spread_along(const GrayF& frame, const CellView& view, doubl
 }
 
 Figure spread_figure(const Identification& r, const EpisodePictures& e, const ResponseVideo& v, double deg) {
-  Figure f{"Cells along the drive",
-           "Share of what is seen of the swarm in each 24th of the view along the first drive: video (full) and "
-           "one simulation of the best model (dashed).",
-           plot_of("Cells along the drive", "along the drive (share of the view)", "share of the cells")};
+  Figure f{
+      "Cells along the drive",
+      "Share of what is seen of the swarm in each 24th of the view along the first drive: video (full) and "
+      "one simulation of the best model (dashed).",
+      plot_of("Cells along the drive", "along the drive (share of the view)", "share of the cells")};
   (void)r;
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};
   std::vector<double> x;
@@ -151,18 +153,19 @@ std::vector<Figure> predictive_figures(const Identification& r) {
   for (std::size_t v = 0; v < r.videos.size() && figures.size() < 2 * kMostEpisodes; ++v)
     for (std::size_t e = 0; e < r.videos[v].episodes.size() && figures.size() < 2 * kMostEpisodes; ++e) {
       const std::string where = r.videos.size() > 1 ? ": " + r.videos[v].episodes[e].name : "";
-      figures.push_back(courses(r, v, e, "Where the swarm is" + where,
-                                "10, 50 and 90 % of the cells in view lie behind these lines, measured along each "
-                                "drive: in the video (dots), and in 90 % of the simulations of the best model "
-                                "(shaded).",
-                                "along the drive (share of the view)",
-                                {{"10 % along", "10 %", Ink::blue},
-                                 {"median along", "half", Ink::vermillion},
-                                 {"90 % along", "90 %", Ink::green}},
-                                as_it_is));
-      figures.push_back(courses(r, v, e, "Cells in view" + where,
-                                "What is seen of the swarm, over its mean.", "relative to the mean",
-                                {{"cells in view", "cells in view", Ink::blue}}, from_log));
+      figures.push_back(
+          courses(r, v, e, "Where the swarm is" + where,
+                  "10, 50 and 90 % of the cells in view lie behind these lines, measured along each "
+                  "drive: in the video (dots), and in 90 % of the simulations of the best model "
+                  "(shaded).",
+                  "along the drive (share of the view)",
+                  {{"10 % along", "10 %", Ink::blue},
+                   {"median along", "half", Ink::vermillion},
+                   {"90 % along", "90 %", Ink::green}},
+                  as_it_is));
+      figures.push_back(courses(r, v, e, "Cells in view" + where, "What is seen of the swarm, over its mean.",
+                                "relative to the mean", {{"cells in view", "cells in view", Ink::blue}},
+                                from_log));
     }
   return figures;
 }
@@ -173,7 +176,8 @@ Figure posterior_figure(const FoundParameter& p) {
            fmt::format("{} [{}, {}] {}: median and 90 % of the posterior. Dashed: the same by approximate "
                        "Bayesian computation.{}",
                        three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
-                       three_digits(q.shown(p.ci90[1])), q.shown_unit(), p.doubt.empty() ? "" : " " + p.doubt + "."),
+                       three_digits(q.shown(p.ci90[1])), q.shown_unit(),
+                       p.doubt.empty() ? "" : " " + p.doubt + "."),
            plot_of("Posterior of " + q.path, label_of(q), "density")};
   const auto [lo, hi] = std::minmax_element(p.draws.begin(), p.draws.end());
   const double from = q.shown(*lo), step = (q.shown(*hi) - from) / kBins;
@@ -202,7 +206,8 @@ Figure posterior_figure(const FoundParameter& p) {
 Figure profile_figure(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
   Figure f{"Profile of " + q.path,
-           "Largest log-likelihood that the other parameters can give each value. Flat: the videos do not tell it. "
+           "Largest log-likelihood that the other parameters can give each value. Flat: the videos do not "
+           "tell it. "
            "Above the line lie 90 %.",
            plot_of("Profile of " + q.path, label_of(q), "log-likelihood")};
   std::vector<double> x;
@@ -219,15 +224,15 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
   for (const ResponseVideo& v : r.videos)
     for (std::size_t e = 0; e < v.episodes.size() && all.size() < 2; ++e) {
       const Episode& episode = v.episodes[e];
-      Document d = episode_scenario(v, episode,
-                                    {r.study.boundary, r.study.scene, candidate.model, candidate.drive_t},
-                                    exact_timing(episode));
+      Document d =
+          episode_scenario(v, episode, {r.study.boundary, r.study.scene, candidate.model, candidate.drive_t},
+                           exact_timing(episode));
       for (const auto& [path, value] : r.models[r.best].best.items()) d.set(path, value, "best");
       EpisodePictures& one = all.emplace_back();
       one.name = episode.name, one.t_s = picture_times(episode), one.real = v.pictures[e];
-      one.simulated = simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video,
-                                       v.ground)
-                          .frames;
+      one.simulated =
+          simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video, v.ground)
+              .frames;
       one.spread = spread_figure(r, one, v, episode.drives.front().direction_deg);
     }
   return all;

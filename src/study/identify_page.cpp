@@ -27,9 +27,11 @@ std::string lead(const Identification& r) {
   const FoundModel& best = r.models[r.best];
   std::string found;
   for (const FoundParameter& p : best.parameters)
-    found += fmt::format("{}{} {}", found.empty() ? "" : ", ", short_name(p.parameter.path), with_interval(p));
-  std::string out = fmt::format("<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {}. Medians and 90 % of the posterior.</p>\n",
-                                escape_markup(r.words), escape_markup(best.name), escape_markup(found));
+    found +=
+        fmt::format("{}{} {}", found.empty() ? "" : ", ", short_name(p.parameter.path), with_interval(p));
+  std::string out = fmt::format(
+      "<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {}. Medians and 90 % of the posterior.</p>\n",
+      escape_markup(r.words), escape_markup(best.name), escape_markup(found));
   for (const FoundParameter& p : best.parameters)
     if (!p.doubt.empty()) out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(p.doubt));
   return out;
@@ -37,7 +39,8 @@ std::string lead(const Identification& r) {
 
 std::string models_table(const Identification& r) {
   std::string out =
-      "<h2>Models</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead><tr><th>model</th><th>parameters, 90 "
+      "<h2>Models</h2>\n<div class=\"wide\"><table "
+      "class=\"numbers\">\n<thead><tr><th>model</th><th>parameters, 90 "
       "%</th><th>energy score</th><th>fit p</th><th>simulations</th></tr></thead>\n<tbody>\n";
   for (const FoundModel& m : r.models) {
     if (!m.failed.empty()) {
@@ -47,22 +50,23 @@ std::string models_table(const Identification& r) {
     }
     std::string parameters;
     for (const FoundParameter& p : m.parameters)
-      parameters += fmt::format("{}{} {}", parameters.empty() ? "" : "<br />", escape_markup(short_name(p.parameter.path)),
-                                escape_markup(with_interval(p)));
+      parameters += fmt::format("{}{} {}", parameters.empty() ? "" : "<br />",
+                                escape_markup(short_name(p.parameter.path)), escape_markup(with_interval(p)));
     out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2g}</td><td>{}</td></tr>\n",
                        escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
   }
-  return out +
-         fmt::format(
-             "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments is foretold from "
-             "the others; less is better. Fit p: how often simulations of the model are as far from their own mean as "
-             "the videos are; below 0.01 the model does not explain them.</p>\n",
-             r.experiments.size());
+  return out + fmt::format(
+                   "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments "
+                   "is foretold from "
+                   "the others; less is better. Fit p: how often simulations of the model are as far from "
+                   "their own mean as "
+                   "the videos are; below 0.01 the model does not explain them.</p>\n",
+                   r.experiments.size());
 }
 
 std::string figure_of(const Figure& f) {
-  return fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>{}</figcaption>\n</figure>\n", escape_markup(f.heading),
-                     svg(f.plot), escape_markup(f.caption));
+  return fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>{}</figcaption>\n</figure>\n",
+                     escape_markup(f.heading), svg(f.plot), escape_markup(f.caption));
 }
 
 // Both in the greys of the real one.
@@ -86,11 +90,12 @@ std::string pictures(const Identification& r) {
   for (const EpisodePictures& e : episode_pictures(r)) {
     out += "<div class=\"figures\">\n";
     for (std::size_t k = 0; k < e.t_s.size(); ++k)
-      out += fmt::format("<figure>\n<h3>{}, {:.2g} s</h3>\n{}<figcaption>Left the video, right {} as it was "
-                         "found.</figcaption>\n</figure>\n",
-                         escape_markup(e.name), e.t_s[k],
-                         inline_picture(side_by_side(e.real[k], e.simulated[k]), "The video beside a simulation"),
-                         escape_markup(r.models[r.best].name));
+      out += fmt::format(
+          "<figure>\n<h3>{}, {:.2g} s</h3>\n{}<figcaption>Left the video, right {} as it was "
+          "found.</figcaption>\n</figure>\n",
+          escape_markup(e.name), e.t_s[k],
+          inline_picture(side_by_side(e.real[k], e.simulated[k]), "The video beside a simulation"),
+          escape_markup(r.models[r.best].name));
     if (r.study.measure == Measure::density) out += figure_of(e.spread);
     out += "</div>\n";
   }
@@ -101,14 +106,16 @@ std::string notes(const Identification& r) {
   std::string out;
   for (const ResponseVideo& v : r.videos) {
     for (const std::string& note : v.notes)
-      out += fmt::format("<li>{}: {}</li>\n", escape_markup(v.input.file.filename().string()), escape_markup(note));
+      out += fmt::format("<li>{}: {}</li>\n", escape_markup(v.input.file.filename().string()),
+                         escape_markup(note));
     if (!v.drives_found) continue;
     std::string drives;
     for (const Episode& e : v.episodes)
       for (const Drive& d : e.drives)
-        drives += fmt::format("{}{:.2f} to {:.2f} s at {:.0f}°", drives.empty() ? "" : ", ", e.begins_s + d.t0_s,
-                              e.begins_s + d.t1_s, d.direction_deg);
-    out += fmt::format("<li>{}: drives were found: {}</li>\n", escape_markup(v.input.file.filename().string()), drives);
+        drives += fmt::format("{}{:.2f} to {:.2f} s at {:.0f}°", drives.empty() ? "" : ", ",
+                              e.begins_s + d.t0_s, e.begins_s + d.t1_s, d.direction_deg);
+    out += fmt::format("<li>{}: drives were found: {}</li>\n",
+                       escape_markup(v.input.file.filename().string()), drives);
   }
   return out.empty() ? "" : "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
 }

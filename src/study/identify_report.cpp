@@ -37,7 +37,8 @@ nlohmann::ordered_json identify_json(const Identification& r) {
   j["ahead"] = r.ahead_ci95 ? Json{{"mean", r.ahead}, {"ci95", *r.ahead_ci95}} : Json();
   j["statistics"] = Json::array();
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
-    Json one{{"what", r.statistics[k].name}, {"observed", r.statistics[k].observed}, {"foretold", Json::object()}};
+    Json one{
+        {"what", r.statistics[k].name}, {"observed", r.statistics[k].observed}, {"foretold", Json::object()}};
     for (const FoundModel& m : r.models)
       if (m.failed.empty()) one["foretold"][m.name] = {{"mean", m.foretold[k]}, {"sd", m.foretold_sd[k]}};
     one["foretold90"] = r.models[r.best].foretold90[k];

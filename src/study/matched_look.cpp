@@ -9,12 +9,12 @@
 namespace faba {
 namespace {
 
-constexpr int kTimes = 4;              // each time brings it several times nearer
-constexpr double kApart = 2.5;         // widths of a cell, from which on a cell stands alone
-constexpr std::size_t kEnough = 5;     // of those
-constexpr double kFirst = 0.4;         // contrast, either way
+constexpr int kTimes = 4;           // each time brings it several times nearer
+constexpr double kApart = 2.5;      // widths of a cell, from which on a cell stands alone
+constexpr std::size_t kEnough = 5;  // of those
+constexpr double kFirst = 0.4;      // contrast, either way
 constexpr double kFaintest = 0.02, kDarkest = 0.95, kBrightest = 10;
-constexpr double kThinnest = 0.8;      // px
+constexpr double kThinnest = 0.8;  // px
 
 /// What a picture shows of one cell.
 struct CellLook {
@@ -34,8 +34,7 @@ CellLook look_of(const std::vector<Spot>& spots, double apart) {
   for (const Spot& s : spots) {
     double nearest = apart;
     for (const Spot& other : spots)
-      if (&other != &s)
-        nearest = std::min(nearest, norm(Vec2{other.x_px - s.x_px, other.y_px - s.y_px}));
+      if (&other != &s) nearest = std::min(nearest, norm(Vec2{other.x_px - s.x_px, other.y_px - s.y_px}));
     mass.push_back(s.mass), size.push_back(s.size_px);
     if (nearest >= apart) lone_mass.push_back(s.mass), lone_size.push_back(s.size_px);
   }

@@ -23,6 +23,8 @@ constexpr double kWider = 1.8;      // sds of the last round over those of the p
 constexpr double kLongestStep =
     25;  // squared difference of a statistic in robust sds, from which on it counts alike
 constexpr double kAbcShare = 0.25;  // of the simulations since the second round
+constexpr std::size_t kMostRounds = 6;
+constexpr double kAtTheEnd = 0.01;  // share of the posterior at the end of a round's range that is too much
 constexpr int kGuide = 400;         // draws that the last round is shaped by
 
 /// Points that fill the unit cube evenly whatever their number: Kronecker's sequence with the powers of the
@@ -183,16 +185,28 @@ void ParameterSearch::take(const MatrixXd& statistics) {
   next_.reset();
   const std::size_t done = proposals_.size();
   if (done < 3) {
-    const Index near = std::max<Index>(Index(kNearShare * double(all_.size())), 8 * d_);
+    const Index near = std::max<Index>(Index(kNearShare * double(all_.size())), Index(8) * d_);
     const MatrixXd centres = all_.u(nearest(near), Eigen::all);
     propose({centres, 2 * covariance_of(centres) / (done == 1 ? 1 : 2), 0}, rounds_.closer);
     return;
   }
   conclude();
-  if (done == 3) {
-    const MatrixXd draws = posterior({}, kGuide, seed_ + 1);
-    propose({draws.colwise().mean(), kWider * kWider * covariance_of(draws), 0}, rounds_.last);
+  if (done > 3 && (done == kMostRounds || !cut_off())) return;
+  const MatrixXd draws = posterior({}, kGuide, seed_ + 1);
+  propose({draws.colwise().mean(), kWider * kWider * covariance_of(draws), 0}, rounds_.last);
+}
+
+// Whether the posterior reaches beyond where the last round was.
+bool ParameterSearch::cut_off() const {
+  const MatrixXd draws = posterior({}, kGuide, seed_ + 2);
+  for (Index j = 0; j < d_; ++j) {
+    const double near = 0.03 * (box_.high[j] - box_.low[j]);
+    double below = 0, above = 0;
+    for (const double u : draws.col(j)) below += u<box_.low[j] + near, above += u> box_.high[j] - near;
+    const double most = kAtTheEnd * double(draws.rows());
+    if ((below > most && box_.low[j] > near) || (above > most && box_.high[j] < 1 - near)) return true;
   }
+  return false;
 }
 
 // Where the newest rounds were, and what holds there.
@@ -243,7 +257,7 @@ ParameterSearch::WeighedDraws ParameterSearch::by_distance() const {
   const VectorXd scale =
       c.bottomRows(t.size() - from).array().square().colwise().mean().sqrt().max(1e-12).inverse();
   const VectorXd distance = (c * scale.asDiagonal()).rowwise().norm();
-  const auto near = smallest(distance, std::max<Index>(Index(kAbcShare * double(t.size())), 10 * d_));
+  const auto near = smallest(distance, std::max<Index>(Index(kAbcShare * double(t.size())), Index(10) * d_));
   const double reach = std::max(distance[near.back()], 1e-300);
   WeighedDraws w{MatrixXd(near.size(), d_), VectorXd(near.size())};
   MatrixXd x(near.size(), d_ + 1);

@@ -9,7 +9,8 @@
 
 namespace faba {
 
-/// How many simulations each round makes.
+/// How many simulations each round makes. The last one is made again, twice at most, when the posterior turns
+/// out to reach beyond it.
 /// `of` makes them of a number in all.
 struct SearchRounds {
   int first = 160;   ///< all over the ranges
@@ -67,6 +68,7 @@ class ParameterSearch {
   };
   void propose(Proposal p, int count);
   void conclude();
+  bool cut_off() const;
   std::vector<Eigen::Index> nearest(Eigen::Index count) const;
   std::vector<Eigen::Index> rows_since(std::size_t round) const;
 

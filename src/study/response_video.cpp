@@ -282,8 +282,7 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
     next = measured_end + std::ptrdiff_t(picture_times(e).size());
     v.pictures.emplace_back(std::make_move_iterator(measured_end), std::make_move_iterator(next));
     // Where the swarm has spread cells are seen best.
-    if (v.contrast == 0)
-      match_look(v, measured[measured.size() / 2], boundary);
+    if (v.contrast == 0) match_look(v, measured[measured.size() / 2], boundary);
     v.observed.push_back(v.statistics.back()->of_frames(measured));
   }
   return v;

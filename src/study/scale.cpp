@@ -116,7 +116,7 @@ std::optional<double> repeatability(const std::map<double, std::vector<double>>&
 
 std::string advice(const Report& j) {
   const double excess = j["edge_excess_px"], bias = j["ratio_bias"];
-  const auto ci = j["intercept_ci95_px"];
+  const auto& ci = j["intercept_ci95_px"];
   const std::string range =
       fmt::format("{:.1f} px (95 % {:.1f} to {:.1f})", excess, ci[0].get<double>(), ci[1].get<double>());
   if (j["edge_excess_significant"].get<bool>())

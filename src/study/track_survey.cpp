@@ -45,7 +45,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   if (!(s.size_px > 0) && many) s.size_px = spot_size(middle, fine, s.polarity);
   if (!(s.size_px > 0)) s.size_px = kSizeIfNone, s.size_found = false;
   s.smoothing_px = std::max(8.0, 4 * s.size_px);
-  const Background smooth = spatial_background(middle, s.smoothing_px);
+  Background smooth = spatial_background(middle, s.smoothing_px);
   const std::int64_t by_space = count_spots(o, s, smooth, middle);
   const std::int64_t by_time = many ? count_spots(o, s, median, middle) : 0;
   if (many) s.still_spots = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
@@ -53,7 +53,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;
   // Noise over time is measured per pixel where there is one; it weighs the picture's parts.
-  s.background = s.temporal ? std::move(median) : smooth;
+  s.background = std::move(s.temporal ? median : smooth);
 }
 
 }  // namespace

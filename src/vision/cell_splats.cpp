@@ -69,7 +69,7 @@ class CellSplats::Table {
   }
   double sd() const { return sd_; }
   int radius() const { return radius_; }
-  std::size_t width() const { return std::size_t(2 * radius_ + 1); }
+  std::size_t width() const { return 2 * std::size_t(radius_) + 1; }
   std::size_t stride() const { return stride_; }
   // Weights at a place between two rows of the table, times `by`; padded with zeros to stride().
   void at(float place, float by, float* out) const {

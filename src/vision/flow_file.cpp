@@ -125,7 +125,7 @@ FlowFileReader::FlowFileReader(const std::filesystem::path& path) {
   const auto px = std::size_t(std::max(info.width, 0)) * std::size_t(std::max(info.height, 0));
   if (px == 0 || u.row_size() != px || v.row_size() != px || t.row_size() != 2 || frame.row_size() != 1)
     refuse("holds flows of another size than it says");
-  impl_.reset(new Impl{std::move(f), frame, t, u, v, info});
+  impl_ = std::make_unique<Impl>(Impl{std::move(f), frame, t, u, v, info});
 }
 FlowFileReader::~FlowFileReader() = default;
 

@@ -96,7 +96,7 @@ void write(cv::Mat3b canvas, const std::string& words, cv::Point at, double size
 }
 
 // Beside the key, or not at all where there is no room.
-void draw_words(cv::Mat3b canvas, const std::string& words) {
+void draw_words(const cv::Mat3b& canvas, const std::string& words) {
   const double size = std::clamp(canvas.rows / 600.0, 0.4, 1.0);
   if (measure(words, size).width > canvas.cols - canvas.rows / 5 - 16) return;
   write(canvas, words, {8, 8 + measure(words, size).height}, size);

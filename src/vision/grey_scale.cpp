@@ -51,7 +51,7 @@ void shrink(const GrayF& frame, int side, GrayF& out) {
     }
     for (int c = 0; c < w; ++c) {
       float sum = 0;
-      for (int i = 0; i < side; ++i) sum += column[std::size_t(c * side + i)];
+      for (int i = 0; i < side; ++i) sum += column[std::size_t(c) * std::size_t(side) + std::size_t(i)];
       out.at(c, r) = sum * share;
     }
   }

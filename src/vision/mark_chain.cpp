@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 namespace faba {
 namespace {
@@ -13,7 +14,9 @@ double best_place(const MarkProfile& y, double pitch) {
   const double reach = 2.5 * pitch, wave = 2 * std::numbers::pi / pitch;
   const int n = int(y.flat.size());
   double best = -1, place = 0;
-  for (double middle = reach; middle < n - reach; middle += pitch / 2) {
+  double next = reach;
+  while (next < n - reach) {
+    const double middle = std::exchange(next, next + pitch / 2);
     std::complex<double> sum = 0;
     double power = 0;
     bool whole = true;

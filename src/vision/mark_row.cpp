@@ -46,6 +46,7 @@ std::optional<Plane> fit_plane(std::vector<StripReading>& readings) {
       return std::nullopt;
     plane = {k[0] - k[2] * t0, k[1], k[2], 0};
     std::vector<double> sizes;
+    sizes.reserve(readings.size());
     for (const StripReading& r : readings) sizes.push_back(std::fabs(plane.off(r)));
     plane.sd = 1.4826 * median(sizes);
     bool same = true;
@@ -236,7 +237,7 @@ const TurnedPicture& RowMeter::turned(double angle) {
 
 std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint) {
   // Thin strips forgive a wrong angle, tall ones a noisy picture.
-  const auto thin =
+  auto thin =
       measure_marks(hint, std::clamp(int(hint.pitch_px / 3), 3, std::max(3, std::min(8, hint.height_px))));
   if ((thin && thin->complete > 0.8) || hint.height_px < 12) return thin;
   const auto tall = measure_marks(hint, std::min(hint.height_px, 18));
@@ -244,7 +245,7 @@ std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint) {
 }
 
 std::optional<MarkRow> RowMeter::measure_marks(const PeriodHint& hint, int strip) {
-  const auto row = measure_places(hint, strip);
+  auto row = measure_places(hint, strip);
   const int places = row ? places_for_one(row->marks) : 1;
   if (places == 1) return row;
   PeriodHint wider = hint;

@@ -119,6 +119,7 @@ std::vector<std::string> pieces_of(const std::string& name) {
 // The one number in which all names differ; empty when there is none, or more than one.
 std::vector<double> only_number(const std::vector<std::filesystem::path>& files) {
   std::vector<std::vector<std::string>> names;
+  names.reserve(files.size());
   for (const auto& f : files) names.push_back(pieces_of(f.filename().string()));
   std::optional<std::size_t> at;
   for (const auto& name : names) {

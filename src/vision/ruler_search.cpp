@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "vision/turned_picture.h"
 
@@ -156,7 +157,9 @@ std::pair<double, double> repeats(const std::vector<double>& profile) {
   double best = 0;
   constexpr double kStep = 0.02;  // relative
   double before = 0, here = 0;
-  for (double lag = kLeastLag; lag < std::min(kMostLag, most / 2.0) * (1 + kStep); lag *= 1 + kStep) {
+  double next = kLeastLag;
+  while (next < std::min(kMostLag, most / 2.0) * (1 + kStep)) {
+    const double lag = std::exchange(next, next * (1 + kStep));
     const double after = comb_score(r, lag);
     if (here >= before && here > after && here > 0) {
       tops.emplace_back(lag / (1 + kStep), here);
@@ -176,7 +179,9 @@ void search_copy(const GrayF& copy, double angle, double factor, std::vector<Per
     if (height > copy.height && height > copy.width) break;
     const double reach = turned.last_t() - turned.first_t() + 1 - height;
     const double stride = std::max(height / 2.0, reach / 300);
-    for (double t = turned.first_t() + (height - 1) / 2.0; t <= turned.last_t(); t += stride) {
+    double next = turned.first_t() + (height - 1) / 2.0;
+    while (next <= turned.last_t()) {
+      const double t = std::exchange(next, next + stride);
       const std::vector<double> profile = turned.profile(t, height);
       const auto there =
           std::count_if(profile.begin(), profile.end(), [](double v) { return std::isfinite(v); });

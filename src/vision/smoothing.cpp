@@ -39,7 +39,7 @@ void convolve_rows(const GrayF& from, const std::vector<float>& weights, GrayF& 
     std::copy(in, in + w, line.begin() + reach);
     for (int i = 1; i <= reach; ++i) {
       line[std::size_t(reach - i)] = in[mirrored(-i, w)];
-      line[std::size_t(reach + w - 1 + i)] = in[mirrored(w - 1 + i, w)];
+      line[std::size_t(reach + w) + std::size_t(i - 1)] = in[mirrored(w - 1 + i, w)];
     }
     float* out = &to.px[std::size_t(row) * std::size_t(w)];
     const float* middle = line.data() + reach;

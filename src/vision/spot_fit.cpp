@@ -176,6 +176,7 @@ class Neighbours {
 
 std::vector<Spot> fit_spots(const GrayF& difference, const std::vector<SpotSeed>& seeds, double sd_px) {
   std::vector<Shape> shapes;
+  shapes.reserve(seeds.size());
   for (const SpotSeed& seed : seeds)
     shapes.push_back({double(seed.col), double(seed.row), 0, 0, {sd_px * sd_px, 0, sd_px * sd_px}});
   Neighbours near(seeds, difference, 10 * sd_px + 3);

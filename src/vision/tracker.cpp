@@ -61,6 +61,7 @@ void Tracker::begin() {
   frame_s_ = gaps.empty() ? 1 : median_of(gaps);
   if (!(options_.reach_px > 0)) {
     std::vector<std::vector<Spot>> frames;
+    frames.reserve(first.size());
     for (const Waiting& w : first) frames.push_back(w.spots);
     options_.reach_px = displacement_reach(frames, &crowded_);
   }

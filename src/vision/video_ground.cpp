@@ -52,15 +52,15 @@ class Changes {
 /// The value below which a share of a normal law lies, to 4.5e-4 (Abramowitz and Stegun 26.2.23).
 double normal_quantile(double share) {
   const double t = std::sqrt(-2 * std::log(std::min(share, 1 - share)));
-  const double z = t - (2.515517 + t * (0.802853 + t * 0.010328)) /
-                           (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+  const double z =
+      t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
   return share < 0.5 ? -z : z;
 }
 
 GrayF quantile_over_time(const std::vector<GrayF>& frames, double share) {
   GrayF out(frames.front().width, frames.front().height);
   std::vector<float> values(frames.size());
-  const auto at = values.begin() + std::ptrdiff_t(share * double(frames.size() - 1) + 0.5);
+  const auto at = values.begin() + std::lround(share * double(frames.size() - 1));
   for (std::size_t i = 0; i < out.px.size(); ++i) {
     for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
     std::nth_element(values.begin(), at, values.end());

@@ -17,10 +17,10 @@ struct VideoGround {
 struct VideoGroundOptions {
   double fps = 0;  ///< as VideoReader takes it
   int side = 1;    ///< frames are averaged over squares of so many px
-  /// Share of the frames in which a pixel is darker than its light, noise taken out: a half is the median; more
-  /// where dark things cover it most of the time, less for bright ones.
+  /// Share of the frames in which a pixel is darker than its light, noise taken out: a half is the median;
+  /// more where dark things cover it most of the time, less for bright ones.
   double share = 0.5;
-  double from_s = 0, to_s = 1e300;  ///< frames before and after are left out
+  double from_s = 0, to_s = 1e300;     ///< frames before and after are left out
   std::function<void()> tick = [] {};  ///< called after each frame
 };
 

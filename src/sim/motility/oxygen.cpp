@@ -1,6 +1,7 @@
 #include "sim/motility/oxygen.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/portable_math.h"
@@ -8,7 +9,7 @@
 namespace faba {
 namespace {
 
-constexpr int kTerms = 60;
+constexpr std::size_t kTerms = 60;
 constexpr int kTimes = 257;
 constexpr double kRelaxed = 3.0;  // in R^2/D: exp(-5.78 * 3) = 3e-8, the drop is saturated
 
@@ -40,18 +41,34 @@ double bessel_j1(double x) { return bessel(x, 1); }
 
 OxygenProfile::OxygenProfile(double radius, double diffusivity)
     : radius_(radius), rate_(diffusivity / (radius * radius)) {
-  for (int n = 1; n <= kTerms; ++n) {
-    double root = (n - 0.25) * portable::kPi;  // McMahon; J0' = -J1
+  for (std::size_t n = 1; n <= kTerms; ++n) {
+    double root = (double(n) - 0.25) * portable::kPi;  // McMahon; J0' = -J1
     for (int i = 0; i < 6; ++i) root += bessel_j0(root) / bessel_j1(root);
     terms_.push_back({root, 2 / (root * bessel_j1(root))});
   }
-  table_.resize(std::size_t(kTimes) * kNodes);
-  for (int j = 0; j < kTimes; ++j)
+  fill_table();
+}
+
+// concentration() at all nodes, with what depends on the place only, and on the time only, worked out once.
+void OxygenProfile::fill_table() {
+  std::vector<double> in_space;
+  for (int i = 0; i < kNodes; ++i)
+    for (const Term& n : terms_)
+      in_space.push_back(n.weight * bessel_j0(n.root * std::min(radius_ * i / (kNodes - 1) / radius_, 1.0)));
+  table_.assign(std::size_t(kTimes) * kNodes, 0.0F);
+  table_[kNodes - 1] = 1;  // in the beginning there is oxygen at the edge only
+  std::array<double, kTerms> in_time{};
+  for (int j = 1; j < kTimes; ++j) {
+    const double s = double(j) / (kTimes - 1),
+                 t = s * s * kRelaxed / rate_;  // the steep beginning gets most nodes
+    for (std::size_t n = 0; n < kTerms; ++n)
+      in_time[n] = portable::exp(-(terms_[n].root * terms_[n].root * rate_) * t);
     for (int i = 0; i < kNodes; ++i) {
-      const double s = double(j) / (kTimes - 1);  // squared: the steep beginning gets most nodes
-      table_[std::size_t(j) * kNodes + std::size_t(i)] =
-          float(concentration(radius * i / (kNodes - 1), s * s * kRelaxed / rate_));
+      double sum = 0;
+      for (std::size_t n = 0; n < kTerms; ++n) sum += in_space[std::size_t(i) * kTerms + n] * in_time[n];
+      table_[std::size_t(j) * kNodes + std::size_t(i)] = float(std::clamp(1 - sum, 0.0, 1.0));
     }
+  }
 }
 
 double OxygenProfile::series(double r, double t, bool integrated) const {

@@ -19,6 +19,7 @@ class OxygenProfile {
   static constexpr int kNodes = 65;
 
  private:
+  void fill_table();
   double series(double r, double t, bool integrated) const;
   struct Term {
     double root, weight;  ///< l_n and 2 / (l_n J1(l_n))
