@@ -25,6 +25,9 @@ void summary(const Identification& r) {
     fmt::print("{}: score {:.3f}, fit p {:.2g}, {} simulations\n", m.name, m.score, m.fit_p, m.simulations);
     for (const FoundParameter& p : m.parameters) say(p);
   }
+  for (const LegacyModel& m : r.legacy)
+    fmt::print("legacy rule, not to be trusted: {}: slope is zero at {:.4g} {}{}\n", m.name, m.parameter.shown(m.zero),
+               m.parameter.shown_unit(), m.meaningless.empty() ? "" : "; means nothing: " + m.meaningless);
   fmt::print("{}\n", r.words);
 }
 

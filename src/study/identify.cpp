@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "study/found_model.h"
+#include "study/legacy_selection.h"
 #include "study/parameter_search.h"
 
 namespace faba {
@@ -277,8 +278,13 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   }
   r.statistics = o.statistics, r.experiments = o.experiments;
   judge(r);
-  return foretell(study, r, *searches[r.best].search, o, parts, results, options) ? std::optional(r)
-                                                                                  : std::nullopt;
+  if (!foretell(study, r, *searches[r.best].search, o, parts, results, options)) return {};
+  if (study.legacy) {
+    auto legacy = legacy_selection(study, r.videos, results, options, [&] { reading(0); });
+    if (!legacy) return {};
+    r.legacy = std::move(*legacy);
+  }
+  return r;
 }
 
 }  // namespace faba

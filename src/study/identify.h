@@ -8,6 +8,7 @@
 
 #include "study/episode_simulation.h"
 #include "study/free_parameter.h"
+#include "study/statistics.h"
 #include "study/sweep.h"
 
 namespace faba {
@@ -27,6 +28,7 @@ struct IdentifyStudy {
   Look look = Look::video;
   Measure measure = Measure::density;
   int simulations = 600;  ///< of each episode with each candidate
+  bool legacy = false;    ///< the thesis's rule, too
   std::optional<double>
       timing_s;  ///< how well the moments are known at which the field turns, sd; 0.58 frames when empty
   Json scene = Json::object();
@@ -71,6 +73,32 @@ struct FoundModel {
   Json best;  ///< values of the parameters at the posterior's median, by path
 };
 
+/// One simulation against one drive of a video, as the thesis compared them.
+struct LegacySimulation {
+  double value = 0;  ///< of the parameter
+  std::size_t video = 0, episode = 0, repeat = 0;
+  std::vector<double> distance;  ///< of each pair of frames
+  LineFit line;                  ///< of it against the number of the frame
+  double mean = 0;
+};
+
+/// What the selection rule of the 2016 thesis says of one model (theory A19), bug for bug: five values of its
+/// first free parameter, three simulations of each against the first drive of every episode, rendered without
+/// the camera's noise; a line through each distance over the frames; a line through their slopes over the
+/// values; the value at which that is zero is called best. Not to be trusted: a distance that is flat has
+/// slope zero however large it is (theory E1).
+struct LegacyModel {
+  std::string name;
+  FreeParameter parameter;
+  std::vector<LegacySimulation> simulations;
+  LineFit slopes;                                  ///< of the distance's slope against the parameter
+  double zero = 0;                                 ///< where it crosses zero
+  std::optional<std::array<double, 2>> zero_ci95;  ///< Fieller's; empty when it has no bounds
+  double mean = 0, sd = 0;                         ///< of the mean distances of all simulations
+  double least_distance_at = 0;                    ///< the value whose simulations are nearest: a better rule
+  std::string meaningless;  ///< why its answer means nothing; empty when nothing shows it
+};
+
 struct Identification {
   IdentifyStudy study;
   std::vector<ResponseVideo> videos;
@@ -90,6 +118,7 @@ struct Identification {
   std::optional<std::array<double, 2>>
       ahead_ci95;  ///< of the best model's lead over the next, per experiment
   double ahead = 0;
+  std::vector<LegacyModel> legacy;  ///< what the thesis's rule says of each candidate, when it was asked for
 };
 
 /// Surveys the videos, simulates what `results` has not yet, and concludes. Empty when other shards have

@@ -20,6 +20,11 @@ constexpr double kNinety = -1.353;  // 90 % of one degree of freedom: half of 2.
 
 using Statistic = Identification::Statistic;
 
+std::string short_name(const std::string& path) {
+  const auto dot = path.find_last_of('.');
+  return dot == std::string::npos ? path : path.substr(dot + 1);
+}
+
 std::string label_of(const FreeParameter& p) {
   const std::string unit = p.shown_unit();
   return p.path + (unit.empty() ? "" : " (" + unit + ")");
@@ -216,6 +221,42 @@ Figure profile_figure(const FoundParameter& p) {
   f.plot.add(Rule{.at = kNinety, .label = "90 %", .of_x = false});
   f.plot.add(Line{.x = x, .y = p.profile, .label = {}, .ink = Ink::blue});
   return f;
+}
+
+std::vector<Figure> legacy_figures(const LegacyModel& m) {
+  const FreeParameter& q = m.parameter;
+  Figure over{m.name + ": difference over the frames",
+              "Quadratic-Chi distance between the flows of the video and of a simulation, pair by pair, with its line: "
+              "the first simulation of each value.",
+              plot_of("Difference over the frames", "pair of frames", "difference")};
+  Figure slopes{m.name + ": slope against " + short_name(q.path),
+                fmt::format("Each dot is the slope of one simulation. Their line is zero at {}.",
+                            three_digits(q.shown(m.zero))),
+                plot_of("Slope against the parameter", label_of(q), "slope per pair")};
+  Scatter dots{.x = {}, .y = {}, .label = {}, .ink = Ink::blue};
+  constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange};
+  std::size_t shown = 0;
+  for (const LegacySimulation& s : m.simulations) {
+    dots.x.push_back(q.shown(s.value)), dots.y.push_back(s.line.slope);
+    if (s.repeat > 0 || s.video > 0 || s.episode > 0) continue;
+    const Ink ink = kInks[shown++ % std::size(kInks)];
+    Line series{.x = {}, .y = s.distance, .label = three_digits(q.shown(s.value)), .ink = ink, .width = 1.2};
+    for (std::size_t i = 0; i < s.distance.size(); ++i) series.x.push_back(double(i));
+    const double last = double(s.distance.size() - 1);
+    over.plot.add(std::move(series));
+    over.plot.add(Line{.x = {0, last},
+                       .y = {s.line.intercept, s.line.intercept + s.line.slope * last},
+                       .label = {},
+                       .ink = ink,
+                       .dashed = true});
+  }
+  const auto [low, high] = std::minmax_element(dots.x.begin(), dots.x.end());
+  const double per_shown = q.shown(1);
+  const auto line_at = [&](double x) { return m.slopes.intercept + m.slopes.slope * x / per_shown; };
+  slopes.plot.add(Rule{.at = 0, .label = {}, .of_x = false});
+  slopes.plot.add(Line{.x = {*low, *high}, .y = {line_at(*low), line_at(*high)}, .label = {}, .ink = Ink::vermillion});
+  slopes.plot.add(std::move(dots));
+  return {over, slopes};
 }
 
 std::vector<EpisodePictures> episode_pictures(const Identification& r) {

@@ -44,6 +44,17 @@ nlohmann::ordered_json identify_json(const Identification& r) {
     one["foretold90"] = r.models[r.best].foretold90[k];
     j["statistics"].push_back(std::move(one));
   }
+  for (const LegacyModel& m : r.legacy)
+    j["legacy"].push_back(
+        {{"name", m.name},
+         {"parameter", m.parameter.path},
+         {"zero", m.zero},
+         {"zero_ci95", m.zero_ci95 ? Json(*m.zero_ci95) : Json()},
+         {"slope_of_slopes", {{"slope", m.slopes.slope}, {"se", m.slopes.se_slope}, {"intercept", m.slopes.intercept}}},
+         {"mean", m.mean},
+         {"sd", m.sd},
+         {"least_distance_at", m.least_distance_at},
+         {"meaningless", m.meaningless.empty() ? Json() : Json(m.meaningless)}});
   Json notes = Json::array();
   for (const ResponseVideo& v : r.videos)
     for (const std::string& note : v.notes) notes.push_back(v.input.file.string() + ": " + note);

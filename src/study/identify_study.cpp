@@ -20,6 +20,7 @@ struct StudyFile {
   Look look = Look::video;
   std::optional<Measure> measure;
   int simulations = 600;
+  bool legacy = false;
   std::optional<double> um_per_px, reversal, direction, duration, timing;
   std::string scale;
   double drive = 1e-3;
@@ -40,6 +41,8 @@ struct StudyFile {
               .choices = {"density", "tracks"}})
         .add("simulations", &StudyFile::simulations,
              {.min = 100, .max = 1e6, .doc = "Simulations of each video with each model"})
+        .add("legacy", &StudyFile::legacy,
+             {.doc = "Also what the selection rule of the 2016 thesis says, which is not to be trusted"})
         .add("um_per_px", &StudyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
         .add("scale", &StudyFile::scale, {.doc = "Calibration file of `faba scale`, in place of um_per_px"})
         .add("reversal", &StudyFile::reversal,
@@ -167,7 +170,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   study.title = f.title.empty() ? file.stem().string() : f.title;
   study.seed = f.seed, study.boundary = f.boundary, study.look = f.look, study.simulations = f.simulations;
   study.measure = f.measure.value_or(f.boundary == Boundary::none ? Measure::tracks : Measure::density);
-  study.timing_s = f.timing;
+  study.timing_s = f.timing, study.legacy = f.legacy;
   if (root.has("scene")) {
     if (!root.child("scene").json->is_object())
       root.child("scene").fail("must be a table with tables of a scenario");

@@ -32,22 +32,6 @@ constexpr double kUncovered = 0.85;     // share of the frames in which a place 
 constexpr double kReach = 2;            // times as far as what is seen
 constexpr double kWhite = 255;
 
-/// The frames of a video that are nearest to given moments, greys of 0 to 255.
-std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
-                             const std::function<void()>& tick) {
-  GreyVideo video(v.file, v.input.fps, v.side);
-  std::vector<GrayF> frames(times_s.size());
-  std::vector<double> off(times_s.size(), std::numeric_limits<double>::infinity());
-  const double last = times_s.empty() ? 0 : *std::max_element(times_s.begin(), times_s.end());
-  GrayF frame;
-  for (double t = 0; video.read(frame, t) && t <= last + 1;) {
-    tick();
-    for (std::size_t i = 0; i < times_s.size(); ++i)
-      if (const double d = std::fabs(t - times_s[i]); d < off[i]) frames[i] = frame, off[i] = d;
-  }
-  return frames;
-}
-
 // Cells one by one where they can be told apart; where not, as many places as there are cells, spread as what
 // is seen.
 std::vector<Vec2> places_in(const GrayF& frame, const ResponseVideo& v, Measure measure, double noise) {
@@ -223,6 +207,21 @@ void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
 }
 
 }  // namespace
+
+std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
+                             const std::function<void()>& tick) {
+  GreyVideo video(v.file, v.input.fps, v.side);
+  std::vector<GrayF> frames(times_s.size());
+  std::vector<double> off(times_s.size(), std::numeric_limits<double>::infinity());
+  const double last = times_s.empty() ? 0 : *std::max_element(times_s.begin(), times_s.end());
+  GrayF frame;
+  for (double t = 0; video.read(frame, t) && t <= last + 1;) {
+    tick();
+    for (std::size_t i = 0; i < times_s.size(); ++i)
+      if (const double d = std::fabs(t - times_s[i]); d < off[i]) frames[i] = frame, off[i] = d;
+  }
+  return frames;
+}
 
 std::vector<double> picture_times(const Episode& e) {
   const double length = e.drives.front().t1_s;

@@ -51,6 +51,11 @@ struct ResponseVideo {
   std::vector<std::string> notes;
 };
 
+/// The frames of the video that are nearest to given moments, greys of 0 to 255. `tick` is called after each
+/// frame that is read.
+std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
+                             const std::function<void()>& tick);
+
 /// Moments of an episode that pictures are shown of, s.
 std::vector<double> picture_times(const Episode& episode);
 

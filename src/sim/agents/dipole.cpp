@@ -34,6 +34,7 @@ class Dipole final : public AgentModel {
     double speed = 186e-6;
     double speed_sd = 45e-6;
     double speed_max = 320e-6;
+    double motile = 1;
     double reversal_rate = 0;
     double tumble_rate = 0;
     std::optional<double> tumble_sd;
@@ -186,6 +187,11 @@ Schema<Dipole::Params> Dipole::schema() {
             .max = 1e-2,
             .doc = "Largest speed; the normal law is cut off to [0, speed_max]",
             .source = "assumed (B4)"})
+      .add("motile", &Params::motile,
+           {.min = 0,
+            .max = 1,
+            .doc = "Share of the cells that swim; the others turn with the field and diffuse where they are",
+            .source = "assumed"})
       .add("reversal_rate", &Params::reversal_rate,
            {.unit = "1/s",
             .min = 0,
@@ -258,7 +264,8 @@ void Dipole::start(State& s, std::size_t begin, std::size_t end, std::uint64_t s
       } while ((v < 0 || v > p_.speed_max) && attempt < 1000);
       v = std::clamp(v, 0.0, p_.speed_max);
     }
-    speed[i] = float(v);
+    const double luck = (double(w[3]) + 0.5) * 0x1p-32;
+    speed[i] = luck < p_.motile ? float(v) : 0.0F;
   }
 }
 
