@@ -73,7 +73,7 @@ def main_parameter(model):
 
 
 def study(t, simulations):
-    lines = [f"seed = {t['number'] + 1}", f"simulations = {simulations}", 'boundary = "drop"', f'drive = "{FIELD * 1e6} uT"',
+    lines = [f"seed = {t['number'] + 1}", f"simulations = {simulations}", "legacy = true", 'boundary = "drop"', f'drive = "{FIELD * 1e6} uT"',
              "[scene]", 'motility = "thesis"', "[[video]]", 'file = "film"', f'exposure = "{t["exposure"]} s"']
     for m in MODELS:
         low, high = RANGE[m]
@@ -115,17 +115,19 @@ def experiment(t, o):
     p = own["parameters"][main_parameter(t["model"])]
     low, high = (x / unit for x in p["ci90"])
     count = own["parameters"]["swarm[0].count"]
+    legacy = next(m for m in found["legacy"] if m["name"] == t["model"])
     return {**t, "found": p["median"] / unit, "low": low, "high": high, "cells_found": count["median"], "cells_ci90": count["ci90"],
-            "best": found["best"], "evidence": found["evidence"], "fit_p": own["fit_p"]}
+            "legacy": legacy["zero"] / unit, "legacy_means_nothing": legacy["meaningless"] is not None, "best": found["best"], "evidence": found["evidence"], "fit_p": own["fit_p"]}
 
 
 def row(x):
     truth = f"| {x['number']} | {x['model']} | {x['value']:g} | {x['cells']} | {x['noise'] * 255:.1f} | {x['exposure']} "
     if "failed" in x:
-        return truth + f"| {x['failed']} | | | | |"
+        return truth + f"| {x['failed']} | | | | | |"
     inside = "" if x["low"] <= x["value"] <= x["high"] else " outside"
+    nothing = " (means nothing)" if x["legacy_means_nothing"] else ""
     return truth + (f"| {x['found']:.3g} | {x['low']:.3g} to {x['high']:.3g}{inside} | {100 * (x['found'] / x['value'] - 1):+.1f} % "
-                    f"| {x['best']} | {x['evidence']} |")
+                    f"| {x['best']} | {x['evidence']} | {100 * (x['legacy'] / x['value'] - 1):+.0f} %{nothing} |")
 
 
 def main():
@@ -140,8 +142,8 @@ def main():
     o.program, o.keep = o.program.resolve(), o.keep.resolve()
 
     rows = []
-    print("| | model | truth | cells | noise, grey | in air, s | found | 90 % | error | named | evidence |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| | model | truth | cells | noise, grey | in air, s | found | 90 % | error | named | evidence | legacy rule's error |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for number in range(o.experiments):
         rows.append(experiment(draw(number, o.seed), o))
         print(row(rows[-1]), flush=True)
@@ -149,6 +151,7 @@ def main():
     clear = [x for x in good if x["evidence"] == "clear"]
     covered = sum(x["low"] <= x["value"] <= x["high"] for x in good)
     error = statistics.median(abs(x["found"] / x["value"] - 1) for x in good) if good else math.nan
+    legacy = statistics.median(abs(x["legacy"] / x["value"] - 1) for x in good) if good else math.nan
     named = sum(x["best"] == x["model"] for x in clear)
     goals = [("identified", len(good), len(rows), len(good) == len(rows)),
              ("90 % intervals hold the truth", covered, len(good), 0.8 * len(good) <= covered <= 0.98 * len(good)),
@@ -158,6 +161,8 @@ def main():
     print()
     for what, n, of, met in goals:
         print(f"- {what}: {n}{f' of {of}' if of != '' else ''}{'' if met else ' NOT MET'}")
+    print(f"- the legacy rule's median error: {100 * legacy:.0f} %; {sum(x['legacy_means_nothing'] for x in good)} of {len(good)} "
+          "times its answer is said to mean nothing")
     o.out.mkdir(parents=True, exist_ok=True)
     (o.out / "recovery.json").write_text(json.dumps({"experiments": rows, "simulations": o.simulations, "seed": o.seed}, indent=1) + "\n")
     sys.exit(0 if all(g[3] for g in goals) else 1)

@@ -26,8 +26,9 @@ void summary(const Identification& r) {
     for (const FoundParameter& p : m.parameters) say(p);
   }
   for (const LegacyModel& m : r.legacy)
-    fmt::print("legacy rule, not to be trusted: {}: slope is zero at {:.4g} {}{}\n", m.name, m.parameter.shown(m.zero),
-               m.parameter.shown_unit(), m.meaningless.empty() ? "" : "; means nothing: " + m.meaningless);
+    fmt::print("legacy rule, not to be trusted: {}: slope is zero at {:.4g} {}{}\n", m.name,
+               m.parameter.shown(m.zero), m.parameter.shown_unit(),
+               m.meaningless.empty() ? "" : "; means nothing: " + m.meaningless);
   fmt::print("{}\n", r.words);
 }
 

@@ -226,7 +226,8 @@ Figure profile_figure(const FoundParameter& p) {
 std::vector<Figure> legacy_figures(const LegacyModel& m) {
   const FreeParameter& q = m.parameter;
   Figure over{m.name + ": difference over the frames",
-              "Quadratic-Chi distance between the flows of the video and of a simulation, pair by pair, with its line: "
+              "Quadratic-Chi distance between the flows of the video and of a simulation, pair by pair, with "
+              "its line: "
               "the first simulation of each value.",
               plot_of("Difference over the frames", "pair of frames", "difference")};
   Figure slopes{m.name + ": slope against " + short_name(q.path),
@@ -254,7 +255,8 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
   const double per_shown = q.shown(1);
   const auto line_at = [&](double x) { return m.slopes.intercept + m.slopes.slope * x / per_shown; };
   slopes.plot.add(Rule{.at = 0, .label = {}, .of_x = false});
-  slopes.plot.add(Line{.x = {*low, *high}, .y = {line_at(*low), line_at(*high)}, .label = {}, .ink = Ink::vermillion});
+  slopes.plot.add(
+      Line{.x = {*low, *high}, .y = {line_at(*low), line_at(*high)}, .label = {}, .ink = Ink::vermillion});
   slopes.plot.add(std::move(dots));
   return {over, slopes};
 }

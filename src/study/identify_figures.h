@@ -14,8 +14,8 @@ std::vector<Figure> predictive_figures(const Identification& result);
 Figure posterior_figure(const FoundParameter& parameter);
 Figure profile_figure(const FoundParameter& parameter);
 
-/// The thesis's rule for one model: distances of its simulations over the frames (Fig. 3.31), and their slopes
-/// against the parameter (Figs. 3.32, 4.14 to 4.16).
+/// The thesis's rule for one model: distances of its simulations over the frames (Fig. 3.31), and their
+/// slopes against the parameter (Figs. 3.32, 4.14 to 4.16).
 std::vector<Figure> legacy_figures(const LegacyModel& model);
 
 /// A drive of an episode as it was and as it is simulated, and how cells are spread along it.

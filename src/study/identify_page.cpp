@@ -105,21 +105,27 @@ std::string pictures(const Identification& r) {
 std::string legacy(const Identification& r) {
   if (r.legacy.empty()) return "";
   std::string out =
-      "<h2>Legacy: what the rule of the 2016 thesis says</h2>\n<p class=\"warning\">Not to be trusted: it looks for a "
-      "difference that does not grow, and one that is large from the beginning does not grow either. With known truth "
+      "<h2>Legacy: what the rule of the 2016 thesis says</h2>\n<p class=\"warning\">Not to be trusted: it "
+      "looks for a "
+      "difference that does not grow, and one that is large from the beginning does not grow either. With "
+      "known truth "
       "it fails; the figures above do not rest on it.</p>\n<div class=\"wide\"><table "
-      "class=\"numbers\">\n<thead><tr><th>model</th><th>slope is zero at</th><th>95 %</th><th>difference, mean ± "
+      "class=\"numbers\">\n<thead><tr><th>model</th><th>slope is zero at</th><th>95 %</th><th>difference, "
+      "mean ± "
       "s.d.</th><th>least difference at</th></tr></thead>\n<tbody>\n";
   for (const LegacyModel& m : r.legacy) {
     const FreeParameter& q = m.parameter;
-    const std::string interval =
-        m.zero_ci95 ? fmt::format("{} to {}", three_digits(q.shown((*m.zero_ci95)[0])), three_digits(q.shown((*m.zero_ci95)[1])))
-                    : "no bounds";
-    out += fmt::format("<tr><th scope=\"row\">{}<small>{}</small></th><td>{}</td><td>{}</td><td>{} ± {}</td><td>{}</td></tr>\n",
-                       escape_markup(m.name),
-                       escape_markup(m.meaningless.empty() ? "" : "Means nothing: " + m.meaningless + "."),
-                       three_digits(q.shown(m.zero)), interval, three_digits(m.mean), three_digits(m.sd),
-                       three_digits(q.shown(m.least_distance_at)));
+    const std::string interval = m.zero_ci95
+                                     ? fmt::format("{} to {}", three_digits(q.shown((*m.zero_ci95)[0])),
+                                                   three_digits(q.shown((*m.zero_ci95)[1])))
+                                     : "no bounds";
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}<small>{}</small></th><td>{}</td><td>{}</td><td>{} ± "
+        "{}</td><td>{}</td></tr>\n",
+        escape_markup(m.name),
+        escape_markup(m.meaningless.empty() ? "" : "Means nothing: " + m.meaningless + "."),
+        three_digits(q.shown(m.zero)), interval, three_digits(m.mean), three_digits(m.sd),
+        three_digits(q.shown(m.least_distance_at)));
   }
   out += "</tbody></table></div>\n<div class=\"figures\">\n";
   for (const LegacyModel& m : r.legacy)

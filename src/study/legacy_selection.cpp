@@ -16,8 +16,8 @@
 namespace faba {
 namespace {
 
-constexpr int kValues = 5, kRepeats = 3;        // of the thesis
-constexpr double kM = 0.9, kThreshold = 3;      // of the distance (A17)
+constexpr int kValues = 5, kRepeats = 3;    // of the thesis
+constexpr double kM = 0.9, kThreshold = 3;  // of the distance (A17)
 constexpr const char* kVersion = "legacy 1";
 
 /// The first drive of an episode as the thesis looked at it: the flow of every pair of frames.
@@ -91,18 +91,20 @@ void conclude(LegacyModel& m) {
   const auto [low, high] = std::minmax_element(value.begin(), value.end());
   const FreeParameter& p = m.parameter;
   if (!m.zero_ci95)
-    m.meaningless = fmt::format("the slope does not depend on {} beyond chance, so that its zero may lie anywhere", p.path);
+    m.meaningless = fmt::format(
+        "the slope does not depend on {} beyond chance, so that its zero may lie anywhere", p.path);
   else if (m.zero < *low || m.zero > *high)
-    m.meaningless = fmt::format("its zero, {:.4g}, lies beyond all values that were tried, {:.4g} to {:.4g}{}",
-                                p.shown(m.zero), p.shown(*low), p.shown(*high),
-                                p.shown_unit().empty() ? "" : " " + p.shown_unit());
+    m.meaningless = fmt::format(
+        "its zero, {:.4g}, lies beyond all values that were tried, {:.4g} to {:.4g}{}", p.shown(m.zero),
+        p.shown(*low), p.shown(*high), p.shown_unit().empty() ? "" : " " + p.shown_unit());
 }
 
 }  // namespace
 
 std::optional<std::array<double, 2>> zero_crossing_ci95(const LineFit& line, double mean_x) {
   const double t = student_t_quantile(0.975, line.freedom), tt = t * t;
-  const double va = line.se_slope * line.se_slope, vb = line.se_intercept * line.se_intercept, vab = -mean_x * va;
+  const double va = line.se_slope * line.se_slope, vb = line.se_intercept * line.se_intercept,
+               vab = -mean_x * va;
   const double a = line.slope * line.slope - tt * va, b = line.slope * line.intercept - tt * vab,
                c = line.intercept * line.intercept - tt * vb;
   if (!(a > 0)) return {};
@@ -145,8 +147,8 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
             const auto scenario = std::make_shared<const Document>(std::move(d));
             tasks.push_back({task_key(fmt::format("{} {} {}", kVersion, scenario->root.dump(), seed)),
                              [scenario, seed, &r, &video, &parts] {
-                               return distances(r, simulate_episode(read_scenario(*scenario, parts), seed, 0, r.times_s,
-                                                                    Look::video, video.ground)
+                               return distances(r, simulate_episode(read_scenario(*scenario, parts), seed, 0,
+                                                                    r.times_s, Look::video, video.ground)
                                                        .frames);
                              }});
           }
