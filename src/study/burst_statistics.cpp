@@ -17,8 +17,15 @@ constexpr int kSeenIn = 6;       // frames of a burst at least, that a cell must
 constexpr double kFrom = 0.2;    // share of a drive after which the first burst begins: cells have turned
 constexpr double kTo = 0.9;      // and before which the last one ends: the end is not known to the frame
 constexpr double kStill = 0.01;  // px^2: added to squared steps before the logarithm
-constexpr const char* kWhat[] = {"10 % of speeds along",    "median speed along", "90 % of speeds along",
-                                 "spread of speeds across", "median step",        "cells followed"};
+/// A number, and how uncertain it is beside chance: real cells differ in more than a model knows of, and
+/// others than cells are followed. Speeds in px per frame, the last two are logarithms. Assumed.
+struct What {
+  const char* name;
+  double blur;
+};
+constexpr What kWhat[] = {{"10 % of speeds along", 0.1}, {"median speed along", 0.05},
+                          {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
+                          {"median step", 0.3},          {"cells followed", 0.3}};
 
 double quantile(std::vector<double>& v, double p) {
   const auto at = v.begin() + std::ptrdiff_t(p * double(v.size() - 1) + 0.5);
@@ -38,7 +45,7 @@ class BurstStatistics final : public EpisodeStatistics {
       for (int b = 0; b < kBursts; ++b)
         for (int k = 0; k < kFrames; ++k)
           times_s_.push_back(drive.t0_s + first + (last - first) * b / (kBursts - 1) + k * view.frame_s);
-      for (const char* what : kWhat) numbers_.push_back({what, d, drive.t1_s});
+      for (const What& what : kWhat) numbers_.push_back({what.name, d, drive.t1_s});
     }
   }
 
@@ -56,6 +63,11 @@ class BurstStatistics final : public EpisodeStatistics {
       for (const Vec2 at : frame) one.push_back({.x_px = at.x, .y_px = at.y, .mass = 1, .snr = 10});
     }
     return summed(spots);
+  }
+
+  void blur(std::vector<double>& numbers, StudyRandom& random) const override {
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      numbers[k] += kWhat[k % std::size(kWhat)].blur * random.normal();
   }
 
  private:

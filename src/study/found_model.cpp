@@ -204,16 +204,22 @@ void judge(Identification& r) {
   const double se = sample_sd(lead) / std::sqrt(n), half = student_t_quantile(0.975, n - 1) * se;
   r.ahead_ci95 = {r.ahead - half, r.ahead + half};
   r.evidence = r.ahead - half > 0 ? "clear" : r.ahead > se ? "weak" : "none";
+  // Of models that foretell equally well the one with the fewest parameters will do.
+  std::string simpler;
+  if (r.evidence == "none" && next.parameters.size() < best.parameters.size()) {
+    r.best = order[1];
+    simpler = fmt::format(" {} has fewer parameters and will do.", next.name);
+  }
   const std::string lead_words =
       fmt::format("its energy score is {:.3g} less per experiment, 95 % {:.3g} to {:.3g}", r.ahead,
                   (*r.ahead_ci95)[0], (*r.ahead_ci95)[1]);
-  r.words =
-      (r.evidence == "clear"
-           ? fmt::format("{} foretells experiments better than {}: {}.", best.name, next.name, lead_words)
-       : r.evidence == "weak"
-           ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
-           : fmt::format("No evidence either way between {} and {}: {}.", best.name, next.name, lead_words)) +
-      poor;
+  r.words = (r.evidence == "clear" ? fmt::format("{} foretells experiments better than {}: {}.", best.name,
+                                                 next.name, lead_words)
+             : r.evidence == "weak"
+                 ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
+                 : fmt::format("No evidence either way between {} and {}: {}.{}", best.name, next.name,
+                               lead_words, simpler)) +
+            poor;
 }
 
 }  // namespace faba

@@ -140,9 +140,9 @@ class Round {
                           const SeenEpisode seen =
                               simulate_episode(read_scenario(*d, parts_), seed, lead,
                                                part.statistics->times_s(), study_.look, video.ground);
-                          if (study_.look == Look::positions)
-                            return part.statistics->of_positions(seen.positions);
-                          std::vector<double> numbers = part.statistics->of_frames(seen.frames);
+                          std::vector<double> numbers = study_.look == Look::video
+                                                            ? part.statistics->of_frames(seen.frames)
+                                                            : part.statistics->of_positions(seen.positions);
                           StudyRandom random(seed, 10);
                           part.statistics->blur(numbers, random);
                           return numbers;

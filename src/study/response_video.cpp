@@ -132,11 +132,14 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
   return episodes;
 }
 
-// The light behind cells that cover most of the places where they are held, and the noise.
-void find_ground(ResponseVideo& v, double from_s, double to_s, const std::function<void()>& tick) {
+// The light behind crowds that cover the place where they are held for most of the time, and the noise. Where
+// cells are followed one by one what stands still is background.
+void find_ground(ResponseVideo& v, Measure measure, double from_s, double to_s,
+                 const std::function<void()>& tick) {
   VideoGroundOptions o;
   o.fps = v.input.fps, o.side = v.side, o.tick = tick;
-  o.share = v.view.cells.polarity == Polarity::bright ? 1 - kUncovered : kUncovered;
+  if (measure == Measure::density)
+    o.share = v.view.cells.polarity == Polarity::bright ? 1 - kUncovered : kUncovered;
   o.from_s = from_s - 0.5 * v.view.frame_s, o.to_s = to_s + 0.5 * v.view.frame_s;
   v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, o));
   Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
@@ -146,7 +149,8 @@ void find_ground(ResponseVideo& v, double from_s, double to_s, const std::functi
 }
 
 // Light, noise and looks of the cells, and the place.
-TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, const std::function<void()>& tick) {
+TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
+                        const std::function<void()>& tick) {
   const std::string name = v.input.file.string();
   TrackOptions options;
   options.video = v.input.file, options.fps = v.input.fps;
@@ -169,7 +173,7 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, const std::function
   v.view.width = s.first.width, v.view.height = s.first.height, v.view.frame_s = s.frame_s;
   v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
-  find_ground(v, 0, s.duration_s, tick);
+  find_ground(v, measure, 0, s.duration_s, tick);
   if (boundary == Boundary::drop) {
     DropEdgeOptions edge;
     edge.name = name;
@@ -238,7 +242,7 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   if (!scale)
     throw Error(Errc::input, input.file.string(), "has no scale; give um_per_px, or a calibration file");
   v.um_per_px = *scale;
-  const TrackSurvey survey = survey_view(v, boundary, tick);
+  const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
   const std::vector<Drive> drives = drives_in(v, boundary, survey.duration_s, tick);
   v.drives_found = input.drives.empty() && !(input.reversal_s && input.direction_deg);
@@ -252,8 +256,9 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
               d.t0_s, d.t1_s, shortest, survey.duration_s));
   v.episodes = episodes_of(v, boundary, drives);
   // Before the first drive a swarm may wait at one place for longer than it moves.
-  if (drives.front().t0_s > 0.2 * survey.duration_s || drives.back().t1_s < 0.8 * survey.duration_s)
-    find_ground(v, drives.front().t0_s, drives.back().t1_s, tick);
+  if (measure == Measure::density &&
+      (drives.front().t0_s > 0.2 * survey.duration_s || drives.back().t1_s < 0.8 * survey.duration_s))
+    find_ground(v, measure, drives.front().t0_s, drives.back().t1_s, tick);
 
   // One pass for all frames: where cells begin, what is measured, what is shown.
   std::vector<double> moments;
