@@ -39,8 +39,16 @@ int identify(const StudyVerb& v, const Common& c) {
   Progress bar("simulating", !c.quiet && !c.json);
   SweepOptions options = sweep_options(v, bar);
   StudyDirectory dir = open_study(v, "identify", fingerprint(study));
-  const auto result = identify(study, dir.results(), options, [](std::size_t) {});
-  bar.clear();
+  Progress reader("reading, frames", !c.quiet && !c.json);
+  std::uint64_t frames = 0;
+  const auto simulating = options.progress;
+  options.progress = [&](std::uint64_t done, std::uint64_t total) {
+    reader.clear();
+    simulating(done, total);
+  };
+  const auto result =
+      identify(study, dir.results(), options, [&](std::size_t) { reader.update(++frames, 0); });
+  reader.clear(), bar.clear();
   if (!result) return tell_partial(v, c, dir);
   const auto j = identify_json(*result);
   write_best_scene(*result, dir.path());

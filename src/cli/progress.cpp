@@ -46,13 +46,18 @@ void Progress::clear() {
 }
 
 void Progress::update(std::uint64_t done, std::uint64_t total) {
-  if (!enabled_ || total == 0) return;
+  if (!enabled_) return;
   if (!started_) started_ = true, first_ = done > 0 ? done - 1 : 0;
   const auto now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - began_).count();
   if (elapsed < 1 || std::chrono::duration<double>(now - drawn_).count() < 0.1) return;
   drawn_ = now;
   shown_ = true;
+  if (total == 0) {
+    std::fputs(fmt::format("\r\033[K{}: {}", what_, done).c_str(), stderr);
+    std::fflush(stderr);
+    return;
+  }
   const double fraction = double(done) / double(total);
   const double left = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
   const int width = bar_width(what_.size()), full = int(fraction * width);

@@ -5,8 +5,8 @@
 
 namespace faba::cli {
 
-/// A bar with the time still to go on the last line of the terminal, once the work has lasted a second.
-/// Silent when standard error is no terminal.
+/// A bar with the time still to go on the last line of the terminal, once the work has lasted a second; a
+/// count where it is not known how much there is (total 0). Silent when standard error is no terminal.
 class Progress {
  public:
   Progress(std::string what, bool enabled);
