@@ -141,12 +141,17 @@ def main():
     o = a.parse_args()
     o.program, o.keep = o.program.resolve(), o.keep.resolve()
 
-    rows = []
-    print("| | model | truth | cells | noise, grey | in air, s | found | 90 % | error | named | evidence | legacy rule's error |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
+    rows, table = [], []
+
+    def say(line):
+        table.append(line)
+        print(line, flush=True)
+
+    say("| | model | truth | cells | noise, grey | in air, s | found | 90 % | error | named | evidence | legacy rule's error |")
+    say("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for number in range(o.experiments):
         rows.append(experiment(draw(number, o.seed), o))
-        print(row(rows[-1]), flush=True)
+        say(row(rows[-1]))
     good = [x for x in rows if "failed" not in x]
     clear = [x for x in good if x["evidence"] == "clear"]
     covered = sum(x["low"] <= x["value"] <= x["high"] for x in good)
@@ -158,12 +163,13 @@ def main():
              ("median error of the main parameter under 5 %", f"{100 * error:.1f} %", "", error < 0.05),
              ("evidence is clear, half or more", len(clear), len(good), 2 * len(clear) >= len(good)),
              ("where it is, the right model is named, nine in ten", named, len(clear), named >= 0.9 * len(clear))]
-    print()
+    say("")
     for what, n, of, met in goals:
-        print(f"- {what}: {n}{f' of {of}' if of != '' else ''}{'' if met else ' NOT MET'}")
-    print(f"- the legacy rule's median error: {100 * legacy:.0f} %; {sum(x['legacy_means_nothing'] for x in good)} of {len(good)} "
+        say(f"- {what}: {n}{f' of {of}' if of != '' else ''}{'' if met else ' NOT MET'}")
+    say(f"- the legacy rule's median error: {100 * legacy:.0f} %; {sum(x['legacy_means_nothing'] for x in good)} of {len(good)} "
           "times its answer is said to mean nothing")
     o.out.mkdir(parents=True, exist_ok=True)
+    (o.out / "recovery.md").write_text("\n".join(table) + "\n")
     (o.out / "recovery.json").write_text(json.dumps({"experiments": rows, "simulations": o.simulations, "seed": o.seed}, indent=1) + "\n")
     sys.exit(0 if all(g[3] for g in goals) else 1)
 

@@ -46,8 +46,7 @@ int identify(const StudyVerb& v, const Common& c) {
     reader.clear();
     simulating(done, total);
   };
-  const auto result =
-      identify(study, dir.results(), options, [&](std::size_t) { reader.update(++frames, 0); });
+  const auto result = identify(study, dir.results(), options, [&] { reader.update(++frames, 0); });
   reader.clear(), bar.clear();
   if (!result) return tell_partial(v, c, dir);
   const auto j = identify_json(*result);

@@ -1,10 +1,8 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "study/episode.h"
+#include "study/statistics.h"
 #include "vision/detector.h"
 #include "vision/tracker.h"
 
@@ -27,12 +25,6 @@ constexpr What kWhat[] = {{"10 % of speeds along", 0.1}, {"median speed along", 
                           {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
                           {"median step", 0.3},          {"cells followed", 0.3}};
 
-double quantile(std::vector<double>& v, double p) {
-  const auto at = v.begin() + std::ptrdiff_t(p * double(v.size() - 1) + 0.5);
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
-
 /// Short pieces of tracks: how fast cells move along the drive and across it, and how far in one frame, which
 /// with diffusion is more than their speed says. Speeds are px per frame.
 class BurstStatistics final : public EpisodeStatistics {
@@ -50,7 +42,7 @@ class BurstStatistics final : public EpisodeStatistics {
   }
 
   std::vector<double> of_frames(const std::vector<GrayF>& frames) const override {
-    const Detector detector = cell_detector(view_);
+    const Detector detector = view_.detector();
     std::vector<std::vector<Spot>> spots;
     for (const GrayF& f : frames) spots.push_back(detector.find(f));
     return summed(spots);
@@ -83,8 +75,7 @@ class BurstStatistics final : public EpisodeStatistics {
   std::vector<double> summed(const std::vector<std::vector<Spot>>& spots) const {
     std::vector<double> out;
     for (std::size_t d = 0; d < episode_.drives.size(); ++d) {
-      const double a = episode_.drives[d].direction_deg * std::numbers::pi / 180;
-      const Vec2 way{std::cos(a), std::sin(a)};
+      const Vec2 way = unit_vector(episode_.drives[d].direction_deg);
       std::vector<double> along, across, steps;
       for (std::size_t b = 0; b < kBursts; ++b)
         for (const Track& t : followed(spots, (d * kBursts + b) * kFrames)) {
@@ -111,14 +102,6 @@ class BurstStatistics final : public EpisodeStatistics {
 };
 
 }  // namespace
-
-Detector cell_detector(const CellView& view) {
-  DetectorOptions o;
-  o.size_px = view.cells.cell_px;
-  o.polarity = view.cells.polarity;
-  o.threshold_sd = view.threshold_sd;
-  return {*view.background, o};
-}
 
 std::unique_ptr<EpisodeStatistics> burst_statistics(const Episode& episode, const CellView& view) {
   return std::make_unique<BurstStatistics>(episode, view);

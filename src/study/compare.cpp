@@ -191,11 +191,6 @@ class Comparer {
   static void finish(DistanceSeries& s) {
     std::vector<double> frame(s.t_s.size());
     for (std::size_t i = 0; i < frame.size(); ++i) frame[i] = double(i);
-    const auto mean = [](const std::vector<double>& v) {
-      double sum = 0;
-      for (const double x : v) sum += x;
-      return sum / double(v.size());
-    };
     s.mean = mean(s.value), s.sd = sample_sd(s.value), s.line = fit_line(frame, s.value);
     s.legacy_mean = mean(s.legacy), s.legacy_sd = sample_sd(s.legacy),
     s.legacy_line = fit_line(frame, s.legacy);

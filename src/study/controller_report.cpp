@@ -204,9 +204,7 @@ std::string controllers_page(const ControllerComparison& r) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + verdict(r);
   int number = 0;
   out += "<div class=\"figures\">\n";
-  for (const Figure& f : controllers_figures(r))
-    out += fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
-                       escape_markup(f.heading), svg(f.plot), ++number, escape_markup(f.caption));
+  for (const Figure& f : controllers_figures(r)) out += figure_markup(f, ++number);
   return html_page(r.study.title, out + "</div>\n" + table(r));
 }
 

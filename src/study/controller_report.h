@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "study/controller_study.h"
-#include "study/run_figures.h"
+#include "study/figure.h"
 
 namespace faba {
 

@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "study/cell_view.h"
 #include "study/study_random.h"
-#include "vision/detector.h"
-#include "vision/foreground.h"
 
 namespace faba {
 
@@ -30,16 +29,6 @@ struct Episode {
 enum class Measure {
   density,  ///< where the swarm is at six moments of each drive, without finding cells one by one
   tracks    ///< how cells move that are followed for a moment, three times in each drive
-};
-
-/// What frames of an experiment look like, for whoever measures them.
-struct CellView {
-  int width = 0, height = 0;                     ///< px
-  double frame_s = 0;                            ///< between frames
-  ForegroundOptions cells;                       ///< how they look
-  std::shared_ptr<const Background> background;  ///< greys of 0 to 255
-  double threshold_sd = 0;                       ///< least signal-to-noise of a cell that is followed
-  double reach_px = 0;                           ///< farthest displacement of one from frame to frame
 };
 
 /// What is measured of an episode, of frames of a video and of simulated ones alike.
@@ -70,9 +59,6 @@ class EpisodeStatistics {
   std::vector<double> times_s_;
   std::vector<Number> numbers_;
 };
-
-/// Finds cells one by one, as EpisodeStatistics does for tracks.
-Detector cell_detector(const CellView& view);
 
 std::unique_ptr<EpisodeStatistics> make_statistics(Measure measure, const Episode& episode,
                                                    const CellView& view);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "app/simulation.h"
 #include "study/study_random.h"
@@ -19,14 +18,6 @@ constexpr double kDiameter = 0.85, kBlur = 0.3676;
 constexpr double kFar = 1e5;  // px: the edge of a place that has none
 
 std::string quantity(double value, const char* unit) { return fmt::format("{} {}", value, unit); }
-
-void merge(Json& into, const Json& from) {
-  for (const auto& [key, value] : from.items())
-    if (value.is_object() && into.contains(key) && into[key].is_object())
-      merge(into[key], value);
-    else
-      into[key] = value;
-}
 
 Json arena_of(const ResponseVideo& v, Boundary boundary) {
   const Json view{v.view.width, v.view.height};
@@ -45,8 +36,9 @@ Json arena_of(const ResponseVideo& v, Boundary boundary) {
 // South-seeking cells, which is what scenarios have unless they say otherwise, swim against the field; the
 // world's y axis points up.
 Json field_along(double direction_deg, double strength_t, bool north) {
-  const double a = direction_deg * std::numbers::pi / 180, b = north ? strength_t : -strength_t;
-  return {quantity(b * std::cos(a), "T"), quantity(-b * std::sin(a), "T")};
+  const Vec2 way = unit_vector(direction_deg);
+  const double b = north ? strength_t : -strength_t;
+  return {quantity(b * way.x, "T"), quantity(-b * way.y, "T")};
 }
 
 /// Looks at the moments that are measured.
@@ -129,7 +121,7 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
             {"record", {{"tracks", false}, {"video", true}, {"as_seen", true}}}};
   // Few are in view and the place has no end: no grid of it.
   if (settings.boundary == Boundary::none) d.root["exclusion"] = {{"order", "none"}};
-  merge(d.root, settings.scene);
+  d.root.merge_patch(settings.scene);
   const Json& swarm = d.root["swarm"][0];
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
   const auto along = [&](double deg) { return field_along(deg, settings.drive_t, north); };

@@ -72,17 +72,17 @@ FlowSource::FlowSource(const std::filesystem::path& path, const FlowSourceOption
 FlowSource::~FlowSource() = default;
 
 void FlowSource::Impl::open_video(Pool& pool) {
-  video.emplace(input.file, options.fps);
-  const int w = video->width(), h = video->height();
+  VideoReader reader(input.file, options.fps);
+  const int w = reader.width(), h = reader.height();
   const int side =
       options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);
-  if (side > 1 && std::min(w, h) >= side) video.emplace(input.file, options.fps, side);
   width = w / side, height = h / side;
   if (width < 2 || height < 2)
     throw side > 1
         ? Error(Errc::usage, "shrink", fmt::format("of {} leaves nothing of {} x {} px", side, w, h))
         : Error(Errc::input, path.string(),
                 fmt::format("has frames of {} x {} px; a flow needs 2 x 2", w, h));
+  video.emplace(std::move(reader), side);
   flow = options.method.make({&pool});
   method = options.method.resolved.dump();
   if (!video->read(before, t_before)) throw Error(Errc::input, path.string(), "has no frame");

@@ -32,13 +32,6 @@ constexpr int kProfile = 41;        // values of each parameter
 constexpr double kUnlearnt = 0.75;  // share of the range: 0.9 when nothing was learnt
 constexpr double kTogether = 0.9;   // correlation from which on two are one
 
-double quantile(std::vector<double> v, double p) {
-  std::sort(v.begin(), v.end());
-  const double at = p * double(v.size() - 1);
-  const auto i = std::size_t(at);
-  return i + 1 < v.size() ? v[i] + (at - double(i)) * (v[i + 1] - v[i]) : v[i];
-}
-
 double weighed_quantile(const VectorXd& v, const VectorXd& weight, double p) {
   std::vector<Index> order(std::size_t(v.size()));
   std::iota(order.begin(), order.end(), Index(0));

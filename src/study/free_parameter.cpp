@@ -92,8 +92,7 @@ double quantity_of(const Json& v, const FreeParameter& p) {
 FreeParameter read_one(const std::string& path, const Node& n, const Json* given, const Json& scenario) {
   const Description d = describe(path, scenario);
   if (!d.schema) {
-    const std::string key =
-        path.substr(path.find_last_of('.') == std::string::npos ? 0 : path.find_last_of('.') + 1);
+    const std::string key = path.substr(path.find_last_of('.') + 1);
     throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
                 "there is no such value in the scenario" + suggestion(key, d.known));
   }
@@ -129,6 +128,8 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
 }
 
 }  // namespace
+
+std::string FreeParameter::name() const { return path.substr(path.find_last_of('.') + 1); }
 
 std::string FreeParameter::shown_unit() const {
   for (const Shown& s : kShown)

@@ -22,6 +22,7 @@ struct FreeParameter {
   };
   std::optional<Known> known = {};
 
+  std::string name() const;  ///< the last word of its path: "max_speed"
   /// The unit that people use for it, "um/s" for "m/s", and how many of them one of `unit` is.
   std::string shown_unit() const;
   double shown(double value) const;

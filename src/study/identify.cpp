@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "app/parts.h"
 #include "core/error.h"
@@ -13,6 +12,7 @@
 #include "study/found_model.h"
 #include "study/legacy_selection.h"
 #include "study/parameter_search.h"
+#include "study/statistics.h"
 
 namespace faba {
 namespace {
@@ -190,11 +190,8 @@ bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSear
     std::vector<double> v;
     for (const double x : shown.col(k))
       if (std::isfinite(x)) v.push_back(x);
-    std::sort(v.begin(), v.end());
-    const auto place = [&](double p) {
-      return v.empty() ? std::nan("") : v[std::size_t(p * double(v.size() - 1) + 0.5)];
-    };
-    r.models[r.best].foretold90.push_back({place(0.05), place(0.95)});
+    r.models[r.best].foretold90.push_back(v.empty() ? std::array{std::nan(""), std::nan("")}
+                                                    : std::array{quantile(v, 0.05), quantile(v, 0.95)});
   }
   return true;
 }
@@ -221,12 +218,12 @@ void check_alike(const std::vector<ResponseVideo>& videos) {
 }  // namespace
 
 std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
-                                       const std::function<void(std::size_t)>& reading) {
+                                       const std::function<void()>& reading) {
   Identification r;
   r.study = study;
   for (std::size_t v = 0; v < study.videos.size(); ++v)
     r.videos.push_back(survey_response(study.videos[v], study.boundary, study.measure, [&] {
-      reading(v);
+      reading();
       if (options.stop())
         throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
     }));
@@ -268,7 +265,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   double models = 0;
   for (const Search& s : searches)
     if (s.failed.empty()) scale += noise_of(*s.search), models += 1;
-  scale = (scale / std::max(1.0, models));
+  scale /= std::max(1.0, models);
   for (std::size_t c = 0; c < searches.size(); ++c) {
     FoundModel m;
     if (searches[c].failed.empty())
@@ -280,7 +277,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   judge(r);
   if (!foretell(study, r, *searches[r.best].search, o, parts, results, options)) return {};
   if (study.legacy) {
-    auto legacy = legacy_selection(study, r.videos, results, options, [&] { reading(0); });
+    auto legacy = legacy_selection(study, r.videos, results, options, reading);
     if (!legacy) return {};
     r.legacy = std::move(*legacy);
   }

@@ -122,9 +122,9 @@ struct Identification {
 };
 
 /// Surveys the videos, simulates what `results` has not yet, and concludes. Empty when other shards have
-/// tasks left. `reading` is called with the video's number after each of its frames. Throws Error(input) for
+/// tasks left. `reading` is called after each frame that is read. Throws Error(input) for
 /// videos that do not do, and what sweep() throws.
 std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
-                                       const std::function<void(std::size_t video)>& reading);
+                                       const std::function<void()>& reading);
 
 }  // namespace faba

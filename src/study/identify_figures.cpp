@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "app/parts.h"
 #include "study/markup.h"
@@ -19,11 +18,6 @@ constexpr int kBins = 24;
 constexpr double kNinety = -1.353;  // 90 % of one degree of freedom: half of 2.706
 
 using Statistic = Identification::Statistic;
-
-std::string short_name(const std::string& path) {
-  const auto dot = path.find_last_of('.');
-  return dot == std::string::npos ? path : path.substr(dot + 1);
-}
 
 std::string label_of(const FreeParameter& p) {
   const std::string unit = p.shown_unit();
@@ -106,11 +100,8 @@ Figure by_drive(const Identification& r) {
 
 /// How much of a swarm lies in each of the bins along a direction, sum 1.
 std::vector<double> spread_along(const GrayF& frame, const CellView& view, double direction_deg) {
-  Foreground foreground(view.cells);
-  foreground.know(*view.background);
-  foreground.take(frame, double(view.background->noise_sd.px.front()), 1);
-  const double a = direction_deg * std::numbers::pi / 180;
-  const Vec2 way{std::cos(a), std::sin(a)};
+  const Foreground foreground = view.seen_in(frame);
+  const Vec2 way = unit_vector(direction_deg);
   const double half = 0.5 * (std::fabs(way.x) * view.width + std::fabs(way.y) * view.height);
   const Vec2 middle{0.5 * view.width, 0.5 * view.height};
   std::vector<double> sum(kBins, 0.0);
@@ -126,13 +117,12 @@ std::vector<double> spread_along(const GrayF& frame, const CellView& view, doubl
   return sum;
 }
 
-Figure spread_figure(const Identification& r, const EpisodePictures& e, const ResponseVideo& v, double deg) {
+Figure spread_figure(const EpisodePictures& e, const ResponseVideo& v, double deg) {
   Figure f{
       "Cells along the drive",
       "Share of what is seen of the swarm in each 24th of the view along the first drive: video (full) and "
       "one simulation of the best model (dashed).",
       plot_of("Cells along the drive", "along the drive (share of the view)", "share of the cells")};
-  (void)r;
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};
   std::vector<double> x;
   for (int i = 0; i < kBins; ++i) x.push_back((i + 0.5) / kBins);
@@ -230,7 +220,7 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
               "its line: "
               "the first simulation of each value.",
               plot_of("Difference over the frames", "pair of frames", "difference")};
-  Figure slopes{m.name + ": slope against " + short_name(q.path),
+  Figure slopes{m.name + ": slope against " + q.name(),
                 fmt::format("Each dot is the slope of one simulation. Their line is zero at {}.",
                             three_digits(q.shown(m.zero))),
                 plot_of("Slope against the parameter", label_of(q), "slope per pair")};
@@ -276,7 +266,7 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
       one.simulated =
           simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video, v.ground)
               .frames;
-      one.spread = spread_figure(r, one, v, episode.drives.front().direction_deg);
+      one.spread = spread_figure(one, v, episode.drives.front().direction_deg);
     }
   return all;
 }

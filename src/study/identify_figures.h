@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "study/figure.h"
 #include "study/identify.h"
-#include "study/run_figures.h"
 
 namespace faba {
 

@@ -18,17 +18,11 @@ std::string with_interval(const FoundParameter& p) {
                      three_digits(q.shown(p.ci90[1])), q.shown_unit().empty() ? "" : " " + q.shown_unit());
 }
 
-std::string short_name(const std::string& path) {
-  const auto dot = path.find_last_of('.');
-  return dot == std::string::npos ? path : path.substr(dot + 1);
-}
-
 std::string lead(const Identification& r) {
   const FoundModel& best = r.models[r.best];
   std::string found;
   for (const FoundParameter& p : best.parameters)
-    found +=
-        fmt::format("{}{} {}", found.empty() ? "" : ", ", short_name(p.parameter.path), with_interval(p));
+    found += fmt::format("{}{} {}", found.empty() ? "" : ", ", p.parameter.name(), with_interval(p));
   std::string out = fmt::format(
       "<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {}. Medians and 90 % of the posterior.</p>\n",
       escape_markup(r.words), escape_markup(best.name), escape_markup(found));
@@ -51,7 +45,7 @@ std::string models_table(const Identification& r) {
     std::string parameters;
     for (const FoundParameter& p : m.parameters)
       parameters += fmt::format("{}{} {}", parameters.empty() ? "" : "<br />",
-                                escape_markup(short_name(p.parameter.path)), escape_markup(with_interval(p)));
+                                escape_markup(p.parameter.name()), escape_markup(with_interval(p)));
     out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2g}</td><td>{}</td></tr>\n",
                        escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
   }
@@ -62,11 +56,6 @@ std::string models_table(const Identification& r) {
                    "their own mean as "
                    "the videos are; below 0.01 the model does not explain them.</p>\n",
                    r.experiments.size());
-}
-
-std::string figure_of(const Figure& f) {
-  return fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>{}</figcaption>\n</figure>\n",
-                     escape_markup(f.heading), svg(f.plot), escape_markup(f.caption));
 }
 
 // Both in the greys of the real one.
@@ -96,7 +85,7 @@ std::string pictures(const Identification& r) {
           escape_markup(e.name), e.t_s[k],
           inline_picture(side_by_side(e.real[k], e.simulated[k]), "The video beside a simulation"),
           escape_markup(r.models[r.best].name));
-    if (r.study.measure == Measure::density) out += figure_of(e.spread);
+    if (r.study.measure == Measure::density) out += figure_markup(e.spread);
     out += "</div>\n";
   }
   return out;
@@ -129,7 +118,7 @@ std::string legacy(const Identification& r) {
   }
   out += "</tbody></table></div>\n<div class=\"figures\">\n";
   for (const LegacyModel& m : r.legacy)
-    for (const Figure& f : legacy_figures(m)) out += figure_of(f);
+    for (const Figure& f : legacy_figures(m)) out += figure_markup(f);
   return out + "</div>\n";
 }
 
@@ -156,10 +145,10 @@ std::string notes(const Identification& r) {
 std::string identify_page(const Identification& r) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) + models_table(r);
   out += "<h2>What was seen, and what the best model shows</h2>\n<div class=\"figures\">\n";
-  for (const Figure& f : predictive_figures(r)) out += figure_of(f);
+  for (const Figure& f : predictive_figures(r)) out += figure_markup(f);
   out += "</div>\n" + pictures(r) + "<h2>Parameters of the best model</h2>\n<div class=\"figures\">\n";
   for (const FoundParameter& p : r.models[r.best].parameters)
-    out += figure_of(posterior_figure(p)) + figure_of(profile_figure(p));
+    out += figure_markup(posterior_figure(p)) + figure_markup(profile_figure(p));
   return html_page(r.study.title, out + "</div>\n" + legacy(r) + notes(r));
 }
 

@@ -65,28 +65,22 @@ std::vector<double> distances(const LegacyReference& r, const std::vector<GrayF>
   return out;
 }
 
-double mean_of(const std::vector<double>& v) {
-  double sum = 0;
-  for (const double x : v) sum += x;
-  return sum / double(v.size());
-}
-
 void conclude(LegacyModel& m) {
-  std::vector<double> value, slope, mean;
+  std::vector<double> value, slope, level_of;
   std::map<double, std::vector<double>> level;
   for (LegacySimulation& s : m.simulations) {
     std::vector<double> frame(s.distance.size());
     for (std::size_t i = 0; i < frame.size(); ++i) frame[i] = double(i);
-    s.line = fit_line(frame, s.distance), s.mean = mean_of(s.distance);
-    value.push_back(s.value), slope.push_back(s.line.slope), mean.push_back(s.mean);
+    s.line = fit_line(frame, s.distance), s.mean = mean(s.distance);
+    value.push_back(s.value), slope.push_back(s.line.slope), level_of.push_back(s.mean);
     level[s.value].push_back(s.mean);
   }
   m.slopes = fit_line(value, slope);
   m.zero = -m.slopes.intercept / m.slopes.slope;
-  m.zero_ci95 = zero_crossing_ci95(m.slopes, mean_of(value));
-  m.mean = mean_of(mean), m.sd = sample_sd(mean);
+  m.zero_ci95 = zero_crossing_ci95(m.slopes, mean(value));
+  m.mean = mean(level_of), m.sd = sample_sd(level_of);
   m.least_distance_at = std::min_element(level.begin(), level.end(), [](const auto& a, const auto& b) {
-                          return mean_of(a.second) < mean_of(b.second);
+                          return mean(a.second) < mean(b.second);
                         })->first;
   const auto [low, high] = std::minmax_element(value.begin(), value.end());
   const FreeParameter& p = m.parameter;

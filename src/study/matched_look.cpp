@@ -5,6 +5,7 @@
 
 #include "app/parts.h"
 #include "study/episode_simulation.h"
+#include "study/statistics.h"
 
 namespace faba {
 namespace {
@@ -22,12 +23,6 @@ struct CellLook {
   double size_px = 0;  ///< as Spot has it
 };
 
-double middle(std::vector<double>& v) {
-  const auto at = v.begin() + std::ptrdiff_t(v.size() / 2);
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
-
 /// In the middle of those that stand alone, or of all where next to none does.
 CellLook look_of(const std::vector<Spot>& spots, double apart) {
   std::vector<double> mass, size, lone_mass, lone_size;
@@ -38,9 +33,9 @@ CellLook look_of(const std::vector<Spot>& spots, double apart) {
     mass.push_back(s.mass), size.push_back(s.size_px);
     if (nearest >= apart) lone_mass.push_back(s.mass), lone_size.push_back(s.size_px);
   }
-  if (lone_mass.size() >= kEnough) return {middle(lone_mass), middle(lone_size)};
+  if (lone_mass.size() >= kEnough) return {quantile(lone_mass, 0.5), quantile(lone_size, 0.5)};
   if (mass.empty()) return {};
-  return {middle(mass), middle(size)};
+  return {quantile(mass, 0.5), quantile(size, 0.5)};
 }
 
 }  // namespace
@@ -48,7 +43,7 @@ CellLook look_of(const std::vector<Spot>& spots, double apart) {
 void match_look(ResponseVideo& v, const GrayF& frame, Boundary boundary) {
   const bool bright = v.view.cells.polarity == Polarity::bright;
   const double apart = kApart * v.view.cells.cell_px;
-  const Detector detector = cell_detector(v.view);
+  const Detector detector = v.view.detector();
   const std::vector<Spot> spots = detector.find(frame);
   const CellLook wanted = look_of(spots, apart);
   v.cell_px = v.view.cells.cell_px, v.contrast = bright ? kFirst : -kFirst;

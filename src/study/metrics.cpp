@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/vec.h"
+#include "study/statistics.h"
 
 namespace faba {
 namespace {
@@ -130,14 +131,6 @@ class Polyline {
   std::vector<std::vector<Bounds>> levels_;  // of single segments, of kChildren of those, and so on up to one
   std::size_t nearest_ = 0;
 };
-
-double quantile(std::vector<double> values, double q) {
-  std::sort(values.begin(), values.end());
-  const double at = q * double(values.size() - 1);
-  const auto below = std::size_t(at);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (at - double(below)) * (values[above] - values[below]);
-}
 
 std::optional<double> settling_time(const std::vector<Timed>& targeted, double band) {
   if (targeted.back().d > band) return std::nullopt;

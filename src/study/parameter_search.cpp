@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "study/statistics.h"
 #include "study/study_random.h"
 
 namespace faba {
@@ -43,20 +44,15 @@ MatrixXd even_points(Index n, Index d) {
   return u;
 }
 
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
-
 /// Each column about its median, in its median absolute deviations; a column that is constant becomes 0.
 struct Standard {
   VectorXd middle, scale;
   explicit Standard(const MatrixXd& s) : middle(s.cols()), scale(s.cols()) {
     for (Index j = 0; j < s.cols(); ++j) {
       std::vector<double> v(s.col(j).begin(), s.col(j).end());
-      middle[j] = median(v);
+      middle[j] = quantile(v, 0.5);
       for (double& x : v) x = std::fabs(x - middle[j]);
-      double spread = 1.4826 * median(v);
+      double spread = 1.4826 * quantile(v, 0.5);
       if (!(spread > 0)) spread = std::sqrt((s.col(j).array() - s.col(j).mean()).square().mean());
       scale[j] = spread > 1e-12 ? 1 / spread : 0;
     }
@@ -159,7 +155,7 @@ std::vector<Index> ParameterSearch::nearest(Index count) const {
   normal.diagonal().array() += 0.02 * double(all_.size());
   const MatrixXd guess = normal.ldlt().solve(z.transpose() * u);
   const VectorXd by_guess = ((z.rowwise() - seen.transpose()) * guess).rowwise().squaredNorm();
-  const auto unit = [](const VectorXd& v) { return std::max(1e-12, median({v.begin(), v.end()})); };
+  const auto unit = [](const VectorXd& v) { return std::max(1e-12, quantile({v.begin(), v.end()}, 0.5)); };
   return smallest(plain / unit(plain) + by_guess / unit(by_guess), count);
 }
 

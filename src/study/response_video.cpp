@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "core/error.h"
 #include "study/found_drives.h"
 #include "study/matched_look.h"
 #include "study/run_video.h"
+#include "study/statistics.h"
 #include "study/track_survey.h"
-#include "vision/detector.h"
 #include "vision/grey_video.h"
 #include "vision/tracker.h"
 
@@ -34,13 +33,11 @@ constexpr double kWhite = 255;
 
 // Cells one by one where they can be told apart; where not, as many places as there are cells, spread as what
 // is seen.
-std::vector<Vec2> places_in(const GrayF& frame, const ResponseVideo& v, Measure measure, double noise) {
-  Foreground foreground(v.view.cells);
-  foreground.know(*v.view.background);
-  foreground.take(frame, noise, 1);
+std::vector<Vec2> places_in(const GrayF& frame, const CellView& view, Measure measure) {
+  const Foreground foreground = view.seen_in(frame);
   const double cells = foreground.moments().cells;
   std::vector<Vec2> places;
-  for (const Spot& s : cell_detector(v.view).find(frame)) places.push_back({s.x_px, s.y_px});
+  for (const Spot& s : view.detector().find(frame)) places.push_back({s.x_px, s.y_px});
   if (measure == Measure::tracks || double(places.size()) >= kResolved * cells) return places;
   places.clear();
   const GrayF& w = foreground.weights();
@@ -72,14 +69,11 @@ std::vector<Vec2> evenly_mixed(const std::vector<Vec2>& places) {
 /// Where the swarm is in each frame.
 std::vector<Drive> drives_of_drop(const ResponseVideo& v, const std::function<void()>& tick) {
   GreyVideo video(v.file, v.input.fps, v.side);
-  Foreground foreground(v.view.cells);
-  foreground.know(*v.view.background);
   std::vector<double> t_s;
   std::vector<Vec2> centroid;
   GrayF frame;
   for (double t = 0; video.read(frame, t); tick()) {
-    foreground.take(frame, v.ground->noise_sd * kWhite, 1 / v.fps);
-    const SwarmMoments m = foreground.moments();
+    const SwarmMoments m = v.view.seen_in(frame).moments();
     t_s.push_back(t);
     centroid.push_back(m.signal > 0 ? m.centroid_image : Vec2{std::nan(""), std::nan("")});
   }
@@ -183,24 +177,17 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   return s;
 }
 
-double quantile(std::vector<double> v, double p) {
-  if (v.empty()) return 0;
-  const auto at = v.begin() + std::ptrdiff_t(p * double(v.size() - 1));
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
-
-// How cells are followed one by one. What is much fainter than most is dirt, or far
-// out of focus. Faster simulated cells are to be followed, too.
+// How cells are followed one by one. What is much fainter than most is dirt, or far out of focus. Simulated
+// cells that are faster are to be followed, too.
 void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
-  const Detector detector = cell_detector(v.view);
+  const Detector detector = v.view.detector();
   std::vector<std::vector<Spot>> spots;
   std::vector<double> snr;
   for (const GrayF& f : frames) {
     spots.push_back(detector.find(f));
     for (const Spot& s : spots.back()) snr.push_back(s.snr);
   }
-  v.view.threshold_sd = std::max(detector.threshold_sd(), kFaint * quantile(snr, 0.9));
+  v.view.threshold_sd = std::max(detector.threshold_sd(), snr.empty() ? 0 : kFaint * quantile(snr, 0.9));
   double count = 1;
   for (auto& one : spots) {
     std::erase_if(one, [&](const Spot& s) { return s.snr < v.view.threshold_sd; });
@@ -272,11 +259,10 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   }
   std::vector<GrayF> frames = frames_at(v, moments, tick);
   if (measure == Measure::tracks) find_followed(v, frames);
-  const double noise = v.ground->noise_sd * kWhite;
   auto next = frames.begin();
   for (Episode& e : v.episodes) {
     const GrayF first = std::move(*next++);
-    e.places_image = evenly_mixed(places_in(first, v, measure, noise));
+    e.places_image = evenly_mixed(places_in(first, v.view, measure));
     if (e.places_image.empty())
       throw Error(Errc::input, input.file.string(),
                   fmt::format("shows no cells that move at {:.3g} s", e.begins_s));

@@ -2,18 +2,12 @@
 #include <string>
 #include <vector>
 
+#include "study/figure.h"
 #include "study/metrics.h"
-#include "study/plot.h"
 #include "study/run_info.h"
 #include "study/series.h"
 
 namespace faba {
-
-/// A plot with the words that belong under it.
-struct Figure {
-  std::string heading, caption;  ///< plain text
-  Plot plot;
-};
 
 /// The figures of a run, in the order a reader wants them: distance to the setpoint, path in the picture,
 /// dispersion, field, currents, counts of cells. One is left out when its columns are missing or say nothing

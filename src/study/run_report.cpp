@@ -196,11 +196,7 @@ std::string video_figure(const RunInfo& info) {
 std::string figures_section(const std::vector<Figure>& figures, const std::string& video) {
   std::string out = "<h2>Figures</h2>\n<div class=\"figures\">\n";
   int number = 0;
-  for (const Figure& figure : figures) {
-    out +=
-        fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
-                    escape_markup(figure.heading), svg(figure.plot), ++number, escape_markup(figure.caption));
-  }
+  for (const Figure& figure : figures) out += figure_markup(figure, ++number);
   return out + video + "</div>\n";
 }
 

@@ -88,15 +88,11 @@ double positive(const Table& table, const std::string& column, std::size_t row) 
                   : fmt::format("{} is {}; it must be above 0", column, v));
 }
 
-double mean_of(const std::vector<double>& v) {
-  return std::accumulate(v.begin(), v.end(), 0.0) / double(v.size());
-}
-
 /// Mean, both standard deviations and standard error of the ratios.
 void add_ratios(Report& j, const std::vector<double>& ratios) {
   const double n = double(ratios.size()), sd = sample_sd(ratios);
   j["ratios"] = ratios;
-  j["ratio_mean"] = mean_of(ratios);
+  j["ratio_mean"] = mean(ratios);
   j["ratio_sd"] = sd;
   j["ratio_sd_population"] = sd * std::sqrt((n - 1) / n);
   j["ratio_sem"] = sd / std::sqrt(n);
@@ -190,7 +186,7 @@ nlohmann::ordered_json scale_json(const RulerReadings& readings, const std::stri
   std::vector<double> widths, ratios;
   for (const auto& [width, list] : by_width) {
     widths.push_back(width);
-    ratios.push_back(width / mean_of(list));
+    ratios.push_back(width / mean(list));
   }
   j["widths_um"] = widths;
   add_ratios(j, ratios);

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <span>
+#include <vector>
 
 namespace faba {
 
@@ -37,6 +38,12 @@ double spearman(std::span<const double> x, std::span<const double> y);
 /// How often chance alone would give a rank correlation as far from 0, if all orders of y were as likely:
 /// counted out up to 8 points, above that Student's t with n - 2 degrees of freedom.
 double spearman_p(std::span<const double> x, std::span<const double> y);
+
+/// Arithmetic mean of one value or more.
+double mean(std::span<const double> values);
+
+/// The value below which a share p, 0 to 1, of one value or more lies: linear between order statistics.
+double quantile(std::vector<double> values, double p);
 
 /// Standard deviation with n - 1; 0 for fewer than two values.
 double sample_sd(std::span<const double> values);

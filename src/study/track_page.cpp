@@ -120,9 +120,7 @@ std::string track_page(const Json& r, const std::vector<Figure>& figures, const 
          "<figcaption>All tracks on the first frame.</figcaption>\n</figure>\n";
   out += "<div class=\"figures\">\n";
   int number_of_figure = 0;
-  for (const Figure& f : figures)
-    out += fmt::format("<figure>\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
-                       escape_markup(f.heading), svg(f.plot), ++number_of_figure, escape_markup(f.caption));
+  for (const Figure& f : figures) out += figure_markup(f, ++number_of_figure);
   out += "</div>\n" + table(r);
   return html_page("Tracks", out);
 }

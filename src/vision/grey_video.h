@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "vision/grey_scale.h"
 #include "vision/video_reader.h"
@@ -11,9 +12,11 @@ namespace faba {
 /// `side` px.
 class GreyVideo {
  public:
-  /// Throws as VideoReader. `side` >= 1, not larger than a frame.
+  /// `side` >= 1, not larger than a frame.
+  explicit GreyVideo(VideoReader reader, int side = 1) : reader_(std::move(reader)), side_(side) {}
+  /// Throws as VideoReader.
   explicit GreyVideo(const std::filesystem::path& path, double fps = 0, int side = 1)
-      : reader_(path, fps), side_(side) {}
+      : GreyVideo(VideoReader(path, fps), side) {}
 
   /// As VideoReader::read.
   bool read(GrayF& frame, double& t_s);

@@ -67,6 +67,11 @@ TEST_CASE("a rendered step response: the model and its parameter; shards and a k
   const double half = 0.75 * (p["ci90"][1].get<double>() - p["ci90"][0].get<double>());
   CHECK(std::fabs(p["median"].get<double>() - 4) < half);
 
+  // The loop closes: the scene of the best model runs as it is, and the page is whole.
+  CHECK(read_file(f.path / "whole/identify.html").find("</html>") != std::string::npos);
+  const Called again = faba_in(f.path, "run whole/best.toml --seed 1 --quiet --out again");
+  CHECK_MESSAGE(again.exit == 0, again.err);
+
   std::string parts;
   for (const char* k : {"1", "2", "3", "4"}) {
     const Called one =
