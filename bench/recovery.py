@@ -2,7 +2,7 @@
 """Whether `faba identify` finds what is known: experiments are rendered with a model, a speed and everything else drawn by chance,
 and identified from their videos alone.
 
-Each experiment is a drop of which an arc is in view, with a swarm at its edge and four drives to and fro along a line. Drawn are
+Each experiment is a drop of which an arc is in view, with a swarm at its edge and six drives to and fro along a line. Drawn are
 the model (basic, adapted or dipole), its speed or largest displacement, 150 to 800 cells, the camera's noise, the time in air, the
 size and place of the drop and the line. The study is told the scale, the strength of the field and the time in air; edge, cells,
 drives and directions are found. Prints a table and a verdict on every goal; keeps them in bench/results/.
@@ -23,7 +23,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 WIDTH, HEIGHT, UM_PER_PX, FIELD = 320, 240, 1.16, 115e-6
-DRIVE_S, FIRST_S, DRIVES = 3.0, 1.0, 4
+DRIVE_S, FIRST_S, DRIVES = 2.0, 1.0, 6
 MODELS = ("basic", "adapted", "dipole")
 RANGE = {"basic": (1, 20), "adapted": (1, 20), "dipole": (20, 300)}
 TRUTH = {"basic": (3, 12), "adapted": (3, 12), "dipole": (60, 250)}

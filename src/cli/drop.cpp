@@ -2,13 +2,19 @@
 
 #include "cli/output_file.h"
 #include "cli/verbs.h"
+#include "core/error.h"
 #include "study/drop_report.h"
 
 namespace faba::cli {
 
 int drop(const DropVerb& v, const Common& c) {
   check_output(v.overlay, ".png", v.force, {v.picture});
-  const auto j = report_drop(v.picture, v.overlay);
+  if (!v.stages.empty() && std::filesystem::exists(v.stages)) {
+    if (!std::filesystem::is_directory(v.stages))
+      throw Error(Errc::usage, v.stages.string(), "is a file; --stages names a folder");
+    for (const char* stage : kDropStages) check_output(v.stages / stage, ".png", v.force, {v.picture});
+  }
+  const auto j = report_drop(v.picture, v.overlay, v.stages);
   if (c.json) {
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
@@ -20,6 +26,7 @@ int drop(const DropVerb& v, const Common& c) {
         number("sd_px", "y"), j["radius_px"].get<double>(), number("sd_px", "radius"),
         j["arc_deg"].get<double>());
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
+    if (!v.stages.empty()) fmt::print("stages  {}\n", v.stages.string());
     if (std::filesystem::exists("scenes/drop.toml"))
       fmt::print("now try: {} run scenes/drop.toml --from-video {}\n", shell_word(program()),
                  shell_word(v.picture.string()));

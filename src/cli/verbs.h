@@ -28,7 +28,7 @@ struct ResumeVerb {
   unsigned threads = 0;
 };
 struct DropVerb {
-  std::filesystem::path picture, overlay;
+  std::filesystem::path picture, overlay, stages;
   bool force = false;
 };
 struct TrackVerb {

@@ -217,7 +217,9 @@ void add_video_verbs(CLI::App& app, CommandLine& line) {
   v->add_option("picture", d->picture, "TIFF, PNG, JPEG, PGM (8 or 16 bit) or any video")->required();
   v->add_option("--overlay", d->overlay, "Write the picture with the edge drawn in, as PNG")
       ->check(not_empty);
-  v->add_flag("--force", d->force, "Replace an existing overlay");
+  v->add_option("--stages", d->stages, "Write a picture of each stage of the search into this folder, as PNG")
+      ->check(not_empty);
+  v->add_flag("--force", d->force, "Replace existing pictures");
   v->callback([d, &line] { line.code = drop(*d, line.common); });
   add_track(app, line);
   add_flow(app, line);

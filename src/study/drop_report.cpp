@@ -20,12 +20,22 @@ nlohmann::ordered_json drop_json(const DropEdge& edge) {
   return json;
 }
 
-nlohmann::ordered_json report_drop(const std::filesystem::path& picture,
-                                   const std::filesystem::path& overlay) {
+nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
+                                   const std::filesystem::path& stages) {
   const GrayF grey = read_picture(picture).grey;
   DropEdgeOptions options;
   options.name = picture.string();
+  if (!stages.empty()) {
+    const Gray8 edges = edge_pixel_picture(grey, options);
+    std::filesystem::create_directories(stages);
+    write_png(stages / kDropStages[0], stretched(grey, options.stretch_low, options.stretch_high));
+    write_png(stages / kDropStages[1], edges);
+  }
   const DropEdge edge = find_drop_edge(grey, options);
+  if (!stages.empty()) {
+    write_png(stages / kDropStages[2], hough_picture(grey, edge));
+    write_png(stages / kDropStages[3], drop_overlay(grey, edge));
+  }
   if (!overlay.empty()) write_png(overlay, drop_overlay(grey, edge));
   return drop_json(edge);
 }

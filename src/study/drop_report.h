@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
@@ -13,8 +14,13 @@ namespace faba {
 nlohmann::ordered_json drop_json(const DropEdge& edge);
 
 /// Finds the edge in a picture or in the first frame of a video and, unless `overlay` is empty, writes the
-/// picture with the edge drawn in. Throws Error(input) when there is no usable picture or no edge in it.
-nlohmann::ordered_json report_drop(const std::filesystem::path& picture,
-                                   const std::filesystem::path& overlay);
+/// picture with the edge drawn in; unless `stages` is empty, pictures of each stage of the search into that
+/// folder (those before an edge was found also when none is). Throws Error(input) when there is no usable
+/// picture or no edge in it.
+nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
+                                   const std::filesystem::path& stages);
+
+/// The pictures in a folder of stages, in their order.
+inline constexpr std::array kDropStages{"1-grey.png", "2-edges.png", "3-lines.png", "4-circle.png"};
 
 }  // namespace faba

@@ -38,6 +38,9 @@ padding:0}
 .figures{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:2rem 2.2rem;align-items:start}
 figure{margin:0;min-width:0}
 figure.wide{margin-bottom:1.6rem}
+.frames{grid-column:1/-1}
+.frames div{display:grid;grid-template-columns:repeat(3,minmax(0,1fr));gap:.4rem .8rem}
+.frames p{margin:0;color:var(--muted);font-size:.85rem}
 figcaption{color:var(--muted);font-size:.85rem;line-height:1.4;margin-top:.3rem}
 .faba-plot{display:block;width:100%;height:auto}
 video{display:block;width:100%;height:auto;background:#000;border-radius:.3rem}

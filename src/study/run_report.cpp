@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/file.h"
+#include "study/frame_strip.h"
 #include "study/markup.h"
 #include "study/report_page.h"
 #include "study/run_figures.h"
@@ -255,6 +256,8 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
   const std::string scenario = existing_text(run_dir / "scenario.toml");
   std::error_code ignored;
   const bool video = std::filesystem::is_regular_file(run_dir / "video.mp4", ignored);
+  const std::string seen =
+      (video ? video_figure(info) : "") + frame_strip(run_dir / (video ? "video.mp4" : "video.avi"));
 
   const RunInWords words = run_in_words(m, info);
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(title),
@@ -275,7 +278,7 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
   }
   out += cards(m, info);
   const std::vector<Figure> figures = run_figures(series, m, info);
-  if (!figures.empty() || video) out += figures_section(figures, video ? video_figure(info) : "");
+  if (!figures.empty() || !seen.empty()) out += figures_section(figures, seen);
   if (m.frames > 0) out += metrics_table(m, info);
   out += provenance(m, info, !scenario.empty());
   if (!scenario.empty()) {

@@ -100,6 +100,7 @@ struct AvStream::Impl {
   void open();
   void open_codec();
   bool decode();
+  bool next(RawFrame& out, double& t_s);  // `out` is good until the next call
   void feed();
   bool read_packet();
   void end_of_file(int result);
@@ -307,19 +308,32 @@ std::int64_t AvStream::frames_stated() const {
   return std::llround(duration_s * impl_->fps);
 }
 
-bool AvStream::read(GrayF& frame, double& t_s) {
-  Impl& self = *impl_;
-  if (!self.frame_waiting) self.frame_waiting = self.decode();
-  if (!self.frame_waiting) return false;
-  self.frame_waiting = false;
-  const AVFrame& raw = *self.frame;
-  if (raw.width != self.width || raw.height != self.height || grey_bits(raw.format) != self.pixel_bits) {
-    self.refuse("frame " + std::to_string(self.delivered) +
-                " has another size or depth than the first; cut the video there");
+bool AvStream::Impl::next(RawFrame& out, double& t_s) {
+  if (!frame_waiting) frame_waiting = decode();
+  if (!frame_waiting) return false;
+  frame_waiting = false;
+  const AVFrame& raw = *frame;
+  if (raw.width != width || raw.height != height || grey_bits(raw.format) != pixel_bits) {
+    refuse("frame " + std::to_string(delivered) +
+           " has another size or depth than the first; cut the video there");
   }
-  t_s = self.time_of_frame();
-  to_grey({raw.data, raw.linesize, raw.width, raw.height, raw.format, raw.color_range}, frame);
-  ++self.delivered;
+  t_s = time_of_frame();
+  out = {raw.data, raw.linesize, raw.width, raw.height, raw.format, raw.color_range, raw.colorspace};
+  ++delivered;
+  return true;
+}
+
+bool AvStream::read(GrayF& frame, double& t_s) {
+  RawFrame raw;
+  if (!impl_->next(raw, t_s)) return false;
+  to_grey(raw, frame);
+  return true;
+}
+
+bool AvStream::read_colours(RgbImage& frame, double& t_s) {
+  RawFrame raw;
+  if (!impl_->next(raw, t_s)) return false;
+  if (!to_colours(raw, frame)) impl_->refuse("colours of this kind are not understood");
   return true;
 }
 

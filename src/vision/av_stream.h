@@ -19,15 +19,16 @@ class AvStream {
   AvStream(AvStream&&) noexcept;
   AvStream& operator=(AvStream&&) noexcept;
 
-  int width() const;                     ///< px
-  int height() const;                    ///< px
-  int bits() const;                      ///< 8 or 16
-  double fps() const;                    ///< 0 for a still picture
-  std::int64_t frames_stated() const;    ///< 0 when not stated
-  bool read(GrayF& frame, double& t_s);  ///< see VideoReader::read
-  bool truncated() const;                ///< see VideoReader::truncated
-  std::int64_t damaged_frames() const;   ///< see VideoReader::damaged_frames
-  const std::string& damage() const;     ///< see VideoReader::damage
+  int width() const;                                ///< px
+  int height() const;                               ///< px
+  int bits() const;                                 ///< 8 or 16
+  double fps() const;                               ///< 0 for a still picture
+  std::int64_t frames_stated() const;               ///< 0 when not stated
+  bool read(GrayF& frame, double& t_s);             ///< see VideoReader::read
+  bool read_colours(RgbImage& frame, double& t_s);  ///< see VideoReader::read_colours
+  bool truncated() const;                           ///< see VideoReader::truncated
+  std::int64_t damaged_frames() const;              ///< see VideoReader::damaged_frames
+  const std::string& damage() const;                ///< see VideoReader::damage
 
  private:
   struct Impl;

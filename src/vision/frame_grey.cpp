@@ -3,11 +3,13 @@
 extern "C" {
 #include <libavutil/pixdesc.h>
 #include <libavutil/pixfmt.h>
+#include <libswscale/swscale.h>
 }
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 #include "vision/picture.h"
@@ -141,6 +143,27 @@ void to_grey(const RawFrame& frame, GrayF& out) {
   } else {
     by_channels(frame, format, scale, out);
   }
+}
+
+bool to_colours(const RawFrame& frame, RgbImage& out) {
+  const auto from = static_cast<AVPixelFormat>(frame.pixel_format);
+  const AVPixFmtDescriptor* format = describe(frame.pixel_format);
+  if (format == nullptr || sws_isSupportedInput(from) == 0) return false;
+  const std::unique_ptr<SwsContext, decltype(&sws_freeContext)> convert{
+      sws_getContext(frame.width, frame.height, from, frame.width, frame.height, AV_PIX_FMT_RGB24,
+                     SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr),
+      &sws_freeContext};
+  if (!convert) return false;
+  const int* matrix = sws_getCoefficients(frame.matrix);
+  const int full = is_full_range(frame, *format) ? 1 : 0;
+  sws_setColorspaceDetails(convert.get(), matrix, full, matrix, 1, 0, 1 << 16, 1 << 16);
+  out.width = frame.width;
+  out.height = frame.height;
+  out.px.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+  static_assert(sizeof(Rgb) == 3);
+  auto* const to = reinterpret_cast<std::uint8_t*>(out.px.data());
+  const int stride = 3 * frame.width;
+  return sws_scale(convert.get(), frame.planes, frame.strides, 0, frame.height, &to, &stride) == frame.height;
 }
 
 std::string pixel_format_name(int pixel_format) {

@@ -13,6 +13,7 @@ struct RawFrame {
   int width = 0, height = 0;                    ///< px
   int pixel_format = -1;                        ///< number of the pixel format (AVPixelFormat)
   int range = 0;                                ///< stated range of luma (AVColorRange; 0: not stated)
+  int matrix = 2;                               ///< how colours became luma (AVColorSpace; 2: not stated)
 };
 
 /// Bits of the grey scale that to_grey() gives for a pixel format: 8 (0..255) when its channels have up to 8
@@ -26,6 +27,10 @@ int grey_bits(int pixel_format);
 /// Samples of other than 8 or 16 bits are scaled to the full scale. Transparency is ignored. The format must
 /// be one for which grey_bits() > 0.
 void to_grey(const RawFrame& frame, GrayF& out);
+
+/// Converts a decoded picture to colours of 8 bits for the eye, resizing `out` as needed. False when the
+/// format cannot be converted.
+bool to_colours(const RawFrame& frame, RgbImage& out);
 
 /// The pixel format's name in libav's terms, for messages.
 std::string pixel_format_name(int pixel_format);

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/drop_picture.h"
 #include "vision/picture.h"
 
 namespace faba {
@@ -72,6 +73,18 @@ class Pen {
   bool rim_;
 };
 
+RgbImage rgb_image(const cv::Mat3b& m) {
+  RgbImage out(m.cols, m.rows);
+  std::transform(m.begin(), m.end(), out.px.begin(), [](const cv::Vec3b& v) {
+    return Rgb{v[0], v[1], v[2]};
+  });
+  return out;
+}
+
+int pen_width(const GrayF& picture) {
+  return std::max(1, int(std::lround(std::min(picture.width, picture.height) / 500.0)));
+}
+
 void draw(Pen pen, const DropEdge& edge, int width) {
   const Vec2 c = edge.centre_image;
   const double unit = width;
@@ -95,17 +108,30 @@ void draw(Pen pen, const DropEdge& edge, int width) {
 }  // namespace
 
 RgbImage drop_overlay(const GrayF& picture, const DropEdge& edge) {
-  RgbImage out(picture.width, picture.height);
-  if (picture.empty()) return out;
+  if (picture.empty()) return {};
   cv::Mat3b m = grey_canvas(picture), rims = m.clone();
-  const int width = std::max(1, int(std::lround(std::min(m.cols, m.rows) / 500.0)));
+  const int width = pen_width(picture);
   draw(Pen(rims, width, true), edge, width);
   cv::addWeighted(m, 0.4, rims, 0.6, 0, m);
   draw(Pen(m, width, false), edge, width);
-  std::transform(m.begin(), m.end(), out.px.begin(), [](const cv::Vec3b& v) {
-    return Rgb{v[0], v[1], v[2]};
-  });
+  return rgb_image(m);
+}
+
+Gray8 edge_pixel_picture(const GrayF& picture, const DropEdgeOptions& options) {
+  const DropPicture prepared = prepare_drop_picture(picture, options);
+  Gray8 out(picture.width, picture.height);
+  for (const EdgePixel& p : find_edge_segments(prepared.levels[0].flat, options.edges).pixels)
+    out.at(std::clamp(int(std::lround(p.pos.x)), 0, out.width - 1),
+           std::clamp(int(std::lround(p.pos.y)), 0, out.height - 1)) = 255;
   return out;
+}
+
+RgbImage hough_picture(const GrayF& picture, const DropEdge& edge) {
+  if (picture.empty()) return {};
+  cv::Mat3b m = grey_canvas(picture) * 0.5;
+  Pen pen(m, 2 * pen_width(picture), false);
+  for (const EdgeSegment& s : edge.segments) pen.line(s.a, s.b, kViolet);
+  return rgb_image(m);
 }
 
 }  // namespace faba

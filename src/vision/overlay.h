@@ -11,4 +11,10 @@ namespace faba {
 /// empty picture gives an empty one.
 RgbImage drop_overlay(const GrayF& picture, const DropEdge& edge);
 
+/// The picture's edge pixels before any line is sought (theory A13, step 3): white on black.
+Gray8 edge_pixel_picture(const GrayF& picture, const DropEdgeOptions& options = {});
+
+/// The Hough segments along the drop's edge (theory A13, step 4), violet on a dimmed picture.
+RgbImage hough_picture(const GrayF& picture, const DropEdge& edge);
+
 }  // namespace faba

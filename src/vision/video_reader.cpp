@@ -1,5 +1,6 @@
 #include "vision/video_reader.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -27,6 +28,7 @@ struct VideoReader::Impl {
   std::string stack_damage;
 
   bool read_page(GrayF& frame, double& t_s);
+  double rescaled(double t_s) const;  // a stack's or a stream's time, at the rate that was given
 };
 
 bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
@@ -102,13 +104,34 @@ const std::string& VideoReader::damage() const {
   return impl_->stack ? impl_->stack_damage : impl_->stream->damage();
 }
 
+double VideoReader::Impl::rescaled(double t_s) const {
+  if (!(fps > 0)) return t_s;
+  const double stated = stack ? stack->fps() : stream->fps();
+  return t_s * ((stated > 0 ? stated : 1) / fps);
+}
+
 bool VideoReader::read(GrayF& frame, double& t_s) {
   if (impl_->sequence) return impl_->sequence->read(frame, t_s);
   if (!(impl_->stack ? impl_->read_page(frame, t_s) : impl_->stream->read(frame, t_s))) return false;
-  if (impl_->fps > 0) {
-    const double stated = impl_->stack ? impl_->stack->fps() : impl_->stream->fps();
-    t_s *= (stated > 0 ? stated : 1) / impl_->fps;
+  t_s = impl_->rescaled(t_s);
+  return true;
+}
+
+bool VideoReader::read_colours(RgbImage& frame, double& t_s) {
+  if (impl_->stream) {
+    if (!impl_->stream->read_colours(frame, t_s)) return false;
+    t_s = impl_->rescaled(t_s);
+    return true;
   }
+  GrayF grey;
+  if (!read(grey, t_s)) return false;
+  const float to_8_bits = bits() > 8 ? 255.0F / 65535.0F : 1.0F;
+  frame.width = grey.width, frame.height = grey.height;
+  frame.px.resize(grey.px.size());
+  std::transform(grey.px.begin(), grey.px.end(), frame.px.begin(), [&](float g) {
+    const auto level = static_cast<std::uint8_t>(std::clamp(g * to_8_bits + 0.5F, 0.0F, 255.0F));
+    return Rgb{level, level, level};
+  });
   return true;
 }
 

@@ -49,6 +49,9 @@ class VideoReader {
   /// Throws Error(Errc::input, path) when the picture size or format changes on the way.
   bool read(GrayF& frame, double& t_s);
 
+  /// The same in colours of 8 bits, for the eye; grey where the file has none.
+  bool read_colours(RgbImage& frame, double& t_s);
+
   /// Whether the file ended before it should; final once read() has given false.
   bool truncated() const;
   /// Frames (packets) skipped so far because they were damaged; 0 for an intact file.

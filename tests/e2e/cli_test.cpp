@@ -69,6 +69,11 @@ TEST_CASE("drop: a rendered drop is found; run --from-video keeps the swarm insi
   CHECK(j["image_size"] == nlohmann::json::array({240, 160}));
   CHECK(read_file(f.path / "o.png").starts_with("\x89PNG"));
   CHECK(faba_in(f.path, "drop drop.pgm --overlay o.png").exit == 2);  // not overwritten
+  REQUIRE(faba_in(f.path, "drop drop.pgm --stages stages").exit == 0);
+  for (const char* stage : {"1-grey.png", "2-edges.png", "3-lines.png", "4-circle.png"})
+    CHECK(read_file(f.path / "stages" / stage).starts_with("\x89PNG"));
+  CHECK(faba_in(f.path, "drop drop.pgm --stages stages").exit == 2);
+  CHECK(faba_in(f.path, "drop drop.pgm --stages drop.pgm").exit == 2);
 
   const Called run = faba_in(f.path, "run '" FABA_SCENES
                                      "/drop.toml' --from-video drop.pgm --set swarm[0].count=60 "

@@ -108,6 +108,7 @@ TEST_CASE("run report: a full run has every figure, both units, its video and ho
   CHECK(has(html, "<title>Hold &lt;b&gt;&quot;still&quot;&lt;/b&gt; &amp; wait</title>"));
   CHECK_FALSE(has(html, "<b>\"still"));
   CHECK(has(html, "src=\"video.mp4\""));
+  CHECK_FALSE(has(html, "<h3>Frames</h3>"));  // of a video that cannot be read
   CHECK(has(html, "controls"));
   CHECK(has(html, "faba run scenario.toml --seed 42 --out repeated"));
   CHECK(has(html, "9f3c1a77be02d451"));

@@ -331,6 +331,31 @@ TEST_CASE("when the disk fills up while recording, what was recorded stays whole
   }
 }
 
+TEST_CASE("colours are read back: exactly from lossless_avi, to coding noise from mp4") {
+  const media::ScratchFolder folder;
+  for (const auto format : {VideoFormat::lossless_avi, VideoFormat::mp4}) {
+    VideoWriter writer(folder / "part", format, 120, 84, 15);
+    for (int k = 0; k < 3; ++k) writer.write(media::scene(120, 84, k, true));
+    writer.finish(folder / "film");
+    VideoReader reader(folder / "film");
+    RgbImage got;
+    double t_s = 0, off = 0;
+    for (int k = 0; k < 3; ++k) {
+      REQUIRE(reader.read_colours(got, t_s));
+      CHECK(t_s == doctest::Approx(k / 15.0));
+      const RgbImage wanted = media::scene(120, 84, k, true);
+      REQUIRE(got.px.size() == wanted.px.size());
+      if (format == VideoFormat::lossless_avi) CHECK(got.px == wanted.px);
+      for (std::size_t i = 0; i < got.px.size(); ++i)
+        off += std::abs(got.px[i].r - wanted.px[i].r) + std::abs(got.px[i].g - wanted.px[i].g) +
+               std::abs(got.px[i].b - wanted.px[i].b);
+    }
+    // Chroma of mp4 is halved: a wrong matrix or range would be tens of grey levels off everywhere.
+    CHECK(off / (3.0 * 3 * 120 * 84) < 3);
+    CHECK_FALSE(reader.read_colours(got, t_s));
+  }
+}
+
 TEST_CASE("grey frames: mp4 codes them as it codes the same greys in colour, odd sizes included") {
   const media::ScratchFolder folder;
   VideoWriter colour(folder / "c.part", VideoFormat::mp4, 121, 83, 15);
