@@ -11,7 +11,7 @@
 namespace faba::cli {
 namespace {
 
-void summary(const nlohmann::ordered_json& j) {
+void tell_runs(const nlohmann::ordered_json& j) {
   fmt::print("compared {}; direction {} degrees, flow above {:.3g} px\n", j["alignment"].get<std::string>(),
              whole_degrees(j["direction_deg"].get<double>()), j["flow_threshold_px"].get<double>());
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
@@ -66,7 +66,7 @@ int compare(const CompareVerb& v, const Common& c) {
   for (const auto& r : j["runs"])
     for (const auto& note : r["notes"])
       tell(fmt::format("faba: note: {}: {}", r["run"].get<std::string>(), note.get<std::string>()));
-  summary(j);
+  tell_runs(j);
   for (const auto& file : {v.out, v.report})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

@@ -9,7 +9,7 @@ namespace faba {
 namespace {
 
 constexpr std::int32_t kGranted = -1;
-constexpr std::size_t kBlock = 4096;  // agents whose wishes are sorted together
+constexpr std::size_t kWishes = 4096;  // agents whose wishes are sorted together
 constexpr int kSweeps = 8;            // of follow()
 // A stripe, a byte per grid cell, stays in the first cache. Stripes are larger when there would be too many
 // for a block to sort its wishes into.
@@ -40,7 +40,7 @@ TwoPhase::TwoPhase(const Grid& grid) : grid_(grid) {
 
 void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::span<float> to_x,
                        std::span<float> to_y, Cells& taken, std::uint64_t key, bool follows, Pool& pool) {
-  blocks_ = (x.size() + kBlock - 1) / kBlock;
+  blocks_ = (x.size() + kWishes - 1) / kWishes;
   wish_.resize(x.size());
   left_.resize(x.size());
   refused_.resize(x.size());
@@ -75,8 +75,8 @@ void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::
 // would be mispredicted too often.
 void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
                     std::span<const float> to_y, std::size_t block) {
-  const std::size_t first = block * kBlock, n = std::min(kBlock, x.size() - first);
-  std::array<std::int32_t, kBlock> from, to;
+  const std::size_t first = block * kWishes, n = std::min(kWishes, x.size() - first);
+  std::array<std::int32_t, kWishes> from, to;
   find_cells(grid_, &x[first], &y[first], n, from.data());
   find_cells(grid_, &to_x[first], &to_y[first], n, to.data());
   const auto stripe = [&from, &to, none = stripes_, shift = shift_](std::size_t i) {
@@ -147,7 +147,7 @@ void TwoPhase::decide(std::size_t stripe, Cells& taken, std::uint64_t key) {
   for (const std::uint32_t i : std::span(contest, contests))
     if (rank(i) < rank(best_for(i))) best_for(i) = i;
   for (const std::uint32_t i : std::span(contest, contests)) {
-    Segment& s = segment(wish[i].agent / kBlock, stripe);
+    Segment& s = segment(wish[i].agent / kWishes, stripe);
     cell[wish[i].to - first] = kTaken;
     if (best_for(i) == i)
       left_[s.begin + s.granted++] = wish[i].from;

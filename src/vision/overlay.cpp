@@ -128,7 +128,8 @@ Gray8 edge_pixel_picture(const GrayF& picture, const DropEdgeOptions& options) {
 
 RgbImage hough_picture(const GrayF& picture, const DropEdge& edge) {
   if (picture.empty()) return {};
-  cv::Mat3b m = grey_canvas(picture) * 0.5;
+  cv::Mat3b m = grey_canvas(picture);
+  m.convertTo(m, -1, 0.5);
   Pen pen(m, 2 * pen_width(picture), false);
   for (const EdgeSegment& s : edge.segments) pen.line(s.a, s.b, kViolet);
   return rgb_image(m);
