@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run test setup build bench accuracy format lint asan tsan fuzz docs clean help
+.PHONY: run test setup build bench accuracy reproduce format lint asan tsan fuzz docs clean help
 
 run: build            ## build the program and run the main job: a swarm steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -33,6 +33,10 @@ accuracy: build       ## render studies with known truth and see whether it is f
 	@cmake --build build -j $(JOBS) --target bench_exposure
 	@/usr/bin/python3 bench/tracking.py
 	@/usr/bin/python3 bench/exposure.py --seeds $(or $(SEEDS),2)
+
+reproduce: build      ## make every result of the 2016 thesis again: runs/reproduce/index.html; 10 to 20 minutes
+	@$(SETUP) test
+	@/usr/bin/python3 tools/reproduce.py
 
 format:               ## clang-format every source
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "study/experiment_bootstrap.h"
 #include "study/profile.h"
 #include "study/statistics.h"
 #include "study/study_random.h"
@@ -31,6 +32,7 @@ constexpr double kLevel = 0.90;     // of the intervals
 constexpr int kProfile = 41;        // values of each parameter
 constexpr double kUnlearnt = 0.75;  // share of the range: 0.9 when nothing was learnt
 constexpr double kTogether = 0.9;   // correlation from which on two are one
+constexpr double kDiffer = 2;  // times the posterior's width: by chance three sd off for four experiments
 
 double weighed_quantile(const VectorXd& v, const VectorXd& weight, double p) {
   std::vector<Index> order(std::size_t(v.size()));
@@ -103,6 +105,13 @@ void tell_doubts(FoundModel& m, const MatrixXd& draws) {
             fmt::format("{} is found together with {} only: one makes up for the other (correlation {:.2f})",
                         p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
     }
+    const FreeParameter& q = p.parameter;
+    if (p.doubt.empty() && p.resampled90 &&
+        (*p.resampled90)[1] - (*p.resampled90)[0] > kDiffer * (p.ci90[1] - p.ci90[0]))
+      p.doubt = fmt::format(
+          "experiments differ about {} by more than the model knows of: of experiments drawn anew, 90 % give "
+          "{:.3g} to {:.3g} {}",
+          q.path, q.shown((*p.resampled90)[0]), q.shown((*p.resampled90)[1]), q.shown_unit());
   }
 }
 
@@ -133,6 +142,13 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
     middle[j] = quantile({draws.col(j).begin(), draws.col(j).end()}, 0.5);
     m.best[p.path] = p.json(middle[j]);
   }
+  VectorXd sd(draws.cols());
+  for (Index j = 0; j < draws.cols(); ++j) sd[j] = sample_sd({draws.col(j).data(), std::size_t(draws.rows())});
+  const auto resampled = resampled_estimates(s, experiments, middle, sd, seed);
+  for (std::size_t j = 0; j < resampled.size(); ++j) {
+    const FreeParameter& p = m.parameters[j].parameter;
+    m.parameters[j].resampled90 = {p.value(resampled[j][0]), p.value(resampled[j][1])};
+  }
   tell_doubts(m, draws);
   const SyntheticLikelihood l = s.likelihood({});
   for (Index j = 0; j < draws.cols(); ++j) {
@@ -144,8 +160,8 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
   }
   m.simulations = std::size_t(s.simulations().size());
   m.fit_p = fit_p(s, middle, s.observed());
-  const VectorXd mean = s.emulator().mean(middle), sd = noise_of(s);
-  m.foretold.assign(mean.begin(), mean.end()), m.foretold_sd.assign(sd.begin(), sd.end());
+  const VectorXd mean = s.emulator().mean(middle), noise = noise_of(s);
+  m.foretold.assign(mean.begin(), mean.end()), m.foretold_sd.assign(noise.begin(), noise.end());
   StudyRandom random(seed, 2);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     MatrixXd u = draws.topRows(kForetold);

@@ -23,6 +23,7 @@ constexpr Shown kShown[] = {
 /// What the schemas say of the value at a path.
 struct Description {
   const Json* schema = nullptr;    ///< null: no such path
+  const Json* value = nullptr;     ///< what stands there; null: nothing
   std::vector<std::string> known;  ///< keys that are there in its place
 };
 
@@ -53,7 +54,7 @@ Description describe(const std::string& path, const Json& scenario) {
     const std::string key = path.substr(at, end - at);
     if (schema->contains("oneOf")) schema = chosen(*schema, value);
     if (!schema || !schema->contains("properties")) return {};
-    if (!(*schema)["properties"].contains(key)) return {nullptr, keys_of((*schema)["properties"])};
+    if (!(*schema)["properties"].contains(key)) return {nullptr, nullptr, keys_of((*schema)["properties"])};
     schema = &(*schema)["properties"][key];
     value = value && value->is_object() && value->contains(key) ? &(*value)[key] : nullptr;
     at = end;
@@ -68,7 +69,7 @@ Description describe(const std::string& path, const Json& scenario) {
     }
     if (at < path.size() && path[at] == '.') ++at;
   }
-  return {schema, {}};
+  return {schema, value, {}};
 }
 
 double number(const Node& n, const FreeParameter& p) {
@@ -164,6 +165,14 @@ double FreeParameter::log_prior(double u) const {
   if (!known) return 0;
   const double z = (value(u) - known->mean) / known->sd;
   return -0.5 * z * z;
+}
+
+std::optional<double> scenario_number(const std::string& path, const Json& scenario) {
+  const Description d = describe(path, scenario);
+  if (!d.schema) return {};
+  const Json* v = d.value ? d.value : d.schema->contains("default") ? &(*d.schema)["default"] : nullptr;
+  if (!v || !(v->is_number() || v->is_string())) return {};
+  return v->is_number() ? v->get<double>() : parse_quantity(v->get<std::string>()).value;
 }
 
 std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& scenario) {

@@ -41,4 +41,8 @@ struct FreeParameter {
 /// make no range.
 std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& scenario);
 
+/// The number at a path of a scenario, in SI: what stands there, else its default. Empty when there is
+/// neither.
+std::optional<double> scenario_number(const std::string& path, const Json& scenario);
+
 }  // namespace faba

@@ -13,6 +13,7 @@
 #include "study/legacy_selection.h"
 #include "study/parameter_search.h"
 #include "study/statistics.h"
+#include "study/u_turn.h"
 
 namespace faba {
 namespace {
@@ -175,6 +176,22 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
   return s;
 }
 
+// A moment shows in how long a U-turn takes, and not at all where that is shorter than a frame.
+void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
+                 const std::vector<ResponseVideo>& videos) {
+  const ResponseVideo& v = videos.front();
+  for (FoundParameter& p : m.parameters) {
+    if (p.parameter.name() != "moment" || p.doubt.empty()) continue;
+    const Document d =
+        scenario_of(study, c, v, v.episodes.front(), VectorXd::Constant(Index(c.free.size()), 0.5),
+                    exact_timing(v.episodes.front()));
+    const double turn = u_turn_s(d.root["swarm"][0]["model"], p.median, c.drive_t), frame = 1 / v.fps;
+    if (turn < frame)
+      p.doubt += fmt::format(
+          "; a U-turn lasts less than a frame, {:.2g} of {:.2g} s: drive with a weaker field", turn, frame);
+  }
+}
+
 // What the best model would show again and again, with all that is not known of it.
 bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSearch& search, const Observed& o,
               const Parts& parts, ResultStore& results, const SweepOptions& options) {
@@ -271,6 +288,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
     if (searches[c].failed.empty())
       m = found_model(study.candidates[c], *searches[c].search, o.columns, scale, study.seed + 77 * (c + 1));
     m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
+    tell_u_turn(m, study, study.candidates[c], r.videos);
     r.models.push_back(std::move(m));
   }
   r.statistics = o.statistics, r.experiments = o.experiments;

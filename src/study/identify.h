@@ -48,6 +48,8 @@ struct FoundParameter {
   std::array<double, 2> ci90{};
   double abc_median = 0;  ///< by approximate Bayesian computation, from the same simulations
   std::array<double, 2> abc_ci90{};
+  /// Where 90 % of its estimates lie with experiments drawn anew; empty for fewer than three.
+  std::optional<std::array<double, 2>> resampled90 = {};
   /// Share of its prior range that the interval covers: near 0.9 nothing was learnt.
   double share_of_range = 1;
   std::vector<double> draws = {};

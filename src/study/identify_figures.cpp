@@ -169,9 +169,10 @@ Figure posterior_figure(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
   Figure f{q.path,
            fmt::format("{} [{}, {}] {}: median and 90 % of the posterior. Dashed: the same by approximate "
-                       "Bayesian computation.{}",
+                       "Bayesian computation{}.{}",
                        three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
                        three_digits(q.shown(p.ci90[1])), q.shown_unit(),
+                       p.resampled90 ? ", and with experiments drawn anew" : "",
                        p.doubt.empty() ? "" : " " + p.doubt + "."),
            plot_of("Posterior of " + q.path, label_of(q), "density")};
   const auto [lo, hi] = std::minmax_element(p.draws.begin(), p.draws.end());
@@ -189,12 +190,16 @@ Figure posterior_figure(const FoundParameter& p) {
   f.plot.add(std::move(steps));
   f.plot.add(Rule{.at = q.shown(p.median), .label = {}, .ink = Ink::blue});
   const double top = *std::max_element(count.begin(), count.end());
-  f.plot.add(Line{.x = {q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1])},
-                  .y = {0.04 * top, 0.04 * top},
-                  .label = "ABC, 90 %",
-                  .ink = Ink::vermillion,
-                  .dashed = true,
-                  .width = 3});
+  const auto across = [&](const std::array<double, 2>& interval, double height, const char* label, Ink ink) {
+    f.plot.add(Line{.x = {q.shown(interval[0]), q.shown(interval[1])},
+                    .y = {height * top, height * top},
+                    .label = label,
+                    .ink = ink,
+                    .dashed = true,
+                    .width = 3});
+  };
+  across(p.abc_ci90, 0.04, "ABC, 90 %", Ink::vermillion);
+  if (p.resampled90) across(*p.resampled90, 0.08, "experiments anew, 90 %", Ink::green);
   return f;
 }
 

@@ -12,7 +12,8 @@ Json parameter_json(const FoundParameter& p) {
           {"range", {p.parameter.low, p.parameter.high}},
           {"share_of_range", p.share_of_range},
           {"doubt", p.doubt.empty() ? Json() : Json(p.doubt)},
-          {"abc", {{"median", p.abc_median}, {"ci90", p.abc_ci90}}}};
+          {"abc", {{"median", p.abc_median}, {"ci90", p.abc_ci90}}},
+          {"resampled90", p.resampled90 ? Json(*p.resampled90) : Json()}};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "study/study_random.h"
+#include "tests/study/searched.h"
 
 using namespace faba;
 using Eigen::Index;
@@ -40,19 +41,6 @@ struct LinearModel {
     return precision().inverse() * a.transpose() * (root * root.transpose()).inverse() * s;
   }
 };
-
-template <class Simulate>
-ParameterSearch searched(int d, const VectorXd& observed, std::uint64_t seed, Simulate&& simulate) {
-  ParameterSearch s(
-      d, observed, [](const VectorXd&) { return 0.0; }, {}, seed);
-  while (s.next()) {
-    const MatrixXd u = *s.next();
-    MatrixXd statistics(u.rows(), observed.size());
-    for (Index i = 0; i < u.rows(); ++i) statistics.row(i) = simulate(VectorXd(u.row(i))).transpose();
-    s.take(statistics);
-  }
-  return s;
-}
 
 double quantile(VectorXd v, double p) {
   std::sort(v.begin(), v.end());

@@ -1,0 +1,111 @@
+#!/usr/bin/python3
+"""tools/reproduce.py: it has every item of the thesis's index, makes a page that is whole, keeps what is done, and catches a wrong value.
+
+    reproduce_test.py --program build/faba --root .
+"""
+
+import argparse
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as xml
+
+p = argparse.ArgumentParser()
+p.add_argument("--program", type=pathlib.Path, required=True)
+p.add_argument("--root", type=pathlib.Path, required=True)
+O, REST = p.parse_known_args()
+PROGRAM, ROOT = O.program.resolve(), O.root.resolve()
+INDEX = ROOT.parent / "shared/THESIS_INDEX.md"
+sys.path.insert(0, str(ROOT / "tools"))
+
+import reproduce  # noqa: E402
+from reproduce_rows import check, flow, index, page  # noqa: E402
+from reproduce_rows.faba import Lab  # noqa: E402
+
+QUICK = ("Fig 3.12", "Table 4.1", "Fig 3.20", "Fig B.3", "B.6, B.7", "B.8")
+
+
+def call(*words):
+    return subprocess.run(
+        [sys.executable, str(ROOT / "tools/reproduce.py"), "--program", str(PROGRAM), *words], capture_output=True, text=True
+    )
+
+
+class List(unittest.TestCase):
+    @unittest.skipUnless(INDEX.exists(), "the thesis's index is not here")
+    def test_has_every_item_in_the_thesiss_order(self):
+        items = [line.split("|")[1].strip() for line in INDEX.read_text().splitlines() if line.startswith("| ")][1:]
+        self.assertEqual([line[:18].strip() for line in call("--list").stdout.splitlines()], items)
+
+    def test_an_item_is_found_by_its_number(self):
+        self.assertEqual([r.item for r in index.wanted(["4.13"])], ["Eq 4.1, Fig 4.13"])
+        self.assertNotEqual(call("--only", "Fig 9.99").returncode, 0)
+
+
+class Page(unittest.TestCase):
+    def test_quick_results(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ["--out", folder] + [w for item in QUICK for w in ("--only", item)]
+            done = call(*words)
+            self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+            text = (pathlib.Path(folder) / "index.html").read_text()
+            root = xml.fromstring(text)
+            ids = [e.get("id") for e in root.iter() if e.get("id")]
+            self.assertEqual(len(ids), len(set(ids)))
+            for a in root.iter("a"):
+                self.assertIn(a.get("href").removeprefix("#"), ids)
+            sections = {s.get("id"): "".join(s.itertext()) for s in root.iter("section")}
+            self.assertEqual(list(sections), [page.anchor(r.item) for r in index.ROWS if r.item in QUICK])
+            for item in QUICK:
+                row = next(r for r in index.ROWS if r.item == item)
+                self.assertIn(row.verdict, sections[page.anchor(item)])
+            self.assertNotIn('src="http', text)
+            self.assertNotIn("<script", text)
+            # Called again it keeps what is done.
+            steps = {p: p.stat().st_mtime_ns for p in (pathlib.Path(folder) / "steps").iterdir()}
+            self.assertGreater(len(steps), 10)
+            self.assertEqual(call(*words).returncode, 0)
+            self.assertEqual({p: p.stat().st_mtime_ns for p in (pathlib.Path(folder) / "steps").iterdir()}, steps)
+
+
+class Verdict(unittest.TestCase):
+    def found(self, *values):
+        f = check.Found()
+        for v in values:
+            f.within("a value", v, 1, 2, "as the test wants it")
+        return f
+
+    def test_a_value_must_lie_in_its_range(self):
+        self.assertEqual(check.verdict(check.SAME, self.found(1, 1.5, 2)), check.SAME)
+        for wrong in (0.999, 2.001, math.nan, math.inf, None, True):
+            self.assertEqual(check.verdict(check.SAME, self.found(1.5, wrong)), check.DIFFERS, wrong)
+
+    def test_nothing_checked_and_nothing_made_prove_nothing(self):
+        self.assertEqual(check.verdict(check.CORRECTED, check.Found()), check.DIFFERS)
+        f = self.found(1.5)
+        f.failed = "no such file"
+        self.assertEqual(check.verdict(check.CORRECTED, f), check.DIFFERS)
+        self.assertEqual(check.verdict(check.PENDING, check.Found()), check.PENDING)
+
+    def test_a_wrong_result_is_caught(self):
+        """The distance of appendix B.8 against a table with one digit wrong."""
+        row, right = next(r for r in index.ROWS if r.item == "B.8"), flow.TABLE[(3, 0.9)]
+        with tempfile.TemporaryDirectory() as folder:
+            lab = Lab(PROGRAM, pathlib.Path(folder), False, lambda name: None)
+            self.assertEqual(check.verdict(row.verdict, reproduce.made(row, lab)), check.SAME)
+            flow.TABLE[(3, 0.9)] = right + 1e-11
+            try:
+                found = reproduce.made(row, lab)
+            finally:
+                flow.TABLE[(3, 0.9)] = right
+        self.assertEqual(check.verdict(row.verdict, found), check.DIFFERS)
+        text = page.page([(row, found)], 1, "", "")
+        self.assertIn("1 differ", text)
+        self.assertIn("A check fails", text)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *REST])

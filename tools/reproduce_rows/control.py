@@ -1,0 +1,327 @@
+"""Controllers: Figs 3.15 to 3.19, 4.17 to 4.20, the route."""
+
+import math
+
+import numpy as np
+
+from reproduce_rows import plot, read, stats
+from reproduce_rows.models import frames
+
+SEEDS = range(1, 11)
+BASIC, ADAPTED = "scenes/thesis-basic.toml", "scenes/thesis-adapted.toml"
+NEITHER = ("record.video=false", "record.tracks=false")
+WHY = "what a faithful re-creation gives over seeds (theory, A21)"
+VECTOR = {0: 2.5, 40: 2.5, 60: 3.125, 80: 3.75, 100: 4.375, 120: 5, 300: 5}
+
+
+def seeds(lab, name, scene, *settings):
+    return [read.series(s) for s in lab.all([lab.a_run(f"{name}-{k}", scene, *settings, *NEITHER, seed=k) for k in SEEDS])]
+
+
+def arrival(s):
+    """Iterations until the swarm's mean is within 32 px of the setpoint."""
+    near = np.flatnonzero(s["distance_px"] < 32)
+    return float(near[0]) if len(near) else math.nan
+
+
+def steady(s):
+    d = s["distance_px"]
+    return float(np.sqrt(np.mean(d[len(d) * 2 // 3 :] ** 2)))
+
+
+def loops(lab, found):
+    opened = lab.run("null-route", "scenes/null-route.toml")
+    closed = lab.run("basic-film", BASIC)
+    a, b = opened.answer, closed.answer
+    found.value = (
+        f"open loop: {a['setpoints']} of 3 setpoints, {a['final_distance_px']:.1f} px from the last one; closed loop: settled after "
+        f"{b['settling_time_s']:.2f} s, {b['steady_rms_px']:.1f} px rms"
+    )
+    found.within(
+        "Open loop: setpoints that it came to", a["setpoints"], 3, 3, "a setpoint is given when the one before was held for 15 frames"
+    )
+    found.within("Open loop: distance to the last one", a["final_distance_px"], None, 20, "the route's own tolerance", "px")
+    found.within("Closed loop: distance over the last third", b["steady_rms_px"], 1.5, 3, WHY, "px rms")
+    chain = (
+        (10, 20, 100, "setpoint"),
+        (150, 20, 130, "nearest zero|library or solved"),
+        (320, 20, 110, "coil currents"),
+        (470, 20, 120, "swarm|in the field's zero"),
+    )
+    found.show(
+        plot.boxes("Open loop", chain, [(0, 1), (1, 2), (2, 3)], "Nothing comes back: the swarm gathers in the zero by itself.", (620, 80))
+    )
+    loop = (
+        (10, 20, 100, "setpoint"),
+        (150, 20, 130, "fuzzy controller"),
+        (320, 20, 110, "field"),
+        (470, 20, 120, "swarm"),
+        (310, 100, 130, "estimate|mean of the cells"),
+    )
+    found.show(
+        plot.boxes(
+            "Closed loop",
+            loop,
+            [(0, 1), (1, 2), (2, 3), (3, 4), (4, 1)],
+            "The mean of the cells decides how strong the field is.",
+            (620, 160),
+            True,
+        )
+    )
+    found.show(
+        read.figure(opened.folder / "report.html", "Path in the picture", "Open loop: the zero carries the swarm"),
+        read.figure(closed.folder / "report.html", "Distance to the setpoint", "Closed loop: distance to the setpoint"),
+    )
+
+
+def strength(s, scene):
+    """Commanded strength in field units, frame by frame, and the distance it was commanded at."""
+    unit, gain = _si(scene["scale"]["field_unit"], "T"), _si(scene["field"]["gain"], "T/A")
+    m = np.hypot(s["current_0_a"], s["current_1_a"]) * gain / unit
+    d = np.hypot(s["estimate_x_px"] - s["setpoint_x_px"], s["estimate_y_px"] - s["setpoint_y_px"])
+    return d, m
+
+
+def _si(value, unit):
+    """A number of scenario.toml, which writes them in SI, with the unit or without."""
+    return float(value.removesuffix(unit)) if isinstance(value, str) else float(value)
+
+
+def _law(lab):
+    """The breakpoints and the largest output, as the program describes them."""
+    about = lab.call("parts", "parts").answer["controller"]["fuzzy"]["properties"]
+    return about, tuple(float(about[k]["default"]) for k in ("near_px", "far_px", "max_output"))
+
+
+def far(d, near, far_px):
+    return np.clip((d - near) / (far_px - near), 0, 1)
+
+
+def memberships(lab, found):
+    about, (near, far_px, most) = _law(lab)
+    step = lab.run("basic-film", BASIC)
+    d, m = strength(read.series(step), read.scenario(step))
+    measured = 2 * m / most - 1
+    off = float(np.abs(measured - far(d, near, far_px)).max())
+    found.value = f"close until {near:g} px, far from {far_px:g} px (assumed); the run's commands lie on them within {off:.1e}"
+    found.within(
+        "Largest distance of a command from the trapezoids",
+        off,
+        None,
+        1e-5,
+        "series.csv has 9 digits, and d is a difference of two numbers up to 640",
+    )
+    found.true(
+        "The program says that the breakpoints are assumed",
+        all("assumed" in str(about[k]) for k in ("near_px", "far_px")),
+        "the thesis has them in a figure only",
+    )
+    at = np.linspace(0, 160, 321)
+    found.show(
+        plot.plot(
+            "Memberships",
+            "distance (px)",
+            "membership",
+            [
+                ("line", "close", at, 1 - far(at, near, far_px)),
+                ("line", "far", at, far(at, near, far_px)),
+                ("dots", "from the run's commands", d, measured),
+            ],
+            "Dots: what the commands of a run say of \u201cfar\u201d.",
+            x=(0, 160),
+            wide=True,
+        )
+    )
+
+
+def sugeno(lab, found):
+    _, (near, far_px, most) = _law(lab)
+    calls = [
+        lab.a_run(
+            f"fuzzy-{d}",
+            BASIC,
+            "swarm[0].count=1",
+            f'swarm[0].start={{type="places", places_px=[[{320 - d}, 240]], scatter_px=0}}',
+            *NEITHER,
+            "--duration",
+            "0.0667 s",
+        )
+        for d in VECTOR
+    ]
+    told = []
+    for step in lab.all(calls):
+        d, m = strength(read.series(step), read.scenario(step))
+        told.append((float(d[0]), float(m[0])))
+    worst = max(abs(m - most / 2 * (1 + far(d, near, far_px))) for d, m in told)
+    step = lab.run("basic-film", BASIC)
+    d, m = strength(read.series(step), read.scenario(step))
+    found.value = "M = " + ", ".join(f"{m:.3f}" for _, m in told) + " at " + ", ".join(f"{d:.0f}" for d, _ in told) + " px"
+    found.within(
+        "Largest difference to the weighted mean of the rules", worst, None, 1e-6, "eq. 3.2 at the very distance; series.csv has 9 digits"
+    )
+    for (d0, m0), (wanted, output) in zip(told, VECTOR.items()):
+        found.about(
+            f"M at {wanted} px",
+            m0,
+            output,
+            1e-6 + abs(d0 - wanted) * most / 2 / (far_px - near),
+            f"test vector with m_max = 5, breakpoints 40 and 120 px; the cell was at {d0:.4f} px",
+        )
+    at = np.linspace(0, 330, 331)
+    found.show(
+        plot.plot(
+            "Strength of the field",
+            "distance (px)",
+            "command (field units)",
+            [("line", "eq. 3.2", at, most / 2 * (1 + far(at, near, far_px))), ("dots", "commands of a run", d, m)],
+            "Half of the maximum near the setpoint, all of it far away.",
+            y=(0, 5.4),
+            wide=True,
+        )
+    )
+
+
+def corner(lab, found):
+    film = lab.run("corner", "scenes/corner.toml")
+    times = []
+    for s in seeds(lab, "corner-seed", "scenes/corner.toml"):
+        off = np.hypot(s["centroid_x_px"] - s["centroid_x_px"][-1], s["centroid_y_px"] - s["centroid_y_px"][-1])
+        times.append(float(s["t_s"][np.flatnonzero(off <= 30)[0]]))
+    mean, low, high = stats.mean_ci95(times)
+    found.value = f"{mean:.2f} s (95 % of the mean {low:.2f} to {high:.2f} s; ten seeds from {min(times):.2f} to {max(times):.2f} s)"
+    found.within("Soonest of ten seeds", min(times), 3.5, 4.6, WHY, "s")
+    found.within("Latest of ten seeds", max(times), 3.5, 4.6, WHY, "s")
+    found.show(frames(film, "Into the top-left corner"), read.figure(film.folder / "report.html", "Path in the picture"))
+
+
+def to_the_centre(lab, found):
+    films = lab.all([lab.a_run("basic-film", BASIC), lab.a_run("adapted-film", ADAPTED)])
+    a = [s.answer for s in films]
+    found.value = "; ".join(
+        f"{n}: settled after {x['settling_time_s']:.1f} s, {x['steady_rms_px']:.1f} px rms"
+        for n, x in zip(("Basic", "Adapted"), a)
+        if x["settling_time_s"] is not None
+    )
+    for name, x, low, high in (("Basic", a[0], 1.5, 3), ("Adapted", a[1], 2.8, 4.5)):
+        found.within(f"{name}: distance over the last third", x["steady_rms_px"], low, high, WHY, "px rms")
+    found.show(*(frames(s, f"{n}: from the edge to the centre") for n, s in zip(("Basic, 8", "Adapted, 9"), films)))
+
+
+def distance(lab, found):
+    runs = {n: seeds(lab, f"{n}-seed", scene) for n, scene in (("basic", BASIC), ("adapted", ADAPTED))}
+    signs = {n: seeds(lab, f"{n}-sign", scene, "controller.direction=axis-sign") for n, scene in (("basic", BASIC), ("adapted", ADAPTED))}
+    straight, by_axis = ({n: [arrival(s) for s in of] for n, of in each.items()} for each in (runs, signs))
+    lead, low, high = stats.mean_ci95(np.subtract(by_axis["adapted"], by_axis["basic"]))
+    even, even_low, even_high = stats.mean_ci95(np.subtract(straight["adapted"], straight["basic"]))
+    rms = {n: stats.mean_ci95([steady(s) for s in of]) for n, of in runs.items()}
+    found.value = (
+        f"within 32 px after {np.mean(straight['basic']):.0f} (Basic) and {np.mean(straight['adapted']):.0f} iterations (Adapted), then"
+        f" {rms['basic'][0]:.1f} [{rms['basic'][1]:.1f}, {rms['basic'][2]:.1f}] and {rms['adapted'][0]:.1f} [{rms['adapted'][1]:.1f},"
+        f" {rms['adapted'][2]:.1f}] px rms; with a command per axis Basic is {lead:.0f} [{low:.0f}, {high:.0f}] iterations faster"
+    )
+    for n, model in (("basic", "Basic"), ("adapted", "Adapted")):
+        found.within(f"{model}: iterations until within 32 px, mean of ten seeds", float(np.mean(straight[n])), 55, 75, WHY)
+    found.within("Basic: distance over the last third", rms["basic"][0], 1.5, 3, WHY, "px rms")
+    found.within("Adapted: distance over the last third", rms["adapted"][0], 2.8, 4.5, WHY, "px rms")
+    found.within(
+        "Adapted: later than Basic with a command per axis, 95 % from",
+        low,
+        0,
+        None,
+        "Basic is faster, as published, when the whole interval of the paired difference says so",
+        "it",
+    )
+    found.note.append(
+        f"The rules give a strength and no direction. Straight towards the setpoint the two arrive together ({even:+.1f} [{even_low:.1f},"
+        f" {even_high:.1f}] iterations); with the sign of each axis, the other reading, Basic arrives first. In both Basic stays nearer."
+    )
+    found.show(
+        both("Distance to the setpoint", "distance (px)", "distance_px", runs, "Straight to the setpoint; means of ten seeds."),
+        both("Distance, a command per axis", "distance (px)", "distance_px", signs, "`axis-sign`; means of ten seeds.".replace("`", "")),
+    )
+
+
+def both(heading, label, column, runs, caption):
+    layers = [("line", name.capitalize(), np.arange(400), np.mean([s[column][:400] for s in of], axis=0)) for name, of in runs.items()]
+    return plot.plot(heading, "iteration", label, layers, caption)
+
+
+def dispersion(lab, found):
+    runs = {n: seeds(lab, f"{n}-seed", scene) for n, scene in (("basic", BASIC), ("adapted", ADAPTED))}
+    bare = seeds(lab, "adapted-quiet", ADAPTED, "swarm[0].model.noise_amplitude=0")
+    states = (
+        'controller.set=[{name="at", trapezoid_px=[0, 0, 1, 8], output=0}, {name="near", trapezoid_px=[1, 8, 40, 120], output=2.5}, '
+        '{name="far", trapezoid_px=[40, 120, 1e9, 1e9], output=5}]'
+    )
+    three = seeds(lab, "basic-three", BASIC, states)
+    last = {n: stats.mean_ci95([s["sigma_x_px"][-1] for s in of]) for n, of in {**runs, "bare": bare, "three": three}.items()}
+    at50 = {n: stats.mean_ci95([s["sigma_x_px"][50] for s in of]) for n, of in {**runs, "bare": bare}.items()}
+    found.value = (
+        f"σx after 50 iterations: Basic {at50['basic'][0]:.0f}, Adapted {at50['adapted'][0]:.0f} px; at the end"
+        f" {last['basic'][0]:.0f} [{last['basic'][1]:.0f}, {last['basic'][2]:.0f}] and {last['adapted'][0]:.0f} [{last['adapted'][1]:.0f},"
+        f" {last['adapted'][2]:.0f}] px"
+    )
+    for n, model, low, high in (("basic", "Basic", 115, 150), ("adapted", "Adapted", 170, 205)):
+        found.within(f"{model}: σx at the end", last[n][0], low, high, WHY, "px")
+        found.within(f"{model}: σy at the end", float(np.mean([s["sigma_y_px"][-1] for s in runs[n]])), 125, 155, WHY, "px")
+    found.within(
+        "Adapted without its noise over Adapted, σx after 50 iterations",
+        at50["bare"][0] / at50["adapted"][0],
+        0.75,
+        None,
+        "more than half of the variance (0.75² = 0.56) is there without any randomness: cells differ in speed",
+    )
+    change, low, high = stats.mean_ci95([a["rms_radius_px"][-1] - b["rms_radius_px"][-1] for a, b in zip(three, runs["basic"])])
+    found.within(
+        "Three fuzzy states less two: rms radius at the end, 95 % to",
+        high,
+        0,
+        None,
+        "not smaller beyond chance: a uniform field moves all cells alike",
+        "px",
+    )
+    found.note.append(
+        f"A third fuzzy state changes the rms radius by {change:+.1f} [{low:.1f}, {high:.1f}] px, that is, not at all. An evenly filled box"
+        " has σ = 185 × 139 px."
+    )
+    layers = [
+        ("line", n, np.arange(400), np.mean([s["sigma_x_px"][:400] for s in of], axis=0))
+        for n, of in (("Basic", runs["basic"]), ("Adapted", runs["adapted"]), ("Adapted without noise", bare))
+    ]
+    found.show(
+        both(
+            "Dispersion", "rms radius (px)", "rms_radius_px", runs, "Root-mean-square distance from the swarm's mean; means of ten seeds."
+        ),
+        plot.plot(
+            "Dispersion along x",
+            "iteration",
+            "σx (px)",
+            layers,
+            "What is left of the Adapted model without its noise is due to speeds alone.",
+        ),
+    )
+
+
+def route(lab, found):
+    goals = [[320, 110], [540, 240], [320, 370], [320, 240]]
+    step = lab.run("route", BASIC, f'reference={{type="route", setpoints_px={goals}}}')
+    a = step.answer
+    error = a["path_tracking_rms_px"]
+    found.value = (
+        f"{a['setpoints']} of {len(goals)} setpoints, {a['final_distance_px']:.1f} px from the last; {error:.1f} px rms off the route"
+        if error
+        else ""
+    )
+    found.within(
+        "Setpoints that the swarm came to",
+        a["setpoints"],
+        len(goals),
+        len(goals),
+        "the next one is given when the one before was held for 15 frames",
+    )
+    found.within("Distance to the last one", a["final_distance_px"], None, 10, "the route's tolerance", "px")
+    found.show(
+        read.figure(step.folder / "report.html", "Path in the picture"),
+        read.figure(step.folder / "report.html", "Distance to the setpoint"),
+    )
+    found.show(frames(step, "Along the route"))
