@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Whether `faba identify` finds what is known: experiments are rendered with a model, a speed and everything else drawn by chance,
-and identified from their videos alone.
+and identified from what a camera sees of them.
 
 Each experiment is a drop of which an arc is in view, with a swarm at its edge and six drives to and fro along a line. Drawn are
 the model (basic, adapted or dipole), its speed or largest displacement, 150 to 800 cells, the camera's noise, the time in air, the
-size and place of the drop and the line. The study is told the scale, the strength of the field and the time in air; edge, cells,
-drives and directions are found. Prints a table and a verdict on every goal; keeps them in bench/results/.
+size and place of the drop and the line. The study is told the scale, the strength of the field and the time in air; a run keeps
+the moments at which its field turned; edge, light, cells, their number and where they begin are found. Prints a table and a verdict on every goal; keeps them in bench/results/.
 
     bench/recovery.py [--program build/faba] [--experiments 40] [--simulations 300] [--seed 1] [--keep DIR] [--out bench/results]
 

@@ -13,6 +13,10 @@ namespace {
 constexpr double kTurn = 0.25;  // share of the whole way that a swarm must go back before it counts
 constexpr double kLeaves = 0.05, kGone = 0.25;  // shares of a drive's way that its beginning is told from
 
+constexpr double kLeastHeld = 0.4;       // s: of a field that is held
+constexpr double kFieldOn = 0.2;         // of the strongest
+constexpr double kSameDirection = 0.87;  // cosine of 30 degrees
+
 /// Angle of the line that the points are spread along most.
 double main_axis(const std::vector<Vec2>& p) {
   Vec2 mean;
@@ -81,6 +85,35 @@ std::vector<Drive> drives_of_swarm(const std::vector<double>& t_s, const std::ve
   }
   for (std::size_t k = 0; k < drives.size(); ++k)
     drives[k].t1_s = k + 1 < drives.size() ? drives[k + 1].t0_s : t.back();
+  return drives;
+}
+
+std::vector<Drive> drives_of_field(const Series& record, bool against) {
+  const auto t = record.find("t_s"), bx = record.find("field_x_ut"), by = record.find("field_y_ut");
+  if (t.empty() || bx.empty() || by.empty()) return {};
+  double strongest = 0;
+  for (std::size_t k = 0; k < t.size(); ++k) strongest = std::max(strongest, std::hypot(bx[k], by[k]));
+  std::vector<Drive> drives;
+  Vec2 sum;
+  std::size_t from = 0;
+  const auto close = [&](std::size_t at) {
+    if (at < t.size() ? t[at] - t[from] >= kLeastHeld : t[at - 1] - t[from] >= kLeastHeld) {
+      const Vec2 way = against ? -1 * sum : sum;
+      const double deg = std::atan2(-way.y, way.x) * 180 / std::numbers::pi;  // y is down in pictures
+      drives.push_back({t[from], t[std::min(at, t.size() - 1)], std::fmod(deg + 360, 360)});
+    }
+    sum = {}, from = at;
+  };
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    const Vec2 b{bx[k], by[k]};
+    const bool on = norm(b) > kFieldOn * strongest;
+    if (norm(sum) > 0 && (!on || dot(b, sum) < kSameDirection * norm(b) * norm(sum))) close(k);
+    if (!on) continue;
+    if (norm(sum) == 0) from = k;
+    sum = sum + b;
+  }
+  if (norm(sum) > 0) close(t.size());
+  if (drives.size() > 1 && drives.front().t0_s <= t.front()) drives.erase(drives.begin());
   return drives;
 }
 

@@ -7,9 +7,11 @@
 #include <limits>
 #include <numeric>
 
+#include "app/session.h"
 #include "core/error.h"
 #include "study/found_drives.h"
 #include "study/matched_look.h"
+#include "study/run_info.h"
 #include "study/run_video.h"
 #include "study/statistics.h"
 #include "study/track_survey.h"
@@ -80,14 +82,22 @@ std::vector<Drive> drives_of_drop(const ResponseVideo& v, const std::function<vo
   return drives_of_swarm(t_s, centroid, kLeastWay * std::min(v.view.width, v.view.height));
 }
 
-std::vector<Drive> drives_in(const ResponseVideo& v, Boundary boundary, double duration_s,
-                             const std::function<void()>& tick) {
+/// What a run says of its own field; none for a video that is no run, or whose field was not recorded.
+std::vector<Drive> recorded_drives(const std::filesystem::path& run) {
+  if (!is_run(run) || !std::filesystem::exists(run / "series.csv")) return {};
+  return drives_of_field(read_series(run / "series.csv"),
+                         read_run_info(run / run_files::kManifest).polarity == "south");
+}
+
+std::vector<Drive> drives_in(const ResponseVideo& v, const std::vector<Drive>& recorded, Boundary boundary,
+                             double duration_s, const std::function<void()>& tick) {
   const ResponseInput& in = v.input;
   if (!in.drives.empty()) return in.drives;
   const double end =
       in.duration_s && in.reversal_s ? std::min(*in.reversal_s + *in.duration_s, duration_s) : duration_s;
   if (in.reversal_s && in.direction_deg) return {{*in.reversal_s, end, *in.direction_deg}};
-  std::vector<Drive> found = boundary == Boundary::none
+  std::vector<Drive> found = !recorded.empty() ? recorded
+                             : boundary == Boundary::none
                                  ? drives_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, tick)
                                  : drives_of_drop(v, tick);
   if (in.direction_deg)
@@ -231,8 +241,9 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   v.um_per_px = *scale;
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
-  const std::vector<Drive> drives = drives_in(v, boundary, survey.duration_s, tick);
-  v.drives_found = input.drives.empty() && !(input.reversal_s && input.direction_deg);
+  const std::vector<Drive> recorded = recorded_drives(input.file);
+  const std::vector<Drive> drives = drives_in(v, recorded, boundary, survey.duration_s, tick);
+  v.drives_found = recorded.empty() && input.drives.empty() && !(input.reversal_s && input.direction_deg);
   const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestDrive;
   for (const Drive& d : drives)
     if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)

@@ -43,7 +43,7 @@ struct ResponseVideo {
   std::optional<DropEdge> edge;               ///< with Boundary::drop
   std::shared_ptr<const VideoGround> ground;  ///< light and noise
   double cell_px = 0, contrast = 0;  ///< of a cell that is rendered: width as seen, and as in [microscope]
-  bool drives_found = false;         ///< else they were given
+  bool drives_found = false;         ///< in the video; else they were given, or a run recorded its field
   std::vector<Episode> episodes;
   std::vector<std::shared_ptr<const EpisodeStatistics>> statistics;  ///< of each episode
   std::vector<std::vector<double>> observed;                         ///< what they give for the video

@@ -55,6 +55,28 @@ TEST_CASE("turns are found to a frame, directions to a degree") {
   CHECK(drives[2].t1_s == doctest::Approx(10));
 }
 
+TEST_CASE("a run's record of its field has its drives, to the frame") {
+  std::vector<std::vector<double>> columns(3);
+  for (int k = 0; k <= 90; ++k) {
+    const double t = k * kFrame;
+    const double b = t < 1 ? -60 : t < 3 ? 60 : t < 3.2 ? 0 : -60;  // the world's y is up
+    columns[0].push_back(t), columns[1].push_back(b * std::cos(kTilt)),
+        columns[2].push_back(b * std::sin(kTilt));
+  }
+  const Series record("series.csv", {"t_s", "field_x_ut", "field_y_ut"}, columns);
+  for (const bool against : {false, true}) {
+    const auto drives = drives_of_field(record, against);
+    REQUIRE(drives.size() == 2);
+    CHECK(std::fabs(drives[0].t0_s - 1) < kFrame);
+    CHECK(std::fabs(drives[0].t1_s - 3) < 1.5 * kFrame);
+    CHECK(std::fabs(drives[1].t0_s - 3.2) < kFrame);
+    CHECK(drives[1].t1_s == doctest::Approx(6));
+    CHECK(std::fabs(std::remainder(drives[0].direction_deg - (against ? 155 : 335), 360)) < 1e-9);
+    CHECK(std::fabs(std::remainder(drives[1].direction_deg - (against ? 335 : 155), 360)) < 1e-9);
+  }
+  CHECK(drives_of_field(Series("series.csv", {"t_s"}, {{0, 1}}), false).empty());
+}
+
 TEST_CASE("a swarm that stays where it is has none") {
   Way w = way(0.3);
   for (Vec2& at : w.at) at = {100 + 0.01 * at.x, 80 + 0.01 * at.y};
