@@ -18,10 +18,6 @@ struct Shape {
   Mat2 cov;
   bool good = false;
 
-  double at(double col, double row) const {
-    const double dx = col - x, dy = row - y, det = cov.xx * cov.yy - cov.xy * cov.xy;
-    return amplitude * std::exp(-0.5 * (cov.yy * dx * dx - 2 * cov.xy * dx * dy + cov.xx * dy * dy) / det);
-  }
   double reach() const { return 3.5 * std::sqrt(std::max(cov.xx, cov.yy)); }
 };
 
@@ -45,9 +41,24 @@ class Window {
   void take_off(const Shape& other) {
     const double r = other.reach();
     if (other.x < left_ - r || other.x > right_ + r || other.y < top_ - r || other.y > bottom_ + r) return;
-    std::size_t i = 0;
-    for (int row = top_; row <= bottom_; ++row)
-      for (int col = left_; col <= right_; ++col) px_[i++] -= other.at(col, row);
+    // Along a row a Gaussian's value is the one beside it times a factor that itself changes by a factor:
+    // from where it is largest outwards, so that rounding is of the largest.
+    const double det = other.cov.xx * other.cov.yy - other.cov.xy * other.cov.xy;
+    const double xx = other.cov.yy / det, xy = -other.cov.xy / det, yy = other.cov.xx / det,
+                 bend = std::exp(-xx);
+    for (int row = top_; row <= bottom_; ++row) {
+      double* const px = &px_[std::size_t(row - top_) * std::size_t(right_ - left_ + 1)];
+      const double dy = row - other.y, peak = other.x - xy / xx * dy;
+      const int from = int(std::clamp(std::round(peak), double(left_), double(right_)));
+      const double dx = from - other.x;
+      const double middle =
+          other.amplitude * std::exp(-0.5 * (xx * dx * dx + 2 * xy * dx * dy + yy * dy * dy));
+      const double slope = xx * dx + xy * dy;
+      double value = middle, step = std::exp(-slope - 0.5 * xx);
+      for (int col = from; col <= right_; ++col, value *= step, step *= bend) px[col - left_] -= value;
+      value = middle * (step = std::exp(slope - 0.5 * xx)), step *= bend;
+      for (int col = from - 1; col >= left_; --col, value *= step, step *= bend) px[col - left_] -= value;
+    }
   }
   // Median of a ring around the spot.
   double offset(double x, double y) const {
@@ -64,18 +75,23 @@ class Window {
     std::nth_element(ring.begin(), middle, ring.end());
     return *middle;
   }
-  Moments moments(double x, double y, double offset) const {
+  Moments moments(double x, double y, double offset) {
     Moments m;
     const double k = -0.5 / (sd_ * sd_), reach = 3 * sd_ + 0.5;
-    for (int row = std::max(top_, int(y - reach)); row <= std::min(bottom_, int(y + reach + 1)); ++row)
-      for (int col = std::max(left_, int(x - reach)); col <= std::min(right_, int(x + reach + 1)); ++col) {
-        const double dx = col - x, dy = row - y;
+    const int first = std::max(left_, int(x - reach)), last = std::min(right_, int(x + reach + 1));
+    across_.clear();
+    for (int col = first; col <= last; ++col) across_.push_back(std::exp(k * (col - x) * (col - x)));
+    for (int row = std::max(top_, int(y - reach)); row <= std::min(bottom_, int(y + reach + 1)); ++row) {
+      const double dy = row - y, down = std::exp(k * dy * dy);
+      for (int col = first; col <= last; ++col) {
+        const double dx = col - x;
         const double v =
             px_[std::size_t(row - top_) * std::size_t(right_ - left_ + 1) + std::size_t(col - left_)];
-        const double w = std::exp(k * (dx * dx + dy * dy)) * (v - offset);
+        const double w = down * across_[std::size_t(col - first)] * (v - offset);
         m.mass += w, m.x += w * dx, m.y += w * dy;
         m.cov.xx += w * dx * dx, m.cov.xy += w * dx * dy, m.cov.yy += w * dy * dy;
       }
+    }
     if (m.mass <= 0) return m;
     m.x /= m.mass, m.y /= m.mass;
     m.cov = {m.cov.xx / m.mass - m.x * m.x, m.cov.xy / m.mass - m.x * m.y, m.cov.yy / m.mass - m.y * m.y};
@@ -86,7 +102,7 @@ class Window {
   static int half(double sd) { return int(std::ceil(kRing * sd + std::max(1.5 * sd, 1.5) + 1.5 * sd)) + 1; }
   double sd_;
   int left_, top_, right_, bottom_;
-  std::vector<double> px_;
+  std::vector<double> px_, across_;
 };
 
 // Eigenvalues of a symmetric matrix, the larger first, and the direction of its vector.
@@ -111,7 +127,7 @@ Mat2 without_window(const Mat2& under, double sd) {
   return {large * c * c + small * s * s, (large - small) * c * s, large * s * s + small * c * c};
 }
 
-Shape settle(const Window& window, const SpotSeed& seed, Shape from, double sd) {
+Shape settle(Window& window, const SpotSeed& seed, Shape from, double sd) {
   Shape to = from;
   to.good = false;
   Moments m;
