@@ -113,7 +113,7 @@ std::vector<Drive> drives_of_field(const Series& record, bool against) {
     sum = sum + b;
   }
   if (norm(sum) > 0) close(t.size());
-  if (drives.size() > 1 && drives.front().t0_s <= t.front()) drives.erase(drives.begin());
+  if (drives.size() > 1 && drives.front().t0_s < t.front() + kLeastHeld) drives.erase(drives.begin());
   return drives;
 }
 
