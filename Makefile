@@ -27,12 +27,14 @@ bench: build          ## measure speed beside NumPy, Octave and the machine's li
 	@/usr/bin/python3 bench/agents.py
 	@/usr/bin/python3 bench/coils.py
 	@/usr/bin/python3 bench/video.py
+	@/usr/bin/python3 bench/study.py
 
-accuracy: build       ## render studies with known truth and see whether it is found; SEEDS=20 takes an hour
+accuracy: build       ## render studies with known truth and see whether it is found; SEEDS=20 EXPERIMENTS=40 takes two hours
 	@$(SETUP) test bench
 	@cmake --build build -j $(JOBS) --target bench_exposure
 	@/usr/bin/python3 bench/tracking.py
 	@/usr/bin/python3 bench/exposure.py --seeds $(or $(SEEDS),2)
+	@/usr/bin/python3 bench/recovery.py --experiments $(or $(EXPERIMENTS),6) --keep build/recovery --out $(if $(EXPERIMENTS),bench/results,build/recovery)
 
 reproduce: build      ## make every result of the 2016 thesis again: runs/reproduce/index.html; 10 to 20 minutes
 	@$(SETUP) test

@@ -87,8 +87,12 @@ void add_activity(CLI::App& app, CommandLine& line) {
   v->add_option("--noise", o->noise, "A video of a dead sample to find the threshold from")
       ->check(not_empty)
       ->excludes("--flow-threshold");
-  v->add_option("--from", o->from, "Leave out what comes before this time, s")->check(between(0, 1e9));
-  v->add_option("--to", o->to, "Leave out what comes after this time, s")->check(between(0, 1e9));
+  v->add_option("--from", o->from, "Leave out what comes before this time, s")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
+  v->add_option("--to", o->to, "Leave out what comes after this time, s")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
   v->add_option("-o,--out", o->out, "Signatures to write, CSV")->check(not_empty);
   v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
   v->add_option("--picture", o->picture,
@@ -111,13 +115,15 @@ void add_compare(CLI::App& app, CommandLine& line) {
   add_response_options(v, o->response);
   v->add_option("--reference-t0", o->reference_t0,
                 "First moment after the reversal in the reference, s; found when absent")
-      ->check(between(0, 1e9));
-  v->add_option("--t0", o->t0, "The same in the runs")->check(between(0, 1e9));
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
+  v->add_option("--t0", o->t0, "The same in the runs")->check(between(0, 1e9))->transform(in_seconds);
   v->add_flag("--no-align", o->no_align, "Compare from the first frames on")
       ->excludes("--t0")
       ->excludes("--reference-t0");
   v->add_option("--duration", o->duration, "Compare so many seconds from there on")
-      ->check(between(1e-9, 1e9));
+      ->check(between(1e-9, 1e9))
+      ->transform(in_seconds);
   v->add_option("--m", o->m, "Exponent of the distance's normalisation, 0 or more and below 1");
   v->add_option("--threshold", o->threshold,
                 "Columns or rows as far apart as this have nothing in common, px");

@@ -114,13 +114,13 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
   if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "cut-off"});
   p.add(Line{.x = {0, longest},
              .y = {line->intercept, line->intercept + line->slope * longest},
-             .label = "line, a shift for each experiment",
+             .label = line->experiments > 1 ? "line, a shift for each experiment" : "line",
              .ink = Ink::text});
   f.caption = fmt::format(
-      "Slope {:.4g}, 95 % from {:.4g} to {:.4g}; intercept {:.4g} ({:.4g} to {:.4g}); {} videos in {} "
-      "experiments.",
-      line->slope, line->slope_ci95[0], line->slope_ci95[1], line->intercept, line->intercept_ci95[0],
-      line->intercept_ci95[1], line->values, line->experiments);
+      "Slope {}, 95 % from {} to {}; intercept {} ({} to {}); {} in {}.", three_digits(line->slope),
+      three_digits(line->slope_ci95[0]), three_digits(line->slope_ci95[1]), three_digits(line->intercept),
+      three_digits(line->intercept_ci95[0]), three_digits(line->intercept_ci95[1]),
+      counted(std::uint64_t(line->values), "video"), counted(std::uint64_t(line->experiments), "experiment"));
   return f;
 }
 

@@ -18,8 +18,8 @@ std::vector<Drive> drives_of_swarm(const std::vector<double>& t_s, const std::ve
                                    double least_px);
 
 /// The drives that a run's own record of the field tells: stretches in which it keeps its direction for 0.4 s
-/// or more. The first is left out, during which the swarm gathers, unless it is the only one. Cells swim
-/// along the field, or against it (south-seekers). Empty when the record has no field.
+/// or more. One that is on from the beginning is left out, during which the swarm gathers, unless it is the
+/// only one. Cells swim along the field, or against it (south-seekers). Empty when the record has no field.
 std::vector<Drive> drives_of_field(const Series& record, bool against);
 
 /// The drives during which all that is seen in a video moves one way (see motion_segments()). `fps` as

@@ -165,9 +165,10 @@ TEST_CASE("a part of a video is measured with --from and --to, at the rate that 
   write_film(f, "film");
   const Called untimed = faba_in(f.path, "activity film --flow-threshold 0.05 --out all.csv --force");
   CHECK(untimed.err.find("no frame rate is stated") != std::string::npos);
-  REQUIRE(faba_in(f.path,
-                  "activity film --fps 15 --from 0.5 --to 1.5 --flow-threshold 0.05 --out part.csv --quiet")
-              .exit == 0);
+  REQUIRE(
+      faba_in(f.path,
+              "activity film --fps 15 --from 0.5 --to \"1.5 s\" --flow-threshold 0.05 --out part.csv --quiet")
+          .exit == 0);
   const Table all = read_table(f.path / "all.csv"), part = read_table(f.path / "part.csv");
   CHECK(all.size() == 29);
   CHECK(all.column("t1_s")[28] == 29);

@@ -59,7 +59,7 @@ TEST_CASE("a run's record of its field has its drives, to the frame") {
   std::vector<std::vector<double>> columns(3);
   for (int k = 0; k <= 90; ++k) {
     const double t = k * kFrame;
-    const double b = t < 1 ? -60 : t < 3 ? 60 : t < 3.2 ? 0 : -60;  // the world's y is up
+    const double b = k == 0 ? 0 : t < 1 ? -60 : t < 3 ? 60 : t < 3.2 ? 0 : -60;  // the world's y is up
     columns[0].push_back(t), columns[1].push_back(b * std::cos(kTilt)),
         columns[2].push_back(b * std::sin(kTilt));
   }
