@@ -23,9 +23,6 @@ std::string not_empty(const std::string& word);
 /// A check for options that are numbers: finite, `least` or more, and `most` or less.
 std::function<std::string(const std::string&)> between(double least, double most);
 
-/// For options that are seconds: "1.2 s" and "300 ms" as the number that they are; other words stay.
-std::string in_seconds(std::string word);
-
 // The verbs with their options, in the order of the help. `line` outlives the parsing.
 
 void add_run_verbs(CLI::App& app, CommandLine& line);    ///< run, resume

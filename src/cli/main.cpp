@@ -11,7 +11,6 @@
 
 #include "cli/command_line.h"
 #include "core/schema.h"
-#include "core/units.h"
 
 namespace faba::cli {
 namespace {
@@ -88,15 +87,6 @@ std::function<std::string(const std::string&)> between(double least, double most
     if (value >= least && value <= most) return "";
     return fmt::format("{} is out of range; it must be {:g} to {:g}", word, least, most);
   };
-}
-
-std::string in_seconds(std::string word) {
-  try {
-    const Quantity q = parse_quantity(word);
-    return q.dimension == parse_unit("s").dimension ? fmt::format("{}", q.value) : word;
-  } catch (const std::invalid_argument&) {
-    return word;
-  }
 }
 
 const std::atomic<bool>& stop_requested() {

@@ -6,9 +6,20 @@
 #include "app/parts.h"
 #include "cli/command_line.h"
 #include "cli/verbs.h"
+#include "core/units.h"
 
 namespace faba::cli {
 namespace {
+
+// For options that are seconds: "1.2 s" and "300 ms" as the number that they are; other words stay.
+std::string in_seconds(std::string word) {
+  try {
+    const Quantity q = parse_quantity(word);
+    return q.dimension == parse_unit("s").dimension ? fmt::format("{}", q.value) : word;
+  } catch (const std::invalid_argument&) {
+    return word;
+  }
+}
 
 /// --shrink, --threads, --method, and an option for every parameter of every flow part, as their schemas
 /// describe them.

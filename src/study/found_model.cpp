@@ -143,7 +143,8 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
     m.best[p.path] = p.json(middle[j]);
   }
   VectorXd sd(draws.cols());
-  for (Index j = 0; j < draws.cols(); ++j) sd[j] = sample_sd({draws.col(j).data(), std::size_t(draws.rows())});
+  for (Index j = 0; j < draws.cols(); ++j)
+    sd[j] = sample_sd({draws.col(j).data(), std::size_t(draws.rows())});
   const auto resampled = resampled_estimates(s, experiments, middle, sd, seed);
   for (std::size_t j = 0; j < resampled.size(); ++j) {
     const FreeParameter& p = m.parameters[j].parameter;

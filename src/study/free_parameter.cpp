@@ -167,6 +167,14 @@ double FreeParameter::log_prior(double u) const {
   return -0.5 * z * z;
 }
 
+double read_value(const Node& n, const FreeParameter& p) {
+  const double v = number(n, p);
+  if (!(v >= p.low && v <= p.high))
+    n.fail(fmt::format("{:g} is not in the range of {}, {:g} to {:g}{}", v, p.path, p.low, p.high,
+                       p.unit.empty() ? "" : " " + p.unit));
+  return v;
+}
+
 std::optional<double> scenario_number(const std::string& path, const Json& scenario) {
   const Description d = describe(path, scenario);
   if (!d.schema) return {};

@@ -41,6 +41,10 @@ struct FreeParameter {
 /// make no range.
 std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& scenario);
 
+/// A value of the parameter as a study gives it: a number, or a quantity in its unit. Throws Error(usage) for
+/// one that is neither, or beyond its range.
+double read_value(const Node& n, const FreeParameter& p);
+
 /// The number at a path of a scenario, in SI: what stands there, else its default. Empty when there is
 /// neither.
 std::optional<double> scenario_number(const std::string& path, const Json& scenario);

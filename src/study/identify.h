@@ -18,6 +18,9 @@ struct Candidate {
   Variant model;
   double drive_t = 1e-3;  ///< strength of the field, T
   std::vector<FreeParameter> free;
+  /// Values of the first of them that the thesis's rule tries; the middles of five equal parts of its range
+  /// when empty.
+  std::vector<double> legacy_values = {};
 };
 
 /// What `faba identify` is asked for.

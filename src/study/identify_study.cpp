@@ -146,6 +146,13 @@ Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyS
     throw Error(
         Errc::usage, c.model.origin,
         "has nothing to find: give free = [\"swarm[0].model.speed\"], or another path of the scenario");
+  if (c.model.extra.contains("legacy")) {
+    const Node n{c.model.extra["legacy"], here.path + ".legacy", root.document};
+    if (!n.json->is_array() || n.json->size() < 3)
+      n.fail("must be three values or more of the first free parameter");
+    for (std::size_t i = 0; i < n.json->size(); ++i)
+      c.legacy_values.push_back(read_value(n.item(i), c.free.front()));
+  }
   if (const int least = ParameterSearch::least_simulations(int(c.free.size())); study.simulations < least)
     throw Error(Errc::usage, c.model.origin,
                 fmt::format("{} parameters take {} simulations or more, not {}", c.free.size(), least,
@@ -187,7 +194,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < videos.json->size(); ++i)
     study.videos.push_back(input_of(videos.item(i), f, um_per_px));
   if (!root.has("model")) root.fail("needs [[model]], once for each candidate");
-  const std::vector<Variant> models = read_variants(root, "model", {"free", "drive"});
+  const std::vector<Variant> models = read_variants(root, "model", {"free", "drive", "legacy"});
   for (std::size_t i = 0; i < models.size(); ++i)
     study.candidates.push_back(candidate_of(models[i], f, study, root, i));
   return study;
@@ -209,6 +216,7 @@ std::string fingerprint(const IdentifyStudy& study) {
   }
   for (const Candidate& c : study.candidates) {
     h.text(c.model.name), h.text(c.model.part.dump()), h.value(c.drive_t);
+    for (const double v : c.legacy_values) h.value(v);
     for (const auto& [path, value] : c.model.set) h.text(path), h.text(value.dump());
     for (const FreeParameter& p : c.free) {
       h.text(p.path);

@@ -106,6 +106,18 @@ std::optional<std::array<double, 2>> zero_crossing_ci95(const LineFit& line, dou
   return std::array{(-b - root) / a, (-b + root) / a};
 }
 
+namespace {
+
+// Of the first free parameter, as shares of its range.
+std::vector<double> shares_tried(const Candidate& c) {
+  std::vector<double> shares;
+  for (const double v : c.legacy_values) shares.push_back(c.free.front().share(v));
+  for (int i = 0; c.legacy_values.empty() && i < kValues; ++i) shares.push_back((i + 0.5) / kValues);
+  return shares;
+}
+
+}  // namespace
+
 std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& study,
                                                          const std::vector<ResponseVideo>& videos,
                                                          ResultStore& results, const SweepOptions& options,
@@ -121,20 +133,21 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
   for (const Candidate& c : study.candidates) {
     LegacyModel m;
     m.name = c.model.name, m.parameter = c.free.front();
-    for (int i = 0; i < kValues; ++i)
+    const std::vector<double> shares = shares_tried(c);
+    for (std::size_t i = 0; i < shares.size(); ++i)
       for (std::size_t v = 0; v < videos.size(); ++v)
         for (std::size_t e = 0; e < videos[v].episodes.size(); ++e)
           for (int k = 0; k < kRepeats; ++k) {
             const ResponseVideo& video = videos[v];
             Episode episode = video.episodes[e];
             episode.drives.resize(1);
-            const double u = (i + 0.5) / kValues;
+            const double u = shares[i];
             Document d = episode_scenario(video, episode, {study.boundary, study.scene, c.model, c.drive_t},
                                           exact_timing(episode));
             d.set(c.free.front().path, c.free.front().json(u), "legacy");
             d.root["microscope"]["noise"] = 0;
             Hash h;
-            h.value(study.seed), h.text(c.model.name), h.value(i), h.value(v), h.value(e), h.value(k);
+            h.value(study.seed), h.text(c.model.name), h.value(int(i)), h.value(v), h.value(e), h.value(k);
             const std::uint64_t seed = h.result() >> 1;
             m.simulations.push_back({c.free.front().value(u), v, e, std::size_t(k), {}, {}, 0});
             const LegacyReference& r = references[v][e];

@@ -153,6 +153,8 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
   refused(f,
           kHead + "[[model]]\ntype = \"dipole\"\nfree = { \"swarm[0].model.speed\" = [\"5 s\", \"9 s\"] }\n",
           2, "not a quantity");
+  refused(f, kHead + kBasic + "legacy = [1, 5]\n", 2, "three values");
+  refused(f, kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "not in the range");
   refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");
   refused(f, kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
   // Rates and sizes that differ, and nothing that moves.
