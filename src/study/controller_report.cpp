@@ -23,11 +23,11 @@ Json mean_json(const MeanOverSeeds& m) {
   return {{"mean", m.mean}, {"sd", m.sd}, {"ci95", m.ci95}, {"n", m.n}};
 }
 
-// "2.13 [1.9, 2.4]"
+// "2.13" with "1.9 to 2.4" below it; markup.
 std::string with_interval(const MeanOverSeeds* m) {
   if (!m) return "–";
   if (m->n < 2) return three_digits(m->mean);
-  return fmt::format("{} [{}, {}]", three_digits(m->mean), three_digits(m->ci95[0]),
+  return fmt::format("{}<small>{} to {}</small>", three_digits(m->mean), three_digits(m->ci95[0]),
                      three_digits(m->ci95[1]));
 }
 
@@ -41,9 +41,8 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
     {"total_variation_ut", "restlessness (µT)"}};
 
 std::string row(const std::vector<std::string>& cells, const char* tag) {
-  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", escape_markup(cells.front()));
-  for (std::size_t i = 1; i < cells.size(); ++i)
-    out += fmt::format("<{0}>{1}</{0}>", tag, escape_markup(cells[i]));
+  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", cells.front());
+  for (std::size_t i = 1; i < cells.size(); ++i) out += fmt::format("<{0}>{1}</{0}>", tag, cells[i]);
   return out + "</tr>\n";
 }
 
@@ -67,16 +66,18 @@ std::string table(const ControllerComparison& r) {
   if (!place(r, r.combinations.front()).empty()) head.insert(head.begin() + 1, "with");
   for (const auto& column : columns) head.emplace_back(column.second);
   head.emplace_back("behind the best (px)");
-  std::string out = "<h2>Numbers</h2>\n<div class=\"wide\"><table class=\"numbers\">\n" + row(head, "th");
+  std::string out = "<h2>Numbers</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>" +
+                    row(head, "th") + "</thead><tbody>\n";
   for (const Combination& c : r.combinations) {
-    std::vector<std::string> cells{c.controller, fmt::format("{} of {}", c.settled, c.trials)};
-    if (head[1] == "with") cells.insert(cells.begin() + 1, place(r, c));
+    std::vector<std::string> cells{escape_markup(c.controller), fmt::format("{} of {}", c.settled, c.trials)};
+    if (head[1] == "with") cells.insert(cells.begin() + 1, escape_markup(place(r, c)));
     for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
     cells.push_back(c.behind_best ? with_interval(&*c.behind_best) : "–");
     out += row(cells, "td");
   }
   return out + fmt::format(
-                   "</table></div>\n<p>Means over {} with 95 % intervals (Student's t). The last column is "
+                   "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % intervals (Student's "
+                   "t). The last column is "
                    "the mean of the "
                    "differences in steady error, seed by seed, to the controller with the least.</p>\n",
                    counted(std::uint64_t(r.study.seeds), "seed"));
@@ -141,9 +142,9 @@ Figure against_delay(const ControllerComparison& r, const Variant& model) {
   return f;
 }
 
-// One sentence for each model and delay.
+// Which controller is best: a sentence, or a row for each model and delay.
 std::string verdict(const ControllerComparison& r) {
-  std::string out;
+  std::string rows, sentence;
   for (const auto& group : groups(r)) {
     const Combination* best = nullptr;
     bool sure = true;
@@ -152,13 +153,18 @@ std::string verdict(const ControllerComparison& r) {
       if (c->behind_best && c->behind_best->ci95[0] <= 0) sure = false;
     }
     if (!best || group.size() < 2) continue;
-    const std::string where = place(r, *best);
-    out += fmt::format("<p class=\"lead\">{}{} keeps nearest to the setpoint, at {} px rms{}.</p>\n",
-                       where.empty() ? "" : escape_markup(where) + ": ", escape_markup(best->controller),
-                       three_digits(metric(*best, "steady_rms_px")->mean),
-                       sure ? "" : "; the seeds do not tell it from all others");
+    const std::string at = fmt::format("{} px rms{}", three_digits(metric(*best, "steady_rms_px")->mean),
+                                       sure ? "" : "; the seeds do not tell it from all others");
+    sentence = fmt::format("<p class=\"lead\">{} keeps nearest to the setpoint, at {}.</p>\n",
+                           escape_markup(best->controller), at);
+    rows +=
+        row({escape_markup(place(r, *best)), fmt::format("{}, at {}", escape_markup(best->controller), at)},
+            "td");
   }
-  return out;
+  if (groups(r).size() < 2 || rows.empty()) return sentence;
+  return "<p class=\"lead\">Which controller keeps nearest to the setpoint</p>\n<table "
+         "class=\"facts\"><tbody>\n" +
+         rows + "</tbody></table>\n";
 }
 
 }  // namespace
@@ -201,11 +207,12 @@ std::vector<Figure> controllers_figures(const ControllerComparison& r) {
 }
 
 std::string controllers_page(const ControllerComparison& r) {
-  std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + verdict(r);
+  std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + verdict(r) + table(r) +
+                    "<h2>Figures</h2>\n";
   int number = 0;
   out += "<div class=\"figures\">\n";
   for (const Figure& f : controllers_figures(r)) out += figure_markup(f, ++number);
-  return html_page(r.study.title, out + "</div>\n" + table(r));
+  return html_page(r.study.title, out + "</div>\n");
 }
 
 }  // namespace faba

@@ -96,11 +96,14 @@ std::vector<Drive> drives_of_field(const Series& record, bool against) {
   std::vector<Drive> drives;
   Vec2 sum;
   std::size_t from = 0;
+  // A row has the field at its moment, before the command that is given then: it turned right after the row
+  // before the first that shows it.
   const auto close = [&](std::size_t at) {
-    if (at < t.size() ? t[at] - t[from] >= kLeastHeld : t[at - 1] - t[from] >= kLeastHeld) {
+    const double begins = t[from > 0 ? from - 1 : 0], ends = t[at - 1];
+    if (ends - begins >= kLeastHeld) {
       const Vec2 way = against ? -1 * sum : sum;
       const double deg = std::atan2(-way.y, way.x) * 180 / std::numbers::pi;  // y is down in pictures
-      drives.push_back({t[from], t[std::min(at, t.size() - 1)], std::fmod(deg + 360, 360)});
+      drives.push_back({begins, ends, std::fmod(deg + 360, 360)});
     }
     sum = {}, from = at;
   };

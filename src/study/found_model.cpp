@@ -110,8 +110,9 @@ void tell_doubts(FoundModel& m, const MatrixXd& draws) {
         (*p.resampled90)[1] - (*p.resampled90)[0] > kDiffer * (p.ci90[1] - p.ci90[0]))
       p.doubt = fmt::format(
           "experiments differ about {} by more than the model knows of: of experiments drawn anew, 90 % give "
-          "{:.3g} to {:.3g} {}",
-          q.path, q.shown((*p.resampled90)[0]), q.shown((*p.resampled90)[1]), q.shown_unit());
+          "{:.3g} to {:.3g}{}{}",
+          q.path, q.shown((*p.resampled90)[0]), q.shown((*p.resampled90)[1]),
+          q.shown_unit().empty() ? "" : " ", q.shown_unit());
   }
 }
 

@@ -51,6 +51,9 @@ thead th{font-weight:600;border-bottom:2px solid var(--line)}
 .numbers tbody th[colspan]{font-weight:600;padding-top:1.1rem}
 .numbers th small{display:block;color:var(--muted);font-size:.82rem;line-height:1.35;max-width:34rem}
 .numbers td,.numbers thead th+th{text-align:right;white-space:nowrap;padding-right:0;padding-left:1rem}
+.numbers td small{display:block;color:var(--muted);font-size:.8rem}
+div.wide{overflow-x:auto}
+.wide .numbers thead th{white-space:normal;vertical-align:bottom;line-height:1.3}
 .facts th{color:var(--muted);width:11rem}
 .facts td{overflow-wrap:anywhere;padding-right:0}
 code,pre{font:.86rem/1.5 ui-monospace,"SF Mono",Menlo,Consolas,"DejaVu Sans Mono",monospace}

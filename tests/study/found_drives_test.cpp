@@ -59,7 +59,12 @@ TEST_CASE("a run's record of its field has its drives, to the frame") {
   std::vector<std::vector<double>> columns(3);
   for (int k = 0; k <= 90; ++k) {
     const double t = k * kFrame;
-    const double b = k == 0 ? 0 : t < 1 ? -60 : t < 3 ? 60 : t < 3.2 ? 0 : -60;  // the world's y is up
+    // Commands at 0, 1, 3 and 3.2 s show in the rows after these; the world's y is up.
+    const double late = t - 0.5 * kFrame, b = late < 0     ? 0
+                                              : late < 1   ? -60
+                                              : late < 3   ? 60
+                                              : late < 3.2 ? 0
+                                                           : -60;
     columns[0].push_back(t), columns[1].push_back(b * std::cos(kTilt)),
         columns[2].push_back(b * std::sin(kTilt));
   }
@@ -67,9 +72,9 @@ TEST_CASE("a run's record of its field has its drives, to the frame") {
   for (const bool against : {false, true}) {
     const auto drives = drives_of_field(record, against);
     REQUIRE(drives.size() == 2);
-    CHECK(std::fabs(drives[0].t0_s - 1) < kFrame);
-    CHECK(std::fabs(drives[0].t1_s - 3) < 1.5 * kFrame);
-    CHECK(std::fabs(drives[1].t0_s - 3.2) < kFrame);
+    CHECK(drives[0].t0_s == doctest::Approx(1));
+    CHECK(drives[0].t1_s == doctest::Approx(3));
+    CHECK(drives[1].t0_s == doctest::Approx(3.2));
     CHECK(drives[1].t1_s == doctest::Approx(6));
     CHECK(std::fabs(std::remainder(drives[0].direction_deg - (against ? 155 : 335), 360)) < 1e-9);
     CHECK(std::fabs(std::remainder(drives[1].direction_deg - (against ? 335 : 155), 360)) < 1e-9);
