@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t kGranted = -1;
 constexpr std::size_t kWishes = 4096;  // agents whose wishes are sorted together
-constexpr int kSweeps = 8;            // of follow()
+constexpr int kSweeps = 8;             // of follow()
 // A stripe, a byte per grid cell, stays in the first cache. Stripes are larger when there would be too many
 // for a block to sort its wishes into.
 constexpr unsigned kStripeShift = 15;
