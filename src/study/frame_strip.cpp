@@ -15,7 +15,8 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kFrames = 6;
-constexpr int kWidest = 320;  // px, of a frame on the page
+constexpr std::size_t kMost = 16 * kFrames;  // kept while the length is not known
+constexpr int kWidest = 320;                 // px, of a frame on the page
 
 /// A picture with squares of n pixels averaged.
 RgbImage averaged(const RgbImage& picture, int n) {
@@ -44,20 +45,18 @@ std::vector<Shot> shots_of(const std::filesystem::path& video) {
   VideoReader reader(video);
   const int n = std::max(1, (reader.width() + kWidest - 1) / kWidest);
   std::vector<Shot> kept;
-  Shot shot, last;
+  Shot shot;  // keeps the last frame when there are no more
   std::size_t every = 1;
-  const std::size_t most = 16 * kFrames;
   for (std::size_t frame = 0; reader.read_colours(shot.picture, shot.t_s); ++frame) {
-    last = shot;
     if (frame % every) continue;
     kept.push_back({averaged(shot.picture, n), shot.t_s});
-    if (kept.size() < most) continue;
+    if (kept.size() < kMost) continue;
     for (std::size_t i = 0; 2 * i < kept.size(); ++i) kept[i] = kept[2 * i];
     kept.resize(kept.size() / 2);
     every *= 2;
   }
   if (kept.empty()) return {};
-  if (kept.back().t_s < last.t_s) kept.push_back({averaged(last.picture, n), last.t_s});
+  if (kept.back().t_s < shot.t_s) kept.push_back({averaged(shot.picture, n), shot.t_s});
   std::vector<Shot> chosen;
   const std::size_t count = std::min(kFrames, kept.size());
   for (std::size_t i = 0; i < count; ++i) {

@@ -24,10 +24,20 @@ TEST_CASE("run: files, JSON fields, same hash for any thread count and again") {
        {"manifest.json", "scenario.toml", "series.csv", "tracks.h5", "video.mp4", "report.html"})
     CHECK_MESSAGE(std::filesystem::exists(f.path / "a" / name), name);
   CHECK_FALSE(std::filesystem::exists(f.path / "a/incomplete"));
+  const std::string page = read_file(f.path / "a/report.html");
+  std::size_t frames = 0;  // six, from 0 s to the last of 30 at 15 Hz
+  for (std::size_t at = 0; (at = page.find("alt=\"The frame at ", at)) != std::string::npos; ++at) ++frames;
+  CHECK(frames == 6);
+  CHECK(page.find("The frame at 0 s") != std::string::npos);
+  CHECK(page.find("The frame at 1.93 s") != std::string::npos);
   CHECK(nlohmann::json::parse(read_file(f.path / "a/manifest.json"))["state_hash"] == j["state_hash"]);
   const std::string series = read_file(f.path / "a/series.csv");
   CHECK(series.starts_with(
       "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px,"));
+  REQUIRE(faba_in(f.path, "run s.toml --seed 5 --out b --quiet --set record.flow=true").exit == 0);
+  CHECK(std::filesystem::exists(f.path / "b/flow.h5"));
+  REQUIRE(faba_in(f.path, "run s.toml --seed 5 --out b --quiet --force").exit == 0);
+  CHECK_FALSE(std::filesystem::exists(f.path / "b/flow.h5"));  // of the run that was replaced
   for (const char* more : {"--threads 2", "--threads 3", ""})
     CHECK(faba_in(f.path, std::string("run s.toml --seed 5 --force --out b --json ") + more)
               .json()["state_hash"] == j["state_hash"]);

@@ -216,6 +216,24 @@ def two_series(lab, found):
         )
 
 
+def slopes_plot(heading, model, rows, caption):
+    """Slope of each simulation against its parameter, with their line, zero and the truth."""
+    slope, intercept, *_ = stats.line(rows[:, 0], rows[:, 1])
+    x = np.array([min(GRID[model]), max(GRID[model])])
+    return plot.plot(
+        heading,
+        "largest speed (px per iteration)",
+        "slope per frame",
+        [
+            ("dots", "45 simulations", rows[:, 0], rows[:, 1]),
+            ("line", "their line", x, intercept + slope * x),
+            ("dashed", "zero", x, 0 * x),
+        ],
+        caption,
+        rules=[(TRUTH[model], "truth")],
+    )
+
+
 def two_point_zero():
     (x1, y1), (x2, y2) = SLOPES.items()
     return x1 + (x2 - x1) * y1 / (y1 - y2)
@@ -234,22 +252,7 @@ def crossing(lab, found):
             ends is None or not ends[0] <= TRUTH[model] <= ends[1],
             "the claim that is corrected: a slope of zero does not mark the parameter",
         )
-        slope, intercept, *_ = stats.line(rows[:, 0], rows[:, 1])
-        x = np.array([min(GRID[model]), max(GRID[model])])
-        found.show(
-            plot.plot(
-                f"Slopes, {model.capitalize()}",
-                "largest speed (px per iteration)",
-                "slope per frame",
-                [
-                    ("dots", "45 simulations", rows[:, 0], rows[:, 1]),
-                    ("line", "their line", x, intercept + slope * x),
-                    ("dashed", "zero", x, 0 * x),
-                ],
-                f"The truth is {TRUTH[model]}.",
-                rules=[(TRUTH[model], "truth")],
-            )
-        )
+        found.show(slopes_plot(f"Slopes, {model.capitalize()}", model, rows, f"The truth is {TRUTH[model]}."))
     found.about(
         "Zero of the line through the two slopes that the thesis prints",
         two_point_zero(),
@@ -299,22 +302,7 @@ def best_parameter(model):
             f"The least mean difference, a better rule than the slope, is at {min(levels, key=levels.get)} of the values tried."
         )
         page = step.folder / "identify.html"
-        slope, intercept, *_ = stats.line(rows[:, 0], rows[:, 1])
-        x = np.array([min(GRID[model]), max(GRID[model])])
-        found.show(
-            plot.plot(
-                "The thesis's rule",
-                "largest speed (px per iteration)",
-                "slope per frame",
-                [
-                    ("dots", "45 simulations", rows[:, 0], rows[:, 1]),
-                    ("line", "their line", x, intercept + slope * x),
-                    ("dashed", "zero", x, 0 * x),
-                ],
-                f"Zero at {zero:.2f}; the truth is {TRUTH[model]}.",
-                rules=[(TRUTH[model], "truth")],
-            )
-        )
+        found.show(slopes_plot("The thesis's rule", model, rows, f"Zero at {zero:.2f}; the truth is {TRUTH[model]}."))
         for name, markup in read.figures(page):
             if "max_speed" in name:
                 found.show(markup)
