@@ -121,7 +121,14 @@ Schema<Swarm::Params> Swarm::schema() {
             .source = "the thesis's cells are south-seeking (A0)",
             .choices = {"north", "south"}})
       .add("responding", &Params::responding,
-           {.min = 0, .max = 1, .doc = "Fraction of the cells that feel the field"});
+           {.min = 0, .max = 1, .doc = "Fraction of the cells that feel the field"})
+      .add("heading", &Params::heading,
+           {.unit = "rad",
+            .min = -1000,
+            .max = 1000,
+            .doc = "Where cells that feel the field head at first, as those that a field has held: 0 deg "
+                   "right, 90 "
+                   "deg up; any way when absent. basic and adapted have no heading"});
 }
 
 std::uint64_t Scenario::frames() const {

@@ -59,6 +59,7 @@ struct Swarm {
     std::uint64_t count = 500;
     Polarity polarity = Polarity::south;
     double responding = 1;
+    std::optional<double> heading;
   };
   static Schema<Params> schema();
   Params params;

@@ -120,6 +120,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
     p.end = at += std::size_t(swarm.params.count);
     p.polarity = swarm.params.polarity == Swarm::Polarity::north ? 1 : -1;
     p.responding = swarm.params.responding;
+    p.heading = swarm.params.heading;
     p.model = swarm.model.make({scale, w.dt});
     p.start = swarm.start.make({w.arena.get()});
     w.populations.push_back(std::move(p));

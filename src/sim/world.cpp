@@ -78,8 +78,16 @@ void World::place_all() {
       response[i] = responds ? float(p.polarity) : 0.0f;
     }
     p.model->start(state_, p.begin, p.end, parts_.seed);
+    if (p.heading && state_.agents.has("ux")) head(p);
     parts_.motility->start(state_, p.begin, p.end, parts_.seed);
   }
+}
+
+void World::head(const Population& p) {
+  auto ux = state_.agents["ux"], uy = state_.agents["uy"], response = state_.agents["response"];
+  const auto along = portable::sincos(*p.heading);
+  for (std::size_t i = p.begin; i < p.end; ++i)
+    if (response[i] != 0) ux[i] = float(along.cos), uy[i] = float(along.sin);
 }
 
 void World::advance_currents() {

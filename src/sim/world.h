@@ -14,8 +14,9 @@ namespace faba {
 /// One kind of cell among those in the drop: agents [begin, end).
 struct Population {
   std::size_t begin = 0, end = 0;
-  int polarity = -1;      ///< +1 north-seeking: swims along B; -1 south-seeking
-  double responding = 1;  ///< fraction that feels the field at all
+  int polarity = -1;              ///< +1 north-seeking: swims along B; -1 south-seeking
+  double responding = 1;          ///< fraction that feels the field at all
+  std::optional<double> heading;  ///< in which these head at first, rad, world frame; any when absent
   std::shared_ptr<const AgentModel> model;
   std::shared_ptr<const Start> start;
 };
@@ -54,6 +55,7 @@ class World {
 
  private:
   void place_all();
+  void head(const Population& p);
   void advance_currents();
 
   WorldParts parts_;

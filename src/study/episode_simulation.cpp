@@ -122,7 +122,10 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   // Few are in view and the place has no end: no grid of it.
   if (settings.boundary == Boundary::none) d.root["exclusion"] = {{"order", "none"}};
   d.root.merge_patch(settings.scene);
-  const Json& swarm = d.root["swarm"][0];
+  Json& swarm = d.root["swarm"][0];
+  // Held at the edge they head there: the first turn of the field takes them a U-turn, too.
+  if (settings.boundary != Boundary::none && !swarm.contains("heading"))
+    swarm["heading"] = quantity(-(e.drives[0].direction_deg + 180), "deg");
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
   const auto along = [&](double deg) { return field_along(deg, settings.drive_t, north); };
   Json first = along(e.drives[0].direction_deg), segments = Json::array();

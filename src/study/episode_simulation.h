@@ -28,8 +28,8 @@ DriveTiming exact_timing(const Episode& episode);
 DriveTiming drawn_timing(const Episode& episode, double sd_s, std::uint64_t seed);
 
 /// A scenario that repeats an episode: its place, light, noise and field of view, its cells where they were
-/// seen, and the field along its drives. Before the first one the field is the opposite, or none without a
-/// boundary.
+/// seen, and the field along its drives. Before the first one the field is the opposite and has
+/// turned the cells; without a boundary there is none, and they head anywhere.
 Document episode_scenario(const ResponseVideo& video, const Episode& episode, const EpisodeSettings& settings,
                           const DriveTiming& timing);
 

@@ -219,3 +219,23 @@ TEST_CASE("south-seeking cells swim against the field, silent ones do not care")
   CHECK(mean(1000).mean < -0.98);
   CHECK(std::fabs(mean(2000).mean) < 4 * mean(2000).standard_error);
 }
+
+TEST_CASE("cells that feel the field begin along `heading`, the others in any direction") {
+  TestSwarm s(
+      "[[swarm]]\ncount = 4000\nresponding = 0.5\nheading = '60 deg'\nmodel = 'dipole'\n"
+      "[exclusion]\norder = 'none'\n");
+  const auto ux = s.column("ux"), uy = s.column("uy"), response = s.column("response");
+  Vec2 rest;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < ux.size(); ++i) {
+    if (response[i] == 0) {
+      rest = rest + Vec2{double(ux[i]), double(uy[i])}, ++n;
+      continue;
+    }
+    CHECK(ux[i] == doctest::Approx(0.5).epsilon(1e-6));
+    CHECK(uy[i] == doctest::Approx(std::sqrt(0.75)).epsilon(1e-6));
+  }
+  REQUIRE(n > 1000);
+  // The square of a random walk's end is exponential: e^-9 of seeds are beyond three steps' roots.
+  CHECK(norm(rest) < 3 * std::sqrt(double(n)));
+}
