@@ -15,6 +15,7 @@ another machine. Delete both when the program has changed. Exits 1 when a goal i
 """
 
 import argparse
+import datetime
 import json
 import math
 import pathlib
@@ -201,13 +202,19 @@ def main():
              ("median error of the main parameter under 5 %", f"{100 * error:.1f} %", "", error < 0.05),
              ("evidence is clear, half or more", len(clear), len(good), 2 * len(clear) >= len(good)),
              ("where it is, the right model is named, nine in ten", named, len(clear), named >= 0.9 * len(clear))]
-    say("")
-    for what, n, of, met in goals:
-        say(f"- {what}: {n}{f' of {of}' if of != '' else ''}{'' if met else ' NOT MET'}")
-    say(f"- the legacy rule's median error: {100 * legacy:.0f} %; {sum(x['legacy_means_nothing'] for x in good)} of {len(good)} "
-          "times its answer is said to mean nothing")
+    verdict = [f"- {what}: {n}{f' of {of}' if of != '' else ''}{'' if met else ' NOT MET'}" for what, n, of, met in goals]
+    for m in o.models:
+        own = [abs(x["found"] / x["value"] - 1) for x in good if x["model"] == m]
+        if own:
+            verdict.append(f"- median error with {m}: {100 * statistics.median(own):.1f} %, largest {100 * max(own):.0f} %")
+    verdict.append(f"- the legacy rule's median error: {100 * legacy:.0f} %; {sum(x['legacy_means_nothing'] for x in good)} of "
+                   f"{len(good)} times its answer is said to mean nothing")
+    print("\n" + "\n".join(verdict))
     o.out.mkdir(parents=True, exist_ok=True)
-    (o.out / "recovery.md").write_text("\n".join(table) + "\n")
+    (o.out / "recovery.md").write_text(
+        "# What identification finds of known truths\n\n"
+        f"{datetime.date.today()}, {o.simulations} simulations with each model, seed {o.seed}; `bench/recovery.py` made this page.\n\n"
+        + "\n".join(verdict) + "\n\n" + "\n".join(table) + "\n")
     sys.exit(0 if all(g[3] for g in goals) else 1)
 
 

@@ -31,6 +31,7 @@ WHERE = {
     "flow": ("[flow]", 'type = "%s"', "[flow]"),
 }
 SECTIONS = ("scale", "camera", "microscope", "simulation", "exclusion", "limits", "library", "record")
+STUDIES = ("identify", "compare-controllers", "activity")
 
 
 def ask(program, *arguments):
@@ -105,7 +106,7 @@ def table(properties, labels):
     lines = ["| key | default | unit, range | meaning | source |", "|---|---|---|---|---|"]
     nested, presets = [], None
     for key, field in properties.items():
-        if key == "type":
+        if key == "type" and "const" in field:
             continue
         default = value_text(field["default"]) if "default" in field else "—"
         source = field.get("x-source", "")
@@ -169,6 +170,14 @@ def scenario_page(schema, labels):
     return text
 
 
+def study_page(program, labels):
+    text = f"{NOTE}\n# study\n\nKeys of the study files, TOML, that `faba identify`, `faba compare-controllers` and `faba activity` take.\n"
+    for name in STUDIES:
+        schema = ask(program, "schema", name)
+        text += f"\n## {name}\n\n{schema['description']}.\n\n" + table(schema["properties"], labels)
+    return text
+
+
 def pages(program, root):
     """File name in docs/reference/ -> what should stand in it."""
     parts, schema, labels = ask(program, "parts", "--json"), ask(program, "schema"), theory_labels(root)
@@ -182,6 +191,7 @@ def pages(program, root):
         names = ", ".join(f"[`{n}`]({kind}.md#{n})" for n in found)
         rows += f"| [{kind}]({kind}.md) | {doc.split(':')[0]} | {names} |\n"
     out["scenario.md"] = scenario_page(schema, labels)
+    out["study.md"] = study_page(program, labels)
     out["README.md"] = (
         f"{NOTE}\n# Reference\n\nEvery key of a scenario, with its default, unit, range, meaning and source, as the program\n"
         "states them: `build/faba parts KIND NAME` says the same in a terminal. How the pieces fit together is in\n"
@@ -189,7 +199,8 @@ def pages(program, root):
         '`speed = "186 um/s"`. — means that the key is absent unless given.\n\n'
         "| page | what it is | parts |\n|---|---|---|\n" + rows +
         "| [scenario](scenario.md) | The rest of a scenario file | " +
-        ", ".join(f"[`{n}`](scenario.md#{n})" for n in ("swarm", *SECTIONS)) + " |\n")
+        ", ".join(f"[`{n}`](scenario.md#{n})" for n in ("swarm", *SECTIONS)) + " |\n" +
+        "| [study](study.md) | Study files | " + ", ".join(f"[`{n}`](study.md#{n})" for n in STUDIES) + " |\n")
     return out
 
 

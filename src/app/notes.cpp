@@ -24,8 +24,13 @@ std::vector<double> currents_in(const Json& list) {
 void note_goals(const Simulation& simulation, Notes& notes) {
   const Arena& arena = *simulation.world().parts().arena;
   for (const Vec2 at : simulation.reference().setpoints()) {
-    if (arena.depth(at) >= 0) continue;
     const Vec2 px = simulation.frame().image_from_world(at);
+    if (arena.depth(at) >= 0) {
+      if (!simulation.frame().in_view(px))
+        notes.push_back(
+            fmt::format("reference: the setpoint ({:g}, {:g}) px is out of the camera's view", px.x, px.y));
+      continue;
+    }
     notes.push_back(fmt::format(
         "reference: the setpoint ({:g}, {:g}) px lies outside of the {}; the swarm cannot get there", px.x,
         px.y, arena.outline().radius_px > 0 ? "drop" : "box"));

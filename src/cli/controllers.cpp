@@ -22,7 +22,8 @@ void summary(const ControllerComparison& r) {
     fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", one.controller, one.model, one.delay,
                fmt::format("{}/{}", one.settled, one.trials), words(one, "settling_time_s"),
                words(one, "steady_rms_px"), words(one, "rms_radius_px"));
-  fmt::print("means over {} +- half of a 95 % interval\n", counted(std::uint64_t(r.study.seeds), "seed"));
+  fmt::print("means over {} +- half of a 95 % interval; settling times of the trials that settled\n",
+             counted(std::uint64_t(r.study.seeds), "seed"));
 }
 
 }  // namespace
@@ -31,7 +32,9 @@ int compare_controllers(const StudyVerb& v, const Common& c) {
   const ControllerStudy study = read_controller_study(v.study);
   Progress bar("trials", !c.quiet && !c.json);
   const SweepOptions options = sweep_options(v, bar);
-  StudyDirectory dir = open_study(v, "compare-controllers", fingerprint(study));
+  const std::string mark = fingerprint(study);
+  if (told_complete(v, "controllers", mark, c)) return 0;
+  StudyDirectory dir = open_study(v, "compare-controllers", mark);
   const auto result = compare_controllers(study, dir.results(), options);
   bar.clear();
   if (!result) return tell_partial(v, c, dir);
@@ -39,6 +42,8 @@ int compare_controllers(const StudyVerb& v, const Common& c) {
   write_file(dir.path() / "controllers.csv", controllers_csv(*result));
   write_file(dir.path() / "report.html", controllers_page(*result));
   finish(dir, "controllers", j, c);
+  if (!c.quiet)
+    for (const std::string& note : result->notes) tell("faba: note: " + note);
   if (!c.json && !c.quiet) {
     summary(*result);
     fmt::print("wrote {}\n", (dir.path() / "report.html").string());

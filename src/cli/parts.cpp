@@ -3,6 +3,9 @@
 #include "app/rig_file.h"
 #include "app/scenario.h"
 #include "cli/verbs.h"
+#include "study/activity.h"
+#include "study/controller_study.h"
+#include "study/identify.h"
 
 namespace faba::cli {
 namespace {
@@ -103,7 +106,12 @@ int parts(const PartsVerb& v, const Common& c) {
 
 int schema(const std::string& file, const Common&) {
   const Parts parts = builtin_parts();
-  fmt::print("{}\n", (file == "rig" ? rig_json_schema(parts) : scenario_json_schema(parts)).dump(2));
+  const Json j = file == "rig"                   ? rig_json_schema(parts)
+                 : file == "identify"            ? identify_study_schema()
+                 : file == "compare-controllers" ? controller_study_schema()
+                 : file == "activity"            ? activity_study_schema()
+                                                 : scenario_json_schema(parts);
+  fmt::print("{}\n", j.dump(2));
   return 0;
 }
 

@@ -45,10 +45,11 @@ void add_help_verbs(CLI::App& app, CommandLine& line) {
   v->add_option("name", p->name, "One part in full");
   v->callback([p, &line] { line.code = parts(*p, line.common); });
 
-  v = verb(app, line, "schema", "JSON Schema of a scenario or rig file, for editors and forms",
+  v = verb(app, line, "schema", "JSON Schema of a scenario, rig or study file, for editors and forms",
            "  faba schema > scenario.json\n  faba schema rig > rig.json");
   const auto of = std::make_shared<std::string>("scenario");
-  v->add_option("file", *of, "scenario (unless given) or rig")->check(CLI::IsMember({"scenario", "rig"}));
+  v->add_option("file", *of, "scenario (unless given) or rig; or the verb that takes the study file")
+      ->check(CLI::IsMember({"scenario", "rig", "identify", "compare-controllers", "activity"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
   v = verb(app, line, "doctor", "What this machine has", "  faba doctor");
   v->callback([&line] { line.code = doctor(line.common); });

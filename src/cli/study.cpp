@@ -27,15 +27,36 @@ Shard shard_of(const std::string& words) {
   return s;
 }
 
+std::filesystem::path out_of(const StudyVerb& v) {
+  return v.out.empty() ? std::filesystem::path("runs") / v.study.stem() : v.out;
+}
+
+void print_json(const std::filesystem::path& out, const nlohmann::ordered_json& j) {
+  nlohmann::ordered_json all{{"out", out.string()}, {"complete", true}};
+  all.update(j);
+  fmt::print("{}\n", all.dump());
+}
+
 }  // namespace
 
 StudyDirectory open_study(const StudyVerb& v, const std::string& verb, const std::string& fingerprint) {
-  const std::filesystem::path out = v.out.empty() ? std::filesystem::path("runs") / v.study.stem() : v.out;
+  const std::filesystem::path out = out_of(v);
   const std::string again = fmt::format("{} {} {} --out {}", shell_word(program()), verb,
                                         shell_word(v.study.string()), shell_word(out.string()));
   StudyDirectory dir(out, fingerprint, again, v.force);
   dir.merge(v.merge);
   return dir;
+}
+
+bool told_complete(const StudyVerb& v, const std::string& name, const std::string& fingerprint,
+                   const Common& c) {
+  const std::filesystem::path out = out_of(v);
+  if (v.force || !holds_complete_study(out, fingerprint)) return false;
+  if (c.json)
+    print_json(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
+  else if (!c.quiet)
+    fmt::print("{} holds this study already, complete; --force writes its pages again\n", out.string());
+  return true;
 }
 
 SweepOptions sweep_options(const StudyVerb& v, Progress& bar) {
@@ -49,18 +70,18 @@ SweepOptions sweep_options(const StudyVerb& v, Progress& bar) {
 void finish(StudyDirectory& dir, const std::string& name, const nlohmann::ordered_json& j, const Common& c) {
   write_file(dir.path() / (name + ".json"), j.dump(2) + "\n");
   dir.complete();
-  if (!c.json) return;
-  nlohmann::ordered_json out{{"out", dir.path().string()}, {"complete", true}};
-  out.update(j);
-  fmt::print("{}\n", out.dump());
+  if (c.json) print_json(dir.path(), j);
 }
 
 int tell_partial(const StudyVerb& v, const Common& c, const StudyDirectory& dir) {
   if (c.json)
     fmt::print("{}\n", nlohmann::ordered_json{{"out", dir.path().string()}, {"complete", false}}.dump());
   else if (!c.quiet)
-    fmt::print("part {} is done; its results are in {}. When all parts are, --merge their directories\n",
-               v.shard, dir.path().string());
+    fmt::print(
+        "part {} of this round is done; its results are in {}. When the other parts are, call again: each "
+        "call "
+        "takes in what the others found with --merge, until one says that the study is complete\n",
+        v.shard, dir.path().string());
   return 0;
 }
 

@@ -13,6 +13,10 @@ namespace faba::cli {
 /// Where the study goes: --out, or runs/NAME. `name` of the verb, for the command to go on with.
 StudyDirectory open_study(const StudyVerb& v, const std::string& verb, const std::string& fingerprint);
 
+/// Whether the study is there already, whole; then this has been said, or its NAME.json printed again.
+bool told_complete(const StudyVerb& v, const std::string& name, const std::string& fingerprint,
+                   const Common& c);
+
 /// Threads, shard, progress and stop of a study. `bar` outlives the sweep. Throws Error(usage, "--shard").
 SweepOptions sweep_options(const StudyVerb& v, Progress& bar);
 

@@ -12,7 +12,8 @@ void add_options(CLI::App* v, StudyVerb& o) {
                 "Directory of the study; runs/NAME when absent. One that is not complete goes on")
       ->check(not_empty);
   v->add_option("--shard", o.shard,
-                "Do only this part of the simulations, such as 3/16, for one of several machines");
+                "Do only this part of the simulations, such as 3/16, for one of several machines")
+      ->check(not_empty);
   v->add_option("--merge", o.merge,
                 "Take over the results in these directories of the same study, then go on");
   v->add_option("--threads", o.threads, "Threads; all of the machine's when absent. Never changes the result")

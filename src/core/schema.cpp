@@ -78,7 +78,8 @@ double read_number(const Node& n, const FieldInfo& f) {
     const Dimension wanted = parse_unit(f.unit).dimension;
     if (q.dimension != wanted && !(q.dimension == Dimension{}))
       n.fail(fmt::format("\"{}\" is a {}; expected {}", text, dimension_name(q.dimension), example(f)));
-    v = q.value;
+    // A bare number is in the unit of the schema, which may be degrees.
+    v = q.bare ? q.value : q.value / parse_unit(f.unit).value;
   } else {
     n.fail(fmt::format("expected {}, got {}", example(f), shown(*n.json)));
   }

@@ -175,7 +175,7 @@ Quantity parse_quantity(std::string_view text) {
     throw std::invalid_argument(fmt::format("the number in \"{}\" is too large or too small", text));
   if (e != std::errc{}) throw std::invalid_argument(fmt::format("\"{}\" does not start with a number", text));
   const std::string_view rest = trimmed(text.substr(std::size_t(p - text.data())));
-  if (rest.empty()) return {v, {}};
+  if (rest.empty()) return {v, {}, true};
   const Factor f = UnitParser(rest).whole();
   return {times_ten(v * f.factor, f.ten), f.dim};
 }

@@ -16,6 +16,7 @@ struct Dimension {
 struct Quantity {
   double value = 0;
   Dimension dimension;
+  bool bare = false;  ///< a number without a unit
 };
 
 /// Reads "186 um/s", "23 uT", "1e-15 A m^2", "1/(T s)", "30 deg", "12 px", or a bare number (dimensionless).

@@ -175,9 +175,10 @@ struct StudyVideo {
         .add("experiment", &StudyVideo::experiment,
              {.doc = "Which experiment, that is which drop, it belongs to"})
         .add("direction", &StudyVideo::direction,
-             {.min = -360,
+             {.unit = "deg",
+              .min = -360,
               .max = 360,
-              .doc = "Direction of the response in degrees: 0 right, 90 down in the picture"})
+              .doc = "Direction of the response: 0 right, 90 down in the picture"})
         .add("from", &StudyVideo::from,
              {.unit = "s",
               .min = 0,
@@ -196,7 +197,7 @@ struct Study {
   static Schema<Study> schema() {
     return Schema<Study>("study", "Videos of samples after different times in air")
         .add("direction", &Study::direction,
-             {.min = -360, .max = 360, .doc = "For all videos that give none"})
+             {.unit = "deg", .min = -360, .max = 360, .doc = "For all videos that give none"})
         .add("from", &Study::from,
              {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
         .add("to", &Study::to, {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
@@ -247,6 +248,14 @@ ActivityResult measure_activity(const ActivityJob& job) {
   }
   conclude(r);
   return r;
+}
+
+Json activity_study_schema() {
+  Json j = Study::schema().json_schema();
+  j["properties"]["video"] = {{"type", "array"},
+                              {"description", "[[video]], once for each"},
+                              {"items", StudyVideo::schema().json_schema()}};
+  return j;
 }
 
 void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {

@@ -64,23 +64,23 @@ std::string table(const ControllerComparison& r) {
       columns.push_back(column);
   std::vector<std::string> head{"controller", "settled"};
   if (!place(r, r.combinations.front()).empty()) head.insert(head.begin() + 1, "with");
-  for (const auto& column : columns) head.emplace_back(column.second);
   head.emplace_back("behind the best (px)");
+  for (const auto& column : columns) head.emplace_back(column.second);
   std::string out = "<h2>Numbers</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>" +
                     row(head, "th") + "</thead><tbody>\n";
   for (const Combination& c : r.combinations) {
     std::vector<std::string> cells{escape_markup(c.controller), fmt::format("{} of {}", c.settled, c.trials)};
     if (head[1] == "with") cells.insert(cells.begin() + 1, escape_markup(place(r, c)));
-    for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
     cells.push_back(c.behind_best ? with_interval(&*c.behind_best) : "–");
+    for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
     out += row(cells, "td");
   }
-  return out + fmt::format(
-                   "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % intervals (Student's "
-                   "t). The last column is "
-                   "the mean of the "
-                   "differences in steady error, seed by seed, to the controller with the least.</p>\n",
-                   counted(std::uint64_t(r.study.seeds), "seed"));
+  return out +
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % intervals (Student's "
+             "t); settling times of the trials that settled. Behind the best: the mean of the differences in "
+             "steady error, seed by seed, to the controller with the least.</p>\n",
+             counted(std::uint64_t(r.study.seeds), "seed"));
 }
 
 // The combinations of one model and delay, which are next to each other.
@@ -170,7 +170,10 @@ std::string verdict(const ControllerComparison& r) {
 }  // namespace
 
 nlohmann::ordered_json controllers_json(const ControllerComparison& r) {
-  Json j{{"title", r.study.title}, {"seeds", r.study.seeds}, {"combinations", Json::array()}};
+  Json j{{"title", r.study.title},
+         {"seeds", r.study.seeds},
+         {"notes", r.notes},
+         {"combinations", Json::array()}};
   for (const Combination& c : r.combinations) {
     Json one{
         {"controller", c.controller}, {"model", c.model},
@@ -212,7 +215,10 @@ std::string controllers_page(const ControllerComparison& r) {
   int number = 0;
   out += "<div class=\"figures\">\n";
   for (const Figure& f : controllers_figures(r)) out += figure_markup(f, ++number);
-  return html_page(r.study.title, out + "</div>\n");
+  out += "</div>\n";
+  for (const std::string& note : r.notes)
+    out += fmt::format("<p class=\"warning\">{}</p>\n", escape_markup(note));
+  return html_page(r.study.title, out);
 }
 
 }  // namespace faba

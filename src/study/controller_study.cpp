@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "app/notes.h"
 #include "app/parts.h"
 #include "app/simulation.h"
 #include "core/hash.h"
@@ -63,7 +65,7 @@ struct Setting {
   Scenario scenario;
 };
 
-std::vector<Setting> settings(const ControllerStudy& study) {
+std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::string>* notes = nullptr) {
   std::vector<Setting> all;
   const Parts parts = builtin_parts();
   std::vector<std::optional<int>> delays(study.delays.begin(), study.delays.end());
@@ -82,6 +84,9 @@ std::vector<Setting> settings(const ControllerStudy& study) {
           throw Error(Errc::usage, study.scene.name,
                       fmt::format("has no setpoint with controller \"{}\"; give it a [reference]",
                                   study.controllers[c].name));
+        if (notes)
+          for (const std::string& note : notes_on(s, check, std::filesystem::current_path()))
+            if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
         const int frames = s.camera.delay_frames;
         all.push_back({c, m, frames, std::move(s)});
       }
@@ -191,8 +196,21 @@ ControllerStudy read_controller_study(const std::filesystem::path& file) {
   study.scene = read_toml(root.file(f.scene));
   study.controllers = read_variants(root, "controller");
   study.models = read_variants(root, "model");
+  if (std::set<int>(f.delays.begin(), f.delays.end()).size() != f.delays.size())
+    root.child("delays").fail("names a delay twice");
   study.delays = f.delays, study.seeds = f.seeds, study.first_seed = f.first_seed;
   return study;
+}
+
+Json controller_study_schema() {
+  Json j = StudyFile::schema().json_schema();
+  j["properties"]["controller"] = {{"type", "array"},
+                                   {"description", "[[controller]], once for each"},
+                                   {"items", variant_schema("A controller")}};
+  j["properties"]["model"] = {{"type", "array"},
+                              {"description", "[[model]], once for each"},
+                              {"items", variant_schema("A model of the cells")}};
+  return j;
 }
 
 std::string fingerprint(const ControllerStudy& study) {
@@ -205,7 +223,8 @@ std::string fingerprint(const ControllerStudy& study) {
 
 std::optional<ControllerComparison> compare_controllers(const ControllerStudy& study, ResultStore& results,
                                                         const SweepOptions& options) {
-  const std::vector<Setting> all = settings(study);
+  std::vector<std::string> notes;
+  const std::vector<Setting> all = settings(study, &notes);
   std::vector<Task> tasks;
   for (const Setting& s : all)
     for (int k = 0; k < study.seeds; ++k) {
@@ -214,7 +233,7 @@ std::optional<ControllerComparison> compare_controllers(const ControllerStudy& s
                        [&s, seed, &options] { return trial_values(s.scenario, seed, options.stop); }});
     }
   if (!sweep(results, tasks, options)) return {};
-  ControllerComparison c{study, {}};
+  ControllerComparison c{study, {}, std::move(notes)};
   std::vector<Trials> trials;
   for (std::size_t i = 0; i < all.size(); ++i) {
     Trials& of = trials.emplace_back();

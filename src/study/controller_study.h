@@ -51,8 +51,11 @@ struct Combination {
 struct ControllerComparison {
   ControllerStudy study;
   std::vector<Combination> combinations;  ///< by model, delay and controller, in the order of the study
+  std::vector<std::string> notes = {};    ///< what is legal in the scene but probably not meant
 };
 
+/// JSON Schema of a study file.
+Json controller_study_schema();
 /// Fingerprint of all that the result depends on.
 std::string fingerprint(const ControllerStudy& study);
 /// Runs what `results` has not yet. Checks every combination before the first trial. Empty when other shards

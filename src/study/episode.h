@@ -12,7 +12,8 @@ namespace faba {
 /// A time during which a field drives the cells in one direction.
 struct Drive {
   double t0_s = 0, t1_s = 0;
-  double direction_deg = 0;  ///< in which cells swim; image frame: 0 right, 90 down
+  double direction_deg = 0;            ///< in which cells swim; image frame: 0 right, 90 down
+  std::optional<double> field_t = {};  ///< strength of the field, T, where it was recorded
 };
 
 /// A part of an experiment that is simulated in one go: it begins with cells at known places. Times count

@@ -103,7 +103,7 @@ std::vector<Drive> drives_of_field(const Series& record, bool against) {
     if (ends - begins >= kLeastHeld) {
       const Vec2 way = against ? -1 * sum : sum;
       const double deg = std::atan2(-way.y, way.x) * 180 / std::numbers::pi;  // y is down in pictures
-      drives.push_back({begins, ends, std::fmod(deg + 360, 360)});
+      drives.push_back({begins, ends, std::fmod(deg + 360, 360), norm(sum) / double(at - from) * 1e-6});
     }
     sum = {}, from = at;
   };

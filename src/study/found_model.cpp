@@ -32,6 +32,7 @@ constexpr double kLevel = 0.90;     // of the intervals
 constexpr int kProfile = 41;        // values of each parameter
 constexpr double kUnlearnt = 0.75;  // share of the range: 0.9 when nothing was learnt
 constexpr double kTogether = 0.9;   // correlation from which on two are one
+constexpr double kAtEnd = 0.005;    // of the range, from its end
 constexpr double kDiffer = 2;  // times the posterior's width: by chance three sd off for four experiments
 
 double weighed_quantile(const VectorXd& v, const VectorXd& weight, double p) {
@@ -88,6 +89,24 @@ MatrixXd foretell(const ParameterSearch& s, const MatrixXd& u, const std::vector
   return x;
 }
 
+// The end of its range that the posterior leans on, unless nothing lies beyond it; empty for neither.
+std::string leans_on(const FoundParameter& p) {
+  const FreeParameter& q = p.parameter;
+  const double low = q.share(p.ci90[0]), high = q.share(p.ci90[1]);
+  const auto said = [&](const char* which, double value) {
+    return fmt::format(
+        "{} lies at the {} end of its range, {:.3g}{}{}: a wider range may give another answer", q.path,
+        which, q.shown(value), q.shown_unit().empty() ? "" : " ", q.shown_unit());
+  };
+  if (!q.low_is_least && low < kAtEnd) return said("lower", q.low);
+  if (!q.high_is_most && high > 1 - kAtEnd) return said("upper", q.high);
+  return {};
+}
+
+void add_doubt(FoundParameter& p, const std::string& doubt) {
+  if (!doubt.empty()) p.doubt += (p.doubt.empty() ? "" : "; ") + doubt;
+}
+
 void tell_doubts(FoundModel& m, const MatrixXd& draws) {
   const MatrixXd off = draws.rowwise() - draws.colwise().mean();
   for (Index j = 0; j < draws.cols(); ++j) {
@@ -106,8 +125,13 @@ void tell_doubts(FoundModel& m, const MatrixXd& draws) {
                         p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
     }
     const FreeParameter& q = p.parameter;
-    if (p.doubt.empty() && p.resampled90 &&
-        (*p.resampled90)[1] - (*p.resampled90)[0] > kDiffer * (p.ci90[1] - p.ci90[0]))
+    add_doubt(p, leans_on(p));
+    if (p.abc_ci90[0] > p.ci90[1] || p.abc_ci90[1] < p.ci90[0])
+      add_doubt(p, fmt::format("approximate Bayesian computation puts {} elsewhere: trust neither", q.path));
+    const bool differ =
+        p.resampled90 && ((*p.resampled90)[1] - (*p.resampled90)[0] > kDiffer * (p.ci90[1] - p.ci90[0]) ||
+                          p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
+    if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
           "experiments differ about {} by more than the model knows of: of experiments drawn anew, 90 % give "
           "{:.3g} to {:.3g}{}{}",
@@ -157,8 +181,17 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
     FoundParameter& p = m.parameters[std::size_t(j)];
     const Profile profile = profile_likelihood([&](const VectorXd& u) { return l.log_likelihood(u); },
                                                s.box(), middle, j, kProfile);
-    for (const double u : profile.u) p.profile_at.push_back(p.parameter.value(u));
-    p.profile.assign(profile.log_likelihood.begin(), profile.log_likelihood.end());
+    Index best = 0, from, to;
+    profile.log_likelihood.maxCoeff(&best);
+    // Where it rises again the emulator's parabola has turned, far from all simulations.
+    for (from = best; from > 0 && profile.log_likelihood[from - 1] <= profile.log_likelihood[from];) --from;
+    for (to = best;
+         to + 1 < profile.u.size() && profile.log_likelihood[to + 1] <= profile.log_likelihood[to];)
+      ++to;
+    for (Index k = from; k <= to; ++k) {
+      p.profile_at.push_back(p.parameter.value(profile.u[k]));
+      p.profile.push_back(profile.log_likelihood[k]);
+    }
   }
   m.simulations = std::size_t(s.simulations().size());
   m.fit_p = fit_p(s, middle, s.observed());

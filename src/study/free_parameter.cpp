@@ -90,7 +90,15 @@ double quantity_of(const Json& v, const FreeParameter& p) {
   return v.is_string() && !p.unit.empty() ? parse_quantity(v.get<std::string>()).value : 0;
 }
 
+// Tables that the video, the study or the recording decides.
+constexpr const char* kDecided[] = {"title",  "seed",      "duration",  "camera",     "arena",   "record",
+                                    "limits", "estimator", "reference", "controller", "library", "flow"};
+
 FreeParameter read_one(const std::string& path, const Node& n, const Json* given, const Json& scenario) {
+  for (const char* key : kDecided)
+    if (path.substr(0, path.find_first_of(".[")) == key)
+      throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                  "cannot be found: the video or the study decides it");
   const Description d = describe(path, scenario);
   if (!d.schema) {
     const std::string key = path.substr(path.find_last_of('.') + 1);
@@ -103,6 +111,10 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   FreeParameter p{.path = path, .unit = s.value("x-unit", ""), .whole = s["type"] == "integer"};
   const double least = s["minimum"].get<double>(), most = s["maximum"].get<double>();
   p.low = least, p.high = most;
+  if (given && *given == false)
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not free; leave it out, or set it");
+  if ((!given || given->is_boolean()) && p.whole)
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "needs a range, such as [50, 1000]");
   const bool all = !given || given->is_boolean();
   if (all) {
     const double usual = s.contains("default") ? quantity_of(s["default"], p) : 0;
@@ -122,9 +134,14 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   } else {
     n.fail(path + ": must be true, [lowest, highest] or { mean = ..., sd = ... }");
   }
-  if (!(p.low < p.high) || !(p.low >= least) || !(p.high <= most))
-    n.fail(fmt::format("{}: {:g} to {:g} must be a range inside of {:g} to {:g}{}", path, p.low, p.high,
-                       least, most, p.unit.empty() ? "" : " " + p.unit));
+  const std::string unit = p.shown_unit().empty() ? "" : " " + p.shown_unit();
+  if (!(p.low < p.high))
+    n.fail(fmt::format("{}: must be [lowest, highest], not {:g} to {:g}{}", path, p.shown(p.low),
+                       p.shown(p.high), unit));
+  if (!(p.low >= least) || !(p.high <= most))
+    n.fail(fmt::format("{}: {:g} to {:g} must be a range inside of {:g} to {:g}{}", path, p.shown(p.low),
+                       p.shown(p.high), p.shown(least), p.shown(most), unit));
+  p.low_is_least = p.low <= least, p.high_is_most = p.high >= most;
   return p;
 }
 

@@ -101,7 +101,7 @@ ParameterSearch::LogPrior prior_of(const Candidate& c) {
 
 Document scenario_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v, const Episode& e,
                      const VectorXd& u, const DriveTiming& timing) {
-  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_t}, timing);
+  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_in(v)}, timing);
   for (std::size_t j = 0; j < c.free.size(); ++j) d.set(c.free[j].path, c.free[j].json(u[Index(j)]), "free");
   return d;
 }
@@ -169,9 +169,14 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
   for (Index i = 0; i < rows; ++i)
     for (const Part& part : o.parts) {
       const std::vector<double>& values = *results.find(tasks[at++].key);
-      if (Index(values.size()) == part.count)
-        s.row(i).segment(part.begin, part.count) =
-            Eigen::Map<const VectorXd>(values.data(), part.count).transpose();
+      if (Index(values.size()) != part.count)
+        throw Error(
+            Errc::usage, "results.jsonl",
+            fmt::format("has a result of {} numbers where there are {}; take the file away to compute all of "
+                        "them again",
+                        values.size(), part.count));
+      s.row(i).segment(part.begin, part.count) =
+          Eigen::Map<const VectorXd>(values.data(), part.count).transpose();
     }
   return s;
 }
@@ -185,7 +190,7 @@ void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
     const Document d =
         scenario_of(study, c, v, v.episodes.front(), VectorXd::Constant(Index(c.free.size()), 0.5),
                     exact_timing(v.episodes.front()));
-    const double turn = u_turn_s(d.root["swarm"][0]["model"], p.median, c.drive_t), frame = 1 / v.fps;
+    const double turn = u_turn_s(d.root["swarm"][0]["model"], p.median, c.drive_in(v)), frame = 1 / v.fps;
     if (turn < frame)
       p.doubt += fmt::format(
           "; a U-turn lasts less than a frame, {:.2g} of {:.2g} s: drive with a weaker field", turn, frame);
@@ -232,6 +237,25 @@ void check_alike(const std::vector<ResponseVideo>& videos) {
   }
 }
 
+// The field decides how fast cells turn.
+void note_drive(const IdentifyStudy& study, ResponseVideo& v) {
+  constexpr double kSame = 0.02;
+  for (const Candidate& c : study.candidates) {
+    const double t = c.drive_in(v);
+    if (!c.drive_t && !v.field_t) {
+      v.notes.push_back(
+          fmt::format("does not tell how strong its field is: simulated with {:g} uT; say it with drive = "
+                      "\"115 uT\"",
+                      1e6 * t));
+      return;
+    }
+    if (v.field_t && std::fabs(t / *v.field_t - 1) > kSame)
+      v.notes.push_back(
+          fmt::format("recorded a field of {:.4g} uT; {} is simulated with {:.4g} uT, as the study says",
+                      1e6 * *v.field_t, c.model.name, 1e6 * t));
+  }
+}
+
 }  // namespace
 
 std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
@@ -245,6 +269,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
         throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
     }));
   check_alike(r.videos);
+  for (ResponseVideo& v : r.videos) note_drive(study, v);
   const Observed o = gather(r.videos);
   for (Index k = 0; k < o.numbers.size(); ++k)
     if (!std::isfinite(o.numbers[k]))

@@ -262,9 +262,9 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
   for (const ResponseVideo& v : r.videos)
     for (std::size_t e = 0; e < v.episodes.size() && all.size() < 2; ++e) {
       const Episode& episode = v.episodes[e];
-      Document d =
-          episode_scenario(v, episode, {r.study.boundary, r.study.scene, candidate.model, candidate.drive_t},
-                           exact_timing(episode));
+      Document d = episode_scenario(v, episode,
+                                    {r.study.boundary, r.study.scene, candidate.model, candidate.drive_in(v)},
+                                    exact_timing(episode));
       for (const auto& [path, value] : r.models[r.best].best.items()) d.set(path, value, "best");
       EpisodePictures& one = all.emplace_back();
       one.name = episode.name, one.t_s = picture_times(episode), one.real = v.pictures[e];

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/identify_figures.h"
@@ -31,6 +32,13 @@ std::string lead(const Identification& r) {
   return out;
 }
 
+bool one_drop(const Identification& r) {
+  const std::string& first = r.videos.front().input.experiment;
+  return r.videos.size() == 1 ||
+         (!first.empty() && std::all_of(r.videos.begin(), r.videos.end(),
+                                        [&](const auto& v) { return v.input.experiment == first; }));
+}
+
 std::string models_table(const Identification& r) {
   std::string out =
       "<h2>Models</h2>\n<div class=\"wide\"><table "
@@ -49,13 +57,18 @@ std::string models_table(const Identification& r) {
     out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2g}</td><td>{}</td></tr>\n",
                        escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
   }
-  return out + fmt::format(
-                   "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments "
-                   "is foretold from "
-                   "the others; less is better. Fit p: how often simulations of the model are as far from "
-                   "their own mean as "
-                   "the videos are; below 0.01 the model does not explain them.</p>\n",
-                   r.experiments.size());
+  return out +
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments "
+             "is foretold from "
+             "the others; less is better. Fit p: how often simulations of the model are as far from "
+             "their own mean as "
+             "the videos are; below 0.01 the model does not explain them.{}</p>\n",
+             r.experiments.size(),
+             one_drop(r)
+                 ? " The experiments are drives of one swarm and share its cells: intervals of the lead are "
+                   "too narrow by what they share."
+                 : "");
 }
 
 // Both in the greys of the real one.
@@ -124,20 +137,16 @@ std::string legacy(const Identification& r) {
 
 std::string notes(const Identification& r) {
   std::string out;
-  for (const ResponseVideo& v : r.videos) {
-    for (const std::string& note : v.notes)
-      out += fmt::format("<li>{}: {}</li>\n", escape_markup(v.input.file.filename().string()),
-                         escape_markup(note));
-    if (!v.drives_found) continue;
-    std::string drives;
-    for (const Episode& e : v.episodes)
-      for (const Drive& d : e.drives)
-        drives += fmt::format("{}{:.2f} to {:.2f} s at {:.0f}°", drives.empty() ? "" : ", ",
-                              e.begins_s + d.t0_s, e.begins_s + d.t1_s, d.direction_deg);
-    out += fmt::format("<li>{}: drives were found: {}</li>\n",
-                       escape_markup(v.input.file.filename().string()), drives);
-  }
-  return out.empty() ? "" : "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
+  for (const std::string& note : notes_of(r)) out += fmt::format("<li>{}</li>\n", escape_markup(note));
+  for (const ResponseVideo& v : r.videos)
+    out += fmt::format(
+        "<li>{}: {:.4g} um per px, {:.4g} frames per second, field {:.3g} uT; times count from {:.4g} "
+        "s.</li>\n",
+        escape_markup(v.input.file.string()), v.um_per_px, v.fps,
+        1e6 * r.study.candidates[r.best].drive_in(v), v.episodes.front().begins_s);
+  out += fmt::format("<li>Seed {}, {} simulations with each model; Faba {}.</li>\n", r.study.seed,
+                     r.study.simulations, FABA_VERSION);
+  return "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
 }
 
 }  // namespace

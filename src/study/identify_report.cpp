@@ -57,11 +57,18 @@ nlohmann::ordered_json identify_json(const Identification& r) {
          {"sd", m.sd},
          {"least_distance_at", m.least_distance_at},
          {"meaningless", m.meaningless.empty() ? Json() : Json(m.meaningless)}});
-  Json notes = Json::array();
-  for (const ResponseVideo& v : r.videos)
-    for (const std::string& note : v.notes) notes.push_back(v.input.file.string() + ": " + note);
-  j["notes"] = notes;
+  j["notes"] = notes_of(r);
   return j;
+}
+
+std::vector<std::string> notes_of(const Identification& r) {
+  std::vector<std::string> all;
+  for (const ResponseVideo& v : r.videos)
+    for (const std::string& note : v.notes) {
+      const std::string name = v.input.file.string() + ": ";
+      all.push_back(note.starts_with(name) ? note : name + note);
+    }
+  return all;
 }
 
 }  // namespace faba

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
 #include <set>
 
 #include "app/calibration_file.h"
@@ -9,9 +11,13 @@
 #include "core/units.h"
 #include "study/identify.h"
 #include "study/parameter_search.h"
+#include "study/run_video.h"
 
 namespace faba {
 namespace {
+
+// Tables that say what the video does not.
+constexpr const char* kOfScene[] = {"exclusion", "field", "library", "limits", "motility", "simulation"};
 
 struct StudyFile {
   std::string title;
@@ -23,7 +29,7 @@ struct StudyFile {
   bool legacy = false;
   std::optional<double> um_per_px, reversal, direction, duration, timing;
   std::string scale;
-  double drive = 1e-3;
+  std::optional<double> drive;
   static Schema<StudyFile> schema() {
     return Schema<StudyFile>("identify", "Which model and which parameters explain videos")
         .add("title", &StudyFile::title, {.doc = "What the study is called in reports"})
@@ -48,7 +54,10 @@ struct StudyFile {
         .add("reversal", &StudyFile::reversal,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
         .add("direction", &StudyFile::direction,
-             {.min = -360, .max = 360, .doc = "In which cells swim from then on, degrees: 0 right, 90 down"})
+             {.unit = "deg",
+              .min = -360,
+              .max = 360,
+              .doc = "In which cells swim from then on: 0 right, 90 down in the picture"})
         .add("duration", &StudyFile::duration,
              {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at from there on"})
         .add("timing", &StudyFile::timing,
@@ -57,8 +66,13 @@ struct StudyFile {
               .max = 10,
               .doc = "How well the moments are known at which the field turns, sd; 0.58 frames, which is a "
                      "frame either way, when absent"})
-        .add("drive", &StudyFile::drive,
-             {.unit = "T", .min = 0, .max = 1, .doc = "Strength of the field that drives the cells"});
+        .add(
+            "drive", &StudyFile::drive,
+            {.unit = "T",
+             .min = 0,
+             .max = 1,
+             .doc =
+                 "Strength of the field that drives the cells; what a run recorded, else 1 mT, when absent"});
   }
 };
 
@@ -70,7 +84,10 @@ struct DriveFile {
              {.unit = "s", .min = 0, .max = 1e6, .doc = "When it begins, in the video"})
         .add("to", &DriveFile::to, {.unit = "s", .min = 0, .max = 1e6, .doc = "When it ends"})
         .add("direction", &DriveFile::direction,
-             {.min = -360, .max = 360, .doc = "In which cells swim, degrees: 0 right, 90 down"});
+             {.unit = "deg",
+              .min = -360,
+              .max = 360,
+              .doc = "In which cells swim: 0 right, 90 down in the picture"});
   }
 };
 
@@ -91,7 +108,7 @@ struct VideoFile {
         .add("reversal", &VideoFile::reversal,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
         .add("direction", &VideoFile::direction,
-             {.min = -360, .max = 360, .doc = "In which cells swim from then on"})
+             {.unit = "deg", .min = -360, .max = 360, .doc = "In which cells swim from then on"})
         .add("duration", &VideoFile::duration,
              {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at"})
         .add("drive", &VideoFile::drive,
@@ -103,6 +120,10 @@ ResponseInput input_of(const Node& n, const StudyFile& study, std::optional<doub
   const VideoFile v = VideoFile::schema().parse(n);
   if (v.file.empty()) n.fail("needs file = \"...\"");
   ResponseInput r;
+  if (!v.drive.empty() && (v.reversal || v.direction || v.duration))
+    n.fail("gives drives as well as reversal, direction or duration; give one of both");
+  if (!std::filesystem::exists(n.file(v.file)))
+    throw Error(Errc::input, n.where("file"), "no such file: " + v.file);
   r.file = n.file(v.file), r.experiment = v.experiment, r.exposure_s = v.exposure, r.fps = v.fps;
   r.um_per_px = v.um_per_px ? v.um_per_px : um_per_px;
   r.reversal_s = v.reversal ? v.reversal : study.reversal;
@@ -130,22 +151,25 @@ ResponseVideo any_video() {
 
 Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyStudy& study, const Node& root,
                        std::size_t index) {
-  Candidate c{model, f.drive, {}};
+  Candidate c{model, f.drive, {}, {}};
   const Node here = root.has("model") ? root.child("model").item(index) : root;
   if (c.model.extra.contains("drive")) {
     const Node n{c.model.extra["drive"], here.path + ".drive", root.document};
     c.drive_t = schema_detail::read<double>(n, {.unit = "T", .min = 0, .max = 1});
   }
+  const Parts parts = builtin_parts();
+  if (!c.model.part.is_null()) (void)parts.model.resolve({c.model.part, here.path, root.document});
   const ResponseVideo video = any_video();
-  Document d = episode_scenario(video, video.episodes[0], {study.boundary, study.scene, c.model, c.drive_t},
+  Document d = episode_scenario(video, video.episodes[0], {study.boundary, study.scene, c.model, kUsualDrive},
                                 exact_timing(video.episodes[0]));
   d.root["microscope"].erase("background");
   if (c.model.extra.contains("free"))
     c.free = read_free_parameters({c.model.extra["free"], here.path + ".free", root.document}, d.root);
   if (c.free.empty())
-    throw Error(
-        Errc::usage, c.model.origin,
-        "has nothing to find: give free = [\"swarm[0].model.speed\"], or another path of the scenario");
+    throw Error(Errc::usage, c.model.origin,
+                "has nothing to find: give free = { \"swarm[0].model.speed\" = [\"20 um/s\", \"300 um/s\"] "
+                "}, or another "
+                "path of the scenario");
   if (c.model.extra.contains("legacy")) {
     const Node n{c.model.extra["legacy"], here.path + ".legacy", root.document};
     if (!n.json->is_array() || n.json->size() < 3)
@@ -158,11 +182,19 @@ Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyS
                 fmt::format("{} parameters take {} simulations or more, not {}", c.free.size(), least,
                             study.simulations));
   // Both ends of every range, and the middle.
-  const Parts parts = builtin_parts();
   for (const double u : {0.5, 0.0, 1.0}) {
     Document one = d;
     for (const FreeParameter& p : c.free) one.set(p.path, p.json(u), c.model.origin + ".free");
-    (void)read_scenario(one, parts);
+    try {
+      (void)read_scenario(one, parts);
+    } catch (const Error& e) {
+      std::string values;
+      for (const FreeParameter& p : c.free)
+        values += fmt::format("{}{} = {:.4g}{}{}", values.empty() ? "" : ", ", p.path, p.shown(p.value(u)),
+                              p.shown_unit().empty() ? "" : " ", p.shown_unit());
+      throw Error(Errc::usage, c.model.origin,
+                  fmt::format("free may be {}, and then {}; give narrower ranges", values, e.what()));
+    }
   }
   return c;
 }
@@ -182,6 +214,13 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
     if (!root.child("scene").json->is_object())
       root.child("scene").fail("must be a table with tables of a scenario");
     study.scene = *root.child("scene").json;
+    for (const auto& [key, _] : study.scene.items())
+      if (std::find(std::begin(kOfScene), std::end(kOfScene), key) == std::end(kOfScene))
+        throw Error(
+            Errc::usage, root.child("scene").where(key),
+            fmt::format(
+                "is not for [scene] to say: the video tells it, or it changes nothing; [scene] takes {}",
+                fmt::join(kOfScene, ", ")));
   }
   std::optional<double> um_per_px = f.um_per_px;
   if (!f.scale.empty()) {
@@ -191,14 +230,66 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
     root.fail("needs [[video]], once for each video");
   const Node videos = root.child("video");
-  for (std::size_t i = 0; i < videos.json->size(); ++i)
+  std::set<std::filesystem::path> seen;
+  for (std::size_t i = 0; i < videos.json->size(); ++i) {
     study.videos.push_back(input_of(videos.item(i), f, um_per_px));
+    if (!seen.insert(std::filesystem::weakly_canonical(study.videos.back().file)).second)
+      videos.item(i).fail("is a video that is there already; it would count as another experiment");
+  }
   if (!root.has("model")) root.fail("needs [[model]], once for each candidate");
   const std::vector<Variant> models = read_variants(root, "model", {"free", "drive", "legacy"});
   for (std::size_t i = 0; i < models.size(); ++i)
     study.candidates.push_back(candidate_of(models[i], f, study, root, i));
   return study;
 }
+
+Json identify_study_schema() {
+  Json j = StudyFile::schema().json_schema();
+  Json& p = j["properties"];
+  p["scene"] = {{"type", "object"},
+                {"description",
+                 fmt::format("Tables of a scenario that all models share: {}", fmt::join(kOfScene, ", "))}};
+  Json video = VideoFile::schema().json_schema();
+  p["video"] = {{"type", "array"}, {"description", "[[video]], once for each"}, {"items", video}};
+  Json model = variant_schema("A candidate");
+  model["properties"]["free"] = {{"type", "object"},
+                                 {"description",
+                                  "What is to be found, by path: [lowest, highest], true for the range of "
+                                  "the reference, or { mean, sd }"}};
+  model["properties"]["drive"] = {{"type", "string"},
+                                  {"description", "Strength of the field for this model"}};
+  model["properties"]["legacy"] = {
+      {"type", "array"},
+      {"items", {{"type", "number"}}},
+      {"description", "Values of the first free parameter that the legacy rule tries"}};
+  p["model"] = {{"type", "array"}, {"description", "[[model]], once for each candidate"}, {"items", model}};
+  return j;
+}
+
+namespace {
+
+// What is in a video, wherever it lies: another one of the same name is another study.
+void hash_content(const std::filesystem::path& file, Hash& h) {
+  namespace fs = std::filesystem;
+  if (fs::is_directory(file)) {
+    std::set<fs::path> inside;  // in order
+    for (const auto& e : fs::directory_iterator(file)) inside.insert(e.path());
+    for (const fs::path& p : inside) {
+      const std::string name = p.filename().string();
+      const bool counts = !is_run(file) || name.starts_with("video.") || name == "series.csv";
+      if (fs::is_regular_file(p) && counts) h.text(name), hash_content(p, h);
+    }
+    return;
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::vector<char> block(1u << 20);
+  while (in) {
+    in.read(block.data(), std::streamsize(block.size()));
+    h.text({block.data(), std::size_t(in.gcount())});
+  }
+}
+
+}  // namespace
 
 std::string fingerprint(const IdentifyStudy& study) {
   Hash h;
@@ -208,14 +299,14 @@ std::string fingerprint(const IdentifyStudy& study) {
   h.value(study.timing_s.value_or(-1));
   h.text(study.scene.dump());
   for (const ResponseInput& v : study.videos) {
-    h.text(std::filesystem::weakly_canonical(v.file).string()), h.text(v.experiment);
+    hash_content(v.file, h), h.text(v.experiment);
     for (const double x : {v.exposure_s, v.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
                            v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
       h.value(x);
     for (const Drive& d : v.drives) h.value(d.t0_s), h.value(d.t1_s), h.value(d.direction_deg);
   }
   for (const Candidate& c : study.candidates) {
-    h.text(c.model.name), h.text(c.model.part.dump()), h.value(c.drive_t);
+    h.text(c.model.name), h.text(c.model.part.dump()), h.value(c.drive_t.value_or(-1));
     for (const double v : c.legacy_values) h.value(v);
     for (const auto& [path, value] : c.model.set) h.text(path), h.text(value.dump());
     for (const FreeParameter& p : c.free) {

@@ -142,8 +142,9 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
             Episode episode = video.episodes[e];
             episode.drives.resize(1);
             const double u = shares[i];
-            Document d = episode_scenario(video, episode, {study.boundary, study.scene, c.model, c.drive_t},
-                                          exact_timing(episode));
+            Document d =
+                episode_scenario(video, episode, {study.boundary, study.scene, c.model, c.drive_in(video)},
+                                 exact_timing(episode));
             d.set(c.free.front().path, c.free.front().json(u), "legacy");
             d.root["microscope"]["noise"] = 0;
             Hash h;

@@ -32,6 +32,7 @@ constexpr double kSameWay = 60;         // degrees
 constexpr double kUncovered = 0.85;     // share of the frames in which a place may be covered by cells
 constexpr double kReach = 2;            // times as far as what is seen
 constexpr double kWhite = 255;
+constexpr double kSameScale = 1e-3;  // as a share
 
 // Cells one by one where they can be told apart; where not, as many places as there are cells, spread as what
 // is seen.
@@ -183,6 +184,9 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
     edge.name = name;
     v.edge = find_drop_edge(s.first, edge);
   }
+  // How spots are found is an option of `track`; a crowd is measured as a whole.
+  std::erase_if(s.notes,
+                [](const std::string& note) { return note.find("--background") != std::string::npos; });
   v.notes.insert(v.notes.end(), s.notes.begin(), s.notes.end());
   return s;
 }
@@ -239,10 +243,14 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   if (!scale)
     throw Error(Errc::input, input.file.string(), "has no scale; give um_per_px, or a calibration file");
   v.um_per_px = *scale;
+  if (source.um_per_px && std::fabs(*scale / *source.um_per_px - 1) > kSameScale)
+    v.notes.push_back(fmt::format("was recorded with {:g} um per pixel; {:g} are taken, as the study says",
+                                  *source.um_per_px, *scale));
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
   const std::vector<Drive> recorded = recorded_drives(input.file);
   const std::vector<Drive> drives = drives_in(v, recorded, boundary, survey.duration_s, tick);
+  for (const Drive& d : recorded) v.field_t = std::max(v.field_t.value_or(0), d.field_t.value_or(0));
   v.drives_found = recorded.empty() && input.drives.empty() && !(input.reversal_s && input.direction_deg);
   const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestDrive;
   for (const Drive& d : drives)
@@ -252,6 +260,13 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
           fmt::format(
               "a drive from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
               d.t0_s, d.t1_s, shortest, survey.duration_s));
+  if (v.drives_found) {
+    std::string all;
+    for (const Drive& d : drives)
+      all += fmt::format("{}{:.2f} to {:.2f} s at {:.0f} deg", all.empty() ? "" : ", ", d.t0_s, d.t1_s,
+                         d.direction_deg);
+    v.notes.push_back("drives were found, everything rests on them: " + all);
+  }
   v.episodes = episodes_of(v, boundary, drives);
   // Before the first drive a swarm may wait at one place for longer than it moves.
   if (measure == Measure::density &&

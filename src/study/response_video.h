@@ -43,6 +43,7 @@ struct ResponseVideo {
   std::optional<DropEdge> edge;               ///< with Boundary::drop
   std::shared_ptr<const VideoGround> ground;  ///< light and noise
   double cell_px = 0, contrast = 0;  ///< of a cell that is rendered: width as seen, and as in [microscope]
+  std::optional<double> field_t;     ///< strength of the field that drives the cells, T, as a run recorded it
   bool drives_found = false;         ///< in the video; else they were given, or a run recorded its field
   std::vector<Episode> episodes;
   std::vector<std::shared_ptr<const EpisodeStatistics>> statistics;  ///< of each episode

@@ -21,6 +21,7 @@ class ResultStore {
   ~ResultStore();
 
   /// The result of the task of this key, or null.
+  bool empty() const { return results_.empty(); }
   const std::vector<double>* find(const std::string& key) const;
   /// Keeps a result; one that is there already stays as it is. Numbers may be NaN.
   void add(const std::string& key, const std::vector<double>& values);

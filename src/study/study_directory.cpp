@@ -23,7 +23,24 @@ std::optional<std::string> held(const fs::path& dir) {
   return j["fingerprint"].get<std::string>();
 }
 
+// What studies of any kind write.
+constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best.toml",  "background.png",
+                                    "controllers.json", "controllers.csv", "report.html"};
+
 }  // namespace
+
+bool holds_complete_study(const fs::path& dir, const std::string& fingerprint) {
+  return held(dir) == fingerprint && !fs::exists(dir / kMarker);
+}
+
+StudyDirectory::~StudyDirectory() {
+  if (!new_ || whole_ || !results_ || !results_->empty()) return;
+  results_.reset();
+  lock_.complete();
+  std::error_code ignored;
+  for (const char* name : {kResults, kStudy}) fs::remove(dir_ / name, ignored);
+  fs::remove(dir_, ignored);  // not when something else is in it
+}
 
 StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerprint, const std::string& again,
                                bool force)
@@ -31,7 +48,8 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerpri
   std::error_code ec;
   if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
     throw Error(Errc::usage, dir.string(), "exists and is not a directory");
-  if (!fs::is_directory(dir)) fs::create_directories(dir, ec);
+  new_ = !fs::is_directory(dir);
+  if (new_) fs::create_directories(dir, ec);
   if (!fs::is_directory(dir))
     throw Error(Errc::internal, dir.string(),
                 fmt::format("cannot be made: {}; choose another --out", ec.message()));
@@ -49,6 +67,8 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerpri
   lock_ = FileLock(dir / kMarker, dir, fmt::format("This study is not complete. Go on with: {}\n", again));
   if (!same) {
     fs::remove(dir / kResults, ec);
+    if (there)
+      for (const char* name : kWritten) fs::remove(dir / name, ec);
     write_file(
         dir / kStudy,
         nlohmann::ordered_json{{"fingerprint", fingerprint}, {"version", FABA_VERSION}}.dump(2) + "\n");

@@ -9,6 +9,9 @@
 
 namespace faba {
 
+/// Whether `dir` holds a complete study with this fingerprint.
+bool holds_complete_study(const std::filesystem::path& dir, const std::string& fingerprint);
+
 /// Where a study keeps its results. While it is being made it holds the file `incomplete`; a study that was
 /// stopped or killed goes on from the results that are there.
 class StudyDirectory {
@@ -19,6 +22,9 @@ class StudyDirectory {
   /// study give way; those of the same one are taken.
   StudyDirectory(const std::filesystem::path& dir, const std::string& fingerprint, const std::string& again,
                  bool force);
+  /// A directory that was made for a study that then came to nothing goes again.
+  ~StudyDirectory();
+  StudyDirectory(StudyDirectory&&) = default;
 
   ResultStore& results() { return *results_; }
   const std::filesystem::path& path() const { return dir_; }
@@ -26,12 +32,13 @@ class StudyDirectory {
   /// Error(input) for those that are none.
   void merge(const std::vector<std::filesystem::path>& dirs);
   /// Everything is written: the study is whole.
-  void complete() { lock_.complete(); }
+  void complete() { lock_.complete(), whole_ = true; }
 
  private:
   std::filesystem::path dir_;
   std::string fingerprint_;
   FileLock lock_;
+  bool new_ = false, whole_ = false;
   std::unique_ptr<ResultStore> results_;
 };
 

@@ -48,6 +48,18 @@ std::vector<Variant> read_variants(const Node& study, const std::string& key,
   return variants;
 }
 
+Json variant_schema(const std::string& description) {
+  return {{"title", "variant"},
+          {"description", description},
+          {"type", "object"},
+          {"properties",
+           {{"name", {{"type", "string"}, {"description", "What reports call it; its type when absent"}}},
+            {"type",
+             {{"type", "string"},
+              {"description", "The part, with its own keys beside it; as the scene has it when absent"}}},
+            {"set", {{"type", "object"}, {"description", "Other values of the scenario, by path"}}}}}};
+}
+
 void apply(const Variant& v, const std::string& place, Document& d) {
   if (!v.part.is_null()) {
     if (place == "model") {

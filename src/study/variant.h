@@ -28,6 +28,9 @@ struct Variant {
 std::vector<Variant> read_variants(const Node& study, const std::string& key,
                                    const std::vector<std::string>& extra = {});
 
+/// JSON Schema of one of these tables, without the keys of the part itself and without `extra`.
+Json variant_schema(const std::string& description);
+
 /// Puts a variant's part at `place` ("controller"), or as the model of every swarm ("model"), and then its
 /// other values.
 void apply(const Variant& variant, const std::string& place, Document& scenario);

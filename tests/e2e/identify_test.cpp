@@ -44,9 +44,7 @@ void refused(const TestFolder& f, const std::string& study, int code, const std:
   CHECK(c.exit == code);
   CHECK_MESSAGE(one_clear_line(c.err), c.err);
   CHECK_MESSAGE(c.err.find(words) != std::string::npos, c.err);
-  const auto results = f.path / "out/results.jsonl";
-  CHECK((!std::filesystem::exists(results) || std::filesystem::file_size(results) == 0));
-  std::filesystem::remove_all(f.path / "out");
+  CHECK(!std::filesystem::exists(f.path / "out"));
 }
 
 }  // namespace
@@ -135,6 +133,47 @@ TEST_CASE(
   CHECK(fit_p("backwards") < 0.02);
 }
 
+TEST_CASE(
+    "a run tells how strong its field is; a direction may have its unit; the best scene has a goal in view") {
+  const TestFolder f;
+  make_film(f);
+  const auto best = [&](const std::string& head) {
+    write_file(f.path / "study.toml", head + kBasic);
+    const Called c = faba_in(f.path, "identify study.toml --json --force --out out");
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    CHECK(c.json()["notes"].dump().find("how strong") == std::string::npos);
+    return read_file(f.path / "out/best.toml");
+  };
+  const std::string given = best(kHead);
+  std::string said = kHead, unsaid = kHead;
+  said.replace(said.find("direction = 0"), 13, "direction = \"0 deg\"");
+  unsaid.erase(unsaid.find("drive"), unsaid.find("[[video]]") - unsaid.find("drive"));
+  CHECK(best(said) == given);
+  CHECK(best(unsaid) == given);
+  CHECK(given.find("6.9e-05 T") != std::string::npos);
+  const Called run = faba_in(f.path, "run out/best.toml --set controller=fuzzy --out goal");
+  CHECK_MESSAGE(run.exit == 0, run.err);
+  CHECK_MESSAGE(run.err.find("reference") == std::string::npos, run.err);
+}
+
+TEST_CASE("another video under the same name is another study; damaged results are refused") {
+  const TestFolder f;
+  make_film(f);
+  write_file(f.path / "study.toml", kHead + kBasic);
+  REQUIRE(faba_in(f.path, "identify study.toml --quiet --out out").exit == 0);
+  CHECK(faba_in(f.path, "identify study.toml --out out").exit == 0);
+  std::string results = read_file(f.path / "out/results.jsonl");
+  const std::size_t list = results.find("\"values\":[") + 10;
+  write_file(f.path / "out/results.jsonl", results.replace(list, results.find(']') - list, "1,2,3"));
+  const Called c = faba_in(f.path, "identify study.toml --force --out out");
+  CHECK(c.exit == 2);
+  CHECK_MESSAGE(c.err.find("3 numbers") != std::string::npos, c.err);
+  make_film(f, "--set swarm[0].count=70");
+  const Called other = faba_in(f.path, "identify study.toml --out out");
+  CHECK(other.exit == 2);
+  CHECK_MESSAGE(other.err.find("another study") != std::string::npos, other.err);
+}
+
 TEST_CASE("bad studies and bad videos: one line, before any simulation") {
   const TestFolder f;
   make_film(f);
@@ -147,7 +186,7 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
           "no such value");
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].polarity\"]\n", 2, "not a number");
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2] }\n", 2,
-          "must be a range");
+          "[lowest, highest]");
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2000] }\n", 2,
           "must be a range");
   refused(f,
@@ -157,6 +196,26 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
   refused(f, kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "not in the range");
   refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");
   refused(f, kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
+  refused(f, kHead + "[[video]]\nfile = \"./film\"\n" + kBasic, 2, "there already");
+  refused(
+      f,
+      kHead +
+          "[[video.drive]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.drive]]\nfrom = \"1.5 s\"\nto = \"3 s\"\n" +
+          kBasic,
+      2, "follow each other");
+  refused(f, kHead + "reversal = \"1 s\"\n[[video.drive]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
+          "one of both");
+  refused(f, kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2, "the video tells it");
+  refused(f, kHead + "[[model]]\ntype = \"bassic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n", 2,
+          "did you mean \"basic\"");
+  for (const char* path : {"camera.rate", "duration", "seed", "arena.size_px"})
+    refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"" + path + "\" = [1, 12] }\n", 2,
+            "decides it");
+  for (const char* given : {"true", "false"})
+    refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].count\" = " + given + " }\n", 2,
+            "swarm[0].count");
+  refused(f, kHead + "[[model]]\ntype = \"dipole\"\nfree = [\"swarm[0].model.speed\"]\n", 2,
+          "narrower ranges");
   // Rates and sizes that differ, and nothing that moves.
   std::filesystem::rename(f.path / "film", f.path / "slow");
   make_film(f, "--set camera.rate='10 Hz'");
