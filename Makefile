@@ -46,7 +46,7 @@ format:               ## clang-format every source
 lint:                 ## clang-format and clang-tidy as checks
 	@$(SETUP) lint
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
-	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF -DFABA_UNITY=OFF > /dev/null
+	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF -DFABA_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 	@git ls-files 'src/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p build/lint
 
 asan tsan: setup      ## build and run the tests under sanitizers
