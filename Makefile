@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run test setup build bench accuracy reproduce format lint asan tsan fuzz docs clean help
+.PHONY: run test setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run the main job: a swarm steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -49,7 +49,7 @@ lint:                 ## clang-format and clang-tidy as checks
 	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF -DFABA_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 	@git ls-files 'src/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p build/lint
 
-asan tsan: setup      ## build and run the tests under sanitizers
+asan tsan dev: setup  ## build and run the tests under sanitizers, or without any optimisation
 	@$(SETUP) test
 	@cmake --preset $@ --log-level=WARNING > /dev/null
 	@cmake --build build/$@ -j $(JOBS)

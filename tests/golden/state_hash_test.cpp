@@ -1,7 +1,7 @@
 // Same scenario, seed and version: same bits on any x86-64 machine, for any thread count and at any
 // optimisation level. The hashes are literal. When a change of a model is meant to change them, say so in
-// CHANGELOG.md and write the new ones. tests/CMakeLists.txt builds this file also with -O0 (SSE2 only) and
-// with -mavx2 -mfma.
+// CHANGELOG.md and write the new ones. tests/CMakeLists.txt builds this file also with -mavx2 -mfma,
+// and `make dev` with -O0.
 #include <doctest/doctest.h>
 
 #include "tests/swarm.h"
