@@ -41,11 +41,13 @@ void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on) {
     ~Guard() { rig.safe(); }
   } guard{loop.rig};
   Observation seen;
-  while (loop.next < end && loop.rig.read(seen)) {
+  while (loop.next < end) {
+    if (loop.between) loop.between();
+    if (!loop.rig.read(seen)) break;
     const double dt = loop.next == 0 ? loop.frame_period : seen.t - loop.last_t;
-    const Estimate estimate = loop.estimator.update(seen, loop.last);
-    const Target target = loop.reference.update(estimate);
-    Command command = loop.controller.update(estimate, target, dt);
+    const Estimate estimate = loop.estimator->update(seen, loop.last);
+    const Target target = loop.reference->update(estimate);
+    Command command = loop.controller->update(estimate, target, dt);
     const bool limited = loop.limits.apply(command, dt, seen.age);
     loop.rig.write(command);
     loop.last = command;

@@ -48,15 +48,16 @@ class Sink {
   virtual void take(const Tick& t) = 0;
 };
 
-/// The parts of a closed loop. They outlive it.
+/// The parts of a closed loop. They outlive it, or are exchanged between two turns.
 struct Loop {
   Rig& rig;
-  Estimator& estimator;
-  Reference& reference;
-  Controller& controller;
+  Estimator* estimator;
+  Reference* reference;
+  Controller* controller;
   Limits& limits;
   double frame_period = 0;  ///< s; stands for the time step in the very first turn
   std::vector<Sink*> sinks;
+  std::function<void()> between;  ///< called before every turn, when parts may be exchanged
 
   std::uint64_t next = 0;  ///< index of the next turn; a resumed loop starts where it was
   double last_t = 0;       ///< time stamp of the frame before, s

@@ -1,4 +1,5 @@
 #pragma once
+#include "app/event.h"
 #include "app/loop.h"
 #include "app/parts.h"
 #include "sim/exclusion.h"
@@ -94,6 +95,7 @@ struct Scenario {
   ControllerRegistry::PartType controller;
   FlowRegistry::PartType flow;  ///< that record.flow is made with
   std::vector<Swarm> swarms;
+  std::vector<Event> events;  ///< in order of time
 
   std::uint64_t frames() const;  ///< of the whole run, at least 1
   double frame_period() const { return 1 / camera.rate; }
@@ -114,6 +116,11 @@ struct Scenario {
 /// Reads and checks a whole scenario. Throws Error(usage) naming file, line, path, reason and the nearest
 /// known key.
 Scenario read_scenario(Document d, const Parts& parts);
+
+/// The estimator that a scenario has when it names none.
+const char* usual_estimator(const Scenario& s);
+/// Whether camera, estimator, reference and controller go together; throws Error(usage).
+void check_control(const Node& root, const Scenario& s);
 
 /// JSON Schema of a whole scenario file: what web forms and editors read.
 Json scenario_json_schema(const Parts& parts);

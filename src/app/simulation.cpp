@@ -91,8 +91,16 @@ std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std
 
 }  // namespace
 
+struct Simulation::Exchanged {
+  std::unique_ptr<Estimator> estimator;
+  std::unique_ptr<Reference> reference;
+  std::unique_ptr<Controller> controller;
+  std::shared_ptr<const AgentModel> model;
+};
+
 Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
-                       const std::shared_ptr<const VideoGround>& ground) {
+                       const std::shared_ptr<const VideoGround>& ground)
+    : events_(s.events) {
   const Scale scale = s.si_scale();
   WorldParts w;
   w.seed = seed;
@@ -107,9 +115,13 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
 
   // A model must be asked for its longest step before the step is known: build it twice, it is cheap.
   double longest = s.frame_period();
-  const double b_max = strongest(w, s.limits.max_current);
-  for (const Swarm& swarm : s.swarms)
-    longest = std::min(longest, swarm.model.make({scale, scale.iteration})->longest_step(b_max));
+  strongest_t_ = strongest(w, s.limits.max_current);
+  const auto shorten = [&](const ModelRegistry::PartType& model) {
+    longest = std::min(longest, model.make({scale, scale.iteration})->longest_step(strongest_t_));
+  };
+  for (const Swarm& swarm : s.swarms) shorten(swarm.model);
+  for (const Event& e : s.events)
+    if (e.model) shorten(*e.model);
   const int steps = steps_per_frame(s, longest);
   w.dt = s.frame_period() / steps;
 
@@ -131,27 +143,70 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
         fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
 
   limits_ = Limits(s.limits, w.field->max_currents(s.limits.max_current));
-  const ControlContext control{w.field,
-                               scale,
-                               frame_,
-                               s.polarity(),
-                               s.frame_period(),
-                               s.camera.delay_frames,
-                               w.field->max_currents(s.limits.max_current),
-                               library};
+  control_ = {w.field,
+              scale,
+              frame_,
+              s.polarity(),
+              s.frame_period(),
+              s.camera.delay_frames,
+              w.field->max_currents(s.limits.max_current),
+              library};
   world_ = std::make_unique<World>(std::move(w), pool);
   rig_ = make_rig(s, *world_, steps, seed, pool, ground.get());
-  estimator_ = s.estimator.make(control);
-  reference_ = s.reference.make(control);
-  controller_ = s.controller.make(control);
-  loop_ = std::make_unique<Loop>(
-      Loop{*rig_, *estimator_, *reference_, *controller_, limits_, s.frame_period(), {}, 0, 0, {}});
+  estimator_ = s.estimator.make(control_);
+  reference_ = s.reference.make(control_);
+  controller_ = s.controller.make(control_);
+  loop_ = std::make_unique<Loop>(Loop{.rig = *rig_,
+                                      .estimator = estimator_.get(),
+                                      .reference = reference_.get(),
+                                      .controller = controller_.get(),
+                                      .limits = limits_,
+                                      .frame_period = s.frame_period(),
+                                      .sinks = {},
+                                      .between = [this] { apply_due(loop_->next + 1); },
+                                      .last = {}});
+  for (const Event& e : events_) make(e);  // what does not fit is said before the run begins
+}
+
+Simulation::Exchanged Simulation::make(const Event& e) const {
+  Exchanged made;
+  if (e.estimator) made.estimator = e.estimator->make(control_);
+  if (e.reference) made.reference = e.reference->make(control_);
+  if (e.controller) made.controller = e.controller->make(control_);
+  if (e.model) {
+    made.model = e.model->make({control_.scale, step()});
+    if (const double longest = made.model->longest_step(strongest_t_); longest < step() * (1 - 1e-9))
+      throw Error(
+          Errc::usage, "model",
+          fmt::format("needs steps of {:.3g} s, and the run has steps of {:.3g} s; begin it anew with "
+                      "this model, or set simulation.step",
+                      longest, step()));
+  }
+  return made;
+}
+
+void Simulation::apply(const Event& e) {
+  Exchanged made = make(e);
+  if (made.estimator) estimator_ = std::move(made.estimator);
+  if (made.reference) reference_ = std::move(made.reference);
+  if (made.controller) controller_ = std::move(made.controller);
+  if (made.model) world_->exchange_model(e.swarm, std::move(made.model));
+  loop_->estimator = estimator_.get(), loop_->reference = reference_.get();
+  loop_->controller = controller_.get();
+}
+
+void Simulation::apply_due(std::uint64_t turns) {
+  for (; next_event_ < events_.size() && events_[next_event_].frame < turns; ++next_event_)
+    apply(events_[next_event_]);
 }
 
 void Simulation::archive(Archive& a) {
   State state = a.reading() ? State{} : world_->state();
   a& state & loop_->next & loop_->last_t & loop_->last.current;
-  if (a.reading()) world_->restore(std::move(state));
+  if (a.reading()) {
+    apply_due(loop_->next);  // so that the parts are those whose memory is read below
+    world_->restore(std::move(state));
+  }
   rig_->archive(a);
   estimator_->archive(a);
   reference_->archive(a);

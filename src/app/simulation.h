@@ -26,9 +26,20 @@ class Simulation {
   double step() const { return world_->parts().dt; }
   /// Everything that changes while it runs, for checkpoints.
   void archive(Archive& a);
+  /// Exchanges the parts that the event names, now. Those of the scenario do so by themselves. Throws
+  /// Error(usage), having changed nothing, for parts that do not fit.
+  void apply(const Event& e);
 
  private:
+  struct Exchanged;
+  Exchanged make(const Event& e) const;
+  void apply_due(std::uint64_t turns);  ///< the events before the turn of that number
+
   Frame frame_;
+  ControlContext control_;
+  double strongest_t_ = 0;  ///< the largest field in the arena, T
+  std::vector<Event> events_;
+  std::size_t next_event_ = 0;
   std::unique_ptr<World> world_;
   std::unique_ptr<SimRig> rig_;
   std::unique_ptr<Estimator> estimator_;

@@ -24,6 +24,8 @@ class Error : public std::runtime_error {
         where_(std::move(where)) {}
   Errc code() const noexcept { return code_; }
   const std::string& where() const noexcept { return where_; }
+  /// what() without the place, for those who show the two apart.
+  std::string reason() const { return where_.empty() ? what() : what() + where_.size() + 2; }
 
  private:
   // Names and values come from users' files and may hold anything.

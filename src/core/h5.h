@@ -28,7 +28,8 @@ class H5Table {
 };
 
 /// An HDF5 file. While it is written it stays readable at any moment, also after the process was killed
-/// (single writer, many readers); Debian's HDF5 is not thread-safe, so only one thread may use this.
+/// (single writer, many readers). One thread at a time may use a file; several files may be open in several
+/// threads, since Debian builds HDF5 thread-safe (its calls take turns).
 class H5File {
  public:
   /// Throws Error(internal) when it cannot be made.

@@ -90,6 +90,25 @@ void World::head(const Population& p) {
     if (response[i] != 0) ux[i] = float(along.cos), uy[i] = float(along.sin);
 }
 
+void World::exchange_model(std::size_t population, std::shared_ptr<const AgentModel> model) {
+  Population& p = parts_.populations.at(population);
+  const bool headed = state_.agents.has("ux");
+  std::vector<float> ux, uy;
+  const auto keep = [&](const char* name, std::vector<float>& out) {
+    const auto column = state_.agents[name].subspan(p.begin, p.end - p.begin);
+    out.assign(column.begin(), column.end());
+  };
+  if (headed) keep("ux", ux), keep("uy", uy);
+  for (const auto& c : model->columns()) state_.agents.add(c.name);
+  model->start(state_, p.begin, p.end, parts_.seed);
+  for (std::size_t i = 0; i < ux.size(); ++i) {
+    if (ux[i] == 0 && uy[i] == 0) continue;  // its law had no heading
+    state_.agents["ux"][p.begin + i] = ux[i];
+    state_.agents["uy"][p.begin + i] = uy[i];
+  }
+  p.model = std::move(model);
+}
+
 void World::advance_currents() {
   for (std::size_t k = 0; k < state_.current.size(); ++k)
     state_.current[k] += follow_[k] * (state_.command[k] - state_.current[k]);

@@ -8,7 +8,7 @@ SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
                          const std::filesystem::path& dir) {
   return {.dir = dir,
           .world = &simulation.world(),
-          .reference = &simulation.reference(),
+          .loop = &simulation.loop(),
           .frame = simulation.frame(),
           .scale = s.si_scale(),
           .frame_rate = s.camera.rate,

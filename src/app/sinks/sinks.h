@@ -23,7 +23,7 @@ class RunSink : public Sink {
 struct SinkContext {
   std::filesystem::path dir;
   const World* world;
-  const Reference* reference;
+  const Loop* loop;
   Frame frame;
   Scale scale;
   double frame_rate;  ///< Hz
