@@ -1,5 +1,8 @@
 #include "study/drop_report.h"
 
+#include <algorithm>
+
+#include "core/error.h"
 #include "vision/overlay.h"
 #include "vision/picture.h"
 
@@ -38,6 +41,31 @@ nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const s
   }
   if (!overlay.empty()) write_png(overlay, drop_overlay(grey, edge));
   return drop_json(edge);
+}
+
+nlohmann::ordered_json propose_drop(const std::filesystem::path& picture, const std::string& name,
+                                    const std::filesystem::path& shown) {
+  const GrayF grey = read_picture(picture).grey;
+  write_png(shown, stretched(grey));
+  DropEdgeOptions options;
+  options.name = name;
+  nlohmann::ordered_json json;
+  try {
+    const DropEdge edge = find_drop_edge(grey, options);
+    json = drop_json(edge);
+    json["found"] = edge.centre_side_inside;
+    if (!edge.centre_side_inside) json["why"] = "shows an air bubble in the liquid, not a drop";
+  } catch (const Error& e) {
+    if (e.code() != Errc::input) throw;
+    constexpr double kRadius = 0.4;  // of the smaller side
+    const double w = grey.width, h = grey.height;
+    json = {{"found", false},
+            {"why", e.reason()},
+            {"center_px", {(w - 1) / 2, (h - 1) / 2}},
+            {"radius_px", kRadius * std::min(w, h)},
+            {"image_size", {grey.width, grey.height}}};
+  }
+  return json;
 }
 
 }  // namespace faba

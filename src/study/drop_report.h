@@ -20,6 +20,14 @@ nlohmann::ordered_json drop_json(const DropEdge& edge);
 nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
                                    const std::filesystem::path& stages);
 
+/// A drop to begin with, for a page where it can be put right by hand: writes the picture as PNG for the eye
+/// to `shown`, and says where the edge is: drop_json() and `"found": true`; or, when there is none or it is a
+/// bubble's,
+/// `"found": false, "why"` and a circle in the middle. `name` stands for the picture in messages. Throws
+/// Error(input) when there is no usable picture.
+nlohmann::ordered_json propose_drop(const std::filesystem::path& picture, const std::string& name,
+                                    const std::filesystem::path& shown);
+
 /// The pictures in a folder of stages, in their order.
 inline constexpr std::array kDropStages{"1-grey.png", "2-edges.png", "3-lines.png", "4-circle.png"};
 
