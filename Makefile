@@ -3,10 +3,13 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run test setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page test setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run the main job: a swarm steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
+
+lab: build            ## open the live lab in a browser: watch, steer and record a swarm
+	@build/faba lab $(SCENE)
 
 test:                 ## build and run every test
 	@$(SETUP) test
@@ -28,6 +31,7 @@ bench: build          ## measure speed beside NumPy, Octave and the machine's li
 	@/usr/bin/python3 bench/coils.py
 	@/usr/bin/python3 bench/video.py
 	@/usr/bin/python3 bench/study.py
+	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md
 
 accuracy: build       ## render studies with known truth and see whether it is found; SEEDS=20 EXPERIMENTS=40 takes two hours
 	@$(SETUP) test bench
@@ -58,6 +62,10 @@ asan tsan dev: setup  ## build and run the tests under sanitizers, or without an
 fuzz: setup           ## fuzz the scenario loader for a minute (SECONDS_TO_FUZZ=600 for longer)
 	@$(SETUP) fuzz
 	@tests/fuzz/run.sh $(or $(SECONDS_TO_FUZZ),60)
+
+page:                 ## build the lab's page from web/src into web/dist (needs Node 18 or newer)
+	@$(SETUP) test
+	@tools/page.sh build
 
 docs: build           ## regenerate docs/reference from the parts' own descriptions, and the README's picture
 	@$(SETUP) docs

@@ -13,7 +13,8 @@ MAY = {
     "rig": "core field vision sim",
     "app": "core field vision sim control rig",
     "study": "core field vision sim control rig app",
-    "cli": "core app study",
+    "server": "core app study",
+    "cli": "core app study server",
 }
 # A third-party library has one home.
 HOME = {
@@ -27,6 +28,7 @@ HOME = {
     "lemon/": {"vision"},
     "Eigen/": {"vision", "study", "field"},
     "zlib": {"app"},
+    "boost/": {"server"},
 }
 
 

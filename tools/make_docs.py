@@ -157,7 +157,7 @@ def part_page(kind, doc, parts, labels):
 
 
 def scenario_page(schema, labels):
-    own = {k: f for k, f in schema["properties"].items() if "properties" not in f and "oneOf" not in f and k != "swarm"}
+    own = {k: f for k, f in schema["properties"].items() if "properties" not in f and "oneOf" not in f and k not in ("swarm", "event")}
     text = f"{NOTE}\n# scenario\n\n{schema['description']}. Tables that name a part are on the page of their kind.\n"
     text += "\n## top level\n\nKeys above the first table of the file.\n\n" + table(own, labels)
     swarm = schema["properties"]["swarm"]["items"]
@@ -167,6 +167,10 @@ def scenario_page(schema, labels):
     for name in SECTIONS:
         section = schema["properties"][name]
         text += f"\n## {name}\n\n`[{name}]`: {section['description']}.\n\n" + table(section["properties"], labels)
+    event = schema["properties"]["event"]["items"]
+    keys = {k: f for k, f in event["properties"].items() if "oneOf" not in f}
+    text += f"\n## event\n\n`[[event]]`: {event['description']}. Beside these keys it names what is exchanged: `model`,\n"
+    text += "`estimator`, `reference`, `controller`.\n\n" + table(keys, labels)
     return text
 
 
@@ -199,7 +203,7 @@ def pages(program, root):
         '`speed = "186 um/s"`. — means that the key is absent unless given.\n\n'
         "| page | what it is | parts |\n|---|---|---|\n" + rows +
         "| [scenario](scenario.md) | The rest of a scenario file | " +
-        ", ".join(f"[`{n}`](scenario.md#{n})" for n in ("swarm", *SECTIONS)) + " |\n" +
+        ", ".join(f"[`{n}`](scenario.md#{n})" for n in ("swarm", *SECTIONS, "event")) + " |\n" +
         "| [study](study.md) | Study files | " + ", ".join(f"[`{n}`](study.md#{n})" for n in STUDIES) + " |\n")
     return out
 

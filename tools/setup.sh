@@ -5,10 +5,15 @@ set -euo pipefail
 
 packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
   libeigen3-dev libnlopt-cxx-dev libnanoflann-dev zlib1g-dev libhdf5-dev libopencv-core-dev libopencv-imgproc-dev libopencv-video-dev
-  liblemon-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev libtiff-dev)
+  liblemon-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev libtiff-dev libboost-dev)
 for what in "$@"; do
   case $what in
-    test) packages+=(doctest-dev python3 python3-numpy python3-h5py) ;;
+    test)
+      packages+=(doctest-dev python3 python3-numpy python3-h5py chromium)
+      # Node may have come from elsewhere than Debian.
+      command -v node > /dev/null || packages+=(nodejs)
+      command -v npm > /dev/null || packages+=(npm)
+      ;;
     bench) packages+=(python3 python3-numpy python3-scipy octave libboost-math-dev) ;;
     lint) packages+=(clang-format clang-tidy) ;;
     docs) packages+=(python3 ffmpeg) ;;

@@ -25,7 +25,8 @@ std::function<std::string(const std::string&)> between(double least, double most
 
 // The verbs with their options, in the order of the help. `line` outlives the parsing.
 
-void add_run_verbs(CLI::App& app, CommandLine& line);    ///< run, resume
+void add_run_verbs(CLI::App& app, CommandLine& line);  ///< run, resume
+void add_lab_verb(CLI::App& app, CommandLine& line);
 void add_video_verbs(CLI::App& app, CommandLine& line);  ///< what measures pictures and videos
 void add_field_verbs(CLI::App& app, CommandLine& line);  ///< field ...
 void add_study_verbs(CLI::App& app, CommandLine& line);  ///< what takes many simulations

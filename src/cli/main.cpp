@@ -39,6 +39,7 @@ int dispatch(int argc, char** argv) {
   CommandLine line;
 
   add_run_verbs(app, line);
+  add_lab_verb(app, line);
   add_video_verbs(app, line);
   add_field_verbs(app, line);
   add_study_verbs(app, line);

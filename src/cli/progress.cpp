@@ -27,6 +27,13 @@ int bar_width(std::size_t words) {
   return std::clamp(int(size.ws_col) - int(words) - kNumbers, 0, kMost);
 }
 
+constexpr double kTellEvery = 0.1;  // s
+
+int descriptor() {
+  const char* named = std::getenv("FABA_PROGRESS_FD");
+  return named && *named >= '0' && *named <= '9' ? std::atoi(named) : -1;
+}
+
 std::string clock_time(double s) {
   const auto whole = std::llround(s);
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
@@ -36,9 +43,16 @@ std::string clock_time(double s) {
 }  // namespace
 
 Progress::Progress(std::string what, bool enabled)
-    : what_(std::move(what)), enabled_(enabled && isatty(STDERR_FILENO) && can_erase()) {}
+    : what_(std::move(what)),
+      enabled_(enabled && isatty(STDERR_FILENO) && can_erase()),
+      told_to_(descriptor()) {}
 
 Progress::~Progress() { clear(); }
+
+void Progress::tell(std::uint64_t done, std::uint64_t total) const {
+  const std::string line = fmt::format("{} {} {}\n", what_, done, total);
+  if (::write(told_to_, line.data(), line.size()) < 0) return;  // whoever asked has gone
+}
 
 void Progress::clear() {
   if (shown_) std::fputs("\r\033[K", stderr);
@@ -46,9 +60,11 @@ void Progress::clear() {
 }
 
 void Progress::update(std::uint64_t done, std::uint64_t total) {
+  const auto now = Clock::now();
+  if (told_to_ >= 0 && (done == total || std::chrono::duration<double>(now - told_).count() > kTellEvery))
+    told_ = now, tell(done, total);
   if (!enabled_) return;
   if (!started_) started_ = true, first_ = done > 0 ? done - 1 : 0;
-  const auto now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - began_).count();
   if (elapsed < 1 || std::chrono::duration<double>(now - drawn_).count() < 0.1) return;
   drawn_ = now;

@@ -35,6 +35,21 @@ void add_run_verbs(CLI::App& app, CommandLine& line) {
   v->callback([again, &line] { line.code = resume(*again, line.common); });
 }
 
+void add_lab_verb(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<LabVerb>();
+  CLI::App* v = verb(app, line, "lab", "The live lab: watch, steer and record a swarm in a browser",
+                     "  faba lab\n  faba lab scenes/steer.toml\n  faba lab --no-browser --port 8765");
+  v->add_option("scene", o->scene, "Scenario file to begin with");
+  v->add_option("--port", o->port, "Port on 127.0.0.1; any that is free when absent")
+      ->check(CLI::Range(0, 65535));
+  v->add_flag("--no-browser", o->no_browser, "Only print the address");
+  v->add_option("--threads", o->threads, "Threads; all of the machine's when absent")
+      ->check(CLI::Range(1, 1024));
+  v->add_option("--www", o->pages, "Take the page from this folder, while it is worked on")
+      ->check(CLI::ExistingDirectory);
+  v->callback([o, &line] { line.code = lab(*o, line.common); });
+}
+
 void add_help_verbs(CLI::App& app, CommandLine& line) {
   const auto p = std::make_shared<PartsVerb>();
   CLI::App* v =

@@ -27,6 +27,12 @@ struct ResumeVerb {
   std::filesystem::path dir;
   unsigned threads = 0;
 };
+struct LabVerb {
+  std::filesystem::path scene, pages;
+  int port = 0;
+  unsigned threads = 0;
+  bool no_browser = false;
+};
 struct DropVerb {
   std::filesystem::path picture, overlay, stages;
   bool force = false;
@@ -122,6 +128,7 @@ std::string shell_word(const std::string& word);
 // Each returns the exit code; errors are thrown.
 int run(const RunVerb& v, const Common& c);
 int resume(const ResumeVerb& v, const Common& c);
+int lab(const LabVerb& v, const Common& c);
 int drop(const DropVerb& v, const Common& c);
 int flow(const FlowVerb& v, const Common& c);
 int activity(const ActivityVerb& v, const Common& c);

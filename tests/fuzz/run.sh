@@ -1,21 +1,16 @@
 #!/usr/bin/env bash
-# Builds the scenario fuzzer with clang, address and undefined-behaviour sanitizers, and runs it for N seconds (60).
-# A finding is left in build/fuzz/ and belongs, once mended, into tests/fuzz/corpus/.
+# Builds the fuzzers (clang, with address and undefined-behaviour sanitizers) and runs each for N seconds (60): scenario
+# files, and messages of the lab's page. A finding is left in build/fuzz/ and belongs, once mended, into the corpus
+# beside this file.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-mkdir -p build/fuzz/corpus
-objects=()
-for source in tests/fuzz/scenario_fuzz.cpp src/core/{error,hash,parallel,philox_row,portable_math,schema,toml,units}.cpp src/field/*.cpp \
-  src/sim/*.cpp src/sim/*/*.cpp src/control/*.cpp src/app/{scenario,parts,loop}.cpp; do
-  [ -e "$source" ] || continue
-  object=build/fuzz/$(echo "$source" | tr / _).o
-  objects+=("$object")
-  if [ ! -e "$object" ] || [ "$source" -nt "$object" ] || [ -n "$(find src -name '*.h' -newer "$object" -print -quit)" ]; then
-    echo "$source $object"
-  fi
-done | xargs -r -P "$(nproc)" -n 2 bash -c 'clang++ -std=c++20 -O1 -g -fsanitize=fuzzer-no-link,address,undefined \
-  -fno-sanitize-recover=undefined -DFABA_ONE_ISA -Isrc -w -c "$0" -o "$1"'
-clang++ -fsanitize=fuzzer,address,undefined build/fuzz/*.o -lfmt -lpthread -o build/fuzz/scenario_fuzz
-cp -n scenes/*.toml tests/fuzz/corpus/* build/fuzz/corpus/ 2> /dev/null || true
-build/fuzz/scenario_fuzz -max_total_time="${1:-60}" -max_len=4096 -timeout=5 -artifact_prefix=build/fuzz/ \
-  -print_final_stats=1 build/fuzz/corpus 2>&1 | tail -15
+cmake --preset fuzz --log-level=WARNING > /dev/null
+cmake --build build/fuzz --target scenario_fuzz page_message_fuzz
+run() {  # target, seconds, seeds
+  mkdir -p "build/fuzz/$1-corpus"
+  cp -n "${@:3}" "build/fuzz/$1-corpus/"
+  "build/fuzz/tests/$1" -max_total_time="$2" -max_len=4096 -timeout=5 -artifact_prefix="build/fuzz/$1-" \
+    -print_final_stats=1 "build/fuzz/$1-corpus" 2>&1 | tail -15
+}
+run scenario_fuzz "${1:-60}" scenes/*.toml tests/fuzz/corpus/*
+run page_message_fuzz "${1:-60}" tests/fuzz/page_corpus/*

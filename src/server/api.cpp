@@ -1,0 +1,305 @@
+#include "server/api.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "app/notes.h"
+#include "app/scenario.h"
+#include "app/session.h"
+#include "core/file.h"
+#include "server/embedded_page.h"
+#include "server/recorded_run.h"
+#include "study/drop_report.h"
+#include "study/thumbnail.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+
+WebResponse json_answer(const Json& j) { return {.body = j.dump()}; }
+WebResponse failure(int status, const Error& e) {
+  return {.status = status, .body = Json{{"ok", false}, {"where", e.where()}, {"what", e.reason()}}.dump()};
+}
+
+const char* type_of(const fs::path& file) {
+  static const std::map<std::string, const char*> kTypes = {{".html", "text/html; charset=utf-8"},
+                                                            {".js", "text/javascript; charset=utf-8"},
+                                                            {".css", "text/css; charset=utf-8"},
+                                                            {".svg", "image/svg+xml"},
+                                                            {".png", "image/png"},
+                                                            {".mp4", "video/mp4"},
+                                                            {".json", "application/json"},
+                                                            {".csv", "text/csv; charset=utf-8"},
+                                                            {".toml", "text/plain; charset=utf-8"},
+                                                            {".h5", "application/x-hdf5"},
+                                                            {".avi", "video/x-msvideo"}};
+  const auto it = kTypes.find(file.extension().string());
+  return it == kTypes.end() ? "application/octet-stream" : it->second;
+}
+
+// The rest of a path below a folder of addresses; none for another one.
+std::optional<std::string> below(const std::string& path, std::string_view prefix) {
+  if (!path.starts_with(prefix)) return {};
+  return path.substr(prefix.size());
+}
+
+std::uint64_t number(const WebRequest& r, const char* key, std::uint64_t usual) {
+  const auto it = r.query.find(key);
+  return it == r.query.end() ? usual : std::strtoull(it->second.c_str(), nullptr, 10);
+}
+
+Json body_of(const WebRequest& r) {
+  Json j = Json::parse(r.body, nullptr, false);
+  if (!j.is_object()) throw Error(Errc::usage, "request", "is not a JSON object");
+  return j;
+}
+
+std::string text_of(const Json& j, const char* key) {
+  if (!j.contains(key) || !j[key].is_string() || j[key].get<std::string>().empty())
+    throw Error(Errc::usage, key, "is missing");
+  return j[key];
+}
+
+// The comment on top of a scene: what it is for.
+std::string about(const fs::path& scene) {
+  std::string text;
+  std::istringstream in(read_file(scene));
+  for (std::string line; std::getline(in, line) && line.starts_with("#");)
+    text += (text.empty() ? "" : " ") + line.substr(std::min(line.find_first_not_of("# "), line.size()));
+  return text;
+}
+
+}  // namespace
+
+Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path pages)
+    : workspace_(workspace),
+      jobs_(jobs),
+      pictures_(std::move(pictures)),
+      pages_(std::move(pages)),
+      parts_(builtin_parts()) {}
+
+WebResponse Api::answer(const WebRequest& r) {
+  try {
+    return route(r);
+  } catch (const Error& e) {
+    return failure(e.code() == Errc::input ? 404 : e.code() == Errc::usage ? 422 : 500, e);
+  } catch (const Json::exception&) {
+    return failure(422, {Errc::usage, "request", "has a value of another kind than expected"});
+  } catch (const std::exception& e) {
+    return failure(500, {Errc::internal, "", e.what()});
+  }
+}
+
+WebResponse Api::route(const WebRequest& r) {
+  const std::string& p = r.path;
+  const bool get = r.method == "GET" || r.method == "HEAD";
+  if (get) {
+    if (p == "/api/about") return json_answer({{"version", FABA_VERSION}, {"workspace", workspace_.root()}});
+    if (p == "/api/schema") return json_answer(scenario_json_schema(parts_));
+    if (p == "/api/scenes") return json_answer(scenes());
+    if (p == "/api/files") return json_answer(workspace_.files());
+    if (p == "/api/jobs") {
+      Json all = Json::array();
+      for (const Job& j : jobs_.jobs()) all.push_back(job_json(j));
+      return json_answer(all);
+    }
+    if (const auto rest = below(p, "/api/scenes/")) return scene(*rest);
+    if (p == "/api/runs" || p.starts_with("/api/runs/"))
+      return run(r, p.substr(std::min(p.size(), std::size_t(10))));
+    if (const auto rest = below(p, "/api/uploads/")) {
+      const fs::path file = pictures_ / fs::path(*rest).filename();
+      if (!fs::exists(file)) throw Error(Errc::input, *rest, "is not there any more");
+      return {.type = type_of(file), .body = {}, .file = file};
+    }
+    if (const auto rest = below(p, "/runs/")) {  // pages that jobs have written
+      const fs::path file = workspace_.existing("runs/" + *rest);
+      return {.type = type_of(file), .body = {}, .file = file, .keep = false, .report = true};
+    }
+    if (!p.starts_with("/api/")) return page_file(p == "/" ? "index.html" : p.substr(1));
+  }
+  if (r.method == "POST") {
+    if (p == "/api/check") return json_answer(check(body_of(r)));
+    if (p == "/api/upload") return json_answer(take_upload(r));
+    if (p == "/api/jobs") return json_answer(start_job(body_of(r)));
+  }
+  if (r.method == "DELETE")
+    if (const auto rest = below(p, "/api/jobs/")) {
+      if (!jobs_.cancel(std::atoi(rest->c_str()))) throw Error(Errc::input, *rest, "there is no such job");
+      return json_answer(Json::object());
+    }
+  throw Error(Errc::input, p, "there is nothing here");
+}
+
+WebResponse Api::page_file(Rest name) {
+  if (!pages_.empty()) {
+    const fs::path file = pages_ / fs::path(name).filename();
+    if (!fs::is_regular_file(file)) throw Error(Errc::input, name, "there is nothing here");
+    return {.type = type_of(file), .body = {}, .file = file};
+  }
+  const auto content = embedded_page(name);
+  if (!content) throw Error(Errc::input, name, "there is nothing here");
+  return {.type = type_of(name), .body = std::string(*content)};
+}
+
+Json Api::scenes() const {
+  Json all = Json::array();
+  for (const fs::path& file : workspace_.scenes()) {
+    Json one = {{"name", file.stem()}, {"file", "scenes/" + file.filename().string()}};
+    try {
+      const Scenario s = read_scenario(read_toml(file), parts_);
+      std::uint64_t cells = 0;
+      for (const Swarm& swarm : s.swarms) cells += swarm.params.count;
+      one.update({{"title", s.params.title}, {"about", about(file)}, {"cells", cells}});
+    } catch (const Error& e) {
+      one.update({{"title", file.stem()}, {"error", e.what()}});
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+WebResponse Api::scene(Rest rest) {
+  const auto slash = rest.find('/');
+  const std::string name = rest.substr(0, slash);
+  const fs::path file = workspace_.scene(name);
+  if (slash == std::string::npos) {
+    const Scenario s = read_scenario(read_toml(file), parts_);
+    return json_answer({{"name", name},
+                        {"file", "scenes/" + name + ".toml"},
+                        {"toml", read_file(file)},
+                        {"scenario", s.resolved()}});
+  }
+  if (rest.substr(slash + 1) != "picture.png") throw Error(Errc::input, rest, "there is nothing here");
+  return {.type = "image/png", .body = {}, .file = picture_of(file), .keep = true};
+}
+
+// Rendered once, and again when the scene has changed.
+fs::path Api::picture_of(const fs::path& scene) {
+  const auto changed = fs::last_write_time(scene).time_since_epoch().count();
+  const fs::path file = pictures_ / fmt::format("scene-{}-{}.png", scene.stem().string(), changed);
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  if (!fs::exists(file)) write_scene_thumbnail(read_scenario(read_toml(scene), parts_), file);
+  return file;
+}
+
+WebResponse Api::run(const WebRequest& r, Rest rest) {
+  if (rest.empty()) {
+    Json all = Json::array();
+    for (const std::string& name : workspace_.runs()) {
+      const fs::path dir = workspace_.existing("runs/" + name);
+      const Json m = Json::parse(read_file(dir / run_files::kManifest), nullptr, false);
+      if (!m.is_object()) continue;
+      Json files = Json::array();
+      for (const char* file : {"series.csv", "tracks.h5", "video.mp4", "video.avi", "flow.h5", "report.html"})
+        if (fs::exists(dir / file)) files.push_back(file);
+      all.push_back({{"name", name},
+                     {"title", m.value("title", "")},
+                     {"complete", m.value("complete", false) && !RunLock::marks(dir)},
+                     {"frames", m.value("frames", 0)},
+                     {"duration_s", m.value("duration_s", 0.0)},
+                     {"seed", m.contains("seed") ? m["seed"].dump() : ""},
+                     {"state_hash", m.value("state_hash", "")},
+                     {"files", files}});
+    }
+    return json_answer(all);
+  }
+  const auto slash = rest.find('/');
+  if (slash == std::string::npos) throw Error(Errc::input, rest, "there is nothing here");
+  const std::string name = rest.substr(0, slash), what = rest.substr(slash + 1);
+  const fs::path dir = workspace_.existing("runs/" + name);
+  if (what == "about") return json_answer(describe_run(dir));
+  if (what == "scenario")
+    return json_answer(
+        {{"file", "runs/" + name + "/scenario.toml"},
+         {"scenario", read_scenario(read_toml(dir / run_files::kScenario), parts_).resolved()}});
+  if (what == "frames")
+    return {.type = "application/octet-stream",
+            .body = run_frames(dir, number(r, "from", 0), number(r, "count", 1))};
+  if (what == "picture.png") {
+    const fs::path file =
+        pictures_ / fmt::format("run-{}-{}.png", name, fs::last_write_time(dir).time_since_epoch().count());
+    if (!fs::exists(file)) write_run_thumbnail(dir, file);
+    return {.type = "image/png", .body = {}, .file = file, .keep = true};
+  }
+  const fs::path file = workspace_.existing("runs/" + name + "/" + what);
+  return {
+      .type = type_of(file), .body = {}, .file = file, .keep = false, .report = file.extension() == ".html"};
+}
+
+Json Api::check(const Json& asked) const {
+  Document d;
+  try {
+    if (asked.contains("toml"))
+      d = parse_toml(text_of(asked, "toml"), "file");
+    else if (asked.contains("scenario") && asked["scenario"].is_object())
+      d.root = asked["scenario"];
+    else
+      throw Error(Errc::usage, "scenario", "is missing");
+    const Scenario s = read_scenario(d, parts_);
+    Pool pool(1);
+    const Simulation simulation(s, s.params.seed.value_or(1), pool);
+    return {{"ok", true},
+            {"resolved", s.resolved()},
+            {"toml", to_toml(s.resolved())},
+            {"notes", notes_on(s, simulation, workspace_.root())}};
+  } catch (const Error& e) {
+    return {{"ok", false}, {"where", e.where()}, {"what", e.reason()}};
+  }
+}
+
+Json Api::take_upload(const WebRequest& r) {
+  static std::atomic<unsigned> number{0};
+  const auto named = r.query.find("name");
+  const std::string name = named == r.query.end() ? "picture" : fs::path(named->second).filename().string();
+  const std::string shown = fmt::format("upload-{}.png", ++number);
+  Json j = propose_drop(r.upload, name, pictures_ / shown);
+  j["picture"] = name, j["url"] = "/api/uploads/" + shown;
+  return j;
+}
+
+Json Api::start_job(const Json& asked) {
+  const std::string verb = text_of(asked, "verb");
+  static std::atomic<unsigned> number{0};
+  const std::string stamp = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), ++number);
+  const auto file = [&](const char* key) {
+    const std::string name = text_of(asked, key);
+    (void)workspace_.existing(name);  // and nothing that begins with a dash, which would be an option
+    return "./" + name;
+  };
+  const auto page = [&](const std::string& what) { return fmt::format("runs/{}-{}.html", what, stamp); };
+  fs::create_directories(workspace_.root() / "runs");
+  std::vector<std::string> words;
+  std::string out;
+  if (verb == "activity") {
+    out = page("activity");
+    words = {"activity", file("video"), "--report", out, "--json"};
+    if (const std::string d = asked.value("direction", ""); !d.empty()) {
+      if (d.find_first_not_of("0123456789.-+") != std::string::npos)
+        throw Error(Errc::usage, "direction", "must be a number of degrees");
+      words.insert(words.begin() + 2, {"--direction", d});
+    }
+  } else if (verb == "compare") {
+    out = page("compare");
+    words = {"compare", file("reference"), file("video"), "--report", out, "--json"};
+  } else if (verb == "identify" || verb == "compare-controllers") {
+    const std::string study = file("study"),
+                      dir = fmt::format("runs/{}-{}", fs::path(study).stem().string(), stamp);
+    out = dir + (verb == "identify" ? "/identify.html" : "/report.html");
+    words = {verb, study, "--out", dir, "--json"};
+  } else if (verb == "field map") {
+    out = fmt::format("runs/field-{}.png", stamp);
+    words = {"field", "map", file("rig"), "--picture", out, "--json"};
+  } else {
+    throw Error(Errc::usage, "verb", "is none that the lab starts");
+  }
+  const std::string& about = verb == "field map" ? words[2] : words[1];
+  const std::string title = fmt::format("{}: {}", verb, fs::path(about).filename().string());
+  return {{"id", jobs_.add(title, words, out, out)}};
+}
+
+}  // namespace faba

@@ -1,0 +1,233 @@
+#include "server/lab.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "core/file.h"
+#include "server/api.h"
+#include "server/live_lab.h"
+#include "server/page_message.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that only this user can read, gone at the end.
+class PrivateFolder {
+ public:
+  PrivateFolder() {
+    std::string name = (fs::temp_directory_path() / "faba-lab-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw Error(Errc::internal, name, "cannot be made");
+    path_ = name;
+  }
+  ~PrivateFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// Whoever watches may ask for these, too.
+bool needs_steering(PageMessage::Do what) {
+  using Do = PageMessage::Do;
+  return what != Do::steer && what != Do::look && what != Do::ping;
+}
+
+/// Pages, the run that they watch, and who of them steers. Its handlers are called on the server's thread.
+class Pages {
+ public:
+  Pages(LiveLab& lab, JobList& jobs, const Workspace& workspace)
+      : lab_(lab), jobs_(jobs), workspace_(workspace) {}
+
+  void opened(const PageSocketRef& s) {
+    {
+      const std::lock_guard lock(mutex_);
+      sockets_[s->id()] = s;
+      if (steering_ == 0) steering_ = s->id();
+    }
+    s->say(Json{{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", s->id()}}.dump());
+    tell_pages();
+    s->say(jobs_news());
+    lab_.watch(s->id(), {[s](std::shared_ptr<const std::string> bytes) { s->show(std::move(bytes)); },
+                         [s](const Json& j) { s->say(j.dump()); }});
+  }
+  void closed(const PageSocketRef& s) {
+    lab_.leave(s->id());
+    {
+      const std::lock_guard lock(mutex_);
+      sockets_.erase(s->id());
+      if (steering_ == s->id()) steering_ = sockets_.empty() ? 0 : sockets_.begin()->first;
+    }
+    tell_pages();
+  }
+  void heard(const PageSocketRef& s, std::string_view text) {
+    PageMessage m;
+    try {
+      m = parse_page_message(text);
+      if (needs_steering(m.what) && steering() != s->id())
+        throw Error(Errc::usage, "steer", "another page steers");
+      carry_out(m, s);
+    } catch (const Error& e) {
+      s->say(Json{
+          {"id", m.id ? m.id : message_id(text)}, {"ok", false}, {"where", e.where()}, {"what", e.reason()}}
+                 .dump());
+    }
+  }
+  void jobs_changed() { tell(jobs_news()); }
+
+ private:
+  void carry_out(const PageMessage& m, const PageSocketRef& s) {
+    const LiveLab::Done done = [s, id = m.id](Json answer) {
+      answer["id"] = id;
+      s->say(answer.dump());
+    };
+    using Do = PageMessage::Do;
+    switch (m.what) {
+      case Do::start: {
+        Document d;
+        d.name = (workspace_.gallery() / "page").string();  // files are looked for beside it
+        d.root = m.scenario;
+        return lab_.start(std::move(d), m.seed, done);
+      }
+      case Do::exchange:
+        return lab_.exchange(m.event, done);
+      case Do::pause:
+        return lab_.pause(true, done);
+      case Do::go:
+        return lab_.pause(false, done);
+      case Do::step:
+        return lab_.step(m.frames, done);
+      case Do::speed:
+        return lab_.speed(m.factor, done);
+      case Do::restart:
+        return lab_.restart(done);
+      case Do::look:
+        lab_.wish(s->id(), {m.camera, m.rate});
+        return done(Json{{"ok", true}});
+      case Do::steer: {
+        const std::lock_guard lock(mutex_);
+        steering_ = s->id();
+      }
+        tell_pages();
+        return done(Json{{"ok", true}});
+      case Do::ping:
+        return done(Json{{"ok", true}});
+      case Do::save:
+        return save(m, done);
+    }
+  }
+
+  // The recording is made from what was done, by a process of its own: the run that is watched does not wait
+  // for it.
+  void save(const PageMessage& m, const LiveLab::Done& done) {
+    std::string slug;
+    for (const char c : m.name)
+      if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+        slug += c;
+      else if (!slug.empty() && slug.back() != '-')
+        slug += '-';
+    if (slug.empty()) slug = "lab";
+    slug.resize(std::min<std::size_t>(slug.size(), 60));
+    lab_.recorded(
+        [this, slug, title = m.name](Scenario s, const std::string& state_hash) {
+          if (!title.empty()) s.params.title = title;
+          const fs::path runs = workspace_.root() / "runs";
+          fs::create_directories(runs);
+          fs::path dir = runs / slug;
+          for (int i = 2; fs::exists(dir) || fs::exists(dir.string() + ".toml"); ++i)
+            dir = runs / fmt::format("{}-{}", slug, i);
+          const fs::path scene = dir.string() + ".toml", out = fs::relative(dir, workspace_.root());
+          write_file(scene, to_toml(s.resolved()));
+          jobs_.add(fmt::format("{} ({})", slug, state_hash),
+                    {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
+                    out / "report.html", out);
+        },
+        done);
+  }
+
+  std::uint64_t steering() const {
+    const std::lock_guard lock(mutex_);
+    return steering_;
+  }
+  std::string jobs_news() const {
+    Json all = Json::array();
+    for (const Job& j : jobs_.jobs()) all.push_back(job_json(j));
+    return Json{{"say", "jobs"}, {"jobs", all}}.dump();
+  }
+  void tell(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [_, s] : sockets_) s->say(text);
+  }
+  void tell_pages() {
+    Json j;
+    {
+      const std::lock_guard lock(mutex_);
+      j = {{"say", "pages"}, {"pages", sockets_.size()}, {"steering", steering_}};
+    }
+    tell(j.dump());
+  }
+
+  LiveLab& lab_;
+  JobList& jobs_;
+  const Workspace& workspace_;
+  mutable std::mutex mutex_;
+  std::map<std::uint64_t, PageSocketRef> sockets_;
+  std::uint64_t steering_ = 0;  ///< 0: nobody is there
+};
+
+}  // namespace
+
+void serve_lab(const LabOptions& o) {
+  const Workspace workspace(o.workspace, o.scenes);
+  const PrivateFolder folder;
+  WebServer server(o.port, folder.path());
+  const Access access(random_token(), server.port());
+
+  LiveLab live(o.threads);
+  Pages* pages = nullptr;
+  std::mutex wiring;  // jobs may change before there is anybody to tell
+  JobList jobs(o.program, workspace.root(), [&] {
+    const std::lock_guard lock(wiring);
+    if (pages) pages->jobs_changed();
+  });
+  Pages watchers(live, jobs, workspace);
+  {
+    const std::lock_guard lock(wiring);
+    pages = &watchers;
+  }
+  if (!o.scene.empty()) {
+    const Document d = read_toml(o.scene);
+    const Scenario checked = read_scenario(d, builtin_parts());
+    live.start(d, checked.params.seed, [](const Json&) {});
+  }
+  Api api(workspace, jobs, folder.path(), o.pages);
+
+  std::jthread watch([&](const std::stop_token& s) {
+    while (!s.stop_requested() && !(o.stop && o.stop->load()))
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    server.stop();
+  });
+  const std::string address = fmt::format("{}/?token={}", access.origin(), access.token());
+  // A browser is given a file that leads there: what is on a command line everybody on the machine can read.
+  const fs::path door = folder.path() / "open.html";
+  write_file(door, fmt::format("<!doctype html><meta http-equiv=refresh content=\"0; url={}\">\n", address));
+  fs::permissions(door, fs::perms::owner_read | fs::perms::owner_write);
+  o.ready(address, door);
+  server.run(access, {[&](const WebRequest& r) { return api.answer(r); },
+                      [&](const PageSocketRef& s) { watchers.opened(s); },
+                      [&](const PageSocketRef& s, std::string_view text) { watchers.heard(s, text); },
+                      [&](const PageSocketRef& s) { watchers.closed(s); }});
+  const std::lock_guard lock(wiring);
+  pages = nullptr;
+}
+
+}  // namespace faba

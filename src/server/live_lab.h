@@ -1,0 +1,96 @@
+#pragma once
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "app/live_run.h"
+#include "server/frame_message.h"
+
+namespace faba {
+
+/// The run that pages watch and steer. It has a thread of its own that keeps pace with the clock; whatever is
+/// asked of it happens there, between two frames. Frames go out through a slot of one: whoever is slow misses
+/// some, and the run waits for nobody.
+class LiveLab {
+ public:
+  /// What somebody who watches wants to see.
+  struct Wish {
+    bool camera = false;
+    double rate = 60;  ///< frames per second at most
+  };
+  struct Listener {
+    std::function<void(std::shared_ptr<const std::string>)> frame;  ///< binary
+    std::function<void(const Json&)> news;                          ///< JSON messages without an id
+  };
+
+  /// `threads`: that a run computes with; 0: all of the machine's.
+  explicit LiveLab(unsigned threads);
+  ~LiveLab();
+
+  /// From then on the listener is told of everything, beginning with how things stand.
+  void watch(std::uint64_t who, Listener l);
+  void wish(std::uint64_t who, Wish w);
+  void leave(std::uint64_t who);
+
+  // Requests. `done` is called on the lab's thread with the answer, without "id"; an Error becomes
+  // {"ok": false, "where", "what"}.
+  using Done = std::function<void(Json answer)>;
+  void start(Document d, std::optional<std::uint64_t> seed, Done done);
+  void exchange(Json event, Done done);
+  void pause(bool paused, Done done);
+  void step(std::uint64_t frames, Done done);
+  void speed(double factor, Done done);
+  void restart(Done done);
+  /// The whole scenario until now, for a recording.
+  void recorded(std::function<void(const Scenario&, std::string state_hash)> take, Done done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Shown;  ///< a run, and what is kept of it for those who watch
+
+  void work(const std::stop_token& stop);
+  void ask(std::function<Json()> what, Done done);
+  void do_asked(std::unique_lock<std::mutex>& lock);
+  bool between_frames(const std::stop_token& stop);
+  void keep_pace();
+  Json begin(const Document& d, std::uint64_t seed);
+  LiveRun& live() const;
+  void publish(Clock::time_point now);
+  std::shared_ptr<const std::string> frame(bool camera);
+  void tell(const Json& news);
+  Json state() const;
+  Json run_news() const;
+  Json parts_news() const;
+
+  Parts parts_;
+  Pool pool_;
+  std::unique_ptr<Shown> shown_, next_;  ///< next_: takes the place of shown_ as soon as that has stopped
+  std::uint32_t run_ = 0;
+  bool paused_ = false;
+  std::uint64_t pause_at_ = 0;  ///< frame; 0: none
+  double speed_ = 1, real_speed_ = 0;
+  Clock::time_point due_, told_;
+  std::uint64_t told_frame_ = 0;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  struct Asked {
+    std::function<Json()> what;
+    Done done;
+  };
+  std::deque<Asked> asked_;
+  struct Watcher {
+    Listener listener;
+    Wish wish;
+    Clock::time_point next;  ///< before then it wants no frame
+  };
+  std::map<std::uint64_t, Watcher> watchers_;
+  std::jthread thread_;
+};
+
+}  // namespace faba

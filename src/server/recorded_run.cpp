@@ -1,0 +1,91 @@
+#include "server/recorded_run.h"
+
+#include <algorithm>
+
+#include "app/session.h"
+#include "core/file.h"
+#include "core/h5.h"
+#include "server/frame_message.h"
+
+namespace faba {
+namespace {
+
+Json manifest_of(const std::filesystem::path& dir) {
+  const Json j = Json::parse(read_file(dir / run_files::kManifest), nullptr, false);
+  if (!j.is_object()) throw Error(Errc::input, (dir / run_files::kManifest).string(), "is damaged");
+  return j;
+}
+
+H5File tracks_of(const std::filesystem::path& dir) {
+  if (!std::filesystem::exists(dir / "tracks.h5"))
+    throw Error(Errc::input, dir.filename().string(), "kept no tracks; its video can be looked at");
+  return H5File::open(dir / "tracks.h5");
+}
+
+// Where its cells can be, px.
+PictureBox box_of(const Json& manifest) {
+  const double w = manifest["view_px"][0], h = manifest["view_px"][1];
+  const Json& arena = manifest["arena"];
+  if (!arena.contains("radius_px")) return {-0.5, -0.5, w - 0.5, h - 0.5};
+  const double x = arena["centre_px"][0], y = arena["centre_px"][1], r = arena["radius_px"];
+  return {x - r - 1, y - r - 1, x + r + 1, y + r + 1};
+}
+
+}  // namespace
+
+Json describe_run(const std::filesystem::path& dir) {
+  const Json m = manifest_of(dir);
+  const H5File f = tracks_of(dir);
+  const PictureBox box = box_of(m);
+  Json populations = Json::array();
+  std::uint64_t at = 0;
+  for (const Json& s : m["swarms"]) {
+    const std::uint64_t n = s["count"];
+    populations.push_back({{"begin", at}, {"end", at + n}});
+    at += n;
+  }
+  const double every = f.number_attribute("/", "every_frames"), fps = f.number_attribute("/", "fps");
+  return {
+      {"scene",
+       {{"view", {{"width", m["view_px"][0]}, {"height", m["view_px"][1]}, {"um_per_px", m["um_per_px"]}}},
+        {"outline",
+         {{"centre_px", m["arena"]["centre_px"]}, {"radius_px", m["arena"].value("radius_px", Json(0))}}},
+        {"box", {{"left", box.left}, {"top", box.top}, {"right", box.right}, {"bottom", box.bottom}}},
+        {"setpoints", Json::array()}}},
+      {"populations", populations},
+      {"frames", f.table("position_px").rows()},
+      {"rate", fps / every}};
+}
+
+std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std::uint64_t count) {
+  const Json m = manifest_of(dir);
+  const H5File f = tracks_of(dir);
+  const H5Table places = f.table("position_px"), times = f.table("t_s"), numbers = f.table("frame");
+  const bool silent = f.has("responding");
+  const std::size_t n = places.row_size() / 2;
+  std::vector<float> xy(2 * n), x(n), y(n), response(n, 1.0F);
+  std::vector<std::uint8_t> responding(silent ? n : 0);
+  std::string out;
+  const std::uint64_t end = std::min(places.rows(), from + std::min(count, kMostRunFrames));
+  for (std::uint64_t k = from; k < end; ++k) {
+    FrameMessage frame;
+    places.read(k, std::span<float>(xy));
+    times.read(k, std::span<double>(&frame.t, 1));
+    numbers.read(k, std::span<std::uint64_t>(&frame.frame, 1));
+    // The message takes positions in the world: here a world of one metre per pixel about the corner.
+    frame.view = {1, m["view_px"][0], m["view_px"][1], {0, 0}};
+    for (std::size_t i = 0; i < n; ++i) x[i] = xy[2 * i], y[i] = -xy[2 * i + 1];
+    if (silent) {
+      f.table("responding").read(k, std::span<std::uint8_t>(responding));
+      for (std::size_t i = 0; i < n; ++i) response[i] = float(responding[i]);
+    }
+    frame.box = box_of(m), frame.x = x, frame.y = y, frame.response = response;
+    const std::string one = encode_frame(frame);
+    const auto length = std::uint32_t(one.size());
+    out.append(reinterpret_cast<const char*>(&length), sizeof length);
+    out += one;
+  }
+  return out;
+}
+
+}  // namespace faba

@@ -1,0 +1,328 @@
+#include "server/web_server.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <chrono>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "core/error.h"
+#include "server/page_socket.h"
+#include "server/web_request.h"
+
+namespace faba {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+
+namespace {
+
+constexpr std::size_t kMostHeader = 16u << 10;
+constexpr auto kPatience = std::chrono::seconds(30);  // for a request, and for an answer to be taken
+constexpr std::uint64_t kMostOfRange = 8u << 20;      // of a file in one answer
+
+// No script but the page's own file, nothing from elsewhere.
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; media-src 'self' "
+    "blob:; connect-src 'self'; font-src 'self'; frame-src 'self'; manifest-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'self'";
+// Pages that the program wrote: style in the page, no script at all.
+constexpr const char* kReportPolicy =
+    "default-src 'none'; style-src 'unsafe-inline'; img-src 'self' data:; media-src 'self' data:; base-uri "
+    "'none'; form-action 'none'; frame-ancestors 'self'";
+
+using Header = http::request_header<>;
+
+std::vector<std::string> values(const Header& h, http::field name) {
+  std::vector<std::string> out;
+  const auto [from, to] = h.equal_range(name);
+  for (auto it = from; it != to; ++it) out.emplace_back(it->value());
+  return out;
+}
+
+Credentials credentials_of(const Header& h, const std::optional<WebTarget>& target) {
+  Credentials c;
+  c.method = std::string(h.method_string());
+  c.host = values(h, http::field::host), c.origin = values(h, http::field::origin);
+  c.cookie = values(h, http::field::cookie), c.authorization = values(h, http::field::authorization);
+  for (auto it = h.begin(); it != h.end(); ++it)
+    if (beast::iequals(it->name_string(), "Sec-Fetch-Site")) c.fetch_site.emplace_back(it->value());
+  c.content_type = std::string(h[http::field::content_type]);
+  c.upgrade = beast::iequals(h[http::field::upgrade], "websocket");
+  if (target)
+    if (const auto it = target->query.find("token"); it != target->query.end()) c.query_token = it->second;
+  return c;
+}
+
+template <class Body>
+void dress(http::response<Body>& r, const std::string& type, bool keep, bool report = false) {
+  r.set(http::field::content_type, type);
+  r.set(http::field::server, "faba");
+  r.set(http::field::cache_control, keep ? "private, max-age=3600" : "no-store");
+  r.set("Content-Security-Policy", report ? kReportPolicy : kPolicy);
+  r.set("X-Content-Type-Options", "nosniff");
+  r.set("Referrer-Policy", "no-referrer");
+  r.set("Cross-Origin-Resource-Policy", "same-origin");
+  r.set("Cross-Origin-Opener-Policy", "same-origin");
+}
+
+}  // namespace
+
+struct WebServer::Impl {
+  std::filesystem::path uploads;
+  const Access* access = nullptr;
+  WebHandlers handlers;
+  std::size_t connections = 0;
+  std::uint64_t next_page = 1;
+  // Last, so that connections which wait in it still find the above when it goes.
+  asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  asio::thread_pool workers{2};
+
+  void accept();
+};
+
+/// A client's connection: requests one after the other, or the beginning of a socket.
+class Connection final : public std::enable_shared_from_this<Connection> {
+ public:
+  Connection(tcp::socket s, WebServer::Impl& server) : server_(server), stream_(std::move(s)) {
+    ++server_.connections;
+    counted_ = {nullptr, [&n = server_.connections](void*) { --n; }};
+  }
+
+  void read() {
+    head_.emplace();
+    head_->header_limit(kMostHeader);
+    head_->body_limit(
+        std::numeric_limits<std::uint64_t>::max());  // depends on the address, which is not known yet
+    stream_.expires_after(kPatience);
+    http::async_read_header(
+        stream_, buffer_, *head_, [self = shared_from_this()](beast::error_code ec, std::size_t) {
+          if (!ec) return self->judge();
+          if (ec == http::error::header_limit) return self->refuse(431, "the request's header is too large");
+          const bool gone = ec == http::error::end_of_stream ||
+                            ec.category() != http::make_error_code(http::error::bad_value).category();
+          if (gone) return self->close();
+          self->refuse(400, "is not a request: " + ec.message());
+        });
+  }
+
+ private:
+  void judge() {
+    const Header& h = head_->get().base();
+    target_ = parse_target({h.target().data(), h.target().size()});
+    const Access::Verdict verdict = server_.access->judge(credentials_of(h, target_));
+    if (verdict.status != 200) return refuse(verdict.status, verdict.why);
+    if (!target_) return refuse(400, "no such address");
+    if (beast::iequals(h[http::field::upgrade], "websocket")) return open_socket();
+    const std::string method(h.method_string());
+    if (method != "GET" && method != "HEAD" && method != "POST" && method != "DELETE")
+      return refuse(405, "not a method of this server");
+    // From here on the cookie stands for the token, so that it does not stay in the address line.
+    if (verdict.by_token && target_->path == "/" && method == "GET") return exchange();
+    if (target_->path == "/api/upload")
+      return method == "POST" ? take_file() : refuse(405, "POST a file here");
+    auto parser = std::make_shared<http::request_parser<http::string_body>>(std::move(*head_));
+    parser->body_limit(WebServer::kMostBody);
+    if (parser->content_length() && *parser->content_length() > WebServer::kMostBody)
+      return refuse(413, "is too large");
+    http::async_read(stream_, buffer_, *parser,
+                     [self = shared_from_this(), parser](beast::error_code ec, std::size_t) {
+                       if (ec == http::error::body_limit) return self->refuse(413, "is too large");
+                       if (ec) return self->close();
+                       self->answer(std::move(parser->get().body()), {}, parser->get().base());
+                     });
+  }
+
+  void open_socket() {
+    const auto request = head_->get();
+    if (target_->path != "/ws") return refuse(404, "the socket is at /ws");
+    if (!beast::websocket::is_upgrade(request)) return refuse(400, "is not a WebSocket's request");
+    auto offered = http::token_list(request[http::field::sec_websocket_protocol]);
+    if (!offered.exists(WebServer::kSubprotocol))
+      return refuse(
+          400, fmt::format("speaks another protocol than {}; load the page again", WebServer::kSubprotocol));
+    stream_.expires_never();
+    open_page_socket(stream_.release_socket(), request, server_.handlers, server_.next_page++, counted_);
+  }
+
+  void exchange() {
+    auto r = std::make_shared<http::response<http::string_body>>(http::status::see_other, 11);
+    dress(*r, "text/plain; charset=utf-8", false);
+    r->set(http::field::set_cookie, server_.access->cookie());
+    r->set(http::field::location, "/");
+    send(r);
+  }
+
+  void take_file() {
+    static std::atomic<unsigned> number{0};
+    const auto file = server_.uploads / fmt::format("upload-{}-{}.part", ::getpid(), ++number);
+    auto parser = std::make_shared<http::request_parser<http::file_body>>(std::move(*head_));
+    parser->body_limit(WebServer::kMostUpload);
+    if (parser->content_length() && *parser->content_length() > WebServer::kMostUpload)
+      return refuse(413, "is too large");
+    beast::error_code ec;
+    parser->get().body().open(file.c_str(), beast::file_mode::write, ec);
+    if (ec) return refuse(500, "the upload cannot be kept: " + ec.message());
+    take_more(parser, file);
+  }
+  // By and by, so that patience counts from the last bytes and not from the first.
+  void take_more(const std::shared_ptr<http::request_parser<http::file_body>>& parser,
+                 const std::filesystem::path& file) {
+    stream_.expires_after(kPatience);
+    http::async_read_some(stream_, buffer_, *parser,
+                          [self = shared_from_this(), parser, file](beast::error_code ec, std::size_t) {
+                            if (!ec && !parser->is_done()) return self->take_more(parser, file);
+                            parser->get().body().close();
+                            if (!ec) return self->answer({}, file, parser->get().base());
+                            std::error_code ignored;
+                            std::filesystem::remove(file, ignored);
+                            if (ec == http::error::body_limit) return self->refuse(413, "is too large");
+                            self->close();
+                          });
+  }
+
+  void answer(std::string body, const std::filesystem::path& upload, const Header& header) {
+    auto request = std::make_shared<WebRequest>();
+    request->method = std::string(header.method_string());
+    request->path = target_->path, request->query = target_->query;
+    request->query.erase("token");
+    request->body = std::move(body), request->upload = upload;
+    const std::string range(header[http::field::range]);
+    stream_.expires_never();  // work may take as long as it takes
+    asio::post(server_.workers, [self = shared_from_this(), request, range] {
+      auto response = std::make_shared<WebResponse>(self->server_.handlers.answer(*request));
+      std::error_code ignored;
+      if (!request->upload.empty()) std::filesystem::remove(request->upload, ignored);
+      asio::post(self->stream_.get_executor(), [self, request, response, range] {
+        self->deliver(*response, range, request->method == "HEAD");
+      });
+    });
+  }
+
+  void deliver(const WebResponse& w, const std::string& range, bool head_only) {
+    if (!w.file.empty()) return deliver_file(w, range, head_only);
+    auto r = std::make_shared<http::response<http::string_body>>(http::status(unsigned(w.status)), 11);
+    dress(*r, w.type, w.keep, w.report);
+    if (head_only)
+      r->content_length(w.body.size());
+    else
+      r->body() = w.body;
+    send(r, head_only);
+  }
+
+  void deliver_file(const WebResponse& w, const std::string& range, bool head_only) {
+    beast::error_code ec;
+    http::file_body::value_type file;
+    file.open(w.file.c_str(), beast::file_mode::scan, ec);
+    if (ec) return refuse(404, "cannot be read");
+    const auto part = parse_range(range, file.size());
+    if (!part) {
+      auto r = std::make_shared<http::response<http::file_body>>(
+          std::piecewise_construct, std::make_tuple(std::move(file)), std::make_tuple(http::status::ok, 11));
+      dress(*r, w.type, w.keep, w.report);
+      r->set(http::field::accept_ranges, "bytes");
+      return send(r, head_only);
+    }
+    const std::uint64_t end = std::min(part->end, part->begin + kMostOfRange);
+    auto r = std::make_shared<http::response<http::string_body>>(http::status::partial_content, 11);
+    dress(*r, w.type, w.keep, w.report);
+    r->set(http::field::accept_ranges, "bytes");
+    r->set(http::field::content_range, fmt::format("bytes {}-{}/{}", part->begin, end - 1, file.size()));
+    std::ifstream in(w.file, std::ios::binary);
+    r->body().resize(std::size_t(end - part->begin));
+    in.seekg(std::streamoff(part->begin));
+    in.read(r->body().data(), std::streamsize(r->body().size()));
+    if (!in) return refuse(404, "cannot be read");
+    send(r, head_only);
+  }
+
+  void refuse(int status, const std::string& why) {
+    auto r = std::make_shared<http::response<http::string_body>>(http::status(unsigned(status)), 11);
+    dress(*r, "text/plain; charset=utf-8", false);
+    r->body() = "faba: " + why + "\n";
+    r->keep_alive(false);  // what else was sent is not read
+    send(r);
+  }
+
+  template <class Response>
+  void send(const std::shared_ptr<Response>& r, bool head_only = false) {
+    if (!head_only) r->prepare_payload();
+    const bool again = !r->need_eof();
+    stream_.expires_after(kPatience);
+    const auto sent = [self = shared_from_this(), r, again](beast::error_code ec, std::size_t) {
+      if (ec || !again) return self->close();
+      self->read();
+    };
+    if (!head_only) return http::async_write(stream_, *r, sent);
+    using Body = typename Response::body_type;
+    auto serializer = std::make_shared<http::response_serializer<Body>>(*r);
+    http::async_write_header(stream_, *serializer,
+                             [serializer, sent](beast::error_code ec, std::size_t n) { sent(ec, n); });
+  }
+
+  void close() {
+    beast::error_code ignored;
+    stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+  }
+
+  WebServer::Impl& server_;
+  std::shared_ptr<void> counted_;  ///< goes with the connection, or with the socket that it becomes
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{kMostHeader + (64u << 10)};
+  std::optional<http::request_parser<http::empty_body>> head_;
+  std::optional<WebTarget> target_;
+};
+
+void WebServer::Impl::accept() {
+  acceptor.async_accept([this](beast::error_code ec, tcp::socket s) {
+    if (ec == asio::error::operation_aborted) return;
+    // Beyond the bound a connection is closed at once.
+    if (!ec && connections < kMostConnections) {
+      beast::error_code ignored;
+      s.set_option(tcp::no_delay(true), ignored);
+      std::make_shared<Connection>(std::move(s), *this)->read();
+    }
+    accept();
+  });
+}
+
+WebServer::WebServer(unsigned short port, std::filesystem::path uploads) : impl_(std::make_unique<Impl>()) {
+  impl_->uploads = std::move(uploads);
+  const tcp::endpoint here(asio::ip::address_v4::loopback(), port);
+  beast::error_code ec;
+  impl_->acceptor.open(here.protocol(), ec);
+  if (!ec) impl_->acceptor.set_option(tcp::acceptor::reuse_address(true), ec);
+  if (!ec) impl_->acceptor.bind(here, ec);
+  if (!ec) impl_->acceptor.listen(asio::socket_base::max_listen_connections, ec);
+  if (ec)
+    throw Error(Errc::usage, fmt::format("--port {}", port),
+                fmt::format("cannot be served: {}; choose another, or 0 for any that is free", ec.message()));
+}
+
+WebServer::~WebServer() { impl_->workers.join(); }
+
+unsigned short WebServer::port() const { return impl_->acceptor.local_endpoint().port(); }
+
+void WebServer::run(const Access& access, WebHandlers handlers) {
+  impl_->access = &access;
+  impl_->handlers = std::move(handlers);
+  impl_->accept();
+  impl_->io.run();
+  impl_->workers.join();
+}
+
+void WebServer::stop() { impl_->io.stop(); }
+
+}  // namespace faba

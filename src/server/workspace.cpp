@@ -1,0 +1,115 @@
+#include "server/workspace.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/run_lock.h"
+#include "app/session.h"
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t kLongest = 1000;
+constexpr std::size_t kMostFiles = 500;
+constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
+
+Error out_of_reach(std::string_view name) {
+  return {Errc::usage, std::string(name.substr(0, 80)), "is not in the folder that the lab works in"};
+}
+
+std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view extension) {
+  std::vector<fs::path> found;
+  std::error_code ec;
+  for (const auto& e : fs::directory_iterator(folder, ec))
+    if (e.is_regular_file(ec) && e.path().extension() == extension && found.size() < kMostFiles)
+      found.push_back(e.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool holds_run(const fs::path& dir) {
+  std::error_code ec;
+  return fs::is_regular_file(dir / run_files::kManifest, ec) &&
+         fs::is_regular_file(dir / run_files::kScenario, ec);
+}
+
+}  // namespace
+
+Workspace::Workspace(const fs::path& root, const fs::path& scenes) : root_(fs::canonical(root)) {
+  gallery_ = fs::is_directory(root_ / "scenes") ? root_ / "scenes" : scenes;
+}
+
+fs::path Workspace::inside(std::string_view name) const {
+  const fs::path asked(name);
+  if (name.empty() || name.size() > kLongest || name.find('\0') != std::string_view::npos ||
+      asked.is_absolute())
+    throw out_of_reach(name);
+  for (const fs::path& part : asked)
+    if (part == ".." || part.string().starts_with('.')) throw out_of_reach(name);
+  // Links are followed before it is looked at where they lead.
+  std::error_code ec;
+  const fs::path real = fs::weakly_canonical(root_ / asked, ec);
+  const auto [at, _] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
+  if (ec || at != root_.end()) throw out_of_reach(name);
+  return real;
+}
+
+fs::path Workspace::existing(std::string_view name) const {
+  const fs::path path = inside(name);
+  std::error_code ec;
+  if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
+    throw Error(Errc::input, std::string(name), "no such file in the folder that the lab works in");
+  return path;
+}
+
+std::vector<fs::path> Workspace::scenes() const { return sorted_files(gallery_, ".toml"); }
+
+fs::path Workspace::scene(std::string_view name) const {
+  for (const fs::path& file : scenes())
+    if (file.stem() == fs::path(name)) return file;
+  throw Error(Errc::input, std::string(name.substr(0, 80)), "there is no such scene");
+}
+
+std::vector<std::string> Workspace::runs() const {
+  std::vector<std::pair<fs::file_time_type, std::string>> found;
+  std::error_code ec;
+  for (const auto& e : fs::directory_iterator(root_ / "runs", ec)) {
+    if (!e.is_directory(ec) || e.path().filename().string().starts_with('.') || !holds_run(e.path()))
+      continue;
+    found.emplace_back(fs::last_write_time(e.path() / run_files::kManifest, ec),
+                       e.path().filename().string());
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<std::string> names;
+  for (auto& [_, name] : found)
+    if (names.size() < kMostFiles) names.push_back(std::move(name));
+  return names;
+}
+
+Json Workspace::files() const {
+  Json videos = Json::array(), studies = Json::array(), rigs = Json::array();
+  for (const std::string& run : runs()) videos.push_back("runs/" + run);
+  std::error_code ec;
+  for (const char* folder : {".", "videos", "data"})
+    for (const char* kind : kVideos)
+      for (const fs::path& f : sorted_files(root_ / folder, kind))
+        videos.push_back(fs::relative(f, root_, ec).string());
+  for (const fs::path& f : sorted_files(root_ / "studies", ".toml")) {
+    try {
+      const Document d = read_toml(f);
+      const char* verb = d.root.contains("scene") && d.root["scene"].is_string() ? "compare-controllers"
+                         : d.root.contains("model")                              ? "identify"
+                                                                                 : "activity";
+      studies.push_back({{"file", "studies/" + f.filename().string()}, {"verb", verb}});
+    } catch (const Error&) {
+      continue;  // no study, or one that is being written
+    }
+  }
+  for (const fs::path& f : sorted_files(root_ / "rigs", ".toml"))
+    rigs.push_back("rigs/" + f.filename().string());
+  return {{"videos", videos}, {"studies", studies}, {"rigs", rigs}};
+}
+
+}  // namespace faba

@@ -1,0 +1,106 @@
+#include "server/frame_message.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+
+using namespace faba;
+
+namespace {
+
+template <class T>
+T at(const std::string& s, std::size_t offset) {
+  T v;
+  std::memcpy(&v, s.data() + offset, sizeof v);
+  return v;
+}
+
+struct Swarm {
+  std::vector<float> x, y, ux, uy, response;
+  explicit Swarm(std::size_t n, double half_x, double half_y) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double a = double(i) * 0.754877666, b = double(i) * 0.569840291;  // low discrepancy
+      x.push_back(float(half_x * (2 * (a - std::floor(a)) - 1)));
+      y.push_back(float(half_y * (2 * (b - std::floor(b)) - 1)));
+      const double turn = 0.37 * double(i);
+      ux.push_back(float(std::cos(turn))), uy.push_back(float(std::sin(turn)));
+      response.push_back(i % 3 ? 1.0F : 0.0F);
+    }
+  }
+};
+
+// A view of 200 x 100 px, 2 um each, in an arena that reaches 50 px beyond it on all sides.
+FrameMessage message(const Swarm& s, const std::vector<double>& rows, const std::vector<float>& field) {
+  FrameMessage m;
+  m.run = 3, m.frame = 41, m.t = 2.75;
+  m.view = {2e-6, 200, 100, {99.5, 49.5}};
+  m.box = {-50, -50, 250, 150};
+  m.x = s.x, m.y = s.y, m.ux = s.ux, m.uy = s.uy, m.response = s.response;
+  m.rows = rows, m.columns = 3;
+  m.field_columns = 2, m.field_rows = 1, m.field = field;
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("a frame is what the protocol says, byte by byte") {
+  const Swarm s(11, 2.9e-4, 1.9e-4);
+  const std::vector<double> rows = {1, 2, 3, 4, 5, 6};
+  const std::vector<float> field = {1e-4F, 0, 2e-4F, -1e-4F};
+  const std::string b = encode_frame(message(s, rows, field));
+  CHECK(b.substr(0, 4) == "FABA");
+  CHECK(at<std::uint16_t>(b, 4) == 1);
+  CHECK(at<std::uint16_t>(b, 6) == (1 | 4));
+  CHECK(at<std::uint32_t>(b, 8) == 3);
+  CHECK(at<std::uint32_t>(b, 12) == 11);
+  CHECK(at<std::uint32_t>(b, 16) == 2);
+  CHECK(at<std::uint16_t>(b, 24) == 2);
+  CHECK(at<std::uint16_t>(b, 26) == 1);
+  CHECK(at<std::uint64_t>(b, 32) == 41);
+  CHECK(at<double>(b, 40) == 2.75);
+  CHECK(at<double>(b, 48 + 5 * 8) == 6);
+  CHECK(at<float>(b, 48 + 48 + 3 * 4) == -1e-4F);
+  const std::size_t places = 48 + 48 + 16;
+  // A step of uint16 over the longest side of the box is 300 / 65535 px: half of it is the largest error.
+  const double tolerance = 0.5 * 300 / 65535 + 1e-4;
+  for (std::size_t i = 0; i < 11; ++i) {
+    const double px = -50 + at<std::uint16_t>(b, places + 4 * i) * 300.0 / 65535;
+    const double py = -50 + at<std::uint16_t>(b, places + 4 * i + 2) * 200.0 / 65535;
+    CHECK(std::fabs(px - (99.5 + double(s.x[i]) / 2e-6)) < tolerance);
+    CHECK(std::fabs(py - (49.5 - double(s.y[i]) / 2e-6)) < tolerance);
+    const double turn = std::uint8_t(b[places + 44 + i]) / 255.0 * 2 * std::acos(-1.0);
+    CHECK(std::cos(turn - std::atan2(double(s.uy[i]), double(s.ux[i]))) >
+          std::cos(0.5 / 255 * 2 * std::acos(-1.0)) - 1e-6);
+    CHECK(((std::uint8_t(b[places + 55 + i / 8]) >> (i % 8)) & 1) == (i % 3 ? 1 : 0));
+  }
+  CHECK(b.size() == places + 44 + 11 + 2);
+}
+
+TEST_CASE("a box so large that 16 bits are a tenth of a pixel takes floats") {
+  CHECK(quantised({0, 0, 6553.5, 100}));
+  CHECK_FALSE(quantised({0, 0, 6553.6, 100}));
+  const Swarm s(5, 1e-3, 1e-3);
+  FrameMessage m = message(s, {}, {});
+  m.box = {-5000, -5000, 5000, 5000};
+  m.field_columns = m.field_rows = 0;
+  m.ux = m.uy = {};
+  const std::string b = encode_frame(m);
+  CHECK(at<std::uint16_t>(b, 6) == (1 | 2));
+  for (std::size_t i = 0; i < 5; ++i)
+    CHECK(at<float>(b, 48 + 8 * i) == doctest::Approx(99.5 + double(s.x[i]) / 2e-6).epsilon(1e-6));
+  CHECK(b.size() == 48 + 40 + 1);
+}
+
+TEST_CASE("a picture comes last") {
+  const Swarm s(3, 1e-4, 1e-4);
+  FrameMessage m = message(s, {}, {});
+  m.field_columns = m.field_rows = 0;
+  const std::vector<std::uint8_t> grey = {1, 2, 3, 4, 5, 6};
+  m.picture = grey, m.picture_columns = 3, m.picture_rows = 2;
+  const std::string b = encode_frame(m);
+  CHECK((at<std::uint16_t>(b, 6) & 8) == 8);
+  CHECK(at<std::uint16_t>(b, 20) == 3);
+  CHECK(at<std::uint16_t>(b, 22) == 2);
+  CHECK(b.substr(b.size() - 6) == std::string("\1\2\3\4\5\6"));
+}

@@ -1,0 +1,94 @@
+#include "server/job_list.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+
+#include "core/file.h"
+#include "tests/temporary_folder.h"
+
+using namespace faba;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A program that stands in for faba: a shell script.
+fs::path script(const fs::path& folder, const std::string& text) {
+  const fs::path file = folder / "program";
+  write_file(file, "#!/bin/sh\n" + text);
+  fs::permissions(file, fs::perms::owner_all);
+  return file;
+}
+
+Job wait_for(const JobList& list, int id, const std::function<bool(const Job&)>& done) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (std::chrono::steady_clock::now() < end) {
+    for (const Job& j : list.jobs())
+      if (j.id == id && done(j)) return j;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  FAIL("the job never came so far");
+  return {};
+}
+bool is_over(const Job& j) { return j.state > Job::State::running; }
+
+}  // namespace
+
+TEST_CASE("a job: words, folder, progress, answer") {
+  test::TemporaryFolder folder("jobs");
+  const fs::path program = script(folder.path(),
+                                  "pwd > where; printf '%s|' \"$@\" > words\n"
+                                  "eval \"echo 'doing this 3 10' >&$FABA_PROGRESS_FD\"\n"
+                                  "while [ ! -e go ]; do sleep 0.02; done\n"
+                                  "echo '{\"out\": 7}'\n");
+  std::atomic<int> changes = 0;
+  JobList list(program, folder.path(), [&] { ++changes; });
+  const int id = list.add("title", {"run", "a b", "$(x)"}, "page.html", "out");
+  const Job half = wait_for(list, id, [](const Job& j) { return j.of == 10; });
+  CHECK(half.state == Job::State::running);
+  CHECK(half.doing == "doing this");
+  CHECK(half.did == 3);
+  write_file(folder.path() / "go", "");
+  const Job j = wait_for(list, id, is_over);
+  CHECK(j.state == Job::State::done);
+  CHECK(j.result["out"] == 7);
+  CHECK(read_file(folder.path() / "words") == "run|a b|$(x)|");
+  CHECK(fs::canonical(read_file(folder.path() / "where").substr(0, folder.path().string().size())) ==
+        fs::canonical(folder.path()));
+  CHECK(changes >= 3);
+  CHECK(job_json(j)["state"] == "done");
+}
+
+TEST_CASE("what fails says why, and the next one is done") {
+  test::TemporaryFolder folder("jobs");
+  const fs::path program =
+      script(folder.path(), "echo 'faba: note: x' >&2; echo \"faba: error: $1: is wrong\" >&2; exit $2\n");
+  JobList list(program, folder.path(), [] {});
+  const int bad = list.add("", {"scene", "2"}, "", ""), good = list.add("", {"other", "0"}, "", "");
+  CHECK(wait_for(list, bad, is_over).error == "scene: is wrong");
+  CHECK(wait_for(list, good, is_over).state == Job::State::done);
+  JobList none(folder.path() / "absent", folder.path(), [] {});
+  CHECK(wait_for(none, none.add("", {}, "", ""), is_over).state == Job::State::failed);
+}
+
+TEST_CASE("jobs are stopped: the one that runs by Ctrl-C and, when it does not listen, by force") {
+  test::TemporaryFolder folder("jobs");
+  const fs::path program = script(folder.path(),
+                                  "trap 'echo stopped > stopped; exit 130' INT\n"
+                                  "[ \"$1\" = deaf ] && trap '' INT\n"
+                                  "echo > begun\nfor i in $(seq 1000); do sleep 0.05; done\n");
+  JobList list(program, folder.path(), [] {});
+  const int first = list.add("", {"x"}, "", ""), waiting = list.add("", {"y"}, "", "");
+  wait_for(list, first, [&](const Job&) { return fs::exists(folder.path() / "begun"); });
+  CHECK(list.cancel(waiting));
+  CHECK(list.cancel(first));
+  CHECK_FALSE(list.cancel(99));
+  CHECK(wait_for(list, first, is_over).state == Job::State::cancelled);
+  CHECK(wait_for(list, waiting, is_over).state == Job::State::cancelled);
+  CHECK(fs::exists(folder.path() / "stopped"));
+  fs::remove(folder.path() / "begun");
+  const int deaf = list.add("", {"deaf"}, "", "");
+  wait_for(list, deaf, [&](const Job&) { return fs::exists(folder.path() / "begun"); });
+  list.cancel(deaf);
+  CHECK(wait_for(list, deaf, is_over).state == Job::State::cancelled);
+}

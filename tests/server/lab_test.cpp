@@ -1,0 +1,300 @@
+// The whole server as attackers and clumsy clients meet it: what RELIABILITY's list calls S1 to S9.
+#include "server/lab.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <future>
+#include <regex>
+#include <thread>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/toml.h"
+#include "server/web_server.h"
+#include "tests/server/raw_client.h"
+#include "tests/temporary_folder.h"
+
+using namespace faba;
+using test::RawClient;
+using test::status_of;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A lab that is served while this exists.
+class Served {
+ public:
+  Served() : folder_("lab") {
+    fs::create_directories(folder_.path() / "scenes");
+    write_file(
+        folder_.path() / "scenes/one.toml",
+        "# A small one.\ntitle = 'One'\n[arena]\ntype = 'drop'\nradius_px = 100\n[[swarm]]\ncount = 10\n");
+    write_file(folder_.path() / "secret.txt", "secret");
+    std::promise<void> ready;
+    LabOptions o;
+    o.workspace = folder_.path(), o.program = FABA_PROGRAM, o.threads = 1, o.stop = &stop_;
+    o.ready = [&](const std::string& address, const fs::path& door) {
+      static const std::regex parts("http://127\\.0\\.0\\.1:(\\d+)/\\?token=([0-9a-f]+)");
+      std::smatch m;
+      if (std::regex_match(address, m, parts))
+        port = static_cast<unsigned short>(std::stoi(m[1])), token = m[2];
+      door_mode = fs::status(door).permissions();
+      folder_mode = fs::status(door.parent_path()).permissions();
+      ready.set_value();
+    };
+    thread_ = std::thread([this, o] { serve_lab(o); });
+    ready.get_future().wait();
+  }
+  ~Served() {
+    stop_ = true;
+    thread_.join();
+  }
+
+  /// Header lines of the page itself, which has the cookie.
+  std::string own() const {
+    return fmt::format(
+        "Host: 127.0.0.1:{0}\r\nCookie: faba-{0}={1}\r\nOrigin: http://127.0.0.1:{0}\r\nSec-Fetch-Site: "
+        "same-origin\r\n",
+        port, token);
+  }
+  std::string ask(const std::string& line, const std::string& headers, const std::string& body = "") const {
+    RawClient c(port);
+    c.send(fmt::format("{} HTTP/1.1\r\n{}Content-Length: {}\r\n\r\n{}", line, headers, body.size(), body));
+    return c.answer();
+  }
+  std::string get(const std::string& path) const { return ask("GET " + path, own()); }
+
+  unsigned short port = 0;
+  std::string token;
+  fs::perms door_mode{}, folder_mode{};
+  const fs::path& folder() const { return folder_.path(); }
+
+ private:
+  test::TemporaryFolder folder_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+const std::string kUpgrade =
+    "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
+    "dGhlIHNhbXBsZSBub25jZQ==\r\n";
+
+// Resident memory of this process, bytes.
+std::size_t resident() {
+  std::ifstream in("/proc/self/statm");
+  std::size_t all = 0, pages = 0;
+  in >> all >> pages;
+  return pages * std::size_t(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+TEST_CASE("the lab answers its own page") {
+  const Served lab;
+  CHECK(status_of(lab.get("/api/about")) == 200);
+  const Json scenes = Json::parse(test::body_of(lab.get("/api/scenes")));
+  REQUIRE(scenes.size() == 1);
+  CHECK(scenes[0]["title"] == "One");
+  CHECK(scenes[0]["about"] == "A small one.");
+  CHECK(scenes[0]["cells"] == 10);
+  CHECK(Json::parse(test::body_of(lab.get("/api/scenes/one")))["scenario"]["arena"]["type"] == "drop");
+  CHECK(test::body_of(lab.get("/api/scenes/one/picture.png")).starts_with("\x89PNG"));
+  CHECK(status_of(lab.get("/api/scenes/none")) == 404);
+  CHECK(status_of(lab.get("/nothing")) == 404);
+  const std::string checked = lab.ask("POST /api/check", lab.own() + "Content-Type: application/json\r\n",
+                                      R"({"scenario":{"swarm":[{"model":{"type":"dipole","sped":1}}]}})");
+  const Json wrong = Json::parse(test::body_of(checked));
+  CHECK(wrong["ok"] == false);
+  CHECK(wrong["where"] == "swarm[0].model.sped");
+  // The token is exchanged for the cookie at once and does not stay in the address.
+  const std::string first =
+      lab.ask("GET /?token=" + lab.token, fmt::format("Host: 127.0.0.1:{}\r\n", lab.port));
+  CHECK(status_of(first) == 303);
+  CHECK(first.find("Location: /\r\n") != std::string::npos);
+  CHECK(first.find("HttpOnly; SameSite=Strict") != std::string::npos);
+  // One connection takes several requests.
+  RawClient c(lab.port);
+  for (int i = 0; i < 3; ++i) {
+    c.send("GET /api/about HTTP/1.1\r\n" + lab.own() + "\r\n");
+    CHECK(status_of(c.answer()) == 200);
+  }
+}
+
+TEST_CASE("S1: bound to the loopback address and nothing else") {
+  const Served lab;
+  int listening = 0;
+  for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
+    std::ifstream in(table);
+    for (std::string line; std::getline(in, line);) {
+      std::istringstream words(line);
+      std::string number, local, remote, state;
+      words >> number >> local >> remote >> state;
+      if (state != "0A" || !local.ends_with(fmt::format(":{:04X}", lab.port))) continue;
+      ++listening;
+      CHECK(local.substr(0, local.find(':')) == "0100007F");
+    }
+  }
+  CHECK(listening == 1);
+}
+
+TEST_CASE("S2: without the token no address answers, neither files nor the socket") {
+  const Served lab;
+  const std::string host = fmt::format("Host: 127.0.0.1:{0}\r\nOrigin: http://127.0.0.1:{0}\r\n", lab.port);
+  for (const char* line :
+       {"GET /", "GET /index.html", "GET /app.js", "GET /app.css", "GET /api/about", "GET /api/scenes",
+        "GET /api/runs", "GET /runs/x/report.html", "POST /api/check", "POST /api/upload",
+        "DELETE /api/jobs/1", "HEAD /", "OPTIONS /", "PUT /", "GET /nowhere"}) {
+    INFO(line);
+    CHECK(status_of(lab.ask(line, host + "Content-Type: application/json\r\n")) == 401);
+  }
+  CHECK(status_of(lab.ask("GET /ws", host + kUpgrade + "Sec-WebSocket-Protocol: faba.1\r\n")) == 401);
+  CHECK(status_of(lab.ask("GET /api/about?token=" + std::string(32, '0'), host)) == 401);
+}
+
+TEST_CASE("S3: other hosts") {
+  const Served lab;
+  const std::string cookie = fmt::format("Cookie: faba-{}={}\r\n", lab.port, lab.token);
+  const std::string right = fmt::format("Host: 127.0.0.1:{}\r\n", lab.port);
+  CHECK(status_of(lab.ask("GET /api/about", right + cookie)) == 200);
+  for (const std::string& host :
+       {std::string("Host: evil.example\r\n"), fmt::format("Host: 127.0.0.1.evil.example:{}\r\n", lab.port),
+        std::string(), right + right, right + "Host: evil.example\r\n", std::string("Host: 127.0.0.1\r\n")}) {
+    INFO(host);
+    CHECK(status_of(lab.ask("GET /api/about", host + cookie)) == 403);
+  }
+}
+
+TEST_CASE("S4: sockets of other pages") {
+  const Served lab;
+  const std::string with =
+      fmt::format("Host: 127.0.0.1:{0}\r\nCookie: faba-{0}={1}\r\n", lab.port, lab.token) + kUpgrade;
+  const std::string speaks = "Sec-WebSocket-Protocol: faba.1\r\n";
+  for (const std::string& origin :
+       {fmt::format("Origin: http://127.0.0.1:{}\r\n", lab.port + 1), std::string("Origin: null\r\n"),
+        std::string("Origin: http://1.2.3.4\r\n"), fmt::format("Origin: http://1.2.3.4:{}\r\n", lab.port),
+        std::string("Origin: file://\r\n"), std::string()}) {
+    INFO(origin);
+    CHECK(status_of(lab.ask("GET /ws", with + speaks + origin)) == 403);
+  }
+  const std::string own = fmt::format("Origin: http://127.0.0.1:{}\r\n", lab.port);
+  CHECK(status_of(lab.ask("GET /ws", with + own)) == 400);  // another protocol, or none
+  CHECK(status_of(lab.ask("GET /ws", with + own + "Sec-WebSocket-Protocol: faba.9\r\n")) == 400);
+  const std::string open = lab.ask("GET /ws", with + own + speaks);
+  CHECK(status_of(open) == 101);
+  CHECK(open.find("Sec-WebSocket-Protocol: faba.1") != std::string::npos);
+}
+
+TEST_CASE("S5: what another page's form can send") {
+  const Served lab;
+  for (const char* type :
+       {"text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"}) {
+    CHECK(status_of(lab.ask("POST /api/check", lab.own() + "Content-Type: " + type + "\r\n", "{}")) == 415);
+    CHECK(status_of(lab.ask("POST /api/upload?name=x", lab.own() + "Content-Type: " + type + "\r\n", "{}")) ==
+          415);
+  }
+}
+
+TEST_CASE("S6: nothing but the workspace's runs and scenes can be read") {
+  const Served lab;
+  fs::create_directories(lab.folder() / "runs/a");
+  write_file(lab.folder() / "runs/a/series.csv", "frame\n");
+  fs::create_symlink(lab.folder() / "secret.txt", lab.folder() / "runs/a/link.csv");
+  fs::create_symlink("/etc", lab.folder() / "runs/etc");
+  CHECK(status_of(lab.get("/api/runs/a/series.csv")) == 200);
+  CHECK(status_of(lab.get("/api/runs/a/link.csv")) == 200);  // within the workspace
+  for (const char* path :
+       {"/api/runs/../secret.txt", "/api/runs/%2e%2e/secret.txt", "/api/runs/etc/passwd", "/runs/etc/passwd",
+        "/api/runs/a/..%2f..%2fsecret.txt", "/api/runs/a/%00", "/runs/../secret.txt", "/../secret.txt",
+        "/api/scenes/..%2f..%2fsecret", "/api/uploads/..%2fsecret.txt", "//etc/passwd", "/etc/passwd"}) {
+    INFO(path);
+    const std::string a = lab.get(path);
+    CHECK(status_of(a) >= 400);
+    CHECK(status_of(a) < 500);
+    CHECK(a.find("secret\n") == std::string::npos);
+    CHECK(a.find("root:") == std::string::npos);
+  }
+  CHECK(status_of(lab.get("/api/runs/" + std::string(7000, 'a') + "/x")) >= 400);
+  const int longer = status_of(lab.get("/" + std::string(60000, 'a')));
+  CHECK((longer == 431 || longer == 400));
+}
+
+TEST_CASE("S7: slow, many, huge: bounded, and others are served meanwhile") {
+  const Served lab;
+  const std::size_t before = resident();
+  // Half requests that never end, far more than there is room for; the ones beyond are closed at once.
+  {
+    std::vector<std::unique_ptr<RawClient>> slow;
+    for (int i = 0; i < 500; ++i) {
+      slow.push_back(std::make_unique<RawClient>(lab.port));
+      slow.back()->send("GET / HTTP/1.1\r\nX: ");
+    }
+    CHECK(slow.back()->is_closed());
+  }
+  // The places come free as soon as those clients have gone.
+  int served = 0;
+  for (int i = 0; i < 200 && served != 200; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(25)))
+    served = status_of(lab.get("/api/about"));
+  CHECK(served == 200);
+  // A body that claims a gigabyte is refused before it is read.
+  CHECK(status_of(lab.ask(
+            "POST /api/check",
+            lab.own() + "Content-Type: application/json\r\nX: y\r\nContent-Length: 1073741824\r\nZ: ")) >=
+        400);
+  RawClient big(lab.port);
+  big.send("POST /api/check HTTP/1.1\r\n" + lab.own() +
+           "Content-Type: application/json\r\nContent-Length: 1073741824\r\n\r\n");
+  CHECK(status_of(big.answer()) == 413);
+  // A frame of a socket that claims a gigabyte ends the socket.
+  RawClient socket(lab.port);
+  socket.send("GET /ws HTTP/1.1\r\n" + lab.own() + kUpgrade + "Sec-WebSocket-Protocol: faba.1\r\n\r\n");
+  CHECK(status_of(socket.answer()) == 101);
+  socket.send(std::string("\x81\xff\x00\x00\x00\x00\x40\x00\x00\x00mask", 14));
+  CHECK(socket.is_closed());
+  // Compression is not spoken, so there are no bombs: the answer does not accept it.
+  RawClient squeezed(lab.port);
+  squeezed.send("GET /ws HTTP/1.1\r\n" + lab.own() + kUpgrade +
+                "Sec-WebSocket-Protocol: faba.1\r\nSec-WebSocket-Extensions: permessage-deflate\r\n\r\n");
+  CHECK(squeezed.answer().find("permessage-deflate") == std::string::npos);
+  CHECK(status_of(lab.get("/api/about")) == 200);
+  CHECK(resident() < before + (64u << 20));
+}
+
+TEST_CASE("S8: the token is the user's alone") {
+  const Served lab;
+  CHECK(lab.token.size() == 32);
+  CHECK(lab.door_mode == (fs::perms::owner_read | fs::perms::owner_write));
+  CHECK(lab.folder_mode == fs::perms::owner_all);
+  const std::string page = lab.get("/");
+  CHECK(page.find(lab.token) == std::string::npos);
+  CHECK(page.find("Referrer-Policy: no-referrer") != std::string::npos);
+}
+
+TEST_CASE("S9: every answer says what a browser may do with it") {
+  const Served lab;
+  fs::create_directories(lab.folder() / "runs/a");
+  write_file(lab.folder() / "runs/a/report.html", "<p>");
+  for (const std::string& a : {lab.get("/"), lab.get("/api/about"), lab.get("/nowhere"),
+                               lab.get("/runs/a/report.html"), lab.ask("GET /", "Host: evil\r\n")}) {
+    CHECK(a.find("Cross-Origin-Resource-Policy: same-origin\r\n") != std::string::npos);
+    CHECK(a.find("X-Content-Type-Options: nosniff\r\n") != std::string::npos);
+    CHECK(a.find("Content-Security-Policy: default-src 'none'") != std::string::npos);
+    CHECK(a.find("script-src 'unsafe") == std::string::npos);
+  }
+  // A report of a run brings its style along; scripts it may not have.
+  const std::string report = lab.get("/runs/a/report.html");
+  CHECK(report.find("style-src 'unsafe-inline'") != std::string::npos);
+  CHECK(report.find("script-src") == std::string::npos);
+}
+
+TEST_CASE("a port that is taken, a scene that is wrong: said before anything is served") {
+  const Served lab;
+  LabOptions o;
+  o.workspace = lab.folder(), o.port = lab.port,
+  o.ready = [](const std::string&, const fs::path&) { FAIL("served"); };
+  CHECK_THROWS_WITH_AS(serve_lab(o), doctest::Contains("--port"), const Error&);
+  o.port = 0;
+  write_file(lab.folder() / "wrong.toml", "swarm = 3\n");
+  o.scene = lab.folder() / "wrong.toml";
+  CHECK_THROWS_AS(serve_lab(o), const Error&);
+}

@@ -1,0 +1,76 @@
+#include "server/workspace.h"
+
+#include <doctest/doctest.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "tests/temporary_folder.h"
+
+using namespace faba;
+namespace fs = std::filesystem;
+
+TEST_CASE("S6: nothing outside of the workspace can be named") {
+  test::TemporaryFolder folder("workspace");
+  const fs::path root = folder.path() / "work";
+  fs::create_directories(root / "runs" / "one");
+  fs::create_directories(folder.path() / "work-beside");
+  write_file(folder.path() / "secret.txt", "s");
+  write_file(folder.path() / "work-beside" / "secret.txt", "s");
+  write_file(root / "runs" / "one" / "series.csv", "x");
+  write_file(root / ".hidden", "s");
+  fs::create_symlink(folder.path() / "secret.txt", root / "runs" / "link.txt");
+  fs::create_symlink(folder.path(), root / "runs" / "out");
+  fs::create_symlink(root / "runs" / "one", root / "runs" / "same");
+  const Workspace w(root, {});
+
+  CHECK(w.existing("runs/one/series.csv") == fs::canonical(root / "runs/one/series.csv"));
+  CHECK(w.existing("runs/same/series.csv") ==
+        fs::canonical(root / "runs/one/series.csv"));  // a link that stays within
+  for (const std::string& bad :
+       {std::string(), std::string("../secret.txt"), std::string("runs/../../secret.txt"),
+        std::string("/etc/passwd"), (folder.path() / "secret.txt").string(), std::string("runs/link.txt"),
+        std::string("runs/out/secret.txt"), std::string("runs/out"), std::string("../work-beside/secret.txt"),
+        std::string(".hidden"), std::string("runs/.."), std::string("runs/./one"), std::string("a\0b", 3),
+        std::string(5000, 'a'), std::string("~/x/../../..")}) {
+    INFO(bad.substr(0, 60));
+    CHECK_THROWS_AS(w.inside(bad), const Error&);
+  }
+  CHECK_THROWS_AS(w.existing("runs/two"), const Error&);
+  CHECK_NOTHROW(w.inside("runs/two"));
+}
+
+TEST_CASE("the gallery, runs and files that the pages offer") {
+  test::TemporaryFolder folder("workspace");
+  const fs::path root = folder.path();
+  for (const char* dir : {"scenes", "studies", "rigs", "videos", "runs/a", "runs/empty", "runs/.b"})
+    fs::create_directories(root / dir);
+  write_file(root / "scenes/b.toml", ""), write_file(root / "scenes/a.toml", ""),
+      write_file(root / "scenes/x.txt", "");
+  write_file(root / "runs/a/manifest.json", "{}"), write_file(root / "runs/a/scenario.toml", "");
+  write_file(root / "videos/v.mp4", "");
+  write_file(root / "rigs/r.toml", "");
+  write_file(root / "studies/i.toml", "[[model]]\nname = 'a'\n");
+  write_file(root / "studies/c.toml", "scene = 'steer.toml'\n");
+  write_file(root / "studies/v.toml", "[[video]]\nfile = 'x.mp4'\n");
+  write_file(root / "studies/broken.toml", "[[");
+  const Workspace w(root, {});
+  REQUIRE(w.scenes().size() == 2);
+  CHECK(w.scenes()[0].filename() == "a.toml");
+  CHECK(w.scene("b") == fs::canonical(root) / "scenes/b.toml");
+  for (const char* bad : {"c", "../scenes/b", "x", "", "b.toml"}) CHECK_THROWS_AS(w.scene(bad), const Error&);
+  CHECK(w.runs() == std::vector<std::string>{"a"});
+  const Json files = w.files();
+  CHECK(files["videos"] == Json({"runs/a", "videos/v.mp4"}));
+  CHECK(files["rigs"] == Json({"rigs/r.toml"}));
+  REQUIRE(files["studies"].size() == 3);
+  CHECK(files["studies"][0] == Json({{"file", "studies/c.toml"}, {"verb", "compare-controllers"}}));
+  CHECK(files["studies"][1]["verb"] == "identify");
+  CHECK(files["studies"][2]["verb"] == "activity");
+}
+
+TEST_CASE("where there are no scenes the gallery is that of the program") {
+  test::TemporaryFolder folder("workspace"), program("program");
+  write_file(program.path() / "s.toml", "");
+  CHECK(Workspace(folder.path(), program.path()).scene("s") == program.path() / "s.toml");
+  CHECK(Workspace(folder.path(), folder.path() / "none").scenes().empty());
+}

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# The lab's page, from web/src. `page.sh build` writes web/dist, which is kept with the sources so that nobody needs
+# Node to build Faba; `page.sh check FOLDER` builds it in FOLDER, and fails when types are wrong or web/dist is another.
+set -euo pipefail
+cd "$(dirname "$0")/../web"
+lock=node_modules/.package-lock.json
+if [ ! -e "$lock" ] || [ package-lock.json -nt "$lock" ]; then
+  npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+  touch "$lock"
+fi
+case ${1:-} in
+  build) npm run --silent build ;;
+  check)
+    npm run --silent check
+    npm run --silent build -- --outDir "$2" --emptyOutDir --logLevel warn
+    diff -rq dist "$2" || { echo "web/dist is not what web/src gives: make page" >&2; exit 1; }
+    ;;
+  *) echo "page.sh build | check FOLDER" >&2; exit 2 ;;
+esac

@@ -1,0 +1,154 @@
+// The socket to the lab: requests with answers, news, frames; heals by itself.
+
+export type News = { say: string } & Record<string, any>;
+export interface Answer {
+  ok: boolean;
+  where?: string;
+  what?: string;
+  [key: string]: any;
+}
+export interface Listener {
+  news(n: News): void;
+  frame(b: ArrayBuffer): void;
+  /** `lost`: seconds until the next attempt; `null`: connected. `refused`: the server speaks another protocol or wants the token. */
+  state(s: { connected: boolean; refused: boolean }): void;
+}
+
+const kFirstWait = 250, kLongestWait = 4000; // ms
+const kPatience = 15000; // ms for an answer
+const kQuiet = 3000, kSilent = 8000; // ms without a word: then it is asked, then it is taken for lost
+
+export class Connection {
+  private socket: WebSocket | null = null;
+  private next = 1;
+  private waiting = new Map<number, (a: Answer) => void>();
+  private wait = kFirstWait;
+  private timer = 0;
+  private over = false;
+  private refused = false;
+  /** ms that the newest answer took. */
+  roundTrip = 0;
+  private heard = 0;
+  private watch = 0;
+
+  constructor(private listener: Listener) {
+    this.open();
+    addEventListener('online', () => this.again());
+    this.watch = window.setInterval(() => this.listen(), 1000);
+  }
+
+  private open() {
+    const socket = new WebSocket(`ws://${location.host}/ws`, 'faba.1');
+    socket.binaryType = 'arraybuffer';
+    this.socket = socket;
+    socket.onopen = () => {
+      this.wait = kFirstWait;
+      this.refused = false;
+      this.heard = performance.now();
+      this.listener.state({ connected: true, refused: false });
+    };
+    socket.onmessage = (m) => {
+      this.heard = performance.now();
+      if (typeof m.data !== 'string') return this.listener.frame(m.data);
+      const j = JSON.parse(m.data);
+      if (typeof j.id === 'number') {
+        this.waiting.get(j.id)?.(j);
+        this.waiting.delete(j.id);
+      } else {
+        this.listener.news(j);
+      }
+    };
+    socket.onclose = () => this.lost(socket);
+  }
+
+  private lost(socket: WebSocket) {
+    if (this.socket !== socket || this.over) return;
+    this.socket = null;
+    for (const give of this.waiting.values()) give({ ok: false, where: '', what: 'connection' });
+    this.waiting.clear();
+    void this.tell();
+    this.timer = window.setTimeout(() => this.open(), this.wait);
+    this.wait = Math.min(this.wait * 2, kLongestWait);
+  }
+
+  // A program that hangs closes nothing.
+  private listen() {
+    const socket = this.socket;
+    if (!socket || socket.readyState !== WebSocket.OPEN) return;
+    const silent = performance.now() - this.heard;
+    if (silent > kSilent) {
+      socket.close();
+      this.lost(socket);
+    } else if (silent > kQuiet) {
+      void this.ask('ping');
+    }
+  }
+
+  // A refused socket says nothing of why: an ordinary request does.
+  private async tell() {
+    this.listener.state({ connected: false, refused: this.refused });
+    this.refused = await fetch('/api/about').then((r) => r.status === 401, () => false);
+    if (this.socket?.readyState !== WebSocket.OPEN) this.listener.state({ connected: false, refused: this.refused });
+  }
+
+  /** Tries at once instead of waiting. */
+  again() {
+    if (this.socket) return;
+    clearTimeout(this.timer);
+    this.open();
+  }
+
+  /** What the lab answers; never rejects. */
+  ask(what: string, values: Record<string, unknown> = {}): Promise<Answer> {
+    const socket = this.socket;
+    if (!socket || socket.readyState !== WebSocket.OPEN)
+      return Promise.resolve({ ok: false, where: '', what: 'connection' });
+    const id = this.next++, asked = performance.now();
+    return new Promise((resolve) => {
+      const late = window.setTimeout(() => {
+        this.waiting.delete(id);
+        resolve({ ok: false, where: '', what: 'late' });
+      }, kPatience);
+      this.waiting.set(id, (a) => {
+        clearTimeout(late);
+        this.roundTrip = performance.now() - asked;
+        resolve(a);
+      });
+      socket.send(JSON.stringify({ id, do: what, ...values }));
+    });
+  }
+
+  close() {
+    this.over = true;
+    clearTimeout(this.timer);
+    clearInterval(this.watch);
+    this.socket?.close();
+  }
+}
+
+export async function get<T = any>(path: string): Promise<T> {
+  return answer(await fetch(path));
+}
+export async function post<T = any>(path: string, body: unknown): Promise<T> {
+  return answer(
+    await fetch(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) }),
+  );
+}
+export async function upload<T = any>(path: string, file: Blob): Promise<T> {
+  return answer(await fetch(path, { method: 'POST', headers: { 'Content-Type': 'application/octet-stream' }, body: file }));
+}
+export async function remove<T = any>(path: string): Promise<T> {
+  return answer(await fetch(path, { method: 'DELETE', headers: { 'Content-Type': 'application/json' } }));
+}
+
+async function answer(r: Response) {
+  const text = await r.text();
+  let j: any = null;
+  try {
+    j = JSON.parse(text);
+  } catch {
+    // plain words
+  }
+  if (!r.ok) throw new Error(j?.what ? (j.where ? `${j.where}: ${j.what}` : j.what) : text.trim() || r.statusText);
+  return j;
+}

@@ -1,0 +1,59 @@
+// Binary messages of the lab: protocol.md.
+
+export interface Frame {
+  run: number;
+  frame: number;
+  t: number;
+  cells: number;
+  /** Coordinates: parts of the box in 16 bits, or pixels. */
+  xy: Uint16Array | Float32Array;
+  headings: Uint8Array | null;
+  responding: Uint8Array;
+  /** Rows of the series, `columns` numbers each. */
+  rows: Float64Array;
+  rowCount: number;
+  field: { columns: number; rows: number; xy: Float32Array };
+  picture: { width: number; height: number; grey: Uint8Array } | null;
+  bytes: number;
+}
+
+const kHeader = 48;
+
+/** The parts of a message, without copying what lies in order. Throws on anything else. */
+export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
+  const v = new DataView(buffer);
+  if (buffer.byteLength < kHeader || v.getUint32(0, false) !== 0x46414241) throw new Error('no frame');
+  if (v.getUint16(4, true) !== 1) throw new Error('frame of another version');
+  const bits = v.getUint16(6, true);
+  const cells = v.getUint32(12, true);
+  const rowCount = v.getUint32(16, true);
+  const width = v.getUint16(20, true), height = v.getUint16(22, true);
+  const gx = v.getUint16(24, true), gy = v.getUint16(26, true);
+  let at = kHeader;
+  const take = (bytes: number) => {
+    const from = at;
+    at += bytes;
+    if (at > buffer.byteLength) throw new Error('frame is cut short');
+    return from;
+  };
+  const rows = new Float64Array(buffer.slice(take(rowCount * columns * 8), at));
+  const field = new Float32Array(buffer.slice(take(gx * gy * 8), at));
+  const floats = (bits & 2) !== 0;
+  const places = take(cells * (floats ? 8 : 4));
+  const xy = floats ? new Float32Array(buffer, places, cells * 2) : new Uint16Array(buffer, places, cells * 2);
+  const headings = bits & 4 ? new Uint8Array(buffer, take(cells), cells) : null;
+  const responding = new Uint8Array(buffer, take(Math.ceil(cells / 8)), Math.ceil(cells / 8));
+  const picture = bits & 8 ? { width, height, grey: new Uint8Array(buffer, take(width * height), width * height) } : null;
+  return {
+    run: v.getUint32(8, true),
+    frame: Number(v.getBigUint64(32, true)),
+    t: v.getFloat64(40, true),
+    cells, xy, headings, responding, rows, rowCount,
+    field: { columns: gx, rows: gy, xy: field },
+    picture,
+    bytes: buffer.byteLength,
+  };
+}
+
+/** Whether a cell feels the field. */
+export const responds = (f: Frame, i: number) => (f.responding[i >> 3] >> (i & 7)) & 1;

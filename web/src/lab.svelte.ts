@@ -1,0 +1,143 @@
+// What the page knows of the lab: one object that all of its parts look at.
+
+import { Connection, type Answer, type News } from './connection';
+import { decodeFrame, type Frame } from './frame';
+import { Series } from './series';
+import type { Scene } from './view/overlay';
+
+export interface RunNews {
+  run: number;
+  seed: number;
+  rate: number;
+  populations: { begin: number; end: number; polarity: 'north' | 'south' }[];
+  coils: number;
+  columns: string[];
+}
+export interface Job {
+  id: number;
+  title: string;
+  words: string[];
+  page: string;
+  out: string;
+  state: 'waiting' | 'running' | 'done' | 'failed' | 'cancelled';
+  doing: string;
+  done: number;
+  of: number;
+  seconds: number;
+  error: string;
+}
+export interface Trouble {
+  where: string;
+  what: string;
+}
+
+export class Lab {
+  connected = $state(false);
+  refused = $state(false);
+  everConnected = $state(false);
+  /** Has heard how things stand: a run is told of before its state. */
+  told = $state(false);
+  page = $state(0);
+  steering = $state(0);
+  pages = $state(1);
+  running = $state(false);
+  speed = $state(1);
+  realSpeed = $state(0);
+  events = $state(0);
+  run = $state.raw<RunNews | null>(null);
+  scene = $state.raw<Scene | null>(null);
+  /** As it stands now, resolved. */
+  scenario = $state.raw<Record<string, any>>({});
+  jobs = $state.raw<Job[]>([]);
+  trouble = $state.raw<Trouble | null>(null);
+  stopped = $state.raw<Trouble | null>(null);
+  /** Counts frames that came; what draws looks at it. */
+  ticks = $state(0);
+
+  // Not reactive: they change sixty times a second.
+  frame: Frame | null = null;
+  readonly series = new Series();
+  readonly link: Connection;
+
+  readonly steers = $derived(this.page !== 0 && this.page === this.steering);
+
+  constructor() {
+    this.link = new Connection({
+      news: (n) => this.hear(n),
+      frame: (b) => this.see(b),
+      state: (s) => {
+        this.connected = s.connected;
+        this.refused = s.refused;
+        if (s.connected) this.everConnected = true;
+      },
+    });
+  }
+
+  /** Asks, and says what was wrong. */
+  async ask(what: string, values: Record<string, unknown> = {}): Promise<Answer> {
+    const a = await this.link.ask(what, values);
+    if (!a.ok && a.what !== 'connection') this.trouble = { where: a.where ?? '', what: a.what ?? '' };
+    else if (a.ok) this.trouble = null;
+    return a;
+  }
+  exchange(event: Record<string, unknown>) {
+    return this.ask('exchange', { event });
+  }
+
+  private hear(n: News) {
+    switch (n.say) {
+      case 'hello':
+        this.page = n.page;
+        break;
+      case 'run': {
+        const [left, top, right, bottom] = n.box;
+        this.run = { run: n.run, seed: n.seed, rate: n.frame.rate, populations: n.populations, coils: n.coils, columns: n.columns };
+        this.scene = { view: n.frame, outline: n.outline, box: { left, top, right, bottom }, setpoints: n.setpoints };
+        this.scenario = n.scenario;
+        this.events = n.events;
+        this.stopped = null;
+        this.series.begin(n.columns);
+        this.frame = null;
+        break;
+      }
+      case 'parts':
+        this.scenario = n.scenario;
+        this.events = n.events;
+        if (this.scene) this.scene = { ...this.scene, setpoints: n.setpoints };
+        break;
+      case 'state':
+        this.told = true;
+        this.running = n.running;
+        this.speed = n.speed;
+        this.realSpeed = n.real_speed;
+        break;
+      case 'pages':
+        this.pages = n.pages;
+        this.steering = n.steering;
+        break;
+      case 'jobs':
+        this.jobs = n.jobs;
+        break;
+      case 'stopped':
+        this.stopped = { where: n.where, what: n.what };
+        this.running = false;
+        break;
+    }
+  }
+
+  private see(b: ArrayBuffer) {
+    if (!this.run) return;
+    const f = decodeFrame(b, this.run.columns.length);
+    if (f.run !== this.run.run) return;
+    this.frame = f;
+    this.series.take(f.rows, f.rowCount);
+    ++this.ticks;
+  }
+
+  /** +1 when cells swim along the field, -1 against it. */
+  get polarity() {
+    const count = { north: 0, south: 0 };
+    for (const p of this.run?.populations ?? []) count[p.polarity] += p.end - p.begin;
+    return count.north > count.south ? 1 : -1;
+  }
+}

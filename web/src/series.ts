@@ -1,0 +1,68 @@
+// What is recorded of every frame: columns of numbers that grow as the run goes on.
+
+const kMost = 30000; // rows; the older half goes when there are more
+
+export class Series {
+  names: string[] = [];
+  columns: Float64Array[] = [];
+  length = 0;
+  private last = -1;
+
+  begin(names: string[]) {
+    this.names = names;
+    this.columns = names.map(() => new Float64Array(1024));
+    this.length = 0;
+    this.last = -1;
+  }
+  /** Rows of a message, of which most may be known already. Returns whether there were new ones. */
+  take(rows: Float64Array, count: number): boolean {
+    const n = this.names.length, before = this.length;
+    for (let r = 0; r < count; ++r) {
+      const frame = rows[r * n];
+      if (frame <= this.last) continue;
+      this.last = frame;
+      if (this.length === kMost) this.drop();
+      if (this.length === this.columns[0].length) this.grow();
+      for (let c = 0; c < n; ++c) this.columns[c][this.length] = rows[r * n + c];
+      ++this.length;
+    }
+    return this.length !== before;
+  }
+  of(name: string): Float64Array {
+    const i = this.names.indexOf(name);
+    return i < 0 ? new Float64Array(this.length).fill(NaN) : this.columns[i].subarray(0, this.length);
+  }
+  newest(name: string): number {
+    const i = this.names.indexOf(name);
+    return i < 0 || !this.length ? NaN : this.columns[i][this.length - 1];
+  }
+  csv(): string {
+    const lines = [this.names.join(',')];
+    for (let r = 0; r < this.length; ++r) lines.push(this.columns.map((c) => (Number.isFinite(c[r]) ? String(c[r]) : '')).join(','));
+    return lines.join('\n') + '\n';
+  }
+  private grow() {
+    this.columns = this.columns.map((c) => {
+      const larger = new Float64Array(c.length * 2);
+      larger.set(c);
+      return larger;
+    });
+  }
+  private drop() {
+    const half = kMost / 2;
+    for (const c of this.columns) c.copyWithin(0, half, this.length);
+    this.length -= half;
+  }
+}
+
+/** A file series.csv, for comparison. */
+export function parseCsv(text: string): Series {
+  const [head, ...lines] = text.trim().split('\n');
+  const s = new Series();
+  const names = head.split(',');
+  s.begin(names);
+  const rows = new Float64Array(lines.length * names.length);
+  lines.forEach((line, r) => line.split(',').forEach((v, c) => (rows[r * names.length + c] = v === '' ? NaN : Number(v))));
+  s.take(rows, lines.length);
+  return s;
+}

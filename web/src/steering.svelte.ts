@@ -1,0 +1,102 @@
+// The user's hands: field by pointer, keys and gamepad; goals and routes.
+
+import type { Lab } from './lab.svelte';
+
+export const kWeakest = 5e-6, kStrongest = 5e-3; // T
+
+export class Steering {
+  /** T, of a full pull. */
+  strength = $state(115e-6);
+  /** Points of a route that is being drawn, px. */
+  sketch = $state.raw<[number, number][]>([]);
+  /** Way in which the swarm is pulled now, in the picture's directions, length 0 to 1. */
+  way = $state.raw<[number, number]>([0, 0]);
+  /** A goal that was clicked and not yet answered, px. */
+  asked = $state.raw<[number, number] | null>(null);
+  private sending = false;
+  private wanted: [number, number] | null = null;
+
+  constructor(private lab: Lab) {}
+
+  /** Whether the hand steers, not a controller. */
+  get byHand() {
+    return this.lab.scenario.controller?.type === 'manual';
+  }
+
+  /** A drag over the picture, px: a third of the view is a full pull. */
+  drag(pull: [number, number] | null) {
+    if (!pull) return; // the field stays until told otherwise
+    const size = (this.lab.scene?.view.height ?? 480) / 3, l = Math.hypot(...pull) / size;
+    const k = l > 1 ? 1 / (l * size) : 1 / size;
+    this.pull([pull[0] * k, pull[1] * k]);
+  }
+  /** Newest wins while one is on its way. */
+  pull(way: [number, number]) {
+    this.way = way;
+    this.wanted = way;
+    if (!this.sending) void this.send();
+  }
+  private async send() {
+    this.sending = true;
+    while (this.wanted) {
+      const [x, y] = this.wanted;
+      this.wanted = null;
+      // What draws the swarm along: the field along the way for north-seeking cells, against it for the others;
+      // the world's y points up.
+      const b = this.strength * this.lab.polarity;
+      await this.lab.exchange({ controller: { type: 'manual', field: [`${(b * x).toPrecision(6)} T`, `${(-b * y).toPrecision(6)} T`] } });
+    }
+    this.sending = false;
+  }
+  stop() {
+    this.pull([0, 0]);
+  }
+  /** The step response: the same field the other way. */
+  reverse() {
+    this.pull([-this.way[0], -this.way[1]]);
+  }
+
+  private controller() {
+    return this.byHand ? { controller: { type: 'fuzzy' } } : {};
+  }
+  async goal(at: [number, number]) {
+    this.way = [0, 0];
+    this.asked = at;
+    const a = await this.lab.exchange({ ...this.controller(), reference: { type: 'hold', setpoint_px: at.map((v) => Math.round(v * 10) / 10) } });
+    if (this.asked === at) this.asked = null;
+    return a;
+  }
+  point(at: [number, number], index: number | null) {
+    const q: [number, number] = [Math.round(at[0] * 10) / 10, Math.round(at[1] * 10) / 10];
+    this.sketch = index === null ? [...this.sketch, q] : this.sketch.map((p, i) => (i === index ? q : p));
+  }
+  async route() {
+    const a = await this.lab.exchange({ ...this.controller(), reference: { type: 'route', setpoints_px: this.sketch } });
+    if (a.ok) this.sketch = [];
+    return a;
+  }
+
+  private keys = new Set<string>();
+  /** Arrow keys; returns whether the key was one of them. */
+  key(e: KeyboardEvent, down: boolean): boolean {
+    if (!e.key.startsWith('Arrow')) return false;
+    if (down === this.keys.has(e.key)) return true;
+    if (down) this.keys.add(e.key);
+    else this.keys.delete(e.key);
+    const on = (k: string) => (this.keys.has(k) ? 1 : 0);
+    const x = on('ArrowRight') - on('ArrowLeft'), y = on('ArrowDown') - on('ArrowUp'), l = Math.hypot(x, y) || 1;
+    this.pull([x / l, y / l]);
+    return true;
+  }
+  private stick: [number, number] = [0, 0];
+  /** The left stick of the first gamepad; called for every picture. */
+  poll() {
+    const pad = navigator.getGamepads?.().find((g) => g?.connected);
+    if (!pad) return;
+    const dead = (v: number) => (Math.abs(v) < 0.15 ? 0 : v);
+    const s: [number, number] = [dead(pad.axes[0] ?? 0), dead(pad.axes[1] ?? 0)], l = Math.max(1, Math.hypot(...s));
+    if (Math.hypot(s[0] - this.stick[0], s[1] - this.stick[1]) < 0.03) return;
+    this.stick = s;
+    this.pull([s[0] / l, s[1] / l]);
+  }
+}

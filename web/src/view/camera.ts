@@ -1,0 +1,59 @@
+// Where the picture lies on the page: zoom and pan.
+
+export interface Box {
+  left: number;
+  top: number;
+  right: number;
+  bottom: number;
+}
+
+/** Maps picture pixels to the canvas: canvas = scale * picture + offset. Sizes of the canvas are in device pixels. */
+export class Camera {
+  scale = 1;
+  x = 0;
+  y = 0;
+  width = 1;
+  height = 1;
+  private fitted: Box = { left: 0, top: 0, right: 640, bottom: 480 };
+  private untouched = true;
+
+  /** Shows the whole of `box`, as large as it goes, until somebody zooms or moves. */
+  fit(box: Box) {
+    this.fitted = box;
+    this.untouched = true;
+    const w = box.right - box.left, h = box.bottom - box.top;
+    this.scale = Math.min(this.width / w, this.height / h);
+    this.x = (this.width - this.scale * w) / 2 - this.scale * box.left;
+    this.y = (this.height - this.scale * h) / 2 - this.scale * box.top;
+  }
+  resize(width: number, height: number) {
+    if (width === this.width && height === this.height) return;
+    const centre = this.toPicture(this.width / 2, this.height / 2);
+    this.width = width;
+    this.height = height;
+    if (this.untouched) return this.fit(this.fitted);
+    this.x = width / 2 - this.scale * centre[0];
+    this.y = height / 2 - this.scale * centre[1];
+  }
+  /** About a point of the canvas, which stays where it is. */
+  zoom(factor: number, cx: number, cy: number) {
+    const smallest = 0.2 * Math.min(this.width / (this.fitted.right - this.fitted.left), this.height / (this.fitted.bottom - this.fitted.top));
+    const next = Math.min(Math.max(this.scale * factor, smallest), 60);
+    const k = next / this.scale;
+    this.x = cx - k * (cx - this.x);
+    this.y = cy - k * (cy - this.y);
+    this.scale = next;
+    this.untouched = false;
+  }
+  pan(dx: number, dy: number) {
+    this.x += dx;
+    this.y += dy;
+    this.untouched = false;
+  }
+  toPicture(cx: number, cy: number): [number, number] {
+    return [(cx - this.x) / this.scale, (cy - this.y) / this.scale];
+  }
+  toCanvas(px: number, py: number): [number, number] {
+    return [px * this.scale + this.x, py * this.scale + this.y];
+  }
+}
