@@ -1,0 +1,372 @@
+// The live lab in a real browser, as a person uses it. Ends with an error at the first thing that is not as it should
+// be. With --pictures FOLDER it leaves pictures of every state of the page there.
+//
+//   node tests/e2e/lab_test.mjs --program build/faba --root . [--pictures docs/pictures/lab]
+
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+
+const option = (name) => {
+  const i = process.argv.indexOf(`--${name}`);
+  return i < 0 ? null : resolve(process.argv[i + 1]);
+};
+const program = option('program'), root = option('root'), pictures = option('pictures');
+const { chromium } = createRequire(join(root, 'web', 'package.json'))('playwright-core');
+const kPatience = 30000; // ms; a busy machine is no fault
+
+const workspace = mkdtempSync(join(tmpdir(), 'faba-lab-test-'));
+for (const folder of ['scenes', 'rigs', 'studies']) cpSync(join(root, folder), join(workspace, folder), { recursive: true });
+if (pictures) mkdirSync(pictures, { recursive: true });
+
+/** Starts the lab and gives its address. */
+async function serve(...more) {
+  const lab = spawn(program, ['lab', '--no-browser', '--json', ...more], { cwd: workspace, stdio: ['ignore', 'pipe', 'inherit'] });
+  const address = await new Promise((give, fail) => {
+    let text = '';
+    lab.stdout.on('data', (d) => {
+      text += d;
+      if (text.includes('\n')) give(JSON.parse(text.split('\n')[0]).address);
+    });
+    lab.on('exit', (code) => fail(new Error(`faba lab ended with ${code}`)));
+  });
+  return { lab, address };
+}
+const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
+
+let { lab, address } = await serve();
+process.on('exit', () => lab.kill('SIGKILL')); // also after a failure
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
+const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true });
+const page = await context.newPage();
+page.setDefaultTimeout(kPatience);
+const complaints = [], elsewhere = [];
+const expected = /WebSocket connection|ERR_CONNECTION_REFUSED|401/; // while the lab is away
+page.on('console', (m) => m.type() === 'error' && !expected.test(m.text()) && complaints.push(m.text()));
+page.on('pageerror', (e) => complaints.push(String(e)));
+page.on('response', (r) => process.env.LAB_LOG && console.log(r.status(), r.url()));
+page.on('request', (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).hostname === '127.0.0.1' || elsewhere.push(r.url()));
+
+const shot = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
+const step = async (what, does) => {
+  const began = Date.now();
+  try {
+    await does();
+  } catch (e) {
+    await page.screenshot({ path: join(tmpdir(), 'faba-lab-test-failed.png') }).catch(() => {});
+    console.error(`FAILED: ${what}`);
+    throw e;
+  }
+  assert.deepEqual(complaints, [], `the page complained: ${what}`);
+  console.log(`ok ${what} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
+};
+const tab = (name) => page.locator('nav').getByRole('button', { name: new RegExp(`^${name}`) }).click();
+const panel = (name) => page.getByRole('tab', { name: new RegExp(`^${name}`) }).click();
+/** A number or two that the page shows. */
+const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];
+async function until(holds, what) {
+  const end = Date.now() + kPatience;
+  while (Date.now() < end) {
+    if (await holds()) return;
+    await page.waitForTimeout(50);
+  }
+  assert.fail(`never happened: ${what}`);
+}
+/** The canvas point of a place in the picture, from where the page itself puts it. */
+async function place(x, y) {
+  const box = await page.locator('.stage canvas.over').boundingBox();
+  const [cx, cy, ratio] = await page.evaluate(([px, py]) => {
+    const c = document.querySelector('.stage canvas.over');
+    return [...c.toCanvas(px, py), c.width / c.getBoundingClientRect().width];
+  }, [x, y]);
+  return [box.x + cx / ratio, box.y + cy / ratio];
+}
+
+await step('the gallery opens, the token is out of the address', async () => {
+  await page.goto(address);
+  await page.getByRole('heading', { name: 'Scenes' }).waitFor();
+  assert.equal(new URL(page.url()).search, '');
+  const cards = page.locator('.cards li');
+  await cards.first().waitFor();
+  assert.equal(await cards.count(), readdirSync(join(workspace, 'scenes')).filter((f) => f.endsWith('.toml')).length);
+  await until(() => page.evaluate(() => [...document.querySelectorAll('.cards img')].slice(0, 6).every((i) => i.naturalWidth > 0)), 'pictures of the scenes');
+  await shot('gallery');
+});
+
+await step('a scene is started', async () => {
+  await page.getByRole('button', { name: 'Steer a swarm along a route' }).click();
+  await page.getByText('Drag on the picture: the field').waitFor();
+  await until(async () => (await read('swarm'))[0] > 0, 'the swarm is shown');
+  await shot('first');
+  await page.getByRole('button', { name: 'Understood' }).click();
+  await until(async () => (await read('swarm'))[0] > 120, 'it swims along its route');
+  await shot('route');
+});
+
+await step('dragging the field pulls the swarm along', async () => {
+  const [x, y] = await place(300, 200), [x1, y1] = await place(300, 420);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let i = 1; i <= 10; ++i) await page.mouse.move(x + ((x1 - x) * i) / 10, y + ((y1 - y) * i) / 10);
+  await shot('pull');
+  const before = await read('swarm');
+  await until(async () => (await read('swarm'))[1] > before[1] + 25, 'the centroid follows downwards');
+  await page.mouse.up();
+  const there = await read('swarm');
+  assert.ok(Math.abs(there[0] - before[0]) < 25, `and not sideways: ${before} to ${there}`);
+});
+
+await step('the field is reversed, the swarm turns back', async () => {
+  const before = await read('swarm');
+  await page.getByRole('button', { name: 'Reverse the field' }).click();
+  await until(async () => (await read('swarm'))[1] < before[1] - 20, 'upwards');
+});
+
+await step('arrow keys steer', async () => {
+  const before = await read('swarm');
+  await page.keyboard.down('ArrowRight');
+  await until(async () => (await read('swarm'))[0] > before[0] + 15, 'to the right');
+  await page.keyboard.up('ArrowRight');
+});
+
+await step('a click sets a goal, and it is reached', async () => {
+  await page.mouse.click(...(await place(250, 300)));
+  await until(async () => (await read('goal'))[0] > 0, 'there is a goal');
+  await until(async () => (await read('goal'))[0] < 12, 'it is reached');
+  await shot('goal');
+});
+
+await step('pause, one frame, speed', async () => {
+  await page.getByRole('button', { name: 'Pause' }).click();
+  await page.getByRole('button', { name: 'Go on' }).waitFor();
+  await page.waitForTimeout(200);
+  const still = await read('swarm');
+  await page.waitForTimeout(300);
+  assert.deepEqual(await read('swarm'), still);
+  await page.getByRole('button', { name: 'One frame' }).click();
+  await page.getByLabel('Speed', { exact: true }).first().selectOption('4').catch(() => page.locator('.transport select').selectOption('4'));
+  await page.getByRole('button', { name: 'Go on' }).click();
+});
+
+await step('a route is drawn and followed', async () => {
+  for (const q of [[200, 200], [320, 140], [430, 220]]) {
+    await page.keyboard.down('Shift');
+    await page.mouse.click(...(await place(...q)));
+    await page.keyboard.up('Shift');
+  }
+  assert.equal(await page.locator('.panel ol li').count(), 3);
+  await shot('sketch');
+  await page.getByRole('button', { name: 'Go along it' }).click();
+  await until(async () => (await page.locator('.panel ol li').count()) === 0, 'it is sent');
+  await until(async () => (await read('swarm'))[0] > 350, 'the swarm goes along it');
+});
+
+await step('the model is changed while it runs', async () => {
+  await panel('Scenario');
+  const swarm = page.locator('fieldset', { has: page.locator('legend', { hasText: /^swarm/ }) }).first();
+  const speed = swarm.getByLabel('speed', { exact: true });
+  await speed.fill('-5 um/s');
+  await page.getByText('must be at least').waitFor();
+  await speed.fill('3 bananas');
+  await page.getByText('needs a unit such as').waitFor();
+  await speed.fill('60 um/s');
+  await page.getByRole('button', { name: 'Change now' }).click();
+  await until(async () => (await page.getByRole('button', { name: 'Change now' }).count()) === 0, 'it is taken');
+  await shot('scenario');
+});
+
+let recorded = '';
+await step('the run is recorded, and the recording has the same state', async () => {
+  await page.getByRole('button', { name: /Record$/ }).click();
+  await page.getByLabel('Name of the recording').fill('By hand');
+  await page.keyboard.press('Enter');
+  await panel('Work');
+  const job = page.locator('.panel li').first();
+  await job.getByText('done', { exact: true }).waitFor({ timeout: 120000 });
+  recorded = /\(([0-9a-f]+)\)/.exec(await job.textContent())[1];
+  await shot('work');
+  const manifest = JSON.parse(readFileSync(join(workspace, 'runs/By-hand/manifest.json'), 'utf8'));
+  assert.equal(manifest.state_hash, recorded);
+  const again = faba('run', 'runs/By-hand/scenario.toml', '--out', 'again', '--threads', '1');
+  assert.equal(again.state_hash, recorded);
+});
+
+await step('plots are drawn, compared with the recording, and saved', async () => {
+  await tab('Runs');
+  await page.getByRole('button', { name: 'Compare', exact: true }).first().click();
+  await shot('runs');
+  await tab('Lab');
+  await panel('Plots');
+  await page.locator('.panel canvas').first().waitFor();
+  await page.waitForTimeout(500);
+  await shot('plots');
+  const saved = async (button) => {
+    const [d] = await Promise.all([page.waitForEvent('download'), button.click()]);
+    return readFileSync(await d.path());
+  };
+  assert.ok((await saved(page.getByRole('button', { name: 'PNG' }).first())).subarray(1, 4).equals(Buffer.from('PNG')));
+  assert.match(String(await saved(page.getByRole('button', { name: 'SVG' }).first())), /^<svg[^]*<path d="M/);
+  assert.match(String(await saved(page.getByRole('button', { name: 'CSV' }))), /^frame,t_s,centroid_x_px/);
+});
+
+await step('the recording is replayed', async () => {
+  await tab('Runs');
+  await page.getByRole('button', { name: 'Replay' }).first().click();
+  const slider = page.locator('input[type=range][aria-label="Replay"]');
+  await slider.waitFor();
+  await until(async () => Number(await slider.inputValue()) > 5, 'it plays');
+  await slider.fill('20');
+  await page.waitForTimeout(300);
+  assert.equal(await slider.inputValue(), '20');
+  await shot('replay');
+});
+
+await step('a picture of a drop is dropped on the page', async () => {
+  faba('run', 'scenes/drop.toml', '--as-seen', '--duration', '0.2 s', '--out', 'seen', '--seed', '3');
+  await tab('Gallery');
+  await page.locator('.dropzone input').setInputFiles(join(workspace, 'seen/video.mp4'));
+  await page.getByRole('heading', { name: 'The edge of the drop' }).waitFor();
+  await page.waitForTimeout(300);
+  await shot('drop');
+  const radius = page.locator('.editor .numbers input').nth(2);
+  const found = Number(await radius.inputValue());
+  const truth = JSON.parse(readFileSync(join(workspace, 'seen/manifest.json'), 'utf8')).arena.radius_px;
+  assert.ok(Math.abs(found - truth) < 0.03 * truth, `${found} px, it is ${truth} px`);
+  await radius.fill(String(Math.round(found) + 5));
+  await page.locator('.editor').getByRole('button', { name: 'Start' }).click();
+  await until(async () => (await read('swarm'))[0] > 0, 'a swarm is in it');
+  await shot('own-drop');
+});
+
+await step('what the camera sees', async () => {
+  await page.getByLabel('Camera picture').check();
+  await page.waitForTimeout(700);
+  await shot('camera');
+  await page.getByLabel('Camera picture').uncheck();
+  await page.getByLabel('Density').check();
+  await page.getByLabel('Trails').check();
+  await page.waitForTimeout(700);
+  await shot('density');
+  await page.getByLabel('Density').uncheck();
+  await page.getByLabel('Trails').uncheck();
+});
+
+await step('WebGL draws the same', async () => {
+  await page.evaluate(() => localStorage.setItem('faba.renderer', '"webgl"'));
+  await page.reload();
+  await until(async () => (await read('swarm'))[0] > 0, 'connected again');
+  assert.equal(await page.evaluate(() => document.querySelector('canvas.over').seen.renderer), 'webgl');
+  await page.waitForTimeout(300);
+  await shot('webgl');
+  const blue = await page.evaluate(() => {
+    const from = document.querySelector('.stage canvas'), to = document.createElement('canvas').getContext('2d');
+    to.canvas.width = from.width;
+    to.canvas.height = from.height;
+    to.drawImage(from, 0, 0);
+    const px = to.getImageData(0, 0, from.width, from.height).data;
+    let n = 0;
+    for (let i = 0; i < px.length; i += 4) n += px[i + 2] > px[i] + 60;
+    return n;
+  });
+  assert.ok(blue > 300, `${blue} pixels of cells`);
+  await page.evaluate(() => localStorage.removeItem('faba.renderer'));
+});
+
+await step('a job survives that the page is loaded again, and is stopped', async () => {
+  await tab('Analyse');
+  await page.getByLabel('Study').selectOption('studies/rollers.toml').catch(() => page.getByLabel('Study').selectOption({ index: 0 }));
+  writeFileSync(join(workspace, 'studies/long.toml'), readFileSync(join(workspace, 'studies/controllers.toml'), 'utf8'));
+  await page.reload();
+  await tab('Analyse');
+  await page.getByLabel('Study').selectOption('studies/long.toml');
+  await page.locator('form', { hasText: 'Identify' }).getByRole('button', { name: 'Start' }).click();
+  const job = page.locator('li', { hasText: 'long.toml' });
+  await job.getByText(/^runs/).waitFor();
+  await page.reload();
+  await tab('Analyse');
+  await job.getByText(/^runs/).waitFor();
+  await job.getByRole('button', { name: 'Stop' }).click();
+  await job.getByText('stopped').waitFor();
+  await shot('analyse');
+});
+
+await step('the map of a field and the activity of a video are shown', async () => {
+  const show = async (form, title, what) => {
+    await page.locator('form', { hasText: form }).getByRole('button', { name: 'Start' }).click();
+    const job = page.locator('li', { hasText: title }).first();
+    await job.getByRole('button', { name: 'Open' }).click({ timeout: 120000 });
+    await page.locator(what).waitFor();
+  };
+  await show('Map of a field', 'field map', '.page img');
+  await until(() => page.evaluate(() => document.querySelector('.page > section > img').naturalWidth > 0), 'the map');
+  await shot('field');
+  await page.getByRole('button', { name: 'Close' }).click();
+  faba('run', 'scenes/as-seen.toml', '--as-seen', '--duration', '3 s', '--out', 'runs/seen', '--seed', '3');
+  await page.locator('form', { hasText: 'Activity' }).getByLabel('Video or run').fill('runs/seen');
+  await show('Activity', 'activity', 'iframe');
+  assert.ok((await page.frameLocator('iframe').locator('svg').count()) > 0, 'with plots');
+  await page.waitForTimeout(300);
+  await shot('activity');
+  await page.getByRole('button', { name: 'Close' }).click();
+});
+
+await step('a second page watches, and takes over when it asks to', async () => {
+  await tab('Lab');
+  const other = await context.newPage();
+  await other.goto(new URL('/', address).href);
+  await other.getByRole('button', { name: 'Steer from here' }).waitFor();
+  assert.ok(await other.getByRole('button', { name: 'Pause' }).isDisabled());
+  await other.getByRole('button', { name: 'Steer from here' }).click();
+  await page.getByText('Another page steers').waitFor();
+  await other.close();
+  await page.getByText('Another page steers').waitFor({ state: 'detached' });
+});
+
+await step('a lost connection is said and heals', async () => {
+  lab.kill('SIGSTOP'); // hangs: nothing is closed, nothing is answered
+  await page.getByText('The connection is lost').waitFor();
+  lab.kill('SIGCONT');
+  await until(async () => (await page.getByText('The connection is lost').count()) === 0, 'connected again');
+  const before = await read('swarm');
+  await until(async () => String(await read('swarm')) !== String(before), 'it goes on');
+});
+
+await step('Portuguese, dark, a phone, 200 %', async () => {
+  await page.getByLabel('Language').selectOption('pt');
+  await page.getByRole('button', { name: 'Pausar' }).waitFor();
+  await page.getByLabel('Claro ou escuro').click();
+  assert.equal(await page.locator('html').getAttribute('lang'), 'pt-BR');
+  await shot('dark-pt');
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.waitForTimeout(300);
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'nothing sticks out on a phone');
+  await shot('phone');
+  await page.setViewportSize({ width: 640, height: 400 }); // 1280 x 800 at 200 %
+  await page.waitForTimeout(300);
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 640, 'nothing sticks out at 200 %');
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await page.getByLabel('Idioma').selectOption('en');
+});
+
+await step('a lab that was started again asks for its own token', async () => {
+  const port = new URL(address).port;
+  lab.removeAllListeners('exit');
+  lab.kill('SIGINT');
+  assert.equal(await new Promise((r) => lab.on('exit', r)), 0);
+  await page.getByText('The connection is lost').waitFor();
+  await shot('lost');
+  ({ lab, address } = await serve('--port', port));
+  await page.getByText('open the address that faba lab printed').waitFor();
+  await page.goto(address);
+  await page.getByRole('heading', { name: 'Scenes' }).waitFor();
+});
+
+assert.deepEqual(elsewhere, [], 'no request leaves the machine');
+await browser.close();
+lab.removeAllListeners('exit');
+lab.kill('SIGTERM');
+rmSync(workspace, { recursive: true, force: true });
+console.log(`all is as it should be${existsSync(pictures ?? '') ? `; pictures in ${pictures}` : ''}`);
