@@ -9,7 +9,9 @@ import pathlib
 import shlex
 import shutil
 import subprocess
+import tempfile
 import time
+import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WRITES_A_FOLDER = ("run", "identify", "compare-controllers")
@@ -115,6 +117,10 @@ class Lab:
         marker.with_suffix(".tmp").rename(marker)
         return Step(folder, kept["answer"], key)
 
+    def page(self, scene):
+        """The live lab while it is used: `with lab.page("scenes/x.toml") as page`."""
+        return Page(self.program, scene)
+
     def help(self, verb):
         return self._run([verb, "--help"]).stdout
 
@@ -144,3 +150,41 @@ def _digest(*parts):
         h.update(p if isinstance(p, bytes) else p.encode())
         h.update(b"\0")
     return h.hexdigest()
+
+
+class Page:
+    """`faba lab` as its page sees it."""
+
+    def __init__(self, program, scene):
+        self.program, self.scene = program, scene
+
+    def __enter__(self):
+        words = [str(self.program), "lab", self.scene, "--no-browser", "--json"]
+        self.server = subprocess.Popen(words, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+        self.address = json.loads(self.server.stdout.readline())["address"]
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait()
+
+    def get(self, path):
+        """What an address answers."""
+        origin, token = self.address.split("/?token=")
+        request = urllib.request.Request(origin + path, headers={"Authorization": "Bearer " + token})
+        with urllib.request.urlopen(request) as answer:
+            return json.load(answer)
+
+    def picture(self):
+        """What a browser shows, as PNG; nothing where there is none."""
+        browser = shutil.which("chromium")
+        if not browser:
+            return None
+        with tempfile.TemporaryDirectory() as folder:
+            png = pathlib.Path(folder) / "page.png"
+            subprocess.run(
+                [browser, "--headless", "--no-sandbox", "--hide-scrollbars", f"--user-data-dir={folder}/profile", "--window-size=1280,800",
+                 "--timeout=5000", f"--screenshot={png}", self.address],
+                capture_output=True, timeout=120,
+            )  # fmt: skip
+            return png.read_bytes() if png.exists() else None

@@ -3,7 +3,7 @@
 import dataclasses
 
 from reproduce_rows import activity, control, exposure, fields, flow, identification, models, pictures, structure, videos
-from reproduce_rows.check import CORRECTED, PENDING, SAME, VIDEOS
+from reproduce_rows.check import CORRECTED, SAME, VIDEOS
 
 
 @dataclasses.dataclass
@@ -49,9 +49,8 @@ ROWS = [
         "Half of the maximum near the setpoint, all of it far away, weighted means between", SAME,
         "The weighted mean of the rules, to the last digit recorded.", control.sugeno),
     Row("Fig 3.20", "The main window",
-        "Model, controller, number of cells, largest speed, setpoint, recording, field model, manual field", PENDING,
-        "The page in the browser (`faba lab`) is not yet part of the program. All of its fields are keys of a scenario.",
-        structure.window, 0),
+        "Model, controller, number of cells, largest speed, setpoint, recording, field model, manual field", SAME,
+        "`faba lab` has all of it on a page in the browser, and every other value of a scenario beside it.", structure.window, 8),
     Row("Fig 3.21", "Simulation in a box", "All cells in view, nobody crosses the limits; crosses at the mean and the setpoint", SAME,
         "Nobody leaves the box and no pixel holds two cells, in any frame.", models.constrained),
     Row("Fig 3.22, 3.23", "Set-up from an experiment's picture", "Grey, edges, Hough lines, circle, then a simulation inside it", SAME,

@@ -57,6 +57,7 @@ def modules(lab, found):
     )
     does = {
         "cli": "verbs and options",
+        "server": "live lab",
         "study": "analysis, reports",
         "app": "scenario, loop, files",
         "rig": "simulated microscope",
@@ -86,6 +87,41 @@ def modules(lab, found):
     )
 
 
+# What the thesis's window sets, and where it stands in the form of the page: a path in the scenario's schema.
+SETTINGS = {
+    "model": "swarm.items.model",
+    "controller": "controller",
+    "number of cells": "swarm.items.count",
+    "largest speed": "swarm.items.model:basic.max_speed",
+    "setpoint": "reference:hold.setpoint_px",
+    "recording": "record",
+    "field model": "field",
+    "manual field": "controller:manual.field",
+}
+SCENE = "scenes/thesis-basic.toml"
+
+
 def window(lab, found):
-    found.value = "not yet part of the program: a scenario file holds all that the window sets"
-    found.commands = ["build/faba schema scenario"]
+    found.commands = [f"build/faba lab {SCENE}"]
+    with lab.page(SCENE) as page:
+        schema = page.get("/api/schema")
+        missing = [name for name, path in SETTINGS.items() if not _in_form(schema, path)]
+        found.value = f"a page in the browser with {len(SETTINGS) - len(missing)} of the {len(SETTINGS)} settings, and all others of a scenario"
+        found.within("Settings of the window without a place in the form", len(missing), 0, 0, "the page makes its form of the scenario's schema")
+        started = page.get("/api/scenes/thesis-basic")["scenario"]
+        found.true("The published model can be chosen", started["swarm"][0]["model"]["type"] == "basic", "the scene in the gallery has it")
+        picture = page.picture()
+    if picture:
+        found.show(plot.picture("The page, with the published model", picture, "faba lab, a few seconds after it was opened"))
+
+
+def _in_form(schema, path):
+    """Whether a path such as "controller:manual.field" leads somewhere: names of keys, after a colon that of a part."""
+    for key in path.split("."):
+        name, _, part = key.partition(":")
+        schema = schema["items"] if name == "items" else schema.get("properties", {}).get(name)
+        if schema is not None and part:
+            schema = next((one for one in schema["oneOf"] if one.get("properties", {}).get("type", {}).get("const") == part), None)
+        if schema is None:
+            return False
+    return True
