@@ -184,7 +184,7 @@ class Page:
             png = pathlib.Path(folder) / "page.png"
             subprocess.run(
                 [browser, "--headless", "--no-sandbox", "--hide-scrollbars", f"--user-data-dir={folder}/profile", "--window-size=1280,800",
-                 "--timeout=5000", f"--screenshot={png}", self.address],
+                 "--virtual-time-budget=6000", f"--screenshot={png}", self.address],
                 capture_output=True, timeout=120,
             )  # fmt: skip
             return png.read_bytes() if png.exists() else None
