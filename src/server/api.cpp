@@ -227,6 +227,7 @@ WebResponse Api::run(const WebRequest& r, Rest rest) {
     return {.type = "image/png", .body = {}, .file = file, .keep = true};
   }
   const fs::path file = workspace_.existing("runs/" + name + "/" + what);
+  if (fs::is_directory(file)) throw Error(Errc::input, what, "is a folder");
   return {
       .type = type_of(file), .body = {}, .file = file, .keep = false, .report = file.extension() == ".html"};
 }
@@ -257,9 +258,14 @@ Json Api::take_upload(const WebRequest& r) {
   const auto named = r.query.find("name");
   const std::string name = named == r.query.end() ? "picture" : fs::path(named->second).filename().string();
   const std::string shown = fmt::format("upload-{}.png", ++number);
-  Json j = propose_drop(r.upload, name, pictures_ / shown);
-  j["picture"] = name, j["url"] = "/api/uploads/" + shown;
-  return j;
+  try {
+    Json j = propose_drop(r.upload, name, pictures_ / shown);
+    j["picture"] = name, j["url"] = "/api/uploads/" + shown;
+    return j;
+  } catch (const Error& e) {
+    if (e.code() != Errc::input) throw;
+    throw Error(Errc::usage, name, e.reason());  // it knows the file by the name that it has here only
+  }
 }
 
 Json Api::start_job(const Json& asked) {
@@ -294,6 +300,11 @@ Json Api::start_job(const Json& asked) {
   } else if (verb == "field map") {
     out = fmt::format("runs/field-{}.png", stamp);
     words = {"field", "map", file("rig"), "--picture", out, "--json"};
+    if (const std::string c = asked.value("current", ""); !c.empty()) {
+      if (c.find_first_not_of("0123456789.-+e, ") != std::string::npos)
+        throw Error(Errc::usage, "current", "must be numbers with commas between them");
+      words.insert(words.begin() + 3, "--current=" + c);
+    }
   } else {
     throw Error(Errc::usage, "verb", "is none that the lab starts");
   }

@@ -110,6 +110,8 @@ struct JobList::Process {
     posix_spawn_file_actions_adddup2(&files, out.write_end, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, err.write_end, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&files, progress.write_end, kProgressFd);
+    // Nothing of the lab's is the job's: a port would stay taken as long as the job runs.
+    posix_spawn_file_actions_addclosefrom_np(&files, kProgressFd + 1);
     posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
     posix_spawnattr_t how;
     posix_spawnattr_init(&how);

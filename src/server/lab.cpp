@@ -138,8 +138,9 @@ class Pages {
     if (slug.empty()) slug = "lab";
     slug.resize(std::min<std::size_t>(slug.size(), 60));
     lab_.recorded(
-        [this, slug, title = m.name](Scenario s, const std::string& state_hash) {
+        [this, slug, title = m.name, as_seen = m.as_seen](Scenario s, const std::string& state_hash) {
           if (!title.empty()) s.params.title = title;
+          if (as_seen) s.record.as_seen = true;
           const fs::path runs = workspace_.root() / "runs";
           fs::create_directories(runs);
           fs::path dir = runs / slug;
@@ -147,7 +148,7 @@ class Pages {
             dir = runs / fmt::format("{}-{}", slug, i);
           const fs::path scene = dir.string() + ".toml", out = fs::relative(dir, workspace_.root());
           write_file(scene, to_toml(s.resolved()));
-          jobs_.add(fmt::format("{} ({})", slug, state_hash),
+          jobs_.add(fmt::format("{} ({})", dir.filename().string(), state_hash),
                     {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
                     out / "report.html", out);
         },

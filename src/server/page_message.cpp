@@ -85,6 +85,7 @@ PageMessage parse_page_message(std::string_view text) {
     case Do::save:
       if (!j.contains("name") || !j["name"].is_string()) throw bad("name", "must be text");
       m.name = j["name"];
+      m.as_seen = j.value("as_seen", Json(false)) == true;
       break;
     case Do::pause:
     case Do::go:

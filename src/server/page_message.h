@@ -19,6 +19,7 @@ struct PageMessage {
   bool camera = false;                ///< look
   double rate = 60;                   ///< look, Hz
   std::string name;                   ///< save
+  bool as_seen = false;               ///< save
 };
 
 /// Throws Error(usage) for anything that is not a message: any bytes may come.

@@ -180,6 +180,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   // By and by, so that patience counts from the last bytes and not from the first.
   void take_more(const std::shared_ptr<http::request_parser<http::file_body>>& parser,
                  const std::filesystem::path& file) {
+    if (parser->is_done()) return answer({}, file, parser->get().base());  // there is nothing in it
     stream_.expires_after(kPatience);
     http::async_read_some(stream_, buffer_, *parser,
                           [self = shared_from_this(), parser, file](beast::error_code ec, std::size_t) {

@@ -6,6 +6,7 @@
 #include "app/run_lock.h"
 #include "app/session.h"
 #include "core/error.h"
+#include "study/run_video.h"
 
 namespace faba {
 namespace {
@@ -90,7 +91,13 @@ std::vector<std::string> Workspace::runs() const {
 
 Json Workspace::files() const {
   Json videos = Json::array(), studies = Json::array(), rigs = Json::array();
-  for (const std::string& run : runs()) videos.push_back("runs/" + run);
+  for (const std::string& run : runs()) {
+    try {
+      if (has_camera_video(root_ / "runs" / run)) videos.push_back("runs/" + run);
+    } catch (const Error&) {
+      continue;  // damaged, or still being written
+    }
+  }
   std::error_code ec;
   for (const char* folder : {".", "videos", "data"})
     for (const char* kind : kVideos)

@@ -29,7 +29,8 @@ class Workspace {
   std::filesystem::path scene(std::string_view name) const;
   /// Names of the directories below runs/ that hold a recorded run, newest first.
   std::vector<std::string> runs() const;
-  /// What the analyses take: videos and runs, studies with the verb that takes them, rigs.
+  /// What the analyses take: videos and runs recorded as a camera sees them, studies with the verb that takes
+  /// them, rigs.
   Json files() const;
 
  private:

@@ -222,8 +222,8 @@ TEST_CASE("S6: nothing but the workspace's runs and scenes can be read") {
 TEST_CASE("S7: slow, many, huge: bounded, and others are served meanwhile") {
   const Served lab;
   const std::size_t before = resident();
-  // Half requests that never end, ten thousand in all and far more at a time than there is room for; the ones beyond
-  // are closed at once.
+  // Half requests that never end, ten thousand in all and far more at a time than there is room for; the ones
+  // beyond are closed at once.
   for (int round = 0; round < 20; ++round) {
     std::vector<std::unique_ptr<RawClient>> slow;
     for (int i = 0; i < 500; ++i) {

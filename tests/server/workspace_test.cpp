@@ -42,11 +42,18 @@ TEST_CASE("S6: nothing outside of the workspace can be named") {
 TEST_CASE("the gallery, runs and files that the pages offer") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path();
-  for (const char* dir : {"scenes", "studies", "rigs", "videos", "runs/a", "runs/empty", "runs/.b"})
+  for (const char* dir : {"scenes", "studies", "rigs", "videos", "runs/a", "runs/drawn", "runs/broken",
+                          "runs/empty", "runs/.b"})
     fs::create_directories(root / dir);
   write_file(root / "scenes/b.toml", ""), write_file(root / "scenes/a.toml", ""),
       write_file(root / "scenes/x.txt", "");
-  write_file(root / "runs/a/manifest.json", "{}"), write_file(root / "runs/a/scenario.toml", "");
+  for (const auto& [run, manifest] :
+       {std::pair{"a", R"({"version": "1", "video_shows": "camera"})"},
+        std::pair{"drawn", R"({"version": "1", "video_shows": "drawing"})"}, std::pair{"broken", "{"}}) {
+    write_file(root / "runs" / run / "manifest.json", manifest),
+        write_file(root / "runs" / run / "scenario.toml", "");
+    write_file(root / "runs" / run / "video.mp4", "");
+  }
   write_file(root / "videos/v.mp4", "");
   write_file(root / "rigs/r.toml", "");
   write_file(root / "studies/i.toml", "[[model]]\nname = 'a'\n");
@@ -58,7 +65,7 @@ TEST_CASE("the gallery, runs and files that the pages offer") {
   CHECK(w.scenes()[0].filename() == "a.toml");
   CHECK(w.scene("b") == fs::canonical(root) / "scenes/b.toml");
   for (const char* bad : {"c", "../scenes/b", "x", "", "b.toml"}) CHECK_THROWS_AS(w.scene(bad), const Error&);
-  CHECK(w.runs() == std::vector<std::string>{"a"});
+  CHECK(w.runs().size() == 3);
   const Json files = w.files();
   CHECK(files["videos"] == Json({"runs/a", "videos/v.mp4"}));
   CHECK(files["rigs"] == Json({"rigs/r.toml"}));

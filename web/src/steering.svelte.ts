@@ -13,6 +13,8 @@ export class Steering {
   way = $state.raw<[number, number]>([0, 0]);
   /** A goal that was clicked and not yet answered, px. */
   asked = $state.raw<[number, number] | null>(null);
+  /** What steered before the hand did. */
+  private before: Record<string, any> | null = null;
   private sending = false;
   private wanted: [number, number] | null = null;
 
@@ -38,6 +40,10 @@ export class Steering {
   }
   private async send() {
     this.sending = true;
+    if (!this.byHand) {
+      const { controller, estimator } = this.lab.scenario;
+      this.before = { controller, ...(estimator ? { estimator } : {}) };
+    }
     while (this.wanted) {
       const [x, y] = this.wanted;
       this.wanted = null;
@@ -56,8 +62,16 @@ export class Steering {
     this.pull([-this.way[0], -this.way[1]]);
   }
 
+  /** Another run: what steered the one before is nothing to it. */
+  begin() {
+    this.way = [0, 0];
+    this.sketch = [];
+    this.before = null;
+  }
+
   private controller() {
-    return this.byHand ? { controller: { type: 'fuzzy' } } : {};
+    if (!this.byHand) return {};
+    return this.before ?? { controller: { type: 'fuzzy' } };
   }
   async goal(at: [number, number]) {
     this.way = [0, 0];

@@ -69,7 +69,7 @@ export function check(text: string, s: Schema, required = false): Checked {
   const unit = s['x-unit'] ?? '';
   const q = parseQuantity(text, unit);
   if (q === 'number') return { wrong: ['form.number', {}] };
-  if (q === 'unit') return { wrong: ['form.unit', { unit: unit || '1' }] };
+  if (q === 'unit') return { wrong: unit ? ['form.unit', { unit }] : ['form.number', {}] };
   if (s.type === 'integer' && !Number.isInteger(q)) return { wrong: ['form.whole', {}] };
   if (s.minimum !== undefined && q < s.minimum) return { wrong: ['form.least', { limit: showQuantity(s.minimum, unit) }] };
   if (s.maximum !== undefined && q > s.maximum) return { wrong: ['form.most', { limit: showQuantity(s.maximum, unit) }] };
