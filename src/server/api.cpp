@@ -238,9 +238,10 @@ Json Api::check(const Json& asked) const {
     if (asked.contains("toml"))
       d = parse_toml(text_of(asked, "toml"), "file");
     else if (asked.contains("scenario") && asked["scenario"].is_object())
-      d.root = asked["scenario"];
+      d = workspace_.page_document(asked["scenario"]);
     else
       throw Error(Errc::usage, "scenario", "is missing");
+    workspace_.check_files(d.root);
     const Scenario s = read_scenario(d, parts_);
     Pool pool(1);
     const Simulation simulation(s, s.params.seed.value_or(1), pool);
@@ -249,7 +250,7 @@ Json Api::check(const Json& asked) const {
             {"toml", to_toml(s.resolved())},
             {"notes", notes_on(s, simulation, workspace_.root())}};
   } catch (const Error& e) {
-    return {{"ok", false}, {"where", e.where()}, {"what", e.reason()}};
+    return {{"ok", false}, {"where", workspace_.in_page(e.where())}, {"what", e.reason()}};
   }
 }
 

@@ -86,19 +86,18 @@ class Pages {
 
  private:
   void carry_out(const PageMessage& m, const PageSocketRef& s) {
-    const LiveLab::Done done = [s, id = m.id](Json answer) {
+    const LiveLab::Done done = [this, s, id = m.id](Json answer) {
       answer["id"] = id;
+      if (answer.contains("where")) answer["where"] = workspace_.in_page(answer["where"]);
       s->say(answer.dump());
     };
     using Do = PageMessage::Do;
     switch (m.what) {
-      case Do::start: {
-        Document d;
-        d.name = (workspace_.gallery() / "page").string();  // files are looked for beside it
-        d.root = m.scenario;
-        return lab_.start(std::move(d), m.seed, done);
-      }
+      case Do::start:
+        workspace_.check_files(m.scenario);
+        return lab_.start(workspace_.page_document(m.scenario), m.seed, done);
       case Do::exchange:
+        workspace_.check_files(m.event);
         return lab_.exchange(m.event, done);
       case Do::pause:
         return lab_.pause(true, done);

@@ -65,6 +65,39 @@ fs::path Workspace::existing(std::string_view name) const {
   return path;
 }
 
+Document Workspace::page_document(Json scenario) const {
+  Document d;
+  d.name = (gallery_ / "page").string();
+  d.root = std::move(scenario);
+  return d;
+}
+
+std::string Workspace::in_page(const std::string& where) const {
+  const std::string name = (gallery_ / "page").string() + ": ";
+  return where.starts_with(name) ? where.substr(name.size()) : where;
+}
+
+void Workspace::check_files(const Json& scenario) const {
+  constexpr std::array<std::string_view, 2> kNaming = {"file",
+                                                       "background"};  // keys whose text is a file's name
+  const auto lies_below = [](const fs::path& folder, const fs::path& file) {
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  };
+  const fs::path project = gallery_.parent_path();  // scenes speak of rigs beside their folder
+  for (const auto& [key, value] : scenario.items()) {
+    if (value.is_structured()) check_files(value);
+    if (!value.is_string() || std::find(kNaming.begin(), kNaming.end(), key) == kNaming.end()) continue;
+    const std::string name = value.get<std::string>();
+    // As a scenario looks for it: beside itself, else from where the program was called.
+    std::error_code ec;
+    const bool beside = fs::exists(gallery_ / name, ec);
+    const fs::path real = fs::weakly_canonical((beside ? gallery_ : root_) / name, ec);
+    if (ec || (!lies_below(root_, real) && (project.empty() || !lies_below(project, real))))
+      throw out_of_reach(name);
+    if (fs::exists(real, ec) && !fs::is_regular_file(real, ec)) throw Error(Errc::usage, name, "is no file");
+  }
+}
+
 std::vector<fs::path> Workspace::scenes() const { return sorted_files(gallery_, ".toml"); }
 
 fs::path Workspace::scene(std::string_view name) const {

@@ -22,6 +22,14 @@ class Workspace {
   /// The same, and it must be a file or a folder that is there; else Error(input).
   std::filesystem::path existing(std::string_view name) const;
 
+  /// A scenario that a page sent; files that it names are looked for beside the gallery's.
+  Document page_document(Json scenario) const;
+  /// Where something is wrong in it, without the name that it has here only.
+  std::string in_page(const std::string& where) const;
+  /// Throws Error(usage) when a scenario that a page sent names a file that is neither in the workspace nor
+  /// beside the gallery, or something else than a file.
+  void check_files(const Json& scenario) const;
+
   const std::filesystem::path& gallery() const { return gallery_; }  ///< folder of its scenes
   /// Its scenario files, sorted.
   std::vector<std::filesystem::path> scenes() const;

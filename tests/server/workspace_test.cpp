@@ -39,6 +39,28 @@ TEST_CASE("S6: nothing outside of the workspace can be named") {
   CHECK_NOTHROW(w.inside("runs/two"));
 }
 
+TEST_CASE("S6: a scenario of a page names no file outside either") {
+  test::TemporaryFolder folder("workspace");
+  const fs::path root = folder.path() / "work";
+  fs::create_directories(root / "scenes"), fs::create_directories(root / "rigs");
+  write_file(root / "rigs/r.toml", ""), write_file(folder.path() / "secret.toml", "");
+  const Workspace w(root, {});
+  const auto field = [](const std::string& file) {
+    return Json{{"field", {{"type", "rig"}, {"file", file}}}};
+  };
+  CHECK_NOTHROW(w.check_files(field("rigs/r.toml")));
+  CHECK_NOTHROW(w.check_files(field("../rigs/r.toml")));  // as the gallery's scenes have it
+  CHECK_NOTHROW(w.check_files(field((fs::canonical(root) / "rigs/r.toml").string())));
+  CHECK_NOTHROW(w.check_files(field("rigs/absent.toml")));  // the loader will say so
+  for (const char* bad : {"/etc/passwd", "../secret.toml", "../../secret.toml", "../../../etc/passwd",
+                          "/dev/zero", "../rigs", "."}) {
+    INFO(bad);
+    CHECK_THROWS_AS(w.check_files(field(bad)), const Error&);
+    CHECK_THROWS_AS(w.check_files({{"swarm", Json::array({{{"x", {{"file", bad}}}}})}}), const Error&);
+    CHECK_THROWS_AS(w.check_files({{"microscope", {{"background", bad}}}}), const Error&);
+  }
+}
+
 TEST_CASE("the gallery, runs and files that the pages offer") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path();
