@@ -11,8 +11,6 @@
 #include "core/toml.h"
 #include "server/lab.h"
 
-extern char** environ;
-
 namespace faba::cli {
 namespace {
 

@@ -180,7 +180,7 @@ WebResponse Api::scene(Rest rest) {
 // Rendered once, and again when the scene has changed.
 fs::path Api::picture_of(const fs::path& scene) {
   const auto changed = fs::last_write_time(scene).time_since_epoch().count();
-  const fs::path file = pictures_ / fmt::format("scene-{}-{}.png", scene.stem().string(), changed);
+  fs::path file = pictures_ / fmt::format("scene-{}-{}.png", scene.stem().string(), changed);
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   if (!fs::exists(file)) write_scene_thumbnail(read_scenario(read_toml(scene), parts_), file);

@@ -45,7 +45,12 @@ void put_places(std::string& out, const FrameMessage& m, bool floats) {
   out.resize(at + n * 2 * sizeof(std::uint16_t));
   const auto left = float(m.box.left), top = float(m.box.top);
   const auto kx = float(kSteps / (m.box.right - m.box.left)), ky = float(kSteps / (m.box.bottom - m.box.top));
-  const auto part = [](float v) { return std::uint16_t(std::clamp(v, 0.0F, float(kSteps)) + 0.5F); };
+  // Towards the nearest, by cutting off: what is not below zero needs no more.
+  constexpr float kHalf = 0.5F;
+  const auto part = [](float v) {
+    const float shifted = std::clamp(v, 0.0F, float(kSteps)) + kHalf;
+    return std::uint16_t(shifted);
+  };
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint16_t p[2] = {part((cx + m.x[i] * scale - left) * kx),
                                 part((cy - m.y[i] * scale - top) * ky)};

@@ -13,8 +13,6 @@
 
 #include "core/error.h"
 
-extern char** environ;
-
 namespace faba {
 namespace {
 
@@ -101,6 +99,9 @@ struct JobList::Process {
     argv.push_back(nullptr);
     std::string say = "FABA_PROGRESS_FD=" + std::to_string(kProgressFd);
     std::vector<char*> env;
+    std::size_t inherited = 0;
+    while (environ[inherited]) ++inherited;
+    env.reserve(inherited + 2);
     for (char** e = environ; *e; ++e) env.push_back(*e);
     env.push_back(say.data()), env.push_back(nullptr);
 

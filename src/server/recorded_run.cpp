@@ -11,7 +11,7 @@ namespace faba {
 namespace {
 
 Json manifest_of(const std::filesystem::path& dir) {
-  const Json j = Json::parse(read_file(dir / run_files::kManifest), nullptr, false);
+  Json j = Json::parse(read_file(dir / run_files::kManifest), nullptr, false);
   if (!j.is_object()) throw Error(Errc::input, (dir / run_files::kManifest).string(), "is damaged");
   return j;
 }

@@ -51,14 +51,14 @@ fs::path Workspace::inside(std::string_view name) const {
     if (part == ".." || part.string().starts_with('.')) throw out_of_reach(name);
   // Links are followed before it is looked at where they lead.
   std::error_code ec;
-  const fs::path real = fs::weakly_canonical(root_ / asked, ec);
+  fs::path real = fs::weakly_canonical(root_ / asked, ec);
   const auto [at, _] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
   if (ec || at != root_.end()) throw out_of_reach(name);
   return real;
 }
 
 fs::path Workspace::existing(std::string_view name) const {
-  const fs::path path = inside(name);
+  fs::path path = inside(name);
   std::error_code ec;
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
     throw Error(Errc::input, std::string(name), "no such file in the folder that the lab works in");
