@@ -98,11 +98,9 @@ struct JobList::Process {
     for (std::string& w : all) argv.push_back(w.data());
     argv.push_back(nullptr);
     std::string say = "FABA_PROGRESS_FD=" + std::to_string(kProgressFd);
-    std::vector<char*> env;
     std::size_t inherited = 0;
     while (environ[inherited]) ++inherited;
-    env.reserve(inherited + 2);
-    for (char** e = environ; *e; ++e) env.push_back(*e);
+    std::vector<char*> env(environ, environ + inherited);
     env.push_back(say.data()), env.push_back(nullptr);
 
     posix_spawn_file_actions_t files;
