@@ -25,7 +25,8 @@ build: setup          ## build the program: build/faba
 	@cmake --build build -j $(JOBS) --target faba
 
 bench: build          ## measure speed beside NumPy, Octave and the machine's limits; table in bench/results/
-	@$(SETUP) bench
+	@$(SETUP) test bench
+	@tools/page.sh install
 	@cmake --build build -j $(JOBS) --target bench_agents bench_coils bench_video
 	@/usr/bin/python3 bench/agents.py
 	@/usr/bin/python3 bench/coils.py
@@ -59,7 +60,7 @@ asan tsan dev: setup  ## build and run the tests under sanitizers, or without an
 	@cmake --build build/$@ -j $(JOBS)
 	@ctest --test-dir build/$@ --no-tests=error --output-on-failure -j $(JOBS)
 
-fuzz: setup           ## fuzz the scenario loader for a minute (SECONDS_TO_FUZZ=600 for longer)
+fuzz: setup           ## fuzz the scenario loader and the lab's messages for a minute each (SECONDS_TO_FUZZ=600 for longer)
 	@$(SETUP) fuzz
 	@tests/fuzz/run.sh $(or $(SECONDS_TO_FUZZ),60)
 

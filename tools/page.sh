@@ -9,11 +9,12 @@ if [ ! -e "$lock" ] || [ package-lock.json -nt "$lock" ]; then
   touch "$lock"
 fi
 case ${1:-} in
+  install) ;; # what has been done above: also the driver of a browser, for tests and benchmarks
   build) npm run --silent build ;;
   check)
     npm run --silent check
     npm run --silent build -- --outDir "$2" --emptyOutDir --logLevel warn
     diff -rq dist "$2" || { echo "web/dist is not what web/src gives: make page" >&2; exit 1; }
     ;;
-  *) echo "page.sh build | check FOLDER" >&2; exit 2 ;;
+  *) echo "page.sh install | build | check FOLDER" >&2; exit 2 ;;
 esac

@@ -17,7 +17,6 @@ RgbImage DrawnSwarm::draw(double t, Vec2 target) {
   for (std::size_t k = 0; k < populations.size(); ++k)
     for (std::size_t i = populations[k].begin; i < populations[k].end; ++i) {
       sx += double(x[i]), sy += double(y[i]);
-      if (i % one_of_) continue;
       const Vec2 p = frame.image_from_world({double(x[i]), double(y[i])});
       cells_.push_back({float(p.x), float(p.y), std::uint8_t(k), response[i] != 0.0f});
     }

@@ -10,8 +10,6 @@ class DrawnSwarm {
  public:
   /// Both outlive it. `um_per_px` for the scale bar.
   DrawnSwarm(const World& world, const Loop& loop, double um_per_px);
-  /// Every so many-th cell is enough, for a small picture of a large swarm.
-  void show_one_of(std::size_t cells) { one_of_ = cells; }
   /// `target`: where the swarm is wanted, in the world; not finite: nowhere.
   RgbImage draw(double t, Vec2 target);
 
@@ -19,7 +17,6 @@ class DrawnSwarm {
   const World& world_;
   const Loop& loop_;
   double um_per_px_;
-  std::size_t one_of_ = 1;
   std::vector<Vec2> route_;
   std::vector<SwarmScene::Cell> cells_;
   RgbImage ground_;

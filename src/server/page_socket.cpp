@@ -1,6 +1,5 @@
 #include "server/page_socket.h"
 
-#include <atomic>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/websocket.hpp>
@@ -47,7 +46,6 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   }
 
   std::uint64_t id() const override { return id_; }
-  std::uint64_t dropped() const override { return dropped_; }
   void say(std::string text) override {
     asio::post(stream_.get_executor(), [self = shared_from_this(),
                                         t = std::make_shared<const std::string>(std::move(text))]() mutable {
@@ -61,7 +59,6 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   void show(std::shared_ptr<const std::string> bytes) override {
     asio::post(stream_.get_executor(), [self = shared_from_this(), b = std::move(bytes)]() mutable {
       if (!self->open_) return;
-      if (self->frame_) ++self->dropped_;
       self->frame_ = std::move(b);
       self->write();
     });
@@ -125,7 +122,6 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   std::deque<std::shared_ptr<const std::string>> texts_;
   std::size_t unread_ = 0;
   std::shared_ptr<const std::string> frame_, sent_;
-  std::atomic<std::uint64_t> dropped_ = 0;
   double tokens_ = kBurst;
   std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
 };

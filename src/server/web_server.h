@@ -41,8 +41,6 @@ class PageSocket {
   virtual void say(std::string text) = 0;
   /// Newest wins: while one is on its way the next ones take each other's place.
   virtual void show(std::shared_ptr<const std::string> bytes) = 0;
-  /// Frames that others took the place of.
-  virtual std::uint64_t dropped() const = 0;
 };
 using PageSocketRef = std::shared_ptr<PageSocket>;
 

@@ -6,7 +6,7 @@
 namespace faba {
 
 /// Writes a PNG of how a scene looks a little after its beginning, as a recorded video would draw it. Takes a
-/// moment; large swarms are drawn with fewer cells, and nothing is left of what costs time. Throws
+/// moment: large swarms have fewer cells in it. Throws
 /// Error(usage) when its parts do not fit together.
 void write_scene_thumbnail(Scenario s, const std::filesystem::path& png);
 

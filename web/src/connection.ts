@@ -24,17 +24,15 @@ export class Connection {
   private waiting = new Map<number, (a: Answer) => void>();
   private wait = kFirstWait;
   private timer = 0;
-  private over = false;
   private refused = false;
   /** ms that the newest answer took. */
   roundTrip = 0;
   private heard = 0;
-  private watch = 0;
 
   constructor(private listener: Listener) {
     this.open();
     addEventListener('online', () => this.again());
-    this.watch = window.setInterval(() => this.listen(), 1000);
+    window.setInterval(() => this.listen(), 1000);
   }
 
   private open() {
@@ -62,7 +60,7 @@ export class Connection {
   }
 
   private lost(socket: WebSocket) {
-    if (this.socket !== socket || this.over) return;
+    if (this.socket !== socket) return;
     this.socket = null;
     for (const give of this.waiting.values()) give({ ok: false, where: '', what: 'connection' });
     this.waiting.clear();
@@ -116,13 +114,6 @@ export class Connection {
       });
       socket.send(JSON.stringify({ id, do: what, ...values }));
     });
-  }
-
-  close() {
-    this.over = true;
-    clearTimeout(this.timer);
-    clearInterval(this.watch);
-    this.socket?.close();
   }
 }
 

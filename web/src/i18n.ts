@@ -4,7 +4,7 @@ const en = {
   'app.title': 'Faba live lab',
   'tab.lab': 'Lab', 'tab.gallery': 'Gallery', 'tab.runs': 'Runs', 'tab.analyse': 'Analyse',
   'lost': 'The connection is lost; trying again.', 'refused': 'This page has no token any more: open the address that faba lab printed.', 'again': 'Try now',
-  'steer.other': 'Another page steers.', 'steer.take': 'Steer from here', 'steer.you': 'You steer', 'pages': '{n} pages',
+  'steer.other': 'Another page steers.', 'steer.take': 'Steer from here', 'pages': '{n} pages',
   'hint.1': 'Drag on the picture: the field pulls the swarm along.',
   'hint.2': 'Click to set a goal for the controller; hold Shift and click the points of a route.',
   'hint.3': 'Everything else is in the panel: change it while it runs. Space pauses.',
@@ -15,7 +15,7 @@ const en = {
   'steer.hand.help': 'Drag on the picture, or use the arrow keys or a gamepad.', 'steer.goal.help': 'Click on the picture.',
   'steer.route.help': 'Hold Shift and click the points of the route one after the other, then send it. Drag a point to move it.', 'steer.route.send': 'Go along it', 'steer.route.clear': 'Clear',
   'scenario': 'Scenario', 'scenario.restart': 'Start with these', 'scenario.live': 'Change now', 'scenario.save': 'Save as file', 'scenario.load': 'Load a file', 'scenario.copy': 'Copy command', 'scenario.copied': 'Copied',
-  'scenario.changed': '{n} changed', 'scenario.undo': 'Undo', 'scenario.ok': 'Ready', 'scenario.advanced': 'All settings', 'seed.new': 'Another seed', 'seed.now': 'seed {n}', 'scenario.anew': 'needs a new beginning', 'scenario.changed_now': 'changed',
+  'scenario.undo': 'Undo', 'scenario.advanced': 'All settings', 'seed.new': 'Another seed', 'seed.now': 'seed {n}', 'scenario.anew': 'needs a new beginning', 'scenario.changed_now': 'changed',
   'read.swarm': 'Swarm', 'read.spread': 'spread', 'read.goal': 'to the goal', 'read.responding': 'respond', 'read.currents': 'coils', 'read.coil': 'Coil',
   'run.as_seen': 'as the camera sees it (for analysis)', 'gallery.cancel': 'Cancel', 'scenario.needs_file': 'Save it first, as {file}.', 'form.range': 'from {low} to {high}', 'analyse.current': 'Currents, A',
   'layers': 'Show', 'layer.trails': 'Trails', 'layer.density': 'Density', 'layer.field': 'Field', 'layer.edge': 'Edge', 'layer.swarm': 'Swarm', 'layer.route': 'Goal', 'layer.camera': 'Camera picture', 'view.whole': 'Whole view',
@@ -25,9 +25,9 @@ const en = {
   'runs.title': 'Recorded runs', 'runs.none': 'There are none yet: press Record while a swarm swims.', 'runs.report': 'Report', 'runs.replay': 'Replay', 'runs.again': 'Start from it', 'runs.pin': 'Compare', 'runs.broken': 'not complete',
   'jobs': 'Work', 'jobs.none': 'Nothing to do.', 'jobs.cancel': 'Stop', 'job.waiting': 'waits', 'job.running': 'runs', 'job.done': 'done', 'job.failed': 'failed', 'job.cancelled': 'stopped', 'job.left': '{t} left', 'job.open': 'Open', 'job.close': 'Close', 'job.tab': 'In a tab of its own',
   'analyse.title': 'Analyse', 'analyse.activity': 'Activity of a video', 'analyse.compare': 'Compare two videos', 'analyse.identify': 'Identify a model, compare controllers', 'analyse.field': 'Map of a field', 'analyse.start': 'Start', 'analyse.direction': 'Direction of the field, degrees', 'analyse.video': 'Video or run', 'analyse.reference': 'Reference', 'analyse.study': 'Study', 'analyse.rig': 'Rig',
-  'form.number': 'must be a number', 'form.unit': 'needs a unit such as {unit}', 'form.whole': 'must be a whole number', 'form.least': 'must be at least {limit}', 'form.most': 'must be at most {limit}', 'form.default': 'usual: {value}', 'form.source': 'from: {source}', 'form.reset': 'Back to the usual value', 'form.add': 'Add', 'form.remove': 'Remove', 'form.none': 'none', 'form.pair': 'needs two numbers, x and y, on each line', 'form.type': 'type', 'form.preset': 'preset', 'form.no_preset': 'own values',
+  'form.number': 'must be a number', 'form.unit': 'needs a unit such as {unit}', 'form.whole': 'must be a whole number', 'form.least': 'must be at least {limit}', 'form.most': 'must be at most {limit}', 'form.source': 'from: {source}', 'form.reset': 'Back to the usual value', 'form.add': 'Add', 'form.remove': 'Remove', 'form.none': 'none', 'form.pair': 'needs two numbers, x and y, on each line', 'form.type': 'type', 'form.preset': 'preset', 'form.no_preset': 'own values',
   'view.label': 'The swarm as the microscope sees it',
-  'language': 'Language', 'theme': 'Light or dark', 'help': 'Keys',
+  'language': 'Language', 'theme': 'Light or dark', 
 } as const;
 
 export type Word = keyof typeof en;
@@ -36,7 +36,7 @@ const pt: Record<Word, string> = {
   'app.title': 'Faba, laboratório ao vivo',
   'tab.lab': 'Laboratório', 'tab.gallery': 'Galeria', 'tab.runs': 'Gravações', 'tab.analyse': 'Análise',
   'lost': 'A conexão caiu; tentando de novo.', 'refused': 'Esta página não tem mais a senha: abra o endereço que faba lab mostrou.', 'again': 'Tentar agora',
-  'steer.other': 'Outra página está no comando.', 'steer.take': 'Comandar daqui', 'steer.you': 'Você está no comando', 'pages': '{n} páginas',
+  'steer.other': 'Outra página está no comando.', 'steer.take': 'Comandar daqui', 'pages': '{n} páginas',
   'hint.1': 'Arraste sobre a imagem: o campo puxa o enxame.',
   'hint.2': 'Clique para dar um alvo ao controlador; com Shift, clique os pontos de uma rota.',
   'hint.3': 'O resto está no painel: mude enquanto roda. A barra de espaço pausa.',
@@ -47,7 +47,7 @@ const pt: Record<Word, string> = {
   'steer.hand.help': 'Arraste sobre a imagem, ou use as setas do teclado ou um gamepad.', 'steer.goal.help': 'Clique na imagem.',
   'steer.route.help': 'Com Shift, clique nos pontos da rota, um após o outro, e envie. Arraste um ponto para movê-lo.', 'steer.route.send': 'Seguir a rota', 'steer.route.clear': 'Apagar',
   'scenario': 'Cenário', 'scenario.restart': 'Começar com estes', 'scenario.live': 'Mudar agora', 'scenario.save': 'Salvar em arquivo', 'scenario.load': 'Abrir arquivo', 'scenario.copy': 'Copiar comando', 'scenario.copied': 'Copiado',
-  'scenario.changed': '{n} mudados', 'scenario.undo': 'Desfazer', 'scenario.ok': 'Pronto', 'scenario.advanced': 'Todos os ajustes', 'seed.new': 'Outra semente', 'seed.now': 'semente {n}', 'scenario.anew': 'precisa começar de novo', 'scenario.changed_now': 'mudado',
+  'scenario.undo': 'Desfazer', 'scenario.advanced': 'Todos os ajustes', 'seed.new': 'Outra semente', 'seed.now': 'semente {n}', 'scenario.anew': 'precisa começar de novo', 'scenario.changed_now': 'mudado',
   'read.swarm': 'Enxame', 'read.spread': 'dispersão', 'read.goal': 'até o alvo', 'read.responding': 'respondem', 'read.currents': 'bobinas', 'read.coil': 'Bobina',
   'run.as_seen': 'como a câmera vê (para análise)', 'gallery.cancel': 'Cancelar', 'scenario.needs_file': 'Salve antes, como {file}.', 'form.range': 'de {low} a {high}', 'analyse.current': 'Correntes, A',
   'layers': 'Mostrar', 'layer.trails': 'Rastros', 'layer.density': 'Densidade', 'layer.field': 'Campo', 'layer.edge': 'Borda', 'layer.swarm': 'Enxame', 'layer.route': 'Alvo', 'layer.camera': 'Imagem da câmera', 'view.whole': 'Ver tudo',
@@ -57,9 +57,9 @@ const pt: Record<Word, string> = {
   'runs.title': 'Gravações', 'runs.none': 'Ainda não há nenhuma: clique em Gravar enquanto um enxame nada.', 'runs.report': 'Relatório', 'runs.replay': 'Rever', 'runs.again': 'Começar daqui', 'runs.pin': 'Comparar', 'runs.broken': 'incompleta',
   'jobs': 'Tarefas', 'jobs.none': 'Nada a fazer.', 'jobs.cancel': 'Parar', 'job.waiting': 'espera', 'job.running': 'roda', 'job.done': 'pronta', 'job.failed': 'falhou', 'job.cancelled': 'parada', 'job.left': 'faltam {t}', 'job.open': 'Abrir', 'job.close': 'Fechar', 'job.tab': 'Em outra aba',
   'analyse.title': 'Análise', 'analyse.activity': 'Atividade de um vídeo', 'analyse.compare': 'Comparar dois vídeos', 'analyse.identify': 'Identificar um modelo, comparar controladores', 'analyse.field': 'Mapa de um campo', 'analyse.start': 'Começar', 'analyse.direction': 'Direção do campo, graus', 'analyse.video': 'Vídeo ou gravação', 'analyse.reference': 'Referência', 'analyse.study': 'Estudo', 'analyse.rig': 'Bobinas',
-  'form.number': 'precisa ser um número', 'form.unit': 'precisa de uma unidade como {unit}', 'form.whole': 'precisa ser um número inteiro', 'form.least': 'precisa ser no mínimo {limit}', 'form.most': 'precisa ser no máximo {limit}', 'form.default': 'usual: {value}', 'form.source': 'fonte: {source}', 'form.reset': 'Voltar ao valor usual', 'form.add': 'Acrescentar', 'form.remove': 'Remover', 'form.none': 'nenhum', 'form.pair': 'precisa de dois números, x e y, em cada linha', 'form.type': 'tipo', 'form.preset': 'predefinição', 'form.no_preset': 'valores próprios',
+  'form.number': 'precisa ser um número', 'form.unit': 'precisa de uma unidade como {unit}', 'form.whole': 'precisa ser um número inteiro', 'form.least': 'precisa ser no mínimo {limit}', 'form.most': 'precisa ser no máximo {limit}', 'form.source': 'fonte: {source}', 'form.reset': 'Voltar ao valor usual', 'form.add': 'Acrescentar', 'form.remove': 'Remover', 'form.none': 'nenhum', 'form.pair': 'precisa de dois números, x e y, em cada linha', 'form.type': 'tipo', 'form.preset': 'predefinição', 'form.no_preset': 'valores próprios',
   'view.label': 'O enxame como o microscópio o vê',
-  'language': 'Idioma', 'theme': 'Claro ou escuro', 'help': 'Teclas',
+  'language': 'Idioma', 'theme': 'Claro ou escuro', 
 };
 
 export type Language = 'en' | 'pt';

@@ -1,5 +1,6 @@
 // The JSON Schema that the program gives of a scenario, as forms need it.
 
+import type { Say } from '../i18n';
 import { parseQuantity, showQuantity } from '../quantity';
 
 export interface Schema {
@@ -20,6 +21,19 @@ export interface Schema {
   'x-source'?: string;
   'x-validity'?: string;
   'x-values'?: Record<string, Record<string, any>>;
+}
+
+/** What every piece of a form is given. */
+export interface Piece {
+  name: string;
+  schema: Schema;
+  /** As a scenario has it; undefined: the default. */
+  value: any;
+  say: Say;
+  onchange: (value: any) => void;
+  /** Counts what is wrong in the form. */
+  onwrong: (path: string, wrong: boolean) => void;
+  path: string;
 }
 
 export type Kind = 'flag' | 'choice' | 'number' | 'whole' | 'text' | 'vector' | 'numbers' | 'points' | 'tables' | 'part' | 'table';
