@@ -40,6 +40,10 @@ constexpr double kOpen = std::numeric_limits<double>::max();
 
 }  // namespace
 
+double in_si(const Json& written) {
+  return written.is_string() ? parse_quantity(written.get<std::string>()).value : written.get<double>();
+}
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const std::string* best = nullptr;
   // More than a third of the letters wrong is another word, not a slip.
@@ -142,6 +146,83 @@ Json type_json(const char* type, const FieldInfo& f, const Json& fallback) {
   if (numeric && f.max < kOpen) j["maximum"] = f.max;
   if (!fallback.is_null()) j["default"] = fallback;
   if (!f.source.empty()) j["x-source"] = f.source;
+  return j;
+}
+
+void Fields::add(std::string key, std::size_t at, const ValueType& type, FieldInfo info,
+                 const void* defaults) {
+  const Json fallback = type.dump(static_cast<const char*>(defaults) + at, info);
+  Json described = type.describe(info, fallback);
+  fields_.push_back({std::move(key), std::move(info), at, &type, std::move(described)});
+}
+
+void Fields::include(const Fields& other, std::size_t at) {
+  for (Field f : other.fields_) {
+    f.at += at;
+    fields_.push_back(std::move(f));
+  }
+  for (const Rule& rule : other.rules)
+    rules.emplace_back([rule, at](const void* p) { return rule(static_cast<const char*>(p) + at); });
+}
+
+const Fields::Field* Fields::find(const std::string& key) const {
+  const auto it = std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.key == key; });
+  return it == fields_.end() ? nullptr : &*it;
+}
+
+std::optional<std::size_t> Fields::chosen_preset(const Node& n) const {
+  if (!n.json->is_object()) n.fail("must be a table of parameters");
+  if (presets.empty() || !n.has("preset")) return {};
+  FieldInfo names;
+  for (const auto& preset : presets) names.choices.push_back(preset.first);
+  return read_choice(n.child("preset"), names);
+}
+
+void Fields::read(void* to, const Node& n, const std::vector<std::string>& extra) const {
+  for (const auto& [key, value] : n.json->items()) {
+    if (key == "preset" && !presets.empty()) continue;
+    if (std::find(extra.begin(), extra.end(), key) != extra.end()) continue;
+    const Field* f = find(key);
+    if (!f) {
+      std::vector<std::string> known = extra;
+      for (const Field& field : fields_) known.push_back(field.key);
+      if (!presets.empty()) known.emplace_back("preset");
+      throw Error(Errc::usage, n.where(key), "unknown key" + suggestion(key, known));
+    }
+    f->type->read(static_cast<char*>(to) + f->at, n.child(key), f->info);
+  }
+  for (const Rule& rule : rules)
+    if (const std::string wrong = rule(to); !wrong.empty()) n.fail(wrong);
+}
+
+Json Fields::to_json(const void* from) const {
+  Json j = Json::object();
+  for (const Field& f : fields_)
+    if (Json v = f.type->dump(static_cast<const char*>(from) + f.at, f.info); !v.is_null())
+      j[f.key] = std::move(v);
+  return j;
+}
+
+Json Fields::json_schema(const std::vector<const void*>& preset_values) const {
+  Json properties = Json::object();
+  for (const Field& f : fields_) properties[f.key] = f.json_schema;
+  Json j = {{"title", name}, {"description", summary}, {"type", "object"}, {"additionalProperties", false}};
+  if (!presets.empty()) {
+    Json names = Json::array();
+    Json sources = Json::object(), values = Json::object();
+    for (std::size_t i = 0; i < presets.size(); ++i) {
+      names.push_back(presets[i].first);
+      sources[presets[i].first] = presets[i].second;
+      values[presets[i].first] = to_json(preset_values[i]);
+    }
+    properties["preset"] = {{"type", "string"},
+                            {"enum", names},
+                            {"x-source", sources},
+                            {"x-values", values},
+                            {"description", "Named set of values; keys given beside it win over it"}};
+  }
+  if (!validity.empty()) j["x-validity"] = validity;
+  j["properties"] = properties;
   return j;
 }
 

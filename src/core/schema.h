@@ -128,15 +128,55 @@ Json describe(const FieldInfo& f, const Json& fallback) {
     return T::schema().json_schema();
   }
 }
+
+/// What one type of value is to a schema, whatever struct holds it.
+struct ValueType {
+  void (*read)(void* to, const Node& n, const FieldInfo& f);
+  Json (*dump)(const void* value, const FieldInfo& f);
+  Json (*describe)(const FieldInfo& f, const Json& fallback);
+};
+template <class T>
+inline constexpr ValueType kValueType = {
+    [](void* to, const Node& n, const FieldInfo& f) { *static_cast<T*>(to) = read<T>(n, f); },
+    [](const void* value, const FieldInfo& f) { return dump(*static_cast<const T*>(value), f); },
+    [](const FieldInfo& f, const Json& fallback) { return describe<T>(f, fallback); }};
+
+/// The fields of a struct whose type is forgotten: what Schema does is done here once for all structs, which
+/// is many times quicker to compile. A struct is the address of its first byte, a field lies `at` bytes on.
+class Fields {
+ public:
+  using Rule = std::function<std::string(const void*)>;
+
+  Fields(std::string n, std::string s) : name(std::move(n)), summary(std::move(s)) {}
+  void add(std::string key, std::size_t at, const ValueType& type, FieldInfo info, const void* defaults);
+  void include(const Fields& other, std::size_t at);
+  /// Number of the preset that a table names; none when it names none. Throws Error(usage).
+  std::optional<std::size_t> chosen_preset(const Node& n) const;
+  /// Throws Error(usage).
+  void read(void* to, const Node& n, const std::vector<std::string>& extra) const;
+  Json to_json(const void* from) const;
+  /// `preset_values`: of each preset, in their order.
+  Json json_schema(const std::vector<const void*>& preset_values) const;
+
+  std::string name, summary, validity;
+  std::vector<std::pair<std::string, std::string>> presets;  ///< name and source
+  std::vector<Rule> rules;
+
+ private:
+  struct Field {
+    std::string key;
+    FieldInfo info;
+    std::size_t at;
+    const ValueType* type;
+    Json json_schema;
+  };
+  const Field* find(const std::string& key) const;
+  std::vector<Field> fields_;
+};
 }  // namespace schema_detail
 
-/// One parameter as documentation, forms and bounds see it.
-struct FieldDescription {
-  std::string key;
-  FieldInfo info;
-  Json fallback;     ///< the default, as it would stand in a scenario
-  Json json_schema;  ///< JSON Schema of the value
-};
+/// A number, or a quantity with its unit as to_json() writes it, in SI.
+double in_si(const Json& written);
 
 /// "; did you mean "speed"?" when `word` is near one of `known`, else "".
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
@@ -148,141 +188,69 @@ template <class P>
 class Schema {
  public:
   /// `name` is what `type = "..."` says; `summary` one sentence.
-  Schema(std::string name, std::string summary) : name_(std::move(name)), summary_(std::move(summary)) {}
+  Schema(std::string name, std::string summary) : fields_(std::move(name), std::move(summary)) {}
 
   template <class T>
   Schema& add(std::string key, T P::*member, FieldInfo info) {
-    Field f;
-    const Json fallback = schema_detail::dump(P{}.*member, info);
-    f.description = {key, info, fallback, schema_detail::describe<T>(info, fallback)};
-    f.set = [member, info](P& p, const Node& n) { p.*member = schema_detail::read<T>(n, info); };
-    f.get = [member, info](const P& p) { return schema_detail::dump(p.*member, info); };
-    fields_.push_back(std::move(f));
+    fields_.add(std::move(key), place(member), schema_detail::kValueType<T>, std::move(info), &defaults_);
     return *this;
   }
   /// Takes over every field of a struct that P holds, as keys of the same table.
   template <class M>
   Schema& include(M P::*member, const Schema<M>& other) {
-    for (const auto& theirs : other.fields_) {
-      Field f;
-      f.description = theirs.description;
-      f.set = [member, set = theirs.set](P& p, const Node& n) { set(p.*member, n); };
-      f.get = [member, get = theirs.get](const P& p) { return get(p.*member); };
-      fields_.push_back(std::move(f));
-    }
-    for (const auto& rule : other.rules_)
-      rules_.push_back([member, rule](const P& p) { return rule(p.*member); });
+    fields_.include(other.fields_, place(member));
     return *this;
   }
   /// Named sets of defaults, chosen by the key `preset`; other keys given beside it win over it.
   Schema& preset(std::string preset_name, P values, std::string source) {
-    presets_.push_back({std::move(preset_name), std::move(values), std::move(source)});
+    fields_.presets.emplace_back(std::move(preset_name), std::move(source));
+    presets_.push_back(std::move(values));
     return *this;
   }
-  /// A check over several fields at once; returns what is wrong, or "".
-  Schema& check(std::function<std::string(const P&)> rule) {
-    rules_.push_back(std::move(rule));
+  /// A check over several fields at once, of a const P&; returns what is wrong, or "".
+  template <class Rule>
+  Schema& check(Rule rule) {
+    fields_.rules.emplace_back(
+        [rule = std::move(rule)](const void* p) -> std::string { return rule(*static_cast<const P*>(p)); });
     return *this;
   }
   /// Where the part is known to fail; shown by `faba parts` and the reference pages.
   Schema& validity(std::string text) {
-    validity_ = std::move(text);
+    fields_.validity = std::move(text);
     return *this;
   }
 
   /// Reads and checks; unknown keys are errors. `extra` are keys that somebody else reads from the same
   /// table. Throws Error(usage) naming file, line, path, reason and the nearest known key.
   P parse(const Node& n, const std::vector<std::string>& extra = {}) const {
-    if (!n.json->is_object()) n.fail("must be a table of parameters");
-    P p = start(n);
-    for (const auto& [key, value] : n.json->items()) {
-      if (key == "preset" && !presets_.empty()) continue;
-      if (std::find(extra.begin(), extra.end(), key) != extra.end()) continue;
-      const Field* f = find(key);
-      if (!f) throw Error(Errc::usage, n.where(key), "unknown key" + suggestion(key, known(extra)));
-      f->set(p, n.child(key));
-    }
-    for (const auto& rule : rules_)
-      if (const std::string wrong = rule(p); !wrong.empty()) n.fail(wrong);
+    const auto preset = fields_.chosen_preset(n);
+    P p = preset ? presets_[*preset] : defaults_;
+    fields_.read(&p, n, extra);
     return p;
   }
-
   /// Every parameter with its value, defaults included: reading it back gives the same P.
-  Json to_json(const P& p) const {
-    Json j = Json::object();
-    for (const auto& f : fields_)
-      if (Json v = f.get(p); !v.is_null()) j[f.description.key] = std::move(v);
-    return j;
-  }
-
+  Json to_json(const P& p) const { return fields_.to_json(&p); }
   Json json_schema() const {
-    Json props = Json::object();
-    for (const auto& f : fields_) props[f.description.key] = f.description.json_schema;
-    Json j = {
-        {"title", name_}, {"description", summary_}, {"type", "object"}, {"additionalProperties", false}};
-    if (!presets_.empty()) {
-      Json names = Json::array();
-      Json sources = Json::object(), values = Json::object();
-      for (const auto& p : presets_) {
-        names.push_back(p.name);
-        sources[p.name] = p.source;
-        values[p.name] = to_json(p.values);
-      }
-      props["preset"] = {{"type", "string"},
-                         {"enum", names},
-                         {"x-source", sources},
-                         {"x-values", values},
-                         {"description", "Named set of values; keys given beside it win over it"}};
-    }
-    if (!validity_.empty()) j["x-validity"] = validity_;
-    j["properties"] = props;
-    return j;
+    std::vector<const void*> values;
+    for (const P& p : presets_) values.push_back(&p);
+    return fields_.json_schema(values);
   }
-  const std::string& name() const { return name_; }
-  const std::string& summary() const { return summary_; }
+  const std::string& name() const { return fields_.name; }
+  const std::string& summary() const { return fields_.summary; }
   /// Empty when nothing is said.
-  const std::string& validity() const { return validity_; }
+  const std::string& validity() const { return fields_.validity; }
 
  private:
   template <class Other>
   friend class Schema;
-  struct Field {
-    FieldDescription description;
-    std::function<void(P&, const Node&)> set;
-    std::function<Json(const P&)> get;
-  };
-  struct Preset {
-    std::string name;
-    P values;
-    std::string source;
-  };
-  P start(const Node& n) const {
-    if (presets_.empty() || !n.has("preset")) return P{};
-    const Node chosen = n.child("preset");
-    std::vector<std::string> names;
-    for (const auto& p : presets_) {
-      if (*chosen.json == p.name) return p.values;
-      names.push_back(p.name);
-    }
-    FieldInfo f;
-    f.choices = names;
-    schema_detail::read_choice(chosen, f);  // throws, listing the names
-    return P{};
+  template <class T>
+  std::size_t place(T P::*member) const {
+    return std::size_t(reinterpret_cast<const char*>(&(defaults_.*member)) -
+                       reinterpret_cast<const char*>(&defaults_));
   }
-  const Field* find(const std::string& key) const {
-    for (const auto& f : fields_)
-      if (f.description.key == key) return &f;
-    return nullptr;
-  }
-  std::vector<std::string> known(std::vector<std::string> keys) const {
-    for (const auto& f : fields_) keys.push_back(f.description.key);
-    if (!presets_.empty()) keys.emplace_back("preset");
-    return keys;
-  }
-  std::string name_, summary_, validity_;
-  std::vector<Field> fields_;
-  std::vector<Preset> presets_;
-  std::vector<std::function<std::string(const P&)>> rules_;
+  schema_detail::Fields fields_;
+  P defaults_{};
+  std::vector<P> presets_;
 };
 
 }  // namespace faba

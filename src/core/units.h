@@ -6,6 +6,9 @@
 
 namespace faba {
 
+/// One degree in radians.
+inline constexpr double kDegree = 3.14159265358979323846 / 180;
+
 /// Exponents of metre, kilogram, second, ampere, kelvin, mole and pixel. Angles are dimensionless (radian).
 struct Dimension {
   std::array<std::int8_t, 7> exponent{};

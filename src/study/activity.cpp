@@ -7,12 +7,12 @@
 
 #include "app/parts.h"
 #include "core/toml.h"
+#include "core/units.h"
 #include "study/swarm_view.h"
 
 namespace faba {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr std::size_t kBlocks = 6;  // of a video, whose flow across the direction is taken for independent
 constexpr double kResponds = 4;     // standard errors
 constexpr double kSameRate = 0.01;

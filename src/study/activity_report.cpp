@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "core/toml.h"
+
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 template <class T>
 Json or_null(const std::optional<T>& v) {

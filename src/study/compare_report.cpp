@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/counted.h"
+#include "core/toml.h"
 #include "study/inline_picture.h"
 #include "study/markup.h"
 #include "study/plot.h"
@@ -13,8 +14,6 @@
 
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json score_of(const Comparison& c, double mean) {
   if (!c.floor || !(c.naive.mean > *c.floor)) return {};

@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "core/counted.h"
+#include "core/toml.h"
 #include "study/markup.h"
 #include "study/report_page.h"
 
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const MeanOverSeeds* metric(const Combination& c, const char* name) {
   const auto it = c.metrics.find(name);

@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kDraws = 1000;
+constexpr int kResamples = 1000;
 constexpr double kStep = 0.5;  // of derivatives, in sd of the posterior
 constexpr double kFlatPrior =
     1.0 / 12;  // variance of a uniform law: what holds a parameter that nothing tells
@@ -57,7 +57,7 @@ std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& se
     each.push_back(parabola_of(search.likelihood(columns), centre, kStep * sd));
   StudyRandom random(seed, 3);
   std::vector<std::vector<double>> estimates(static_cast<std::size_t>(d));
-  for (int k = 0; k < kDraws; ++k) {
+  for (int k = 0; k < kResamples; ++k) {
     VectorXd slope = VectorXd::Zero(d);
     MatrixXd curvature = MatrixXd::Identity(d, d) / kFlatPrior;
     for (std::size_t e = 0; e < each.size(); ++e) {

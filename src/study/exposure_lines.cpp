@@ -21,7 +21,7 @@ struct Trial {
   double criterion = 0;         ///< -2 log restricted likelihood, but for a constant
 };
 
-struct Group {
+struct Sums {
   double n = 0;
   Eigen::Vector2d sx = Eigen::Vector2d::Zero();  ///< sums over rows (1, x)
   Eigen::Matrix2d xx = Eigen::Matrix2d::Zero();
@@ -29,12 +29,12 @@ struct Group {
   double sy = 0, yy = 0;
 };
 
-Trial solve(const std::vector<Group>& groups, double ratio, double n) {
+Trial solve(const std::vector<Sums>& groups, double ratio, double n) {
   Trial t;
   t.information.setZero();
   Eigen::Vector2d xy = Eigen::Vector2d::Zero();
   double yy = 0, log_det = 0;
-  for (const Group& g : groups) {
+  for (const Sums& g : groups) {
     const double shared = ratio / (1 + g.n * ratio);  // V^-1 = 1 - shared 11'
     t.information += g.xx - shared * g.sx * g.sx.transpose();
     xy += g.xy - shared * g.sx * g.sy;
@@ -53,15 +53,15 @@ struct Centre {
   double x = 0, y = 0;
 };
 
-std::vector<Group> groups_of(std::span<const ExposureValue> values, Centre c) {
-  std::map<std::string, Group> by_name;
+std::vector<Sums> groups_of(std::span<const ExposureValue> values, Centre c) {
+  std::map<std::string, Sums> by_name;
   for (const ExposureValue& v : values) {
-    Group& g = by_name[v.experiment];
+    Sums& g = by_name[v.experiment];
     const Eigen::Vector2d row(1, v.exposure_s - c.x);
     const double y = v.value - c.y;
     g.n += 1, g.sx += row, g.xx += row * row.transpose(), g.xy += row * y, g.sy += y, g.yy += y * y;
   }
-  std::vector<Group> groups;
+  std::vector<Sums> groups;
   groups.reserve(by_name.size());
   for (auto& [name, g] : by_name) groups.push_back(g);
   return groups;
@@ -125,7 +125,7 @@ std::optional<ExposureLine> mixed_line(std::span<const ExposureValue> values) {
   if (line->values < line->experiments + 2) return {};
   Centre c;
   for (const ExposureValue& v : values) c.x += v.exposure_s / line->values, c.y += v.value / line->values;
-  const std::vector<Group> groups = groups_of(values, c);
+  const std::vector<Sums> groups = groups_of(values, c);
   const double n = line->values;
   // The criterion is smooth in the logarithm of the ratio: a walk over ten decades, then a golden section.
   const auto criterion = [&](double log_ratio) { return solve(groups, std::exp(log_ratio), n).criterion; };

@@ -91,21 +91,17 @@ struct Residuals : Eigen::DenseFunctor<double> {
   }
 };
 
-double number(const Json& j) {
-  return j.is_string() ? parse_quantity(j.get<std::string>()).value : j.get<double>();
-}
-
 // The rig with its coils as strong and where the measurement has them, and what no coil made as Earth's
 // field.
 void write_rig(const std::filesystem::path& file, Json rig, const Model::Meaning& m,
                const std::string& data) {
   for (Json& coil : rig["coil"]) {
-    coil["gain"] = number(coil["gain"]) * m.gain;
+    coil["gain"] = in_si(coil["gain"]) * m.gain;
     for (std::size_t k = 0; k < 3; ++k)
-      coil["position"][k] = format_quantity(number(coil["position"][k]) + m.shift[k], "m");
+      coil["position"][k] = format_quantity(in_si(coil["position"][k]) + m.shift[k], "m");
   }
   for (std::size_t k = 0; k < 3; ++k)
-    rig["earth"]["field"][k] = format_quantity(number(rig["earth"]["field"][k]) + m.offset[k], "T");
+    rig["earth"]["field"][k] = format_quantity(in_si(rig["earth"]["field"][k]) + m.offset[k], "T");
   rig.erase("type");
   write_file(file, "# Fitted to " + data + " with `faba field fit`.\n" + to_toml(rig));
 }

@@ -13,8 +13,6 @@
 namespace faba {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
 /// One way in which a rig may differ from its file, and how much of it is tried.
 struct Cause {
   const char *name, *words, *unit;
@@ -31,10 +29,7 @@ const std::vector<Cause>& causes() {
   return all;
 }
 
-double number(const Json& j) {
-  return j.is_string() ? parse_quantity(j.get<std::string>()).value : j.get<double>();
-}
-Vec3 vector(const Json& j) { return {number(j[0]), number(j[1]), number(j[2])}; }
+Vec3 vector(const Json& j) { return {in_si(j[0]), in_si(j[1]), in_si(j[2])}; }
 Json json(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
 /// The rig as its file says, and changed copies of it.
@@ -73,7 +68,7 @@ class Rigs {
         Json j = part_.resolved;
         Json& coil = j["coil"][k];
         const bool turns = coil.contains("turn");  // a map has no axis: its x stands for it
-        const double turn = turns ? number(coil["turn"]) : 0;
+        const double turn = turns ? in_si(coil["turn"]) : 0;
         const Vec3 raw = turns ? Vec3{std::cos(turn), std::sin(turn), 0} : vector(coil["axis"]);
         const Vec3 axis = (1 / norm(raw)) * raw;
         // Across its axis in the plane of the sample, which is where a zero can move to.

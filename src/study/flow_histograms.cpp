@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "core/units.h"
+
 namespace faba {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// Whether a flow counts, and whether it goes the way that is looked for.
 struct Gate {

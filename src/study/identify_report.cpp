@@ -1,9 +1,9 @@
 #include "study/identify_report.h"
 
+#include "core/toml.h"
+
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json parameter_json(const FoundParameter& p) {
   return {{"median", p.median},

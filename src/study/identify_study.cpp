@@ -155,7 +155,7 @@ Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyS
   const Node here = root.has("model") ? root.child("model").item(index) : root;
   if (c.model.extra.contains("drive")) {
     const Node n{c.model.extra["drive"], here.path + ".drive", root.document};
-    c.drive_t = schema_detail::read<double>(n, {.unit = "T", .min = 0, .max = 1});
+    c.drive_t = schema_detail::read_number(n, {.unit = "T", .min = 0, .max = 1});
   }
   const Parts parts = builtin_parts();
   if (!c.model.part.is_null()) (void)parts.model.resolve({c.model.part, here.path, root.document});

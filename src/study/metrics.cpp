@@ -11,13 +11,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/toml.h"
 #include "core/vec.h"
 #include "study/statistics.h"
 
 namespace faba {
 namespace {
 
-using Column = std::span<const double>;
+using Values = std::span<const double>;
 
 constexpr double kBandFraction = 0.05;
 constexpr double kBandFloorPx = 10;
@@ -33,13 +34,13 @@ struct Timed {
 };
 
 std::vector<Vec2> points(const Series& s, const char* x, const char* y) {
-  const Column xs = s.find(x), ys = s.find(y);
+  const Values xs = s.find(x), ys = s.find(y);
   std::vector<Vec2> out(std::min(xs.size(), ys.size()));
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = {xs[k], ys[k]};
   return out;
 }
 
-void check_times(const Series& s, Column t) {
+void check_times(const Series& s, Values t) {
   for (std::size_t k = 0; k < t.size(); ++k) {
     if (!std::isfinite(t[k])) throw Error(Errc::input, s.place(k), "t_s is missing");
     if (k > 0 && t[k] <= t[k - 1]) {
@@ -149,7 +150,7 @@ std::optional<double> first_fall(const std::vector<Timed>& leg, double level) {
   return std::nullopt;
 }
 
-void measure_error(Metrics& m, Column t, Column d, std::size_t first_leg_end) {
+void measure_error(Metrics& m, Values t, Values d, std::size_t first_leg_end) {
   std::vector<Timed> targeted, first_leg;
   for (std::size_t k = 0; k < d.size(); ++k) {
     if (!std::isfinite(d[k])) continue;
@@ -221,9 +222,9 @@ std::optional<double> way_length(const std::vector<Vec2>& at) {
   return sum;
 }
 
-void measure_command(Metrics& m, const Series& series, Column t) {
+void measure_command(Metrics& m, const Series& series, Values t) {
   for (std::size_t coil = 0;; ++coil) {
-    const Column current = series.find(fmt::format("current_{}_a", coil));
+    const Values current = series.find(fmt::format("current_{}_a", coil));
     if (current.empty()) break;
     double effort = m.control_effort_a2_s.value_or(0), variation = m.total_variation_a.value_or(0);
     for (std::size_t k = 0; k + 1 < t.size(); ++k) {
@@ -247,9 +248,9 @@ void measure_command(Metrics& m, const Series& series, Column t) {
 }  // namespace
 
 Metrics control_metrics(const Series& series) {
-  const Column t = series.column("t_s"), d = series.column("distance_px");
-  const Column sigma_x = series.column("sigma_x_px"), sigma_y = series.column("sigma_y_px");
-  const Column radius = series.column("rms_radius_px");
+  const Values t = series.column("t_s"), d = series.column("distance_px");
+  const Values sigma_x = series.column("sigma_x_px"), sigma_y = series.column("sigma_y_px");
+  const Values radius = series.column("rms_radius_px");
   static_cast<void>(series.column("centroid_x_px"));
   static_cast<void>(series.column("centroid_y_px"));
   check_times(series, t);
@@ -276,7 +277,6 @@ Metrics control_metrics(const Series& series) {
 }
 
 nlohmann::ordered_json metrics_json(const Metrics& m) {
-  using Json = nlohmann::ordered_json;
   const auto value = [](const std::optional<double>& v) {
     return v && std::isfinite(*v) ? Json(*v) : Json();
   };

@@ -9,11 +9,10 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/toml.h"
 
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // JSON has no word for what is no number.
 std::string line_of(const std::string& key, const std::vector<double>& values) {

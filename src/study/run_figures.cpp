@@ -61,7 +61,7 @@ Setpoints setpoints_of(const Series& series) {
 }
 
 constexpr double kShortApproach = 0.1;  // of the run; a shorter one is shown by itself as well
-constexpr std::size_t kFewSetpoints =
+constexpr std::size_t kMostMarks =
     12;  // more than that is a moving target, and marks for each would cover the plot
 
 double first_targeted_time(const Series& series) {
@@ -81,7 +81,7 @@ Figure distance_figure(const Series& series, const Metrics& m, const RunInfo& in
   const double band = m.settling_band_px.value_or(0);
   plot.add(Band{0, band, fmt::format("settling band, {} px", three_digits(band)), false, Ink::green});
   const Setpoints setpoints = setpoints_of(series);
-  if (setpoints.t.size() > 1 && setpoints.t.size() <= kFewSetpoints) {
+  if (setpoints.t.size() > 1 && setpoints.t.size() <= kMostMarks) {
     for (std::size_t i = 1; i < setpoints.t.size(); ++i) plot.add(Rule{setpoints.t[i]});
     figure.caption += " Grey lines: the setpoint changes.";
   }
@@ -181,7 +181,7 @@ Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) 
   plot.add(Line{values(x), values(y), "centroid", Ink::blue});
   plot.add(Scatter{{x.front()}, {y.front()}, "start", Ink::blue, Scatter::Mark::ring, 9});
   plot.add(Scatter{{x.back()}, {y.back()}, "end", Ink::blue, Scatter::Mark::dot, 8});
-  if (!setpoints.x.empty() && setpoints.x.size() <= kFewSetpoints) {
+  if (!setpoints.x.empty() && setpoints.x.size() <= kMostMarks) {
     plot.add(Scatter{setpoints.x, setpoints.y, "setpoint", Ink::purple, Scatter::Mark::cross, 13});
   }
   return figure;

@@ -7,11 +7,10 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/toml.h"
 
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// An object of the manifest that knows its own name, so that a message can say which key is wrong.
 class Keys {

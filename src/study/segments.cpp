@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/units.h"
+
 namespace faba {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kWindow = 0.4, kShortest = 0.5, kGap = 0.3;  // s
 constexpr double kOneWay = 0.5, kOfMost = 1.0 / 7, kTurn = 60;
 constexpr double kRayleigh = 6.9;  // n R^2 that chance exceeds once in a thousand: exp(-n R^2)

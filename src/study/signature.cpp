@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
+
 namespace faba {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSectorDeg = 360.0 / DirectionSums::kSectors;
 constexpr int kInCone = 90 * DirectionSums::kSectors / 360;
 constexpr std::uint64_t kSamples = 48;

@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/toml.h"
+
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Two-sided 95 % of Student's t with 19 degrees of freedom: 20 groups in the jackknife.
 constexpr double kNineteenOfTwenty = 2.093;

@@ -7,14 +7,13 @@
 
 #include "core/counted.h"
 #include "core/file.h"
+#include "core/toml.h"
 #include "study/inline_picture.h"
 #include "study/markup.h"
 #include "study/report_page.h"
 
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // "12.3 ± 0.4 µm/s", in um where the report has it.
 std::string value_of(const Json& from, const std::string& name, const char* px, const char* um,

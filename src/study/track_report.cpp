@@ -11,6 +11,7 @@
 #include "core/counted.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/toml.h"
 #include "study/run_video.h"
 #include "study/swarm_output.h"
 #include "study/track_figures.h"
@@ -26,8 +27,6 @@
 
 namespace faba {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kTail = 30;     // places behind each cell in the overlay
 constexpr double kRing = 5;           // px between a cell and the ring around it
