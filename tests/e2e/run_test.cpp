@@ -122,7 +122,7 @@ TEST_CASE("Ctrl-C: exit 130, what was recorded is readable, resume ends with the
 TEST_CASE("kill -9 at any moment: resume ends with the same hash and the same series") {
   const TestFolder f;
   write_file(f.path / "s.toml",
-             "duration = '150 s'\nexclusion = { order = 'none' }\n[[swarm]]\ncount = 4000\nmodel = 'basic'\n"
+             "duration = '75 s'\nexclusion = { order = 'none' }\n[[swarm]]\ncount = 4000\nmodel = 'basic'\n"
              "[record]\nvideo_every = 30\ntracks_every = 50\ncheckpoint = '0.1 s'\n");
   const auto whole = faba_in(f.path, "run s.toml --seed 1 --out whole --json").json();
   for (int kill = 1; kill <= 6; ++kill) {
