@@ -1,4 +1,5 @@
-"""Fails when a file includes a folder that its layer may not see (the dependency rule of ARCHITECTURE.md)."""
+"""Fails when a file includes a folder that its layer may not see (the dependency rule of ARCHITECTURE.md), or when two
+headers give different types one name, which no compiler notices and the linker makes one of."""
 
 import pathlib
 import re
@@ -34,7 +35,7 @@ HOME = {
 
 def main(root):
     bad = 0
-    internal, headers, includes = set(), {}, []
+    internal, headers, includes, types = set(), {}, [], {}
     for file in sorted(root.rglob("*.[hc]*")):
         here = file.relative_to(root).parts[0]
         if here not in MAY:
@@ -42,6 +43,10 @@ def main(root):
             bad = 1
             continue
         for number, line in enumerate(file.read_text().splitlines(), 1):
+            defined = re.match(r"(?:struct|class|enum class) (\w+)[^;]*$", line) if file.suffix == ".h" else None
+            if defined and types.setdefault(defined[1], file) != file:
+                print(f"{file}:{number}: {defined[1]} is the name of another type in {types[defined[1]]}")
+                bad = 1
             own = re.match(r'\s*#\s*include "(\w+)/', line)
             if own:
                 name = line.split('"')[1]

@@ -23,7 +23,7 @@ constexpr double kDigit = 7.5;  // advance of a digit in a wide font: tick label
 constexpr double kLeastLength = 1e-200;  // well away from the numbers that lose their digits
 
 /// The range of an axis: as asked for, else the data's with a margin, and never without length.
-Range settled(Range data, const Axis& axis, double margin) {
+Range settled(Range data, const PlotAxis& axis, double margin) {
   if (data.empty()) data = {0, 1};
   Range r{axis.lo.value_or(data.lo), axis.hi.value_or(data.hi)};
   const double pad = margin * std::max(0.0, r.length());
@@ -120,7 +120,7 @@ Scale decades_of(Range r, int wanted, const std::string& label) {
   return scale;
 }
 
-Scale scale_along(const Axis& axis, Range r, int wanted) {
+Scale scale_along(const PlotAxis& axis, Range r, int wanted) {
   return axis.logarithmic ? decades_of(r, wanted, axis.label) : scale_of(r, wanted, axis.label);
 }
 
@@ -129,7 +129,7 @@ double logarithm(double v) { return v > 0 ? std::log10(v) : std::numeric_limits<
 // The same figure with the values of its logarithmic axes taken to logarithms; the axes keep their flag.
 Plot in_logarithms(Plot plot) {
   const auto all = [](std::vector<double>& v) { std::transform(v.begin(), v.end(), v.begin(), logarithm); };
-  const auto axis = [](Axis& a) {
+  const auto axis = [](PlotAxis& a) {
     if (!a.logarithmic) return;
     if (a.lo) a.lo = logarithm(*a.lo);
     if (a.hi) a.hi = logarithm(*a.hi);
@@ -158,7 +158,7 @@ Plot in_logarithms(Plot plot) {
   return plot;
 }
 
-std::string turned(Spot p, const std::string& words) {
+std::string turned(PlotPoint p, const std::string& words) {
   const std::string turn = fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})")svg", p.x, p.y);
   return text_at(p, "middle", shade(Ink::text), words, turn.c_str());
 }

@@ -72,7 +72,7 @@ struct Box {
   bool dashed = false;
 };
 
-struct Axis {
+struct PlotAxis {
   std::string label = {};        ///< quantity and unit: "time (s)"
   std::optional<double> lo, hi;  ///< ends of the range; from the data when empty; must be finite
   bool reversed = false;         ///< small values at the right or on top, as the rows of a picture
@@ -95,7 +95,7 @@ struct Plot {
 
   std::string title = {};        ///< drawn on top; may be empty
   std::string description = {};  ///< read out by screen readers instead of the picture; the title when empty
-  Axis x = {}, y = {};
+  PlotAxis x = {}, y = {};
   std::optional<SecondScale> right = {};
   bool equal_aspect = false;  ///< one unit is as long in x as in y; the height follows from the ranges
   double width = 460;         ///< of the drawing, in its own units; text is 12 of them high

@@ -56,12 +56,13 @@ double letters(std::string_view text) {
 double Map::to_x(double v) const { return place((v - x.lo) / x.length(), flip_x, w); }
 double Map::to_y(double v) const { return place((v - y.lo) / y.length(), !flip_y, h); }
 
-std::string text_at(Spot p, const char* anchor, const Shade& s, std::string_view words, const char* more) {
+std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view words,
+                    const char* more) {
   return fmt::format(R"(<text {} x="{:.1f}" y="{:.1f}" text-anchor="{}"{}>{}</text>)", fill(s), p.x, p.y,
                      anchor, more, escape_markup(words));
 }
 
-std::string rectangle(const std::string& look, Spot a, Spot b) {
+std::string rectangle(const std::string& look, PlotPoint a, PlotPoint b) {
   return fmt::format(R"(<rect {} x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", look,
                      std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y));
 }
@@ -94,8 +95,8 @@ void extent(const Box& b, Range& x, Range& y) {
 }
 
 /// First, lowest, highest and last point of every pixel column, in the order of the curve.
-std::vector<Spot> thinned_by_column(const std::vector<Spot>& all) {
-  std::vector<Spot> kept;
+std::vector<PlotPoint> thinned_by_column(const std::vector<PlotPoint>& all) {
+  std::vector<PlotPoint> kept;
   for (std::size_t first = 0; first < all.size();) {
     std::size_t end = first + 1, lowest = first, highest = first;
     for (; end < all.size() && std::floor(all[end].x) == std::floor(all[first].x); ++end) {
@@ -111,26 +112,26 @@ std::vector<Spot> thinned_by_column(const std::vector<Spot>& all) {
 }
 
 /// A curve that turns back: drops what is nearer than half a unit to the point kept before.
-std::vector<Spot> thinned_by_distance(const std::vector<Spot>& all) {
-  std::vector<Spot> kept{all.front()};
-  for (const Spot& p : all) {
+std::vector<PlotPoint> thinned_by_distance(const std::vector<PlotPoint>& all) {
+  std::vector<PlotPoint> kept{all.front()};
+  for (const PlotPoint& p : all) {
     if (std::hypot(p.x - kept.back().x, p.y - kept.back().y) >= 0.5) kept.push_back(p);
   }
   return kept;
 }
 
 /// Drops what lies left or right of a drawing area `w` wide, but for the neighbours that a line runs to.
-void crop(std::vector<Spot>& forward, double w) {
-  const auto left_of = [](double edge) { return [edge](const Spot& p) { return p.x < edge; }; };
+void crop(std::vector<PlotPoint>& forward, double w) {
+  const auto left_of = [](double edge) { return [edge](const PlotPoint& p) { return p.x < edge; }; };
   const auto end = std::partition_point(forward.begin(), forward.end(), left_of(w));
   if (end != forward.end()) forward.erase(end + 1, forward.end());
   const auto begin = std::partition_point(forward.begin(), forward.end(), left_of(0));
   if (begin != forward.begin()) forward.erase(forward.begin(), begin - 1);
 }
 
-void append_stretch(std::string& path, std::vector<Spot>& stretch, const Line& line, const Map& map) {
+void append_stretch(std::string& path, std::vector<PlotPoint>& stretch, const Line& line, const Map& map) {
   if (stretch.empty()) return;
-  const auto back = [](Spot a, Spot b) { return b.x < a.x; };
+  const auto back = [](PlotPoint a, PlotPoint b) { return b.x < a.x; };
   const bool forward = std::adjacent_find(stretch.begin(), stretch.end(), back) == stretch.end();
   if (forward) crop(stretch, map.w);
   if (double(stretch.size()) > 4 * map.w) {
@@ -152,7 +153,7 @@ std::string dashes(bool dashed) { return dashed ? R"( stroke-dasharray="6 5")" :
 
 std::string draw(const Line& line, Ink ink, const Map& map) {
   std::string path;
-  std::vector<Spot> stretch;
+  std::vector<PlotPoint> stretch;
   for (std::size_t i = 0; i < std::min(line.x.size(), line.y.size()); ++i) {
     if (std::isfinite(line.x[i]) && std::isfinite(line.y[i])) {
       stretch.push_back({map.to_x(line.x[i]), map.to_y(line.y[i])});
@@ -167,7 +168,7 @@ std::string draw(const Line& line, Ink ink, const Map& map) {
 }
 
 /// One mark as path data; dots are strokes of no length with round caps.
-std::string mark_at(const Scatter& s, Spot p) {
+std::string mark_at(const Scatter& s, PlotPoint p) {
   const double r = s.size / 2;
   switch (s.mark) {
     case Scatter::Mark::ring:
@@ -231,8 +232,8 @@ std::string draw(const Rule& r, Ink ink, const Map& map) {
       stroke(shade(ink)), r.of_x ? at : 0, r.of_x ? 0 : at, r.of_x ? 'V' : 'H', r.of_x ? map.h : map.w);
   if (r.label.empty()) return out;
   const bool leftwards = r.of_x && at + 6 + kTextWidth * letters(r.label) > map.w;
-  const Spot spot =
-      r.of_x ? Spot{leftwards ? at - 5 : at + 5, 14} : Spot{map.w - 4, at < 20 ? at + 14 : at - 5};
+  const PlotPoint spot =
+      r.of_x ? PlotPoint{leftwards ? at - 5 : at + 5, 14} : PlotPoint{map.w - 4, at < 20 ? at + 14 : at - 5};
   const char* halo = leftwards || !r.of_x ? "end" : "start";
   out += fmt::format(R"(<g class="s-paper" stroke="{}" stroke-width="4" paint-order="stroke">{}</g>)",
                      kPaper.light, text_at(spot, halo, shade(ink), r.label));
@@ -241,7 +242,7 @@ std::string draw(const Rule& r, Ink ink, const Map& map) {
 
 std::string draw(const Ellipse& e, Ink ink, const Map& map) {
   if (!std::isfinite(e.x + e.y + e.radius_x + e.radius_y)) return {};
-  const Spot c{map.to_x(e.x), map.to_y(e.y)};
+  const PlotPoint c{map.to_x(e.x), map.to_y(e.y)};
   const double rx = std::abs(e.radius_x) * map.w / map.x.length(),
                ry = std::abs(e.radius_y) * map.h / map.y.length();
   return fmt::format(R"(<ellipse {} stroke-width="1.5"{} cx="{:.1f}" cy="{:.1f}" rx="{:.1f}" ry="{:.1f}"/>)",

@@ -28,7 +28,7 @@ inline constexpr double kText = 12, kTextWidth = 6.6;
 double letters(std::string_view text);
 
 /// A place in the figure: x right, y down.
-struct Spot {
+struct PlotPoint {
   double x, y;
 };
 
@@ -56,10 +56,10 @@ struct Map {
 };
 
 /// A <text> element; `anchor` is start, middle or end, `more` further attributes.
-std::string text_at(Spot p, const char* anchor, const Shade& s, std::string_view words,
+std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view words,
                     const char* more = "");
 /// A <rect> element between two opposite corners.
-std::string rectangle(const std::string& look, Spot a, Spot b);
+std::string rectangle(const std::string& look, PlotPoint a, PlotPoint b);
 
 /// What a layer needs of the axes, its drawing, and its sign in the legend around (0, 0) (empty: it has
 /// none).

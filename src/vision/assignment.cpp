@@ -31,7 +31,7 @@ class Parts {
   std::vector<int> parent_;
 };
 
-void match(const std::vector<Candidate>& part, int rows, std::vector<int>& of_row) {
+void match(const std::vector<PossiblePair>& part, int rows, std::vector<int>& of_row) {
   using Graph = lemon::SmartGraph;
   Graph graph;
   std::unordered_map<int, Graph::Node> nodes;
@@ -40,7 +40,7 @@ void match(const std::vector<Candidate>& part, int rows, std::vector<int>& of_ro
     return at != nodes.end() ? at->second : nodes.emplace(i, graph.addNode()).first->second;
   };
   std::vector<Graph::Edge> edges;
-  for (const Candidate& c : part) {
+  for (const PossiblePair& c : part) {
     const Graph::Node a = node(c.row), b = node(rows + c.column);
     edges.push_back(graph.addEdge(a, b));
   }
@@ -54,13 +54,13 @@ void match(const std::vector<Candidate>& part, int rows, std::vector<int>& of_ro
 
 }  // namespace
 
-std::vector<int> best_assignment(int rows, int columns, const std::vector<Candidate>& candidates) {
+std::vector<int> best_assignment(int rows, int columns, const std::vector<PossiblePair>& candidates) {
   std::vector<int> of_row(std::size_t(rows), -1);
   Parts parts(rows + columns);
-  for (const Candidate& c : candidates) parts.join(c.row, rows + c.column);
-  std::vector<std::vector<Candidate>> by_part;
+  for (const PossiblePair& c : candidates) parts.join(c.row, rows + c.column);
+  std::vector<std::vector<PossiblePair>> by_part;
   std::vector<int> part_of(std::size_t(rows + columns), -1);
-  for (const Candidate& c : candidates) {
+  for (const PossiblePair& c : candidates) {
     int& part = part_of[std::size_t(parts.root(c.row))];
     if (part < 0) part = int(by_part.size()), by_part.emplace_back();
     by_part[std::size_t(part)].push_back(c);

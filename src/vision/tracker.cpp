@@ -104,7 +104,7 @@ Tracker::Forecast Tracker::forecast(const Live& l, double t_s) const {
 // Second round: what is left over may be as far as it can get from where it was.
 void Tracker::assign(double t_s, const std::vector<Spot>& spots, bool second, std::vector<int>& of_track,
                      std::vector<bool>& taken) const {
-  std::vector<Candidate> candidates;
+  std::vector<PossiblePair> candidates;
   const double widest = options_.reach_px * options_.reach_px / (kGate * kGate);
   for (std::size_t i = 0; i < live_.size(); ++i) {
     if (of_track[i] >= 0) continue;

@@ -196,7 +196,8 @@ TEST_CASE("a stop is heeded within a frame of very many steps, and twice the sam
              "= 1e-8 }\n");
   write_file(f.path / "stop.sh",
              std::string("'") + FABA_PROGRAM +
-                 "' run slow.toml --seed 1 --out slow --duration '0.1 s' 2> err &\np=$!\nsleep 1\n"
+                 "' run slow.toml --seed 1 --out slow --duration '0.1 s' 2> err &\np=$!\n"
+                 "until grep -q 'steps per frame' err || ! kill -0 $p; do sleep 0.1; done; sleep 0.5\n"
                  "kill -TERM $p\nkill -TERM $p\nwait $p\n");
   const auto began = std::chrono::steady_clock::now();
   const int status = std::system(("cd '" + f.path.string() + "' && sh stop.sh").c_str());

@@ -5,7 +5,6 @@
 
 #include <fstream>
 #include <future>
-#include <regex>
 #include <thread>
 
 #include "core/error.h"
@@ -35,10 +34,12 @@ class Served {
     LabOptions o;
     o.workspace = folder_.path(), o.program = FABA_PROGRAM, o.threads = 1, o.stop = &stop_;
     o.ready = [&](const std::string& address, const fs::path& door) {
-      static const std::regex parts("http://127\\.0\\.0\\.1:(\\d+)/\\?token=([0-9a-f]+)");
-      std::smatch m;
-      if (std::regex_match(address, m, parts))
-        port = static_cast<unsigned short>(std::stoi(m[1])), token = m[2];
+      const std::string before = "http://127.0.0.1:", between = "/?token=";
+      const std::size_t at = address.find(between);
+      if (address.starts_with(before) && at != std::string::npos) {
+        port = static_cast<unsigned short>(std::stoi(address.substr(before.size(), at - before.size())));
+        token = address.substr(at + between.size());
+      }
       door_mode = fs::status(door).permissions();
       folder_mode = fs::status(door.parent_path()).permissions();
       ready.set_value();

@@ -26,10 +26,10 @@ std::vector<Track> track_all(Tracker& t, const std::vector<std::vector<Spot>>& f
 }
 
 // The best sum of gains by trying everything.
-double best_by_trial(int row, int rows, std::vector<bool>& used, const std::vector<Candidate>& all) {
+double best_by_trial(int row, int rows, std::vector<bool>& used, const std::vector<PossiblePair>& all) {
   if (row == rows) return 0;
   double best = best_by_trial(row + 1, rows, used, all);
-  for (const Candidate& c : all)
+  for (const PossiblePair& c : all)
     if (c.row == row && !used[std::size_t(c.column)]) {
       used[std::size_t(c.column)] = true;
       best = std::max(best, c.gain + best_by_trial(row + 1, rows, used, all));
@@ -44,7 +44,7 @@ TEST_CASE("the assignment is the best there is") {
   cells::Dice dice(3);
   for (int trial = 0; trial < 200; ++trial) {
     const int rows = 1 + int(dice.uniform() * 6), columns = 1 + int(dice.uniform() * 6);
-    std::vector<Candidate> all;
+    std::vector<PossiblePair> all;
     for (int r = 0; r < rows; ++r)
       for (int c = 0; c < columns; ++c)
         if (dice.uniform() < 0.6) all.push_back({r, c, 0.01 + 10 * dice.uniform()});
@@ -52,7 +52,7 @@ TEST_CASE("the assignment is the best there is") {
     double sum = 0;
     std::vector<int> taken(std::size_t(columns), 0);
     for (int r = 0; r < rows; ++r)
-      for (const Candidate& c : all)
+      for (const PossiblePair& c : all)
         if (c.row == r && of_row[std::size_t(r)] == c.column) sum += c.gain, ++taken[std::size_t(c.column)];
     for (const int n : taken) CHECK(n <= 1);
     std::vector<bool> used(std::size_t(columns), false);

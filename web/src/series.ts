@@ -36,6 +36,17 @@ export class Series {
     const i = this.names.indexOf(name);
     return i < 0 || !this.length ? NaN : this.columns[i][this.length - 1];
   }
+  /** The last row that is not after `t` s; -1 before the first. */
+  rowAt(t: number): number {
+    const times = this.of('t_s');
+    let low = 0, high = this.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (times[middle] <= t + 1e-9) low = middle + 1;
+      else high = middle;
+    }
+    return low - 1;
+  }
   csv(): string {
     const lines = [this.names.join(',')];
     for (let r = 0; r < this.length; ++r) lines.push(this.columns.map((c) => (Number.isFinite(c[r]) ? String(c[r]) : '')).join(','));

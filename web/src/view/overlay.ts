@@ -27,6 +27,14 @@ export interface Marks {
   /** Being drawn by hand, px. */
   sketch: [number, number][];
 }
+/** The marks of one row of a run's series; `of` gives a column's value there. */
+export function recordedMarks(of: (name: string) => number): Pick<Marks, 'centroid' | 'sigma' | 'setpoint'> {
+  const pair = (name: string): [number, number] | null => {
+    const x = of(name.replace('*', 'x')), y = of(name.replace('*', 'y'));
+    return Number.isFinite(x) && Number.isFinite(y) ? [x, y] : null;
+  };
+  return { centroid: pair('centroid_*_px'), sigma: pair('sigma_*_px'), setpoint: pair('setpoint_*_px') };
+}
 export interface Palette {
   edge: string;
   outside: string;
