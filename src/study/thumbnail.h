@@ -6,8 +6,7 @@
 namespace faba {
 
 /// Writes a PNG of how a scene looks a little after its beginning, as a recorded video would draw it. Takes a
-/// moment: large swarms have fewer cells in it. Throws
-/// Error(usage) when its parts do not fit together.
+/// moment; large swarms have fewer cells in it. Throws Error(usage) when its parts do not fit together.
 void write_scene_thumbnail(Scenario s, const std::filesystem::path& png);
 
 /// Writes a PNG of a recorded run: a frame from the first seconds of its video, or of its scene when it kept

@@ -66,8 +66,13 @@ export class Series {
   }
 }
 
-/** A file series.csv, for comparison. */
-export function parseCsv(text: string): Series {
+/** The series of a recorded run; null when there is none. */
+export async function recordedSeries(run: string): Promise<Series | null> {
+  const r = await fetch(`/api/runs/${encodeURIComponent(run)}/series.csv`).catch(() => null);
+  return r?.ok ? parseCsv(await r.text()) : null;
+}
+
+function parseCsv(text: string): Series {
   const [head, ...lines] = text.trim().split('\n');
   const s = new Series();
   const names = head.split(',');

@@ -29,11 +29,8 @@ export interface Marks {
 }
 /** The marks of one row of a run's series; `of` gives a column's value there. */
 export function recordedMarks(of: (name: string) => number): Pick<Marks, 'centroid' | 'sigma' | 'setpoint'> {
-  const pair = (name: string): [number, number] | null => {
-    const x = of(name.replace('*', 'x')), y = of(name.replace('*', 'y'));
-    return Number.isFinite(x) && Number.isFinite(y) ? [x, y] : null;
-  };
-  return { centroid: pair('centroid_*_px'), sigma: pair('sigma_*_px'), setpoint: pair('setpoint_*_px') };
+  const pair = (x: string, y: string): [number, number] | null => (Number.isFinite(of(x)) && Number.isFinite(of(y)) ? [of(x), of(y)] : null);
+  return { centroid: pair('centroid_x_px', 'centroid_y_px'), sigma: pair('sigma_x_px', 'sigma_y_px'), setpoint: pair('setpoint_x_px', 'setpoint_y_px') };
 }
 export interface Palette {
   edge: string;
