@@ -16,10 +16,11 @@ MAY = {
     "study": "core field vision sim control rig app",
     "server": "core app study",
     "cli": "core app study server",
+    "guard": "core rig",
 }
 # A third-party library has one home.
 HOME = {
-    "opencv2/": {"vision"},
+    "opencv2/": {"vision", "rig"},
     "libav": {"vision"},
     "libsw": {"vision"},
     "tiff": {"vision"},

@@ -29,6 +29,8 @@ WHERE = {
     "reference": ("[reference]", 'type = "%s"', "[reference]"),
     "controller": ("[controller]", 'type = "%s"', "[controller]"),
     "flow": ("[flow]", 'type = "%s"', "[flow]"),
+    "camera": ("[rig.camera]", 'type = "%s"', "[rig.camera]"),
+    "driver": ("[rig.driver]", 'type = "%s"', "[rig.driver]"),
 }
 SECTIONS = ("scale", "camera", "microscope", "simulation", "exclusion", "limits", "library", "record")
 STUDIES = ("identify", "compare-controllers", "activity")
@@ -167,6 +169,9 @@ def scenario_page(schema, labels):
     for name in SECTIONS:
         section = schema["properties"][name]
         text += f"\n## {name}\n\n`[{name}]`: {section['description']}.\n\n" + table(section["properties"], labels)
+    rig = schema["properties"]["rig"]
+    keys = {k: f for k, f in rig["properties"].items() if "oneOf" not in f}
+    text += f"\n## rig\n\n`[rig]`: {rig['description']}. Beside these keys it has a [camera](camera.md) and a [driver](driver.md).\n\n" + table(keys, labels)
     event = schema["properties"]["event"]["items"]
     keys = {k: f for k, f in event["properties"].items() if "oneOf" not in f}
     text += f"\n## event\n\n`[[event]]`: {event['description']}. Beside these keys it names what is exchanged: `model`,\n"
@@ -185,12 +190,12 @@ def study_page(program, labels):
 def pages(program, root):
     """File name in docs/reference/ -> what should stand in it."""
     parts, schema, labels = ask(program, "parts", "--json"), ask(program, "schema"), theory_labels(root)
-    swarm = schema["properties"]["swarm"]["items"]["properties"]
+    swarm, rig = schema["properties"]["swarm"]["items"]["properties"], schema["properties"]["rig"]["properties"]
     out, rows = {}, ""
     for kind, found in parts.items():
         if kind not in WHERE:
             sys.exit(f"make_docs: the kind {kind} has no place in WHERE of tools/make_docs.py")
-        doc = (swarm if kind in swarm else schema["properties"])[kind]["description"]
+        doc = next(p for p in (swarm, rig, schema["properties"]) if kind in p)[kind]["description"]
         out[f"{kind}.md"] = part_page(kind, doc, found, labels)
         names = ", ".join(f"[`{n}`]({kind}.md#{n})" for n in found)
         rows += f"| [{kind}]({kind}.md) | {doc.split(':')[0]} | {names} |\n"

@@ -48,6 +48,7 @@ void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on) {
     const Estimate estimate = loop.estimator->update(seen, loop.last);
     const Target target = loop.reference->update(estimate);
     Command command = loop.controller->update(estimate, target, dt);
+    if (seen.rested) loop.limits.rested();
     const bool limited = loop.limits.apply(command, dt, seen.age);
     loop.rig.write(command);
     loop.last = command;

@@ -23,6 +23,8 @@ class Limits {
   /// Clips to the current and slew limits; not-a-number becomes zero; all zero when the frame is older than
   /// allowed. Returns whether anything was changed.
   bool apply(Command& c, double dt, double frame_age);
+  /// The coils had no current for a while: changes are reckoned from there.
+  void rested() { last_.assign(last_.size(), 0.0); }
   void archive(Archive& a) { a& last_; }
 
  private:

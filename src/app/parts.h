@@ -1,5 +1,7 @@
 #pragma once
 #include "control/controller.h"
+#include "rig/camera.h"
+#include "rig/guard_setup.h"
 #include "sim/motility.h"
 #include "sim/start.h"
 #include "vision/flow.h"
@@ -17,6 +19,8 @@ struct Parts {
   ReferenceRegistry reference{"reference", "Where the swarm should be: [reference]"};
   ControllerRegistry controller{"controller", "Feedback law: [controller]"};
   FlowRegistry flow{"flow method", "Optical flow between two frames: [flow], --method"};
+  CameraRegistry camera = builtin_cameras();
+  CoilDriverRegistry driver = builtin_coil_drivers();
 };
 
 /// All parts that come with the program.
@@ -34,6 +38,8 @@ void each_kind(const Parts& p, Visit&& visit) {
   visit("reference", p.reference);
   visit("controller", p.controller);
   visit("flow", p.flow);
+  visit("camera", p.camera);
+  visit("driver", p.driver);
 }
 
 }  // namespace faba

@@ -55,7 +55,7 @@ void read_swarms(const Node& root, const Parts& parts, Scenario& s) {
 
 // Without feedback nobody needs to know where the cells are.
 const char* usual_estimator(const Scenario& s) {
-  if (s.camera.sensor == Camera::Sensor::positions) return "mean";
+  if (s.camera.sensor == CameraParams::Sensor::positions) return "mean";
   return s.steers() ? "image" : "none";
 }
 
@@ -64,11 +64,11 @@ void check_control(const Node& root, const Scenario& s) {
     throw Error(Errc::usage, root.where("estimator"),
                 fmt::format("controller {} steers by an estimate, and \"none\" gives it none; use \"{}\"",
                             s.controller.type, usual_estimator(s)));
-  if (s.camera.sensor == Camera::Sensor::positions && s.estimator.type == "image")
+  if (s.camera.sensor == CameraParams::Sensor::positions && s.estimator.type == "image")
     throw Error(Errc::usage, root.where("estimator"),
                 "\"image\" looks at pictures, and a camera with sensor = \"positions\" takes none; set "
                 "camera.sensor = \"frames\"");
-  if (s.camera.sensor == Camera::Sensor::frames &&
+  if (s.camera.sensor == CameraParams::Sensor::frames &&
       (s.estimator.type == "mean" || s.estimator.type == "visible"))
     throw Error(
         Errc::usage, root.where("estimator"),
@@ -106,9 +106,9 @@ Scenario read_scenario(Document d, const Parts& parts) {
   s.params =
       Scenario::schema().parse(root, {"scale", "camera", "microscope", "simulation", "arena", "exclusion",
                                       "field", "motility", "swarm", "estimator", "reference", "controller",
-                                      "limits", "library", "record", "flow", "event"});
+                                      "limits", "library", "record", "flow", "event", "rig"});
   section(root, "scale", s.scale, ScaleParams::schema());
-  section(root, "camera", s.camera, Camera::schema());
+  section(root, "camera", s.camera, CameraParams::schema());
   section(root, "microscope", s.microscope, MicroscopeParams::schema());
   section(root, "simulation", s.simulation, SimulationParams::schema());
   section(root, "limits", s.limits, Limits::schema());
@@ -123,6 +123,8 @@ Scenario read_scenario(Document d, const Parts& parts) {
   s.flow = part(root, "flow", parts.flow, {{"type", "horn_schunck"}, {"preset", "published"}});
   read_swarms(root, parts, s);
   read_library(root, s);
+  if (root.has("rig"))
+    s.rig = RigSetup::read(root.child("rig"), s.field.make({})->coils(), parts.camera, parts.driver);
   if (!s.microscope.background.empty())
     s.microscope.background =
         std::filesystem::absolute(root.child("microscope").file(s.microscope.background))

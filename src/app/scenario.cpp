@@ -47,22 +47,22 @@ Schema<Record> Record::schema() {
             .doc = "Time on the clock between checkpoints: what a crash can cost"});
 }
 
-Schema<Camera> Camera::schema() {
-  return Schema<Camera>("camera", "When the camera looks, and what it tells")
-      .add("rate", &Camera::rate,
+Schema<CameraParams> CameraParams::schema() {
+  return Schema<CameraParams>("camera", "When the camera looks, and what it tells")
+      .add("rate", &CameraParams::rate,
            {.unit = "Hz",
             .min = 0.01,
             .max = 1e5,
             .doc = "Frames per second",
             .source = "thesis: 90 frames in 6 s (A0)"})
-      .add("delay_frames", &Camera::delay_frames,
+      .add("delay_frames", &CameraParams::delay_frames,
            {.min = 0, .max = 1000, .doc = "Age of a picture, in frames, when the controller gets it"})
-      .add("jitter", &Camera::jitter,
+      .add("jitter", &CameraParams::jitter,
            {.unit = "s",
             .min = 0,
             .max = 1e3,
             .doc = "Sd of the frames' times about the regular ones, at most 0.4 frames to either side"})
-      .add("sensor", &Camera::sensor,
+      .add("sensor", &CameraParams::sensor,
            {.doc = "positions: the loop is told where every cell is; frames: it gets pictures as the "
                    "[microscope] renders them, and has to find the cells itself",
             .choices = {"positions", "frames"}});
@@ -147,7 +147,7 @@ int Scenario::polarity() const {
 Json Scenario::resolved() const {
   Json j = schema().to_json(params);
   j["scale"] = ScaleParams::schema().to_json(scale);
-  j["camera"] = Camera::schema().to_json(camera);
+  j["camera"] = CameraParams::schema().to_json(camera);
   if (renders()) j["microscope"] = MicroscopeParams::schema().to_json(microscope);
   j["simulation"] = SimulationParams::schema().to_json(simulation);
   j["arena"] = arena.resolved;
@@ -168,6 +168,7 @@ Json Scenario::resolved() const {
   if (record.flow) j["flow"] = flow.resolved;
   j["record"] = Record::schema().to_json(record);
   if (library) j["library"] = LibraryParams::schema().to_json(*library);
+  if (rig) j["rig"] = rig->resolved();
   if (!events.empty()) j["event"] = Json::array();
   for (const Event& e : events) j["event"].push_back(e.resolved());
   return j;
@@ -175,8 +176,8 @@ Json Scenario::resolved() const {
 
 std::string Scenario::hash() const {
   Json j = resolved();
-  for (const char* key : {"title", "seed", "record", "flow"}) j.erase(key);
-  if (camera.sensor == Camera::Sensor::positions) j.erase("microscope");  // of the recording only
+  for (const char* key : {"title", "seed", "record", "flow", "rig"}) j.erase(key);
+  if (camera.sensor == CameraParams::Sensor::positions) j.erase("microscope");  // of the recording only
   if (library) j["library"].erase("file");  // `made` says what is in it, wherever it lies
   Hash h;
   h.text(j.dump());
@@ -192,14 +193,14 @@ Json scenario_json_schema(const Parts& parts) {
       // include_calibration() puts um_per_px in its place
       {"type", "string"},
       {"description", "A calibration file of `faba scale`, in place of um_per_px"}};
-  p["camera"] = Camera::schema().json_schema();
+  p["camera"] = CameraParams::schema().json_schema();
   p["microscope"] = MicroscopeParams::schema().json_schema();
   p["simulation"] = SimulationParams::schema().json_schema();
   p["exclusion"] = Exclusion::schema().json_schema();
   p["limits"] = Limits::schema().json_schema();
   p["record"] = Record::schema().json_schema();
   p["library"] = LibraryParams::schema().json_schema();
-  Json swarm = Swarm::schema().json_schema();
+  Json swarm = Swarm::schema().json_schema(), rig = RigSetup::json_schema();
   each_kind(parts, [&](const char* kind, const auto& registry) {
     Json any = Json::array({Json{{"type", "string"}, {"enum", registry.names()}}});
     for (const auto& name : registry.names()) {
@@ -211,9 +212,14 @@ Json scenario_json_schema(const Parts& parts) {
       any.push_back(one);
     }
     const Json choice = {{"description", registry.doc()}, {"oneOf", any}};
-    const bool per_swarm = std::string_view(kind) == "model" || std::string_view(kind) == "start";
-    (per_swarm ? swarm["properties"] : p)[kind] = choice;
+    const auto is = [&](const char* one, const char* other) {
+      return std::string_view(kind) == one || std::string_view(kind) == other;
+    };
+    (is("model", "start")     ? swarm["properties"]
+     : is("camera", "driver") ? rig["properties"]
+                              : p)[kind] = choice;
   });
+  p["rig"] = rig;
   p["swarm"] = {{"type", "array"}, {"minItems", 1}, {"items", swarm}};
   Json event = event_json_schema();
   for (const char* kind : {"estimator", "reference", "controller"}) event["properties"][kind] = p[kind];

@@ -2,6 +2,7 @@
 #include "app/event.h"
 #include "app/loop.h"
 #include "app/parts.h"
+#include "rig/rig_setup.h"
 #include "sim/exclusion.h"
 #include "vision/microscope_params.h"
 
@@ -22,13 +23,13 @@ struct Record {
 };
 
 /// The table [camera].
-struct Camera {
+struct CameraParams {
   enum class Sensor { positions, frames };
   double rate = 15;
   int delay_frames = 0;
   double jitter = 0;
   Sensor sensor = Sensor::positions;
-  static Schema<Camera> schema();
+  static Schema<CameraParams> schema();
 };
 
 /// The table [scale].
@@ -80,7 +81,7 @@ struct Scenario {
 
   Params params;
   ScaleParams scale;
-  Camera camera;
+  CameraParams camera;
   MicroscopeParams microscope;
   SimulationParams simulation;
   Limits::Params limits;
@@ -95,12 +96,15 @@ struct Scenario {
   ControllerRegistry::PartType controller;
   FlowRegistry::PartType flow;  ///< that record.flow is made with
   std::vector<Swarm> swarms;
-  std::vector<Event> events;  ///< in order of time
+  std::vector<Event> events;    ///< in order of time
+  std::optional<RigSetup> rig;  ///< the bench that it can be run on
 
   std::uint64_t frames() const;  ///< of the whole run, at least 1
   double frame_period() const { return 1 / camera.rate; }
   /// Whether frames are rendered: for the loop or for the recording.
-  bool renders() const { return camera.sensor == Camera::Sensor::frames || record.as_seen || record.flow; }
+  bool renders() const {
+    return camera.sensor == CameraParams::Sensor::frames || record.as_seen || record.flow;
+  }
   Scale si_scale() const;
   /// Whether a feedback controller steers to a setpoint; false with a schedule of fields.
   bool steers() const { return controller.type != "manual"; }

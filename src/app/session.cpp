@@ -12,69 +12,6 @@ namespace faba {
 namespace {
 
 using namespace run_files;
-constexpr const char* kOurs[] = {
-    kMarker,          kCheckpoint, kScenario,        kManifest,   "series.csv", "tracks.h5",  "tracks.h5.new",
-    "video.mp4.part", "video.mp4", "video.avi.part", "video.avi", "flow.h5",    "report.html"};
-
-bool holds_run(const std::filesystem::path& dir) {
-  std::error_code ec;
-  const auto has = [&](const char* name) { return std::filesystem::is_regular_file(dir / name, ec); };
-  return RunLock::marks(dir) || (has(kManifest) && has(kScenario));
-}
-
-// Whether the directory is new. All that can be wrong with an old one is found here, before anything in it
-// goes.
-bool make_directory(const std::filesystem::path& dir, bool force) {
-  std::error_code ec;
-  if (dir.has_parent_path()) std::filesystem::create_directories(dir.parent_path(), ec);
-  if (std::filesystem::create_directory(dir, ec)) return true;
-  if (!std::filesystem::is_directory(dir)) {
-    if (std::filesystem::exists(std::filesystem::symlink_status(dir)))
-      throw Error(Errc::usage, dir.string(), "exists and is not a directory");
-    throw Error(Errc::internal, dir.string(),
-                fmt::format("cannot be made: {}; choose another --out", ec.message()));
-  }
-  if (std::filesystem::is_empty(dir, ec)) return false;
-  if (!holds_run(dir))
-    throw Error(Errc::usage, dir.string(), "holds other files and no run; choose another --out");
-  if (!force)
-    throw Error(Errc::usage, dir.string(),
-                "already holds a run; choose another --out, or --force to replace it");
-  for (const char* name : kOurs)
-    if (std::filesystem::is_directory(dir / name, ec))
-      throw Error(Errc::usage, (dir / name).string(),
-                  "is a directory where a file of the run is to be; choose another --out");
-  return false;
-}
-
-// The first of `base`, `base`-2, `base`-3 ... that is not there yet; made, so that nobody else takes it.
-std::filesystem::path make_numbered(const std::filesystem::path& base) {
-  for (int i = 1;; ++i) {
-    std::filesystem::path dir = i == 1 ? base.string() : fmt::format("{}-{}", base.string(), i);
-    if (std::filesystem::exists(std::filesystem::symlink_status(dir))) continue;
-    try {
-      if (make_directory(dir, false)) return dir;
-    } catch (const Error& e) {
-      if (e.code() != Errc::usage) throw;  // somebody was quicker
-    }
-  }
-}
-
-// What a video cannot be is better said before a run than after its first frame.
-void check_recording(const Scenario& s, const Frame& frame) {
-  if (!s.record.video && !s.record.lossless) return;
-  if (std::max(frame.width, frame.height) > kLongestVideoSide)
-    throw Error(Errc::usage, "arena",
-                fmt::format("a video of {} x {} px is not possible, {} px is the most; a smaller view, or "
-                            "record.video = false",
-                            frame.width, frame.height, kLongestVideoSide));
-  const double fps = s.camera.rate / s.record.video_every;
-  if (fps < kSlowestVideo || fps > kFastestVideo)
-    throw Error(Errc::usage, "camera.rate",
-                fmt::format("a video cannot have {:g} frames per second; another record.video_every, or "
-                            "record.video = false",
-                            fps));
-}
 
 }  // namespace
 
@@ -82,7 +19,7 @@ Session::Session(Scenario s, std::uint64_t seed, const RunOptions& o)
     : scenario_(std::move(s)),
       seed_(seed),
       options_(o),
-      dir_(o.out),
+      directory_(o.out, RunLock()),
       pool_(std::make_unique<Pool>(o.threads)),
       began_(std::chrono::steady_clock::now()) {
   scenario_.params.seed = seed;
@@ -93,23 +30,10 @@ Session::~Session() = default;
 
 Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& o) {
   Session session(s, seed, o);
-  check_recording(s, session.simulation_->frame());
-  if (o.numbered)
-    session.dir_ = make_numbered(o.out);
-  else
-    make_directory(o.out, o.force);
-  session.notes_ = notes_on(s, *session.simulation_, session.dir_);
-  session.lock_ = RunLock(session.dir_, o.program);
-  std::error_code ec;
-  if (!o.force &&
-      std::filesystem::exists(session.dir_ / kManifest, ec)) {  // somebody was quicker, and is done
-    session.lock_.complete();
-    throw Error(Errc::usage, session.dir_.string(),
-                "already holds a run; choose another --out, or --force to replace it");
-  }
-  for (const char* name : kOurs)  // what is not ours stays
-    if (std::string_view(name) != kMarker) std::filesystem::remove(session.dir_ / name, ec);
-  write_file(session.dir_ / kScenario, to_toml(session.scenario_.resolved()));
+  check_recording(s.record, session.simulation_->frame(), s.camera.rate);
+  session.directory_ = RunDirectory::make({o.out, o.numbered, o.force, o.program});
+  session.notes_ = notes_on(s, *session.simulation_, session.dir());
+  write_file(session.dir() / kScenario, to_toml(session.scenario_.resolved()));
   session.open_sinks(nullptr);
   return session;
 }
@@ -138,14 +62,14 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
   Session session(s, *s.params.seed, o);
   Archive saved = read_checkpoint(o.out / kCheckpoint, s.hash());
   session.simulation_->archive(saved);
-  session.lock_ = std::move(lock);
-  session.notes_ = notes_on(s, *session.simulation_, session.dir_);
+  session.directory_ = RunDirectory(o.out, std::move(lock));
+  session.notes_ = notes_on(s, *session.simulation_, session.dir());
   session.open_sinks(&saved);
   return session;
 }
 
 void Session::open_sinks(Archive* resume) {
-  const SinkContext c = sink_context(scenario_, *simulation_, *pool_, dir_);
+  const SinkContext c = sink_context(scenario_, *simulation_, *pool_, dir());
   sinks_.push_back(series_sink(c, resume));
   if (scenario_.record.tracks) sinks_.push_back(tracks_sink(c, resume));
   if (scenario_.record.video) sinks_.push_back(video_sink(c, false, resume));
@@ -158,7 +82,7 @@ void Session::checkpoint() {
   Archive a;
   simulation_->archive(a);
   for (auto& s : sinks_) s->checkpoint(a);
-  write_checkpoint(dir_ / kCheckpoint, scenario_.hash(), a);
+  write_checkpoint(dir() / kCheckpoint, scenario_.hash(), a);
 }
 
 bool Session::run() {
@@ -168,10 +92,10 @@ bool Session::run() {
   Loop& loop = simulation_->loop();
   // A frame of very many steps is not waited for: it is done again by resume, from the last checkpoint.
   std::optional<Clock::time_point> asked;
-  simulation_->rig().give_up_when([&] {
-    if (!options_.stop || !options_.stop->load()) return false;
+  simulation_->rig().before_steps([&] {
+    if (!options_.stop || !options_.stop->load()) return true;
     if (!asked) asked = Clock::now();
-    return Clock::now() - *asked > std::chrono::seconds(1);
+    return Clock::now() - *asked < std::chrono::seconds(1);
   });
   faba::run(loop, total, [&] {
     if (options_.progress) options_.progress(loop.next, total);
@@ -185,7 +109,7 @@ bool Session::run() {
   });
   const bool whole = loop.next == total;
   for (auto& s : sinks_) s->finish(!whole);
-  write_file(dir_ / kManifest, manifest().dump(2) + "\n");
+  write_file(dir() / kManifest, manifest().dump(2) + "\n");
   return whole;
 }
 
@@ -233,10 +157,6 @@ Json Session::manifest() const {
           {"notes", notes_}};
 }
 
-void Session::complete() {
-  std::error_code ec;
-  std::filesystem::remove(dir_ / kCheckpoint, ec);
-  lock_.complete();
-}
+void Session::complete() { directory_.complete(); }
 
 }  // namespace faba

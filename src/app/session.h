@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "app/run_lock.h"
+#include "app/run_directory.h"
 #include "app/simulation.h"
 #include "app/sinks/sinks.h"
 
@@ -46,7 +46,7 @@ class Session {
   const Scenario& scenario() const { return scenario_; }
   /// What is legal but probably not meant: notes_on().
   const std::vector<std::string>& notes() const { return notes_; }
-  const std::filesystem::path& dir() const { return dir_; }
+  const std::filesystem::path& dir() const { return directory_.path(); }
 
  private:
   Session(Scenario s, std::uint64_t seed, const RunOptions& o);
@@ -56,21 +56,12 @@ class Session {
   Scenario scenario_;
   std::uint64_t seed_;
   RunOptions options_;
-  std::filesystem::path dir_;
-  RunLock lock_;
+  RunDirectory directory_;
   std::vector<std::string> notes_;
   std::unique_ptr<Pool> pool_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::unique_ptr<RunSink>> sinks_;
   std::chrono::steady_clock::time_point began_;
 };
-
-/// A run directory's files, for those that look into one.
-namespace run_files {
-inline constexpr const char* kMarker = RunLock::kFile;
-inline constexpr const char* kCheckpoint = "checkpoint";
-inline constexpr const char* kScenario = "scenario.toml";
-inline constexpr const char* kManifest = "manifest.json";
-}  // namespace run_files
 
 }  // namespace faba

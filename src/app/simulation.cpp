@@ -78,7 +78,7 @@ int steps_per_frame(const Scenario& s, double longest) {
 std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool,
                                  const VideoGround* ground) {
   SimRig::Params p{steps, s.frame_period(), s.camera.delay_frames, s.camera.jitter};
-  p.frames = s.camera.sensor == Camera::Sensor::frames;
+  p.frames = s.camera.sensor == CameraParams::Sensor::frames;
   if (s.renders()) {
     const Outline edge = world.parts().arena->outline();
     p.microscope = std::make_shared<Microscope>(s.microscope, world.parts().arena->frame(),
@@ -90,6 +90,18 @@ std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std
 }
 
 }  // namespace
+
+ControlContext control_context(const Scenario& s, const std::shared_ptr<const Field>& field,
+                               const Frame& frame, const std::shared_ptr<const FieldLibrary>& library) {
+  return {field,
+          s.si_scale(),
+          frame,
+          s.polarity(),
+          s.frame_period(),
+          s.camera.delay_frames,
+          field->max_currents(s.limits.max_current),
+          library};
+}
 
 struct Simulation::Exchanged {
   std::unique_ptr<Estimator> estimator;
@@ -143,14 +155,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
         fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
 
   limits_ = Limits(s.limits, w.field->max_currents(s.limits.max_current));
-  control_ = {w.field,
-              scale,
-              frame_,
-              s.polarity(),
-              s.frame_period(),
-              s.camera.delay_frames,
-              w.field->max_currents(s.limits.max_current),
-              library};
+  control_ = control_context(s, w.field, frame_, library);
   world_ = std::make_unique<World>(std::move(w), pool);
   rig_ = make_rig(s, *world_, steps, seed, pool, ground.get());
   estimator_ = s.estimator.make(control_);

@@ -6,6 +6,10 @@
 
 namespace faba {
 
+/// What the estimator, reference and controller of a scenario are made with.
+ControlContext control_context(const Scenario& s, const std::shared_ptr<const Field>& field,
+                               const Frame& frame, const std::shared_ptr<const FieldLibrary>& library);
+
 /// A scenario brought to life: every part built and connected, nothing recorded. What `faba run` records, and
 /// what tests, benchmarks and studies step directly.
 class Simulation {

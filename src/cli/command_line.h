@@ -29,6 +29,7 @@ void add_run_verbs(CLI::App& app, CommandLine& line);  ///< run, resume
 void add_lab_verb(CLI::App& app, CommandLine& line);
 void add_video_verbs(CLI::App& app, CommandLine& line);  ///< what measures pictures and videos
 void add_field_verbs(CLI::App& app, CommandLine& line);  ///< field ...
+void add_rig_verbs(CLI::App& app, CommandLine& line);    ///< rig ...
 void add_study_verbs(CLI::App& app, CommandLine& line);  ///< what takes many simulations
 void add_help_verbs(CLI::App& app, CommandLine& line);   ///< parts, schema, doctor
 

@@ -42,6 +42,7 @@ int dispatch(int argc, char** argv) {
   add_lab_verb(app, line);
   add_video_verbs(app, line);
   add_field_verbs(app, line);
+  add_rig_verbs(app, line);
   add_study_verbs(app, line);
   add_help_verbs(app, line);
 
@@ -51,8 +52,8 @@ int dispatch(int argc, char** argv) {
     words.emplace_back("--help");
   }
   if (!words.empty() && words[0].rfind('-', 0) != 0) check_verb(app, words[0]);
-  if (words.size() > 1 && words[0] == "field" && words[1].rfind('-', 0) != 0)
-    check_verb(*app.get_subcommand("field"), words[1]);
+  if (words.size() > 1 && (words[0] == "field" || words[0] == "rig") && words[1].rfind('-', 0) != 0)
+    check_verb(*app.get_subcommand(words[0]), words[1]);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& e) {
@@ -73,7 +74,7 @@ CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char
   v->add_flag("-q,--quiet", line.common.quiet, "No progress bar, no notes and no summary");
   v->footer(fmt::format(
       "Examples:\n{}\n\nExit codes: 0 done, 2 usage or scenario error, 3 unreadable or unsuitable input, "
-      "130 interrupted, 1 anything else",
+      "4 camera or coil driver, 130 interrupted, 1 anything else",
       examples));
   return v;
 }

@@ -1,35 +1,16 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <random>
 
-#include "app/from_picture.h"
 #include "app/session.h"
 #include "cli/progress.h"
+#include "cli/scene.h"
 #include "cli/verbs.h"
 #include "study/markup.h"
 #include "study/run_report.h"
 
 namespace faba::cli {
 namespace {
-
-void apply_settings(Document& d, const RunVerb& v) {
-  for (const std::string& s : v.set) {
-    const auto equals = s.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw Error(Errc::usage, "--set " + s, "write --set path=value, such as --set swarm[0].count=200");
-    d.set(s.substr(0, equals), s.substr(equals + 1), "--set");
-  }
-  if (v.duration) d.set("duration", *v.duration, "--duration");
-  if (v.seed) d.set("seed", *v.seed, "--seed");
-  if (v.as_seen) d.set("record.as_seen", Json(true), "--as-seen");
-}
-
-// 48 bits: short enough to type, and exact in every language that will read the manifest.
-std::uint64_t drawn_seed() {
-  std::random_device device;
-  return (std::uint64_t{device()} << 32 | device()) & 0xFFFFFFFFFFFFull;
-}
 
 // The same run with another swarm: what a result is worth shows from the second one on.
 std::string again_with(const RunVerb& v, std::uint64_t seed) {
@@ -39,18 +20,6 @@ std::string again_with(const RunVerb& v, std::uint64_t seed) {
   if (v.as_seen) line += " --as-seen";
   for (const std::string& s : v.set) line += " --set " + shell_word(s);
   return line;
-}
-
-// What a run is made from is not to be replaced by it.
-void refuse_own_input(const RunVerb& v, const std::filesystem::path& out) {
-  std::error_code ec;
-  for (const std::filesystem::path& input : {std::filesystem::path(v.scene), v.from_video}) {
-    if (input.empty() || v.out.empty()) continue;
-    const auto folder = std::filesystem::weakly_canonical(input, ec).parent_path();
-    if (folder == std::filesystem::weakly_canonical(out, ec))
-      throw Error(Errc::usage, input.string(),
-                  "lies in the directory that the run would replace; choose another --out");
-  }
 }
 
 void summary(const Session& session, const Metrics& m, const std::string& next) {
@@ -101,12 +70,7 @@ int carry_out(Session& session, Progress& bar, const Common& c, const std::strin
 }  // namespace
 
 int run(const RunVerb& v, const Common& c) {
-  Document d = read_toml(v.scene);
-  if (!v.from_video.empty()) fit_to_picture(d, v.from_video);
-  apply_settings(d, v);
-  if (!d.root.contains("title"))
-    d.set("title", Json(std::filesystem::path(v.scene).stem().string()), v.scene);
-  const Scenario s = read_scenario(d, builtin_parts());
+  const Scenario s = read_scenario(read_scene(v), builtin_parts());
 
   const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
   Progress bar("simulating", !c.quiet && !c.json);
@@ -116,7 +80,7 @@ int run(const RunVerb& v, const Common& c) {
   o.numbered = v.out.empty();
   o.force = v.force;
   o.program = shell_word(program());
-  refuse_own_input(v, o.out);
+  refuse_own_input(v);
   o.threads = v.threads;
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();

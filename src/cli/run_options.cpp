@@ -55,8 +55,9 @@ void add_help_verbs(CLI::App& app, CommandLine& line) {
   CLI::App* v =
       verb(app, line, "parts", "What can be named in a scenario, with units, ranges, defaults and sources",
            "  faba parts\n  faba parts model\n  faba parts model dipole");
-  v->add_option("kind", p->kind,
-                "model, start, arena, field, motility, estimator, reference, controller, flow");
+  v->add_option(
+      "kind", p->kind,
+      "model, start, arena, field, motility, estimator, reference, controller, flow, camera, driver");
   v->add_option("name", p->name, "One part in full");
   v->callback([p, &line] { line.code = parts(*p, line.common); });
 

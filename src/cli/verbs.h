@@ -114,6 +114,13 @@ struct StudyVerb {
   unsigned threads = 0;
   bool force = false;
 };
+/// What `faba rig ...` takes.
+struct RigVerb {
+  RunVerb run;
+  std::filesystem::path at, log;
+  std::string step = "50 mA";
+  bool arm = false, once = false;
+};
 struct PartsVerb {
   std::string kind, name;
 };
@@ -144,6 +151,12 @@ int field_tolerance(const FieldVerb& v, const Common& c);
 int field_null(const FieldVerb& v, const Common& c);
 int identify(const StudyVerb& v, const Common& c);
 int compare_controllers(const StudyVerb& v, const Common& c);
+int rig_run(const RigVerb& v, const Common& c);
+int rig_simulate(const RigVerb& v, const Common& c);
+int rig_list(const Common& c);
+int rig_check(const RigVerb& v, const Common& c);
+int rig_jog(const RigVerb& v, const Common& c);
+int rig_replay(const RigVerb& v, const Common& c);
 int parts(const PartsVerb& v, const Common& c);
 int schema(const std::string& file, const Common& c);
 int doctor(const Common& c);

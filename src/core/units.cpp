@@ -208,8 +208,8 @@ std::string dimension_name(const Dimension& d) {
   return "quantity in " + s;
 }
 
-std::string format_quantity(double si_value, std::string_view unit) {
-  return unit.empty() ? fmt::format("{}", si_value) : fmt::format("{} {}", si_value, unit);
+std::string format_quantity(double in_si, std::string_view unit) {
+  return unit.empty() ? fmt::format("{}", in_si) : fmt::format("{} {}", in_si, unit);
 }
 
 }  // namespace faba

@@ -34,6 +34,6 @@ Quantity parse_unit(std::string_view unit);
 std::string dimension_name(const Dimension& d);
 
 /// Shortest text that reads back to the same number: "0.000186 m/s"; no unit when `unit` is empty.
-std::string format_quantity(double si_value, std::string_view unit);
+std::string format_quantity(double in_si, std::string_view unit);
 
 }  // namespace faba

@@ -52,8 +52,8 @@ bool SimRig::step_to(std::uint64_t frame) {
         1, std::uint64_t(std::llround(0.5 * p_.microscope->exposure_time() / world_.parts().dt)));
   for (std::uint64_t i = 0; i < steps; ++i) {
     if (p_.microscope && i == steps - std::min(since, steps)) camera_.remember(world_.state());
+    if (go_on_ && !go_on_()) return false;
     world_.step();
-    if (give_up_ && give_up_()) return false;
   }
   world_.check_finite();
   return true;

@@ -33,8 +33,8 @@ class SimRig final : public Rig {
   void safe() noexcept override;
   void archive(Archive& a) override;
   const World& world() const { return world_; }
-  /// Asked between steps: when it says yes read() gives up the frame it is at, and with it the run.
-  void give_up_when(std::function<bool()> asked) { give_up_ = std::move(asked); }
+  /// Asked before each step: when it says no read() gives up the frame it is at, and with it the run.
+  void before_steps(std::function<bool()> go_on) { go_on_ = std::move(go_on); }
 
   /// Time of a frame, s, whether it was made already or not: a whole number of steps.
   double time_of(std::uint64_t frame) const;
@@ -62,7 +62,7 @@ class SimRig final : public Rig {
   Params p_;
   Frame frame_;
   CellsInCamera camera_;
-  std::function<bool()> give_up_;
+  std::function<bool()> go_on_;
   std::uint64_t next_ = 0;  ///< frame that read() will make
   std::deque<Seen> seen_;   ///< the last delay + 1 frames, oldest first
   ImageRef newest_;         ///< picture(), once somebody asked for it

@@ -83,7 +83,7 @@ struct WebServer::Impl {
   std::filesystem::path uploads;
   const Access* access = nullptr;
   WebHandlers handlers;
-  std::size_t connections = 0;
+  std::atomic<std::size_t> connections = 0;  // one that waited for a worker ends in its thread
   std::uint64_t next_page = 1;
   // Last, so that connections which wait in it still find the above when it goes.
   asio::io_context io{1};

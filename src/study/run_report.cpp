@@ -11,6 +11,7 @@
 
 #include "core/file.h"
 #include "study/frame_strip.h"
+#include "study/latency_figure.h"
 #include "study/markup.h"
 #include "study/report_page.h"
 #include "study/run_figures.h"
@@ -277,7 +278,11 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
         "left out here.</p>\n";
   }
   out += cards(m, info);
-  const std::vector<Figure> figures = run_figures(series, m, info);
+  std::vector<Figure> figures = run_figures(series, m, info);
+  const auto t = series.column("t_s");
+  if (t.size() > 1)
+    if (auto late = latency_figure(run_dir, (t.back() - t.front()) / double(t.size() - 1)))
+      figures.push_back(*late);
   if (!figures.empty() || !seen.empty()) out += figures_section(figures, seen);
   if (m.frames > 0) out += metrics_table(m, info);
   out += provenance(m, info, !scenario.empty());

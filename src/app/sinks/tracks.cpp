@@ -41,7 +41,7 @@ class Tracks final : public RunSink {
       const Vec2 p = c_.frame.image_from_world({double(x[i]), double(y[i])});
       row_[2 * i] = float(p.x), row_[2 * i + 1] = float(p.y);
     }
-    append(t.index, c_.time_of(t.index));
+    append(t.index, c_.time_of(t));
     if (!responding_) return;
     flags_.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) flags_[i] = response[i] != 0.0f;

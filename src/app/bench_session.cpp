@@ -1,0 +1,182 @@
+#include "app/bench_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/bench_controls.h"
+#include "app/session.h"
+#include "core/file.h"
+
+namespace faba {
+namespace {
+
+// Share q of the numbers is not above it; not a number when there are none.
+double quantile(std::vector<double> v, double q) {
+  std::erase_if(v, [](double x) { return std::isnan(x); });
+  if (v.empty()) return std::nan("");
+  const auto at = std::min(v.size() - 1, std::size_t(q * double(v.size())));
+  std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(at), v.end());
+  return v[at];
+}
+
+Json in_ms(const std::vector<double>& s) {
+  const auto ms = [&](double q) {
+    const double v = 1e3 * quantile(s, q);
+    return std::isnan(v) ? Json() : Json(v);
+  };
+  return {{"median", ms(0.5)}, {"p99", ms(0.99)}, {"p999", ms(0.999)}, {"max", ms(1)}};
+}
+
+}  // namespace
+
+struct BenchSession::Impl {
+  Scenario scenario;
+  std::uint64_t seed;
+  RunOptions options;
+  std::unique_ptr<Pool> pool;
+  std::unique_ptr<BenchControls> controls;
+  std::shared_ptr<const OpenBench> bench;
+  std::unique_ptr<BenchRig> rig;
+  RunDirectory directory;
+  std::vector<std::unique_ptr<RunSink>> sinks;
+  std::unique_ptr<Sink> commands;
+  std::unique_ptr<Loop> loop;
+  std::vector<std::string> notes;
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+  double last_t = 0;
+  std::size_t most_behind = 0;
+  bool whole = false;
+  Json manifest;  ///< as it was when the run ended
+};
+
+BenchSession::BenchSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+BenchSession::~BenchSession() = default;
+BenchSession::BenchSession(BenchSession&&) noexcept = default;
+BenchRig& BenchSession::rig() { return *impl_->rig; }
+const std::filesystem::path& BenchSession::dir() const { return impl_->directory.path(); }
+const std::vector<std::string>& BenchSession::notes() const { return impl_->notes; }
+void BenchSession::complete() { impl_->directory.complete(); }
+
+BenchSession BenchSession::begin(Scenario s, std::shared_ptr<const OpenBench> bench, std::uint64_t seed,
+                                 const RunOptions& o) {
+  auto m = std::make_unique<Impl>();
+  s.params.seed = seed;
+  s.record.as_seen = true, s.record.tracks = false;
+  m->seed = seed, m->options = o;
+  m->pool = std::make_unique<Pool>(o.threads);
+  m->bench = std::move(bench);
+  m->controls = std::make_unique<BenchControls>(s);
+  const Frame& frame = m->controls->frame;
+  check_recording(s.record, frame, s.camera.rate);
+
+  m->directory = RunDirectory::make({o.out, o.numbered, o.force, o.program});
+  m->scenario = std::move(s);
+  const std::filesystem::path dir = m->directory.path();
+  write_file(dir / run_files::kScenario, to_toml(m->scenario.resolved()));
+  m->rig = m->bench->rig(dir / "coils.log");
+  const SinkContext c{.dir = dir,
+                      .world = nullptr,
+                      .field = m->controls->field,
+                      .loop = nullptr,
+                      .frame = frame,
+                      .scale = m->scenario.si_scale(),
+                      .frame_rate = m->scenario.camera.rate,
+                      .record = m->scenario.record,
+                      .jitter = true,
+                      .flow = m->scenario.flow,
+                      .pool = m->pool.get()};
+  m->sinks.push_back(series_sink(c, nullptr));
+  if (c.record.video) m->sinks.push_back(video_sink(c, false, nullptr));
+  if (c.record.lossless) m->sinks.push_back(video_sink(c, true, nullptr));
+  if (c.record.flow) m->sinks.push_back(flow_sink(c, nullptr));
+  m->commands = commands_sink(c);
+  m->loop = std::make_unique<Loop>(m->controls->loop(*m->rig, m->scenario.frame_period()));
+  return BenchSession(std::move(m));
+}
+
+bool BenchSession::run() {
+  Impl& m = *impl_;
+  std::vector<Sink*> all{m.commands.get()};
+  for (auto& s : m.sinks) all.push_back(s.get());
+  Recorder recorder(all);
+  Loop& loop = *m.loop;
+  loop.sinks = {&recorder};
+  const double duration = m.scenario.params.duration;
+  const auto finish = [&] {
+    m.most_behind = recorder.most_behind();
+    m.manifest = describe();
+    OutputFile latency(dir() / "latency.csv");
+    latency.append("frame,arrival_ms,command_ms\n");
+    const auto ms = [](double s) { return std::isnan(s) ? std::string() : fmt::format("{:.4f}", 1e3 * s); };
+    for (std::size_t i = 0; i < m.rig->delays().size(); ++i)
+      latency.append(
+          fmt::format("{},{},{}\n", i, ms(m.rig->delays()[i].arrival), ms(m.rig->delays()[i].command)));
+    recorder.finish();
+    for (auto& s : m.sinks) s->finish(false);
+    write_file(dir() / run_files::kManifest, m.manifest.dump(2) + "\n");
+  };
+  try {
+    faba::run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
+      if (m.options.progress)
+        m.options.progress(std::uint64_t(1e3 * std::min(loop.last_t, duration)),
+                           std::uint64_t(1e3 * duration));
+      m.whole = loop.last_t + 0.5 * loop.frame_period >= duration;
+      return !m.whole && !(m.options.stop && m.options.stop->load());
+    });
+    // A video that is played may end before.
+    m.whole = m.whole || !(m.options.stop && m.options.stop->load());
+  } catch (const Error&) {
+    if (loop.next > 0) finish();
+    throw;
+  }
+  finish();
+  return m.whole;
+}
+
+const Json& BenchSession::manifest() const { return impl_->manifest; }
+
+Json BenchSession::describe() const {
+  const Impl& m = *impl_;
+  const Scenario& s = m.scenario;
+  std::vector<double> arrival, command;
+  for (const BenchRig::Delay& d : m.rig->delays()) arrival.push_back(d.arrival), command.push_back(d.command);
+  const GuardReport guard = m.rig->coils()->report();
+  const Frame& frame = m.controls->frame;
+  const Outline outline = s.arena.make({s.si_scale()})->outline();
+  Json arena = {{"type", s.arena.type}, {"centre_px", {outline.centre_image.x, outline.centre_image.y}}};
+  if (outline.radius_px > 0)
+    arena["radius_px"] = outline.radius_px;
+  else
+    arena["size_px"] = {frame.width, frame.height};
+  return {{"version", FABA_VERSION},
+          {"title", s.params.title},
+          {"complete", m.whole},
+          {"rig", {{"camera", s.rig->camera.type}, {"driver", s.rig->driver.type}}},
+          {"scenario_hash", s.hash()},
+          {"seed", m.seed},
+          {"frames", m.loop->next},
+          {"duration_s", m.loop->last_t + m.loop->frame_period},
+          {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - m.began).count()},
+          {"um_per_px", s.scale.um_per_px},
+          {"view_px", {frame.width, frame.height}},
+          {"arena", arena},
+          {"polarity", s.polarity() > 0 ? "north" : "south"},
+          {"setpoints", m.controls->reference->setpoints().size()},
+          {"video_shows", "camera"},
+          {"frames_dropped", m.rig->feed().dropped()},
+          {"frames_corrupt", m.rig->feed().camera().corrupt()},
+          {"arrival_ms", in_ms(arrival)},
+          {"command_ms", in_ms(command)},
+          {"recorder_most_behind", m.most_behind},
+          {"guard",
+           {{"state", word(guard.state)},
+            {"commands", guard.passed},
+            {"refused", guard.refused},
+            {"heat", guard.heat}}},
+          {"notes", m.notes}};
+}
+
+}  // namespace faba

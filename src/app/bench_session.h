@@ -1,0 +1,44 @@
+#pragma once
+#include <chrono>
+#include <memory>
+
+#include "app/open_bench.h"
+#include "app/recorder.h"
+#include "app/run_directory.h"
+#include "app/sinks/sinks.h"
+
+namespace faba {
+
+struct RunOptions;
+
+/// A recorded run on the bench of a scenario: the closed loop of app/loop.h with a camera and coils in place
+/// of a simulation. Its directory holds what a simulated run's does, with what was seen in place of what is
+/// true.
+class BenchSession {
+ public:
+  /// Makes the directory, and the coils ready to be armed. `bench`: opened with `s`. Throws Error(usage) for
+  /// a scenario that does not fit, and then nothing has been written; Error(device).
+  static BenchSession begin(Scenario s, std::shared_ptr<const OpenBench> bench, std::uint64_t seed,
+                            const RunOptions& o);
+  ~BenchSession();
+  BenchSession(BenchSession&&) noexcept;
+
+  BenchRig& rig();
+  /// Runs for the scenario's duration, from the first frame on, or until asked to stop; coils are at rest
+  /// then. What was recorded is complete on every way out, also when Error(device) is thrown. Returns whether
+  /// the end was reached.
+  bool run();
+  /// manifest.json, once it ran.
+  const Json& manifest() const;
+  void complete();
+  const std::filesystem::path& dir() const;
+  const std::vector<std::string>& notes() const;
+
+ private:
+  struct Impl;
+  Json describe() const;
+  explicit BenchSession(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace faba

@@ -1,0 +1,72 @@
+#include "app/open_bench.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/monotonic.h"
+
+namespace faba {
+
+OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what) {
+  (void)BenchControls(s);  // what does not fit is said before a device is touched
+  const Parts parts = builtin_parts();
+  setup_ = *s.rig;
+  if (setup_.needs_bench()) {
+    process_ = std::make_unique<BenchProcess>(s, seed);
+    setup_ = setup_.at(process_->at(), parts.camera, parts.driver);
+  }
+  frame_period_ = s.frame_period();
+  if (what == Open::coils) return;
+  camera_ = setup_.camera.make({});
+  if (camera_->rate() > 0) s.camera.rate = camera_->rate();
+  frame_period_ = s.frame_period();
+  const Frame frame = s.arena.make({s.si_scale()})->frame();
+  if (camera_->width() != frame.width || camera_->height() != frame.height)
+    throw Error(Errc::usage, "arena",
+                fmt::format("is seen in {} x {} px, and the camera gives {} x {} px", frame.width,
+                            frame.height, camera_->width(), camera_->height()));
+}
+
+std::unique_ptr<BenchRig> OpenBench::rig(const std::filesystem::path& log) const {
+  const BenchRig::Params p{setup_.params.camera_timeout,
+                           camera_->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::newest};
+  return std::make_unique<BenchRig>(camera_, std::make_unique<GuardLink>(guard_setup(log)), p);
+}
+
+Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
+  const OpenBench bench(s, seed);
+  const auto rig = bench.rig({});
+  BenchControls controls(s);
+  Observation seen;
+  Estimate estimate;
+  std::uint64_t frames = 0;
+  double first = 0;
+  for (const double until = monotonic_now() + seconds; monotonic_now() < until && rig->read(seen); ++frames) {
+    if (frames == 0) first = seen.t;
+    estimate = controls.estimator->update(seen, {});
+  }
+  const GuardReport guard = rig->coils()->report();
+  Json sensed = Json::array();
+  for (std::size_t k = 0; k < rig->coils()->coils(); ++k)
+    sensed.push_back(std::isnan(guard.sensed[k]) ? Json() : Json(guard.sensed[k]));
+  Json j = {{"camera", s.rig->camera.type},
+            {"size_px", {bench.camera()->width(), bench.camera()->height()}},
+            {"rate_hz", frames > 1 ? Json(double(frames - 1) / (seen.t - first)) : Json()},
+            {"frames", frames},
+            {"dropped", rig->feed().dropped()},
+            {"corrupt", bench.camera()->corrupt()},
+            {"age_ms", 1e3 * seen.age},
+            {"driver", s.rig->driver.type},
+            {"guard", word(guard.state)},
+            {"cannot_arm", guard.reason[0] ? Json(guard.reason.data()) : Json()},
+            {"sensed_a", sensed},
+            {"swarm", nullptr}};
+  if (estimate.visible > 0) {
+    const Vec2 at = controls.frame.image_from_world(estimate.centroid);
+    j["swarm"] = {{"cells", estimate.visible}, {"centroid_px", {at.x, at.y}}};
+  }
+  return j;
+}
+
+}  // namespace faba

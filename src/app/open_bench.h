@@ -1,0 +1,40 @@
+#pragma once
+#include <memory>
+
+#include "app/bench_controls.h"
+#include "app/bench_process.h"
+#include "rig/bench_rig.h"
+#include "rig/device_list.h"
+
+namespace faba {
+
+/// The bench of a scenario, opened: its camera gives pictures and its coils are disarmed. Several runs may
+/// follow one another on it.
+class OpenBench {
+ public:
+  /// Begins a simulated bench when the scenario names none. `s.camera.rate` becomes the camera's. Throws
+  /// Error(usage) for a scenario that does not fit, before anything is opened where this can be known;
+  /// Error(device).
+  enum class Open { all, coils };
+  OpenBench(Scenario& s, std::uint64_t seed, Open what = Open::all);
+
+  /// Camera and coils as a rig; the guard's log goes to `log`, none when empty.
+  std::unique_ptr<BenchRig> rig(const std::filesystem::path& log) const;
+  const std::shared_ptr<Camera>& camera() const { return camera_; }  ///< null when not opened
+  /// What a GuardLink needs, for those who want coils and no camera.
+  GuardSetup guard_setup(const std::filesystem::path& log) const {
+    return setup_.guard_setup(frame_period_, log);
+  }
+
+ private:
+  std::unique_ptr<BenchProcess> process_;
+  RigSetup setup_;
+  double frame_period_ = 0;  ///< s
+  std::shared_ptr<Camera> camera_;
+};
+
+/// What a bench is like, found without letting current flow: pictures for a while, what the guard says, and
+/// where the estimator sees a swarm. For `faba rig check`.
+Json check_bench(Scenario s, std::uint64_t seed, double seconds);
+
+}  // namespace faba

@@ -1,0 +1,33 @@
+#include "app/replay.h"
+
+#include <limits>
+
+#include "app/bench_controls.h"
+#include "app/run_directory.h"
+#include "rig/replay_rig.h"
+
+namespace faba {
+
+Replayed replay_run(const std::filesystem::path& dir,
+                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& go_on) {
+  std::error_code ec;
+  const auto commands = dir / "commands.csv", video = dir / "video.avi";
+  if (!std::filesystem::exists(commands, ec))
+    throw Error(Errc::input, dir.string(), "is no run on a bench: it has no commands.csv");
+  if (!std::filesystem::exists(video, ec))
+    throw Error(Errc::input, dir.string(),
+                "has no video.avi with the pictures as they were; record it with record.lossless = true");
+  const Scenario s = read_scenario(read_toml(dir / run_files::kScenario), builtin_parts());
+  BenchControls controls(s);
+  ReplayRig rig(video, commands);
+  Loop loop = controls.loop(rig, s.frame_period());
+  bool stopped = false;
+  run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
+    stopped = !go_on(loop.next, rig.frames());
+    return !stopped;
+  });
+  if (stopped) throw Error(Errc::interrupted, dir.string(), "was not replayed to its end");
+  return {rig.frames(), rig.equal(), rig.first_other()};
+}
+
+}  // namespace faba

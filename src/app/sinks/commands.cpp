@@ -1,0 +1,30 @@
+#include <fmt/format.h>
+
+#include "app/sinks/sinks.h"
+#include "core/file.h"
+
+namespace faba {
+namespace {
+
+/// All that a loop's decisions depend on beside the pictures, and what it decided, to the last bit.
+class Commands final : public Sink {
+ public:
+  explicit Commands(const SinkContext& c) : file_(c.dir / "commands.csv") {
+    std::string head = "frame,camera_frame,t_s,age_s,rested";
+    for (std::size_t k = 0; k < c.field->coils(); ++k) head += fmt::format(",current_{}_a", k);
+    file_.append(head + '\n');
+  }
+  void take(const Tick& t) override {
+    file_.append(fmt::format("{},{},{},{},{:d},{}\n", t.index, t.seen.frame, t.seen.t, t.seen.age,
+                             t.seen.rested, fmt::join(t.command.current, ",")));
+  }
+
+ private:
+  OutputFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sink> commands_sink(const SinkContext& c) { return std::make_unique<Commands>(c); }
+
+}  // namespace faba

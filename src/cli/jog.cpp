@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "app/open_bench.h"
+#include "cli/scene.h"
+#include "cli/verbs.h"
+#include "core/monotonic.h"
+#include "core/units.h"
+
+namespace faba::cli {
+namespace {
+
+constexpr double kTurn = 0.02;     // s between requests
+constexpr double kPipedKey = 0.1;  // s that a key counts before the next, when keys come from no terminal
+
+const char* const kKeys =
+    "1 ... 9 choose a coil    up + down -  a step    page up, page down  largest, smallest    0  none\n"
+    "a  arm    space  no current anywhere    r  after a fault: ready to be armed    q  end\n";
+
+// Keys one by one, as they are pressed.
+class Keyboard {
+ public:
+  Keyboard() : terminal_(isatty(STDIN_FILENO) != 0) {
+    if (!terminal_) return;
+    tcgetattr(STDIN_FILENO, &before_);
+    termios raw = before_;
+    raw.c_lflag &= ~tcflag_t(ICANON | ECHO);  // Ctrl-C stays what it is
+    raw.c_cc[VMIN] = 0, raw.c_cc[VTIME] = 0;
+    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+  }
+  ~Keyboard() {
+    if (terminal_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  }
+  Keyboard(const Keyboard&) = delete;
+  Keyboard& operator=(const Keyboard&) = delete;
+
+  /// The next key within kTurn: a letter, or 'U', 'D', 'P', 'N' for up, down, page up and page down. 0: none;
+  /// 'q' when there will be no more.
+  char next() {
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    if (!terminal_ && monotonic_now() < not_before_) return wait_a_turn(), char(0);
+    if (poll(&ready, 1, int(1e3 * kTurn)) <= 0) return 0;
+    const char key = get();
+    not_before_ = monotonic_now() + kPipedKey;
+    if (key != '\033') return key;
+    if (get() != '[') return 0;
+    const char what = get();
+    if (what == '5' || what == '6') get();  // a ~ follows
+    return what == 'A' ? 'U' : what == 'B' ? 'D' : what == '5' ? 'P' : what == '6' ? 'N' : '\0';
+  }
+  bool terminal() const { return terminal_; }
+
+ private:
+  static void wait_a_turn() { poll(nullptr, 0, int(1e3 * kTurn)); }
+  static char get() {
+    char c = 0;
+    return read(STDIN_FILENO, &c, 1) == 1 ? c : 'q';
+  }
+  termios before_{};
+  bool terminal_;
+  double not_before_ = 0;  ///< s
+};
+
+std::string line_of(const GuardReport& g, const std::vector<double>& asked, std::size_t chosen) {
+  std::string line = fmt::format("{:<8}", word(g.state));
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    line += fmt::format(" {}{}: {:+.3f} A", k == chosen ? "[" : " ", k + 1, asked[k]);
+    if (!std::isnan(g.sensed[k])) line += fmt::format(", sensed {:+.3f}", g.sensed[k]);
+    line += k == chosen ? "]" : " ";
+  }
+  if (g.reason[0]) line += fmt::format("  {}", g.reason.data());
+  return line;
+}
+
+double step_of(const std::string& words) {
+  try {
+    const Quantity q = parse_quantity(words);
+    if (q.dimension == parse_unit("A").dimension && q.value > 0) return q.value;
+  } catch (const std::invalid_argument&) {
+  }
+  throw Error(Errc::usage, "--step", "must be a current such as \"50 mA\"");
+}
+
+}  // namespace
+
+int rig_jog(const RigVerb& v, const Common& c) {
+  Document d = read_scene(v.run);
+  d.set("camera.sensor", Json("frames"), "faba rig");
+  Scenario s = read_scenario(d, builtin_parts());
+  const double step = step_of(v.step);
+  const OpenBench bench(s, s.params.seed.value_or(1), OpenBench::Open::coils);
+  GuardLink coils(bench.guard_setup({}));
+  const std::vector<double> most = s.rig->max_current();
+  std::vector<double> asked(most.size(), 0.0);
+  std::size_t chosen = 0;
+  std::string shown;
+  Keyboard keys;
+  if (!c.quiet) fmt::print("{}", kKeys);
+  while (!stop_requested().load()) {
+    const char key = keys.next();
+    double& one = asked[chosen];
+    if (key == 'q') break;
+    if (key >= '1' && key <= '9') chosen = std::min(std::size_t(key - '1'), asked.size() - 1);
+    if (key == 'U' || key == '+') one = std::min(most[chosen], one + step);
+    if (key == 'D' || key == '-') one = std::max(-most[chosen], one - step);
+    if (key == 'P') one = most[chosen];
+    if (key == 'N') one = -most[chosen];
+    if (key == '0') one = 0;
+    if (key == ' ') std::fill(asked.begin(), asked.end(), 0.0);
+    const GuardReport before = coils.report();
+    if (key == 'r' && before.state == CoilGuard::State::faulted) coils.reset();
+    if (before.state != CoilGuard::State::armed) {
+      std::fill(asked.begin(), asked.end(), 0.0);  // current comes from nothing but a key
+      if (key == 'a' && before.state == CoilGuard::State::disarmed) coils.arm();
+    }
+    coils.request(asked, monotonic_now());
+    const std::string line = line_of(coils.report(), asked, chosen);
+    if (line == shown || c.quiet) continue;
+    fmt::print("{}{}{}", keys.terminal() ? "\r\033[K" : "", line, keys.terminal() ? "" : "\n");
+    std::fflush(stdout);
+    shown = line;
+  }
+  if (keys.terminal() && !c.quiet) fmt::print("\n");
+  coils.disarm();
+  return 0;
+}
+
+}  // namespace faba::cli

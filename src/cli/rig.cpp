@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "app/bench_session.h"
+#include "app/open_bench.h"
+#include "app/replay.h"
+#include "app/session.h"
+#include "app/simulated_bench.h"
+#include "cli/progress.h"
+#include "cli/scene.h"
+#include "cli/verbs.h"
+#include "study/markup.h"
+#include "study/metrics.h"
+#include "study/run_report.h"
+
+namespace faba::cli {
+namespace {
+
+// A bench has a camera, which tells no cells.
+Scenario bench_scene(const RigVerb& v) {
+  Document d = read_scene(v.run);
+  d.set("camera.sensor", Json("frames"), "faba rig");
+  return read_scenario(d, builtin_parts());
+}
+
+void latency(const Json& manifest) {
+  const auto ms = [](const Json& j, const char* key) {
+    return j.at(key).is_null() ? std::string("-") : three_digits(j.at(key).get<double>()) + " ms";
+  };
+  const Json& arrival = manifest.at("arrival_ms");
+  const Json& command = manifest.at("command_ms");
+  fmt::print("frames {} taken, {} dropped, {} corrupt; {} after mid-exposure at the program (median)\n",
+             manifest.at("frames").dump(), manifest.at("frames_dropped").dump(),
+             manifest.at("frames_corrupt").dump(), ms(arrival, "median"));
+  fmt::print("command at the coils {} after the frame came (median), 99.9 % within {}\n",
+             ms(command, "median"), ms(command, "p999"));
+}
+
+}  // namespace
+
+int rig_run(const RigVerb& v, const Common& c) {
+  Scenario s = bench_scene(v);
+  const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
+  if (!v.arm)
+    throw Error(Errc::usage, "--arm",
+                "is missing: coils are disarmed until somebody who sees them says so; to look only, `faba "
+                "rig check`");
+  Progress bar("on the bench", !c.quiet && !c.json);
+  RunOptions o;
+  o.out = v.run.out;
+  if (o.out.empty()) o.out = fmt::format("runs/{}-bench", std::filesystem::path(v.run.scene).stem().string());
+  o.numbered = v.run.out.empty();
+  o.force = v.run.force;
+  o.threads = v.run.threads;
+  o.program = shell_word(program());
+  refuse_own_input(v.run);
+  o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  o.stop = &stop_requested();
+  const auto bench = std::make_shared<const OpenBench>(s, seed);
+  BenchSession session = BenchSession::begin(s, bench, seed, o);
+  session.rig().arm();
+  const bool whole = session.run();
+  bar.clear();
+  write_run_report(session.dir());
+  session.complete();
+  const Metrics metrics = control_metrics(read_series(session.dir() / "series.csv"));
+  const Json manifest = session.manifest();
+  if (c.json) {
+    Json j = {{"out", session.dir().string()}};
+    for (const auto& source : {manifest, metrics_json(metrics)})
+      for (const auto& [k, value] : source.items())
+        if (!j.contains(k)) j[k] = value;
+    fmt::print("{}\n", j.dump());
+  } else if (!c.quiet) {
+    fmt::print("{}\n", run_in_words(metrics, read_run_info(session.dir() / run_files::kManifest)).outcome);
+    latency(manifest);
+    fmt::print("  report {}\n", (session.dir() / "report.html").string());
+  }
+  return whole ? 0 : int(Errc::interrupted);
+}
+
+int rig_list(const Common& c) {
+  const std::vector<Device> all = device_list();
+  if (c.json) {
+    Json j = Json::array();
+    for (const Device& d : all) j.push_back({{"kind", d.kind}, {"name", d.name}, {"what", d.what}});
+    fmt::print("{}\n", Json{{"devices", j}}.dump());
+    return 0;
+  }
+  for (const Device& d : all) fmt::print("{:<14}  {:<24}  {}\n", d.kind, d.name, d.what);
+  if (c.quiet) return 0;
+  if (all.empty()) fmt::print("no cameras, serial lines or output devices are here\n");
+  fmt::print(
+      "always there: camera \"simulated\" and \"playback\", driver \"simulated\"; see faba parts camera, "
+      "faba parts driver\n");
+  return 0;
+}
+
+int rig_check(const RigVerb& v, const Common& c) {
+  constexpr double kLook = 2;  // s
+  Scenario s = bench_scene(v);
+  const Json j = check_bench(s, s.params.seed.value_or(1), kLook);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  const auto said = [&](const char* key, const char* unit) {
+    return j.at(key).is_null() ? std::string("-") : three_digits(j.at(key).get<double>()) + unit;
+  };
+  fmt::print("camera   {}: {} x {} px, {}, {} after mid-exposure; {} frames, {} dropped, {} corrupt\n",
+             j["camera"].get<std::string>(), j["size_px"][0].dump(), j["size_px"][1].dump(),
+             said("rate_hz", " Hz"), said("age_ms", " ms"), j["frames"].dump(), j["dropped"].dump(),
+             j["corrupt"].dump());
+  if (j["swarm"].is_null())
+    fmt::print("swarm    none is seen\n");
+  else
+    fmt::print("swarm    some {} cells about ({}, {}) px\n", three_digits(j["swarm"]["cells"].get<double>()),
+               three_digits(j["swarm"]["centroid_px"][0].get<double>()),
+               three_digits(j["swarm"]["centroid_px"][1].get<double>()));
+  std::string sensed;
+  for (const Json& a : j["sensed_a"])
+    sensed += " " + (a.is_null() ? "-" : fmt::format("{:.3f} A", a.get<double>()));
+  fmt::print("coils    {}: {}; sensed{}\n", j["driver"].get<std::string>(), j["guard"].get<std::string>(),
+             sensed);
+  if (!j["cannot_arm"].is_null())
+    fmt::print("         cannot be armed: {}\n", j["cannot_arm"].get<std::string>());
+  return j["cannot_arm"].is_null() ? 0 : int(Errc::device);
+}
+
+int rig_replay(const RigVerb& v, const Common& c) {
+  Progress bar("replaying", !c.quiet && !c.json);
+  const Replayed r = replay_run(v.run.scene, [&](std::uint64_t done, std::uint64_t of) {
+    bar.update(done, of);
+    return !stop_requested().load();
+  });
+  bar.clear();
+  const bool same = r.equal == r.recorded;
+  if (c.json)
+    fmt::print("{}\n", Json{{"recorded", r.recorded},
+                            {"equal", r.equal},
+                            {"same", same},
+                            {"first_other", r.first_other ? Json(*r.first_other) : Json()}}
+                           .dump());
+  else if (!c.quiet)
+    fmt::print("{} of {} commands are the same, bit for bit{}\n", r.equal, r.recorded,
+               r.first_other ? fmt::format("; the first other one is that of frame {}", *r.first_other) : "");
+  return same ? 0 : int(Errc::internal);
+}
+
+int rig_simulate(const RigVerb& v, const Common& c) {
+  const Scenario s = bench_scene(v);
+  const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
+  Pool pool(v.run.threads);
+  if (!c.quiet && !c.json) {
+    fmt::print("a simulated bench at {}; Ctrl-C ends it\n", v.at.string());
+    std::fflush(stdout);
+  }
+  const SimulatedBench::Summary done = SimulatedBench::run(
+      s, seed, pool, {.at = v.at, .log = v.log, .once = v.once, .stop = &stop_requested()});
+  if (c.json)
+    fmt::print(
+        "{}\n",
+        Json{{"frames", done.frames}, {"unfetched", done.unfetched}, {"behind_s", done.behind}}.dump());
+  else if (!c.quiet)
+    fmt::print("{} frames taken, {} that nobody fetched in time; at most {} ms behind the clock\n",
+               done.frames, done.unfetched, three_digits(1e3 * done.behind));
+  return 0;
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,62 @@
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/verbs.h"
+
+namespace faba::cli {
+namespace {
+
+void add_scene(CLI::App* v, RunVerb& o) {
+  v->add_option("scene", o.scene, "Scenario file (TOML) with a [rig]")->required();
+  v->add_option("--set", o.set, "Change one value: PATH=VALUE")->take_all()->allow_extra_args(false);
+  v->add_option("--seed", o.seed, "Seed of all randomness of a simulated bench");
+  v->add_option("--threads", o.threads, "Threads; all of the machine's when absent")
+      ->check(CLI::Range(1, 1024));
+}
+
+}  // namespace
+
+void add_rig_verbs(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<RigVerb>();
+  CLI::App* rig = app.add_subcommand("rig", "The bench: a camera and coils, real or simulated");
+  rig->require_subcommand(1);
+  CLI::App* v = verb(*rig, line, "list", "Cameras and coil drivers that this machine has", "  faba rig list");
+  v->callback([&line] { line.code = rig_list(line.common); });
+  v = verb(*rig, line, "check", "Look through the camera and ask the coils' driver, without any current",
+           "  faba rig check scenes/bench.toml");
+  add_scene(v, o->run);
+  v->callback([o, &line] { line.code = rig_check(*o, line.common); });
+
+  v = verb(*rig, line, "jog",
+           "Set currents by hand, from the keyboard: step by step, largest, smallest, none",
+           "  faba rig jog scenes/bench.toml --step \"20 mA\"");
+  add_scene(v, o->run);
+  v->add_option("--step", o->step, "How far a key goes")->check(not_empty);
+  v->callback([o, &line] { line.code = rig_jog(*o, line.common); });
+
+  v = verb(*rig, line, "run", "Run a scenario on the bench: the closed loop, recorded",
+           "  faba rig run scenes/bench.toml --arm\n"
+           "  faba rig run scenes/bench.toml --arm --duration \"5 s\" --out runs/a");
+  add_scene(v, o->run);
+  v->add_flag("--arm", o->arm, "Let current flow: somebody who sees the coils says that they may be on");
+  v->add_option("-o,--out", o->run.out, "Run directory; runs/SCENE-bench when absent")->check(not_empty);
+  v->add_option("--duration", o->run.duration, "Time on the clock, such as \"10 s\"");
+  v->add_flag("--force", o->run.force, "Replace an earlier run in the directory");
+  v->callback([o, &line] { line.code = rig_run(*o, line.common); });
+
+  v = verb(*rig, line, "replay",
+           "Do the decisions of a recorded run again, and compare its commands bit for bit",
+           "  faba rig replay runs/bench-bench");
+  v->add_option("dir", o->run.scene, "Run directory, with video.avi")->required();
+  v->callback([o, &line] { line.code = rig_replay(*o, line.common); });
+
+  v = verb(*rig, line, "simulate", "A simulated bench for other processes: microscope and coils in real time",
+           "  faba rig simulate scenes/bench.toml --at /tmp/bench --log coils.csv");
+  add_scene(v, o->run);
+  v->add_option("--at", o->at, "Name of the socket to be made")->required()->check(not_empty);
+  v->add_option("--log", o->log, "CSV of times, voltages and currents")->check(not_empty);
+  v->add_flag("--once", o->once, "End when those that came have gone");
+  v->callback([o, &line] { line.code = rig_simulate(*o, line.common); });
+}
+
+}  // namespace faba::cli

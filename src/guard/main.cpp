@@ -1,0 +1,58 @@
+// faba-coil-guard: the process that owns the coils' driver. Begun by faba, never by hand; see
+// rig/guard_loop.h.
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "rig/guard_loop.h"
+#include "rig/guard_setup.h"
+
+namespace {
+
+constexpr std::size_t kLongestSetup = 200'000;  // bytes
+
+// What helps to be in time, where this is allowed; the deadlines hold without.
+void be_quick() {
+  (void)setpriority(PRIO_PROCESS, 0, -10);
+  (void)mlockall(MCL_CURRENT | MCL_FUTURE);
+}
+
+void refuse(const std::string& why) {
+  faba::GuardReport r;
+  r.state = faba::CoilGuard::State::faulted, r.fault = faba::CoilGuard::Fault::device;
+  why.copy(r.reason.data(), r.reason.size() - 1);
+  (void)send(faba::kGuardDescriptor, &r, sizeof r, MSG_NOSIGNAL);
+}
+
+int guard() {
+  using namespace faba;
+  std::string text(kLongestSetup, '\0');
+  const ssize_t n = recv(kGuardDescriptor, text.data(), text.size(), 0);
+  if (n <= 0) {
+    std::fputs("faba-coil-guard: is begun by faba itself, such as by `faba rig run`\n", stderr);
+    return int(Errc::usage);
+  }
+  text.resize(std::size_t(n));
+  const GuardSetup setup = GuardSetup::read(Json::parse(text), builtin_coil_drivers());
+  std::unique_ptr<OutputFile> log;
+  if (!setup.log.empty()) log = std::make_unique<OutputFile>(setup.log);
+  GuardLoop loop(kGuardDescriptor, CoilGuard(setup.guard, setup.bounds(), setup.frame_period),
+                 CoilWiring(setup.coils), setup.driver.make(setup.context()), std::move(log));
+  be_quick();
+  return loop.run() ? 0 : int(Errc::device);
+}
+
+}  // namespace
+
+int main() {
+  try {
+    return guard();
+  } catch (const std::exception& e) {  // before the loop, so nothing flows yet
+    refuse(e.what());
+    return int(faba::Errc::device);
+  }
+}

@@ -1,0 +1,65 @@
+#pragma once
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "rig/camera_feed.h"
+#include "rig/guard_link.h"
+#include "rig/rig.h"
+
+namespace faba {
+
+/// A camera and real coils. Frames come when the camera takes them; while none comes the coils get no
+/// current. It begins disarmed: commands are counted and go nowhere until arm().
+class BenchRig final : public Rig {
+ public:
+  struct Params {
+    double camera_timeout = 2;  ///< s
+    CameraFeed::Keep keep = CameraFeed::Keep::newest;
+  };
+  /// `coils` null: eyes without hands. Throws Error(device).
+  BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> coils, const Params& p);
+  ~BenchRig() override;
+
+  /// Throws Error(device) when the camera fails, gives no frame for too long, or the guard took the current
+  /// away.
+  bool read(Observation& out) override;
+  void write(const Command& c) override;
+  void safe() noexcept override;
+  void arm();
+  bool armed() const { return armed_; }
+  /// From now on read() says that there are no more frames.
+  void end() noexcept { over_ = true; }
+  CameraFeed& feed() { return feed_; }
+  GuardLink* coils() { return coils_.get(); }
+
+  /// How long a frame took, s: of each, in order.
+  struct Delay {
+    double arrival;  ///< from mid-exposure to the program
+    double command;  ///< from there until the device had the voltages; not a number when it never told
+  };
+  const std::vector<Delay>& delays() const { return delays_; }
+
+ private:
+  struct Asked {
+    std::uint64_t number;
+    double arrived;     ///< s, monotonic
+    std::size_t frame;  ///< of delays_
+  };
+  void answered(const GuardReport& r);
+  void check_guard();
+
+  Params p_;
+  CameraFeed feed_;
+  std::unique_ptr<GuardLink> coils_;
+  std::optional<double> began_;  ///< s, monotonic, of the first frame
+  std::uint64_t first_ = 0;      ///< its number
+  double arrived_ = 0;           ///< s, monotonic, of the newest
+  double asked_t_ = 0;           ///< s, monotonic, of the last request
+  std::deque<Asked> asked_;      ///< not answered yet
+  std::vector<Delay> delays_;
+  std::atomic<bool> armed_ = false, over_ = false;
+};
+
+}  // namespace faba

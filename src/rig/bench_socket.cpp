@@ -1,0 +1,117 @@
+#include "rig/bench_socket.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+#include "core/monotonic.h"
+
+namespace faba {
+namespace {
+
+constexpr double kHelloTime = 2;  // s
+
+sockaddr_un address(const std::filesystem::path& path) {
+  sockaddr_un a{};
+  a.sun_family = AF_UNIX;
+  const std::string name = path.string();
+  if (name.size() >= sizeof a.sun_path)
+    throw Error(
+        Errc::device, name,
+        fmt::format("is too long for the name of a socket, {} letters are the most", sizeof a.sun_path - 1));
+  std::memcpy(a.sun_path, name.c_str(), name.size() + 1);
+  return a;
+}
+
+int local_socket() { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+
+bool ready(int descriptor, short what, double until) {
+  const double left = until - monotonic_now();
+  pollfd p{descriptor, what, 0};
+  return poll(&p, 1, left > 0 ? int(1e3 * left) + 1 : 0) > 0;
+}
+
+}  // namespace
+
+BenchSocket::BenchSocket(BenchSocket&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+BenchSocket& BenchSocket::operator=(BenchSocket&& other) noexcept {
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+BenchSocket::~BenchSocket() { close(); }
+
+void BenchSocket::close() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+BenchSocket BenchSocket::connect(const std::filesystem::path& path, BenchHello::Role role) {
+  const sockaddr_un a = address(path);
+  BenchSocket s(local_socket());
+  if (!s || ::connect(s.descriptor_, reinterpret_cast<const sockaddr*>(&a), sizeof a) != 0)
+    throw Error(
+        Errc::device, path.string(),
+        fmt::format("no simulated bench is there ({}); begin one with `faba rig simulate SCENE.toml --at {}`",
+                    std::strerror(errno), path.string()));
+  const BenchHello hello{kBenchVersion, role};
+  if (!s.write(&hello, sizeof hello, kHelloTime)) throw Error(Errc::device, path.string(), "does not listen");
+  return s;
+}
+
+BenchSocket BenchSocket::listen(const std::filesystem::path& path) {
+  const sockaddr_un a = address(path);
+  BenchSocket s(local_socket());
+  if (!s || bind(s.descriptor_, reinterpret_cast<const sockaddr*>(&a), sizeof a) != 0)
+    throw Error(Errc::device, path.string(),
+                fmt::format("cannot be listened on: {}; choose another name, or remove what is there",
+                            std::strerror(errno)));
+  if (::listen(s.descriptor_, 4) != 0) throw Error(Errc::device, path.string(), std::strerror(errno));
+  return s;
+}
+
+BenchSocket BenchSocket::accept(double patience) {
+  if (!ready(descriptor_, POLLIN, monotonic_now() + patience)) return {};
+  return BenchSocket(accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+}
+
+BenchSocket::Got BenchSocket::read(void* to, std::size_t bytes, double patience) {
+  const double until = monotonic_now() + patience;
+  auto* at = static_cast<char*>(to);
+  std::size_t got = 0;
+  while (got < bytes) {
+    const ssize_t n = recv(descriptor_, at + got, bytes - got, 0);
+    if (n > 0) {
+      got += std::size_t(n);
+    } else if (n == 0 || (errno != EAGAIN && errno != EINTR)) {
+      return Got::closed;
+    } else if (!ready(descriptor_, POLLIN, got > 0 ? until + kHelloTime : until)) {
+      return got > 0 ? Got::closed : Got::nothing;
+    }
+  }
+  return Got::all;
+}
+
+bool BenchSocket::write(const void* from, std::size_t bytes, double patience) {
+  const double until = monotonic_now() + patience;
+  const auto* at = static_cast<const char*>(from);
+  std::size_t put = 0;
+  while (put < bytes) {
+    const ssize_t n = send(descriptor_, at + put, bytes - put, MSG_NOSIGNAL);
+    if (n > 0)
+      put += std::size_t(n);
+    else if (errno != EAGAIN && errno != EINTR)
+      return false;
+    else if (!ready(descriptor_, POLLOUT, until))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace faba

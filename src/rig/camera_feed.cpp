@@ -1,0 +1,89 @@
+#include "rig/camera_feed.h"
+
+#include <chrono>
+#include <optional>
+
+#include "core/monotonic.h"
+
+namespace faba {
+namespace {
+
+constexpr auto kPatience = std::chrono::seconds(1);  // for a camera's thread to end
+
+}  // namespace
+
+CameraFeed::CameraFeed(std::shared_ptr<Camera> camera, Keep keep)
+    : camera_(std::move(camera)),
+      shared_(std::make_shared<Shared>()),
+      thread_([c = camera_, s = shared_, keep] { work(c, s, keep); }) {}
+
+CameraFeed::~CameraFeed() {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->stop = true;
+    shared_->came.notify_all();
+  }
+  camera_->interrupt();
+  std::unique_lock lock(shared_->mutex);
+  const bool ended = shared_->came.wait_for(lock, kPatience, [&] { return shared_->left; });
+  lock.unlock();
+  if (ended)
+    thread_.join();
+  else
+    thread_.detach();
+}
+
+void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep) {
+  std::optional<std::uint64_t> last;
+  std::exception_ptr failure;
+  try {
+    CameraFrame frame;
+    while (camera->read(frame)) {
+      std::unique_lock lock(s->mutex);
+      if (s->stop) break;
+      if (last && frame.number > *last + 1) s->lost += frame.number - *last - 1;
+      last = frame.number;
+      if (keep == Keep::newest && !s->waiting.empty()) {
+        s->lost += s->waiting.size();
+        s->waiting.clear();
+      }
+      s->waiting.push_back(std::move(frame));
+      frame = {};
+      s->came.notify_all();
+      if (keep == Keep::each) s->came.wait(lock, [&] { return s->waiting.empty() || s->stop; });
+    }
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  const std::lock_guard lock(s->mutex);
+  s->failure = failure, s->end = s->left = true;
+  s->came.notify_all();
+}
+
+CameraFeed::Got CameraFeed::next(CameraFrame& out, double until) {
+  std::unique_lock lock(shared_->mutex);
+  const std::chrono::duration<double> left(until - monotonic_now());
+  shared_->came.wait_for(lock, left, [&] { return !shared_->waiting.empty() || shared_->end; });
+  if (!shared_->waiting.empty()) {
+    out = std::move(shared_->waiting.front());
+    shared_->waiting.pop_front();
+    ++shared_->taken;
+    shared_->came.notify_all();
+    return Got::frame;
+  }
+  if (!shared_->end) return Got::nothing;
+  if (shared_->failure) std::rethrow_exception(shared_->failure);
+  return Got::end;
+}
+
+std::uint64_t CameraFeed::taken() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->taken;
+}
+
+std::uint64_t CameraFeed::dropped() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->lost;
+}
+
+}  // namespace faba

@@ -1,0 +1,189 @@
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <map>
+
+#include "rig/coil_driver.h"
+
+namespace faba {
+namespace {
+
+// What is used of NI-DAQmx's C interface (NI-DAQmx C Reference Help): its types and the values of its names.
+using Task = void*;
+constexpr std::int32_t kVolts = 10348;         // DAQmx_Val_Volts
+constexpr std::int32_t kDefaultTerminal = -1;  // DAQmx_Val_Cfg_Default
+constexpr std::int32_t kAllLines = 1;          // DAQmx_Val_ChanForAllLines
+constexpr std::uint32_t kByChannel = 0;        // DAQmx_Val_GroupByChannel
+
+/// The library as it was found when the driver was asked for: the program itself does without.
+class Daqmx {
+ public:
+  explicit Daqmx(const std::string& library) : library_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    if (!library_)
+      throw Error(Errc::device, "nidaqmx",
+                  fmt::format("{} cannot be loaded ({}); install NI-DAQmx for Linux, or say where it is with "
+                              "rig.driver.library",
+                              library, dlerror()));
+    find(create_task, "DAQmxCreateTask");
+    find(create_output, "DAQmxCreateAOVoltageChan");
+    find(create_input, "DAQmxCreateAIVoltageChan");
+    find(create_line, "DAQmxCreateDOChan");
+    find(start, "DAQmxStartTask");
+    find(clear, "DAQmxClearTask");
+    find(write, "DAQmxWriteAnalogF64");
+    find(read, "DAQmxReadAnalogF64");
+    find(write_line, "DAQmxWriteDigitalLines");
+    find(error_text, "DAQmxGetExtendedErrorInfo");
+  }
+  // Never unloaded: it has threads of its own.
+
+  std::int32_t (*create_task)(const char*, Task*) = nullptr;
+  std::int32_t (*create_output)(Task, const char*, const char*, double, double, std::int32_t,
+                                const char*) = nullptr;
+  std::int32_t (*create_input)(Task, const char*, const char*, std::int32_t, double, double, std::int32_t,
+                               const char*) = nullptr;
+  std::int32_t (*create_line)(Task, const char*, const char*, std::int32_t) = nullptr;
+  std::int32_t (*start)(Task) = nullptr;
+  std::int32_t (*clear)(Task) = nullptr;
+  std::int32_t (*write)(Task, std::int32_t, std::uint32_t, double, std::uint32_t, const double*,
+                        std::int32_t*, std::uint32_t*) = nullptr;
+  std::int32_t (*read)(Task, std::int32_t, double, std::uint32_t, double*, std::uint32_t, std::int32_t*,
+                       std::uint32_t*) = nullptr;
+  std::int32_t (*write_line)(Task, std::int32_t, std::uint32_t, double, std::uint32_t, const std::uint8_t*,
+                             std::int32_t*, std::uint32_t*) = nullptr;
+
+  /// What the last call that failed in this thread says of itself.
+  std::string trouble(std::int32_t code) const {
+    std::string text(2048, '\0');
+    if (error_text(text.data(), std::uint32_t(text.size())) < 0) text.clear();
+    text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
+    for (char& c : text)
+      if (c == '\n' || c == '\r') c = ' ';
+    return fmt::format("NI-DAQmx {}: {}", code, text);
+  }
+
+ private:
+  template <class Function>
+  void find(Function& f, const char* name) {
+    f = reinterpret_cast<Function>(dlsym(library_, name));
+    if (!f) throw Error(Errc::device, "nidaqmx", fmt::format("the library has no {}", name));
+  }
+  std::int32_t (*error_text)(char*, std::uint32_t) = nullptr;
+  void* library_;
+};
+
+/// Analogue outputs of National Instruments devices, such as the thesis's USB-6009 (two outputs of 0 to 5 V,
+/// 12 bits, timed by software): one task for each device that the channels name.
+class NiDaqmx final : public CoilDriver {
+ public:
+  struct Params {
+    std::string library = "libnidaqmx.so.1";
+    std::string enable_line;
+    double timeout = 0.05;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("nidaqmx",
+                          "National Instruments devices, by the NI-DAQmx library where it is installed")
+        .add("library", &Params::library, {.doc = "The library, a name for the loader or a path"})
+        .add("enable_line", &Params::enable_line,
+             {.doc = "Digital line such as \"Dev1/port0/line0\" that toggles while the guard lives; current "
+                     "must flow "
+                     "only while it does"})
+        .add("timeout", &Params::timeout,
+             {.unit = "s", .min = 1e-3, .max = 1, .doc = "A device that takes longer counts as broken"})
+        .validity(
+            "Channels are named as NI names them: \"Dev1/ao0\", inputs \"Dev1/ai0\". Tried against a library "
+            "of the "
+            "same functions that is built in the tests, never on a device. A USB-6009 keeps its last voltage "
+            "when the "
+            "computer dies and has no watchdog: without an enable line the guard will not arm.");
+  }
+  NiDaqmx(const Params& p, const DriverContext& c) : p_(p), ni_(p.library) {
+    for (std::size_t i = 0; i < c.channels.size(); ++i) {
+      Group& g = group(outputs_, c.channels[i]);
+      g.index.push_back(i);
+      check(ni_.create_output(g.task, c.channels[i].c_str(), "", c.least_volts[i], c.most_volts[i], kVolts,
+                              nullptr));
+    }
+    for (std::size_t i = 0; i < c.senses.size(); ++i) {
+      Group& g = group(inputs_, c.senses[i]);
+      g.index.push_back(i);
+      check(ni_.create_input(g.task, c.senses[i].c_str(), "", kDefaultTerminal, -10, 10, kVolts, nullptr));
+    }
+    if (!p.enable_line.empty()) {
+      check(ni_.create_task("", &line_));
+      check(ni_.create_line(line_, p.enable_line.c_str(), "", kAllLines));
+      check(ni_.start(line_));
+    }
+    for (auto* groups : {&outputs_, &inputs_})
+      for (auto& [device, g] : *groups) check(ni_.start(g.task));
+    if (const Status s = write(c.neutral, false); !s) throw Error(Errc::device, "nidaqmx", s.trouble);
+  }
+  ~NiDaqmx() override {
+    for (auto* groups : {&outputs_, &inputs_})
+      for (auto& [device, g] : *groups) ni_.clear(g.task);
+    if (line_) ni_.clear(line_);
+  }
+
+  Status write(std::span<const double> volts, bool enable) override {
+    Status status;
+    const auto tried = [&](std::int32_t code) {
+      if (code < 0 && status) status.trouble = ni_.trouble(code);
+    };
+    if (line_) {  // first, so that current goes at once where the outputs fail
+      high_ = enable && !high_;
+      const std::uint8_t level = high_;
+      tried(ni_.write_line(line_, 1, 0, p_.timeout, kByChannel, &level, nullptr, nullptr));
+    }
+    for (auto& [device, g] : outputs_) {
+      for (std::size_t i = 0; i < g.index.size(); ++i) g.volts[i] = volts[g.index[i]];
+      tried(ni_.write(g.task, 1, 0, p_.timeout, kByChannel, g.volts.data(), nullptr, nullptr));
+    }
+    return status;
+  }
+  Status sense(std::span<double> volts) override {
+    for (auto& [device, g] : inputs_) {
+      std::int32_t got = 0;
+      const std::int32_t code = ni_.read(g.task, 1, p_.timeout, kByChannel, g.volts.data(),
+                                         std::uint32_t(g.volts.size()), &got, nullptr);
+      if (code < 0) return {ni_.trouble(code)};
+      for (std::size_t i = 0; i < g.index.size(); ++i) volts[g.index[i]] = g.volts[i];
+    }
+    return {};
+  }
+  std::string unsafe() const override {
+    if (line_) return "";
+    return "the device keeps its last voltage when this computer fails, so that it cannot be made safe from "
+           "here; name "
+           "a digital line in rig.driver.enable_line, which lets current flow only while it toggles";
+  }
+
+ private:
+  struct Group {
+    Task task = nullptr;
+    std::vector<std::size_t> index;  ///< of the channels
+    std::vector<double> volts;
+  };
+  void check(std::int32_t code) const {
+    if (code < 0) throw Error(Errc::device, "nidaqmx", ni_.trouble(code));
+  }
+  Group& group(std::map<std::string, Group>& groups, const std::string& channel) const {
+    Group& g = groups[channel.substr(0, channel.find('/'))];
+    if (!g.task) check(ni_.create_task("", &g.task));
+    g.volts.push_back(0);
+    return g;
+  }
+
+  Params p_;
+  Daqmx ni_;
+  std::map<std::string, Group> outputs_,
+      inputs_;  ///< by device: a task of one cannot hold channels of another
+  Task line_ = nullptr;
+  bool high_ = false;
+};
+
+}  // namespace
+
+void add_nidaqmx(CoilDriverRegistry& r) { r.add<NiDaqmx>(); }
+
+}  // namespace faba

@@ -1,0 +1,29 @@
+#include <algorithm>
+#include <cmath>
+
+#include "rig/coil_driver.h"
+
+namespace faba {
+namespace {
+
+/// No device at all: for those who look and do not touch.
+class NoCoils final : public CoilDriver {
+ public:
+  struct Params {};
+  static Schema<Params> schema() {
+    return Schema<Params>("none", "Nothing: commands are made, recorded and go nowhere");
+  }
+  NoCoils(const Params&, const DriverContext&) {}
+  Status write(std::span<const double>, bool) override { return {}; }
+  Status sense(std::span<double> volts) override {
+    std::fill(volts.begin(), volts.end(), std::nan(""));
+    return {};
+  }
+  std::string unsafe() const override { return ""; }
+};
+
+}  // namespace
+
+void add_no_coils(CoilDriverRegistry& r) { r.add<NoCoils>(); }
+
+}  // namespace faba

@@ -1,0 +1,79 @@
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "core/monotonic.h"
+#include "rig/camera.h"
+#include "vision/grey_video.h"
+
+namespace faba {
+namespace {
+
+/// A video, a TIFF stack or a folder of pictures in place of a camera: frames come when they would have come.
+class Playback final : public Camera {
+ public:
+  struct Params {
+    std::string file;
+    double fps = 0;
+    bool fast = false;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("playback", "A video or a folder of pictures, played as a camera")
+        .add("file", &Params::file,
+             {.doc = "Video, TIFF stack, folder of pictures, or pattern of their names"})
+        .add("fps", &Params::fps,
+             {.unit = "Hz", .min = 0, .max = 1e5, .doc = "Frames per second; 0: as the file states them"})
+        .add("fast", &Params::fast,
+             {.doc = "As fast as frames are taken, none left out, instead of at the file's own rate"})
+        .validity("At its own rate, frames whose time has passed are left out, as a camera's are.");
+  }
+  static void settle(Params& p, const Node& n) {
+    if (p.file.empty()) n.fail("needs file = \"...\", the video to be played");
+    p.file = std::filesystem::absolute(n.file(p.file)).lexically_normal().string();
+  }
+  Playback(const Params& p, const CameraContext&) : p_(p), video_(p.file, p.fps) {
+    if (!(video_.reader().fps() > 0))
+      throw Error(Errc::input, p.file, "does not say how many frames a second it has; say it with fps");
+  }
+
+  bool read(CameraFrame& out) override {
+    double t = 0;
+    do {
+      if (over_ || !video_.read(grey_, t)) return false;
+      if (began_ == 0) began_ = monotonic_now() - t;
+      out.number = ++number_;
+      out.t = began_ + t;
+    } while (!p_.fast && monotonic_now() > out.t + 1 / rate());
+    auto image = std::make_shared<Gray8>(grey_.width, grey_.height);
+    for (std::size_t i = 0; i < grey_.px.size(); ++i)
+      image->px[i] = std::uint8_t(std::clamp(grey_.px[i] + 0.5F, 0.0F, 255.0F));
+    out.image = std::move(image);
+    while (!p_.fast && !over_) {
+      const double left = out.t - monotonic_now();
+      if (left <= 0) break;
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.1)));
+    }
+    return true;
+  }
+  void interrupt() noexcept override { over_ = true; }
+  int width() const override { return video_.width(); }
+  int height() const override { return video_.height(); }
+  double rate() const override { return video_.reader().fps(); }
+  bool waits() const override { return p_.fast; }
+  std::uint64_t corrupt() const override { return std::uint64_t(video_.reader().damaged_frames()); }
+
+ private:
+  Params p_;
+  GreyVideo video_;
+  GrayF grey_;
+  double began_ = 0;          ///< s, of the first frame
+  std::uint64_t number_ = 0;  // the first frame is 1
+  std::atomic<bool> over_ = false;
+};
+
+}  // namespace
+
+void add_playback(CameraRegistry& r) { r.add<Playback>(); }
+
+}  // namespace faba

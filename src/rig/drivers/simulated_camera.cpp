@@ -1,0 +1,65 @@
+#include <atomic>
+
+#include "rig/bench_socket.h"
+#include "rig/camera.h"
+#include "vision/image.h"
+
+namespace faba {
+namespace {
+
+/// The camera of a simulated bench (`faba rig simulate`), in another process.
+class SimulatedCamera final : public Camera {
+ public:
+  struct Params {
+    std::string at;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("simulated",
+                          "The microscope of a simulated bench, in another process and in real time")
+        .add("at", &Params::at,
+             {.doc = "Its socket, as given to `faba rig simulate --at`; when absent a bench is begun with "
+                     "the run"});
+  }
+  SimulatedCamera(const Params& p, const CameraContext&)
+      : at_(p.at), socket_(BenchSocket::connect(at_, BenchHello::Role::camera)) {
+    if (socket_.read(&next_, sizeof next_, kFirst) != BenchSocket::Got::all)
+      throw Error(Errc::device, at_, "the simulated bench gives no picture");
+  }
+
+  bool read(CameraFrame& out) override {
+    if (!have_head_) {
+      BenchSocket::Got got = BenchSocket::Got::nothing;
+      while (got == BenchSocket::Got::nothing && !over_) got = socket_.read(&next_, sizeof next_, kSlice);
+      if (got != BenchSocket::Got::all) return gone();
+    }
+    have_head_ = false;
+    auto image = std::make_shared<Gray8>(next_.width, next_.height);
+    if (socket_.read(image->px.data(), image->px.size(), kFirst) != BenchSocket::Got::all) return gone();
+    out.number = next_.number, out.t = next_.t, out.image = std::move(image);
+    return true;
+  }
+  void interrupt() noexcept override { over_ = true; }
+  int width() const override { return next_.width; }
+  int height() const override { return next_.height; }
+  double rate() const override { return next_.rate; }
+
+ private:
+  static constexpr double kFirst = 10, kSlice = 0.1;  // s
+
+  bool gone() const {
+    if (over_) return false;
+    throw Error(Errc::device, at_, "the simulated bench is gone");
+  }
+
+  std::string at_;
+  BenchSocket socket_;
+  BenchFrame next_;
+  bool have_head_ = true;
+  std::atomic<bool> over_ = false;
+};
+
+}  // namespace
+
+void add_simulated_camera(CameraRegistry& r) { r.add<SimulatedCamera>(); }
+
+}  // namespace faba

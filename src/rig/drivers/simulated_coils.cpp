@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/monotonic.h"
+#include "rig/bench_socket.h"
+#include "rig/coil_driver.h"
+
+namespace faba {
+namespace {
+
+/// The coils of a simulated bench (`faba rig simulate`), in another process: what is tried here goes over a
+/// connection that can be slow, stop or break, as with a real device.
+class SimulatedCoils final : public CoilDriver {
+ public:
+  struct Params {
+    std::string at;
+  };
+  static Schema<Params> schema() {
+    return Schema<Params>("simulated", "The coils of a simulated bench, in another process")
+        .add("at", &Params::at,
+             {.doc = "Its socket, as given to `faba rig simulate --at`; when absent a bench is begun with "
+                     "the run"})
+        .validity("Channels are the numbers of the coils, \"0\", \"1\" ...");
+  }
+  SimulatedCoils(const Params& p, const DriverContext& c)
+      : at_(p.at), outputs_(numbers(c.channels)), inputs_(numbers(c.senses)) {
+    socket_ = BenchSocket::connect(at_, BenchHello::Role::coils);
+    BenchDevice device;
+    if (socket_.read(&device, sizeof device, kPatience) != BenchSocket::Got::all)
+      throw Error(Errc::device, at_, "the simulated bench does not answer");
+    for (const auto* list : {&outputs_, &inputs_})
+      for (const std::size_t n : *list)
+        if (n >= device.outputs)
+          throw Error(Errc::device, at_, fmt::format("has {} outputs, and none \"{}\"", device.outputs, n));
+    count_ = device.outputs;
+    enable_line_ = device.enable_line != 0;
+    answer_.volts.fill(std::nan(""));
+  }
+
+  Status write(std::span<const double> volts, bool enable) override {
+    BenchVolts m{.outputs = count_, .enable = enable, .set = 1};
+    m.volts.fill(std::nan(""));
+    for (std::size_t i = 0; i < volts.size(); ++i) m.volts[outputs_[i]] = volts[i];
+    if (!socket_.write(&m, sizeof m, kPatience)) return {at_ + ": the simulated bench is gone"};
+    return {};
+  }
+  // Asks, and gives what was answered the last time: a bench that is slow to answer holds nobody up.
+  Status sense(std::span<double> volts) override {
+    BenchSocket::Got got;
+    while ((got = socket_.read(&answer_, sizeof answer_, 0)) == BenchSocket::Got::all) asked_.reset();
+    const double now = monotonic_now();
+    if (got == BenchSocket::Got::closed || (asked_ && now - *asked_ > kSlowest))
+      return {at_ + ": the simulated bench does not answer"};
+    if (!asked_) {
+      const BenchVolts ask{.outputs = count_, .tell = 1};
+      if (!socket_.write(&ask, sizeof ask, kPatience)) return {at_ + ": the simulated bench is gone"};
+      asked_ = now;
+    }
+    for (std::size_t i = 0; i < volts.size(); ++i) volts[i] = answer_.volts[inputs_[i]];
+    return {};
+  }
+  std::string unsafe() const override {
+    return enable_line_
+               ? ""
+               : "this bench has no enable line: its last voltages stay when this computer fails; set "
+                 "rig.bench.enable_line = true";
+  }
+
+ private:
+  static constexpr double kPatience = 0.02;  // s to take a message
+  static constexpr double kSlowest = 0.1;    // s to answer one: a device that takes longer counts as broken
+
+  std::vector<std::size_t> numbers(const std::vector<std::string>& names) const {
+    std::vector<std::size_t> n;
+    for (const std::string& name : names) {
+      if (name.empty() || name.size() > 2 ||
+          !std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }))
+        throw Error(Errc::usage, "rig.coil",
+                    fmt::format("a channel of the simulated bench is a number, not \"{}\"", name));
+      n.push_back(std::size_t(std::stoi(name)));
+      if (n.back() >= kBenchOutputs)
+        throw Error(Errc::usage, "rig.coil",
+                    fmt::format("the simulated bench has {} channels at most", kBenchOutputs));
+    }
+    return n;
+  }
+
+  std::string at_;
+  std::vector<std::size_t> outputs_, inputs_;
+  std::uint32_t count_ = 0;
+  bool enable_line_ = true;
+  BenchSocket socket_;
+  BenchSense answer_;
+  std::optional<double> asked_;  ///< s, while no answer has come
+};
+
+}  // namespace
+
+void add_simulated_coils(CoilDriverRegistry& r) { r.add<SimulatedCoils>(); }
+
+}  // namespace faba

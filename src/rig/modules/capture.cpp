@@ -1,0 +1,138 @@
+// faba-capture.so: see rig/drivers/opencv.cpp.
+#include "rig/modules/capture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "core/monotonic.h"
+#include "vision/image.h"
+
+namespace faba {
+namespace {
+
+constexpr double kPlausible = 1;  // s: a time stamp further back is of another clock
+
+int backend(CaptureParams::Interface i) {
+  using enum CaptureParams::Interface;
+  switch (i) {
+    case v4l2:
+      return cv::CAP_V4L2;
+    case firewire:
+      return cv::CAP_FIREWIRE;
+    case gstreamer:
+      return cv::CAP_GSTREAMER;
+    case ffmpeg:
+      return cv::CAP_FFMPEG;
+    case any:
+      break;
+  }
+  return cv::CAP_ANY;
+}
+
+class Capture final : public Camera {
+ public:
+  explicit Capture(const CaptureParams& p) : name_(p.device) {
+    const bool number =
+        !p.device.empty() && p.device.size() < 4 &&
+        std::all_of(p.device.begin(), p.device.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool opened = number ? capture_.open(std::stoi(p.device), backend(p.interface))
+                               : capture_.open(p.device, backend(p.interface));
+    if (!opened) throw Error(Errc::device, p.device, "no camera can be opened there; see `faba rig list`");
+    ask(cv::CAP_PROP_FRAME_WIDTH, p.width), ask(cv::CAP_PROP_FRAME_HEIGHT, p.height),
+        ask(cv::CAP_PROP_FPS, p.rate);
+    ask(cv::CAP_PROP_BUFFERSIZE, 1);
+    for (const auto& [what, value] : {std::pair{"exposure", p.exposure}, std::pair{"gain", p.gain},
+                                      std::pair{"white_balance", p.white_balance}})
+      if (value) set({what, *value, false});
+    while (!pending_)
+      if (!take()) throw Error(Errc::device, p.device, "gives no picture");
+  }
+
+  bool read(CameraFrame& out) override {
+    while (!pending_) {
+      if (over_ || !take()) return false;
+    }
+    pending_ = false;
+    out.number = number_, out.t = t_;
+    auto image = std::make_shared<Gray8>(grey_.cols, grey_.rows);
+    for (int row = 0; row < grey_.rows; ++row)
+      std::copy_n(grey_.ptr<std::uint8_t>(row), grey_.cols, &image->at(0, row));
+    out.image = std::move(image);
+    return true;
+  }
+  void interrupt() noexcept override { over_ = true; }
+  int width() const override { return grey_.cols; }
+  int height() const override { return grey_.rows; }
+  double rate() const override { return std::max(0.0, capture_.get(cv::CAP_PROP_FPS)); }
+  std::uint64_t corrupt() const override { return corrupt_; }
+
+  std::vector<CameraControl> controls() override {
+    const auto automatic = [&](int property) -> std::optional<bool> {
+      const double v = capture_.get(property);
+      if (v <= 0 && property != cv::CAP_PROP_AUTO_WB) return {};
+      return property == cv::CAP_PROP_AUTO_EXPOSURE ? std::fabs(v - kAutomaticExposure) < 0.5 : v > 0;
+    };
+    return {{"exposure", capture_.get(cv::CAP_PROP_EXPOSURE), automatic(cv::CAP_PROP_AUTO_EXPOSURE)},
+            {"gain", capture_.get(cv::CAP_PROP_GAIN), {}},
+            {"white_balance", capture_.get(cv::CAP_PROP_WB_TEMPERATURE), automatic(cv::CAP_PROP_AUTO_WB)}};
+  }
+  void set(const CameraControl& c) override {
+    const bool automatic = c.automatically.value_or(false);
+    bool taken = false;
+    if (c.name == "exposure") {
+      taken = capture_.set(cv::CAP_PROP_AUTO_EXPOSURE, automatic ? kAutomaticExposure : kManualExposure);
+      if (!automatic) taken = capture_.set(cv::CAP_PROP_EXPOSURE, c.value);
+    } else if (c.name == "gain") {
+      taken = capture_.set(cv::CAP_PROP_GAIN, c.value);
+    } else if (c.name == "white_balance") {
+      taken = capture_.set(cv::CAP_PROP_AUTO_WB, automatic);
+      if (!automatic) taken = capture_.set(cv::CAP_PROP_WB_TEMPERATURE, c.value);
+    }
+    if (!taken)
+      throw Error(Errc::usage, c.name, fmt::format("cannot be set to {:g} at camera {}", c.value, name_));
+  }
+
+ private:
+  static constexpr double kAutomaticExposure = 3, kManualExposure = 1;  // as V4L2 numbers them
+
+  void ask(int property, double value) {
+    if (value > 0) capture_.set(property, value);
+  }
+  bool take() {
+    if (!capture_.grab()) return false;
+    const double now = monotonic_now(), stamp = 1e-3 * capture_.get(cv::CAP_PROP_POS_MSEC);
+    if (!capture_.retrieve(colour_) || colour_.empty() || colour_.depth() != CV_8U) {
+      ++corrupt_, ++number_;
+      return !over_;
+    }
+    if (colour_.channels() == 1)
+      colour_.copyTo(grey_);
+    else
+      cv::cvtColor(colour_, grey_, cv::COLOR_BGR2GRAY);
+    t_ = stamp > now - kPlausible && stamp <= now ? stamp : now;
+    ++number_, pending_ = true;
+    return true;
+  }
+
+  std::string name_;
+  cv::VideoCapture capture_;
+  cv::Mat colour_, grey_;
+  double t_ = 0;
+  std::uint64_t number_ = 0;
+  std::atomic<std::uint64_t> corrupt_ = 0;
+  bool pending_ = false;
+  std::atomic<bool> over_ = false;
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) std::unique_ptr<Camera> faba_open_capture(
+    const CaptureParams& p);
+std::unique_ptr<Camera> faba_open_capture(const CaptureParams& p) { return std::make_unique<Capture>(p); }
+
+}  // namespace faba

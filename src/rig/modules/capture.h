@@ -1,0 +1,23 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "rig/camera.h"
+
+namespace faba {
+
+/// What is asked of OpenCV's VideoCapture.
+struct CaptureParams {
+  enum class Interface { any, v4l2, firewire, gstreamer, ffmpeg };
+  std::string device = "0";
+  Interface interface = Interface::any;
+  int width = 0, height = 0;
+  double rate = 0;
+  std::optional<double> exposure, gain, white_balance;
+};
+
+/// The function faba_open_capture of the module faba-capture.so, which is of the same build as the program.
+/// Throws Error(device).
+using OpenCapture = std::unique_ptr<Camera>(const CaptureParams& p);
+
+}  // namespace faba

@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+
+#include "rig/rig.h"
+#include "vision/video_reader.h"
+
+namespace faba {
+
+/// A recorded run in place of a bench: its pictures, with the times, ages and rests that were recorded beside
+/// them. What is commanded goes nowhere but is compared with what was commanded then.
+class ReplayRig final : public Rig {
+ public:
+  /// `video` must be lossless; `commands`: the commands.csv of the run. Throws Error(input).
+  ReplayRig(const std::filesystem::path& video, const std::filesystem::path& commands);
+
+  bool read(Observation& out) override;
+  void write(const Command& c) override;
+  void safe() noexcept override {}
+
+  std::uint64_t frames() const { return rows_.size(); }
+  std::uint64_t equal() const { return equal_; }  ///< commands so far that are the recorded ones, bit for bit
+  /// The first frame of which they are not.
+  const std::optional<std::uint64_t>& first_other() const { return first_other_; }
+
+ private:
+  struct Row {
+    double t, age;
+    bool rested;
+    std::vector<double> current;
+  };
+  VideoReader video_;
+  GrayF grey_;
+  std::vector<Row> rows_;
+  std::uint64_t next_ = 0, equal_ = 0;
+  std::optional<std::uint64_t> first_other_;
+};
+
+}  // namespace faba

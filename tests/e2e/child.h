@@ -1,0 +1,60 @@
+#pragma once
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "core/monotonic.h"
+
+extern char** environ;
+
+namespace faba {
+
+/// A shell's command in the background, `exec`ed so that its process is the program itself. Killed when it
+/// goes.
+class Child {
+ public:
+  Child(const std::filesystem::path& folder, const std::string& command) {
+    const std::string line = "cd '" + folder.string() + "' && exec " + command;
+    const char* const words[] = {"/bin/sh", "-c", line.c_str(), nullptr};
+    posix_spawn(&process_, words[0], nullptr, nullptr, const_cast<char* const*>(words), environ);
+  }
+  ~Child() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGCONT);
+    ::kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  void signal(int s) const { ::kill(process_, s); }
+  /// Its exit code; 128 + signal when it was killed.
+  int wait() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  pid_t process() const { return process_; }
+
+ private:
+  pid_t process_ = -1;
+};
+
+/// Whether it came true within `patience` s.
+inline bool soon(const std::function<bool()>& happened, double patience = 20) {
+  for (const double until = monotonic_now() + patience; monotonic_now() < until;) {
+    if (happened()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+}  // namespace faba

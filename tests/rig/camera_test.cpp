@@ -1,0 +1,147 @@
+// Cameras and the thread that reads them: a video played as a camera, and a camera that tests make up.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "core/monotonic.h"
+#include "rig/bench_rig.h"
+#include "tests/rendered_video.h"
+#include "tests/temporary_folder.h"
+#include "vision/video_writer.h"
+
+using namespace faba;
+
+namespace {
+
+// A camera that gives frames when a test says so.
+struct HandCamera final : Camera {
+  std::atomic<std::uint64_t> allowed = 0;  // frames that may have been taken
+  std::atomic<bool> over = false, fails = false;
+  std::uint64_t number = 0;
+  double began = monotonic_now();
+
+  bool read(CameraFrame& out) override {
+    while (number >= allowed && !over) {
+      if (fails) throw Error(Errc::device, "hand", "was pulled out");
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    if (over) return false;
+    out.number = ++number;
+    out.t = began + double(number);
+    out.image = std::make_shared<Gray8>(8, 6, std::uint8_t(number));
+    return true;
+  }
+  void interrupt() noexcept override { over = true; }
+  int width() const override { return 8; }
+  int height() const override { return 6; }
+  double rate() const override { return 1; }
+};
+
+// 12 frames of 20 per second; frame k is of grey 10 k.
+std::filesystem::path film(const std::filesystem::path& folder) {
+  VideoWriter w(folder / "part", VideoFormat::lossless_avi, 32, 24, 20, 0, VideoPixels::grey8);
+  for (int k = 0; k < 12; ++k) w.write(Gray8(32, 24, std::uint8_t(10 * k)));
+  w.finish(folder / "film.avi");
+  return folder / "film.avi";
+}
+
+std::shared_ptr<Camera> playback(const std::filesystem::path& file, bool fast) {
+  Document d;
+  d.root = {{"camera", {{"type", "playback"}, {"file", file.string()}, {"fast", fast}}}};
+  return builtin_cameras().resolve(Node(d).child("camera")).make({});
+}
+
+}  // namespace
+
+TEST_CASE("who is late gets the newest frame, and the ones between are counted") {
+  auto camera = std::make_shared<HandCamera>();
+  CameraFeed feed(camera, CameraFeed::Keep::newest);
+  CameraFrame f;
+  CHECK(feed.next(f, monotonic_now() + 0.01) == CameraFeed::Got::nothing);
+  camera->allowed = 1;
+  REQUIRE(feed.next(f, monotonic_now() + 5) == CameraFeed::Got::frame);
+  CHECK(f.number == 1);
+  camera->allowed = 5;
+  while (camera->number < 5) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  REQUIRE(feed.next(f, monotonic_now() + 5) == CameraFeed::Got::frame);
+  CHECK(f.number == 5);
+  CHECK(f.image->px[0] == 5);
+  CHECK(feed.taken() == 2);
+  CHECK(feed.dropped() == 3);
+}
+
+TEST_CASE("for a recorder all frames wait") {
+  auto camera = std::make_shared<HandCamera>();
+  CameraFeed feed(camera, CameraFeed::Keep::all);
+  camera->allowed = 40;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  CameraFrame f;
+  for (std::uint64_t k = 1; k <= 40; ++k) {
+    REQUIRE(feed.next(f, monotonic_now() + 5) == CameraFeed::Got::frame);
+    CHECK(f.number == k);
+  }
+  CHECK(feed.dropped() == 0);
+}
+
+TEST_CASE("a camera that fails says why to who reads it") {
+  auto camera = std::make_shared<HandCamera>();
+  BenchRig rig(camera, nullptr, {.camera_timeout = 5});
+  camera->allowed = 1;
+  Observation o;
+  REQUIRE(rig.read(o));
+  camera->fails = true;
+  CHECK_THROWS_WITH_AS(rig.read(o), "hand: was pulled out", Error);
+}
+
+TEST_CASE("a camera that hangs does not hold its reader") {
+  auto camera = std::make_shared<HandCamera>();
+  BenchRig rig(camera, nullptr, {.camera_timeout = 0.1});
+  Observation o;
+  CHECK_THROWS_AS(rig.read(o), Error);
+}
+
+TEST_CASE("a video is played at its own rate: times as in the file, frames when their time has come") {
+  const test::TemporaryFolder folder("playback");
+  const auto camera = playback(film(folder.path()), false);
+  CHECK(camera->width() == 32);
+  CHECK(camera->rate() == doctest::Approx(20));
+  BenchRig rig(camera, nullptr, {});
+  Observation o;
+  const double began = monotonic_now();
+  std::uint64_t frames = 0;
+  while (rig.read(o)) {
+    CHECK(o.t == doctest::Approx(double(o.frame) / 20));
+    CHECK(o.image->px[0] == 10 * o.frame);
+    CHECK(o.age >= 0);
+    ++frames;
+  }
+  CHECK(frames + rig.feed().dropped() == 12);
+  CHECK(monotonic_now() - began > 11.0 / 20 - 0.01);  // cannot be over sooner
+}
+
+TEST_CASE("as fast as frames are taken: every frame, however slow the reader") {
+  const test::TemporaryFolder folder("playback");
+  const auto camera = playback(film(folder.path()), true);
+  BenchRig rig(camera, nullptr, {.camera_timeout = 2, .keep = CameraFeed::Keep::each});
+  Observation o;
+  for (std::uint64_t k = 0; k < 12; ++k) {
+    REQUIRE(rig.read(o));
+    CHECK(o.frame == k);
+    CHECK(o.t == doctest::Approx(double(k) / 20));
+    CHECK(o.age == 0);
+    if (k == 3) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  CHECK_FALSE(rig.read(o));
+  CHECK(rig.feed().dropped() == 0);
+}
+
+TEST_CASE("what cannot be played is said") {
+  const test::TemporaryFolder folder("playback");
+  CHECK_THROWS_AS(playback(folder.path() / "none.avi", true), Error);
+  Document d;
+  d.root = {{"camera", "playback"}};
+  CHECK_THROWS_AS(builtin_cameras().resolve(Node(d).child("camera")), Error);
+}

@@ -1,0 +1,263 @@
+// The guard's process with real drivers: the library that stands for NI-DAQmx and the firmware behind a
+// pseudo-terminal. Their own logs say what was put out when (H1, H5, H7 and H8 of docs/guide/bench.md).
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "core/file.h"
+#include "rig/guard_link.h"
+#include "tests/e2e/child.h"
+#include "tests/temporary_folder.h"
+
+using namespace faba;
+
+namespace {
+
+constexpr double kWithin = 0.1;   // s, H1
+constexpr double kNeutral = 2.5;  // V
+
+GuardSetup two_coils(const Json& driver, const std::vector<std::string>& channels,
+                     const std::vector<std::string>& senses = {}) {
+  GuardSetup s;
+  Document d;
+  d.root = {{"driver", driver}};
+  s.driver = builtin_coil_drivers().resolve(Node(d).child("driver"));
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    WiredCoil c{.channel = channels[k],
+                .gain = 0.2,
+                .neutral = kNeutral,
+                .sense_gain = 0.2,
+                .sense_neutral = kNeutral};
+    if (k < senses.size()) c.sense = senses[k];
+    s.coils.push_back(c);
+  }
+  s.frame_period = 1.0 / 30;
+  return s;
+}
+
+// Asks for currents as a loop does, for so long.
+void steer(GuardLink& g, double s, double current = 0.3) {
+  for (const double until = monotonic_now() + s; monotonic_now() < until;) {
+    g.request(std::vector<double>(g.coils(), current), monotonic_now());
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+struct NiDevice {
+  explicit NiDevice(int fail_at = 0) : folder("ni") {
+    setenv("FAKE_NI_LOG", (folder.path() / "log").c_str(), 1);
+    setenv("FAKE_NI_FAIL_AT", std::to_string(fail_at).c_str(), 1);
+  }
+  struct Line {
+    double t;
+    std::string channel;
+    double value;
+  };
+  std::vector<Line> log() const {
+    std::vector<Line> all;
+    std::ifstream in(folder.path() / "log");
+    for (Line l; in >> l.t >> l.channel >> l.value;) all.push_back(l);
+    return all;
+  }
+  double last(const std::string& channel) const {
+    double v = std::nan("");
+    for (const Line& l : log())
+      if (l.channel == channel) v = l.value;
+    return v;
+  }
+  // When the enable line toggled for the last time.
+  double last_toggle() const {
+    double t = 0, level = 0;
+    for (const Line& l : log())
+      if (l.channel == "Dev1/port0/line0") {
+        if (l.value != level) t = l.t;
+        level = l.value;
+      }
+    return t;
+  }
+  Json driver(bool line = true) const {
+    Json j = {{"type", "nidaqmx"}, {"library", FABA_FAKE_NI}};
+    if (line) j["enable_line"] = "Dev1/port0/line0";
+    return j;
+  }
+  test::TemporaryFolder folder;
+};
+
+struct Firmware {
+  Firmware() : folder("firmware") {
+    child = std::make_unique<Child>(folder.path(), std::string("'" FABA_FIRMWARE "' port log"));
+    REQUIRE(soon([&] { return std::filesystem::is_symlink(folder.path() / "port"); }));
+  }
+  Json driver() const { return {{"type", "serial"}, {"port", (folder.path() / "port").string()}}; }
+  // Whether the enable line is up, and the furthest an output is from neutral, V; when that came to be.
+  struct Line {
+    double t = 0;
+    int enable = 0;
+    double furthest = 0;
+  };
+  std::vector<Line> log() const {
+    std::vector<Line> all;
+    std::ifstream in(folder.path() / "log");
+    for (std::string text; std::getline(in, text);) {
+      std::stringstream words(text);
+      Line l;
+      words >> l.t >> l.enable;
+      for (double v; words >> v;) l.furthest = std::max(l.furthest, std::fabs(1e-6 * v - kNeutral));
+      all.push_back(l);
+    }
+    return all;
+  }
+  double rest_after(double t) const {
+    REQUIRE(soon([&] { return !log().empty() && log().back().enable == 0; }, 5));
+    return log().back().t - t;
+  }
+  test::TemporaryFolder folder;
+  std::unique_ptr<Child> child;
+};
+
+}  // namespace
+
+TEST_CASE("NI: voltages as the wiring says, channels of two devices, the enable line toggles while armed") {
+  NiDevice ni;
+  GuardLink g(two_coils(ni.driver(), {"Dev1/ao0", "Dev1/ao1", "Dev2/ao0"}, {"Dev1/ai0", "Dev1/ai1"}),
+              FABA_GUARD);
+  CHECK(ni.last("Dev1/ao0") == kNeutral);  // not 0 V, which would be half an ampere
+  CHECK(ni.last("Dev2/ao0") == kNeutral);
+  CHECK(ni.last_toggle() == 0);
+  g.arm();
+  steer(g, 0.3);
+  CHECK(ni.last("Dev1/ao0") == doctest::Approx(kNeutral + 0.3 / 0.2));
+  CHECK(ni.last("Dev2/ao0") == doctest::Approx(kNeutral + 0.3 / 0.2));
+  CHECK(monotonic_now() - ni.last_toggle() < 0.05);
+  CHECK(g.report().sensed[0] == doctest::Approx(0.3));
+  g.disarm();
+  CHECK(ni.last("Dev1/ao0") == kNeutral);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  CHECK(ni.last("Dev1/port0/line0") == 0);
+}
+
+TEST_CASE("NI: without an enable line it is said that the device cannot be made safe, and it is not armed") {
+  NiDevice ni;
+  GuardLink g(two_coils(ni.driver(false), {"Dev1/ao0"}), FABA_GUARD);
+  try {
+    g.arm();
+    FAIL("armed");
+  } catch (const Error& e) {
+    CHECK(e.code() == Errc::device);
+    CHECK(std::string(e.what()).find("cannot be made safe") != std::string::npos);
+  }
+  steer(g, 0.05);
+  CHECK(ni.last("Dev1/ao0") == kNeutral);
+}
+
+TEST_CASE(
+    "NI: an error at call k, for every k, ends with a line that is dropped and the device's own words") {
+  for (int k = 1; k <= 40; k += k < 12 ? 1 : 7) {
+    INFO("call ", k);
+    NiDevice ni(k);
+    std::string said;
+    try {
+      GuardLink g(two_coils(ni.driver(), {"Dev1/ao0"}, {"Dev1/ai0"}), FABA_GUARD);
+      g.arm();
+      steer(g, 0.4);
+      said = g.report().reason.data();
+      CHECK(g.report().state == CoilGuard::State::faulted);
+    } catch (const Error& e) {
+      CHECK(e.code() == Errc::device);
+      said = e.what();
+    }
+    CHECK(said.find("-200324") != std::string::npos);
+    CHECK(said.find('\n') == std::string::npos);
+    const double t = ni.last_toggle();
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    CHECK(ni.last_toggle() == t);
+  }
+}
+
+TEST_CASE("NI: what cannot be: no library, no such device, a voltage it does not give") {
+  NiDevice ni;
+  for (const auto& [driver, channel, said] :
+       {std::tuple<Json, std::string, std::string>{
+            {{"type", "nidaqmx"}, {"library", "libnone.so"}}, "Dev1/ao0", "install"},
+        {ni.driver(), "Dev9/ao0", "invalid"},
+        {ni.driver(), "ao0", "invalid"}}) {
+    std::string what;
+    try {
+      const GuardLink g(two_coils(driver, {channel}), FABA_GUARD);
+    } catch (const Error& e) {
+      CHECK(e.code() == Errc::device);
+      what = e.what();
+    }
+    CHECK_MESSAGE(what.find(said) != std::string::npos, what);
+  }
+}
+
+TEST_CASE("the control thread hangs while the program lives: no current when the deadline is over") {
+  Firmware f;
+  GuardLink g(two_coils(f.driver(), {"0", "1"}, {"0", "1"}), FABA_GUARD);
+  g.arm();
+  steer(g, 0.2);
+  CHECK(f.log().back().furthest == doctest::Approx(1.5));
+  const double t = monotonic_now();
+  CHECK(f.rest_after(t) < kWithin);
+  CHECK(g.report().fault == CoilGuard::Fault::late);
+}
+
+TEST_CASE("serial: the guard is killed or stopped, the line goes: the board comes to rest by itself") {
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    Firmware f;
+    GuardLink g(two_coils(f.driver(), {"0", "1"}), FABA_GUARD);
+    g.arm();
+    steer(g, 0.2);
+    REQUIRE(f.log().back().enable == 1);
+    const double t = monotonic_now();
+    ::kill(g.process(), signal);
+    CHECK(f.rest_after(t) < kWithin);
+    CHECK(f.log().back().furthest < 1e-6);
+    ::kill(g.process(), SIGCONT);
+  }
+}
+
+TEST_CASE("serial: a board that is unplugged or hangs: the guard faults and says which line") {
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    Firmware f;
+    GuardLink g(two_coils(f.driver(), {"0"}), FABA_GUARD);
+    g.arm();
+    steer(g, 0.2);
+    f.child->signal(signal);
+    for (int i = 0; i < 20 && g.report().state != CoilGuard::State::faulted; ++i) steer(g, 0.02);
+    const std::string reason = g.report().reason.data();
+    CHECK_MESSAGE(reason.find("port") != std::string::npos, reason);
+  }
+}
+
+TEST_CASE("serial: after a fault it goes on when armed anew by hand, and a new host is understood") {
+  Firmware f;
+  {
+    GuardLink g(two_coils(f.driver(), {"0"}), FABA_GUARD);
+    g.arm();
+    steer(g, 0.1);
+    steer(g, 0.05, 9);
+    CHECK(g.report().fault == CoilGuard::Fault::over_current);
+    CHECK_THROWS_AS(g.arm(), Error);
+    g.reset();
+    g.arm();
+    steer(g, 0.1);
+    CHECK(g.report().state == CoilGuard::State::armed);
+    CHECK(f.log().back().furthest == doctest::Approx(1.5));
+  }
+  CHECK(f.log().back().enable == 0);
+  GuardLink again(two_coils(f.driver(), {"0"}), FABA_GUARD);
+  again.arm();
+  steer(again, 0.1);
+  CHECK(f.log().back().enable == 1);
+}
+
+TEST_CASE("serial: nobody there") {
+  CHECK_THROWS_AS(GuardLink(two_coils({{"type", "serial"}, {"port", "/dev/null"}}, {"0"}), FABA_GUARD),
+                  Error);
+  CHECK_THROWS_AS(GuardLink(two_coils({{"type", "serial"}, {"port", "/nonexistent"}}, {"0"}), FABA_GUARD),
+                  Error);
+}
