@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace faba {
 namespace {
@@ -205,10 +206,10 @@ double CoilGuard::heat() const {
 
 void CoilGuard::look(double now) {
   warm(now);
-  if (state_ != State::armed) return;
+  if (state_ != State::armed || !flows()) return;  // zero that lasts does no harm
   if (now - beat_ > p_.heartbeat_deadline)
     fail(Fault::silent, fmt::format("for {:.0f} ms", 1e3 * (now - beat_)), now);
-  else if (now - fresh_ > *p_.command_deadline && flows())
+  else if (now - fresh_ > *p_.command_deadline)
     fail(Fault::late, fmt::format("for {:.0f} ms", 1e3 * (now - fresh_)), now);
   else if (heat() > 1)
     fail(Fault::too_warm, fmt::format("its current's mean square over {:g} s", p_.thermal_time), now);
@@ -219,8 +220,8 @@ bool CoilGuard::flows() const {
 }
 
 double CoilGuard::due() const {
-  const double beat = beat_ + p_.heartbeat_deadline;
-  return flows() ? std::min(beat, fresh_ + *p_.command_deadline) : beat;
+  if (!flows()) return std::numeric_limits<double>::infinity();
+  return std::min(beat_ + p_.heartbeat_deadline, fresh_ + *p_.command_deadline);
 }
 
 void CoilGuard::fail(Fault f, const std::string& detail, double now) {

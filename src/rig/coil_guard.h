@@ -43,7 +43,7 @@ class CoilGuard {
     stale,         ///< a command was too old when it came
     disorder,      ///< a command came twice, or after a later one
     late,          ///< no fresh command in time, while current was asked for
-    silent,        ///< the program gave no sign of life in time
+    silent,        ///< the program gave no sign of life in time, while current was asked for
     closed,        ///< the program is gone
     signal,        ///< the guard was told to end
     sensed,        ///< a coil's current is not what was asked for
@@ -80,7 +80,7 @@ class CoilGuard {
   State state() const { return state_; }
   Fault fault() const { return fault_; }
   const std::string& reason() const { return reason_; }  ///< in a sentence; empty unless faulted
-  /// When look() is to be called at the latest, s.
+  /// When look() is to be called at the latest, s; infinite while nothing flows.
   double due() const;
   /// Heat of the warmest coil, 1 at its bound.
   double heat() const;

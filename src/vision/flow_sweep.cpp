@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "core/vectorised.h"
+#include "core/wide.h"
 
 namespace faba {
 namespace {
@@ -27,17 +28,12 @@ struct Strip {
   bool finest = false;
 };
 
-/// A vector of 64 bytes anywhere in memory: what it is computed with is the same on every processor.
-template <class T>
-struct Lanes {
-  using type __attribute__((vector_size(64), aligned(alignof(T)), may_alias)) = T;
-};
-
 /// The number of rows is a constant, so that the sums of rows stay in their registers instead of moving down.
-template <bool finest, int rows, class T>
+template <int bytes, bool finest, int rows, class T>
 [[gnu::always_inline]] inline void update(const Strip<T>& s) {
-  using V = typename Lanes<T>::type;
-  constexpr int kLanes = Plane<T>::kMargin;
+  using V = typename Wide<T, bytes>::type;
+  constexpr int kLanes = bytes / int(sizeof(T));
+  static_assert(Plane<T>::kMargin % kLanes == 0);  // whole vectors are read and written at the ends of rows
   const T half = T(0.5), sixth = T(1) / 6;
 #define FABA_LANES(p) (*reinterpret_cast<const V*>((p) + x))
   for (int x = 0; x < s.width; x += kLanes) {
@@ -76,13 +72,13 @@ template <bool finest, int rows, class T>
   for (int i = 1; i <= rows; ++i)
     for (T* out : {s.row[i].u_out, s.row[i].v_out}) out[-1] = out[0], out[s.width] = out[s.width - 1];
 }
-template <int most, class T>
-[[gnu::always_inline]] inline void update_up_to(const Strip<T>& s) {
-  if (s.rows == most) return s.finest ? update<true, most>(s) : update<false, most>(s);
-  if constexpr (most > 1) update_up_to<most - 1>(s);
+template <int bytes, int most = kStrip, class T>
+[[gnu::always_inline]] inline void update_strip_in(const Strip<T>& s) {
+  if (s.rows == most) return s.finest ? update<bytes, true, most>(s) : update<bytes, false, most>(s);
+  if constexpr (most > 1) update_strip_in<bytes, most - 1>(s);
 }
-FABA_VECTORISED void update_strip(const Strip<float>& s) { update_up_to<kStrip>(s); }
-FABA_VECTORISED void update_strip(const Strip<double>& s) { update_up_to<kStrip>(s); }
+FABA_WIDE(update_strip, (const Strip<float>& s), (s))
+FABA_WIDE(update_strip, (const Strip<double>& s), (s))
 
 template <class T>
 [[gnu::always_inline]] inline T largest(const T* a, const T* b, int n) {

@@ -9,18 +9,19 @@
 
 #include "core/error.h"
 #include "core/vectorised.h"
+#include "core/wide.h"
 
 namespace faba {
 namespace {
 
-using Lanes __attribute__((vector_size(64), aligned(8), may_alias)) = double;
-using Bits __attribute__((vector_size(64), aligned(8), may_alias)) = std::uint64_t;
-constexpr std::size_t kLanes = 8;
-
 // z^-m for normal z > 0, to about 5e-15 (1 + |m ln z|): by the series of atanh to s^17, 1e-16 of what is left
 // out, and of the exponential of a quarter to r^8, 3e-15. A C library's pow would take nine tenths of the
 // time of the whole distance. Whole blocks of lanes are read and written.
-FABA_VECTORISED void negative_power(const double* z, double m, double* out, std::size_t n) {
+template <int bytes>
+[[gnu::always_inline]] inline void negative_power_in(const double* z, double m, double* out, std::size_t n) {
+  using Lanes = typename Wide<double, bytes>::type;
+  using Bits = typename Wide<std::uint64_t, bytes>::type;
+  constexpr std::size_t kLanes = bytes / sizeof(double);
   constexpr double kShift = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to a whole number
   for (std::size_t i = 0; i < n; i += kLanes) {
     const Bits bits = *reinterpret_cast<const Bits*>(z + i);
@@ -43,28 +44,32 @@ FABA_VECTORISED void negative_power(const double* z, double m, double* out, std:
     *reinterpret_cast<Lanes*>(out + i) = y * reinterpret_cast<Lanes>(power);
   }
 }
+FABA_WIDE(negative_power, (const double* z, double m, double* out, std::size_t n), (z, m, out, n))
 
 /// out_i = sum over k of taps_|k| in_i+k. `in` can be read, and `out` written, beyond its end up to a whole
 /// block; and `in` as far as the taps reach on both sides.
 constexpr std::size_t kBlock = 32;
-FABA_VECTORISED void add_taps(const double* in, double* out, std::size_t n, const double* taps,
-                              std::size_t count) {
-  struct Four {
-    Lanes a, b, c, d;
-  };
-  for (std::size_t i = 0; i < n; i += kBlock) {
+template <int bytes>
+[[gnu::always_inline]] inline void add_taps_in(const double* in, double* out, std::size_t n,
+                                               const double* taps, std::size_t count) {
+  using Lanes = typename Wide<double, bytes>::type;
+  constexpr std::size_t kLanes = bytes / sizeof(double);
+  const auto at = [](const double* p) { return reinterpret_cast<const Lanes*>(p); };
+  for (std::size_t i = 0; i < n; i += 4 * kLanes) {
     const double* here = in + i;
-    const Four& middle = *reinterpret_cast<const Four*>(here);
-    Four sum{middle.a * taps[0], middle.b * taps[0], middle.c * taps[0], middle.d * taps[0]};
+    const Lanes* middle = at(here);
+    Lanes a = middle[0] * taps[0], b = middle[1] * taps[0], c = middle[2] * taps[0], d = middle[3] * taps[0];
     for (std::size_t k = 1; k < count; ++k) {
-      const Four &left = *reinterpret_cast<const Four*>(here - k),
-                 &right = *reinterpret_cast<const Four*>(here + k);
-      sum.a += (left.a + right.a) * taps[k], sum.b += (left.b + right.b) * taps[k];
-      sum.c += (left.c + right.c) * taps[k], sum.d += (left.d + right.d) * taps[k];
+      const Lanes *left = at(here - k), *right = at(here + k);
+      a += (left[0] + right[0]) * taps[k], b += (left[1] + right[1]) * taps[k];
+      c += (left[2] + right[2]) * taps[k], d += (left[3] + right[3]) * taps[k];
     }
-    *reinterpret_cast<Four*>(out + i) = sum;
+    Lanes* to = reinterpret_cast<Lanes*>(out + i);
+    to[0] = a, to[1] = b, to[2] = c, to[3] = d;
   }
 }
+FABA_WIDE(add_taps, (const double* in, double* out, std::size_t n, const double* taps, std::size_t count),
+          (in, out, n, taps, count))
 
 /// Sums of eight interleaved parts: a single one would wait for each addition.
 FABA_VECTORISED double product(const double* a, const double* b, std::size_t n) {
