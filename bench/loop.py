@@ -22,9 +22,16 @@ FRAME_MS = 1e3 / 60
 ROLLERS = ROOT.parent / "shared/data/step-response/rollers.mp4"
 
 
+LATE = []  # runs that the guard ended: this is no real-time machine
+
+
 def faba(program, *arguments, one_core=False):
     before = ["taskset", "-c", "0"] if one_core else []
-    done = subprocess.run([*before, str(program), *map(str, arguments), "--json"], capture_output=True, text=True, cwd=ROOT)
+    for _ in range(3):
+        done = subprocess.run([*before, str(program), *map(str, arguments), "--json", "--force"], capture_output=True, text=True, cwd=ROOT)
+        if done.returncode != 4 or "in time" not in done.stderr:
+            break
+        LATE.append(done.stderr.strip())
     if done.returncode != 0:
         sys.exit(f"loop.py: {' '.join(map(str, arguments))}: {done.stderr.strip()}")
     return json.loads(done.stdout)
@@ -132,6 +139,7 @@ def main():
             known = [s for s in settled if s is not None]
             text.append(f"| {what} | {', '.join('never' if s is None else f'{s:.1f}' for s in settled)} | {statistics.median(known) if known else float('nan'):.1f} "
                         f"| {statistics.median(steady):.1f} |")
+    text += ["", f"Runs that the guard ended because this machine stood still for longer than it allows, and that were made again: {len(LATE)}."]
     page = "\n".join(text) + "\n"
     print(page, end="")
     o.out.mkdir(parents=True, exist_ok=True)

@@ -6,6 +6,6 @@
 #define COIL_NEUTRAL_UV 2500000 /* output at which no current flows, microvolt */
 #define COIL_LEAST_UV 0         /* what the outputs give */
 #define COIL_MOST_UV 5000000
-#define COIL_DEADLINE_MS 50 /* no good command for as long: everything to neutral */
+#define COIL_DEADLINE_MS 70 /* no good command for as long: everything to neutral */
 
 #endif

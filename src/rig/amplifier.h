@@ -30,7 +30,7 @@ class Amplifier {
     double rise_time = 2e-3, fall_time = 4e-3;
     int bits = 12;
     double least_volts = 0, most_volts = 5;
-    double enable_time = 0.05;
+    double enable_time = 0.07;
     bool enable_line = true;
     Fault fault = Fault::none;
     double fault_after = 0;

@@ -59,7 +59,11 @@ Schema<CoilGuard::Params> CoilGuard::schema() {
                "No fresh command for as long; when absent, what leaves no current 100 ms or two frames after "
                "the last one, whichever is longer"})
       .add("heartbeat_deadline", &Params::heartbeat_deadline,
-           {.unit = "s", .min = 5e-3, .max = 1, .doc = "No sign of life of the program for as long"})
+           {.unit = "s",
+            .min = 5e-3,
+            .max = 1,
+            .doc = "No sign of life of the program for as long",
+            .source = "100 ms less what device and coil take"})
       .add("max_slew", &Params::max_slew,
            {.unit = "A/s",
             .min = 0,

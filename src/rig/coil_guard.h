@@ -24,7 +24,7 @@ class CoilGuard {
   /// Of [rig.guard].
   struct Params {
     std::optional<double> command_deadline = {};  ///< s
-    double heartbeat_deadline = 0.05;             ///< s
+    double heartbeat_deadline = 0.07;             ///< s
     std::optional<double> max_slew = {};          ///< A/s
     double thermal_time = 60;                     ///< s
     double sense_tolerance = 0.05;                ///< A

@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -46,6 +48,27 @@ class Child {
 
  private:
   pid_t process_ = -1;
+};
+
+/// How long this machine itself stood still: the longest that a thread which wakes every millisecond was not
+/// woken, s. What must be over in a tenth of a second is allowed that much more, which is a few milliseconds
+/// on a quiet machine.
+class StandStill {
+ public:
+  StandStill()
+      : thread_([this](const std::stop_token& stop) {
+          for (double last = monotonic_now(); !stop.stop_requested();) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            const double now = monotonic_now();
+            longest_ = std::max(longest_.load(), now - last);
+            last = now;
+          }
+        }) {}
+  double longest() const { return longest_; }
+
+ private:
+  std::atomic<double> longest_ = 0;
+  std::jthread thread_;
 };
 
 /// Whether it came true within `patience` s.

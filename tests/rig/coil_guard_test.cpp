@@ -120,9 +120,9 @@ TEST_CASE("no sign of life: at rest though commands were fresh") {
   Bench b;
   b.guard.arm(b.now);
   b.ask({0.2, 0.2});
-  b.guard.look(b.now + 0.049);
+  b.guard.look(b.now + 0.069);
   CHECK(b.guard.state() == State::armed);
-  b.guard.look(b.now + 0.051);
+  b.guard.look(b.now + 0.071);
   CHECK(b.guard.fault() == Fault::silent);
   CHECK(b.at_rest());
 }
