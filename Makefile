@@ -32,6 +32,7 @@ bench: build          ## measure speed beside NumPy, Octave and the machine's li
 	@/usr/bin/python3 bench/coils.py
 	@/usr/bin/python3 bench/video.py
 	@/usr/bin/python3 bench/study.py
+	@/usr/bin/python3 bench/loop.py
 	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md
 
 accuracy: build       ## render studies with known truth and see whether it is found; SEEDS=20 EXPERIMENTS=40 takes two hours

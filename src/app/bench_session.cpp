@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/bench_controls.h"
+#include "app/manifest.h"
 #include "app/session.h"
 #include "core/file.h"
 
@@ -44,9 +45,7 @@ struct BenchSession::Impl {
   std::vector<std::unique_ptr<RunSink>> sinks;
   std::unique_ptr<Sink> commands;
   std::unique_ptr<Loop> loop;
-  std::vector<std::string> notes;
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
-  double last_t = 0;
   std::size_t most_behind = 0;
   bool whole = false;
   Json manifest;  ///< as it was when the run ended
@@ -55,9 +54,7 @@ struct BenchSession::Impl {
 BenchSession::BenchSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 BenchSession::~BenchSession() = default;
 BenchSession::BenchSession(BenchSession&&) noexcept = default;
-BenchRig& BenchSession::rig() { return *impl_->rig; }
 const std::filesystem::path& BenchSession::dir() const { return impl_->directory.path(); }
-const std::vector<std::string>& BenchSession::notes() const { return impl_->notes; }
 void BenchSession::complete() { impl_->directory.complete(); }
 
 BenchSession BenchSession::begin(Scenario s, std::shared_ptr<const OpenBench> bench, std::uint64_t seed,
@@ -123,6 +120,8 @@ bool BenchSession::run() {
       if (m.options.progress)
         m.options.progress(std::uint64_t(1e3 * std::min(loop.last_t, duration)),
                            std::uint64_t(1e3 * duration));
+      // What parts do but once, such as laying out their memory, they have done by now.
+      if (loop.next == 1) m.rig->arm();
       m.whole = loop.last_t + 0.5 * loop.frame_period >= duration;
       return !m.whole && !(m.options.stop && m.options.stop->load());
     });
@@ -144,39 +143,27 @@ Json BenchSession::describe() const {
   std::vector<double> arrival, command;
   for (const BenchRig::Delay& d : m.rig->delays()) arrival.push_back(d.arrival), command.push_back(d.command);
   const GuardReport guard = m.rig->coils()->report();
-  const Frame& frame = m.controls->frame;
-  const Outline outline = s.arena.make({s.si_scale()})->outline();
-  Json arena = {{"type", s.arena.type}, {"centre_px", {outline.centre_image.x, outline.centre_image.y}}};
-  if (outline.radius_px > 0)
-    arena["radius_px"] = outline.radius_px;
-  else
-    arena["size_px"] = {frame.width, frame.height};
-  return {{"version", FABA_VERSION},
-          {"title", s.params.title},
-          {"complete", m.whole},
-          {"rig", {{"camera", s.rig->camera.type}, {"driver", s.rig->driver.type}}},
-          {"scenario_hash", s.hash()},
-          {"seed", m.seed},
-          {"frames", m.loop->next},
-          {"duration_s", m.loop->last_t + m.loop->frame_period},
-          {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - m.began).count()},
-          {"um_per_px", s.scale.um_per_px},
-          {"view_px", {frame.width, frame.height}},
-          {"arena", arena},
-          {"polarity", s.polarity() > 0 ? "north" : "south"},
-          {"setpoints", m.controls->reference->setpoints().size()},
-          {"video_shows", "camera"},
-          {"frames_dropped", m.rig->feed().dropped()},
-          {"frames_corrupt", m.rig->feed().camera().corrupt()},
-          {"arrival_ms", in_ms(arrival)},
-          {"command_ms", in_ms(command)},
-          {"recorder_most_behind", m.most_behind},
-          {"guard",
-           {{"state", word(guard.state)},
-            {"commands", guard.passed},
-            {"refused", guard.refused},
-            {"heat", guard.heat}}},
-          {"notes", m.notes}};
+  Json j = scenario_manifest(s, m.seed, m.controls->frame, s.arena.make({s.si_scale()})->outline());
+  j.update(
+      {{"complete", m.whole},
+       {"rig", {{"camera", s.rig->camera.type}, {"driver", s.rig->driver.type}}},
+       {"frames", m.loop->next},
+       {"duration_s", m.loop->last_t + m.loop->frame_period},
+       {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - m.began).count()},
+       {"setpoints", m.controls->reference->setpoints().size()},
+       {"video_shows", "camera"},
+       {"frames_dropped", m.rig->feed().dropped()},
+       {"frames_corrupt", m.rig->feed().camera().corrupt()},
+       {"arrival_ms", in_ms(arrival)},
+       {"command_ms", in_ms(command)},
+       {"recorder_most_behind", m.most_behind},
+       {"guard",
+        {{"state", word(guard.state)},
+         {"commands", guard.passed},
+         {"refused", guard.refused},
+         {"rests", m.rig->coils()->rests()},
+         {"heat", guard.heat}}}});
+  return j;
 }
 
 }  // namespace faba

@@ -1,5 +1,4 @@
 #pragma once
-#include <chrono>
 #include <memory>
 
 #include "app/open_bench.h"
@@ -16,23 +15,21 @@ struct RunOptions;
 /// true.
 class BenchSession {
  public:
-  /// Makes the directory, and the coils ready to be armed. `bench`: opened with `s`. Throws Error(usage) for
+  /// Makes the directory; the coils are disarmed. `bench`: opened with `s`. Throws Error(usage) for
   /// a scenario that does not fit, and then nothing has been written; Error(device).
   static BenchSession begin(Scenario s, std::shared_ptr<const OpenBench> bench, std::uint64_t seed,
                             const RunOptions& o);
   ~BenchSession();
   BenchSession(BenchSession&&) noexcept;
 
-  BenchRig& rig();
-  /// Runs for the scenario's duration, from the first frame on, or until asked to stop; coils are at rest
-  /// then. What was recorded is complete on every way out, also when Error(device) is thrown. Returns whether
-  /// the end was reached.
+  /// Runs for the scenario's duration, from the first frame on, or until asked to stop. Coils are armed when
+  /// the first frame has been decided on, and at rest in the end. What was recorded is complete on every way
+  /// out, also when Error(device) is thrown. Returns whether the end was reached.
   bool run();
   /// manifest.json, once it ran.
   const Json& manifest() const;
   void complete();
   const std::filesystem::path& dir() const;
-  const std::vector<std::string>& notes() const;
 
  private:
   struct Impl;

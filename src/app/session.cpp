@@ -4,16 +4,13 @@
 #include <algorithm>
 
 #include "app/checkpoint.h"
+#include "app/manifest.h"
 #include "app/notes.h"
 #include "core/file.h"
-#include "vision/video_format.h"
 
 namespace faba {
-namespace {
 
 using namespace run_files;
-
-}  // namespace
 
 Session::Session(Scenario s, std::uint64_t seed, const RunOptions& o)
     : scenario_(std::move(s)),
@@ -116,14 +113,6 @@ bool Session::run() {
 Json Session::manifest() const {
   const Loop& loop = simulation_->loop();
   const World& world = simulation_->world();
-  const Outline outline = world.parts().arena->outline();
-  const Frame frame = simulation_->frame();
-  Json arena = {{"type", scenario_.arena.type},
-                {"centre_px", {outline.centre_image.x, outline.centre_image.y}}};
-  if (outline.radius_px > 0)
-    arena["radius_px"] = outline.radius_px;
-  else
-    arena["size_px"] = {frame.width, frame.height};
   Json swarms = Json::array();
   for (const Swarm& s : scenario_.swarms) {
     Json one = Swarm::schema().to_json(s.params);
@@ -134,27 +123,21 @@ Json Session::manifest() const {
   std::vector<Vec2> setpoints = simulation_->reference().setpoints();
   setpoints.erase(std::unique(setpoints.begin(), setpoints.end()),
                   setpoints.end());  // as a series shows them
-  return {{"version", FABA_VERSION},
-          {"title", scenario_.params.title},
-          {"complete", loop.next == scenario_.frames()},
-          {"scenario_hash", scenario_.hash()},
-          {"seed", seed_},
-          {"threads", pool_->threads()},
-          {"state_hash", world.state().hash()},
-          {"frames", loop.next},
-          {"duration_s", double(loop.next) * scenario_.frame_period()},
-          {"step_s", simulation_->step()},
-          {"steps", world.state().step},
-          {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count()},
-          {"um_per_px", scenario_.scale.um_per_px},
-          {"view_px", {frame.width, frame.height}},
-          {"arena", arena},
-          {"polarity", scenario_.polarity() > 0 ? "north" : "south"},
-          {"cells", world.state().agents.size()},
-          {"swarms", swarms},
-          {"setpoints", setpoints.size()},
-          {"video_shows", scenario_.record.as_seen ? "camera" : "drawing"},
-          {"notes", notes_}};
+  Json j = scenario_manifest(scenario_, seed_, simulation_->frame(), world.parts().arena->outline());
+  j.update({{"complete", loop.next == scenario_.frames()},
+            {"threads", pool_->threads()},
+            {"state_hash", world.state().hash()},
+            {"frames", loop.next},
+            {"duration_s", double(loop.next) * scenario_.frame_period()},
+            {"step_s", simulation_->step()},
+            {"steps", world.state().step},
+            {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count()},
+            {"cells", world.state().agents.size()},
+            {"swarms", swarms},
+            {"setpoints", setpoints.size()},
+            {"video_shows", scenario_.record.as_seen ? "camera" : "drawing"},
+            {"notes", notes_}});
+  return j;
 }
 
 void Session::complete() { directory_.complete(); }

@@ -47,7 +47,6 @@ class Coils {
     if (!socket_.write(&device, sizeof device, kSending)) socket_.close();
   }
   bool connected() const { return bool(socket_); }
-  int descriptor() const { return socket_.descriptor(); }
 
   // Reads what has come; to be called every kSlice.
   void work() {

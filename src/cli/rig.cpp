@@ -35,6 +35,9 @@ void latency(const Json& manifest) {
              manifest.at("frames_corrupt").dump(), ms(arrival, "median"));
   fmt::print("command at the coils {} after the frame came (median), 99.9 % within {}\n",
              ms(command, "median"), ms(command, "p999"));
+  if (const auto rests = manifest.at("guard").at("rests").get<int>(); rests > 0)
+    fmt::print("the coils came to rest {} time{}, because no command came in time\n", rests,
+               rests == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -59,7 +62,6 @@ int rig_run(const RigVerb& v, const Common& c) {
   o.stop = &stop_requested();
   const auto bench = std::make_shared<const OpenBench>(s, seed);
   BenchSession session = BenchSession::begin(s, bench, seed, o);
-  session.rig().arm();
   const bool whole = session.run();
   bar.clear();
   write_run_report(session.dir());

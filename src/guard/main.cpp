@@ -1,10 +1,8 @@
 // faba-coil-guard: the process that owns the coils' driver. Begun by faba, never by hand; see
 // rig/guard_loop.h.
-#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstdio>
 

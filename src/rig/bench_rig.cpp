@@ -9,15 +9,12 @@
 #include "vision/image.h"
 
 namespace faba {
-namespace {
-
-constexpr double kBlind = 0.8;  // of the guard's deadline, after which currents are taken away before it does
-
-}  // namespace
 
 BenchRig::BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> coils, const Params& p)
     : p_(p), feed_(std::move(camera), p.keep), coils_(std::move(coils)) {
-  if (coils_) coils_->on_answer = [this](const GuardReport& r) { answered(r); };
+  if (!coils_) return;
+  coils_->on_answer = [this](const GuardReport& r) { answered(r); };
+  coils_->rest_when_late();
 }
 
 BenchRig::~BenchRig() { safe(); }
@@ -42,32 +39,24 @@ void BenchRig::check_guard() {
 }
 
 bool BenchRig::read(Observation& out) {
-  const double deadline = kBlind * (coils_ ? coils_->command_deadline() : p_.camera_timeout);
-  const double give_up = monotonic_now() + p_.camera_timeout;
-  bool rested = false;
+  if (const double took = monotonic_now() - arrived_; armed_ && took > p_.camera_timeout)
+    throw Error(Errc::device, "rig",
+                fmt::format("the decision on a frame took {:.1f} s; the coils are at rest", took));
   CameraFrame frame;
-  for (;;) {
-    if (over_) return false;
-    const double until = armed_ && !rested && asked_t_ > 0 ? std::min(give_up, asked_t_ + deadline) : give_up;
-    const CameraFeed::Got got = feed_.next(frame, until);
-    if (got == CameraFeed::Got::end) return false;
-    check_guard();
-    if (got == CameraFeed::Got::frame) break;
-    if (monotonic_now() >= give_up)
-      throw Error(Errc::device, "camera",
-                  fmt::format("has given no frame for {:g} s; the coils are at rest", p_.camera_timeout));
-    if (!armed_ || rested) continue;
-    coils_->request(std::vector<double>(coils_->coils(), 0.0), std::nan(""));
-    rested = true;
-  }
-  arrived_ = monotonic_now();
+  const CameraFeed::Got got = feed_.next(frame, monotonic_now() + p_.camera_timeout);
+  if (got == CameraFeed::Got::end) return false;
+  check_guard();
+  if (got == CameraFeed::Got::nothing)
+    throw Error(Errc::device, "camera",
+                fmt::format("has given no frame for {:g} s; the coils are at rest", p_.camera_timeout));
+  arrived_ = monotonic_now(), frame_t_ = frame.t;
   if (!began_) began_ = frame.t, first_ = frame.number;
   out.frame = frame.number - first_;
   out.t = frame.t - *began_;
   out.age = feed_.camera().waits() ? 0 : std::max(0.0, arrived_ - frame.t);  // a file has no age
   out.seen.clear();
   out.image = frame.image;
-  out.rested = rested;
+  out.rested = coils_ && coils_->wake();
   delays_.push_back({out.age, std::nan("")});
   return true;
 }
@@ -75,9 +64,8 @@ bool BenchRig::read(Observation& out) {
 void BenchRig::write(const Command& c) {
   if (!coils_ || !armed_) return;
   check_guard();
-  const double t = delays_.empty() ? 0 : arrived_ - delays_.back().arrival;
-  asked_.push_back({coils_->request(c.current, t), arrived_, delays_.size() - 1});
-  asked_t_ = monotonic_now();
+  if (const auto number = coils_->request(c.current, frame_t_))
+    asked_.push_back({*number, arrived_, delays_.size() - 1});
 }
 
 void BenchRig::answered(const GuardReport& r) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -10,8 +9,8 @@
 
 namespace faba {
 
-/// A camera and real coils. Frames come when the camera takes them; while none comes the coils get no
-/// current. It begins disarmed: commands are counted and go nowhere until arm().
+/// A camera and real coils. Frames come when the camera takes them; while none comes, or the decision on one
+/// takes too long, the coils get no current. It begins disarmed: commands go nowhere until arm().
 class BenchRig final : public Rig {
  public:
   struct Params {
@@ -27,10 +26,8 @@ class BenchRig final : public Rig {
   bool read(Observation& out) override;
   void write(const Command& c) override;
   void safe() noexcept override;
+  /// Throws Error(device) with the guard's reason when it will not.
   void arm();
-  bool armed() const { return armed_; }
-  /// From now on read() says that there are no more frames.
-  void end() noexcept { over_ = true; }
   CameraFeed& feed() { return feed_; }
   GuardLink* coils() { return coils_.get(); }
 
@@ -55,11 +52,11 @@ class BenchRig final : public Rig {
   std::unique_ptr<GuardLink> coils_;
   std::optional<double> began_;  ///< s, monotonic, of the first frame
   std::uint64_t first_ = 0;      ///< its number
-  double arrived_ = 0;           ///< s, monotonic, of the newest
-  double asked_t_ = 0;           ///< s, monotonic, of the last request
+  double arrived_ = 0;           ///< s, monotonic, when the newest came
+  double frame_t_ = 0;           ///< s, monotonic, mid-exposure of the newest
   std::deque<Asked> asked_;      ///< not answered yet
   std::vector<Delay> delays_;
-  std::atomic<bool> armed_ = false, over_ = false;
+  bool armed_ = false;
 };
 
 }  // namespace faba

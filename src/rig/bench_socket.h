@@ -64,7 +64,6 @@ class BenchSocket {
   bool write(const void* from, std::size_t bytes, double patience);
 
   explicit operator bool() const { return descriptor_ >= 0; }
-  int descriptor() const { return descriptor_; }
   void close();
 
  private:

@@ -8,8 +8,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/monotonic.h"
 
@@ -19,7 +22,8 @@ namespace faba {
 namespace {
 
 constexpr double kPatience = 10;         // s for a device to be opened
-constexpr double kBeatsPerDeadline = 4;  // so that one that comes late does no harm
+constexpr double kBeatsPerDeadline = 8;  // so that one that comes late does no harm
+constexpr double kPatient = 0.7;         // of the guard's deadline, so that rest comes before it, a beat late
 
 [[noreturn]] void fail(const std::string& what) { throw Error(Errc::device, "coil guard", what); }
 
@@ -34,7 +38,7 @@ std::filesystem::path guard_program() {
 
 GuardLink::GuardLink(const GuardSetup& setup, const std::filesystem::path& guard)
     : coils_(setup.coils.size()),
-      command_deadline_(CoilGuard(setup.guard, setup.bounds(), setup.frame_period).command_deadline()) {
+      patience_(kPatient * CoilGuard(setup.guard, setup.bounds(), setup.frame_period).command_deadline()) {
   if (coils_ > kMostCoils) fail(fmt::format("{} coils; {} are the most", coils_, kMostCoils));
   const std::string program = guard.string();
   int ends[2];
@@ -67,15 +71,25 @@ GuardLink::GuardLink(const GuardSetup& setup, const std::filesystem::path& guard
     close_link();
     throw;
   }
-  const CoilGuard::Params& p = setup.guard;
-  heart_ =
-      std::jthread([this, pause = p.heartbeat_deadline / kBeatsPerDeadline](const std::stop_token& stop) {
-        while (!stop.stop_requested()) {
-          ToGuard beat;
-          (void)send(link_, &beat, sizeof beat, MSG_DONTWAIT | MSG_NOSIGNAL);
-          std::this_thread::sleep_for(std::chrono::duration<double>(pause));
-        }
-      });
+  const double pause = std::min(setup.guard.heartbeat_deadline, patience_ / kPatient) / kBeatsPerDeadline;
+  heart_ = std::jthread([this, pause](const std::stop_token& stop) { live(stop, pause); });
+}
+
+// Signs of life, and rest for coils that nobody thinks of.
+void GuardLink::live(const std::stop_token& stop, double pause) {
+  while (!stop.stop_requested()) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (patient_ && flows_ && monotonic_now() - asked_ > patience_) {
+        tell({.kind = ToGuard::Kind::request, .number = ++number_, .frame_t = std::nan("")});
+        flows_ = false, resting_ = true;
+        ++rests_;
+      } else {
+        tell({.kind = ToGuard::Kind::beat});
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(pause));
+  }
 }
 
 GuardLink::~GuardLink() {
@@ -91,7 +105,7 @@ void GuardLink::close_link() noexcept {
   if (process_ > 0) waitpid(process_, nullptr, 0);
 }
 
-bool GuardLink::tell(ToGuard m) {
+bool GuardLink::tell(ToGuard m) const {
   m.sent = monotonic_now();
   m.coils = std::uint32_t(coils_);
   return send(link_, &m, sizeof m, MSG_DONTWAIT | MSG_NOSIGNAL) == ssize_t(sizeof m);
@@ -152,12 +166,21 @@ void GuardLink::reset() {
   wait_for([](const GuardReport& g) { return g.state == CoilGuard::State::disarmed; });
 }
 
-std::uint64_t GuardLink::request(std::span<const double> current, double frame_t) {
+std::optional<std::uint64_t> GuardLink::request(std::span<const double> current, double frame_t) {
   drain();
+  const std::lock_guard lock(mutex_);
+  if (resting_) return {};
   ToGuard m{.kind = ToGuard::Kind::request, .number = ++number_, .frame_t = frame_t};
   std::copy(current.begin(), current.end(), m.current.begin());
   tell(m);
+  asked_ = monotonic_now();
+  flows_ = std::any_of(current.begin(), current.end(), [](double i) { return i != 0; });
   return number_;
+}
+
+bool GuardLink::wake() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(resting_, false);
 }
 
 GuardReport GuardLink::report() {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "rig/guard_message.h"
@@ -30,26 +31,39 @@ class GuardLink {
   void disarm() noexcept;
   void reset();
   /// Hands on currents, A, one per coil. Does not wait; what becomes of them a later report tells.
-  /// Returns its number, by which a report answers it.
-  std::uint64_t request(std::span<const double> current, double frame_t);
+  /// Returns its number, by which a report answers it; none, and nothing is handed on, while the coils rest
+  /// as rest_when_late() says.
+  std::optional<std::uint64_t> request(std::span<const double> current, double frame_t);
+  /// From now on the coils come to rest shortly before the guard would find that no command came in time,
+  /// which is a fault: for who may wait for a camera, or think, for longer.
+  void rest_when_late() { patient_ = true; }
+  /// Whether they rest; from now on requests are handed on again.
+  bool wake();
+  std::uint64_t rests() const { return rests_; }  ///< how often they came to rest so
   /// The newest report.
   GuardReport report();
   /// Called with every report of a request as report() or request() comes across it: for latencies.
   std::function<void(const GuardReport&)> on_answer;
   pid_t process() const { return process_; }
   std::size_t coils() const { return coils_; }
-  double command_deadline() const { return command_deadline_; }  ///< s
 
  private:
-  bool tell(ToGuard m);
+  bool tell(ToGuard m) const;
+  void live(const std::stop_token& stop, double pause);
   bool drain();
   GuardReport wait_for(const std::function<bool(const GuardReport&)>& enough);
   void close_link() noexcept;
 
   int link_ = -1;
   pid_t process_ = -1;
-  std::uint64_t number_ = 0, coils_;
-  double command_deadline_;  ///< s
+  std::uint64_t coils_;
+  double patience_;   ///< s after a request until the coils come to rest
+  std::mutex mutex_;  ///< of what both threads touch: number_, flows_, resting_, asked_
+  std::uint64_t number_ = 0;
+  bool flows_ = false, resting_ = false;
+  double asked_ = 0;  ///< s, when the last request was made
+  std::atomic<std::uint64_t> rests_ = 0;
+  std::atomic<bool> patient_ = false;
   GuardReport last_;
   bool gone_ = false;
   std::jthread heart_;
