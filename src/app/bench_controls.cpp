@@ -12,7 +12,8 @@ BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
     throw Error(Errc::usage, "event", "a bench cannot exchange parts during a run; take [[event]] out");
   field = s.field.make({});
   frame = s.arena.make({s.si_scale()})->frame();
-  const ControlContext control = control_context(s, field, frame, nullptr);
+  ControlContext control = control_context(s, field, frame, nullptr);
+  control.delay_frames = s.rig->params.delay.value_or(0) / s.frame_period();
   estimator = s.estimator.make(control);
   reference = s.reference.make(control);
   controller = s.controller.make(control);

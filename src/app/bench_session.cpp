@@ -14,6 +14,8 @@
 namespace faba {
 namespace {
 
+constexpr double kDelaySteps = 1e4;  // of a second, to which a measured delay is written down
+
 // Share q of the numbers is not above it; not a number when there are none.
 double quantile(std::vector<double> v, double q) {
   std::erase_if(v, [](double x) { return std::isnan(x); });
@@ -39,8 +41,8 @@ struct BenchSession::Impl {
   RunOptions options;
   std::unique_ptr<Pool> pool;
   std::unique_ptr<BenchControls> controls;
-  std::shared_ptr<const OpenBench> bench;
-  std::unique_ptr<BenchRig> rig;
+  std::shared_ptr<OpenBench> bench;
+  BenchRig* rig = nullptr;  ///< of the bench
   RunDirectory directory;
   std::vector<std::unique_ptr<RunSink>> sinks;
   std::unique_ptr<Sink> commands;
@@ -57,7 +59,7 @@ BenchSession::BenchSession(BenchSession&&) noexcept = default;
 const std::filesystem::path& BenchSession::dir() const { return impl_->directory.path(); }
 void BenchSession::complete() { impl_->directory.complete(); }
 
-BenchSession BenchSession::begin(Scenario s, std::shared_ptr<const OpenBench> bench, std::uint64_t seed,
+BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, std::uint64_t seed,
                                  const RunOptions& o) {
   auto m = std::make_unique<Impl>();
   s.params.seed = seed;
@@ -65,15 +67,17 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<const OpenBench> be
   m->seed = seed, m->options = o;
   m->pool = std::make_unique<Pool>(o.threads);
   m->bench = std::move(bench);
-  m->controls = std::make_unique<BenchControls>(s);
-  const Frame& frame = m->controls->frame;
+  const Frame frame = BenchControls(s).frame;  // what does not fit is said before anything is written
   check_recording(s.record, frame, s.camera.rate);
 
   m->directory = RunDirectory::make({o.out, o.numbered, o.force, o.program});
-  m->scenario = std::move(s);
   const std::filesystem::path dir = m->directory.path();
+  m->rig = &m->bench->rig(dir / "coils.log");
+  if (!s.rig->params.delay) s.rig->params.delay = std::round(m->bench->delay(s) * kDelaySteps) / kDelaySteps;
+  m->rig->begin();
+  m->scenario = std::move(s);
+  m->controls = std::make_unique<BenchControls>(m->scenario);
   write_file(dir / run_files::kScenario, to_toml(m->scenario.resolved()));
-  m->rig = m->bench->rig(dir / "coils.log");
   const SinkContext c{.dir = dir,
                       .world = nullptr,
                       .field = m->controls->field,
@@ -152,7 +156,8 @@ Json BenchSession::describe() const {
        {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - m.began).count()},
        {"setpoints", m.controls->reference->setpoints().size()},
        {"video_shows", "camera"},
-       {"frames_dropped", m.rig->feed().dropped()},
+       {"frames_dropped", m.rig->dropped()},
+       {"delay_ms", 1e3 * s.rig->params.delay.value_or(0)},
        {"frames_corrupt", m.rig->feed().camera().corrupt()},
        {"arrival_ms", in_ms(arrival)},
        {"command_ms", in_ms(command)},

@@ -17,7 +17,7 @@ class BenchSession {
  public:
   /// Makes the directory; the coils are disarmed. `bench`: opened with `s`. Throws Error(usage) for
   /// a scenario that does not fit, and then nothing has been written; Error(device).
-  static BenchSession begin(Scenario s, std::shared_ptr<const OpenBench> bench, std::uint64_t seed,
+  static BenchSession begin(Scenario s, std::shared_ptr<OpenBench> bench, std::uint64_t seed,
                             const RunOptions& o);
   ~BenchSession();
   BenchSession(BenchSession&&) noexcept;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/monotonic.h"
@@ -28,33 +29,54 @@ OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what) {
                             frame.height, camera_->width(), camera_->height()));
 }
 
-std::unique_ptr<BenchRig> OpenBench::rig(const std::filesystem::path& log) const {
+BenchRig& OpenBench::rig(const std::filesystem::path& log) {
+  if (rig_) return *rig_;
   const BenchRig::Params p{setup_.params.camera_timeout,
                            camera_->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::newest};
-  return std::make_unique<BenchRig>(camera_, std::make_unique<GuardLink>(guard_setup(log)), p);
+  rig_ = std::make_unique<BenchRig>(camera_, std::make_unique<GuardLink>(guard_setup(log)), p);
+  return *rig_;
+}
+
+double OpenBench::delay(const Scenario& s) {
+  if (setup_.driver.type == "none" || camera_->waits()) return 0;
+  constexpr int kLook = 11;  // pictures; what only the first one takes is not in their median
+  BenchControls controls(s);
+  std::vector<double> took;
+  Observation seen;
+  rig({}).begin();
+  for (int i = 0; i < kLook && rig_->read(seen); ++i) {
+    const double came = monotonic_now();
+    const Estimate e = controls.estimator->update(seen, {});
+    (void)controls.controller->update(e, controls.reference->update(e), frame_period_);
+    took.push_back(seen.age + monotonic_now() - came);
+  }
+  if (took.empty()) return 0;
+  const auto middle = took.begin() + std::ptrdiff_t(took.size() / 2);
+  std::nth_element(took.begin(), middle, took.end());
+  return *middle;
 }
 
 Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
-  const OpenBench bench(s, seed);
-  const auto rig = bench.rig({});
+  OpenBench bench(s, seed);
+  BenchRig& rig = bench.rig({});
   BenchControls controls(s);
   Observation seen;
   Estimate estimate;
   std::uint64_t frames = 0;
   double first = 0;
-  for (const double until = monotonic_now() + seconds; monotonic_now() < until && rig->read(seen); ++frames) {
+  for (const double until = monotonic_now() + seconds; monotonic_now() < until && rig.read(seen); ++frames) {
     if (frames == 0) first = seen.t;
     estimate = controls.estimator->update(seen, {});
   }
-  const GuardReport guard = rig->coils()->report();
+  const GuardReport guard = rig.coils()->report();
   Json sensed = Json::array();
-  for (std::size_t k = 0; k < rig->coils()->coils(); ++k)
+  for (std::size_t k = 0; k < rig.coils()->coils(); ++k)
     sensed.push_back(std::isnan(guard.sensed[k]) ? Json() : Json(guard.sensed[k]));
   Json j = {{"camera", s.rig->camera.type},
             {"size_px", {bench.camera()->width(), bench.camera()->height()}},
             {"rate_hz", frames > 1 ? Json(double(frames - 1) / (seen.t - first)) : Json()},
             {"frames", frames},
-            {"dropped", rig->feed().dropped()},
+            {"dropped", rig.feed().dropped()},
             {"corrupt", bench.camera()->corrupt()},
             {"age_ms", 1e3 * seen.age},
             {"driver", s.rig->driver.type},

@@ -18,8 +18,13 @@ class OpenBench {
   enum class Open { all, coils };
   OpenBench(Scenario& s, std::uint64_t seed, Open what = Open::all);
 
-  /// Camera and coils as a rig; the guard's log goes to `log`, none when empty.
-  std::unique_ptr<BenchRig> rig(const std::filesystem::path& log) const;
+  /// Camera and coils as a rig, made when first asked for; the guard's log goes to `log` then, none when
+  /// empty. Throws Error(device).
+  BenchRig& rig(const std::filesystem::path& log);
+  /// How long this machine takes from mid-exposure of a picture to the command that the scenario's parts
+  /// answer it with, s: the median of a few pictures. Coils stay disarmed. 0 where commands move nothing or
+  /// the camera waits for them. Throws Error(device).
+  double delay(const Scenario& s);
   const std::shared_ptr<Camera>& camera() const { return camera_; }  ///< null when not opened
   /// What a GuardLink needs, for those who want coils and no camera.
   GuardSetup guard_setup(const std::filesystem::path& log) const {
@@ -31,6 +36,7 @@ class OpenBench {
   RigSetup setup_;
   double frame_period_ = 0;  ///< s
   std::shared_ptr<Camera> camera_;
+  std::unique_ptr<BenchRig> rig_;
 };
 
 /// What a bench is like, found without letting current flow: pictures for a while, what the guard says, and

@@ -98,7 +98,7 @@ ControlContext control_context(const Scenario& s, const std::shared_ptr<const Fi
           frame,
           s.polarity(),
           s.frame_period(),
-          s.camera.delay_frames,
+          double(s.camera.delay_frames),
           field->max_currents(s.limits.max_current),
           library};
 }

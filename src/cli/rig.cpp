@@ -7,6 +7,7 @@
 #include "app/replay.h"
 #include "app/session.h"
 #include "app/simulated_bench.h"
+#include "app/step_response.h"
 #include "cli/progress.h"
 #include "cli/scene.h"
 #include "cli/verbs.h"
@@ -22,6 +23,13 @@ Scenario bench_scene(const RigVerb& v) {
   Document d = read_scene(v.run);
   d.set("camera.sensor", Json("frames"), "faba rig");
   return read_scenario(d, builtin_parts());
+}
+
+void require_arm(const RigVerb& v) {
+  if (v.arm) return;
+  throw Error(Errc::usage, "--arm",
+              "is missing: coils are disarmed until somebody who sees them says so; to look only, `faba rig "
+              "check`");
 }
 
 void latency(const Json& manifest) {
@@ -45,10 +53,7 @@ void latency(const Json& manifest) {
 int rig_run(const RigVerb& v, const Common& c) {
   Scenario s = bench_scene(v);
   const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
-  if (!v.arm)
-    throw Error(Errc::usage, "--arm",
-                "is missing: coils are disarmed until somebody who sees them says so; to look only, `faba "
-                "rig check`");
+  require_arm(v);
   Progress bar("on the bench", !c.quiet && !c.json);
   RunOptions o;
   o.out = v.run.out;
@@ -60,7 +65,7 @@ int rig_run(const RigVerb& v, const Common& c) {
   refuse_own_input(v.run);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
-  const auto bench = std::make_shared<const OpenBench>(s, seed);
+  const auto bench = std::make_shared<OpenBench>(s, seed);
   BenchSession session = BenchSession::begin(s, bench, seed, o);
   const bool whole = session.run();
   bar.clear();
@@ -80,6 +85,52 @@ int rig_run(const RigVerb& v, const Common& c) {
     fmt::print("  report {}\n", (session.dir() / "report.html").string());
   }
   return whole ? 0 : int(Errc::interrupted);
+}
+
+int rig_step_response(const RigVerb& v, const Common& c) {
+  StepResponseJob job;
+  job.scene = read_scene(v.run);
+  if (v.exposure) job.scene.set("exposure", *v.exposure, "--exposure");
+  if (v.repeat) job.scene.set("rig.step_response.repeat", *v.repeat, "--repeat");
+  if (v.every) job.scene.set("rig.step_response.every", *v.every, "--every");
+  const Scenario s = read_scenario(job.scene, builtin_parts());
+  job.seed = s.params.seed.value_or(drawn_seed());
+  require_arm(v);
+  job.experiment = v.experiment;
+  Progress bar("on the bench", !c.quiet && !c.json);
+  job.run.out = v.run.out;
+  if (job.run.out.empty())
+    job.run.out = fmt::format("runs/{}-response", std::filesystem::path(v.run.scene).stem().string());
+  job.run.threads = v.run.threads;
+  job.run.program = shell_word(program());
+  job.run.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  job.run.stop = &stop_requested();
+  Json all = Json::array();
+  job.done = [&](const RecordedResponse& r) {
+    bar.clear();
+    write_run_report(r.dir);
+    all.push_back({{"out", r.dir.string()},
+                   {"exposure_s", r.exposure},
+                   {"cells", r.cells},
+                   {"swarm_px", r.at_px ? Json{r.at_px->x, r.at_px->y} : Json()},
+                   {"frames", r.frames},
+                   {"frames_dropped", r.dropped}});
+    if (c.json || c.quiet) return;
+    fmt::print("{}: after {:.0f} s in air, {}; {} frames, {} dropped\n", r.dir.string(), r.exposure,
+               r.at_px ? fmt::format("some {} cells about ({:.0f}, {:.0f}) px", three_digits(r.cells),
+                                     r.at_px->x, r.at_px->y)
+                       : "no swarm in view",
+               r.frames, r.dropped);
+    std::fflush(stdout);
+  };
+  const auto study = job.run.out / "study.toml";
+  record_step_responses(job);
+  bar.clear();
+  if (c.json)
+    fmt::print("{}\n", Json{{"study", study.string()}, {"responses", all}}.dump());
+  else if (!c.quiet)
+    fmt::print("  {} activity {}\n", shell_word(program()), shell_word(study.string()));
+  return 0;
 }
 
 int rig_list(const Common& c) {

@@ -44,6 +44,25 @@ void add_rig_verbs(CLI::App& app, CommandLine& line) {
   v->add_flag("--force", o->run.force, "Replace an earlier run in the directory");
   v->callback([o, &line] { line.code = rig_run(*o, line.common); });
 
+  v = verb(
+      *rig, line, "step-response",
+      "Gather the swarm at one side, reverse the field and record; again and again on a schedule",
+      "  faba rig step-response scenes/exposure.toml --arm\n"
+      "  faba rig step-response scenes/exposure.toml --arm --exposure \"90 s\" --repeat 8 --every \"80 s\" "
+      "--out runs/ageing\n"
+      "  faba activity runs/ageing/study.toml");
+  add_scene(v, o->run);
+  v->add_flag("--arm", o->arm, "Let current flow: somebody who sees the coils says that they may be on");
+  v->add_option("-o,--out", o->run.out,
+                "Directory of the study, which may hold earlier ones; runs/SCENE-response when absent")
+      ->check(not_empty);
+  v->add_option("--exposure", o->exposure,
+                "Time that the sample has been in air when this begins, such as \"90 s\"");
+  v->add_option("--repeat", o->repeat, "How many are recorded");
+  v->add_option("--every", o->every, "From the beginning of one to that of the next, such as \"80 s\"");
+  v->add_option("--experiment", o->experiment, "Name of the drop; a number when absent")->check(not_empty);
+  v->callback([o, &line] { line.code = rig_step_response(*o, line.common); });
+
   v = verb(*rig, line, "replay",
            "Do the decisions of a recorded run again, and compare its commands bit for bit",
            "  faba rig replay runs/bench-bench");

@@ -119,6 +119,8 @@ struct RigVerb {
   RunVerb run;
   std::filesystem::path at, log;
   std::string step = "50 mA";
+  std::optional<std::string> exposure, repeat, every;
+  std::string experiment;
   bool arm = false, once = false;
 };
 struct PartsVerb {
@@ -151,6 +153,7 @@ int field_tolerance(const FieldVerb& v, const Common& c);
 int field_null(const FieldVerb& v, const Common& c);
 int identify(const StudyVerb& v, const Common& c);
 int compare_controllers(const StudyVerb& v, const Common& c);
+int rig_step_response(const RigVerb& v, const Common& c);
 int rig_run(const RigVerb& v, const Common& c);
 int rig_simulate(const RigVerb& v, const Common& c);
 int rig_list(const Common& c);

@@ -47,7 +47,7 @@ struct ControlContext {
   Frame frame;
   int polarity = -1;                     ///< of the cells to be steered: +1 north-seeking, -1 south-seeking
   double frame_period = 0;               ///< s
-  int delay_frames = 0;                  ///< age of an observation when it arrives
+  double delay_frames = 0;               ///< from mid-exposure of a picture to the command that answers it
   std::vector<double> max_current = {};  ///< largest current of each coil, A; one per coil
   std::shared_ptr<const FieldLibrary> library = {};  ///< of the field, when the scenario names one
 };

@@ -5,6 +5,7 @@
 #include "control/controller.h"
 #include "control/foreground_params.h"
 #include "vision/fuzzy_groups.h"
+#include "vision/mask.h"
 
 namespace faba {
 namespace {
@@ -73,26 +74,27 @@ class EstimatorGroups final : public Estimator {
   void archive(Archive& a) override { a& foreground_& at_& t_& frame_t_& has_& looked_; }
 
  private:
-  std::vector<WeightedPlace> from_cells(const Observation& o, double& cells) const {
-    std::vector<WeightedPlace> places;
+  std::vector<WeightedPlace> from_cells(const Observation& o, double& cells) {
+    places_.clear();
     for (const Detection& d : o.seen)
       if (d.in_view && std::isfinite(d.x) && std::isfinite(d.y))
-        places.push_back({{double(d.x), double(d.y)}, 1});
-    cells = double(places.size());
-    return places.size() > 2000 ? binned(places, kBins) : places;
+        places_.push_back({{double(d.x), double(d.y)}, 1});
+    cells = double(places_.size());
+    return places_.size() > 2000 ? binned(places_, kBins) : places_;
   }
   std::vector<WeightedPlace> from_picture(const Observation& o, double& cells) {
     foreground_.take(camera_picture(o, frame_), looked_ ? o.t - frame_t_ : 0);
     frame_t_ = o.t, looked_ = true;
     cells = foreground_.moments().cells;
     const GrayF& w = foreground_.weights();
-    std::vector<WeightedPlace> places;
-    for (int row = 0; row < w.height; ++row)
-      for (int col = 0; col < w.width; ++col)
-        if (w.at(col, row) > 0)
-          places.push_back({frame_.world_from_image({double(col), double(row)}), double(w.at(col, row))});
-    if (cells == 0) places.clear();
-    return binned(places, kBins);
+    places_.clear();
+    each_set(foreground_.covered().data(), int(w.px.size()), [&](int i) {
+      if (const float weight = w.px[std::size_t(i)]; weight > 0)
+        places_.push_back(
+            {frame_.world_from_image({double(i % w.width), double(i / w.width)}), double(weight)});
+    });
+    if (cells == 0) places_.clear();
+    return binned(places_, kBins);
   }
   std::size_t chosen(const std::vector<FuzzyGroup>& groups) const {
     if (!has_ && (!p_.near || p_.follow == Follow::largest)) return 0;
@@ -107,7 +109,8 @@ class EstimatorGroups final : public Estimator {
   Params p_;
   Frame frame_;
   Foreground foreground_;
-  Vec2 at_;  ///< last centroid, m, world
+  std::vector<WeightedPlace> places_;  ///< scratch that keeps its memory
+  Vec2 at_;                            ///< last centroid, m, world
   double t_ = 0, frame_t_ = 0;
   bool has_ = false, looked_ = false;
 };

@@ -79,7 +79,9 @@ Schema<Proportional::Params> Proportional::schema() {
 }
 
 Proportional::Proportional(const Params& p, const ControlContext& c)
-    : p_(p), c_(c), k_p_(p.gain / (p.hold_frames + p.delay_frames.value_or(c.delay_frames))) {}
+    : p_(p),
+      c_(c),
+      k_p_(p.gain / (p.hold_frames + (p.delay_frames ? double(*p.delay_frames) : c.delay_frames))) {}
 
 Command Proportional::update(const Estimate& e, const Target& target, double) {
   const Vec2 error_px = (1 / c_.scale.m_per_px) * (target.position - e.centroid);

@@ -19,6 +19,13 @@ BenchRig::BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> co
 
 BenchRig::~BenchRig() { safe(); }
 
+void BenchRig::begin() {
+  safe();
+  began_.reset();
+  asked_.clear(), delays_.clear();
+  dropped_before_ = feed_.dropped();
+}
+
 void BenchRig::arm() {
   if (!coils_) throw Error(Errc::device, "rig", "has no coils to arm");
   coils_->arm();

@@ -21,6 +21,8 @@ class BenchRig final : public Rig {
   BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> coils, const Params& p);
   ~BenchRig() override;
 
+  /// The next frame is the first: its time is 0, and delays are noted anew. Disarms.
+  void begin();
   /// Throws Error(device) when the camera fails, gives no frame for too long, or the guard took the current
   /// away.
   bool read(Observation& out) override;
@@ -29,6 +31,7 @@ class BenchRig final : public Rig {
   /// Throws Error(device) with the guard's reason when it will not.
   void arm();
   CameraFeed& feed() { return feed_; }
+  std::uint64_t dropped() const { return feed_.dropped() - dropped_before_; }  ///< frames, since begin()
   GuardLink* coils() { return coils_.get(); }
 
   /// How long a frame took, s: of each, in order.
@@ -56,6 +59,7 @@ class BenchRig final : public Rig {
   double frame_t_ = 0;           ///< s, monotonic, mid-exposure of the newest
   std::deque<Asked> asked_;      ///< not answered yet
   std::vector<Delay> delays_;
+  std::uint64_t dropped_before_ = 0;
   bool armed_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "core/table.h"
+#include "vision/grey_scale.h"
 
 namespace faba {
 
@@ -28,12 +29,10 @@ bool ReplayRig::read(Observation& out) {
   double video_t = 0;
   if (next_ >= rows_.size() || !video_.read(grey_, video_t)) return false;
   const Row& row = rows_[next_];
-  auto image = std::make_shared<Gray8>(grey_.width, grey_.height);
-  for (std::size_t i = 0; i < grey_.px.size(); ++i) image->px[i] = std::uint8_t(grey_.px[i]);
   out.frame = next_++;
   out.t = row.t, out.age = row.age, out.rested = row.rested;
   out.seen.clear();
-  out.image = std::move(image);
+  out.image = std::make_shared<Gray8>(rounded(grey_));
   return true;
 }
 

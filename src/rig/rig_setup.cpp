@@ -56,25 +56,60 @@ Schema<BenchParams> BenchParams::schema() {
             .doc = "The camera gives no more frames from then on; never when absent"});
 }
 
+Schema<StepResponseParams> StepResponseParams::schema() {
+  using P = StepResponseParams;
+  return Schema<P>("step_response", "How step responses are recorded")
+      .add(
+          "direction", &P::direction,
+          {.unit = "deg",
+           .min = -360,
+           .max = 360,
+           .doc = "Where the cells are driven before the field is reversed: 0 right, 90 down in the picture"})
+      .add("field", &P::field, {.unit = "T", .min = 0, .max = 0.1, .doc = "Magnitude of the field"})
+      .add("gather", &P::gather,
+           {.unit = "s", .min = 0.1, .max = 1e5, .doc = "For how long they are driven there, unrecorded"})
+      .add("before", &P::before,
+           {.unit = "s", .min = 0, .max = 1e4, .doc = "For how long they still are, recorded"})
+      .add("record", &P::record,
+           {.unit = "s",
+            .min = 0.1,
+            .max = 1e5,
+            .doc = "For how long is recorded from the reversal on",
+            .source = "thesis 3.4.1: 6 s"})
+      .add("repeat", &P::repeat, {.min = 1, .max = 1e5, .doc = "How many are recorded"})
+      .add("every", &P::every,
+           {.unit = "s",
+            .min = 0,
+            .max = 1e6,
+            .doc = "From the beginning of one to that of the next; without a pause when they take longer"});
+}
+
 Schema<RigSetup::Params> RigSetup::Params::schema() {
   return Schema<Params>("rig", "The bench: camera, coil driver, wiring and guard")
       .add("camera_timeout", &Params::camera_timeout,
            {.unit = "s",
             .min = 0.1,
             .max = 1e4,
-            .doc = "The run ends when no frame has come for as long; the currents are gone long before"});
+            .doc = "The run ends when no frame has come for as long; the currents are gone long before"})
+      .add("delay", &Params::delay,
+           {.unit = "s",
+            .min = 0,
+            .max = 10,
+            .doc = "From mid-exposure of a picture to the command that answers it, for controllers that "
+                   "reckon with it; measured before a run when absent"});
 }
 
 RigSetup RigSetup::read(const Node& n, std::size_t coils, const CameraRegistry& cameras,
                         const CoilDriverRegistry& drivers) {
   RigSetup s;
-  s.params = Params::schema().parse(n, {"camera", "driver", "coil", "guard", "bench"});
+  s.params = Params::schema().parse(n, {"camera", "driver", "coil", "guard", "bench", "step_response"});
   const Json simulated = "simulated";
   s.camera = n.has("camera") ? cameras.resolve(n.child("camera"))
                              : cameras.resolve(Node(simulated, "rig.camera", n.document));
   s.driver = n.has("driver") ? drivers.resolve(n.child("driver"))
                              : drivers.resolve(Node(simulated, "rig.driver", n.document));
   if (n.has("guard")) s.guard = CoilGuard::schema().parse(n.child("guard"));
+  if (n.has("step_response")) s.step_response = StepResponseParams::schema().parse(n.child("step_response"));
   if (n.has("bench")) s.bench = BenchParams::schema().parse(n.child("bench"));
   if (coils > kMostCoils)
     n.fail(fmt::format("a bench has {} coils at most, the field has {}", kMostCoils, coils));
@@ -92,6 +127,7 @@ Json RigSetup::resolved() const {
   j["camera"] = camera.resolved;
   j["driver"] = driver.resolved;
   j["guard"] = CoilGuard::schema().to_json(guard);
+  j["step_response"] = StepResponseParams::schema().to_json(step_response);
   if (camera.type == "simulated" || driver.type == "simulated")
     j["bench"] = BenchParams::schema().to_json(bench);
   j["coil"] = Json::array();
@@ -102,6 +138,7 @@ Json RigSetup::resolved() const {
 Json RigSetup::json_schema() {
   Json j = Params::schema().json_schema();
   j["properties"]["guard"] = CoilGuard::schema().json_schema();
+  j["properties"]["step_response"] = StepResponseParams::schema().json_schema();
   j["properties"]["bench"] = BenchParams::schema().json_schema();
   j["properties"]["coil"] = {{"type", "array"}, {"items", WiredCoil::schema().json_schema()}};
   return j;

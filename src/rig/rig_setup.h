@@ -14,10 +14,22 @@ struct BenchParams {
   static Schema<BenchParams> schema();
 };
 
+/// The table [rig.step_response]: how step responses are recorded (theory A14; 3.4.1 and 3.4.2 of the
+/// thesis).
+struct StepResponseParams {
+  double direction = 180;                      ///< deg, in the picture
+  double field = 1e-3;                         ///< T
+  double gather = 20, before = 1, record = 6;  ///< s
+  int repeat = 1;
+  double every = 60;  ///< s
+  static Schema<StepResponseParams> schema();
+};
+
 /// The table [rig]: the bench that a scenario can be run on.
 struct RigSetup {
   struct Params {
-    double camera_timeout = 2;  ///< s
+    double camera_timeout = 2;    ///< s
+    std::optional<double> delay;  ///< s, from mid-exposure to the command
     static Schema<Params> schema();
   };
   Params params;
@@ -26,6 +38,7 @@ struct RigSetup {
   std::vector<WiredCoil> coils;  ///< as many as the field has
   CoilGuard::Params guard;
   BenchParams bench;
+  StepResponseParams step_response;
 
   /// `coils`: of the field. Throws Error(usage).
   static RigSetup read(const Node& n, std::size_t coils, const CameraRegistry& cameras,

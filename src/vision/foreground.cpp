@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 
 #include "core/portable_math.h"
+#include "vision/foreground_pixels.h"
 #include "vision/line_closing.h"
+#include "vision/mask.h"
 #include "vision/patches.h"
 #include "vision/smoothing.h"
 
@@ -190,11 +191,10 @@ void Foreground::look(double noise, double dt_s) {
   if (sign_ == 0) sign_ = told_polarity(smoothed(grey, std::max(sd_px_, 0.8)), std::max(sd_px_, 0.8), noise);
   weights_.width = grey.width, weights_.height = grey.height;
   weights_.px.resize(grey.px.size());
-  const auto sign = float(sign_);
   const double common = anew ? 1 : common_gain(grey, background_, covered_);
   const auto gain = float(common);
-  for (std::size_t i = 0; i < grey.px.size(); ++i)
-    weights_.px[i] = sign * (grey.px[i] - gain * background_.px[i]);
+  const int n = int(grey.px.size());
+  difference(grey.px.data(), background_.px.data(), gain, float(sign_), weights_.px.data(), n);
   // A background that rests on few frames has their noise.
   if (anew) frames_ = 0;
   find_covered(noise * std::sqrt(1 + (anew ? 0 : own_noise_)));
@@ -202,8 +202,7 @@ void Foreground::look(double noise, double dt_s) {
   if (sign_ < 0) take_logarithms(grey, gain, noise);
   if (learns) learn(grey, common, dt_s, noise);
   ++frames_;
-  for (std::size_t i = 0; i < weights_.px.size(); ++i)
-    if (!covered_[i]) weights_.px[i] = 0;
+  clear_uncovered(covered_.data(), weights_.px.data(), n);
   count_cells();
 }
 
@@ -225,8 +224,12 @@ double Foreground::signal_of_one(std::vector<double> patches) const {
 void Foreground::count_cells() {
   std::vector<double> signal(std::size_t(label_patches(covered_, weights_.width, weights_.height, patch_)) +
                              1);
-  for (std::size_t i = 0; i < covered_.size(); ++i)
-    if (covered_[i]) signal[std::size_t(patch_[i])] += double(weights_.px[i]);
+  const int n = int(covered_.size());
+  const auto each_covered = [&](const auto& visit) {
+    each_set(covered_.data(), n,
+             [&](int i) { visit(std::size_t(patch_[std::size_t(i)]), weights_.px[std::size_t(i)]); });
+  };
+  each_covered([&](std::size_t patch, float weight) { signal[patch] += double(weight); });
   const double found = signal_of_one(signal), now = found > 0 ? found : cell_guess_;
   if (now > 0)
     cell_signal_ =
@@ -234,10 +237,9 @@ void Foreground::count_cells() {
   if (!(found > 0)) return;  // what one cell weighs is but a guess
   std::vector<float> factor(signal.size(), 1.0F);
   for (std::size_t k = 0; k < signal.size(); ++k)
-    if (const double n = signal[k] / cell_signal_; n < kFew)
-      factor[k] = n > 0.5 ? float(std::round(n) / n) : 0.0F;
-  for (std::size_t i = 0; i < covered_.size(); ++i)
-    if (covered_[i]) weights_.px[i] *= factor[std::size_t(patch_[i])];
+    if (const double cells = signal[k] / cell_signal_; cells < kFew)
+      factor[k] = cells > 0.5 ? float(std::round(cells) / cells) : 0.0F;
+  each_covered([&](std::size_t patch, float& weight) { weight *= factor[patch]; });
 }
 
 // Cells in transmitted light take away a share of it, and so do cells behind cells: the logarithm of the
@@ -246,14 +248,8 @@ void Foreground::take_logarithms(const GrayF& picture, float gain, double noise)
   double sum = 0, n = 0;
   for (std::size_t i = 0; i < background_.px.size(); i += 13) sum += double(background_.px[i]), n += 1;
   const float level = gain * float(sum / n);
-  for (std::size_t i = 0; i < weights_.px.size(); ++i) {
-    if (!covered_[i]) continue;
-    const float light = std::max(1.0F, gain * background_.px[i]);
-    const float left = std::max(std::max(1.0F, 0.02F * light), picture.px[i]) / light;
-    // Noise alone makes the mean logarithm smaller by half its square.
-    const float relative = float(noise) / light;
-    weights_.px[i] = level * (-portable::log(left) - 0.5F * relative * relative);
-  }
+  lost_light(picture.px.data(), background_.px.data(), covered_.data(), {gain, float(noise), level},
+             weights_.px.data(), int(weights_.px.size()));
 }
 
 void Foreground::find_covered(double noise) {
@@ -262,8 +258,8 @@ void Foreground::find_covered(double noise) {
   const double left = std::max(noise * smoothing_gain(), known_ ? noise_below_background() : 0.0);
   const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * left));
   covered_.resize(smooth_.px.size());
-  for (std::size_t i = 0; i < smooth_.px.size(); ++i) covered_[i] = smooth_.px[i] > threshold ? 1 : 0;
-  cell_guess_ = guess_cell_signal(double(threshold));
+  above(smooth_.px.data(), threshold, covered_.data(), int(smooth_.px.size()));
+  cell_guess_ = guess_cell_signal();
   dilate(covered_, work_, weights_.width, weights_.height,
          std::max(1, int(std::lround(kTail * options_.cell_px))));
 }
@@ -281,19 +277,20 @@ double Foreground::noise_below_background() const {
 
 // A cell's signal from the lower quartile of the maxima of the smoothed difference: the others are several
 // cells, or in them. 0 where there are too few to tell.
-double Foreground::guess_cell_signal(double threshold) const {
+double Foreground::guess_cell_signal() const {
   std::vector<float> peaks;
   const int w = smooth_.width;
-  const auto least = float(threshold);
-  for (int row = 1; row + 1 < smooth_.height; ++row)
-    for (int col = 1; col + 1 < w; ++col) {
-      const float* at = &smooth_.px[std::size_t(row) * std::size_t(w) + std::size_t(col)];
+  for (int row = 1; row + 1 < smooth_.height; ++row) {
+    const std::size_t second = std::size_t(row) * std::size_t(w) + 1;
+    each_set(covered_.data() + second, w - 2, [&](int i) {
+      const float* at = &smooth_.px[second + std::size_t(i)];
       const float v = *at;
-      if (v <= least || v < at[-1] || v <= at[1] || v < at[-w] || v <= at[w] || v < at[-w - 1] ||
-          v < at[1 - w] || v <= at[w - 1] || v <= at[w + 1])
-        continue;
+      if (v < at[-1] || v <= at[1] || v < at[-w] || v <= at[w] || v < at[-w - 1] || v < at[1 - w] ||
+          v <= at[w - 1] || v <= at[w + 1])
+        return;
       peaks.push_back(v);
-    }
+    });
+  }
   if (peaks.size() < (known_ || !options_.learn ? 1 : 5)) return 0;
   const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
   std::nth_element(peaks.begin(), quartile, peaks.end());
@@ -322,53 +319,48 @@ void Foreground::learn(const GrayF& picture, double gain, double dt_s, double no
       float(std::max(1.0 / double(frames_ + 1), std::min(0.5, std::max(0.0, dt_s) / kFollow_s)));
   own_noise_ = (1 - double(follow)) * (1 - double(follow)) * own_noise_ + double(follow) * double(follow);
   const auto absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s));
-  const auto uncovered = float(-4 * noise), back = float(1 / gain);
   const auto smooth_uncovered = -float(std::max(kLeastThreshold, 4 * noise * smoothing_gain()));
   const float least_change = -1.4142135F * smooth_uncovered;  // of two pictures, each with its noise
-  // The common brightness is followed too.
-  const float next = 1 + follow * (float(gain) - 1);
-  for (std::size_t i = 0; i < picture.px.size(); ++i) {
-    float rate = follow;
-    if (weights_.px[i] < uncovered || smooth_.px[i] < smooth_uncovered)
-      rate = float(kUncover), guess_[i] = seen;
-    else if (covered_[i])
-      rate = guess_[i] != seen && proves_background(i, least_change, float(dt_s)) ? float(kUncover) : absorb;
-    background_.px[i] = next * (background_.px[i] + rate * (back * picture.px[i] - background_.px[i]));
-  }
+  const Following p{.follow = follow,
+                    .absorb = absorb,
+                    .at_once = float(kUncover),
+                    .least_weight = float(-4 * noise),
+                    .least_smooth = smooth_uncovered,
+                    .back = float(1 / gain),
+                    .next = 1 + follow * (float(gain) - 1)};  // the common brightness is followed too
+  const int n = int(picture.px.size());
+  each_set(guess_.data(), n, [&](int at) {
+    const auto i = std::size_t(at);
+    if (!covered_[i] || weights_.px[i] < p.least_weight || smooth_.px[i] < p.least_smooth) return;
+    if (proves_background(i, least_change, float(dt_s))) guess_[i] |= kProvedWrong;
+  });
+  follow_picture(picture.px.data(), weights_.px.data(), smooth_.px.data(), covered_.data(), p, guess_.data(),
+                 background_.px.data(), n);
 }
 
 SwarmMoments Foreground::moments() const {
   SwarmMoments m;
   const int w = weights_.width;
-  // Calls visit(row, first column, end column) for what each row may hold.
-  const auto each_row = [&](const auto& visit) {
-    for (int row = 0; row < weights_.height; ++row) {
-      const std::uint8_t* covered = &covered_[std::size_t(row) * std::size_t(w)];
-      const auto* first = static_cast<const std::uint8_t*>(std::memchr(covered, 1, std::size_t(w)));
-      if (!first) continue;
-      int end = w;
-      while (!covered[end - 1]) --end;
-      visit(row, int(first - covered), end);
-    }
+  const auto each_covered = [&](int row, const auto& visit) {
+    const std::size_t first = std::size_t(row) * std::size_t(w);
+    each_set(covered_.data() + first, w,
+             [&](int col) { visit(col, double(weights_.px[first + std::size_t(col)])); });
   };
   double x = 0, y = 0;
-  each_row([&](int row, int first, int end) {
+  for (int row = 0; row < weights_.height; ++row) {
     double sum = 0, sum_x = 0;
-    for (int col = first; col < end; ++col) {
-      const auto v = double(weights_.at(col, row));
-      sum += v, sum_x += v * col;
-    }
+    each_covered(row, [&](int col, double v) { sum += v, sum_x += v * col; });
     m.signal += sum, x += sum_x, y += sum * row;
-  });
+  }
   if (!(m.signal > 0.5 * cell_signal_) || cell_signal_ == 0) return {};
   m.centroid_image = {x / m.signal, y / m.signal};
-  each_row([&](int row, int first, int end) {
+  for (int row = 0; row < weights_.height; ++row) {
     const double dy = row - m.centroid_image.y;
-    for (int col = first; col < end; ++col) {
-      const double v = double(weights_.at(col, row)), dx = col - m.centroid_image.x;
+    each_covered(row, [&](int col, double v) {
+      const double dx = col - m.centroid_image.x;
       m.cov_px2.xx += v * dx * dx, m.cov_px2.xy += v * dx * dy, m.cov_px2.yy += v * dy * dy;
-    }
-  });
+    });
+  }
   const double own = sd_px_ * sd_px_;
   m.cov_px2 = {std::max(0.0, m.cov_px2.xx / m.signal - own), m.cov_px2.xy / m.signal,
                std::max(0.0, m.cov_px2.yy / m.signal - own)};

@@ -61,6 +61,8 @@ class Foreground {
   /// Difference from the background of each pixel, with its sign (positive where cells are), 0 where none
   /// are.
   const GrayF& weights() const { return weights_; }
+  /// Of each pixel whether cells are there: not 0.
+  const std::vector<std::uint8_t>& covered() const { return covered_; }
   void archive(Archive& a);
 
  private:
@@ -71,7 +73,7 @@ class Foreground {
   void find_covered(double noise);
   void learn(const GrayF& picture, double gain, double dt_s, double noise);
   void take_logarithms(const GrayF& picture, float gain, double noise);
-  double guess_cell_signal(double threshold) const;
+  double guess_cell_signal() const;
   double noise_below_background() const;
   double signal_of_one(std::vector<double> patches) const;
   void count_cells();

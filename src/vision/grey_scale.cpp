@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/vectorised.h"
+
 namespace faba {
 
 GreyScale::GreyScale(int bits, const GrayF& first_frame) {
@@ -32,6 +34,24 @@ void GreyScale::apply(GrayF& frame) const {
 std::string GreyScale::words() const {
   if (black_ == 0 && white_ == 255) return "";
   return fmt::format("greys {:g} to {:g} of the first frame were taken as 0 to 255", black_, white_);
+}
+
+namespace {
+
+FABA_VECTORISED void round_greys(const float* grey, std::uint8_t* out, int n) {
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) {
+    const float up = grey[i] + 0.5F, least = up > 0.0F ? up : 0.0F;
+    out[i] = std::uint8_t(int(least < 255.0F ? least : 255.0F));
+  }
+}
+
+}  // namespace
+
+Gray8 rounded(const GrayF& frame) {
+  Gray8 out(frame.width, frame.height);
+  round_greys(frame.px.data(), out.px.data(), int(frame.px.size()));
+  return out;
 }
 
 void shrink(const GrayF& frame, int side, GrayF& out) {

@@ -20,6 +20,9 @@ class GreyScale {
   float black_ = 0, white_ = 255;
 };
 
+/// Whole greys of 0 to 255, halves rounded up.
+Gray8 rounded(const GrayF& frame);
+
 /// The means of squares of `side` px; what is left over at the right and below is dropped. `side` >= 1 and
 /// not larger than the frame.
 void shrink(const GrayF& frame, int side, GrayF& out);

@@ -5,6 +5,7 @@
 
 #include "core/monotonic.h"
 #include "rig/camera.h"
+#include "vision/grey_scale.h"
 #include "vision/grey_video.h"
 
 namespace faba {
@@ -45,10 +46,7 @@ class Playback final : public Camera {
       out.number = ++number_;
       out.t = began_ + t;
     } while (!p_.fast && monotonic_now() > out.t + 1 / rate());
-    auto image = std::make_shared<Gray8>(grey_.width, grey_.height);
-    for (std::size_t i = 0; i < grey_.px.size(); ++i)
-      image->px[i] = std::uint8_t(std::clamp(grey_.px[i] + 0.5F, 0.0F, 255.0F));
-    out.image = std::move(image);
+    out.image = std::make_shared<Gray8>(rounded(grey_));
     while (!p_.fast && !over_) {
       const double left = out.t - monotonic_now();
       if (left <= 0) break;
