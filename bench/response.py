@@ -96,6 +96,8 @@ def main():
     frames = sum(r["frames"] for d in responses for r in d)
     low, high = measured["peak_line"]["ci95"]
     slope = low <= true["peak_line"]["slope"] <= high
+    if measured["cutoff_s"] is None or true["cutoff_s"] is None:
+        sys.exit(f"response.py: no cut-off among these exposures: {measured['cutoff_s']}, {true['cutoff_s']}")
     cutoff = abs(measured["cutoff_s"] - true["cutoff_s"]) <= o.every
     text = f"""# Step responses of ageing drops, recorded unattended
 

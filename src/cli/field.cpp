@@ -7,27 +7,16 @@
 
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/quantity.h"
 #include "cli/verbs.h"
 #include "core/error.h"
-#include "core/units.h"
 #include "study/field_report.h"
 
 namespace faba::cli {
 namespace {
 
 double metres(const std::string& option, const std::string& words) {
-  const auto bad = [&](const std::string& why) {
-    return Error(Errc::usage, option, fmt::format("{}; lengths are written such as \"1 mm, -0.5 mm\"", why));
-  };
-  Quantity q;
-  try {
-    q = parse_quantity(words);
-  } catch (const std::invalid_argument& e) {
-    throw bad(e.what());
-  }
-  if (q.dimension != parse_unit("m").dimension || !std::isfinite(q.value))
-    throw bad(fmt::format("\"{}\" is not a length", words));
-  return q.value;
+  return quantity_of(words, "m", option, "1 mm, -0.5 mm");
 }
 
 std::vector<double> amperes(const std::string& words) {

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
 #include "app/open_bench.h"
+#include "cli/quantity.h"
 #include "cli/scene.h"
 #include "cli/verbs.h"
 #include "core/monotonic.h"
-#include "core/units.h"
 
 namespace faba::cli {
 namespace {
@@ -79,22 +78,14 @@ std::string line_of(const GuardReport& g, const std::vector<double>& asked, std:
   return line;
 }
 
-double step_of(const std::string& words) {
-  try {
-    const Quantity q = parse_quantity(words);
-    if (q.dimension == parse_unit("A").dimension && q.value > 0) return q.value;
-  } catch (const std::invalid_argument&) {
-  }
-  throw Error(Errc::usage, "--step", "must be a current such as \"50 mA\"");
-}
-
 }  // namespace
 
 int rig_jog(const RigVerb& v, const Common& c) {
   Document d = read_scene(v.run);
   d.set("camera.sensor", Json("frames"), "faba rig");
   Scenario s = read_scenario(d, builtin_parts());
-  const double step = step_of(v.step);
+  const double step = quantity_of(v.step, "A", "--step", "50 mA");
+  if (!(step > 0)) throw Error(Errc::usage, "--step", "must be above zero");
   const OpenBench bench(s, s.params.seed.value_or(1), OpenBench::Open::coils);
   GuardLink coils(bench.guard_setup({}));
   const std::vector<double> most = s.rig->max_current();

@@ -3,12 +3,14 @@
 #include <cstdio>
 
 #include "app/bench_session.h"
+#include "app/capture.h"
 #include "app/open_bench.h"
 #include "app/replay.h"
 #include "app/session.h"
 #include "app/simulated_bench.h"
 #include "app/step_response.h"
 #include "cli/progress.h"
+#include "cli/quantity.h"
 #include "cli/scene.h"
 #include "cli/verbs.h"
 #include "study/markup.h"
@@ -85,6 +87,40 @@ int rig_run(const RigVerb& v, const Common& c) {
     fmt::print("  report {}\n", (session.dir() / "report.html").string());
   }
   return whole ? 0 : int(Errc::interrupted);
+}
+
+int rig_capture(const RigVerb& v, const Common& c) {
+  Scenario s = bench_scene(v);
+  CaptureJob job;
+  job.out = v.run.out, job.force = v.run.force;
+  job.frames = v.frames, job.one_of = v.one_of, job.buffered = v.buffered;
+  if (v.time) job.time = quantity_of(*v.time, "s", "--for", "10 s");
+  if (v.every) job.every = quantity_of(*v.every, "s", "--every", "500 ms");
+  const std::string ending = job.out.extension().string();
+  job.format = !v.format.empty() ? v.format : ending == ".mp4" ? "mp4" : ending == ".avi" ? "avi" : "png";
+  if (!v.format.empty() && (ending == ".mp4" || ending == ".avi"))
+    throw Error(Errc::usage, "--format", "is for pictures, and --out names a video");
+  job.patience = s.rig ? s.rig->params.camera_timeout : job.patience;
+  job.stop = &stop_requested();
+  Progress bar("capturing", !c.quiet && !c.json);
+  job.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  const OpenBench bench(s, s.params.seed.value_or(1));
+  const Captured done = capture(bench.camera(), job);
+  bar.clear();
+  if (c.json)
+    fmt::print("{}\n", Json{{"out", job.out.string()},
+                            {"frames", done.taken},
+                            {"kept", done.kept},
+                            {"frames_dropped", done.dropped},
+                            {"frames_corrupt", done.corrupt},
+                            {"duration_s", done.duration},
+                            {"memory_full", done.memory_full}}
+                           .dump());
+  else if (!c.quiet)
+    fmt::print("{}: {} of {} frames in {:.2f} s, {} dropped, {} corrupt{}\n", job.out.string(), done.kept,
+               done.taken, done.duration, done.dropped, done.corrupt,
+               done.memory_full ? "; ended because memory went short" : "");
+  return 0;
 }
 
 int rig_step_response(const RigVerb& v, const Common& c) {

@@ -27,6 +27,26 @@ void add_rig_verbs(CLI::App& app, CommandLine& line) {
   add_scene(v, o->run);
   v->callback([o, &line] { line.code = rig_check(*o, line.common); });
 
+  v = verb(*rig, line, "capture", "Record the camera alone: a video or numbered pictures, all frames or some",
+           "  faba rig capture scenes/bench.toml --for \"10 s\" --out look.avi\n"
+           "  faba rig capture scenes/bench.toml --frames 600 --one-of 10 --format pgm --out pictures\n"
+           "  faba rig capture scenes/bench.toml --every \"500 ms\" --out lapse.mp4      until Ctrl-C");
+  add_scene(v, o->run);
+  v->add_option("-o,--out", o->run.out, "Video (.avi without loss, .mp4), or folder of pictures")
+      ->required()
+      ->check(not_empty);
+  v->add_option("--format", o->format, "Of numbered pictures in a folder")
+      ->check(CLI::IsMember({"png", "pgm", "ppm", "tiff"}));
+  v->add_option("--frames", o->frames, "End after as many frames of the camera");
+  v->add_option("--for", o->time, "End after as long, such as \"10 s\"; until Ctrl-C without an end");
+  CLI::Option* one_of =
+      v->add_option("--one-of", o->one_of, "Keep one of as many frames")->check(CLI::Range(1, 1000000));
+  v->add_option("--every", o->every, "Keep one frame every so long, such as \"500 ms\"")->excludes(one_of);
+  v->add_flag("--buffered", o->buffered,
+              "Keep pictures in memory and write them afterwards: for disks that are too slow");
+  v->add_flag("--force", o->run.force, "Replace a video");
+  v->callback([o, &line] { line.code = rig_capture(*o, line.common); });
+
   v = verb(*rig, line, "jog",
            "Set currents by hand, from the keyboard: step by step, largest, smallest, none",
            "  faba rig jog scenes/bench.toml --step \"20 mA\"");

@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "cli/output_file.h"
+#include "cli/quantity.h"
 #include "cli/verbs.h"
 #include "core/error.h"
-#include "core/units.h"
 #include "study/scale.h"
 
 namespace faba::cli {
@@ -15,16 +15,11 @@ double tick_of(const std::string& words) {
   if (words.empty())
     throw Error(Errc::usage, "--tick",
                 "say how far neighbouring marks of the finest kind are apart, such as --tick \"10 um\"");
-  Quantity q;
-  try {
-    q = parse_quantity(words);
-  } catch (const std::invalid_argument& e) {
-    throw Error(Errc::usage, "--tick", e.what());
-  }
-  if (q.dimension != parse_unit("m").dimension || !(q.value >= 1e-9 && q.value <= 1))
+  const double tick = quantity_of(words, "m", "--tick", "10 um");
+  if (!(tick >= 1e-9 && tick <= 1))
     throw Error(Errc::usage, "--tick",
                 fmt::format("\"{}\" is not a length of 1 nm to 1 m such as \"10 um\"", words));
-  return q.value;
+  return tick;
 }
 
 void print_table(const nlohmann::ordered_json& j) {

@@ -12,10 +12,10 @@ constexpr auto kPatience = std::chrono::seconds(1);  // for a camera's thread to
 
 }  // namespace
 
-CameraFeed::CameraFeed(std::shared_ptr<Camera> camera, Keep keep)
+CameraFeed::CameraFeed(std::shared_ptr<Camera> camera, Keep keep, std::size_t most)
     : camera_(std::move(camera)),
       shared_(std::make_shared<Shared>()),
-      thread_([c = camera_, s = shared_, keep] { work(c, s, keep); }) {}
+      thread_([c = camera_, s = shared_, keep, most] { work(c, s, keep, most); }) {}
 
 CameraFeed::~CameraFeed() {
   {
@@ -33,7 +33,8 @@ CameraFeed::~CameraFeed() {
     thread_.detach();
 }
 
-void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep) {
+void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
+                      std::size_t most) {
   std::optional<std::uint64_t> last;
   std::exception_ptr failure;
   try {
@@ -47,7 +48,10 @@ void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_p
         s->lost += s->waiting.size();
         s->waiting.clear();
       }
-      s->waiting.push_back(std::move(frame));
+      if (keep == Keep::all && s->waiting.size() >= most)
+        ++s->lost;
+      else
+        s->waiting.push_back(std::move(frame));
       frame = {};
       s->came.notify_all();
       if (keep == Keep::each) s->came.wait(lock, [&] { return s->waiting.empty() || s->stop; });

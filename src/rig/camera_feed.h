@@ -1,5 +1,6 @@
 #pragma once
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -15,12 +16,12 @@ class CameraFeed {
  public:
   enum class Keep {
     newest,  ///< who is late misses frames: for control
-    all,     ///< frames wait in memory until they are taken: for recording
+    all,     ///< frames wait in memory until they are taken, the oldest `most` of them: for recording
     each     ///< the camera waits until its frame was taken: for one that can, such as a video
   };
   enum class Got { frame, nothing, end };
 
-  CameraFeed(std::shared_ptr<Camera> camera, Keep keep);
+  CameraFeed(std::shared_ptr<Camera> camera, Keep keep, std::size_t most = SIZE_MAX);
   ~CameraFeed();
   CameraFeed(const CameraFeed&) = delete;
   CameraFeed& operator=(const CameraFeed&) = delete;
@@ -40,7 +41,8 @@ class CameraFeed {
     std::exception_ptr failure;
     bool end = false, stop = false, left = false;
   };
-  static void work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep);
+  static void work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
+                   std::size_t most);
 
   std::shared_ptr<Camera> camera_;
   std::shared_ptr<Shared> shared_;

@@ -71,7 +71,11 @@ struct FrameEncoder::Impl {
 
 void FrameEncoder::Impl::open() {
   libav::quiet();
-  const char* name = is_h264(kind) ? "libx264" : "png";
+  const char* name = is_h264(kind)        ? "libx264"
+                     : kind == Kind::pgm  ? "pgm"
+                     : kind == Kind::ppm  ? "ppm"
+                     : kind == Kind::tiff ? "tiff"
+                                          : "png";
   const AVCodec* encoder = avcodec_find_encoder_by_name(name);
   if (encoder == nullptr) {
     fail(std::string("this FFmpeg has no encoder ") + name +
@@ -86,11 +90,12 @@ void FrameEncoder::Impl::open() {
   if (is_h264(kind)) {
     describe_h264(*codec, rate);
   } else {
-    codec->pix_fmt = kind == Kind::png_grey     ? AV_PIX_FMT_GRAY8
-                     : kind == Kind::png_grey16 ? AV_PIX_FMT_GRAY16BE
-                                                : AV_PIX_FMT_RGB24;
+    codec->pix_fmt = kind == Kind::png_grey16                        ? AV_PIX_FMT_GRAY16BE
+                     : kind == Kind::png_colour || kind == Kind::ppm ? AV_PIX_FMT_RGB24
+                                                                     : AV_PIX_FMT_GRAY8;
     codec->compression_level = 1;
-    av_opt_set(codec->priv_data, "pred", "none", 0);  // camera noise packs best, and fastest, as it is
+    // Camera noise packs best, and fastest, as it is. Encoders without such an option take no notice.
+    av_opt_set(codec->priv_data, "pred", "none", 0);
   }
   libav::forget_messages();
   const int result = avcodec_open2(codec.get(), encoder, nullptr);
@@ -164,7 +169,7 @@ FrameEncoder& FrameEncoder::operator=(FrameEncoder&&) noexcept = default;
 
 std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
   Impl& self = *impl_;
-  self.check(picture, self.kind == Kind::png_colour || self.kind == Kind::h264);
+  self.check(picture, self.kind == Kind::png_colour || self.kind == Kind::ppm || self.kind == Kind::h264);
   if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
   if (self.kind == Kind::h264) {
     const AVFrame& to = *self.frame;
@@ -178,7 +183,8 @@ std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
 
 std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
   Impl& self = *impl_;
-  self.check(picture, self.kind == Kind::png_grey || self.kind == Kind::h264_grey);
+  self.check(picture, self.kind == Kind::png_grey || self.kind == Kind::pgm || self.kind == Kind::tiff ||
+                          self.kind == Kind::h264_grey);
   if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
   self.copy(picture);
   if (self.kind == Kind::h264_grey) self.fill_up();

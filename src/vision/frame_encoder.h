@@ -18,6 +18,9 @@ class FrameEncoder {
     png_colour,  ///< every piece is a complete PNG file, 8-bit RGB
     png_grey,    ///< every piece is a complete PNG file, 8-bit grey
     png_grey16,  ///< every piece is a complete PNG file, 16-bit grey
+    pgm,         ///< every piece is a complete PGM file, 8-bit grey
+    ppm,         ///< every piece is a complete PPM file, 8-bit RGB
+    tiff,        ///< every piece is a complete TIFF file, 8-bit grey
     h264,  ///< every piece is one picture of an H.264 byte stream (Annex B), headers repeated at key frames
     h264_grey,  ///< the same from grey pictures
   };

@@ -220,11 +220,25 @@ TEST_CASE("nothing there: one clear line, exit 4, and no directory") {
   CHECK(plain.err.find("[rig]") != std::string::npos);
 }
 
+TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with their times") {
+  OnBench b;
+  const Called c =
+      faba_in(b.f.path, "rig capture scene.toml --frames 20 --one-of 4 --format pgm --out pictures --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["kept"] == 5);
+  CHECK(std::filesystem::exists(b.f.path / "pictures/frame-000004.pgm"));
+  CHECK(faba_in(b.f.path, "rig capture scene.toml --frames 3 --format pgm --out pictures").exit == 2);
+  CHECK(faba_in(b.f.path, "rig capture scene.toml --for '3 m' --out a.avi").exit == 2);
+  CHECK(faba_in(b.f.path, "rig capture scene.toml --frames 3 --out a.avi --quiet").exit == 0);
+  CHECK(faba_in(b.f.path, "track a.avi --json").exit == 0);
+  for (const Flowing& one : b.log()) CHECK(one.most < kZero);
+}
+
 TEST_CASE(
     "a bench of its own: the swarm comes to its setpoint, and the recording is whole and decided again") {
   const TestFolder f;
   const Called c = faba_in(f.path, "rig run '" FABA_SCENES
-                                   "/bench.toml' --arm --seed 1 --json --out run "
+                                   "/bench.toml' --arm --seed 1 --duration '6 s' --json --out run "
                                    "--set record.lossless=true "
                                    "--set rig.guard.heartbeat_deadline=1");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
@@ -234,7 +248,7 @@ TEST_CASE(
   CHECK(j["steady_rms_px"].get<double>() < 70);
   CHECK(j["complete"] == true);
   CHECK(j["guard"]["refused"] == 0);
-  CHECK(j["frames"].get<int>() + j["frames_dropped"].get<int>() > 600);
+  CHECK(j["frames"].get<int>() + j["frames_dropped"].get<int>() > 300);
   CHECK_FALSE(std::filesystem::exists(f.path / "run/incomplete"));
   CHECK(read_file(f.path / "run/report.html").find("Latency") != std::string::npos);
 
@@ -253,9 +267,59 @@ TEST_CASE(
   CHECK(other.exit == 1);
   CHECK(other.json()["first_other"] == 100);
 
-  const Called activity = faba_in(f.path, "activity run --json");
-  CHECK_MESSAGE(activity.exit == 0, activity.err);
   CHECK(faba_in(f.path, "rig replay nowhere").exit == 3);
+}
+
+TEST_CASE("step responses on a schedule: gathered, reversed, recorded, and listed with their time in air") {
+  OnBench b("", kPatient +
+                    "step_response = { gather = '1 s', before = '0.3 s', record = '0.7 s', field = '100 uT', "
+                    "repeat = 2, every = '0 s' }\n");
+  const Called refused = faba_in(b.f.path, "rig step-response scene.toml --out study");
+  CHECK(refused.exit == 2);
+  CHECK(one_clear_line(refused.err));
+  CHECK_FALSE(std::filesystem::exists(b.f.path / "study"));
+  const Called c =
+      faba_in(b.f.path, "rig step-response scene.toml --arm --exposure '90 s' --out study --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  const auto responses = c.json()["responses"];
+  REQUIRE(responses.size() == 2);
+  double last = 90;
+  for (const auto& r : responses) {
+    const double exposure = r["exposure_s"];
+    CHECK(exposure > last + 0.9);  // at the beginning of the recording, a gathering later
+    last = exposure + 1;
+    CHECK(r["frames"].get<int>() + r["frames_dropped"].get<int>() > 25);
+    const auto dir = b.f.path / r["out"].get<std::string>();
+    CHECK_FALSE(std::filesystem::exists(dir / "incomplete"));
+    CHECK(std::filesystem::exists(dir / "report.html"));
+    // The field points one way until 0.3 s, and the other way afterwards.
+    std::ifstream in(dir / "commands.csv");
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+      std::vector<double> v;
+      std::stringstream words(line);
+      for (std::string word; std::getline(words, word, ',');) v.push_back(std::stod(word));
+      if (std::fabs(v[2] - 0.3) > 0.04) CHECK(std::signbit(v[5]) == (v[2] > 0.3));  // a frame
+    }
+  }
+  CHECK(faba_in(b.f.path, "rig step-response scene.toml --arm --repeat 1 --out study --quiet").exit == 0);
+  const std::string study = read_file(b.f.path / "study/study.toml");
+  CHECK(study.find("experiment = \"1\"") != std::string::npos);
+  CHECK(study.find("experiment = \"2\"") != std::string::npos);
+  const Called activity = faba_in(b.f.path, "activity study/study.toml --json");
+  REQUIRE_MESSAGE(activity.exit == 0, activity.err);
+  CHECK(activity.json()["videos"].size() == 3);
+  CHECK(activity.json()["videos"][0]["direction_deg"] == 0);
+
+  // Asked to stop: what was recorded is whole and listed, what was not is neither.
+  Child stopped(b.f.path, "'" FABA_PROGRAM
+                          "' rig step-response scene.toml --arm --repeat 50 --out other --quiet 2> err.txt");
+  REQUIRE(soon([&] { return std::filesystem::exists(b.f.path / "other/study.toml"); }));
+  stopped.signal(SIGINT);
+  CHECK(stopped.wait() == 130);
+  CHECK(one_clear_line(b.err()));
+  CHECK_FALSE(b.flows());
 }
 
 TEST_CASE("currents by hand, from keys in a pipe: what a key says flows, and nothing after the last") {

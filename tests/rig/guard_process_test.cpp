@@ -206,6 +206,25 @@ TEST_CASE("the control thread hangs while the program lives: no current when the
   CHECK(g.report().fault == CoilGuard::Fault::late);
 }
 
+TEST_CASE("a decision that takes too long: the coils rest without a fault, and go on when they are woken") {
+  Firmware f;
+  GuardLink g(two_coils(f.driver(), {"0", "1"}), FABA_GUARD);
+  g.rest_when_late();
+  g.arm();
+  steer(g, 0.2);
+  const auto flows = [&] { return f.log().back().furthest > 1e-6; };
+  REQUIRE(flows());
+  CHECK(g.rests() == 0);
+  REQUIRE(soon([&] { return !flows(); }, 5));
+  CHECK(g.rests() == 1);
+  CHECK(g.report().state == CoilGuard::State::armed);
+  CHECK_FALSE(g.request(std::vector<double>(2, 0.3), monotonic_now()));  // decided before they rested
+  CHECK(g.wake());
+  CHECK_FALSE(g.wake());
+  CHECK(g.request(std::vector<double>(2, 0.3), monotonic_now()));
+  CHECK(soon(flows, 5));
+}
+
 TEST_CASE("serial: the guard is killed or stopped, the line goes: the board comes to rest by itself") {
   for (const int signal : {SIGKILL, SIGSTOP}) {
     Firmware f;

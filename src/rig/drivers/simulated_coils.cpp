@@ -58,7 +58,9 @@ class SimulatedCoils final : public CoilDriver {
       if (!socket_.write(&ask, sizeof ask, kPatience)) return {at_ + ": the simulated bench is gone"};
       asked_ = now;
     }
-    for (std::size_t i = 0; i < volts.size(); ++i) volts[i] = answer_.volts[inputs_[i]];
+    const bool fresh = now - *asked_ < kFresh;
+    for (std::size_t i = 0; i < volts.size(); ++i)
+      volts[i] = fresh ? answer_.volts[inputs_[i]] : std::nan("");
     return {};
   }
   std::string unsafe() const override {
@@ -70,7 +72,8 @@ class SimulatedCoils final : public CoilDriver {
 
  private:
   static constexpr double kPatience = 0.02;  // s to take a message
-  static constexpr double kSlowest = 0.1;    // s to answer one: a device that takes longer counts as broken
+  static constexpr double kSlowest = 1;      // s to answer one: a device that takes longer counts as broken
+  static constexpr double kFresh = 0.03;     // s that an answer may be late and still tell what flows now
 
   std::vector<std::size_t> numbers(const std::vector<std::string>& names) const {
     std::vector<std::size_t> n;
