@@ -130,7 +130,7 @@ class Checks:
         helps = {}
         for page, text in self.text.items():
             for number, line in enumerate(text.splitlines(), 1):
-                m = re.match(r"\s*\$ build/faba ((?:field|rig) \w+|\w+)(.*)", line)
+                m = re.match(r"\s*\$ build/faba ((?:field|rig) [\w-]+|\w[\w-]*)(.*)", line)
                 if not m:
                     continue
                 verb, rest = m[1], re.sub(r"'[^']*'|\"[^\"]*\"", "''", m[2])

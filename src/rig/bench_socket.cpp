@@ -66,13 +66,19 @@ BenchSocket BenchSocket::connect(const std::filesystem::path& path, BenchHello::
 }
 
 BenchSocket BenchSocket::listen(const std::filesystem::path& path) {
-  const sockaddr_un a = address(path);
+  // Who sees the name may connect: it is given only once somebody listens.
+  const std::string early = path.string() + ".new";
+  const sockaddr_un a = address(early);
+  unlink(early.c_str());
   BenchSocket s(local_socket());
-  if (!s || bind(s.descriptor_, reinterpret_cast<const sockaddr*>(&a), sizeof a) != 0)
+  const bool listens = s && bind(s.descriptor_, reinterpret_cast<const sockaddr*>(&a), sizeof a) == 0 &&
+                       ::listen(s.descriptor_, 4) == 0 && link(early.c_str(), path.c_str()) == 0;
+  const int why = errno;
+  unlink(early.c_str());
+  if (!listens)
     throw Error(Errc::device, path.string(),
                 fmt::format("cannot be listened on: {}; choose another name, or remove what is there",
-                            std::strerror(errno)));
-  if (::listen(s.descriptor_, 4) != 0) throw Error(Errc::device, path.string(), std::strerror(errno));
+                            std::strerror(why)));
   return s;
 }
 

@@ -13,6 +13,7 @@
 #include "server/embedded_page.h"
 #include "server/recorded_run.h"
 #include "study/drop_report.h"
+#include "study/scale.h"
 #include "study/thumbnail.h"
 
 namespace faba {
@@ -108,6 +109,11 @@ WebResponse Api::route(const WebRequest& r) {
       return json_answer(all);
     }
     if (const auto rest = below(p, "/api/scenes/")) return scene(*rest);
+    if (p == "/api/bench") return json_answer(bench_.state());
+    if (p == "/api/bench/picture.png") {
+      const std::string picture = bench_.picture();
+      return {.status = picture.empty() ? 204 : 200, .type = "image/png", .body = picture};
+    }
     if (p == "/api/runs" || p.starts_with("/api/runs/"))
       return run(r, p.substr(std::min(p.size(), std::size_t(10))));
     if (const auto rest = below(p, "/api/uploads/")) {
@@ -125,6 +131,7 @@ WebResponse Api::route(const WebRequest& r) {
     if (p == "/api/check") return json_answer(check(body_of(r)));
     if (p == "/api/upload") return json_answer(take_upload(r));
     if (p == "/api/jobs") return json_answer(start_job(body_of(r)));
+    if (const auto rest = below(p, "/api/bench/")) return json_answer(bench(body_of(r), *rest));
   }
   if (r.method == "DELETE")
     if (const auto rest = below(p, "/api/jobs/")) {
@@ -153,7 +160,10 @@ Json Api::scenes() const {
       const Scenario s = read_scenario(read_toml(file), parts_);
       std::uint64_t cells = 0;
       for (const Swarm& swarm : s.swarms) cells += swarm.params.count;
-      one.update({{"title", s.params.title}, {"about", about(file)}, {"cells", cells}});
+      one.update({{"title", s.params.title},
+                  {"about", about(file)},
+                  {"cells", cells},
+                  {"bench", s.rig.has_value()}});
     } catch (const Error& e) {
       one.update({{"title", file.stem()}, {"error", e.what()}});
     }
@@ -267,6 +277,58 @@ Json Api::take_upload(const WebRequest& r) {
     if (e.code() != Errc::input) throw;
     throw Error(Errc::usage, name, e.reason());  // it knows the file by the name that it has here only
   }
+}
+
+// The camera of a bench.
+Json Api::bench(const Json& asked, Rest what) {
+  if (what == "open") {
+    const std::string name = text_of(asked, "scene");
+    Document d = read_toml(workspace_.scene(name));
+    d.set("camera.sensor", Json("frames"), "bench");
+    bench_.open(read_scenario(d, parts_), name);
+  } else if (what == "close") {
+    bench_.close();
+  } else if (what == "control") {
+    CameraControl c{text_of(asked, "name"), asked.value("value", 0.0), {}};
+    if (asked.contains("automatically") && asked["automatically"].is_boolean())
+      c.automatically = asked["automatically"].get<bool>();
+    bench_.set(c);
+  } else if (what == "ruler") {
+    return measure_ruler(asked);
+  } else {
+    throw Error(Errc::input, what, "there is nothing here");
+  }
+  return bench_.state();
+}
+
+// The picture that the camera gives now, of a ruler: the scale of this objective, kept in calibrations/.
+Json Api::measure_ruler(const Json& asked) {
+  static std::atomic<unsigned> number{0};
+  const std::string objective = text_of(asked, "objective");
+  constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_. ";
+  if (objective.find_first_not_of(kAllowed) != std::string::npos || objective.front() == '.')
+    throw Error(Errc::usage, "objective",
+                "is a name of letters, digits, spaces, dots and dashes, such as 10x");
+  const double tick_um = asked.value("tick_um", 0.0);
+  if (!(tick_um >= 1e-3 && tick_um <= 1e6))
+    throw Error(Errc::usage, "tick_um", "is the distance of neighbouring marks, in micrometres");
+  const std::string name = "calibrations/" + objective;
+  const fs::path picture = workspace_.inside(name + ".png"), file = workspace_.inside(name + ".toml");
+  const std::string shown = fmt::format("ruler-{}.png", ++number);
+  fs::create_directories(picture.parent_path());
+  const fs::path taken = pictures_ / fmt::format("ruler-taken-{}.png", number.load());
+  const std::string now = bench_.picture();
+  if (now.empty()) throw Error(Errc::input, "bench", "no camera gives a picture");
+  write_file(taken, now);
+  Json j = report_scale_picture(taken, 1e-6 * tick_um, pictures_ / shown);
+  j["url"] = "/api/uploads/" + shown;
+  if (j["quality"] == "poor") return j;  // shown, and not kept
+  fs::copy_file(taken, picture, fs::copy_options::overwrite_existing);
+  Calibration c = calibration_of(j);
+  c.source = picture.filename().string();
+  write_calibration(file, c);
+  j["file"] = name + ".toml";
+  return j;
 }
 
 Json Api::start_job(const Json& asked) {

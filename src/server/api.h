@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "app/parts.h"
+#include "server/bench_view.h"
 #include "server/job_list.h"
 #include "server/web_server.h"
 #include "server/workspace.h"
@@ -28,12 +29,15 @@ class Api {
   Json check(const Json& asked) const;
   Json take_upload(const WebRequest& r);
   Json start_job(const Json& asked);
+  Json bench(const Json& asked, Rest what);
+  Json measure_ruler(const Json& asked);
   std::filesystem::path picture_of(const std::filesystem::path& scene);
 
   const Workspace& workspace_;
   JobList& jobs_;
   std::filesystem::path pictures_, pages_;
   Parts parts_;
+  BenchView bench_;
 };
 
 }  // namespace faba

@@ -299,6 +299,56 @@ await step('the map of a field and the activity of a video are shown', async () 
   await page.getByRole('button', { name: 'Close' }).click();
 });
 
+await step('through the camera of a bench: its picture, its gain, and a ruler', async () => {
+  // Marks every 12.4 px, each tenth longer, on light ground.
+  const [w, h, pitch] = [640, 480, 12.4], grey = Buffer.alloc(w * h, 205);
+  for (let k = 1; k * pitch < w - 6; k++)
+    for (let y = 120; y < (k % 10 ? 260 : 340); y++)
+      for (let x = Math.floor(k * pitch) - 2; x < k * pitch + 4; x++)
+        grey[y * w + x] = Math.round(205 - 150 * Math.exp(-(((x - k * pitch) / 1.3) ** 2) / 2));
+  mkdirSync(join(workspace, 'ruler'));
+  writeFileSync(join(workspace, 'ruler/1.pgm'), Buffer.concat([Buffer.from(`P5\n${w} ${h}\n255\n`), grey]));
+  writeFileSync(
+    join(workspace, 'scenes/ruler.toml'),
+    "title = 'A ruler'\n[arena]\ntype = 'box'\nsize_px = [640, 480]\n[[swarm]]\ncount = 1\n" +
+      "[rig]\ndriver = 'none'\n[rig.camera]\ntype = 'playback'\nfile = '../ruler'\nfps = 5\n",
+  );
+  await tab('Bench');
+  const picture = page.getByAltText('What the camera sees');
+  const open = async (scene) => {
+    await page.getByLabel('Scene with a bench').selectOption(scene);
+    await page.getByRole('button', { name: 'Open the camera' }).click();
+    await until(() => picture.evaluate((i) => i.naturalWidth === 640).catch(() => false), 'a picture');
+  };
+  const mean = async () => Number((await page.getByText(/^mean grey/).textContent()).match(/\d+/)[0]);
+  await open('bench');
+  const first = await picture.getAttribute('src');
+  await until(async () => (await picture.getAttribute('src')) !== first, 'another picture');
+  await until(async () => /[1-9]\d*\.\d Hz/.test(await page.locator('figcaption').textContent()), 'a rate');
+  const before = await mean();
+  await page.getByLabel('Gain').fill('0.5');
+  await page.getByLabel('Gain').press('Enter');
+  await until(async () => Math.abs((await mean()) - before / 2) < 3, 'half as bright');
+  await page.getByLabel('Gain').fill('99');
+  await page.getByLabel('Gain').press('Enter');
+  await page.getByRole('alert').getByText('from 0.1 to 10').waitFor();
+  complaints.length = 0; // the browser's word on the refusal
+  await page.getByLabel('Gain').fill('1');
+  await page.getByLabel('Gain').press('Enter');
+  await until(async () => Math.abs((await mean()) - before) < 3, 'as bright as before');
+  await shot('bench');
+  await page.getByRole('button', { name: 'Close the camera' }).click();
+  await open('ruler');
+  await page.getByLabel('Objective').fill('20x');
+  await page.getByLabel('Neighbouring marks').fill('10');
+  await page.getByRole('button', { name: 'Measure the ruler' }).click();
+  await page.getByText('calibrations/20x.toml').first().waitFor();
+  await shot('ruler');
+  const scale = Number(readFileSync(join(workspace, 'calibrations/20x.toml'), 'utf8').match(/um_per_px = ([\d.]+)/)[1]);
+  assert.ok(Math.abs(scale - 10 / pitch) < 0.002, `${scale} um/px`);
+  await page.getByRole('button', { name: 'Close the camera' }).click();
+});
+
 await step('a second page watches, and takes over when it asks to', async () => {
   await tab('Lab');
   const other = await context.newPage();

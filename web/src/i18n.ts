@@ -2,6 +2,12 @@
 
 const en = {
   'app.title': 'Faba live lab',
+  'tab.bench': 'Bench', 'bench.title': 'Through the camera of a bench', 'bench.help': 'No current flows here: runs on a bench are begun with faba rig run.',
+  'bench.scene': 'Scene with a bench', 'bench.open': 'Open the camera', 'bench.close': 'Close the camera', 'bench.picture': 'What the camera sees', 'bench.waiting': 'Waiting for the first picture.',
+  'bench.frames': '{n} frames, {dropped} dropped, {corrupt} corrupt', 'bench.grey': 'mean grey {mean}', 'bench.white': '{share} % white', 'bench.camera': 'Camera', 'bench.nothing': 'Nothing can be set at this camera.',
+  'bench.exposure': 'Exposure', 'bench.gain': 'Gain', 'bench.white_balance': 'White balance', 'bench.automatic': 'by itself', 'bench.scale': 'Scale',
+  'bench.scale.help': 'Put a ruler under the microscope, once for each objective.', 'bench.objective': 'Objective', 'bench.tick': 'Neighbouring marks are apart', 'bench.measure': 'Measure the ruler',
+  'bench.interval': '(95 %: {low} to {high})', 'bench.kept': '{n} marks found; kept as {file}.', 'bench.poor': '{n} marks found, too few or too uneven: not kept.', 'bench.marks': 'The marks that were found',
   'tab.lab': 'Lab', 'tab.gallery': 'Gallery', 'tab.runs': 'Runs', 'tab.analyse': 'Analyse',
   'lost': 'The connection is lost; trying again.', 'refused': 'This page has no token any more: open the address that faba lab printed.', 'again': 'Try now',
   'steer.other': 'Another page steers.', 'steer.take': 'Steer from here', 'pages': '{n} pages',
@@ -34,6 +40,12 @@ export type Word = keyof typeof en;
 
 const pt: Record<Word, string> = {
   'app.title': 'Faba, laboratório ao vivo',
+  'tab.bench': 'Bancada', 'bench.title': 'Pela câmera de uma bancada', 'bench.help': 'Aqui não passa corrente: as corridas na bancada começam com faba rig run.',
+  'bench.scene': 'Cena com bancada', 'bench.open': 'Abrir a câmera', 'bench.close': 'Fechar a câmera', 'bench.picture': 'O que a câmera vê', 'bench.waiting': 'Esperando a primeira imagem.',
+  'bench.frames': '{n} quadros, {dropped} perdidos, {corrupt} danificados', 'bench.grey': 'cinza médio {mean}', 'bench.white': '{share} % branco', 'bench.camera': 'Câmera', 'bench.nothing': 'Nada se ajusta nesta câmera.',
+  'bench.exposure': 'Exposição', 'bench.gain': 'Ganho', 'bench.white_balance': 'Balanço de branco', 'bench.automatic': 'automático', 'bench.scale': 'Escala',
+  'bench.scale.help': 'Ponha uma régua sob o microscópio, uma vez para cada objetiva.', 'bench.objective': 'Objetiva', 'bench.tick': 'Distância entre marcas vizinhas', 'bench.measure': 'Medir a régua',
+  'bench.interval': '(95 %: {low} a {high})', 'bench.kept': '{n} marcas encontradas; guardado em {file}.', 'bench.poor': '{n} marcas encontradas, poucas ou irregulares: não guardado.', 'bench.marks': 'As marcas encontradas',
   'tab.lab': 'Laboratório', 'tab.gallery': 'Galeria', 'tab.runs': 'Gravações', 'tab.analyse': 'Análise',
   'lost': 'A conexão caiu; tentando de novo.', 'refused': 'Esta página não tem mais a senha: abra o endereço que faba lab mostrou.', 'again': 'Tentar agora',
   'steer.other': 'Outra página está no comando.', 'steer.take': 'Comandar daqui', 'pages': '{n} páginas',

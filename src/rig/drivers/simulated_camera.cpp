@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 
 #include "rig/bench_socket.h"
@@ -35,6 +36,8 @@ class SimulatedCamera final : public Camera {
     have_head_ = false;
     auto image = std::make_shared<Gray8>(next_.width, next_.height);
     if (socket_.read(image->px.data(), image->px.size(), kFirst) != BenchSocket::Got::all) return gone();
+    if (const double gain = gain_; gain != 1)
+      for (std::uint8_t& g : image->px) g = std::uint8_t(std::min(255.0, gain * g + 0.5));
     out.number = next_.number, out.t = next_.t, out.image = std::move(image);
     return true;
   }
@@ -42,9 +45,17 @@ class SimulatedCamera final : public Camera {
   int width() const override { return next_.width; }
   int height() const override { return next_.height; }
   double rate() const override { return next_.rate; }
+  std::vector<CameraControl> controls() override { return {{"gain", gain_, {}}}; }
+  void set(const CameraControl& c) override {
+    if (c.name != "gain") return Camera::set(c);
+    if (!(c.value >= kLeastGain && c.value <= kMostGain))
+      throw Error(Errc::usage, "gain", "of a simulated camera is from 0.1 to 10");
+    gain_ = c.value;
+  }
 
  private:
   static constexpr double kFirst = 10, kSlice = 0.1;  // s
+  static constexpr double kLeastGain = 0.1, kMostGain = 10;
 
   bool gone() const {
     if (over_) return false;
@@ -56,6 +67,7 @@ class SimulatedCamera final : public Camera {
   BenchFrame next_;
   bool have_head_ = true;
   std::atomic<bool> over_ = false;
+  std::atomic<double> gain_ = 1;  ///< of greys that the microscope has rounded already
 };
 
 }  // namespace
