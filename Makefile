@@ -61,7 +61,7 @@ asan tsan dev: setup  ## build and run the tests under sanitizers, or without an
 	@cmake --build build/$@ -j $(JOBS)
 	@ctest --test-dir build/$@ --no-tests=error --output-on-failure -j $(JOBS)
 
-fuzz: setup           ## fuzz the scenario loader and the lab's messages for a minute each (SECONDS_TO_FUZZ=600 for longer)
+fuzz: setup           ## fuzz the scenario loader, the lab's messages and the coil board's line for a minute each (SECONDS_TO_FUZZ=600 for longer)
 	@$(SETUP) fuzz
 	@tests/fuzz/run.sh $(or $(SECONDS_TO_FUZZ),60)
 

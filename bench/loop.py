@@ -127,6 +127,7 @@ def main():
                  "| rig | settling times | median | steady, px (median) |", "|---|---|---|---|"]
         for what, arguments in (("simulation, all positions known", ["run"]),
                                 ("simulation, pictures of the microscope", ["run", "--set", "camera.sensor=frames"]),
+                                ("simulation, pictures that come one frame late", ["run", "--set", "camera.sensor=frames", "--set", "camera.delay_frames=1"]),
                                 ("bench: pictures in real time, coils behind an amplifier", ["rig", "run", "--arm"])):
             settled, steady = [], []
             for seed in range(1, o.seeds + 1):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The step responses of ageing drops, recorded by `faba rig step-response` on simulated benches in real time, unattended, and what
-`faba activity` makes of them: the line of eq. 4.1 and the exposure beyond which nothing responds. Beside it the truth: the same study
-of cells that were simulated at each exposure and rendered without noise. Writes bench/results/response.md. Takes a quarter of an hour.
+`faba activity` makes of them: the line of eq. 4.1 and the exposure beyond which nothing responds. Beside it the truth: the same drops under
+the same fields, simulated without a bench and rendered without noise. Writes bench/results/response.md. Takes twenty minutes.
 
     bench/response.py [--program build/faba] [--drops 4] [--repeat 10] [--every 75] [--out bench/results]
 
@@ -19,6 +19,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
 SCENE = ROOT / "scenes/exposure.toml"
 FIRST = 100  # s in air when a bench begins
+GATHER, BEFORE, RECORD = 20, 1, 11  # s, as the scene's [rig.step_response] says
 COUNT = (240, 40)  # cells of the first drop, and how many more each next one has
 
 
@@ -59,18 +60,29 @@ def study_of(file, responses, from_s, settings=""):
     return file
 
 
-def truth(program, folder, responses, threshold):
-    """The same exposures, each simulated from its beginning and rendered without noise."""
-    simulated = []
+def truth(program, folder, responses, threshold, o):
+    """The same drops under the same fields, without a bench: simulated in one go, and rendered without noise."""
+    before, after = SCENE.read_text().split("[controller]")
+    field = '["250 uT", "0 T"]', '["-250 uT", "0 T"]', '["0 T", "0 T"]'
+    text = before + f'[controller]\ntype = "manual"\nfield = {field[0]}\n'
+    for i in range(o.repeat):
+        for at, b in ((0, field[0]), (GATHER + BEFORE, field[1]), (GATHER + BEFORE + RECORD, field[2])):
+            if i * o.every + at > 0:
+                text += f'[[controller.segment]]\nat = "{i * o.every + at} s"\nfield = {b}\n'
+    scene = folder / "truth-scene.toml"
+    scene.write_text(text + "[record]" + after.split("[record]")[1].split("[rig")[0])
+    study = f'threshold = "{threshold} px"\n'
     for drop, recorded in enumerate(responses):
-        simulated.append([])
-        for r in recorded:
-            out = folder / f"true-{drop}-{r['exposure_s']:.0f}"
-            # The exposure noted is that at the beginning of the recording; the scene gathers for 19 s before its last second.
-            faba(program, "run", SCENE, *count(drop), "--set", f"exposure={r['exposure_s'] - 19:.1f} s", "--set", "microscope.noise=0", "--set",
-                 'controller.field=["250 uT", "0 T"]', "--set", 'controller.segment[0].field=["-250 uT", "0 T"]', "--out", out)
-            simulated[-1].append({"out": out, "exposure_s": r["exposure_s"]})
-    return faba(program, "activity", study_of(folder / "truth.toml", simulated, 20, f'threshold = "{threshold} px"\n'))
+        out = folder / f"true-{drop + 1}"
+        faba(program, "run", scene, *count(drop), "--set", f"exposure={FIRST} s", "--set", "microscope.noise=0", "--duration",
+             f"{o.repeat * o.every} s", "--out", out)
+        for i, r in enumerate(recorded):
+            from_s = i * o.every + GATHER + BEFORE
+            study += (f'[[video]]\nfile = "{out}"\nexposure = "{r["exposure_s"]} s"\nexperiment = "{drop + 1}"\ndirection = 0\n'
+                      f'from = "{from_s} s"\nto = "{from_s + RECORD} s"\n')
+    file = folder / "truth.toml"
+    file.write_text(study)
+    return faba(program, "activity", file)
 
 
 def line(j):
@@ -91,7 +103,7 @@ def main():
         folder = pathlib.Path(name)
         responses = record(program, folder, o)
         measured = faba(program, "activity", study_of(folder / "study.toml", responses, 1))
-        true = truth(program, folder, responses, measured["videos"][0]["threshold_px"])
+        true = truth(program, folder, responses, measured["videos"][0]["threshold_px"], o)
     dropped = sum(r["frames_dropped"] for d in responses for r in d)
     frames = sum(r["frames"] for d in responses for r in d)
     low, high = measured["peak_line"]["ci95"]
@@ -104,7 +116,7 @@ def main():
 Made by `bench/response.py`: {o.drops} drops, {o.repeat} step responses each, one every {o.every:g} s, recorded in real time on simulated benches
 beside each other ({frames} frames, {dropped} dropped), measured by `faba activity`.
 
-| | recorded on the bench | the same cells at each exposure, without noise | |
+| | recorded on the bench | the same drops without bench and noise | |
 |---|---|---|---|
 | time of the maximum against exposure (eq. 4.1) | {line(measured["peak_line"])} | {line(true["peak_line"])} | {"met: the interval holds the true slope" if slope else "NOT MET"} |
 | no response beyond | {measured["cutoff_s"]:.0f} s | {true["cutoff_s"]:.0f} s | {"met" if cutoff else "NOT MET"}: to the time between two recordings |

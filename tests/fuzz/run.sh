@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Builds the fuzzers (clang, with address and undefined-behaviour sanitizers) and runs each for N seconds (60): scenario
-# files, and messages of the lab's page. A finding is left in build/fuzz/ and belongs, once mended, into the corpus
+# files, messages of the lab's page, and the serial line of a coil board. A finding is left in build/fuzz/ and belongs, once mended, into the corpus
 # beside this file.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 cmake --preset fuzz --log-level=WARNING > /dev/null
-cmake --build build/fuzz --target scenario_fuzz page_message_fuzz
+cmake --build build/fuzz --target scenario_fuzz page_message_fuzz coil_line_fuzz
 run() {  # target, seconds, seeds
   mkdir -p "build/fuzz/$1-corpus"
   cp -n "${@:3}" "build/fuzz/$1-corpus/"
@@ -14,3 +14,4 @@ run() {  # target, seconds, seeds
 }
 run scenario_fuzz "${1:-60}" scenes/*.toml tests/fuzz/corpus/*
 run page_message_fuzz "${1:-60}" tests/fuzz/page_corpus/*
+run coil_line_fuzz "${1:-60}" tests/fuzz/coil_corpus/*

@@ -1,0 +1,64 @@
+// libFuzzer target: whatever comes over the serial line, and whenever, the board's outputs stay in their range, and
+// current is allowed only while it obeys good commands that come in time. In the input a 0 is followed by how many
+// milliseconds go by, and a 1 stands for the check and the end of the line since the last $: no fuzzer guesses those.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+extern "C" {
+#include "firmware/coil_controller.h"
+}
+
+namespace {
+
+std::array<std::int32_t, COIL_CHANNELS> outputs;
+bool enabled = false;
+
+void check(bool holds) {
+  if (!holds) std::abort();
+}
+
+void put(int channel, std::int32_t microvolt) {
+  check(channel >= 0 && channel < COIL_CHANNELS);
+  check(microvolt >= COIL_LEAST_UV && microvolt <= COIL_MOST_UV);
+  outputs[std::size_t(channel)] = microvolt;
+}
+void enable(int on) { enabled = on != 0; }
+std::int32_t sense(int channel) { return outputs[std::size_t(channel)]; }
+void send(const char* text, int length) {
+  check(length > 7 && length <= COIL_LINE && text[0] == '$' && text[length - 1] == '\n');
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  coil_controller c;
+  std::memset(&c, 0xA5, sizeof c);  // a board's memory holds anything
+  std::uint32_t now = 0xFFFFFF00u;  // milliseconds run over soon
+  coil_begin(&c, {put, enable, sense, send}, now);
+  std::string body;
+  const auto receive = [&](char byte) {
+    coil_receive(&c, byte, now);
+    body = byte == '$' ? "" : body + byte;
+  };
+  for (std::size_t i = 0; i < size; ++i) {
+    if (data[i] == 0 && i + 1 < size) {
+      now += data[++i];
+      coil_tick(&c, now);
+      check(!enabled || now - c.last_ms <= COIL_DEADLINE_MS);
+    } else if (data[i] == 1) {
+      const unsigned crc = coil_crc(body.data(), int(body.size()));
+      receive('*');
+      for (int shift = 12; shift >= 0; shift -= 4) receive("0123456789ABCDEF"[crc >> shift & 15]);
+      receive('\n');
+    } else {
+      receive(char(data[i]));
+    }
+    check(enabled == (c.state == COIL_ON));
+    for (const std::int32_t v : outputs) check(enabled || v == COIL_NEUTRAL_UV);
+  }
+  return 0;
+}
