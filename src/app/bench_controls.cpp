@@ -22,7 +22,11 @@ BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
   for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::min(most[k], wired[k]);
   Limits::Params p = s.limits;
   if (const auto slew = s.rig->guard.max_slew) p.max_slew = std::min(*slew, p.max_slew.value_or(*slew));
-  limits = Limits(p, most);
+  const CoilWiring wiring(s.rig->coils);
+  std::function<void(std::vector<double>&)> together;
+  if (wiring.channels().size() < wiring.coils().size())
+    together = [wiring](std::vector<double>& current) { current = wiring.currents(wiring.volts(current)); };
+  limits = Limits(p, most, together);
 }
 
 Loop BenchControls::loop(Rig& rig, double frame_period) {

@@ -70,9 +70,10 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
   const Frame frame = BenchControls(s).frame;  // what does not fit is said before anything is written
   check_recording(s.record, frame, s.camera.rate);
 
-  m->directory = RunDirectory::make({o.out, o.numbered, o.force, o.program});
+  m->bench->try_coils();
+  m->directory = RunDirectory::make({o.out, o.numbered, o.force, ""});
   const std::filesystem::path dir = m->directory.path();
-  m->rig = &m->bench->rig(dir / "coils.log");
+  m->rig = &m->bench->rig(dir / run_files::kCoilsLog);
   if (!s.rig->params.delay) s.rig->params.delay = std::round(m->bench->delay(s) * kDelaySteps) / kDelaySteps;
   m->rig->begin();
   m->scenario = std::move(s);

@@ -50,7 +50,12 @@ class VideoStore final : public Store {
                 job.format == "mp4" ? VideoFormat::mp4 : VideoFormat::lossless_avi, camera.width(),
                 camera.height(), rate, 0, VideoPixels::grey8) {}
   void finish() override {
-    if (at_.empty()) return;
+    if (at_.empty()) {  // nothing is left of nothing
+      std::error_code ec;
+      std::filesystem::remove(out_.string() + ".part", ec);
+      std::filesystem::remove(out_.string() + ".csv", ec);
+      return;
+    }
     writer_.finish(out_, false, [this](long long i) {
       const auto k = std::size_t(i);
       return k < at_.size() ? at_[k] : 2 * at_.back() - at_[at_.size() > 1 ? at_.size() - 2 : 0];

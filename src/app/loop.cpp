@@ -24,6 +24,7 @@ Schema<Limits::Params> Limits::schema() {
 bool Limits::apply(Command& c, double dt, double frame_age) {
   const std::vector<double> asked = c.current;
   last_.resize(c.current.size(), 0.0);
+  if (wired_) wired_(c.current);
   for (std::size_t k = 0; k < c.current.size(); ++k) {
     double& i = c.current[k];
     if (!std::isfinite(i) || frame_age > p_.max_frame_age) i = 0;

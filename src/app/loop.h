@@ -18,7 +18,10 @@ class Limits {
   };
   static Schema<Params> schema();
   /// `most`: the largest current of each coil, A; coils beyond its length have the common limit alone.
-  explicit Limits(const Params& p, std::vector<double> most = {}) : p_(p), most_(std::move(most)) {}
+  /// `wired`, when given: brings currents to what flows in coils that hang on one output.
+  explicit Limits(const Params& p, std::vector<double> most = {},
+                  std::function<void(std::vector<double>&)> wired = {})
+      : p_(p), most_(std::move(most)), wired_(std::move(wired)) {}
 
   /// Clips to the current and slew limits; not-a-number becomes zero; all zero when the frame is older than
   /// allowed. Returns whether anything was changed.
@@ -30,6 +33,7 @@ class Limits {
  private:
   Params p_;
   std::vector<double> most_;  ///< A
+  std::function<void(std::vector<double>&)> wired_;
   std::vector<double> last_;  ///< A, what was let through last
 };
 

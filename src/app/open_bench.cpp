@@ -37,6 +37,10 @@ BenchRig& OpenBench::rig(const std::filesystem::path& log) {
   return *rig_;
 }
 
+void OpenBench::try_coils() const {
+  if (!rig_) (void)GuardLink(guard_setup({}));
+}
+
 double OpenBench::delay(const Scenario& s) {
   if (setup_.driver.type == "none" || camera_->waits()) return 0;
   constexpr int kLook = 11;  // pictures; what only the first one takes is not in their median
@@ -58,7 +62,9 @@ double OpenBench::delay(const Scenario& s) {
 
 Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
   OpenBench bench(s, seed);
+  const double delay = bench.delay(s);
   BenchRig& rig = bench.rig({});
+  rig.begin();
   BenchControls controls(s);
   Observation seen;
   Estimate estimate;
@@ -76,9 +82,10 @@ Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
             {"size_px", {bench.camera()->width(), bench.camera()->height()}},
             {"rate_hz", frames > 1 ? Json(double(frames - 1) / (seen.t - first)) : Json()},
             {"frames", frames},
-            {"dropped", rig.feed().dropped()},
+            {"dropped", rig.dropped()},
             {"corrupt", bench.camera()->corrupt()},
             {"age_ms", 1e3 * seen.age},
+            {"delay_ms", 1e3 * delay},
             {"driver", s.rig->driver.type},
             {"guard", word(guard.state)},
             {"cannot_arm", guard.reason[0] ? Json(guard.reason.data()) : Json()},

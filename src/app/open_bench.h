@@ -21,6 +21,8 @@ class OpenBench {
   /// Camera and coils as a rig, made when first asked for; the guard's log goes to `log` then, none when
   /// empty. Throws Error(device).
   BenchRig& rig(const std::filesystem::path& log);
+  /// Throws Error(device) when the coils' driver cannot be opened, so that nothing need be written then.
+  void try_coils() const;
   /// How long this machine takes from mid-exposure of a picture to the command that the scenario's parts
   /// answer it with, s: the median of a few pictures. Coils stay disarmed. 0 where commands move nothing or
   /// the camera waits for them. Throws Error(device).

@@ -1,5 +1,7 @@
 #include "app/replay.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 #include "app/bench_controls.h"
@@ -11,7 +13,7 @@ namespace faba {
 Replayed replay_run(const std::filesystem::path& dir,
                     const std::function<bool(std::uint64_t done, std::uint64_t of)>& go_on) {
   std::error_code ec;
-  const auto commands = dir / "commands.csv", video = dir / "video.avi";
+  const auto commands = dir / run_files::kCommands, video = dir / "video.avi";
   if (!std::filesystem::exists(commands, ec))
     throw Error(Errc::input, dir.string(), "is no run on a bench: it has no commands.csv");
   if (!std::filesystem::exists(video, ec))
@@ -27,6 +29,12 @@ Replayed replay_run(const std::filesystem::path& dir,
     return !stopped;
   });
   if (stopped) throw Error(Errc::interrupted, dir.string(), "was not replayed to its end");
+  if (loop.next < rig.frames())
+    throw Error(Errc::input, video.string(),
+                fmt::format("ends after {} frames, and commands.csv has {}", loop.next, rig.frames()));
+  if (rig.more())
+    throw Error(Errc::input, commands.string(),
+                fmt::format("ends after {} frames, and video.avi has more", rig.frames()));
   return {rig.frames(), rig.equal(), rig.first_other()};
 }
 

@@ -11,7 +11,7 @@ using namespace run_files;
 constexpr const char* kOurs[] = {kMarker,       kCheckpoint,      kScenario,       kManifest,
                                  "series.csv",  "tracks.h5",      "tracks.h5.new", "video.mp4.part",
                                  "video.mp4",   "video.avi.part", "video.avi",     "flow.h5",
-                                 "report.html", "commands.csv",   "coils.log",     "latency.csv"};
+                                 "report.html", kCommands,        kCoilsLog,       "latency.csv"};
 
 bool holds_run(const std::filesystem::path& dir) {
   std::error_code ec;

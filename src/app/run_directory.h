@@ -12,6 +12,8 @@ inline constexpr const char* kMarker = RunLock::kFile;
 inline constexpr const char* kCheckpoint = "checkpoint";
 inline constexpr const char* kScenario = "scenario.toml";
 inline constexpr const char* kManifest = "manifest.json";
+inline constexpr const char* kCommands = "commands.csv";  ///< of a bench
+inline constexpr const char* kCoilsLog = "coils.log";     ///< likewise
 }  // namespace run_files
 
 /// A directory that a run is written to, held against other processes.
@@ -21,7 +23,7 @@ class RunDirectory {
     std::filesystem::path out;
     bool numbered = false;         ///< or out-2, out-3 ... when it exists
     bool force = false;            ///< replace an earlier run there
-    std::string program = "faba";  ///< the command to go on with
+    std::string program = "faba";  ///< the command to go on with; empty: it cannot go on
   };
   RunDirectory() = default;
   /// Makes the directory, or empties one that holds a run of what runs write. All checks come first: on

@@ -7,12 +7,17 @@
 namespace faba {
 namespace {
 
-constexpr const char* kSecond = "This run is not complete. Go on with: ";
+constexpr const char* kSecond = "This run is not complete. ";
+
+std::string words(const std::filesystem::path& dir, const std::string& program) {
+  if (program.empty()) return fmt::format("{}It was on a bench and cannot go on.\n", kSecond);
+  return fmt::format("{}Go on with: {} resume {}\n", kSecond, program, dir.string());
+}
 
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& dir, const std::string& program)
-    : lock_(dir / kFile, dir, fmt::format("{}{} resume {}\n", kSecond, program, dir.string())) {}
+    : lock_(dir / kFile, dir, words(dir, program)) {}
 
 bool RunLock::marks(const std::filesystem::path& dir) {
   std::ifstream in(dir / kFile);

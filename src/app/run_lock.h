@@ -12,8 +12,9 @@ class RunLock {
   static constexpr const char* kFile = "incomplete";
 
   RunLock() = default;
-  /// Makes the file if it is not there. `program` is the command to go on with. Throws Error(usage) when
-  /// another process is at it, Error(internal) when the file cannot be written.
+  /// Makes the file if it is not there. `program` is the command to go on with; empty: what was broken off
+  /// cannot go on. Throws Error(usage) when another process is at it, Error(internal) when the file cannot be
+  /// written.
   RunLock(const std::filesystem::path& dir, const std::string& program);
   /// Removes the file: the run is whole.
   void complete() { lock_.complete(); }

@@ -44,6 +44,9 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
       throw Error(Errc::usage, o.out.string(), "this run is complete");
     throw Error(Errc::input, o.out.string(), "is not a run directory");
   }
+  if (std::filesystem::exists(o.out / kCommands, ec) || std::filesystem::exists(o.out / kCoilsLog, ec))
+    throw Error(Errc::usage, o.out.string(),
+                "is a run on a bench, which cannot go on; what was recorded is in it");
   RunLock lock(o.out, o.program);
   if (!std::filesystem::exists(o.out / kScenario, ec))
     throw Error(Errc::input, o.out.string(),

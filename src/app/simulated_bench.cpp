@@ -18,7 +18,8 @@ namespace faba {
 namespace {
 
 constexpr double kSlice = 1e-3;  // s between looks at the sockets, and lines of the log while currents change
-constexpr double kSending = 0.5;      // s that a client may take for a frame
+constexpr double kSending = 0.5;                        // s that a client may take for a frame
+constexpr auto kAlive = std::chrono::milliseconds(10);  // between looks at whether a client is still there
 constexpr double kNobody = 30;        // s after which a bench that is to serve once ends, when nobody comes
 constexpr double kNoticeable = 1e-5;  // A
 
@@ -147,7 +148,11 @@ class Sender {
     BenchSocket socket;
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
-      came_.wait_for(lock, std::chrono::milliseconds(100), [&] { return image_ || stop.stop_requested(); });
+      came_.wait_for(lock, kAlive, [&] { return image_ || stop.stop_requested(); });
+      if (socket && socket.hung_up()) {
+        socket.close();
+        connected_ = bool(fresh_);
+      }
       if (fresh_) socket = std::move(fresh_), fresh_ = BenchSocket();
       if (!image_) continue;
       const ImageRef image = std::exchange(image_, nullptr);
@@ -205,9 +210,10 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
         if (come.read(&hello, sizeof hello, kSending) == BenchSocket::Got::all &&
             hello.version == kBenchVersion) {
           served = true;
-          if (hello.role == BenchHello::Role::coils)
+          // One at a time: who comes second is turned away, and finds the connection closed.
+          if (hello.role == BenchHello::Role::coils && !coils.connected())
             coils.connect(std::move(come));
-          else
+          else if (hello.role == BenchHello::Role::camera && !sender.connected())
             sender.connect(std::move(come));
         }
       }

@@ -130,10 +130,13 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
 }  // namespace
 
 std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) {
+  if (job.experiment.find('/') != std::string::npos || job.experiment.starts_with('.'))
+    throw Error(Errc::usage, "--experiment", "is a name for files: without / and no dot in front");
   Scenes scenes = scenes_of(job.scene);
   const StepResponseParams p = scenes.gather.rig->step_response;
   OpenBench bench(scenes.gather, job.seed);
   scenes.respond.camera.rate = scenes.gather.camera.rate;
+  bench.try_coils();
   std::error_code ec;
   std::filesystem::create_directories(job.run.out, ec);
   if (ec) throw Error(Errc::usage, job.run.out.string(), "cannot be made: " + ec.message());

@@ -20,7 +20,8 @@ constexpr double kTurn = 0.02;     // s between requests
 constexpr double kPipedKey = 0.1;  // s that a key counts before the next, when keys come from no terminal
 
 const char* const kKeys =
-    "1 ... 9 choose a coil    up + down -  a step    page up, page down  largest, smallest    0  none\n"
+    "1 ... 9 choose the first ... ninth coil, which are coil 0 ... coil 8    up + down -  a step    page up, "
+    "page down  largest, smallest    0  none\n"
     "a  arm    space  no current anywhere    r  after a fault: ready to be armed    q  end\n";
 
 // Keys one by one, as they are pressed.
@@ -70,7 +71,7 @@ class Keyboard {
 std::string line_of(const GuardReport& g, const std::vector<double>& asked, std::size_t chosen) {
   std::string line = fmt::format("{:<8}", word(g.state));
   for (std::size_t k = 0; k < asked.size(); ++k) {
-    line += fmt::format(" {}{}: {:+.3f} A", k == chosen ? "[" : " ", k + 1, asked[k]);
+    line += fmt::format(" {}coil {}: {:+.3f} A", k == chosen ? "[" : " ", k, asked[k]);
     if (!std::isnan(g.sensed[k])) line += fmt::format(", sensed {:+.3f}", g.sensed[k]);
     line += k == chosen ? "]" : " ";
   }
@@ -93,7 +94,8 @@ int rig_jog(const RigVerb& v, const Common& c) {
   std::size_t chosen = 0;
   std::string shown;
   Keyboard keys;
-  if (!c.quiet) fmt::print("{}", kKeys);
+  const bool speaks = !c.quiet && !c.json;
+  if (speaks) fmt::print("{}", kKeys);
   while (!stop_requested().load()) {
     const char key = keys.next();
     double& one = asked[chosen];
@@ -113,14 +115,18 @@ int rig_jog(const RigVerb& v, const Common& c) {
     }
     coils.request(asked, monotonic_now());
     const std::string line = line_of(coils.report(), asked, chosen);
-    if (line == shown || c.quiet) continue;
+    if (line == shown || !speaks) continue;
     fmt::print("{}{}{}", keys.terminal() ? "\r\033[K" : "", line, keys.terminal() ? "" : "\n");
     std::fflush(stdout);
     shown = line;
   }
-  if (keys.terminal() && !c.quiet) fmt::print("\n");
+  if (keys.terminal() && speaks) fmt::print("\n");
   coils.disarm();
-  return 0;
+  if (c.json) {
+    const GuardReport g = coils.report();
+    fmt::print("{}\n", Json{{"state", word(g.state)}, {"reason", g.reason.data()}}.dump());
+  }
+  return stop_requested().load() ? int(Errc::interrupted) : 0;
 }
 
 }  // namespace faba::cli

@@ -69,7 +69,14 @@ int rig_run(const RigVerb& v, const Common& c) {
   o.stop = &stop_requested();
   const auto bench = std::make_shared<OpenBench>(s, seed);
   BenchSession session = BenchSession::begin(s, bench, seed, o);
-  const bool whole = session.run();
+  bool whole = false;
+  try {
+    whole = session.run();
+  } catch (const Error&) {
+    std::error_code ec;  // what was recorded can be looked at, too
+    if (std::filesystem::exists(session.dir() / run_files::kManifest, ec)) write_run_report(session.dir());
+    throw;
+  }
   bar.clear();
   write_run_report(session.dir());
   session.complete();
@@ -94,12 +101,20 @@ int rig_capture(const RigVerb& v, const Common& c) {
   CaptureJob job;
   job.out = v.run.out, job.force = v.run.force;
   job.frames = v.frames, job.one_of = v.one_of, job.buffered = v.buffered;
-  if (v.time) job.time = quantity_of(*v.time, "s", "--for", "10 s");
-  if (v.every) job.every = quantity_of(*v.every, "s", "--every", "500 ms");
+  const auto span = [](const std::string& words, const char* option) {
+    const double value = quantity_of(words, "s", option, "500 ms");
+    if (!(value > 0)) throw Error(Errc::usage, option, "must be above zero");
+    return value;
+  };
+  if (v.time) job.time = span(*v.time, "--for");
+  if (v.every) job.every = span(*v.every, "--every");
   const std::string ending = job.out.extension().string();
   job.format = !v.format.empty() ? v.format : ending == ".mp4" ? "mp4" : ending == ".avi" ? "avi" : "png";
   if (!v.format.empty() && (ending == ".mp4" || ending == ".avi"))
     throw Error(Errc::usage, "--format", "is for pictures, and --out names a video");
+  if (v.format.empty() && job.format == "png" && !ending.empty())
+    throw Error(Errc::usage, job.out.string(),
+                "end it in .avi or .mp4 for a video, or say --format for a folder of pictures");
   job.patience = s.rig ? s.rig->params.camera_timeout : job.patience;
   job.stop = &stop_requested();
   Progress bar("capturing", !c.quiet && !c.json);
@@ -120,7 +135,9 @@ int rig_capture(const RigVerb& v, const Common& c) {
     fmt::print("{}: {} of {} frames in {:.2f} s, {} dropped, {} corrupt{}\n", job.out.string(), done.kept,
                done.taken, done.duration, done.dropped, done.corrupt,
                done.memory_full ? "; ended because memory went short" : "");
-  return 0;
+  // With an end of its own it was broken off; else that is how it ends.
+  const bool cut = stop_requested().load() && (job.frames > 0 || job.time > 0 || done.kept == 0);
+  return cut ? int(Errc::interrupted) : 0;
 }
 
 int rig_step_response(const RigVerb& v, const Common& c) {
@@ -197,10 +214,12 @@ int rig_check(const RigVerb& v, const Common& c) {
   const auto said = [&](const char* key, const char* unit) {
     return j.at(key).is_null() ? std::string("-") : three_digits(j.at(key).get<double>()) + unit;
   };
-  fmt::print("camera   {}: {} x {} px, {}, {} after mid-exposure; {} frames, {} dropped, {} corrupt\n",
-             j["camera"].get<std::string>(), j["size_px"][0].dump(), j["size_px"][1].dump(),
-             said("rate_hz", " Hz"), said("age_ms", " ms"), j["frames"].dump(), j["dropped"].dump(),
-             j["corrupt"].dump());
+  fmt::print(
+      "camera   {}: {} x {} px, {}, {} after mid-exposure, decided on after {}; {} frames, {} dropped, {} "
+      "corrupt\n",
+      j["camera"].get<std::string>(), j["size_px"][0].dump(), j["size_px"][1].dump(), said("rate_hz", " Hz"),
+      said("age_ms", " ms"), said("delay_ms", " ms"), j["frames"].dump(), j["dropped"].dump(),
+      j["corrupt"].dump());
   if (j["swarm"].is_null())
     fmt::print("swarm    none is seen\n");
   else

@@ -37,7 +37,8 @@ void add_rig_verbs(CLI::App& app, CommandLine& line) {
       ->check(not_empty);
   v->add_option("--format", o->format, "Of numbered pictures in a folder")
       ->check(CLI::IsMember({"png", "pgm", "ppm", "tiff"}));
-  v->add_option("--frames", o->frames, "End after as many frames of the camera");
+  v->add_option("--frames", o->frames, "End after as many frames of the camera")
+      ->check(CLI::Range(std::uint64_t(1), std::uint64_t(1) << 40));
   v->add_option("--for", o->time, "End after as long, such as \"10 s\"; until Ctrl-C without an end");
   CLI::Option* one_of =
       v->add_option("--one-of", o->one_of, "Keep one of as many frames")->check(CLI::Range(1, 1000000));

@@ -50,7 +50,13 @@ bool BenchRig::read(Observation& out) {
     throw Error(Errc::device, "rig",
                 fmt::format("the decision on a frame took {:.1f} s; the coils are at rest", took));
   CameraFrame frame;
-  const CameraFeed::Got got = feed_.next(frame, monotonic_now() + p_.camera_timeout);
+  CameraFeed::Got got;
+  try {
+    got = feed_.next(frame, monotonic_now() + p_.camera_timeout);
+  } catch (const Error&) {
+    check_guard();  // what came first is what is said
+    throw;
+  }
   if (got == CameraFeed::Got::end) return false;
   check_guard();
   if (got == CameraFeed::Got::nothing)

@@ -87,6 +87,11 @@ BenchSocket BenchSocket::accept(double patience) {
   return BenchSocket(accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
 }
 
+bool BenchSocket::hung_up() const {
+  pollfd p{descriptor_, POLLRDHUP, 0};
+  return descriptor_ < 0 || (poll(&p, 1, 0) > 0 && (p.revents & (POLLRDHUP | POLLHUP | POLLERR)));
+}
+
 BenchSocket::Got BenchSocket::read(void* to, std::size_t bytes, double patience) {
   const double until = monotonic_now() + patience;
   auto* at = static_cast<char*>(to);

@@ -63,6 +63,8 @@ class BenchSocket {
   Got read(void* to, std::size_t bytes, double patience);
   bool write(const void* from, std::size_t bytes, double patience);
 
+  bool hung_up() const;  ///< the other end is gone, whatever may still be there to read
+
   explicit operator bool() const { return descriptor_ >= 0; }
   void close();
 

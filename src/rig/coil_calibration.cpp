@@ -26,6 +26,7 @@ std::vector<Vec2> turned(const std::vector<Vec2>& table) {
 std::string wrong_with(const WiredCoil& c) {
   if (c.polarity != 1 && c.polarity != -1) return "polarity must be 1 or -1";
   if (c.gain == 0) return "gain must not be 0: no voltage would give a current";
+  if (c.sense_gain == 0) return "sense_gain must not be 0: no current could be told";
   if (c.least_volts >= c.most_volts) return "least_volts must be below most_volts";
   if (c.table.size() == 1) return "table needs at least two pairs of V and A";
   for (std::size_t i = 1; i < c.table.size(); ++i) {

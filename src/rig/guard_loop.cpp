@@ -48,7 +48,7 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   reported_ = monotonic_now();
   GuardReport r;
   r.state = guard_.state(), r.fault = guard_.fault();
-  r.number = number, r.sent = sent, r.done = written_;
+  r.number = number, r.sent = sent, r.done = done_;
   r.heat = guard_.heat(), r.passed = guard_.passed(), r.refused = guard_.refused();
   r.sensed = sensed_;
   const std::string why = guard_.state() == CoilGuard::State::disarmed ? driver_->unsafe() : guard_.reason();
@@ -93,6 +93,7 @@ void GuardLoop::obey(const ToGuard& m, double now) {
       break;
   }
   put_out(now);
+  done_ = monotonic_now();
   report(m.kind == ToGuard::Kind::request ? m.number : 0, m.sent);
 }
 

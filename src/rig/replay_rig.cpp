@@ -36,6 +36,11 @@ bool ReplayRig::read(Observation& out) {
   return true;
 }
 
+bool ReplayRig::more() {
+  double t = 0;
+  return video_.read(grey_, t);
+}
+
 void ReplayRig::write(const Command& c) {
   const std::vector<double>& then = rows_[next_ - 1].current;
   bool same = then.size() == c.current.size();

@@ -14,6 +14,7 @@ class ReplayRig final : public Rig {
   ReplayRig(const std::filesystem::path& video, const std::filesystem::path& commands);
 
   bool read(Observation& out) override;
+  bool more();  ///< pictures than commands
   void write(const Command& c) override;
   void safe() noexcept override {}
 

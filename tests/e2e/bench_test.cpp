@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/e2e/child.h"
 #include "tests/e2e/program.h"
+#include "tests/rig/devices.h"
 
 using namespace faba;
 
@@ -24,12 +24,14 @@ const std::string kScene =
     "controller = { type = 'manual', current = [0.3, -0.2] }\n"
     "[[swarm]]\ncount = 30\nmodel = { type = 'dipole', preset = 'IT-1' }\n";
 
-// Where a deadline of a tenth of a second is not what is tested: a busy machine may stand still for as long.
-const std::string kPatient = "guard = { heartbeat_deadline = '1 s' }\n";
+const std::string kSimulatedCoils = "driver = { type = 'simulated', at = 'bench' }\n";
+
+// Where deadlines of a tenth of a second are not what is tested: a busy machine may stand still for as long.
+const std::string kPatient = "guard = { heartbeat_deadline = '1 s', command_deadline = '1 s' }\n";
 
 struct Flowing {
   double t;     // s, monotonic
-  double most;  // A, in any coil
+  double most;  // A, in any coil, or V beyond the voltage of none
 };
 
 std::vector<Flowing> read_log(const std::filesystem::path& csv) {
@@ -55,9 +57,8 @@ std::vector<Flowing> read_log(const std::filesystem::path& csv) {
 struct OnBench {
   explicit OnBench(const std::string& bench = "", const std::string& more = "")
       : f(),
-        rig("\n[rig]\ncamera = { type = 'simulated', at = 'bench' }\ndriver = { type = 'simulated', at = "
-            "'bench' }\n" +
-            more + "[rig.bench]\n" + bench) {
+        rig("\n[rig]\ncamera = { type = 'simulated', at = 'bench' }\n" +
+            (more.starts_with("driver") ? "" : kSimulatedCoils) + more + "[rig.bench]\n" + bench) {
     write_file(f.path / "scene.toml", kScene + rig);
     simulated = std::make_unique<Child>(
         f.path, "'" FABA_PROGRAM "' rig simulate scene.toml --at bench --log coils.csv --quiet 2> bench.txt");
@@ -91,6 +92,17 @@ struct OnBench {
   StandStill machine;
 };
 
+// When the last current had gone, s.
+double rest_of(const std::vector<Flowing>& all) {
+  double t = 0;
+  bool flowed = false;
+  for (const Flowing& one : all) {
+    if (flowed && one.most < 1e-6) t = one.t;
+    flowed = one.most >= 1e-6;
+  }
+  return t;
+}
+
 }  // namespace
 
 TEST_CASE("whatever ends or stops the program, no current flows 100 ms later") {
@@ -114,6 +126,55 @@ TEST_CASE("whatever ends or stops the program, no current flows 100 ms later") {
   }
 }
 
+TEST_CASE("the same with National Instruments' library, and with a board on a serial line") {
+  // A camera is needed, and a driver that is not the simulated bench's.
+  const auto on = [](const Json& driver, const std::vector<std::string>& channels) {
+    std::string text = "driver = " + Json(driver).dump() + "\n";
+    std::replace(text.begin(), text.end(), ':', '=');
+    for (const std::string& c : channels)
+      text +=
+          "[[rig.coil]]\nchannel = '" + c + "'\ngain = '0.2 A/V'\nneutral = '2.5 V'\nmax_current = '0.4 A'\n";
+    return text;
+  };
+  for (const int signal : {SIGKILL, SIGSTOP, SIGTERM}) {
+    INFO("signal ", signal);
+    const auto ends = [&](OnBench& b, const auto& flows, const auto& rest) {
+      b.run();
+      REQUIRE(soon(flows));
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      const double t = monotonic_now();
+      b.program->signal(signal);
+      REQUIRE(soon([&] { return !flows(); }, 5));
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      CHECK_FALSE(flows());
+      CHECK(rest() - t < kWithin + b.machine.longest());
+    };
+    {
+      const NiDevice ni;
+      OnBench b("", on(ni.driver(), {"Dev1/ao0", "Dev1/ao1"}));
+      ends(
+          b, [&] { return std::fabs(ni.last("Dev1/ao0") - kNeutral) > 1e-6; },
+          [&] {
+            std::vector<Flowing> all;
+            for (const auto& l : ni.log())
+              if (l.channel == "Dev1/ao0") all.push_back({l.t, std::fabs(l.value - kNeutral)});
+            return rest_of(all);
+          });
+    }
+    {
+      const Firmware board;
+      OnBench b("", on(board.driver(), {"0", "1"}));
+      ends(
+          b, [&] { return !board.log().empty() && board.log().back().furthest > 1e-6; },
+          [&] {
+            std::vector<Flowing> all;
+            for (const auto& l : board.log()) all.push_back({l.t, l.furthest});
+            return rest_of(all);
+          });
+    }
+  }
+}
+
 TEST_CASE("a program that was stopped and goes on finds the coils at rest, and says so") {
   OnBench b;
   b.run();
@@ -123,7 +184,8 @@ TEST_CASE("a program that was stopped and goes on finds the coils at rest, and s
   b.program->signal(SIGCONT);
   CHECK(b.program->wait() == 4);
   CHECK(one_clear_line(b.err()));
-  CHECK(b.err().find("coil guard: no ") != std::string::npos);  // sign of life, or fresh command
+  CHECK_MESSAGE(b.err().find("coil guard: ") != std::string::npos,
+                b.err());  // no sign of life, or no fresh command
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   CHECK_FALSE(b.flows());
   CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));  // what was recorded does not pass as whole
@@ -151,7 +213,7 @@ TEST_CASE("the guard itself is killed or stopped: the enable line lets no more c
 
 TEST_CASE(
     "a camera that hangs: no current after the larger of 100 ms and two frames, and an end that says so") {
-  OnBench b("freeze_after = 1.5\n", kPatient);
+  OnBench b("freeze_after = 1.5\n", "guard = { heartbeat_deadline = '1 s' }\n");
   b.run();
   REQUIRE(soon([&] { return b.flows(); }));
   CHECK(b.program->wait() == 4);
@@ -163,6 +225,40 @@ TEST_CASE(
   const double began = b.log().front().t;
   CHECK(last - began > 0.5);
   CHECK(last - began < 1.5 + kWithin + b.machine.longest());
+}
+
+TEST_CASE(
+    "a run on a bench is not gone on with as a simulation, and an old one stays when no device is there") {
+  OnBench b("", kPatient);
+  b.run();
+  REQUIRE(soon([&] { return b.flows(); }));
+  b.program->signal(SIGKILL);
+  b.program->wait();
+  const auto bytes = std::filesystem::file_size(b.f.path / "run/commands.csv");
+  CHECK(read_file(b.f.path / "run/incomplete").find("resume") == std::string::npos);
+  const Called c = faba_in(b.f.path, "resume run");
+  CHECK(c.exit == 2);
+  CHECK(one_clear_line(c.err));
+  CHECK(std::filesystem::file_size(b.f.path / "run/commands.csv") == bytes);
+  CHECK(faba_in(b.f.path, "rig step-response scene.toml --arm --out new --set rig.driver.at=nowhere").exit ==
+        4);
+  CHECK_FALSE(std::filesystem::exists(b.f.path / "new"));
+  CHECK(faba_in(b.f.path, "rig run scene.toml --arm --force --out run --set rig.driver.at=nowhere").exit ==
+        4);
+  CHECK(std::filesystem::file_size(b.f.path / "run/commands.csv") == bytes);
+}
+
+TEST_CASE("who comes second to a bench is turned away, and the first goes on") {
+  OnBench b("", kPatient);
+  b.run();
+  REQUIRE(soon([&] { return b.flows(); }));
+  const Called c = faba_in(b.f.path, "rig check scene.toml");
+  CHECK(c.exit == 4);
+  CHECK(c.err.find("another program") != std::string::npos);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  CHECK(b.flows());
+  b.program->signal(SIGINT);
+  CHECK(b.program->wait() == 130);
 }
 
 TEST_CASE("coils begin disarmed: without --arm nothing is opened, and --arm is what it asks for") {
@@ -240,7 +336,7 @@ TEST_CASE(
   const Called c = faba_in(f.path, "rig run '" FABA_SCENES
                                    "/bench.toml' --arm --seed 1 --duration '6 s' --json --out run "
                                    "--set record.lossless=true "
-                                   "--set rig.guard.heartbeat_deadline=1");
+                                   "--set rig.guard.heartbeat_deadline=1 --set rig.guard.command_deadline=1");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   const auto j = c.json();
   // It began 280 px away. How fast it comes depends on how busy this machine is, so that only that it comes
@@ -326,8 +422,8 @@ TEST_CASE("currents by hand, from keys in a pipe: what a key says flows, and not
   OnBench b("", kPatient);
   const Called c = faba_in(b.f.path, "rig jog scene.toml --step '0.1 A'", "printf 'a+++2-q' | ");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
-  CHECK(c.out.find("1: +0.300 A") != std::string::npos);
-  CHECK(c.out.find("2: -0.100 A") != std::string::npos);
+  CHECK(c.out.find("coil 0: +0.300 A") != std::string::npos);
+  CHECK(c.out.find("coil 1: -0.100 A") != std::string::npos);
   double most = 0;
   for (const Flowing& one : b.log()) most = std::max(most, one.most);
   CHECK(most == doctest::Approx(0.3).epsilon(0.01));

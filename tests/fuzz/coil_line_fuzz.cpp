@@ -1,12 +1,14 @@
-// libFuzzer target: whatever comes over the serial line, and whenever, the board's outputs stay in their range, and
-// current is allowed only while it obeys good commands that come in time. In the input a 0 is followed by how many
-// milliseconds go by, and a 1 stands for the check and the end of the line since the last $: no fuzzer guesses those.
+// libFuzzer target: whatever comes over the serial line, and whenever, the board's outputs stay in their
+// range, and current is allowed only while it obeys good commands that come in time. In the input a 0 is
+// followed by how many milliseconds go by, and a 1 stands for the check and the end of the line since the
+// last $: no fuzzer guesses those.
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <utility>
 
 extern "C" {
 #include "firmware/coil_controller.h"
@@ -42,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string body;
   const auto receive = [&](char byte) {
     coil_receive(&c, byte, now);
-    body = byte == '$' ? "" : body + byte;
+    body = byte == '$' ? std::string() : std::move(body) + byte;
   };
   for (std::size_t i = 0; i < size; ++i) {
     if (data[i] == 0 && i + 1 < size) {

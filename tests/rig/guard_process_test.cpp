@@ -3,20 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
-#include "core/file.h"
 #include "rig/guard_link.h"
-#include "tests/e2e/child.h"
-#include "tests/temporary_folder.h"
+#include "tests/rig/devices.h"
 
 using namespace faba;
 
 namespace {
 
-constexpr double kWithin = 0.1;   // s, H1
-constexpr double kNeutral = 2.5;  // V
+constexpr double kWithin = 0.1;  // s, H1
 
 GuardSetup two_coils(const Json& driver, const std::vector<std::string>& channels,
                      const std::vector<std::string>& senses = {}) {
@@ -44,79 +39,6 @@ void steer(GuardLink& g, double s, double current = 0.3) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
-
-struct NiDevice {
-  explicit NiDevice(int fail_at = 0) : folder("ni") {
-    setenv("FAKE_NI_LOG", (folder.path() / "log").c_str(), 1);
-    setenv("FAKE_NI_FAIL_AT", std::to_string(fail_at).c_str(), 1);
-  }
-  struct Line {
-    double t;
-    std::string channel;
-    double value;
-  };
-  std::vector<Line> log() const {
-    std::vector<Line> all;
-    std::ifstream in(folder.path() / "log");
-    for (Line l; in >> l.t >> l.channel >> l.value;) all.push_back(l);
-    return all;
-  }
-  double last(const std::string& channel) const {
-    double v = std::nan("");
-    for (const Line& l : log())
-      if (l.channel == channel) v = l.value;
-    return v;
-  }
-  // When the enable line toggled for the last time.
-  double last_toggle() const {
-    double t = 0, level = 0;
-    for (const Line& l : log())
-      if (l.channel == "Dev1/port0/line0") {
-        if (l.value != level) t = l.t;
-        level = l.value;
-      }
-    return t;
-  }
-  Json driver(bool line = true) const {
-    Json j = {{"type", "nidaqmx"}, {"library", FABA_FAKE_NI}};
-    if (line) j["enable_line"] = "Dev1/port0/line0";
-    return j;
-  }
-  test::TemporaryFolder folder;
-};
-
-struct Firmware {
-  Firmware() : folder("firmware") {
-    child = std::make_unique<Child>(folder.path(), std::string("'" FABA_FIRMWARE "' port log"));
-    REQUIRE(soon([&] { return std::filesystem::is_symlink(folder.path() / "port"); }));
-  }
-  Json driver() const { return {{"type", "serial"}, {"port", (folder.path() / "port").string()}}; }
-  // Whether the enable line is up, and the furthest an output is from neutral, V; when that came to be.
-  struct Line {
-    double t = 0;
-    int enable = 0;
-    double furthest = 0;
-  };
-  std::vector<Line> log() const {
-    std::vector<Line> all;
-    std::ifstream in(folder.path() / "log");
-    for (std::string text; std::getline(in, text);) {
-      std::stringstream words(text);
-      Line l;
-      words >> l.t >> l.enable;
-      for (double v; words >> v;) l.furthest = std::max(l.furthest, std::fabs(1e-6 * v - kNeutral));
-      all.push_back(l);
-    }
-    return all;
-  }
-  double rest_after(double t) const {
-    REQUIRE(soon([&] { return !log().empty() && log().back().enable == 0; }, 5));
-    return log().back().t - t;
-  }
-  test::TemporaryFolder folder;
-  std::unique_ptr<Child> child;
-  StandStill machine;
-};
 
 }  // namespace
 

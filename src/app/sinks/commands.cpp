@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "app/run_directory.h"
 #include "app/sinks/sinks.h"
 #include "core/file.h"
 
@@ -9,7 +10,7 @@ namespace {
 /// All that a loop's decisions depend on beside the pictures, and what it decided, to the last bit.
 class Commands final : public Sink {
  public:
-  explicit Commands(const SinkContext& c) : file_(c.dir / "commands.csv") {
+  explicit Commands(const SinkContext& c) : file_(c.dir / run_files::kCommands) {
     std::string head = "frame,camera_frame,t_s,age_s,rested";
     for (std::size_t k = 0; k < c.field->coils(); ++k) head += fmt::format(",current_{}_a", k);
     file_.append(head + '\n');

@@ -1,6 +1,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -98,6 +100,8 @@ class Serial final : public CoilDriver {
         microvolts_(std::size_t(p.outputs)) {
     descriptor_ = open(p.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (descriptor_ < 0) fail(std::strerror(errno));
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("is in use by another program");
+    (void)ioctl(descriptor_, TIOCEXCL);
     termios t{};
     if (tcgetattr(descriptor_, &t) != 0) fail("is no serial line");
     cfmakeraw(&t);
@@ -118,7 +122,9 @@ class Serial final : public CoilDriver {
     }
   }
   ~Serial() override {
-    if (descriptor_ >= 0) close(descriptor_);
+    if (descriptor_ < 0) return;
+    (void)ioctl(descriptor_, TIOCNXCL);
+    close(descriptor_);
   }
 
   Status write(std::span<const double> volts, bool enable) override {

@@ -24,7 +24,8 @@ class SimulatedCamera final : public Camera {
   SimulatedCamera(const Params& p, const CameraContext&)
       : at_(p.at), socket_(BenchSocket::connect(at_, BenchHello::Role::camera)) {
     if (socket_.read(&next_, sizeof next_, kFirst) != BenchSocket::Got::all)
-      throw Error(Errc::device, at_, "the simulated bench gives no picture");
+      throw Error(Errc::device, at_,
+                  "the simulated bench gives no picture; another program may be looking through its camera");
   }
 
   bool read(CameraFrame& out) override {

@@ -29,7 +29,8 @@ class SimulatedCoils final : public CoilDriver {
     socket_ = BenchSocket::connect(at_, BenchHello::Role::coils);
     BenchDevice device;
     if (socket_.read(&device, sizeof device, kPatience) != BenchSocket::Got::all)
-      throw Error(Errc::device, at_, "the simulated bench does not answer");
+      throw Error(Errc::device, at_,
+                  "the simulated bench does not answer; another program may hold its coils");
     for (const auto* list : {&outputs_, &inputs_})
       for (const std::size_t n : *list)
         if (n >= device.outputs)

@@ -1,4 +1,4 @@
-#include "server/bench_view.h"
+#include "app/bench_view.h"
 
 #include <algorithm>
 #include <atomic>
