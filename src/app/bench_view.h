@@ -20,7 +20,7 @@ class BenchView {
   void close();
   /// `open` (the name, or null), and then `size_px`, `rate_hz`, `frames`, `dropped`, `corrupt`, `mean` grey,
   /// `saturated` (share of white pixels), `controls`, each {"name", "value", "automatically"}; `trouble`: why
-  /// it closed.
+  /// no more pictures come.
   Json state();
   /// The newest picture as PNG; empty when there is none.
   std::string picture();
@@ -31,9 +31,8 @@ class BenchView {
   struct View;
   std::shared_ptr<View> view(bool must);
   std::mutex opening_;  ///< held while one is made: slow
-  std::mutex mutex_;    ///< of view_ and trouble_
+  std::mutex mutex_;    ///< of view_
   std::shared_ptr<View> view_;
-  std::string trouble_;
   std::jthread janitor_;
 };
 

@@ -205,6 +205,7 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
     bool served = false;
     const double began = monotonic_now();
     while (!stop.stop_requested()) {
+      coils.work();  // first, so that one that has just gone is not in the next one's way
       if (BenchSocket come = listener.accept(0)) {
         BenchHello hello;
         if (come.read(&hello, sizeof hello, kSending) == BenchSocket::Got::all &&
@@ -217,7 +218,6 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
             sender.connect(std::move(come));
         }
       }
-      coils.work();
       const bool nobody = !coils.connected() && !sender.connected();
       if (o.once && nobody && (served || monotonic_now() - began > kNobody)) left_alone = true;
       std::this_thread::sleep_for(std::chrono::duration<double>(kSlice));

@@ -154,6 +154,10 @@ void GuardLink::arm() {
 
 void GuardLink::disarm() noexcept {
   try {
+    {
+      const std::lock_guard lock(mutex_);
+      flows_ = resting_ = false;  // nobody is late with what is over
+    }
     if (tell({.kind = ToGuard::Kind::disarm}))
       wait_for([](const GuardReport& g) { return g.state != CoilGuard::State::armed; });
   } catch (const std::exception&) {
