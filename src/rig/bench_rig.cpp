@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/monotonic.h"
 #include "vision/image.h"
@@ -22,6 +23,7 @@ BenchRig::~BenchRig() { safe(); }
 void BenchRig::begin() {
   safe();
   began_.reset();
+  from_ = feed_.camera().waits() ? -std::numeric_limits<double>::infinity() : monotonic_now();
   asked_.clear(), delays_.clear();
   dropped_before_ = feed_.dropped();
 }
@@ -52,7 +54,9 @@ bool BenchRig::read(Observation& out) {
   CameraFrame frame;
   CameraFeed::Got got;
   try {
-    got = feed_.next(frame, monotonic_now() + p_.camera_timeout);
+    const double until = monotonic_now() + p_.camera_timeout;
+    do got = feed_.next(frame, until);
+    while (got == CameraFeed::Got::frame && frame.t < from_);
   } catch (const Error&) {
     check_guard();  // what came first is what is said
     throw;

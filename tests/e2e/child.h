@@ -44,6 +44,12 @@ class Child {
     process_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
+  /// Whether it is over; wait() still tells how.
+  bool ended() const {
+    siginfo_t how{};
+    return process_ <= 0 ||
+           (waitid(P_PID, id_t(process_), &how, WEXITED | WNOHANG | WNOWAIT) == 0 && how.si_pid != 0);
+  }
   pid_t process() const { return process_; }
 
  private:

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/schema.h"
+#include "rig/guard_link.h"
 #include "tests/e2e/child.h"
 #include "tests/temporary_folder.h"
 
@@ -90,5 +91,35 @@ struct Firmware {
   std::unique_ptr<Child> child;
   StandStill machine;
 };
+
+/// A guard for coils of 0.2 A/V about 2.5 V on these channels. A busy machine may stand still for longer than
+/// the deadlines of a tenth of a second, which is not what is tested where it is `patient`.
+inline GuardSetup coils_on(const Json& driver, const std::vector<std::string>& channels,
+                           const std::vector<std::string>& senses = {}, bool patient = true) {
+  GuardSetup s;
+  if (patient) s.guard.command_deadline = s.guard.heartbeat_deadline = 1;  // s
+  Document d;
+  d.root = {{"driver", driver}};
+  s.driver = builtin_coil_drivers().resolve(Node(d).child("driver"));
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    WiredCoil c{.channel = channels[k],
+                .gain = 0.2,
+                .neutral = kNeutral,
+                .sense_gain = 0.2,
+                .sense_neutral = kNeutral};
+    if (k < senses.size()) c.sense = senses[k];
+    s.coils.push_back(c);
+  }
+  s.frame_period = 1.0 / 30;
+  return s;
+}
+
+/// Asks for currents as a loop does, for so long.
+inline void steer(GuardLink& g, double s, double current = 0.3) {
+  for (const double until = monotonic_now() + s; monotonic_now() < until;) {
+    g.request(std::vector<double>(g.coils(), current), monotonic_now());
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
 
 }  // namespace faba

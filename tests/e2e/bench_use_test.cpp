@@ -1,237 +1,15 @@
-// The bench as a user has it: `faba rig run` against `faba rig simulate`, whose log says when current flowed.
-// What may happen to a program happens to it here (H1, H2, H4 and H6 of docs/guide/bench.md).
-#include <doctest/doctest.h>
+// What a user does with a bench: run, capture, step-response, jog, check and replay against `faba rig
+// simulate`.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <fstream>
-#include <sstream>
-
-#include "tests/e2e/program.h"
-#include "tests/rig/devices.h"
+#include "tests/e2e/on_bench.h"
 
 using namespace faba;
-
-namespace {
-
-constexpr double kZero = 5e-3;   // A, a hundredth of full scale and four of a 12-bit output's steps of 1.2 mA
-constexpr double kWithin = 0.1;  // s, H1
-
-const std::string kScene =
-    "duration = '20 s'\nseed = 1\ncamera = { rate = '30 Hz' }\n"
-    "limits = { max_current = '0.4 A' }\n"
-    "arena = { type = 'box', size_px = [160, 120] }\n"
-    "controller = { type = 'manual', current = [0.3, -0.2] }\n"
-    "[[swarm]]\ncount = 30\nmodel = { type = 'dipole', preset = 'IT-1' }\n";
-
-const std::string kSimulatedCoils = "driver = { type = 'simulated', at = 'bench' }\n";
-
-// Where deadlines of a tenth of a second are not what is tested: a busy machine may stand still for as long.
-const std::string kPatient = "guard = { heartbeat_deadline = '1 s', command_deadline = '1 s' }\n";
-
-struct Flowing {
-  double t;     // s, monotonic
-  double most;  // A, in any coil, or V beyond the voltage of none
-};
-
-std::vector<Flowing> read_log(const std::filesystem::path& csv) {
-  std::vector<Flowing> all;
-  std::ifstream in(csv);
-  std::string line;
-  std::getline(in, line);
-  const auto columns = std::count(line.begin(), line.end(), ',') + 1;
-  const auto coils = (columns - 3) / 2;
-  while (std::getline(in, line)) {
-    if (std::count(line.begin(), line.end(), ',') + 1 != columns) break;  // being written
-    std::vector<double> v;
-    std::stringstream words(line);
-    for (std::string word; std::getline(words, word, ',');) v.push_back(std::stod(word));
-    double most = 0;
-    for (auto k = 3 + coils; k < columns; ++k) most = std::max(most, std::fabs(v[std::size_t(k)]));
-    all.push_back({v[0], most});
-  }
-  return all;
-}
-
-// A simulated bench with its log, and a run on it that has begun.
-struct OnBench {
-  explicit OnBench(const std::string& bench = "", const std::string& more = "")
-      : f(),
-        rig("\n[rig]\ncamera = { type = 'simulated', at = 'bench' }\n" +
-            (more.starts_with("driver") ? "" : kSimulatedCoils) + more + "[rig.bench]\n" + bench) {
-    write_file(f.path / "scene.toml", kScene + rig);
-    simulated = std::make_unique<Child>(
-        f.path, "'" FABA_PROGRAM "' rig simulate scene.toml --at bench --log coils.csv --quiet 2> bench.txt");
-    REQUIRE(soon([&] { return std::filesystem::exists(f.path / "bench"); }));
-  }
-  void run() {
-    program = std::make_unique<Child>(
-        f.path, "'" FABA_PROGRAM "' rig run scene.toml --arm --quiet --out run 2> err.txt");
-  }
-  std::vector<Flowing> log() const { return read_log(f.path / "coils.csv"); }
-  bool flows() const {
-    const auto l = log();
-    return !l.empty() && l.back().most > 0.1;
-  }
-  // Seconds from `t` until the last moment when current flowed.
-  double flowed_after(double t) const {
-    REQUIRE(soon([&] { return !log().empty() && log().back().most < kZero; }, 5));
-    double last = t;
-    bool on = false;
-    for (const Flowing& one : log()) {
-      if (on && one.t > t) last = one.t;
-      on = one.most >= kZero;
-    }
-    return last - t;
-  }
-  std::string err() const { return read_file(f.path / "err.txt"); }
-
-  TestFolder f;
-  std::string rig;
-  std::unique_ptr<Child> simulated, program;
-  StandStill machine;
-};
-
-// When the last current had gone, s.
-double rest_of(const std::vector<Flowing>& all) {
-  double t = 0;
-  bool flowed = false;
-  for (const Flowing& one : all) {
-    if (flowed && one.most < 1e-6) t = one.t;
-    flowed = one.most >= 1e-6;
-  }
-  return t;
-}
-
-}  // namespace
-
-TEST_CASE("whatever ends or stops the program, no current flows 100 ms later") {
-  for (const int signal : {SIGKILL, SIGSTOP, SIGTERM, SIGINT, SIGSEGV, SIGABRT}) {
-    INFO("signal ", signal);
-    OnBench b;
-    b.run();
-    REQUIRE(soon([&] { return b.flows(); }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    const double t = monotonic_now();
-    b.program->signal(signal);
-    const double after = b.flowed_after(t);
-    CHECK(after < kWithin + b.machine.longest());
-    if (signal == SIGTERM || signal == SIGINT) {
-      CHECK(b.program->wait() == 130);
-      CHECK(faba_in(b.f.path,
-                    "run scene.toml --set camera.sensor=frames --duration '0.2 s' --quiet --out other")
-                .exit == 0);  // the scene runs without a bench, too
-      CHECK(std::filesystem::exists(b.f.path / "run/series.csv"));
-    }
-  }
-}
-
-TEST_CASE("the same with National Instruments' library, and with a board on a serial line") {
-  // A camera is needed, and a driver that is not the simulated bench's.
-  const auto on = [](const Json& driver, const std::vector<std::string>& channels) {
-    std::string text = "driver = " + Json(driver).dump() + "\n";
-    std::replace(text.begin(), text.end(), ':', '=');
-    for (const std::string& c : channels)
-      text +=
-          "[[rig.coil]]\nchannel = '" + c + "'\ngain = '0.2 A/V'\nneutral = '2.5 V'\nmax_current = '0.4 A'\n";
-    return text;
-  };
-  for (const int signal : {SIGKILL, SIGSTOP, SIGTERM}) {
-    INFO("signal ", signal);
-    const auto ends = [&](OnBench& b, const auto& flows, const auto& rest) {
-      b.run();
-      REQUIRE(soon(flows));
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
-      const double t = monotonic_now();
-      b.program->signal(signal);
-      REQUIRE(soon([&] { return !flows(); }, 5));
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      CHECK_FALSE(flows());
-      CHECK(rest() - t < kWithin + b.machine.longest());
-    };
-    {
-      const NiDevice ni;
-      OnBench b("", on(ni.driver(), {"Dev1/ao0", "Dev1/ao1"}));
-      ends(
-          b, [&] { return std::fabs(ni.last("Dev1/ao0") - kNeutral) > 1e-6; },
-          [&] {
-            std::vector<Flowing> all;
-            for (const auto& l : ni.log())
-              if (l.channel == "Dev1/ao0") all.push_back({l.t, std::fabs(l.value - kNeutral)});
-            return rest_of(all);
-          });
-    }
-    {
-      const Firmware board;
-      OnBench b("", on(board.driver(), {"0", "1"}));
-      ends(
-          b, [&] { return !board.log().empty() && board.log().back().furthest > 1e-6; },
-          [&] {
-            std::vector<Flowing> all;
-            for (const auto& l : board.log()) all.push_back({l.t, l.furthest});
-            return rest_of(all);
-          });
-    }
-  }
-}
-
-TEST_CASE("a program that was stopped and goes on finds the coils at rest, and says so") {
-  OnBench b;
-  b.run();
-  REQUIRE(soon([&] { return b.flows(); }));
-  b.program->signal(SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  b.program->signal(SIGCONT);
-  CHECK(b.program->wait() == 4);
-  CHECK(one_clear_line(b.err()));
-  CHECK_MESSAGE(b.err().find("coil guard: ") != std::string::npos,
-                b.err());  // no sign of life, or no fresh command
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  CHECK_FALSE(b.flows());
-  CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));  // what was recorded does not pass as whole
-  CHECK(read_file(b.f.path / "run/coils.log").find("faulted ") != std::string::npos);
-}
-
-TEST_CASE("the guard itself is killed or stopped: the enable line lets no more current through") {
-  for (const int signal : {SIGKILL, SIGSTOP}) {
-    OnBench b;
-    b.run();
-    REQUIRE(soon([&] { return b.flows(); }));
-    // Its only child: the bench was begun by the test.
-    FILE* list = popen(("pgrep -P " + std::to_string(b.program->process())).c_str(), "r");
-    int guard = 0;
-    REQUIRE(std::fscanf(list, "%d", &guard) == 1);
-    pclose(list);
-    const double t = monotonic_now();
-    ::kill(guard, signal);
-    CHECK(b.flowed_after(t) < kWithin + b.machine.longest());
-    if (signal == SIGSTOP) ::kill(guard, SIGCONT);
-    CHECK(b.program->wait() == 4);
-    CHECK(one_clear_line(b.err()));
-  }
-}
-
-TEST_CASE(
-    "a camera that hangs: no current after the larger of 100 ms and two frames, and an end that says so") {
-  OnBench b("freeze_after = 1.5\n", "guard = { heartbeat_deadline = '1 s' }\n");
-  b.run();
-  REQUIRE(soon([&] { return b.flows(); }));
-  CHECK(b.program->wait() == 4);
-  CHECK(b.err().find("has given no frame for 2 s") != std::string::npos);
-  // The log begins with the bench, whose camera hangs 1.5 s later.
-  double last = 0;
-  for (const Flowing& one : b.log())
-    if (one.most >= kZero) last = one.t;
-  const double began = b.log().front().t;
-  CHECK(last - began > 0.5);
-  CHECK(last - began < 1.5 + kWithin + b.machine.longest());
-}
 
 TEST_CASE(
     "a run on a bench is not gone on with as a simulation, and an old one stays when no device is there") {
   OnBench b("", kPatient);
-  b.run();
-  REQUIRE(soon([&] { return b.flows(); }));
+  b.steer();
   b.program->signal(SIGKILL);
   b.program->wait();
   const auto bytes = std::filesystem::file_size(b.f.path / "run/commands.csv");
@@ -250,8 +28,7 @@ TEST_CASE(
 
 TEST_CASE("who comes second to a bench is turned away, and the first goes on") {
   OnBench b("", kPatient);
-  b.run();
-  REQUIRE(soon([&] { return b.flows(); }));
+  b.steer();
   const Called c = faba_in(b.f.path, "rig check scene.toml");
   CHECK(c.exit == 4);
   CHECK(c.err.find("another program") != std::string::npos);
@@ -283,8 +60,7 @@ TEST_CASE("a coil that does not get what was asked for: the sensed current says 
   for (const char* fault : {"open", "weak"}) {
     INFO(fault);
     OnBench b(std::string("fault = '") + fault + "'\nfault_after = '1 s'\n", kPatient);
-    b.run();
-    REQUIRE(soon([&] { return b.flows(); }));
+    b.steer();
     CHECK(b.program->wait() == 4);
     CHECK(b.err().find("is not what was asked for") != std::string::npos);
     CHECK_FALSE(b.flows());
@@ -293,8 +69,7 @@ TEST_CASE("a coil that does not get what was asked for: the sensed current says 
 
 TEST_CASE("the device is unplugged: the run ends with one line, and what was recorded is kept") {
   OnBench b("", kPatient);
-  b.run();
-  REQUIRE(soon([&] { return b.flows(); }));
+  b.steer();
   b.simulated->signal(SIGKILL);
   CHECK(b.program->wait() == 4);
   CHECK(one_clear_line(b.err()));

@@ -1,0 +1,143 @@
+// The bench as a user has it: `faba rig run` against `faba rig simulate`, whose log says when current flowed.
+// What may happen to a program happens to it here (H1, H2, H4 and H6 of docs/guide/bench.md).
+#include "tests/e2e/on_bench.h"
+
+using namespace faba;
+
+namespace {
+
+constexpr double kWithin = 0.1;  // s, H1
+
+// When the last current had gone, s.
+double rest_of(const std::vector<Flowing>& all) {
+  double t = 0;
+  bool flowed = false;
+  for (const Flowing& one : all) {
+    if (flowed && one.most < 1e-6) t = one.t;
+    flowed = one.most >= 1e-6;
+  }
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("whatever ends or stops the program, no current flows 100 ms later") {
+  for (const int signal : {SIGKILL, SIGSTOP, SIGTERM, SIGINT, SIGSEGV, SIGABRT}) {
+    INFO("signal ", signal);
+    OnBench b;
+    b.steer();
+    const double t = monotonic_now();
+    b.program->signal(signal);
+    const double after = b.flowed_after(t);
+    CHECK(after < kWithin + b.machine.longest());
+    if (signal == SIGTERM || signal == SIGINT) {
+      const int exit = b.program->wait();
+      if (exit == 4 && was_late(b.err())) continue;  // the guard was first, on a busy machine
+      CHECK(exit == 130);
+      CHECK(faba_in(b.f.path,
+                    "run scene.toml --set camera.sensor=frames --duration '0.2 s' --quiet --out other")
+                .exit == 0);  // the scene runs without a bench, too
+      CHECK(std::filesystem::exists(b.f.path / "run/series.csv"));
+    }
+  }
+}
+
+TEST_CASE("the same with National Instruments' library, and with a board on a serial line") {
+  // A camera is needed, and a driver that is not the simulated bench's.
+  const auto on = [](const Json& driver, const std::vector<std::string>& channels) {
+    std::string text = "driver = " + Json(driver).dump() + "\n";
+    std::replace(text.begin(), text.end(), ':', '=');
+    for (const std::string& c : channels)
+      text +=
+          "[[rig.coil]]\nchannel = '" + c + "'\ngain = '0.2 A/V'\nneutral = '2.5 V'\nmax_current = '0.4 A'\n";
+    return text;
+  };
+  for (const int signal : {SIGKILL, SIGSTOP, SIGTERM}) {
+    INFO("signal ", signal);
+    const auto ends = [&](OnBench& b, const auto& flows, const auto& rest) {
+      b.steer(flows);
+      const double t = monotonic_now();
+      b.program->signal(signal);
+      REQUIRE(soon([&] { return !flows(); }, 5));
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      CHECK_FALSE(flows());
+      CHECK(rest() - t < kWithin + b.machine.longest());
+    };
+    {
+      const NiDevice ni;
+      OnBench b("", on(ni.driver(), {"Dev1/ao0", "Dev1/ao1"}));
+      ends(
+          b, [&] { return std::fabs(ni.last("Dev1/ao0") - kNeutral) > 1e-6; },
+          [&] {
+            std::vector<Flowing> all;
+            for (const auto& l : ni.log())
+              if (l.channel == "Dev1/ao0") all.push_back({l.t, std::fabs(l.value - kNeutral)});
+            return rest_of(all);
+          });
+    }
+    {
+      const Firmware board;
+      OnBench b("", on(board.driver(), {"0", "1"}));
+      ends(
+          b, [&] { return !board.log().empty() && board.log().back().furthest > 1e-6; },
+          [&] {
+            std::vector<Flowing> all;
+            for (const auto& l : board.log()) all.push_back({l.t, l.furthest});
+            return rest_of(all);
+          });
+    }
+  }
+}
+
+TEST_CASE("a program that was stopped and goes on finds the coils at rest, and says so") {
+  OnBench b;
+  b.steer();
+  b.program->signal(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  b.program->signal(SIGCONT);
+  CHECK(b.program->wait() == 4);
+  CHECK(one_clear_line(b.err()));
+  CHECK_MESSAGE(b.err().find("coil guard: ") != std::string::npos,
+                b.err());  // no sign of life, or no fresh command
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK_FALSE(b.flows());
+  CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));  // what was recorded does not pass as whole
+  CHECK(read_file(b.f.path / "run/coils.log").find("faulted ") != std::string::npos);
+}
+
+TEST_CASE("the guard itself is killed or stopped: the enable line lets no more current through") {
+  for (const int signal : {SIGKILL, SIGSTOP}) {
+    OnBench b;
+    b.steer();
+    // Its only child: the bench was begun by the test.
+    FILE* list = popen(("pgrep -P " + std::to_string(b.program->process())).c_str(), "r");
+    int guard = 0;
+    REQUIRE(std::fscanf(list, "%d", &guard) == 1);
+    pclose(list);
+    const double t = monotonic_now();
+    ::kill(guard, signal);
+    CHECK(b.flowed_after(t) < kWithin + b.machine.longest());
+    if (signal == SIGSTOP) ::kill(guard, SIGCONT);
+    CHECK(b.program->wait() == 4);
+    CHECK(one_clear_line(b.err()));
+  }
+}
+
+TEST_CASE(
+    "a camera that hangs: no current after the larger of 100 ms and two frames, and an end that says so") {
+  for (int attempt = 0;; ++attempt) {
+    OnBench b("freeze_after = 3\n", "guard = { heartbeat_deadline = '1 s' }\n");
+    b.steer();
+    CHECK(b.program->wait() == 4);
+    // The log begins with the bench, whose camera hangs 3 s later.
+    double last = 0;
+    for (const Flowing& one : b.log())
+      if (one.most >= kZero) last = one.t;
+    const double began = b.log().front().t;
+    CHECK(last - began < 3 + kWithin + b.machine.longest());
+    if (was_late(b.err()) && attempt < 5) continue;  // the guard was first, on a busy machine
+    CHECK(last - began > 0.5);
+    CHECK(b.err().find("has given no frame for 2 s") != std::string::npos);
+    break;
+  }
+}
