@@ -158,11 +158,11 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
 
 TEST_CASE("kill -9 at any moment of building a library: the same command goes on, to the same library") {
   const TestFolder f;
-  const std::string build = "field library '" + kRigs + "thesis-four-coils.toml' --levels 16 --quiet --out ";
+  const std::string build = "field library '" + kRigs + "thesis-four-coils.toml' --levels 12 --quiet --out ";
   REQUIRE(faba_in(f.path, build + "whole.h5").exit == 0);
   const FieldLibrary whole(f.path / "whole.h5");
   for (int kill = 1; kill <= 6; ++kill) {
-    const std::string name = "cut" + std::to_string(kill) + ".h5", after = std::to_string(0.08 * kill);
+    const std::string name = "cut" + std::to_string(kill) + ".h5", after = std::to_string(0.05 * kill);
     for (int i = 0; i < 2; ++i) faba_in(f.path, build + name, "timeout -s KILL " + after);
     Called c;
     if (!std::filesystem::exists(f.path / name)) c = faba_in(f.path, build + name, "timeout 900");
