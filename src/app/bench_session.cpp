@@ -10,6 +10,7 @@
 #include "app/manifest.h"
 #include "app/session.h"
 #include "core/file.h"
+#include "core/urgent.h"
 
 namespace faba {
 namespace {
@@ -121,6 +122,7 @@ bool BenchSession::run() {
     write_file(dir() / run_files::kManifest, m.manifest.dump(2) + "\n");
   };
   try {
+    const Urgent urgent;
     faba::run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
       if (m.options.progress)
         m.options.progress(std::uint64_t(1e3 * std::min(loop.last_t, duration)),

@@ -12,6 +12,7 @@
 #include "core/monotonic.h"
 #include "core/portable_math.h"
 #include "core/units.h"
+#include "core/urgent.h"
 
 namespace faba {
 namespace {
@@ -119,6 +120,7 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
     Estimate estimate;
   } newest;
   loop.sinks = {&newest};
+  const Urgent urgent;
   run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
     if (loop.next == 1) rig.arm();
     return loop.last_t + 0.5 * loop.frame_period < s.params.duration && schedule.go_on();

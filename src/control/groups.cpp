@@ -11,6 +11,7 @@ namespace faba {
 namespace {
 
 constexpr int kBins = 32;         // across, for grouping: a thousand places say as much as a million cells
+constexpr int kPiece = 8;         // px, much less than a bin of a picture
 constexpr double kLarger = 1.25;  // times the share of the followed group, from which on another is followed
 
 /// Several swarms: the cells in view, or the light of the camera's picture where the rig gives no positions,
@@ -88,13 +89,23 @@ class EstimatorGroups final : public Estimator {
     cells = foreground_.moments().cells;
     const GrayF& w = foreground_.weights();
     places_.clear();
-    each_set(foreground_.covered().data(), int(w.px.size()), [&](int i) {
-      if (const float weight = w.px[std::size_t(i)]; weight > 0)
-        places_.push_back(
-            {frame_.world_from_image({double(i % w.width), double(i / w.width)}), double(weight)});
-    });
+    for (int row = 0; row < w.height; ++row) {
+      const std::size_t start = std::size_t(row) * std::size_t(w.width);
+      each_run(foreground_.covered().data() + start, w.width,
+               [&](int first, int end) { add_pieces(&w.px[start], row, first, end); });
+    }
     if (cells == 0) places_.clear();
     return binned(places_, kBins);
+  }
+  // Pieces of a row of pixels, kPiece at the most.
+  void add_pieces(const float* weight, int row, int first, int end) {
+    for (int i = first; i < end;) {
+      const int stop = std::min(end, i + kPiece);
+      double sum = 0, x = 0;
+      for (; i < stop; ++i)
+        if (weight[i] > 0) sum += double(weight[i]), x += double(weight[i]) * i;
+      if (sum > 0) places_.push_back({frame_.world_from_image({x / sum, double(row)}), sum});
+    }
   }
   std::size_t chosen(const std::vector<FuzzyGroup>& groups) const {
     if (!has_ && (!p_.near || p_.follow == Follow::largest)) return 0;

@@ -1,23 +1,17 @@
 // faba-coil-guard: the process that owns the coils' driver. Begun by faba, never by hand; see
 // rig/guard_loop.h.
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 
 #include <cstdio>
 
+#include "core/urgent.h"
 #include "rig/guard_loop.h"
 #include "rig/guard_setup.h"
 
 namespace {
 
 constexpr std::size_t kLongestSetup = 200'000;  // bytes
-
-// What helps to be in time, where this is allowed; the deadlines hold without.
-void be_quick() {
-  (void)setpriority(PRIO_PROCESS, 0, -10);
-  (void)mlockall(MCL_CURRENT | MCL_FUTURE);
-}
 
 void refuse(const std::string& why) {
   faba::GuardReport r;
@@ -40,7 +34,9 @@ int guard() {
   if (!setup.log.empty()) log = std::make_unique<OutputFile>(setup.log);
   GuardLoop loop(kGuardDescriptor, CoilGuard(setup.guard, setup.bounds(), setup.frame_period),
                  CoilWiring(setup.coils), setup.driver.make(setup.context()), std::move(log));
-  be_quick();
+  // What helps to be in time, where this is allowed; the deadlines hold without.
+  const Urgent urgent;
+  (void)mlockall(MCL_CURRENT | MCL_FUTURE);
   return loop.run() ? 0 : int(Errc::device);
 }
 

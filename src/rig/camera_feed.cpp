@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/monotonic.h"
+#include "core/urgent.h"
 
 namespace faba {
 namespace {
@@ -35,6 +36,7 @@ CameraFeed::~CameraFeed() {
 
 void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
                       std::size_t most) {
+  const Urgent urgent;
   std::optional<std::uint64_t> last;
   std::exception_ptr failure;
   try {

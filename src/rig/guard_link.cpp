@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/monotonic.h"
+#include "core/urgent.h"
 
 extern char** environ;
 
@@ -77,7 +78,9 @@ GuardLink::GuardLink(const GuardSetup& setup, const std::filesystem::path& guard
 
 // Signs of life, and rest for coils that nobody thinks of.
 void GuardLink::live(const std::stop_token& stop, double pause) {
+  const Urgent urgent;
   while (!stop.stop_requested()) {
+    double wait = pause;
     {
       const std::lock_guard lock(mutex_);
       if (patient_ && flows_ && monotonic_now() - asked_ > patience_) {
@@ -86,9 +89,10 @@ void GuardLink::live(const std::stop_token& stop, double pause) {
         ++rests_;
       } else {
         tell({.kind = ToGuard::Kind::beat});
+        if (patient_ && flows_) wait = std::min(wait, asked_ + patience_ - monotonic_now());
       }
     }
-    std::this_thread::sleep_for(std::chrono::duration<double>(pause));
+    std::this_thread::sleep_for(std::chrono::duration<double>(wait));
   }
 }
 

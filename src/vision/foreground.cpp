@@ -9,7 +9,6 @@
 #include "vision/foreground_pixels.h"
 #include "vision/line_closing.h"
 #include "vision/mask.h"
-#include "vision/patches.h"
 #include "vision/smoothing.h"
 
 namespace faba {
@@ -193,16 +192,22 @@ void Foreground::look(double noise, double dt_s) {
   weights_.px.resize(grey.px.size());
   const double common = anew ? 1 : common_gain(grey, background_, covered_);
   const auto gain = float(common);
-  const int n = int(grey.px.size());
-  difference(grey.px.data(), background_.px.data(), gain, float(sign_), weights_.px.data(), n);
   // A background that rests on few frames has their noise.
   if (anew) frames_ = 0;
-  find_covered(noise * std::sqrt(1 + (anew ? 0 : own_noise_)));
+  find_covered(gain, noise * std::sqrt(1 + (anew ? 0 : own_noise_)));
   if (anew) own_noise_ = 1;
-  if (sign_ < 0) take_logarithms(grey, gain, noise);
-  if (learns) learn(grey, common, dt_s, noise);
+  // Strip by strip, so that what one step has read or written is still in the cache for the next.
+  constexpr int kStrip = 1 << 13;  // px
+  const LightLoss loss{gain, float(noise), sign_ < 0 ? gain * middle_brightness() : 0};
+  const Learning learning = learns ? learn_at(common, dt_s, noise) : Learning{};
+  const int n = int(grey.px.size());
+  for (int first = 0; first < n; first += kStrip) {
+    const int end = std::min(n, first + kStrip);
+    if (sign_ < 0) take_logarithms(loss, first, end);
+    if (learns) learn(learning, first, end);
+    clear_uncovered(covered_.data() + first, weights_.px.data() + first, end - first);
+  }
   ++frames_;
-  clear_uncovered(covered_.data(), weights_.px.data(), n);
   count_cells();
 }
 
@@ -222,14 +227,15 @@ double Foreground::signal_of_one(std::vector<double> patches) const {
 }
 
 void Foreground::count_cells() {
-  std::vector<double> signal(std::size_t(label_patches(covered_, weights_.width, weights_.height, patch_)) +
-                             1);
-  const int n = int(covered_.size());
-  const auto each_covered = [&](const auto& visit) {
-    each_set(covered_.data(), n,
-             [&](int i) { visit(std::size_t(patch_[std::size_t(i)]), weights_.px[std::size_t(i)]); });
-  };
-  each_covered([&](std::size_t patch, float weight) { signal[patch] += double(weight); });
+  const std::size_t w = std::size_t(weights_.width);
+  const auto weights_of = [&](const PatchRun& r) { return &weights_.px[std::size_t(r.row) * w]; };
+  std::vector<double> signal(std::size_t(find_patches(covered_, weights_.width, weights_.height, runs_)));
+  for (const PatchRun& r : runs_) {
+    const float* v = weights_of(r);
+    double sum = 0;
+    for (int i = r.first; i < r.end; ++i) sum += double(v[i]);
+    signal[std::size_t(r.patch)] += sum;
+  }
   const double found = signal_of_one(signal), now = found > 0 ? found : cell_guess_;
   if (now > 0)
     cell_signal_ =
@@ -239,21 +245,32 @@ void Foreground::count_cells() {
   for (std::size_t k = 0; k < signal.size(); ++k)
     if (const double cells = signal[k] / cell_signal_; cells < kFew)
       factor[k] = cells > 0.5 ? float(std::round(cells) / cells) : 0.0F;
-  each_covered([&](std::size_t patch, float& weight) { weight *= factor[patch]; });
+  for (const PatchRun& r : runs_)
+    if (const float by = factor[std::size_t(r.patch)]; by != 1)
+      for (int i = r.first; i < r.end; ++i) weights_of(r)[i] *= by;
+}
+
+float Foreground::middle_brightness() const {
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < background_.px.size(); i += 13) sum += double(background_.px[i]), n += 1;
+  return float(sum / n);
 }
 
 // Cells in transmitted light take away a share of it, and so do cells behind cells: the logarithm of the
 // light that is left adds up, whatever the light (theory H5). In grey of the middle brightness.
-void Foreground::take_logarithms(const GrayF& picture, float gain, double noise) {
-  double sum = 0, n = 0;
-  for (std::size_t i = 0; i < background_.px.size(); i += 13) sum += double(background_.px[i]), n += 1;
-  const float level = gain * float(sum / n);
-  lost_light(picture.px.data(), background_.px.data(), covered_.data(), {gain, float(noise), level},
-             weights_.px.data(), int(weights_.px.size()));
+void Foreground::take_logarithms(const LightLoss& loss, int first, int end) {
+  lost_light(picture_.px.data() + first, background_.px.data() + first, covered_.data() + first, loss,
+             weights_.px.data() + first, end - first);
 }
 
-void Foreground::find_covered(double noise) {
-  smooth(weights_, std::max(sd_px_, 0.6), smooth_, scratch_);
+void Foreground::find_covered(float gain, double noise) {
+  const int w = picture_.width;
+  const auto row_of = [&](int row) {
+    const std::size_t first = std::size_t(row) * std::size_t(w);
+    difference(&picture_.px[first], &background_.px[first], gain, float(sign_), &weights_.px[first], w);
+    return &weights_.px[first];
+  };
+  smooth(w, picture_.height, row_of, std::max(sd_px_, 0.6), smooth_, scratch_);
   // Codecs and focus leave noise that hangs together, and more of it after smoothing than white noise would.
   const double left = std::max(noise * smoothing_gain(), known_ ? noise_below_background() : 0.0);
   const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * left));
@@ -280,16 +297,11 @@ double Foreground::noise_below_background() const {
 double Foreground::guess_cell_signal() const {
   std::vector<float> peaks;
   const int w = smooth_.width;
+  std::vector<std::uint8_t> peak(std::size_t(std::max(w, 2)));
   for (int row = 1; row + 1 < smooth_.height; ++row) {
     const std::size_t second = std::size_t(row) * std::size_t(w) + 1;
-    each_set(covered_.data() + second, w - 2, [&](int i) {
-      const float* at = &smooth_.px[second + std::size_t(i)];
-      const float v = *at;
-      if (v < at[-1] || v <= at[1] || v < at[-w] || v <= at[w] || v < at[-w - 1] || v < at[1 - w] ||
-          v <= at[w - 1] || v <= at[w + 1])
-        return;
-      peaks.push_back(v);
-    });
+    mark_peaks(&smooth_.px[second], w, covered_.data() + second, peak.data(), w - 2);
+    each_set(peak.data(), w - 2, [&](int i) { peaks.push_back(smooth_.px[second + std::size_t(i)]); });
   }
   if (peaks.size() < (known_ || !options_.learn ? 1 : 5)) return 0;
   const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
@@ -313,57 +325,58 @@ bool Foreground::proves_background(std::size_t i, float least_change, float dt_s
   return true;
 }
 
-void Foreground::learn(const GrayF& picture, double gain, double dt_s, double noise) {
+Foreground::Learning Foreground::learn_at(double gain, double dt_s, double noise) {
   // At first the mean of all frames so far.
   const auto follow =
       float(std::max(1.0 / double(frames_ + 1), std::min(0.5, std::max(0.0, dt_s) / kFollow_s)));
   own_noise_ = (1 - double(follow)) * (1 - double(follow)) * own_noise_ + double(follow) * double(follow);
-  const auto absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s));
   const auto smooth_uncovered = -float(std::max(kLeastThreshold, 4 * noise * smoothing_gain()));
-  const float least_change = -1.4142135F * smooth_uncovered;  // of two pictures, each with its noise
-  const Following p{.follow = follow,
-                    .absorb = absorb,
-                    .at_once = float(kUncover),
-                    .least_weight = float(-4 * noise),
-                    .least_smooth = smooth_uncovered,
-                    .back = float(1 / gain),
-                    .next = 1 + follow * (float(gain) - 1)};  // the common brightness is followed too
-  const int n = int(picture.px.size());
-  each_set(guess_.data(), n, [&](int at) {
-    const auto i = std::size_t(at);
-    if (!covered_[i] || weights_.px[i] < p.least_weight || smooth_.px[i] < p.least_smooth) return;
-    if (proves_background(i, least_change, float(dt_s))) guess_[i] |= kProvedWrong;
+  return {.follow = {.follow = follow,
+                     .absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s)),
+                     .at_once = float(kUncover),
+                     .least_weight = float(-4 * noise),
+                     .least_smooth = smooth_uncovered,
+                     .back = float(1 / gain),
+                     .next = 1 + follow * (float(gain) - 1)},  // the common brightness is followed too
+          .least_change = -1.4142135F * smooth_uncovered,      // of two pictures, each with its noise
+          .dt_s = float(dt_s)};
+}
+
+void Foreground::learn(const Learning& l, int first, int end) {
+  each_set(guess_.data() + first, end - first, [&](int at) {
+    const auto i = std::size_t(first + at);
+    if (!covered_[i] || weights_.px[i] < l.follow.least_weight || smooth_.px[i] < l.follow.least_smooth)
+      return;
+    if (proves_background(i, l.least_change, l.dt_s)) guess_[i] |= kProvedWrong;
   });
-  follow_picture(picture.px.data(), weights_.px.data(), smooth_.px.data(), covered_.data(), p, guess_.data(),
-                 background_.px.data(), n);
+  follow_picture(picture_.px.data() + first, weights_.px.data() + first, smooth_.px.data() + first,
+                 covered_.data() + first, l.follow, guess_.data() + first, background_.px.data() + first,
+                 end - first);
 }
 
 SwarmMoments Foreground::moments() const {
   SwarmMoments m;
-  const int w = weights_.width;
-  const auto each_covered = [&](int row, const auto& visit) {
-    const std::size_t first = std::size_t(row) * std::size_t(w);
-    each_set(covered_.data() + first, w,
-             [&](int col) { visit(col, double(weights_.px[first + std::size_t(col)])); });
-  };
+  // About the middle of the picture, where the sums of squares lose the least.
+  const double x0 = 0.5 * (weights_.width - 1), y0 = 0.5 * (weights_.height - 1);
   double x = 0, y = 0;
-  for (int row = 0; row < weights_.height; ++row) {
-    double sum = 0, sum_x = 0;
-    each_covered(row, [&](int col, double v) { sum += v, sum_x += v * col; });
-    m.signal += sum, x += sum_x, y += sum * row;
+  Mat2 square;
+  for (const PatchRun& r : runs_) {
+    const float* v = &weights_.px[std::size_t(r.row) * std::size_t(weights_.width)];
+    double one = 0, first = 0, second = 0;
+    for (int i = r.first; i < r.end; ++i) {
+      const double value = double(v[i]), dx = i - x0, moment = value * dx;
+      one += value, first += moment, second += moment * dx;
+    }
+    const double dy = r.row - y0;
+    m.signal += one, x += first, y += one * dy;
+    square.xx += second, square.xy += first * dy, square.yy += one * dy * dy;
   }
   if (!(m.signal > 0.5 * cell_signal_) || cell_signal_ == 0) return {};
-  m.centroid_image = {x / m.signal, y / m.signal};
-  for (int row = 0; row < weights_.height; ++row) {
-    const double dy = row - m.centroid_image.y;
-    each_covered(row, [&](int col, double v) {
-      const double dx = col - m.centroid_image.x;
-      m.cov_px2.xx += v * dx * dx, m.cov_px2.xy += v * dx * dy, m.cov_px2.yy += v * dy * dy;
-    });
-  }
+  x /= m.signal, y /= m.signal;
+  m.centroid_image = {x0 + x, y0 + y};
   const double own = sd_px_ * sd_px_;
-  m.cov_px2 = {std::max(0.0, m.cov_px2.xx / m.signal - own), m.cov_px2.xy / m.signal,
-               std::max(0.0, m.cov_px2.yy / m.signal - own)};
+  m.cov_px2 = {std::max(0.0, square.xx / m.signal - x * x - own), square.xy / m.signal - x * y,
+               std::max(0.0, square.yy / m.signal - y * y - own)};
   m.cells = std::max(1.0, m.signal / cell_signal_);
   return m;
 }

@@ -5,7 +5,9 @@
 #include "core/archive.h"
 #include "core/vec.h"
 #include "vision/background.h"
+#include "vision/foreground_pixels.h"
 #include "vision/image.h"
+#include "vision/patches.h"
 
 namespace faba {
 
@@ -70,9 +72,15 @@ class Foreground {
   bool proves_background(std::size_t i, float least_change, float dt_s);
   void look(double noise, double dt_s);
   int told_polarity(const GrayF& fine, double sd, double noise) const;
-  void find_covered(double noise);
-  void learn(const GrayF& picture, double gain, double dt_s, double noise);
-  void take_logarithms(const GrayF& picture, float gain, double noise);
+  void find_covered(float gain, double noise);
+  float middle_brightness() const;
+  void take_logarithms(const LightLoss& loss, int first, int end);
+  struct Learning {
+    Following follow;
+    float least_change, dt_s;
+  };
+  Learning learn_at(double gain, double dt_s, double noise);
+  void learn(const Learning& l, int first, int end);
   double guess_cell_signal() const;
   double noise_below_background() const;
   double signal_of_one(std::vector<double> patches) const;
@@ -88,7 +96,7 @@ class Foreground {
   bool known_ = false;           ///< the background is given
   GrayF background_, weights_, smooth_, picture_, scratch_;
   std::vector<std::uint8_t> covered_, work_;
-  std::vector<int> patch_;  ///< of each pixel, for the last picture
+  std::vector<PatchRun> runs_;  ///< of the last picture
   /// Of the pixels that were covered in the first picture, whose background is a guess: whether they have
   /// changed since, the smoothed difference that they had when they last did, and for how long they have been
   /// still, s.

@@ -6,6 +6,11 @@
 #include "core/vectorised.h"
 
 namespace faba {
+namespace {
+
+inline float larger(float a, float b) { return a > b ? a : b; }
+
+}  // namespace
 
 FABA_VECTORISED void difference(const float* picture, const float* background, float gain, float sign,
                                 float* out, int n) {
@@ -42,6 +47,17 @@ FABA_VECTORISED void lost_light(const float* picture, const float* background, c
   }
   for (; i < n; ++i)
     if (covered[i]) weights[i] = one(picture[i], background[i]);
+}
+
+FABA_VECTORISED void mark_peaks(const float* v, int width, const std::uint8_t* covered, std::uint8_t* peak,
+                                int n) {
+  const float *up = v - width, *down = v + width;
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) {
+    const float before = larger(larger(v[i - 1], up[i]), larger(up[i - 1], up[i + 1]));
+    const float after = larger(larger(v[i + 1], down[i]), larger(down[i - 1], down[i + 1]));
+    peak[i] = std::uint8_t(covered[i] & std::uint8_t(v[i] >= before) & std::uint8_t(v[i] > after));
+  }
 }
 
 FABA_VECTORISED void clear_uncovered(const std::uint8_t* covered, float* v, int n) {

@@ -12,6 +12,10 @@ void difference(const float* picture, const float* background, float gain, float
 /// mask = v > threshold
 void above(const float* v, float threshold, std::uint8_t* mask, int n);
 
+/// peak = 1 where v is covered and larger than its eight neighbours, or as large as those before it; rows are
+/// `width` apart. Else 0.
+void mark_peaks(const float* v, int width, const std::uint8_t* covered, std::uint8_t* peak, int n);
+
 /// Where covered: weights = level (-log(left) - (noise / light)^2 / 2), light = gain background, at least
 /// one grey, left = picture / light, at least one grey or 2 % of it: noise alone makes the mean logarithm
 /// smaller by half its square. Elsewhere weights stay.

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/portable_math.h"
-#include "core/vectorised.h"
+#include "core/wide.h"
 
 namespace faba {
 namespace {
@@ -21,40 +21,67 @@ int mirrored(int i, int n) {
   return i < n ? i : period - i;
 }
 
-// out = w0 middle, or out += w (left + right), element by element.
-FABA_VECTORISED void begin_sum(float* out, const float* middle, float weight, int n) {
-  FABA_ELEMENTWISE
-  for (int i = 0; i < n; ++i) out[i] = weight * middle[i];
-}
-FABA_VECTORISED void add_pair(float* out, const float* left, const float* right, float weight, int n) {
-  FABA_ELEMENTWISE
-  for (int i = 0; i < n; ++i) out[i] += weight * (left[i] + right[i]);
-}
+// out[i] = w0 middle[i] + w1 (before1[i] + after1[i]) + ..., added in this order.
+struct Taps {
+  const std::vector<float>& weights;
+  const float* const* before;  ///< [k]: of weight k; [0] is the middle
+  const float* const* after;
+};
 
-void convolve_rows(const GrayF& from, const std::vector<float>& weights, GrayF& to) {
-  const int reach = int(weights.size()) - 1, w = from.width;
-  std::vector<float> line(std::size_t(w + 2 * reach));
-  for (int row = 0; row < from.height; ++row) {
-    const float* in = &from.px[std::size_t(row) * std::size_t(w)];
-    std::copy(in, in + w, line.begin() + reach);
-    for (int i = 1; i <= reach; ++i) {
-      line[std::size_t(reach - i)] = in[mirrored(-i, w)];
-      line[std::size_t(reach + w) + std::size_t(i - 1)] = in[mirrored(w - 1 + i, w)];
-    }
-    float* out = &to.px[std::size_t(row) * std::size_t(w)];
-    const float* middle = line.data() + reach;
-    begin_sum(out, middle, weights[0], w);
-    for (int k = 1; k <= reach; ++k) add_pair(out, middle - k, middle + k, weights[std::size_t(k)], w);
+template <int bytes>
+[[gnu::always_inline]] inline void add_taps_in(const Taps& t, float* out, int n) {
+  using V = typename Wide<float, bytes>::type;
+  constexpr int kLanes = bytes / int(sizeof(float)), kAtOnce = 4;  // sums, so that none waits for another
+  const int taps = int(t.weights.size());
+  const float* w = t.weights.data();
+  int i = 0;
+  for (; i + kAtOnce * kLanes <= n; i += kAtOnce * kLanes) {
+    V sum[kAtOnce];
+#pragma GCC unroll 4
+    for (int a = 0; a < kAtOnce; ++a)
+      sum[a] = w[0] * *reinterpret_cast<const V*>(t.before[0] + i + a * kLanes);
+    for (int k = 1; k < taps; ++k)
+#pragma GCC unroll 4
+      for (int a = 0; a < kAtOnce; ++a)
+        sum[a] += w[k] * (*reinterpret_cast<const V*>(t.before[k] + i + a * kLanes) +
+                          *reinterpret_cast<const V*>(t.after[k] + i + a * kLanes));
+#pragma GCC unroll 4
+    for (int a = 0; a < kAtOnce; ++a) *reinterpret_cast<V*>(out + i + a * kLanes) = sum[a];
+  }
+  for (; i < n; ++i) {
+    float sum = w[0] * t.before[0][i];
+    for (int k = 1; k < taps; ++k) sum += w[k] * (t.before[k][i] + t.after[k][i]);
+    out[i] = sum;
   }
 }
+FABA_WIDE(add_taps, (const Taps& t, float* out, int n), (t, out, n))
 
-void convolve_columns(const GrayF& from, const std::vector<float>& weights, GrayF& to) {
-  const int reach = int(weights.size()) - 1, w = from.width, h = from.height;
-  const auto line = [&](int row) { return &from.px[std::size_t(mirrored(row, h)) * std::size_t(w)]; };
+// Rows are smoothed along themselves when the first column sum needs them, and as many are kept as one needs:
+// they stay in the processor's second-level cache.
+void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& weights, GrayF& out,
+              GrayF& work) {
+  const int reach = int(weights.size()) - 1;
+  work.width = w, work.height = std::min(h, 2 * reach + 1);
+  work.px.resize(std::size_t(w) * std::size_t(work.height));
+  const auto kept = [&](int row) { return &work.px[std::size_t(row % work.height) * std::size_t(w)]; };
+  std::vector<float> line(std::size_t(w + 2 * reach));
+  std::vector<const float*> left, right, above(weights.size()), below(weights.size());
+  for (int k = 0; k <= reach; ++k)
+    left.push_back(line.data() + reach - k), right.push_back(line.data() + reach + k);
+  int next = 0;
   for (int row = 0; row < h; ++row) {
-    float* out = &to.px[std::size_t(row) * std::size_t(w)];
-    begin_sum(out, line(row), weights[0], w);
-    for (int k = 1; k <= reach; ++k) add_pair(out, line(row - k), line(row + k), weights[std::size_t(k)], w);
+    for (; next < std::min(h, row + reach + 1); ++next) {
+      const float* in = row_of(next);
+      std::copy(in, in + w, line.begin() + reach);
+      for (int i = 1; i <= reach; ++i) {
+        line[std::size_t(reach - i)] = in[mirrored(-i, w)];
+        line[std::size_t(reach + w) + std::size_t(i - 1)] = in[mirrored(w - 1 + i, w)];
+      }
+      add_taps({weights, left.data(), right.data()}, kept(next), w);
+    }
+    for (int k = 0; k <= reach; ++k)
+      above[std::size_t(k)] = kept(mirrored(row - k, h)), below[std::size_t(k)] = kept(mirrored(row + k, h));
+    add_taps({weights, above.data(), below.data()}, &out.px[std::size_t(row) * std::size_t(w)], w);
   }
 }
 
@@ -111,26 +138,26 @@ std::vector<float> gaussian_weights(double sd_px) {
 
 GrayF smoothed(const GrayF& picture, double sd_px) {
   GrayF out, work;
-  smooth(picture, sd_px, out, work);
+  const auto row = [&](int r) { return &picture.px[std::size_t(r) * std::size_t(picture.width)]; };
+  smooth(picture.width, picture.height, row, sd_px, out, work);
   return out;
 }
 
-void smooth(const GrayF& picture, double sd_px, GrayF& out, GrayF& work) {
-  for (GrayF* g : {&out, &work}) {
-    g->width = picture.width, g->height = picture.height;
-    g->px.resize(picture.px.size());
-  }
-  if (picture.empty()) return;
+void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& out, GrayF& work) {
+  out.width = width, out.height = height;
+  out.px.resize(std::size_t(width) * std::size_t(height));
+  if (out.empty()) return;
   if (sd_px <= kWidestSampled) {
-    const std::vector<float> weights = gaussian_weights(sd_px);
-    convolve_rows(picture, weights, work);
-    convolve_columns(work, weights, out);
+    convolve(width, height, row, gaussian_weights(sd_px), out, work);
     return;
   }
   // The variance of a mean over 2 h + 1 pixels is h (h + 1) / 3.
   const double wanted = 3 * sd_px * sd_px / kMeans;
   const int half = std::max(1, int(std::floor(std::sqrt(wanted + 0.25))));
-  out.px = picture.px;
+  for (int r = 0; r < height; ++r) {
+    const float* in = row(r);
+    std::copy(in, in + width, &out.px[std::size_t(r) * std::size_t(width)]);
+  }
   for (int i = 0; i < kMeans; ++i) mean_rows(out, half), mean_columns(out, half);
 }
 
