@@ -51,6 +51,8 @@ struct LibraryParams {
 /// The table [simulation].
 struct SimulationParams {
   std::optional<double> step;
+  double longest =
+      std::numeric_limits<double>::infinity();  ///< s, of a step that is chosen; no key of a scenario
   static Schema<SimulationParams> schema();
 };
 

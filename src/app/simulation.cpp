@@ -126,7 +126,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
   frame_ = w.arena->frame();
 
   // A model must be asked for its longest step before the step is known: build it twice, it is cheap.
-  double longest = s.frame_period();
+  double longest = std::min(s.frame_period(), s.simulation.longest);
   strongest_t_ = strongest(w, s.limits.max_current);
   const auto shorten = [&](const ModelRegistry::PartType& model) {
     longest = std::min(longest, model.make({scale, scale.iteration})->longest_step(strongest_t_));

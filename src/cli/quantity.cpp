@@ -15,7 +15,8 @@ double quantity_of(const std::string& words, const char* unit, const std::string
   std::string why = fmt::format("\"{}\" is not in {}", words, unit);
   try {
     const Quantity q = parse_quantity(words);
-    if (q.dimension == parse_unit(unit).dimension && std::isfinite(q.value)) return q.value;
+    const bool fits = q.bare || q.dimension == parse_unit(unit).dimension;
+    if (fits && std::isfinite(q.value)) return q.value;
   } catch (const std::invalid_argument& e) {
     why = e.what();
   }

@@ -32,6 +32,10 @@ sockaddr_un address(const std::filesystem::path& path) {
 
 int local_socket() { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
+int connect_to(int descriptor, const sockaddr_un& a) {
+  return ::connect(descriptor, reinterpret_cast<const sockaddr*>(&a), sizeof a);
+}
+
 bool ready(int descriptor, short what, double until) {
   const double left = until - monotonic_now();
   pollfd p{descriptor, what, 0};
@@ -55,7 +59,7 @@ void BenchSocket::close() {
 BenchSocket BenchSocket::connect(const std::filesystem::path& path, BenchHello::Role role) {
   const sockaddr_un a = address(path);
   BenchSocket s(local_socket());
-  if (!s || ::connect(s.descriptor_, reinterpret_cast<const sockaddr*>(&a), sizeof a) != 0)
+  if (!s || connect_to(s.descriptor_, a) != 0)
     throw Error(
         Errc::device, path.string(),
         fmt::format("no simulated bench is there ({}); begin one with `faba rig simulate SCENE.toml --at {}`",
@@ -71,6 +75,12 @@ BenchSocket BenchSocket::listen(const std::filesystem::path& path) {
   const sockaddr_un a = address(early);
   unlink(early.c_str());
   BenchSocket s(local_socket());
+  // One that was killed leaves its name, to which nobody listens any more.
+  if (std::error_code ec; std::filesystem::is_socket(path, ec)) {
+    const sockaddr_un old = address(path);
+    const BenchSocket knock(local_socket());
+    if (connect_to(knock.descriptor_, old) != 0 && errno == ECONNREFUSED) unlink(path.c_str());
+  }
   const bool listens = s && bind(s.descriptor_, reinterpret_cast<const sockaddr*>(&a), sizeof a) == 0 &&
                        ::listen(s.descriptor_, 4) == 0 && link(early.c_str(), path.c_str()) == 0;
   const int why = errno;

@@ -74,6 +74,15 @@ TEST_CASE("the device is unplugged: the run ends with one line, and what was rec
   CHECK(b.program->wait() == 4);
   CHECK(one_clear_line(b.err()));
   CHECK(std::filesystem::file_size(b.f.path / "run/series.csv") > 200);
+  // The name that the killed one has left is not in the next one's way, and one that is there is not
+  // replaced.
+  b.simulated->wait();
+  CHECK(std::filesystem::is_socket(b.f.path / "bench"));
+  const Child next(b.f.path, "'" FABA_PROGRAM "' rig simulate scene.toml --at bench --quiet 2> next.txt");
+  CHECK(soon([&] { return faba_in(b.f.path, "rig check scene.toml").exit == 0; }));
+  const Called second = faba_in(b.f.path, "rig simulate scene.toml --at bench");
+  CHECK(second.exit == 4);
+  CHECK(one_clear_line(second.err));
 }
 
 TEST_CASE("nothing there: one clear line, exit 4, and no directory") {
@@ -100,7 +109,7 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
   CHECK(std::filesystem::exists(b.f.path / "pictures/frame-000004.pgm"));
   CHECK(faba_in(b.f.path, "rig capture scene.toml --frames 3 --format pgm --out pictures").exit == 2);
   CHECK(faba_in(b.f.path, "rig capture scene.toml --for '3 m' --out a.avi").exit == 2);
-  CHECK(faba_in(b.f.path, "rig capture scene.toml --frames 3 --out a.avi --quiet").exit == 0);
+  CHECK(faba_in(b.f.path, "rig capture scene.toml --for 0.1 --out a.avi --quiet").exit == 0);
   CHECK(faba_in(b.f.path, "track a.avi --json").exit == 0);
   for (const Flowing& one : b.log()) CHECK(one.most < kZero);
 }

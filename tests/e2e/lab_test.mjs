@@ -4,73 +4,9 @@
 //   node tests/e2e/lab_test.mjs --program build/faba --root . [--pictures docs/pictures/lab]
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
-import { serve } from '../../bench/lab_client.mjs';
-
-const option = (name) => {
-  const i = process.argv.indexOf(`--${name}`);
-  return i < 0 ? null : resolve(process.argv[i + 1]);
-};
-const program = option('program'), root = option('root'), pictures = option('pictures');
-const { chromium } = createRequire(join(root, 'web', 'package.json'))('playwright-core');
-const kPatience = 30000; // ms; a busy machine is no fault
-
-const workspace = mkdtempSync(join(tmpdir(), 'faba-lab-test-'));
-for (const folder of ['scenes', 'rigs', 'studies']) cpSync(join(root, folder), join(workspace, folder), { recursive: true });
-if (pictures) mkdirSync(pictures, { recursive: true });
-
-const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
-
-let { lab, address } = await serve(program, workspace);
-process.on('exit', () => lab.kill('SIGKILL')); // also after a failure
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
-const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true });
-const page = await context.newPage();
-page.setDefaultTimeout(kPatience);
-const complaints = [], elsewhere = [];
-const expected = /WebSocket connection|ERR_CONNECTION_REFUSED|401/; // while the lab is away
-page.on('console', (m) => m.type() === 'error' && !expected.test(m.text()) && complaints.push(m.text()));
-page.on('pageerror', (e) => complaints.push(String(e)));
-page.on('request', (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).hostname === '127.0.0.1' || elsewhere.push(r.url()));
-
-const shot = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
-const step = async (what, does) => {
-  const began = Date.now();
-  try {
-    await does();
-  } catch (e) {
-    await page.screenshot({ path: join(tmpdir(), 'faba-lab-test-failed.png') }).catch(() => {});
-    console.error(`FAILED: ${what}`);
-    throw e;
-  }
-  assert.deepEqual(complaints, [], `the page complained: ${what}`);
-  console.log(`ok ${what} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
-};
-const tab = (name) => page.locator('nav').getByRole('button', { name: new RegExp(`^${name}`) }).click();
-const panel = (name) => page.getByRole('tab', { name: new RegExp(`^${name}`) }).click();
-/** A number or two that the page shows. */
-const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];
-async function until(holds, what) {
-  const end = Date.now() + kPatience;
-  while (Date.now() < end) {
-    if (await holds()) return;
-    await page.waitForTimeout(50);
-  }
-  assert.fail(`never happened: ${what}`);
-}
-/** The canvas point of a place in the picture, from where the page itself puts it. */
-async function place(x, y) {
-  const box = await page.locator('.stage canvas.over').boundingBox();
-  const [cx, cy, ratio] = await page.evaluate(([px, py]) => {
-    const c = document.querySelector('.stage canvas.over');
-    return [...c.toCanvas(px, py), c.width / c.getBoundingClientRect().width];
-  }, [x, y]);
-  return [box.x + cx / ratio, box.y + cy / ratio];
-}
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { address, browser, complaints, context, elsewhere, faba, lab, page, panel, pictures, place, read, serveAgain, shot, step, tab, until, workspace } from './lab_page.mjs';
 
 await step('the gallery opens, the token is out of the address', async () => {
   await page.goto(address);
@@ -394,7 +330,7 @@ await step('a lab that was started again asks for its own token', async () => {
   assert.equal(await new Promise((r) => lab.on('exit', r)), 0);
   await page.getByText('The connection is lost').waitFor();
   await shot('lost');
-  ({ lab, address } = await serve(program, workspace, '--port', port));
+  await serveAgain('--port', port);
   await page.getByText('open the address that faba lab printed').waitFor();
   await page.goto(address);
   await page.getByRole('heading', { name: 'Scenes' }).waitFor();

@@ -1,0 +1,77 @@
+// A lab in a folder of its own, and a browser with its page, for lab_test.mjs.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { cpSync, mkdirSync, mkdtempSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { serve } from '../../bench/lab_client.mjs';
+
+const option = (name) => {
+  const i = process.argv.indexOf(`--${name}`);
+  return i < 0 ? null : resolve(process.argv[i + 1]);
+};
+export const program = option('program'), root = option('root'), pictures = option('pictures');
+const { chromium } = createRequire(join(root, 'web', 'package.json'))('playwright-core');
+const kPatience = 30000; // ms; a busy machine is no fault
+
+export const workspace = mkdtempSync(join(tmpdir(), 'faba-lab-test-'));
+for (const folder of ['scenes', 'rigs', 'studies']) cpSync(join(root, folder), join(workspace, folder), { recursive: true });
+if (pictures) mkdirSync(pictures, { recursive: true });
+
+export const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
+
+/** The server's process and its address; serveAgain() begins another. */
+export let { lab, address } = await serve(program, workspace);
+export async function serveAgain(...more) {
+  ({ lab, address } = await serve(program, workspace, ...more));
+}
+process.on('exit', () => lab.kill('SIGKILL')); // also after a failure
+export const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
+export const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true });
+export const page = await context.newPage();
+page.setDefaultTimeout(kPatience);
+/** What the page said of itself that it should not have had to. */
+export const complaints = [];
+/** What was asked of other machines. */
+export const elsewhere = [];
+const expected = /WebSocket connection|ERR_CONNECTION_REFUSED|401/; // while the lab is away
+page.on('console', (m) => m.type() === 'error' && !expected.test(m.text()) && complaints.push(m.text()));
+page.on('pageerror', (e) => complaints.push(String(e)));
+page.on('request', (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).hostname === '127.0.0.1' || elsewhere.push(r.url()));
+
+export const shot = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
+export const step = async (what, does) => {
+  const began = Date.now();
+  try {
+    await does();
+  } catch (e) {
+    await page.screenshot({ path: join(tmpdir(), 'faba-lab-test-failed.png') }).catch(() => {});
+    console.error(`FAILED: ${what}`);
+    throw e;
+  }
+  assert.deepEqual(complaints, [], `the page complained: ${what}`);
+  console.log(`ok ${what} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
+};
+export const tab = (name) => page.locator('nav').getByRole('button', { name: new RegExp(`^${name}`) }).click();
+export const panel = (name) => page.getByRole('tab', { name: new RegExp(`^${name}`) }).click();
+/** A number or two that the page shows. */
+export const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];
+export async function until(holds, what) {
+  const end = Date.now() + kPatience;
+  while (Date.now() < end) {
+    if (await holds()) return;
+    await page.waitForTimeout(50);
+  }
+  assert.fail(`never happened: ${what}`);
+}
+/** The canvas point of a place in the picture, from where the page itself puts it. */
+export async function place(x, y) {
+  const box = await page.locator('.stage canvas.over').boundingBox();
+  const [cx, cy, ratio] = await page.evaluate(([px, py]) => {
+    const c = document.querySelector('.stage canvas.over');
+    return [...c.toCanvas(px, py), c.width / c.getBoundingClientRect().width];
+  }, [x, y]);
+  return [box.x + cx / ratio, box.y + cy / ratio];
+}
