@@ -50,6 +50,8 @@ struct BenchSession::Impl {
   std::unique_ptr<Loop> loop;
   std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
   std::size_t most_behind = 0;
+  std::uint64_t commands_before = 0, refused_before = 0,
+                rests_before = 0;  ///< the bench may have had runs before
   bool whole = false;
   Json manifest;  ///< as it was when the run ended
 };
@@ -77,6 +79,9 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
   m->rig = &m->bench->rig(dir / run_files::kCoilsLog);
   if (!s.rig->params.delay) s.rig->params.delay = std::round(m->bench->delay(s) * kDelaySteps) / kDelaySteps;
   m->rig->begin();
+  const GuardReport guard = m->rig->coils()->report();
+  m->commands_before = guard.passed, m->refused_before = guard.refused;
+  m->rests_before = m->rig->coils()->rests();
   m->scenario = std::move(s);
   m->controls = std::make_unique<BenchControls>(m->scenario);
   write_file(dir / run_files::kScenario, to_toml(m->scenario.resolved()));
@@ -167,9 +172,9 @@ Json BenchSession::describe() const {
        {"recorder_most_behind", m.most_behind},
        {"guard",
         {{"state", word(guard.state)},
-         {"commands", guard.passed},
-         {"refused", guard.refused},
-         {"rests", m.rig->coils()->rests()},
+         {"commands", guard.passed - m.commands_before},
+         {"refused", guard.refused - m.refused_before},
+         {"rests", m.rig->coils()->rests() - m.rests_before},
          {"heat", guard.heat}}}});
   return j;
 }

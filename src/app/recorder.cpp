@@ -1,8 +1,19 @@
 #include "app/recorder.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 
+#include "core/urgent.h"
+
 namespace faba {
+namespace {
+
+constexpr int kStepBack = 10;  // niceness: what is recorded later is no worse, and who steers goes first
+
+}  // namespace
+
 Recorder::Recorder(std::vector<Sink*> sinks) : sinks_(std::move(sinks)), thread_([this] { work(); }) {}
 
 Recorder::~Recorder() {
@@ -33,6 +44,8 @@ void Recorder::finish() {
 }
 
 void Recorder::work() {
+  if (!Urgent::possible())
+    (void)setpriority(PRIO_PROCESS, id_t(gettid()), kStepBack);  // of this thread alone
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [&] { return !waiting_.empty() || over_; });

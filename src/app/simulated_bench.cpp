@@ -20,7 +20,9 @@ namespace {
 constexpr double kSlice = 1e-3;  // s between looks at the sockets, and lines of the log while currents change
 constexpr double kSending = 0.5;                        // s that a client may take for a frame
 constexpr auto kAlive = std::chrono::milliseconds(10);  // between looks at whether a client is still there
-constexpr double kStep = 2e-3;        // s, the longest of the world: a command waits for the next to begin
+constexpr double kStep = 2e-3;  // s, the longest of the world: a command waits for the next to begin
+constexpr double kAffordable =
+    2e7;  // steps of cells a second, a fifth of what a core makes (bench/results/agents.md)
 constexpr double kNobody = 30;        // s after which a bench that is to serve once ends, when nobody comes
 constexpr double kNoticeable = 1e-5;  // A
 
@@ -187,7 +189,9 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
   const BenchParams bench = s.rig->bench;
   s.camera.sensor = CameraParams::Sensor::frames;
   s.camera.delay_frames = 0;
-  s.simulation.longest = kStep;
+  double cells = 0;
+  for (const Swarm& swarm : s.swarms) cells += double(swarm.params.count);
+  s.simulation.longest = std::max(kStep, cells / kAffordable);
   Simulation simulation(s, seed, pool);
   World& world = simulation.world();
   const std::size_t outputs = world.parts().field->coils();

@@ -52,15 +52,17 @@ int dispatch(int argc, char** argv) {
     words.emplace_back("--help");
   }
   if (!words.empty() && words[0].rfind('-', 0) != 0) check_verb(app, words[0]);
-  if (words.size() > 1 && (words[0] == "field" || words[0] == "rig") && words[1].rfind('-', 0) != 0)
+  std::string help = program();
+  if (!words.empty() && words[0].rfind('-', 0) != 0) help += " " + words[0];
+  if (words.size() > 1 && (words[0] == "field" || words[0] == "rig") && words[1].rfind('-', 0) != 0) {
     check_verb(*app.get_subcommand(words[0]), words[1]);
+    help += " " + words[1];
+  }
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    const std::string help = argc > 1 && argv[1][0] != '-' ? fmt::format("{} {} --help", program(), argv[1])
-                                                           : program() + " --help";
-    throw Error(Errc::usage, "", fmt::format("{} (see {})", e.what(), help));
+    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), help));
   }
   return line.code;
 }

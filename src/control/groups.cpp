@@ -5,13 +5,11 @@
 #include "control/controller.h"
 #include "control/foreground_params.h"
 #include "vision/fuzzy_groups.h"
-#include "vision/mask.h"
 
 namespace faba {
 namespace {
 
 constexpr int kBins = 32;         // across, for grouping: a thousand places say as much as a million cells
-constexpr int kPiece = 8;         // px, much less than a bin of a picture
 constexpr double kLarger = 1.25;  // times the share of the followed group, from which on another is followed
 
 /// Several swarms: the cells in view, or the light of the camera's picture where the rig gives no positions,
@@ -87,24 +85,27 @@ class EstimatorGroups final : public Estimator {
     foreground_.take(camera_picture(o, frame_), looked_ ? o.t - frame_t_ : 0);
     frame_t_ = o.t, looked_ = true;
     cells = foreground_.moments().cells;
-    const GrayF& w = foreground_.weights();
     places_.clear();
-    for (int row = 0; row < w.height; ++row) {
-      const std::size_t start = std::size_t(row) * std::size_t(w.width);
-      each_run(foreground_.covered().data() + start, w.width,
-               [&](int first, int end) { add_pieces(&w.px[start], row, first, end); });
-    }
-    if (cells == 0) places_.clear();
+    if (cells == 0) return {};
+    add_pieces(foreground_.weights(), foreground_.runs());
     return binned(places_, kBins);
   }
-  // Pieces of a row of pixels, kPiece at the most.
-  void add_pieces(const float* weight, int row, int first, int end) {
-    for (int i = first; i < end;) {
-      const int stop = std::min(end, i + kPiece);
-      double sum = 0, x = 0;
-      for (; i < stop; ++i)
-        if (weight[i] > 0) sum += double(weight[i]), x += double(weight[i]) * i;
-      if (sum > 0) places_.push_back({frame_.world_from_image({x / sum, double(row)}), sum});
+  // Pieces of rows of pixels: as long as a quarter of a bin, so that what is lost of their spread is little
+  // beside what a bin loses.
+  void add_pieces(const GrayF& weights, const std::vector<PatchRun>& runs) {
+    int low = weights.width, high = 0;
+    for (const PatchRun& r : runs) low = std::min(low, r.first), high = std::max(high, r.end);
+    if (!runs.empty()) high = low + std::max(high - low, runs.back().row - runs.front().row);
+    const int piece = std::max(1, (high - low) / (4 * kBins));
+    for (const PatchRun& r : runs) {
+      const float* weight = &weights.px[std::size_t(r.row) * std::size_t(weights.width)];
+      for (int i = r.first; i < r.end;) {
+        const int stop = std::min(r.end, i + piece);
+        double sum = 0, x = 0;
+        for (; i < stop; ++i)
+          if (weight[i] > 0) sum += double(weight[i]), x += double(weight[i]) * i;
+        if (sum > 0) places_.push_back({frame_.world_from_image({x / sum, double(r.row)}), sum});
+      }
     }
   }
   std::size_t chosen(const std::vector<FuzzyGroup>& groups) const {

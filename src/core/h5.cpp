@@ -62,7 +62,10 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
+// What the library itself would say of an error; each thread has a switch of its own.
 void quiet() {
+  thread_local bool done = false;
+  if (std::exchange(done, true)) return;
   static std::once_flag once;
   std::call_once(once, [] {
     H5dont_atexit();  // its clean-up loops for ever over a file that could not be flushed
@@ -113,6 +116,7 @@ struct H5File::Impl {
 template <class T>
 void H5Table::append(std::span<const T> row) {
   Impl& t = *impl_;
+  quiet();
   if (row.size() != t.row_size() || type_of<T>() != t.type)
     throw Error(Errc::internal, t.where, "row of another shape or type");
   ++t.dims[0];
@@ -125,6 +129,7 @@ void H5Table::append(std::span<const T> row) {
 template <class T>
 void H5Table::read(std::uint64_t row, std::span<T> out) const {
   const Impl& t = *impl_;
+  quiet();
   if (row >= t.dims[0] || out.size() != t.row_size()) throw Error(Errc::input, t.where, "has no such row");
   const auto at = t.select(row);
   if (H5Dread(t.set, type_of<T>(), at.memory, at.in_file, H5P_DEFAULT, out.data()) < 0)
@@ -257,6 +262,7 @@ void H5File::begin_writing() {
 }
 
 void H5File::sync() {
+  quiet();
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->fail(Errc::internal, "write");
   if (const int fd = ::open(impl_->path.c_str(), O_RDONLY | O_CLOEXEC); fd >= 0) {
     ::fsync(fd);

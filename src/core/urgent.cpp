@@ -1,9 +1,10 @@
 #include "core/urgent.h"
 
 #include <sched.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
+#include <algorithm>
 
 namespace faba {
 namespace {
@@ -12,27 +13,33 @@ constexpr std::int32_t kNiceness = -10;
 constexpr std::uint64_t kSlice =
     100'000;  // ns, the least that the scheduler takes: who asks for less goes first
 
-// As the kernel has it; the system's header and its C library's cannot be had together.
-struct Attributes {
-  std::uint32_t size = sizeof(Attributes);
-  std::uint32_t policy = SCHED_OTHER;
-  std::uint64_t flags = 0;
-  std::int32_t niceness = 0;
-  std::uint32_t priority = 0;
-  std::uint64_t slice = 0, deadline = 0, period = 0;
-};
-
-bool set(std::int32_t niceness, std::uint64_t slice) {
-  const Attributes a{.niceness = niceness, .slice = slice};
-  return syscall(SYS_sched_setattr, 0, &a, 0) == 0;
-}
+bool get(Urgent::Attributes& a) { return syscall(SYS_sched_getattr, 0, &a, sizeof a, 0) == 0; }
+bool set(const Urgent::Attributes& a) { return syscall(SYS_sched_setattr, 0, &a, 0) == 0; }
 
 }  // namespace
 
-Urgent::Urgent() noexcept : niceness_(getpriority(PRIO_PROCESS, id_t(gettid()))) {
-  if (!set(kNiceness, kSlice)) (void)set(niceness_, kSlice);
+Urgent::Urgent() noexcept {
+  Attributes before;
+  if (!get(before) || before.policy != SCHED_OTHER) return;
+  Attributes a = before;
+  a.slice = kSlice;
+  a.niceness = std::min(before.niceness, kNiceness);
+  if (!set(a)) {
+    a.niceness = before.niceness;
+    if (!set(a)) return;
+  }
+  // A kernel that knows no slices takes them without a word.
+  Attributes now;
+  if (get(now) && (now.slice == kSlice || now.niceness < before.niceness)) before_ = before;
 }
 
-Urgent::~Urgent() { (void)set(niceness_, 0); }
+Urgent::~Urgent() {
+  if (before_) (void)set(*before_);
+}
+
+bool Urgent::possible() noexcept {
+  const Urgent here;
+  return here.before_.has_value();
+}
 
 }  // namespace faba

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/monotonic.h"
 #include "vision/image.h"
@@ -23,7 +22,7 @@ BenchRig::~BenchRig() { safe(); }
 void BenchRig::begin() {
   safe();
   began_.reset();
-  from_ = feed_.camera().waits() ? -std::numeric_limits<double>::infinity() : monotonic_now();
+  if (!feed_.camera().waits()) feed_.forget();
   asked_.clear(), delays_.clear();
   dropped_before_ = feed_.dropped();
 }
@@ -54,9 +53,7 @@ bool BenchRig::read(Observation& out) {
   CameraFrame frame;
   CameraFeed::Got got;
   try {
-    const double until = monotonic_now() + p_.camera_timeout;
-    do got = feed_.next(frame, until);
-    while (got == CameraFeed::Got::frame && frame.t < from_);
+    got = feed_.next(frame, monotonic_now() + p_.camera_timeout);
   } catch (const Error&) {
     check_guard();  // what came first is what is said
     throw;

@@ -1,6 +1,5 @@
 #pragma once
 #include <deque>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -22,7 +21,7 @@ class BenchRig final : public Rig {
   BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> coils, const Params& p);
   ~BenchRig() override;
 
-  /// The next frame is the first, of a live camera the next that is exposed: its time is 0, and delays are
+  /// The next frame is the first, of a live camera the next that comes: its time is 0, and delays are
   /// noted anew. Disarms.
   void begin();
   /// Throws Error(device) when the camera fails, gives no frame for too long, or the guard took the current
@@ -55,12 +54,11 @@ class BenchRig final : public Rig {
   Params p_;
   CameraFeed feed_;
   std::unique_ptr<GuardLink> coils_;
-  std::optional<double> began_;                             ///< s, monotonic, of the first frame
-  std::uint64_t first_ = 0;                                 ///< its number
-  double from_ = -std::numeric_limits<double>::infinity();  ///< s, monotonic; frames before it are not read
-  double arrived_ = 0;                                      ///< s, monotonic, when the newest came
-  double frame_t_ = 0;                                      ///< s, monotonic, mid-exposure of the newest
-  std::deque<Asked> asked_;                                 ///< not answered yet
+  std::optional<double> began_;  ///< s, monotonic, of the first frame
+  std::uint64_t first_ = 0;      ///< its number
+  double arrived_ = 0;           ///< s, monotonic, when the newest came
+  double frame_t_ = 0;           ///< s, monotonic, mid-exposure of the newest
+  std::deque<Asked> asked_;      ///< not answered yet
   std::vector<Delay> delays_;
   std::uint64_t dropped_before_ = 0;
   bool armed_ = false;

@@ -82,6 +82,11 @@ CameraFeed::Got CameraFeed::next(CameraFrame& out, double until) {
   return Got::end;
 }
 
+void CameraFeed::forget() {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->waiting.clear();
+}
+
 std::uint64_t CameraFeed::taken() const {
   const std::lock_guard lock(shared_->mutex);
   return shared_->taken;

@@ -28,6 +28,8 @@ class CameraFeed {
 
   /// The next frame, waiting for it until time `until` (monotonic_now()). Throws what the camera threw.
   Got next(CameraFrame& out, double until);
+  /// What waits is as if it had not been taken by the camera: the next frame is one that comes from now on.
+  void forget();
   std::uint64_t taken() const;    ///< frames that next() gave
   std::uint64_t dropped() const;  ///< that the camera took and next() never gave, as far as is known
   Camera& camera() { return *camera_; }

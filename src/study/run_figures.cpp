@@ -60,6 +60,12 @@ Setpoints setpoints_of(const Series& series) {
   return out;
 }
 
+// A camera shows no cell by itself: what a series then has is the estimator's.
+bool is_seen(const Series& series) { return !has_number(series.find("responding_count")); }
+const char* centroid_of(const Series& series) {
+  return is_seen(series) ? "centroid that the estimator finds" : "centroid of all cells";
+}
+
 constexpr double kShortApproach = 0.1;  // of the run; a shorter one is shown by itself as well
 constexpr std::size_t kMostMarks =
     12;  // more than that is a moving target, and marks for each would cover the plot
@@ -74,8 +80,9 @@ double first_targeted_time(const Series& series) {
 Figure distance_figure(const Series& series, const Metrics& m, const RunInfo& info) {
   Figure figure{
       "Distance to the setpoint",
-      "Distance between the centroid of all cells and the setpoint. The band is the larger of 5 % of the "
-      "initial error and 10 px; the swarm counts as settled from its last entry into it.",
+      fmt::format("Distance between the {} and the setpoint. The band is the larger of 5 % of the "
+                  "initial error and 10 px; the swarm counts as settled from its last entry into it.",
+                  centroid_of(series)),
       lengths_over_time("distance", "Distance to the setpoint over time", info)};
   Plot& plot = figure.plot;
   const double band = m.settling_band_px.value_or(0);
@@ -160,8 +167,9 @@ void add_outlines(Plot& plot, const RunInfo& info) {
 
 Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) {
   const auto x = series.column("centroid_x_px"), y = series.column("centroid_y_px");
-  Figure figure{
-      "Path in the picture", "Path of the centroid of all cells, in picture pixels: y points down.", {}};
+  Figure figure{"Path in the picture",
+                fmt::format("Path of the {}, in picture pixels: y points down.", centroid_of(series)),
+                {}};
   Plot& plot = figure.plot;
   plot.description = "Path of the centroid in the picture";
   plot.inlined = plot.equal_aspect = plot.y.reversed = true;
@@ -297,13 +305,17 @@ Figure current_figure(const Series& series) {
 
 Figure count_figure(const Series& series) {
   const Values t = values(series.column("t_s"));
-  Figure figure{"Cells", "Cells inside the picture, and cells that respond to the field.",
-                over_time("cells", "Visible and responding cells over time")};
+  const bool seen = is_seen(series);
+  Figure figure{
+      "Cells",
+      seen ? "Cells that the estimator counts in the picture."
+           : "Cells inside the picture, and cells that respond to the field.",
+      over_time("cells", seen ? "Visible cells over time" : "Visible and responding cells over time")};
   figure.plot.y.lo = 0;
   if (series.has("visible_count")) {
     figure.plot.add(Line{t, values(series.find("visible_count")), "visible", Ink::blue});
   }
-  if (series.has("responding_count")) {
+  if (!seen) {
     figure.plot.add(Line{t, values(series.find("responding_count")), "responding", Ink::vermillion, true});
   }
   return figure;

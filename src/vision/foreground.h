@@ -63,6 +63,8 @@ class Foreground {
   /// Difference from the background of each pixel, with its sign (positive where cells are), 0 where none
   /// are.
   const GrayF& weights() const { return weights_; }
+  /// The stretches of rows that cells cover, and the patch that each is of, in the last picture.
+  const std::vector<PatchRun>& runs() const { return runs_; }
   /// Of each pixel whether cells are there: not 0.
   const std::vector<std::uint8_t>& covered() const { return covered_; }
   void archive(Archive& a);

@@ -93,6 +93,21 @@ TEST_CASE("groups: two swarms in a picture are two, and one of them is followed"
   }
 }
 
+TEST_CASE("groups: a small round swarm is round") {
+  cells::Look l;
+  const Frame frame = frame_of(l);
+  const auto e = estimator("{ type = 'groups', count = 1 }", frame);
+  const std::vector<Vec2> swarm = blob({110, 80}, 6, 400, 5);
+  Estimate last;
+  for (int k = 0; k < 8; ++k) last = e->update(seen(l, swarm, k / 15.0, std::uint64_t(k)), {});
+  const cells::Spread truth = cells::spread(swarm);
+  // Places are put into bins of a 32nd of what is covered, some 50 px, which loses bin^2 / 12 = 0.2 px^2
+  // along either axis; a cell's own width of 1.3 px^2 is in both.
+  const double area = frame.m_per_px * frame.m_per_px;
+  CHECK(last.cov.xx / last.cov.yy == doctest::Approx(truth.cov.xx / truth.cov.yy).epsilon(0.05));
+  CHECK(std::sqrt(last.cov.xx / area / truth.cov.xx) == doctest::Approx(1).epsilon(0.1));
+}
+
 TEST_CASE("groups: positions are grouped where the rig gives them; one swarm is one group") {
   const Frame frame;
   const auto e = estimator("'groups'", frame);

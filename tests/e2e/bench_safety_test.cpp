@@ -23,21 +23,24 @@ double rest_of(const std::vector<Flowing>& all) {
 
 TEST_CASE("whatever ends or stops the program, no current flows 100 ms later") {
   for (const int signal : {SIGKILL, SIGSTOP, SIGTERM, SIGINT, SIGSEGV, SIGABRT}) {
-    INFO("signal ", signal);
-    OnBench b;
-    b.steer();
-    const double t = monotonic_now();
-    b.program->signal(signal);
-    const double after = b.flowed_after(t);
-    CHECK(after < kWithin + b.machine.longest());
-    if (signal == SIGTERM || signal == SIGINT) {
+    for (int attempt = 0;; ++attempt) {
+      INFO("signal ", signal, ", attempt ", attempt);
+      OnBench b;
+      b.steer();
+      b.machine.begin();
+      const double t = monotonic_now();
+      b.program->signal(signal);
+      const double after = b.flowed_after(t);
+      CHECK(after < kWithin + b.machine.longest());
+      if (signal != SIGTERM && signal != SIGINT) break;
       const int exit = b.program->wait();
-      if (exit == 4 && was_late(b.err())) continue;  // the guard was first, on a busy machine
+      if (exit == 4 && b.was_kept_waiting() && attempt < 5) continue;  // the guard was first
       CHECK(exit == 130);
       CHECK(faba_in(b.f.path,
                     "run scene.toml --set camera.sensor=frames --duration '0.2 s' --quiet --out other")
                 .exit == 0);  // the scene runs without a bench, too
       CHECK(std::filesystem::exists(b.f.path / "run/series.csv"));
+      break;
     }
   }
 }
@@ -56,6 +59,7 @@ TEST_CASE("the same with National Instruments' library, and with a board on a se
     INFO("signal ", signal);
     const auto ends = [&](OnBench& b, const auto& flows, const auto& rest) {
       b.steer(flows);
+      b.machine.begin();
       const double t = monotonic_now();
       b.program->signal(signal);
       REQUIRE(soon([&] { return !flows(); }, 5));
@@ -114,6 +118,7 @@ TEST_CASE("the guard itself is killed or stopped: the enable line lets no more c
     int guard = 0;
     REQUIRE(std::fscanf(list, "%d", &guard) == 1);
     pclose(list);
+    b.machine.begin();
     const double t = monotonic_now();
     ::kill(guard, signal);
     CHECK(b.flowed_after(t) < kWithin + b.machine.longest());
@@ -128,6 +133,7 @@ TEST_CASE(
   for (int attempt = 0;; ++attempt) {
     OnBench b("freeze_after = 3\n", "guard = { heartbeat_deadline = '1 s' }\n");
     b.steer();
+    b.machine.begin();
     CHECK(b.program->wait() == 4);
     // The log begins with the bench, whose camera hangs 3 s later.
     double last = 0;
@@ -135,7 +141,7 @@ TEST_CASE(
       if (one.most >= kZero) last = one.t;
     const double began = b.log().front().t;
     CHECK(last - began < 3 + kWithin + b.machine.longest());
-    if (was_late(b.err()) && attempt < 5) continue;  // the guard was first, on a busy machine
+    if (b.was_kept_waiting() && attempt < 5) continue;  // the guard was first, on a busy machine
     CHECK(last - began > 0.5);
     CHECK(b.err().find("has given no frame for 2 s") != std::string::npos);
     break;

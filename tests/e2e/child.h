@@ -70,6 +70,8 @@ class StandStill {
             last = now;
           }
         }) {}
+  /// From now on.
+  void begin() { longest_ = 0; }
   double longest() const { return longest_; }
 
  private:

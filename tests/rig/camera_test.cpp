@@ -86,6 +86,26 @@ TEST_CASE("for a recorder all frames wait") {
   CHECK(feed.dropped() == 0);
 }
 
+TEST_CASE(
+    "a run begins with a frame that comes after it has begun, and what was lost before is not its own") {
+  auto camera = std::make_shared<HandCamera>();
+  BenchRig rig(camera, nullptr, {.camera_timeout = 5});
+  camera->allowed = 4;
+  while (camera->number < 4) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  rig.begin();
+  Observation o;
+  std::jthread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    camera->allowed = 5;
+  });
+  REQUIRE(rig.read(o));
+  CHECK(o.frame == 0);
+  CHECK(o.t == 0);
+  CHECK(o.image->px[0] == 5);
+  CHECK(rig.dropped() == 0);
+}
+
 TEST_CASE("a camera that fails says why to who reads it") {
   auto camera = std::make_shared<HandCamera>();
   BenchRig rig(camera, nullptr, {.camera_timeout = 5});

@@ -50,6 +50,7 @@ TEST_CASE("the control thread hangs while the program lives: no current when the
   g.arm();
   steer(g, 0.2);
   CHECK(f.log().back().furthest == doctest::Approx(1.5));
+  f.machine.begin();
   const double t = monotonic_now();
   CHECK(f.rest_after(t) < kWithin + f.machine.longest());
   CHECK(g.report().fault == CoilGuard::Fault::late);
@@ -81,6 +82,7 @@ TEST_CASE("serial: the guard is killed or stopped, the line goes: the board come
     g.arm();
     steer(g, 0.2);
     REQUIRE(f.log().back().enable == 1);
+    f.machine.begin();
     const double t = monotonic_now();
     ::kill(g.process(), signal);
     CHECK(f.rest_after(t) < kWithin + f.machine.longest());

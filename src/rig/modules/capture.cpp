@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -37,6 +38,8 @@ int backend(CaptureParams::Interface i) {
 class Capture final : public Camera {
  public:
   explicit Capture(const CaptureParams& p) : name_(p.device) {
+    // Errors are ours to say.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const bool number =
         !p.device.empty() && p.device.size() < 4 &&
         std::all_of(p.device.begin(), p.device.end(), [](char c) { return c >= '0' && c <= '9'; });
