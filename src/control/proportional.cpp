@@ -15,6 +15,8 @@ namespace {
 /// so that the
 ///   mean is the wanted drift: for cells that swim at their own speed whatever the strength (dipole, Adapted;
 ///   F1 d).
+/// `lead` adds what a turn that is longer than a frame needs: e is that of the centroid so much later, at its
+/// present velocity (a derivative on the measurement; F3).
 /// Anti-windup by back-calculation: the integral does not grow while the command is saturated.
 class Proportional final : public Controller {
  public:
@@ -28,18 +30,22 @@ class Proportional final : public Controller {
     int hold_frames = 2;
     Actuation actuation = Actuation::magnitude;
     double speed = 186e-6;
+    std::optional<double> lead;
   };
   static Schema<Params> schema();
   Proportional(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
-  void archive(Archive& a) override { a& integral_& owed_; }
+  void archive(Archive& a) override { a& integral_& owed_& last_& seen_; }
 
  private:
   Params p_;
   ControlContext c_;
-  double k_p_;       ///< px per frame of drift for each px of error
-  Vec2 integral_;    ///< px frames
-  double owed_ = 0;  ///< duty not yet given, in frames at full speed
+  double k_p_ = 0;      ///< px per frame of drift for each px of error
+  Vec2 integral_;       ///< px frames
+  double owed_ = 0;     ///< duty not yet given, in frames at full speed
+  double horizon_ = 0;  ///< s that the centroid is predicted ahead
+  Vec2 last_;           ///< centroid of the update before, m
+  bool seen_ = false;   ///< there is such a centroid
 };
 
 Schema<Proportional::Params> Proportional::schema() {
@@ -73,19 +79,30 @@ Schema<Proportional::Params> Proportional::schema() {
             .max = 1e-2,
             .doc = "duty: swimming speed of the cells",
             .source = "thesis: 186 um/s"})
+      .add("lead", &Params::lead,
+           {.unit = "s",
+            .min = 0,
+            .max = 10,
+            .doc =
+                "Steers where the swarm will be, at its present velocity, after the delay and so much more: "
+                "the time in which cells turn; where it is when absent",
+            .source = "theory F2: ln(2 kappa) / w_B"})
       .validity(
           "A linear law for an integrator plant: turning that takes longer than a frame adds delay it does "
-          "not know.");
+          "not know, unless `lead` tells it.");
 }
 
-Proportional::Proportional(const Params& p, const ControlContext& c)
-    : p_(p),
-      c_(c),
-      k_p_(p.gain / (p.hold_frames + (p.delay_frames ? double(*p.delay_frames) : c.delay_frames))) {}
+Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_(c) {
+  const double delay = p.delay_frames ? double(*p.delay_frames) : c.delay_frames;
+  k_p_ = p.gain / (p.hold_frames + delay);
+  if (p.lead) horizon_ = *p.lead + delay * c.frame_period;
+}
 
-Command Proportional::update(const Estimate& e, const Target& target, double) {
-  const Vec2 error_px = (1 / c_.scale.m_per_px) * (target.position - e.centroid);
-  if (!(e.visible > 0) || norm(error_px) <= p_.dead_zone_px) return drive_command(c_, e.centroid, {});
+Command Proportional::update(const Estimate& e, const Target& target, double dt) {
+  const Vec2 moved = seen_ && dt > 0 ? (horizon_ / dt) * (e.centroid - last_) : Vec2{};
+  seen_ = e.visible > 0, last_ = e.centroid;
+  const Vec2 error_px = (1 / c_.scale.m_per_px) * (target.position - e.centroid - moved);
+  if (!seen_ || norm(error_px) <= p_.dead_zone_px) return drive_command(c_, e.centroid, {});
 
   const bool duty = p_.actuation == Actuation::duty;
   // px per frame that the plant can do at most, and per field unit

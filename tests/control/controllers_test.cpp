@@ -98,6 +98,20 @@ TEST_CASE("proportional: gain / (hold + delay), saturated, dead zone") {
   CHECK(norm(drive(*dead, {9, 0})) > 0);
 }
 
+TEST_CASE("proportional, lead: steers where the swarm will be after the delay and the turn") {
+  const double frame = 1.0 / 15;
+  const auto p = part(kParts.controller, "p = { type = 'proportional', hold_frames = 2, lead = '100 ms' }",
+                      context(1, 1));
+  const double gain = 0.45 / 3;
+  CHECK(drive(*p, {-20, 0}).x == doctest::Approx(gain * 20));  // nothing is known of its velocity yet
+  const double ahead = (0.1 + frame) / frame;                  // in frames
+  const Vec2 moving = drive(*p, {-16, 2});                     // by (4, 2) px per frame
+  CHECK(moving.x == doctest::Approx(gain * (16 - 4 * ahead)));
+  CHECK(moving.y == doctest::Approx(gain * (-2 - 2 * ahead)));
+  p->update(at({300, 300}, 0), {{0, 0}, 0, false}, frame);  // out of view: no velocity comes of that
+  CHECK(drive(*p, {-10, 0}).x == doctest::Approx(gain * 10));
+}
+
 TEST_CASE("proportional, duty: full strength always, its mean over frames is the wanted fraction") {
   // 186 um/s at 15 Hz and 1 um/px: 12.4 px per frame at full speed; gain 0.45 / 2
   const auto p =
