@@ -53,6 +53,7 @@ struct BenchSession::Impl {
   std::uint64_t commands_before = 0, refused_before = 0,
                 rests_before = 0;  ///< the bench may have had runs before
   bool whole = false;
+  Json notes = Json::array();
   Json manifest;  ///< as it was when the run ended
 };
 
@@ -138,7 +139,11 @@ bool BenchSession::run() {
       return !m.whole && !(m.options.stop && m.options.stop->load());
     });
     // A video that is played may end before.
-    m.whole = m.whole || !(m.options.stop && m.options.stop->load());
+    if (!m.whole && !(m.options.stop && m.options.stop->load())) {
+      m.whole = true;
+      m.notes.push_back(
+          fmt::format("the camera's pictures ended after {:.3g} s of {:.3g} s", loop.last_t, duration));
+    }
   } catch (const Error&) {
     if (loop.next > 0) finish();
     throw;
@@ -162,6 +167,7 @@ Json BenchSession::describe() const {
        {"frames", m.loop->next},
        {"duration_s", m.loop->last_t + m.loop->frame_period},
        {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - m.began).count()},
+       {"notes", m.notes},
        {"setpoints", m.controls->reference->setpoints().size()},
        {"video_shows", "camera"},
        {"frames_dropped", m.rig->dropped()},

@@ -1,4 +1,7 @@
 #pragma once
+#include <limits>
+#include <optional>
+
 #include "app/event.h"
 #include "app/loop.h"
 #include "app/parts.h"

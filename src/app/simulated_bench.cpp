@@ -18,7 +18,8 @@ namespace faba {
 namespace {
 
 constexpr double kSlice = 1e-3;  // s between looks at the sockets, and lines of the log while currents change
-constexpr double kSending = 0.5;                        // s that a client may take for a frame
+constexpr double kSending = 0.5;  // s that a client may take for what is a few bytes
+constexpr double kFetching = 10;  // s for a frame: who has just connected has its coils to open first
 constexpr auto kAlive = std::chrono::milliseconds(10);  // between looks at whether a client is still there
 constexpr double kStep = 2e-3;  // s, the longest of the world: a command waits for the next to begin
 constexpr double kAffordable =
@@ -162,8 +163,8 @@ class Sender {
       const BenchFrame head{number_, t_, image->width, image->height, rate_};
       if (!socket) continue;
       lock.unlock();
-      const bool sent = socket.write(&head, sizeof head, kSending) &&
-                        socket.write(image->px.data(), image->px.size(), kSending);
+      const bool sent = socket.write(&head, sizeof head, kFetching) &&
+                        socket.write(image->px.data(), image->px.size(), kFetching);
       if (!sent) socket.close();
       lock.lock();
       if (!sent && !fresh_) connected_ = false;

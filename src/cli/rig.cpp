@@ -82,6 +82,9 @@ int rig_run(const RigVerb& v, const Common& c) {
   session.complete();
   const Metrics metrics = control_metrics(read_series(session.dir() / "series.csv"));
   const Json manifest = session.manifest();
+  if (!c.quiet)
+    for (const Json& note : manifest.at("notes"))
+      tell(fmt::format("faba: note: {}: {}", v.run.scene, note.get<std::string>()));
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
     for (const auto& source : {manifest, metrics_json(metrics)})

@@ -46,6 +46,7 @@ void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_p
       if (s->stop) break;
       if (last && frame.number > *last + 1) s->lost += frame.number - *last - 1;
       last = frame.number;
+      if (frame.t < s->since) continue;
       if (keep == Keep::newest && !s->waiting.empty()) {
         s->lost += s->waiting.size();
         s->waiting.clear();
@@ -85,6 +86,7 @@ CameraFeed::Got CameraFeed::next(CameraFrame& out, double until) {
 void CameraFeed::forget() {
   const std::lock_guard lock(shared_->mutex);
   shared_->waiting.clear();
+  shared_->since = monotonic_now();
 }
 
 std::uint64_t CameraFeed::taken() const {

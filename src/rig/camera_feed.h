@@ -28,7 +28,8 @@ class CameraFeed {
 
   /// The next frame, waiting for it until time `until` (monotonic_now()). Throws what the camera threw.
   Got next(CameraFrame& out, double until);
-  /// What waits is as if it had not been taken by the camera: the next frame is one that comes from now on.
+  /// The next frame is one that the camera takes from now on: what waits, here or on its way, was never
+  /// taken.
   void forget();
   std::uint64_t taken() const;    ///< frames that next() gave
   std::uint64_t dropped() const;  ///< that the camera took and next() never gave, as far as is known
@@ -40,6 +41,7 @@ class CameraFeed {
     std::condition_variable came;
     std::deque<CameraFrame> waiting;
     std::uint64_t lost = 0, taken = 0;
+    double since = 0;  ///< monotonic_now(): frames of before are forgotten
     std::exception_ptr failure;
     bool end = false, stop = false, left = false;
   };

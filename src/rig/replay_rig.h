@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 
 #include "rig/rig.h"
 #include "vision/video_reader.h"

@@ -112,6 +112,15 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
   CHECK(faba_in(b.f.path, "rig capture scene.toml --for 0.1 --out a.avi --quiet").exit == 0);
   CHECK(faba_in(b.f.path, "track a.avi --json").exit == 0);
   for (const Flowing& one : b.log()) CHECK(one.most < kZero);
+
+  // Played as a camera it ends before the scene does, which is said.
+  const Called played = faba_in(b.f.path,
+                                "rig run scene.toml --arm --json --out played --set rig.driver=none "
+                                "--set \"rig.camera={ type = 'playback', file = 'a.avi', fast = true }\"");
+  REQUIRE_MESSAGE(played.exit == 0, played.err);
+  CHECK(played.err.find("pictures ended after") != std::string::npos);
+  CHECK(played.json()["notes"].size() == 1);
+  CHECK(played.json()["complete"] == true);
 }
 
 TEST_CASE(
@@ -120,7 +129,8 @@ TEST_CASE(
   const Called c = faba_in(f.path, "rig run '" FABA_SCENES
                                    "/bench.toml' --arm --seed 1 --duration '6 s' --json --out run "
                                    "--set record.lossless=true "
-                                   "--set rig.guard.heartbeat_deadline=1 --set rig.guard.command_deadline=1");
+                                   "--set rig.guard.heartbeat_deadline=1 --set rig.guard.command_deadline=1 "
+                                   "--set rig.camera_timeout=5");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   const auto j = c.json();
   // It began 280 px away. How fast it comes depends on how busy this machine is, so that only that it comes
@@ -183,7 +193,8 @@ TEST_CASE("step responses on a schedule: gathered, reversed, recorded, and liste
       if (std::fabs(v[2] - 0.3) > 0.04) CHECK(std::signbit(v[5]) == (v[2] > 0.3));  // a frame
     }
   }
-  CHECK(faba_in(b.f.path, "rig step-response scene.toml --arm --repeat 1 --out study --quiet").exit == 0);
+  const Called more = faba_in(b.f.path, "rig step-response scene.toml --arm --repeat 1 --out study --quiet");
+  CHECK_MESSAGE(more.exit == 0, more.err);
   const std::string study = read_file(b.f.path / "study/study.toml");
   CHECK(study.find("experiment = \"1\"") != std::string::npos);
   CHECK(study.find("experiment = \"2\"") != std::string::npos);

@@ -22,8 +22,9 @@ inline const std::string kScene =
 
 inline const std::string kSimulatedCoils = "driver = { type = 'simulated', at = 'bench' }\n";
 
-// Where deadlines of a tenth of a second are not what is tested: a busy machine may stand still for as long.
-inline const std::string kPatient = "guard = { heartbeat_deadline = '1 s', command_deadline = '1 s' }\n";
+// Where deadlines are not what is tested: a busy machine may stand still for as long.
+inline const std::string kPatient =
+    "camera_timeout = '5 s'\nguard = { heartbeat_deadline = '1 s', command_deadline = '1 s' }\n";
 
 // Whether a run was ended because the program was too slow, or a device, which is a program here and may not
 // have noticed yet that the run before is over.

@@ -19,8 +19,8 @@ namespace {
 struct HandCamera final : Camera {
   std::atomic<std::uint64_t> allowed = 0;  // frames that may have been taken
   std::atomic<bool> over = false, fails = false;
-  std::uint64_t number = 0;
-  double began = monotonic_now();
+  std::atomic<std::uint64_t> number = 0;
+  std::atomic<double> began = monotonic_now();
 
   bool read(CameraFrame& out) override {
     while (number >= allowed && !over) {
@@ -96,13 +96,18 @@ TEST_CASE(
   rig.begin();
   Observation o;
   std::jthread later([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const double now = camera->began;
+    camera->began = now - 1000;  // one that was on its way
     camera->allowed = 5;
+    while (camera->number < 5) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    camera->began = now;
+    camera->allowed = 6;
   });
   REQUIRE(rig.read(o));
   CHECK(o.frame == 0);
   CHECK(o.t == 0);
-  CHECK(o.image->px[0] == 5);
+  CHECK(o.image->px[0] == 6);
   CHECK(rig.dropped() == 0);
 }
 
