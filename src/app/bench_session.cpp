@@ -144,7 +144,8 @@ bool BenchSession::run() {
       m.notes.push_back(
           fmt::format("the camera's pictures ended after {:.3g} s of {:.3g} s", loop.last_t, duration));
     }
-  } catch (const Error&) {
+  } catch (const Error& e) {
+    m.notes.push_back(fmt::format("ended by {}", e.what()));
     if (loop.next > 0) finish();
     throw;
   }

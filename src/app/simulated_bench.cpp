@@ -25,6 +25,7 @@ constexpr double kStep = 2e-3;  // s, the longest of the world: a command waits 
 constexpr double kAffordable =
     2e7;  // steps of cells a second, a fifth of what a core makes (bench/results/agents.md)
 constexpr double kNobody = 30;        // s after which a bench that is to serve once ends, when nobody comes
+constexpr double kAlone = 5;          // s after which it does when everybody has gone
 constexpr double kNoticeable = 1e-5;  // A
 
 struct CoilEvent {
@@ -206,18 +207,17 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
     }
   } unlink{o.at};
   Coils coils(bench, outputs, o.log);
+  if (o.ready) o.ready();
   Sender sender(s.camera.rate);
   std::atomic<bool> left_alone = false;
   std::jthread io([&](const std::stop_token& stop) {
-    bool served = false;
-    const double began = monotonic_now();
+    double until = monotonic_now() + kNobody;
     while (!stop.stop_requested()) {
       coils.work();  // first, so that one that has just gone is not in the next one's way
       if (BenchSocket come = listener.accept(0)) {
         BenchHello hello;
         if (come.read(&hello, sizeof hello, kSending) == BenchSocket::Got::all &&
             hello.version == kBenchVersion) {
-          served = true;
           // One at a time: who comes second is turned away, and finds the connection closed.
           if (hello.role == BenchHello::Role::coils && !coils.connected())
             coils.connect(std::move(come));
@@ -225,8 +225,8 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
             sender.connect(std::move(come));
         }
       }
-      const bool nobody = !coils.connected() && !sender.connected();
-      if (o.once && nobody && (served || monotonic_now() - began > kNobody)) left_alone = true;
+      if (coils.connected() || sender.connected()) until = monotonic_now() + kAlone;
+      if (o.once && monotonic_now() > until) left_alone = true;
       std::this_thread::sleep_for(std::chrono::duration<double>(kSlice));
     }
   });

@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <filesystem>
+#include <functional>
 
 #include "app/scenario.h"
 #include "core/parallel.h"
@@ -17,6 +18,7 @@ class SimulatedBench {
     std::filesystem::path log;  ///< CSV of times, voltages and currents; empty for none
     bool once = false;          ///< ends when those that came have gone
     const std::atomic<bool>* stop = nullptr;
+    std::function<void()> ready = {};  ///< called when it can be connected to
   };
   /// How it went.
   struct Summary {

@@ -19,10 +19,14 @@ namespace {
 constexpr double kTurn = 0.02;     // s between requests
 constexpr double kPipedKey = 0.1;  // s that a key counts before the next, when keys come from no terminal
 
-const char* const kKeys =
-    "1 ... 9 choose the first ... ninth coil, which are coil 0 ... coil 8    up + down -  a step    page up, "
-    "page down  largest, smallest    0  none\n"
-    "a  arm    space  no current anywhere    r  after a fault: ready to be armed    q  end\n";
+void print_keys(std::size_t coils) {
+  fmt::print(
+      "{}    up + down -  a step    page up, page down  largest, smallest    0  none\n"
+      "a  arm    space  no current anywhere    r  after a fault: ready to be armed    q  end\n",
+      coils > 1 ? fmt::format("1 ... {} choose coil 0 ... coil {}", std::min<std::size_t>(coils, 9),
+                              std::min<std::size_t>(coils, 9) - 1)
+                : "coil 0");
+}
 
 // Keys one by one, as they are pressed.
 class Keyboard {
@@ -75,7 +79,11 @@ std::string line_of(const GuardReport& g, const std::vector<double>& asked, std:
     if (!std::isnan(g.sensed[k])) line += fmt::format(", sensed {:+.3f}", g.sensed[k]);
     line += k == chosen ? "]" : " ";
   }
-  if (g.reason[0]) line += fmt::format("  {}", g.reason.data());
+  if (g.reason[0])
+    line += fmt::format("  {}", g.reason.data());
+  else if (g.state == CoilGuard::State::disarmed)
+    line += "  a arms it";
+  if (!g.obeyed) line += "; could not be told to rest: switch it off by hand";
   return line;
 }
 
@@ -87,6 +95,9 @@ int rig_jog(const RigVerb& v, const Common& c) {
   Scenario s = read_scenario(d, builtin_parts());
   const double step = quantity_of(v.step, "A", "--step", "50 mA");
   if (!(step > 0)) throw Error(Errc::usage, "--step", "must be above zero");
+  if (const double largest = std::ranges::max(s.rig->max_current()); step > largest)
+    throw Error(Errc::usage, "--step",
+                fmt::format("is {:g} A, and no coil of this bench takes more than {:g} A", step, largest));
   const OpenBench bench(s, s.params.seed.value_or(1), OpenBench::Open::coils);
   GuardLink coils(bench.guard_setup({}));
   const std::vector<double> most = s.rig->max_current();
@@ -95,12 +106,12 @@ int rig_jog(const RigVerb& v, const Common& c) {
   std::string shown;
   Keyboard keys;
   const bool speaks = !c.quiet && !c.json;
-  if (speaks) fmt::print("{}", kKeys);
+  if (speaks) print_keys(most.size());
   while (!stop_requested().load()) {
     const char key = keys.next();
     double& one = asked[chosen];
     if (key == 'q') break;
-    if (key >= '1' && key <= '9') chosen = std::min(std::size_t(key - '1'), asked.size() - 1);
+    if (key >= '1' && key <= '9' && std::size_t(key - '1') < asked.size()) chosen = std::size_t(key - '1');
     if (key == 'U' || key == '+') one = std::min(most[chosen], one + step);
     if (key == 'D' || key == '-') one = std::max(-most[chosen], one - step);
     if (key == 'P') one = most[chosen];

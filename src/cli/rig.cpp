@@ -185,7 +185,7 @@ int rig_step_response(const RigVerb& v, const Common& c) {
   if (c.json)
     fmt::print("{}\n", Json{{"study", study.string()}, {"responses", all}}.dump());
   else if (!c.quiet)
-    fmt::print("  {} activity {}\n", shell_word(program()), shell_word(study.string()));
+    fmt::print("now try: {} activity {}\n", shell_word(program()), shell_word(study.string()));
   return 0;
 }
 
@@ -263,12 +263,13 @@ int rig_simulate(const RigVerb& v, const Common& c) {
   const Scenario s = bench_scene(v);
   const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
   Pool pool(v.run.threads);
-  if (!c.quiet && !c.json) {
+  const auto ready = [&] {
+    if (c.quiet || c.json) return;
     fmt::print("a simulated bench at {}; Ctrl-C ends it\n", v.at.string());
     std::fflush(stdout);
-  }
+  };
   const SimulatedBench::Summary done = SimulatedBench::run(
-      s, seed, pool, {.at = v.at, .log = v.log, .once = v.once, .stop = &stop_requested()});
+      s, seed, pool, {.at = v.at, .log = v.log, .once = v.once, .stop = &stop_requested(), .ready = ready});
   if (c.json)
     fmt::print(
         "{}\n",

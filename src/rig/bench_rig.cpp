@@ -43,7 +43,8 @@ void BenchRig::check_guard() {
   const GuardReport r = coils_->report();
   if (r.state != CoilGuard::State::armed)
     throw Error(Errc::device, "coil guard",
-                fmt::format("{}; the coils are at rest", r.reason[0] ? r.reason.data() : "is disarmed"));
+                fmt::format("{}; the coils {}", r.reason[0] ? r.reason.data() : "is disarmed",
+                            r.obeyed ? "are at rest" : "could not be told to rest: switch them off by hand"));
 }
 
 bool BenchRig::read(Observation& out) {

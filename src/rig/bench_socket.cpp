@@ -87,8 +87,8 @@ BenchSocket BenchSocket::listen(const std::filesystem::path& path) {
   unlink(early.c_str());
   if (!listens)
     throw Error(Errc::device, path.string(),
-                fmt::format("cannot be listened on: {}; choose another name, or remove what is there",
-                            std::strerror(why)));
+                why == EEXIST ? "is there already: a bench that runs, or another file; choose another name"
+                              : fmt::format("cannot be listened on: {}", std::strerror(why)));
   return s;
 }
 

@@ -47,7 +47,7 @@ void GuardLoop::note(const std::string& what) {
 void GuardLoop::report(std::uint64_t number, double sent) {
   reported_ = monotonic_now();
   GuardReport r;
-  r.state = guard_.state(), r.fault = guard_.fault();
+  r.state = guard_.state(), r.fault = guard_.fault(), r.obeyed = obeyed_;
   r.number = number, r.sent = sent, r.done = done_;
   r.heat = guard_.heat(), r.passed = guard_.passed(), r.refused = guard_.refused();
   r.sensed = sensed_;
@@ -61,9 +61,10 @@ void GuardLoop::put_out(double now) {
   const bool enable = guard_.state() == CoilGuard::State::armed;
   if (guard_.current() == put_ && enable == armed_ && now - written_ < driver_->beat()) return;
   const Status s = driver_->write(wiring_.volts(guard_.current()), enable);
+  obeyed_ = bool(s);
   if (!s) {
     guard_.fail(CoilGuard::Fault::device, s.trouble, now);
-    (void)driver_->write(wiring_.neutral(), false);
+    obeyed_ = bool(driver_->write(wiring_.neutral(), false));
   }
   put_ = guard_.current();
   armed_ = guard_.state() == CoilGuard::State::armed;
@@ -133,7 +134,8 @@ void GuardLoop::serve(double now) {
   if (guard_.state() == shown_) return;
   shown_ = guard_.state();
   note(shown_ == CoilGuard::State::faulted
-           ? fmt::format("faulted {}: {}", word(guard_.fault()), guard_.reason())
+           ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
+                         obeyed_ ? "" : "; could not be told to rest")
            : word(shown_));
   report();
 }

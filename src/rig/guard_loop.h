@@ -36,6 +36,7 @@ class GuardLoop {
   CoilGuard::State shown_ = CoilGuard::State::disarmed;
   std::vector<double> put_;  ///< A, at the outputs
   bool armed_ = false;       ///< as the device was told
+  bool obeyed_ = true;       ///< the device took what it was told last
   bool over_ = false;
   double done_ = 0;  ///< s, when the device had what the last message asked for
   double written_ = 0, sensed_at_ = 0, reported_ = 0;  ///< s

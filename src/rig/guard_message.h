@@ -26,6 +26,7 @@ struct ToGuard {
 struct GuardReport {
   CoilGuard::State state = CoilGuard::State::disarmed;
   CoilGuard::Fault fault = CoilGuard::Fault::none;
+  bool obeyed = true;        ///< the device took what it was told last
   std::uint64_t number = 0;  ///< of the request that it answers; 0 for none
   double sent = 0;           ///< s, when that was sent
   double done = 0;           ///< s, when the device had taken the voltages

@@ -73,7 +73,10 @@ TEST_CASE("the device is unplugged: the run ends with one line, and what was rec
   b.simulated->signal(SIGKILL);
   CHECK(b.program->wait() == 4);
   CHECK(one_clear_line(b.err()));
+  // Nobody can tell such coils anything any more, and nothing says that they are at rest.
+  CHECK(b.err().find("at rest") == std::string::npos);
   CHECK(std::filesystem::file_size(b.f.path / "run/series.csv") > 200);
+  CHECK(read_file(b.f.path / "run/report.html").find("ended by") != std::string::npos);
   // The name that the killed one has left is not in the next one's way, and one that is there is not
   // replaced.
   b.simulated->wait();
@@ -121,6 +124,12 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
   CHECK(played.err.find("pictures ended after") != std::string::npos);
   CHECK(played.json()["notes"].size() == 1);
   CHECK(played.json()["complete"] == true);
+  // With coils of a bench that is begun with the run.
+  const Called coils = faba_in(b.f.path,
+                               "rig run scene.toml --arm --json --out coils --set rig.driver=simulated "
+                               "--set \"rig.camera={ type = 'playback', file = 'a.avi', fast = true }\"");
+  REQUIRE_MESSAGE(coils.exit == 0, coils.err);
+  CHECK(coils.json()["guard"]["commands"] > 0);
 }
 
 TEST_CASE(
@@ -229,4 +238,5 @@ TEST_CASE("currents by hand, from keys in a pipe: what a key says flows, and not
   CHECK(check.json()["frames"].get<int>() > 20);
   CHECK(check.json()["cannot_arm"].is_null());
   CHECK(faba_in(b.f.path, "rig jog scene.toml --step '3 m'").exit == 2);
+  CHECK(faba_in(b.f.path, "rig jog scene.toml --step 20").exit == 2);
 }

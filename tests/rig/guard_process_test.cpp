@@ -101,6 +101,7 @@ TEST_CASE("serial: a board that is unplugged or hangs: the guard faults and says
     for (int i = 0; i < 20 && g.report().state != CoilGuard::State::faulted; ++i) steer(g, 0.02);
     const std::string reason = g.report().reason.data();
     CHECK_MESSAGE(reason.find("port") != std::string::npos, reason);
+    CHECK_FALSE(g.report().obeyed);  // nobody may say that these coils are at rest
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/monotonic.h"
 #include "rig/bench_socket.h"
@@ -31,10 +32,14 @@ class SimulatedCoils final : public CoilDriver {
     if (socket_.read(&device, sizeof device, kPatience) != BenchSocket::Got::all)
       throw Error(Errc::device, at_,
                   "the simulated bench does not answer; another program may hold its coils");
-    for (const auto* list : {&outputs_, &inputs_})
+    for (const auto& [list, key, what] :
+         {std::tuple{&outputs_, "channel", "outputs"}, std::tuple{&inputs_, "sense", "inputs"}})
       for (const std::size_t n : *list)
         if (n >= device.outputs)
-          throw Error(Errc::device, at_, fmt::format("has {} outputs, and none \"{}\"", device.outputs, n));
+          throw Error(
+              Errc::device, at_,
+              fmt::format("the simulated bench has {} {}, the first is \"0\", and a rig.coil has {} = \"{}\"",
+                          device.outputs, what, key, n));
     count_ = device.outputs;
     enable_line_ = device.enable_line != 0;
     answer_.volts.fill(std::nan(""));

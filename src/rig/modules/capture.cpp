@@ -45,7 +45,9 @@ class Capture final : public Camera {
         std::all_of(p.device.begin(), p.device.end(), [](char c) { return c >= '0' && c <= '9'; });
     const bool opened = number ? capture_.open(std::stoi(p.device), backend(p.interface))
                                : capture_.open(p.device, backend(p.interface));
-    if (!opened) throw Error(Errc::device, p.device, "no camera can be opened there; see `faba rig list`");
+    if (!opened)
+      throw Error(Errc::device, fmt::format("camera \"{}\"", p.device),
+                  "no camera can be opened there; see `faba rig list`");
     ask(cv::CAP_PROP_FRAME_WIDTH, p.width), ask(cv::CAP_PROP_FRAME_HEIGHT, p.height),
         ask(cv::CAP_PROP_FPS, p.rate);
     ask(cv::CAP_PROP_BUFFERSIZE, 1);
