@@ -38,32 +38,39 @@ void BenchRig::safe() noexcept {
   if (coils_) coils_->disarm();
 }
 
+std::string BenchRig::and_the_coils() const {
+  if (!coils_) return "";
+  return coils_->report().obeyed ? "; the coils are at rest"
+                                 : "; the coils could not be told to rest: switch them off by hand";
+}
+
 void BenchRig::check_guard() {
   if (!armed_) return;
   const GuardReport r = coils_->report();
   if (r.state != CoilGuard::State::armed)
     throw Error(Errc::device, "coil guard",
-                fmt::format("{}; the coils {}", r.reason[0] ? r.reason.data() : "is disarmed",
-                            r.obeyed ? "are at rest" : "could not be told to rest: switch them off by hand"));
+                (r.reason[0] ? r.reason.data() : "is disarmed") + and_the_coils());
 }
 
 bool BenchRig::read(Observation& out) {
   if (const double took = monotonic_now() - arrived_; armed_ && took > p_.camera_timeout)
     throw Error(Errc::device, "rig",
-                fmt::format("the decision on a frame took {:.1f} s; the coils are at rest", took));
+                fmt::format("the decision on a frame took {:.1f} s{}", took, and_the_coils()));
   CameraFrame frame;
   CameraFeed::Got got;
   try {
     got = feed_.next(frame, monotonic_now() + p_.camera_timeout);
-  } catch (const Error&) {
+  } catch (const Error& e) {
     check_guard();  // what came first is what is said
-    throw;
+    if (!armed_) throw;
+    safe();
+    throw Error(e.code(), e.where(), e.reason() + and_the_coils());
   }
   if (got == CameraFeed::Got::end) return false;
   check_guard();
   if (got == CameraFeed::Got::nothing)
     throw Error(Errc::device, "camera",
-                fmt::format("has given no frame for {:g} s; the coils are at rest", p_.camera_timeout));
+                fmt::format("has given no frame for {:g} s{}", p_.camera_timeout, and_the_coils()));
   arrived_ = monotonic_now(), frame_t_ = frame.t;
   if (!began_) began_ = frame.t, first_ = frame.number;
   out.frame = frame.number - first_;

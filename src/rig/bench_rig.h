@@ -50,6 +50,7 @@ class BenchRig final : public Rig {
   };
   void answered(const GuardReport& r);
   void check_guard();
+  std::string and_the_coils() const;  ///< where they are, for the end of a message
 
   Params p_;
   CameraFeed feed_;
