@@ -14,8 +14,6 @@
 #include "core/monotonic.h"
 #include "rig/bench_socket.h"
 
-extern char** environ;
-
 namespace faba {
 namespace {
 

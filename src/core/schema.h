@@ -191,8 +191,8 @@ class Schema {
   Schema(std::string name, std::string summary) : fields_(std::move(name), std::move(summary)) {}
 
   template <class T>
-  Schema& add(std::string key, T P::*member, FieldInfo info) {
-    fields_.add(std::move(key), place(member), schema_detail::kValueType<T>, std::move(info), &defaults_);
+  Schema& add(const std::string& key, T P::*member, const FieldInfo& info) {
+    fields_.add(key, place(member), schema_detail::kValueType<T>, info, &defaults_);
     return *this;
   }
   /// Takes over every field of a struct that P holds, as keys of the same table.

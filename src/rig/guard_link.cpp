@@ -17,8 +17,6 @@
 #include "core/monotonic.h"
 #include "core/urgent.h"
 
-extern char** environ;
-
 namespace faba {
 namespace {
 
