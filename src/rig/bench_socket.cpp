@@ -127,9 +127,7 @@ bool BenchSocket::write(const void* from, std::size_t bytes, double patience) {
     const ssize_t n = send(descriptor_, at + put, bytes - put, MSG_NOSIGNAL);
     if (n > 0)
       put += std::size_t(n);
-    else if (errno != EAGAIN && errno != EINTR)
-      return false;
-    else if (!ready(descriptor_, POLLOUT, until))
+    else if ((errno != EAGAIN && errno != EINTR) || !ready(descriptor_, POLLOUT, until))
       return false;
   }
   return true;
