@@ -9,8 +9,6 @@
 namespace faba {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // A unit's factor is factor * 10^ten: keeping the decimal power apart makes "186 um" the same double
 // as 1.86e-4.
 struct Factor {

@@ -14,6 +14,7 @@ struct Wide {
 /// AVX-512, AVX2 and SSE2; the longest that the processor has is used. Longer ones a compiler would keep in
 /// memory. What is computed element by element is the same bits in all of them. The template must be
 /// [[gnu::always_inline]]. Sanitized builds and other compilers take the shortest.
+// NOLINTBEGIN(bugprone-macro-parentheses): what is given are lists in parentheses already
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__) && defined(__OPTIMIZE__) && !defined(FABA_ONE_ISA)
 #define FABA_WIDE(name, parameters, arguments)                                             \
@@ -30,3 +31,4 @@ struct Wide {
 #define FABA_WIDE(name, parameters, arguments) \
   void name parameters { name##_in<16> arguments; }
 #endif
+// NOLINTEND(bugprone-macro-parentheses)

@@ -18,6 +18,7 @@ double straight(std::span<const Vec2> points, double x) {
 
 std::vector<Vec2> turned(const std::vector<Vec2>& table) {
   std::vector<Vec2> t;
+  t.reserve(table.size());
   for (const Vec2 p : table) t.push_back({p.y, p.x});
   if (t.front().x > t.back().x) std::reverse(t.begin(), t.end());
   return t;

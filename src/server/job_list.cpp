@@ -95,6 +95,7 @@ struct JobList::Process {
     std::vector<std::string> all = {program.string()};
     all.insert(all.end(), words.begin(), words.end());
     std::vector<char*> argv;
+    argv.reserve(all.size() + 1);
     for (std::string& w : all) argv.push_back(w.data());
     argv.push_back(nullptr);
     std::string say = "FABA_PROGRESS_FD=" + std::to_string(kProgressFd);

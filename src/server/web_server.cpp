@@ -56,8 +56,8 @@ Credentials credentials_of(const Header& h, const std::optional<WebTarget>& targ
   c.method = std::string(h.method_string());
   c.host = values(h, http::field::host), c.origin = values(h, http::field::origin);
   c.cookie = values(h, http::field::cookie), c.authorization = values(h, http::field::authorization);
-  for (auto it = h.begin(); it != h.end(); ++it)
-    if (beast::iequals(it->name_string(), "Sec-Fetch-Site")) c.fetch_site.emplace_back(it->value());
+  for (const auto& field : h)
+    if (beast::iequals(field.name_string(), "Sec-Fetch-Site")) c.fetch_site.emplace_back(field.value());
   c.content_type = std::string(h[http::field::content_type]);
   c.upgrade = beast::iequals(h[http::field::upgrade], "websocket");
   if (target)

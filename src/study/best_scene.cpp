@@ -60,7 +60,7 @@ void write_best_scene(const Identification& r, const std::filesystem::path& dir)
 
   Gray8 picture(video.view.width, video.view.height);
   std::transform(video.ground->light.px.begin(), video.ground->light.px.end(), picture.px.begin(),
-                 [](float share) { return std::uint8_t(std::clamp(share, 0.0F, 1.0F) * 255 + 0.5F); });
+                 [](float share) { return std::uint8_t(std::lround(std::clamp(share, 0.0F, 1.0F) * 255)); });
   write_png(dir / "background.png", picture);
 
   Document d = episode_scenario(video, episode,

@@ -44,6 +44,7 @@ class BurstStatistics final : public EpisodeStatistics {
   std::vector<double> of_frames(const std::vector<GrayF>& frames) const override {
     const Detector detector = view_.detector();
     std::vector<std::vector<Spot>> spots;
+    spots.reserve(frames.size());
     for (const GrayF& f : frames) spots.push_back(detector.find(f));
     return summed(spots);
   }

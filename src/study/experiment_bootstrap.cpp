@@ -53,6 +53,7 @@ std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& se
   if (experiments.size() < 3) return {};
   const Index d = centre.size();
   std::vector<Parabola> each;
+  each.reserve(experiments.size());
   for (const auto& columns : experiments)
     each.push_back(parabola_of(search.likelihood(columns), centre, kStep * sd));
   StudyRandom random(seed, 3);
@@ -68,6 +69,7 @@ std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& se
     for (Index j = 0; j < d; ++j) estimates[std::size_t(j)].push_back(std::clamp(u[j], 0.0, 1.0));
   }
   std::vector<std::array<double, 2>> out;
+  out.reserve(estimates.size());
   for (const auto& e : estimates) out.push_back({quantile(e, 0.05), quantile(e, 0.95)});
   return out;
 }

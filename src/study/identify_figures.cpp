@@ -64,6 +64,7 @@ Figure courses(const Identification& r, std::size_t video, std::size_t episode, 
                const std::vector<std::tuple<const char*, const char*, Ink>>& what, double (*map)(double)) {
   Figure f{heading, caption, plot_of(heading, "time (s)", y)};
   std::vector<Course> all;
+  all.reserve(what.size());
   for (const auto& [name, label, ink] : what)
     all.push_back(course_of(r, video, episode, name, label, ink, map));
   for (Course& c : all) f.plot.add(std::move(c.shown));
@@ -124,8 +125,8 @@ Figure spread_figure(const EpisodePictures& e, const ResponseVideo& v, double de
       "one simulation of the best model (dashed).",
       plot_of("Cells along the drive", "along the drive (share of the view)", "share of the cells")};
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};
-  std::vector<double> x;
-  for (int i = 0; i < kBins; ++i) x.push_back((i + 0.5) / kBins);
+  std::vector<double> x(kBins);
+  for (int i = 0; i < kBins; ++i) x[std::size_t(i)] = (i + 0.5) / kBins;
   for (std::size_t k = 0; k < e.t_s.size(); ++k) {
     f.plot.add(Line{.x = x,
                     .y = spread_along(e.real[k], v.view, deg),

@@ -42,7 +42,8 @@ std::vector<FlowHistograms> histograms_of(const std::vector<GrayF>& frames, cons
 LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std::function<void()>& reading) {
   LegacyReference r;
   const Drive& drive = e.drives.front();
-  for (double t = 0; t <= drive.t1_s + 0.5 * v.view.frame_s; t += v.view.frame_s) r.times_s.push_back(t);
+  const auto last = std::lround(drive.t1_s / v.view.frame_s);
+  for (long k = 0; k <= last; ++k) r.times_s.push_back(double(k) * v.view.frame_s);
   std::vector<double> at;
   for (const double t : r.times_s) at.push_back(e.begins_s + t);
   Pool pool(1);

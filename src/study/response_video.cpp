@@ -65,6 +65,7 @@ std::vector<Vec2> evenly_mixed(const std::vector<Vec2>& places) {
   const auto key = [](std::size_t k) { return std::fmod(kGolden * double(k), 1.0); };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   std::vector<Vec2> mixed;
+  mixed.reserve(order.size());
   for (const std::size_t k : order) mixed.push_back(places[k]);
   return mixed;
 }

@@ -344,7 +344,7 @@ Foreground::Learning Foreground::learn_at(double gain, double dt_s, double noise
 
 void Foreground::learn(const Learning& l, int first, int end) {
   each_set(guess_.data() + first, end - first, [&](int at) {
-    const auto i = std::size_t(first + at);
+    const auto i = std::size_t(first) + std::size_t(at);
     if (!covered_[i] || weights_.px[i] < l.follow.least_weight || smooth_.px[i] < l.follow.least_smooth)
       return;
     if (proves_background(i, l.least_change, l.dt_s)) guess_[i] |= kProvedWrong;

@@ -74,7 +74,7 @@ FABA_VECTORISED void follow_picture(const float* picture, const float* weights, 
     const bool lighter = (weights[i] < q.least_weight) | (smooth[i] < q.least_smooth);
     const bool wrong = (guess[i] & kProvedWrong) != 0;
     const float calm = covered[i] ? q.absorb : q.follow;
-    const float rate = lighter | wrong ? q.at_once : calm;
+    const float rate = (lighter | wrong) ? q.at_once : calm;
     background[i] = q.next * (background[i] + rate * (q.back * picture[i] - background[i]));
     guess[i] = lighter ? std::uint8_t(0) : std::uint8_t(guess[i] & std::uint8_t(~kProvedWrong));
   }

@@ -31,22 +31,23 @@ struct Taps {
 template <int bytes>
 [[gnu::always_inline]] inline void add_taps_in(const Taps& t, float* out, int n) {
   using V = typename Wide<float, bytes>::type;
-  constexpr int kLanes = bytes / int(sizeof(float)), kAtOnce = 4;  // sums, so that none waits for another
+  constexpr std::ptrdiff_t kLanes = bytes / int(sizeof(float)),
+                           kAtOnce = 4;  // sums, so that none waits for another
   const int taps = int(t.weights.size());
   const float* w = t.weights.data();
-  int i = 0;
+  std::ptrdiff_t i = 0;
   for (; i + kAtOnce * kLanes <= n; i += kAtOnce * kLanes) {
     V sum[kAtOnce];
 #pragma GCC unroll 4
-    for (int a = 0; a < kAtOnce; ++a)
+    for (std::ptrdiff_t a = 0; a < kAtOnce; ++a)
       sum[a] = w[0] * *reinterpret_cast<const V*>(t.before[0] + i + a * kLanes);
     for (int k = 1; k < taps; ++k)
 #pragma GCC unroll 4
-      for (int a = 0; a < kAtOnce; ++a)
+      for (std::ptrdiff_t a = 0; a < kAtOnce; ++a)
         sum[a] += w[k] * (*reinterpret_cast<const V*>(t.before[k] + i + a * kLanes) +
                           *reinterpret_cast<const V*>(t.after[k] + i + a * kLanes));
 #pragma GCC unroll 4
-    for (int a = 0; a < kAtOnce; ++a) *reinterpret_cast<V*>(out + i + a * kLanes) = sum[a];
+    for (std::ptrdiff_t a = 0; a < kAtOnce; ++a) *reinterpret_cast<V*>(out + i + a * kLanes) = sum[a];
   }
   for (; i < n; ++i) {
     float sum = w[0] * t.before[0][i];

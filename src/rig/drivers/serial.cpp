@@ -110,8 +110,7 @@ class Serial final : public CoilDriver {
     if (tcsetattr(descriptor_, TCSANOW, &t) != 0) fail(std::strerror(errno));
     tcflush(descriptor_, TCIOFLUSH);
     // Coils that nothing is said of stay at the range's middle, which is where the firmware's neutral is.
-    for (std::size_t i = 0; i < microvolts_.size(); ++i)
-      microvolts_[i] = to_microvolts(c.neutral.empty() ? 0 : c.neutral[0]);
+    std::ranges::fill(microvolts_, to_microvolts(c.neutral.empty() ? 0 : c.neutral[0]));
     const double until = monotonic_now() + kGreeting;
     while (!answered_) {  // a board may begin anew when its line is opened, and takes its time
       if (const Status s = write(c.neutral, false); !s && monotonic_now() > until) fail(s.trouble);
@@ -137,7 +136,7 @@ class Serial final : public CoilDriver {
     if (!asked_) asked_ = now;
     if (const ssize_t n = ::write(descriptor_, line.data(), line.size()); n != ssize_t(line.size()))
       return {fmt::format("{}: {}", p_.port, n < 0 ? std::strerror(errno) : "takes no more")};
-    if (const Status s = listen(); !s) return s;
+    if (Status s = listen(); !s) return s;
     if (enable && enabled_ && state_ > 1)
       return {
           fmt::format("{}: the board went to rest by itself ({})", p_.port,
@@ -147,7 +146,7 @@ class Serial final : public CoilDriver {
     return {};
   }
   Status sense(std::span<double> volts) override {
-    if (const Status s = listen(); !s) return s;
+    if (Status s = listen(); !s) return s;
     for (std::size_t i = 0; i < volts.size(); ++i)
       volts[i] = senses_[i] < sensed_.size() ? sensed_[senses_[i]] : std::nan("");
     return {};

@@ -136,8 +136,7 @@ class Capture final : public Camera {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) std::unique_ptr<Camera> faba_open_capture(
-    const CaptureParams& p);
-std::unique_ptr<Camera> faba_open_capture(const CaptureParams& p) { return std::make_unique<Capture>(p); }
+extern "C" __attribute__((visibility("default"))) Camera* faba_open_capture(const CaptureParams& p);
+Camera* faba_open_capture(const CaptureParams& p) { return std::make_unique<Capture>(p).release(); }
 
 }  // namespace faba

@@ -17,7 +17,7 @@ struct CaptureParams {
 };
 
 /// The function faba_open_capture of the module faba-capture.so, which is of the same build as the program.
-/// Throws Error(device).
-using OpenCapture = std::unique_ptr<Camera>(const CaptureParams& p);
+/// The camera is the caller's to delete. Throws Error(device).
+using OpenCapture = Camera*(const CaptureParams& p);
 
 }  // namespace faba
