@@ -10,6 +10,7 @@
 #include <cstring>
 #include <thread>
 
+#include "core/child.h"
 #include "core/file.h"
 #include "core/monotonic.h"
 #include "rig/bench_socket.h"
@@ -18,6 +19,7 @@ namespace faba {
 namespace {
 
 constexpr double kPatience = 30;  // s for a large swarm to be placed
+constexpr double kEnding = 5;     // s for it to end when told
 
 [[noreturn]] void fail(const std::string& what) { throw Error(Errc::device, "simulated bench", what); }
 
@@ -49,16 +51,21 @@ BenchProcess::BenchProcess(const Scenario& s, std::uint64_t seed) {
       std::filesystem::remove_all(folder_, ec);
       fail("ended before it was there");
     }
-    if (monotonic_now() > until) fail("takes too long");
+    if (monotonic_now() > until) {
+      end();
+      fail("takes too long");
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   std::filesystem::remove(scene, ec);  // it has been read; what is killed now leaves no more than a folder
 }
 
-BenchProcess::~BenchProcess() {
+BenchProcess::~BenchProcess() { end(); }
+
+void BenchProcess::end() noexcept {
   if (process_ > 0) {
     kill(process_, SIGTERM);
-    waitpid(process_, nullptr, 0);
+    end_child(process_, kEnding);
   }
   std::error_code ec;
   std::filesystem::remove_all(folder_, ec);

@@ -19,6 +19,7 @@ class BenchProcess {
   std::string at() const { return (folder_ / "bench").string(); }  ///< its socket
 
  private:
+  void end() noexcept;
   std::filesystem::path folder_;  ///< of its own, for nobody else to read
   pid_t process_ = -1;
 };

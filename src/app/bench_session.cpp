@@ -138,8 +138,12 @@ bool BenchSession::run() {
       m.whole = loop.last_t + 0.5 * loop.frame_period >= duration;
       return !m.whole && !(m.options.stop && m.options.stop->load());
     });
+    const bool by_hand = !m.whole && m.options.stop && m.options.stop->load();
+    if (by_hand)
+      m.notes.push_back(fmt::format("ended by hand after {:.3g} s of {:.3g} s", loop.last_t, duration));
+    if (loop.next == 0 && !by_hand) throw Error(Errc::device, "camera", "has no more pictures");
     // A video that is played may end before.
-    if (!m.whole && !(m.options.stop && m.options.stop->load())) {
+    if (!m.whole && !by_hand) {
       m.whole = true;
       m.notes.push_back(
           fmt::format("the camera's pictures ended after {:.3g} s of {:.3g} s", loop.last_t, duration));

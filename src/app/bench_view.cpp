@@ -1,5 +1,7 @@
 #include "app/bench_view.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double kUnwatched = 20;  // s without a look, after which a camera is closed
 constexpr double kTurn = 0.1;      // s between looks at the clock
+constexpr double kSilent = 2;      // s without a picture, after which this is said
 constexpr double kRateTime = 1;    // s over which the rate is averaged
 
 }  // namespace
@@ -33,7 +36,8 @@ struct BenchView::View {
   std::atomic<double> looked_at = monotonic_now();
   std::mutex mutex;  // of what follows
   CameraFrame newest;
-  double rate = 0;  // Hz
+  double came = monotonic_now();  // s, when it did
+  double rate = 0;                // Hz
   std::string trouble;
   std::jthread fetcher;
 };
@@ -43,7 +47,11 @@ void BenchView::View::fetch(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       CameraFrame f;
       const CameraFeed::Got got = feed.next(f, monotonic_now() + kTurn);
-      if (got == CameraFeed::Got::end) return;  // its last picture stays
+      if (got == CameraFeed::Got::end) {
+        const std::lock_guard lock(mutex);
+        trouble = "camera: has no more pictures; this is the last one";
+        return;
+      }
       if (got == CameraFeed::Got::nothing) continue;
       const std::lock_guard lock(mutex);
       const double dt = f.t - newest.t;
@@ -51,7 +59,7 @@ void BenchView::View::fetch(const std::stop_token& stop) {
         const double share = std::min(1.0, dt / kRateTime);
         rate = rate == 0 ? 1 / dt : 1 / (1 / rate + share * (dt - 1 / rate));
       }
-      newest = std::move(f);
+      newest = std::move(f), came = monotonic_now();
     }
   } catch (const Error& e) {
     const std::lock_guard lock(mutex);
@@ -113,7 +121,12 @@ Json BenchView::state() {
             {"controls", controls}};
   const std::lock_guard lock(v->mutex);
   j["rate_hz"] = v->rate > 0 ? Json(v->rate) : Json();
-  if (!v->trouble.empty()) j["trouble"] = v->trouble;
+  if (!v->trouble.empty()) {
+    j["trouble"] = v->trouble;
+  } else if (const double silent = monotonic_now() - v->came; silent > kSilent) {
+    j["trouble"] = fmt::format("camera: has given no picture for {:.0f} s", silent);
+  }
+  if (j.contains("trouble")) j["rate_hz"] = nullptr;
   if (v->newest.image && !v->newest.image->px.empty()) {
     const auto& px = v->newest.image->px;
     double sum = 0;

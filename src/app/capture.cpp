@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <optional>
 #include <vector>
 
 #include "core/error.h"
@@ -31,6 +32,7 @@ class Store {
     at_.push_back(t);
   }
   virtual void finish() {}
+  virtual std::string begun() const = 0;  ///< where the pictures are that were not finished
   std::uint64_t size() const { return at_.size(); }
 
  protected:
@@ -49,6 +51,7 @@ class VideoStore final : public Store {
         writer_(job.out.string() + ".part",
                 job.format == "mp4" ? VideoFormat::mp4 : VideoFormat::lossless_avi, camera.width(),
                 camera.height(), rate, 0, VideoPixels::grey8) {}
+  std::string begun() const override { return out_.string() + ".part"; }
   void finish() override {
     if (at_.empty()) {  // nothing is left of nothing
       std::error_code ec;
@@ -75,6 +78,7 @@ class PictureStore final : public Store {
         job_(job),
         colour_(job.format == "ppm"),
         encoder_(kind_of(job.format), camera.width(), camera.height(), {}, job.out.string()) {}
+  std::string begun() const override { return job_.out.string(); }
 
  private:
   static FrameEncoder::Kind kind_of(const std::string& format) {
@@ -147,7 +151,7 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
     else
       store->put(f, f.t - began);
   };
-  std::exception_ptr failure;
+  std::optional<Error> failure;
   try {
     while (!stopped()) {
       CameraFrame f;
@@ -179,16 +183,19 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
         break;
       }
     }
-  } catch (const Error&) {
-    failure = std::current_exception();
+  } catch (const Error& e) {
+    failure = e;
   }
   done.dropped = feed.dropped(), done.corrupt = camera->corrupt();
   for (CameraFrame& f : waiting) {
     store->put(f, f.t - began);
     f.image.reset();
   }
+  if (failure && store->size() > 0)
+    throw Error(failure->code(), failure->where(),
+                fmt::format("{}; {} frames are in {}", failure->reason(), store->size(), store->begun()));
   store->finish();
-  if (failure) std::rethrow_exception(failure);
+  if (failure) throw Error(*failure);
   return done;
 }
 

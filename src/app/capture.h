@@ -35,8 +35,9 @@ struct Captured {
 
 /// Captures until one of the ends is reached, the camera has no more, or somebody asks to stop. Beside a
 /// video `out` the times of its frames are in `out` + ".csv", beside pictures in times.csv. What was captured
-/// is whole on every way out. Throws Error(usage) for an `out` that will not do, Error(device) when the
-/// camera fails or is silent for too long, Error(internal) for a full disk.
+/// stays on every way out, of a video in `out` + ".part" when the camera failed. Throws Error(usage) for an
+/// `out` that will not do, Error(device) when the camera fails or is silent for too long, Error(internal) for
+/// a full disk.
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job);
 
 }  // namespace faba

@@ -11,7 +11,7 @@ Schema<Limits::Params> Limits::schema() {
            {.unit = "A", .min = 0, .max = 1000, .doc = "Largest current in any coil", .source = "assumed"})
       .add("max_slew", &Params::max_slew,
            {.unit = "A/s",
-            .min = 0,
+            .min = 1e-6,
             .max = 1e9,
             .doc = "Fastest change of any current; unlimited when absent"})
       .add("max_frame_age", &Params::max_frame_age,
@@ -50,7 +50,9 @@ void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on) {
     const Target target = loop.reference->update(estimate);
     Command command = loop.controller->update(estimate, target, dt);
     if (seen.rested) loop.limits.rested();
-    const bool limited = loop.limits.apply(command, dt, seen.age);
+    // Nothing flowed in the frames before: a change out of rest has one frame's time, as the guard reckons.
+    const double changing = seen.rested ? std::min(dt, loop.frame_period) : dt;
+    const bool limited = loop.limits.apply(command, changing, seen.age);
     loop.rig.write(command);
     loop.last = command;
     loop.last_t = seen.t;

@@ -74,6 +74,7 @@ Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
     if (frames == 0) first = seen.t;
     estimate = controls.estimator->update(seen, {});
   }
+  if (frames == 0) throw Error(Errc::device, "camera", "has no more pictures to look at");
   const GuardReport guard = rig.coils()->report();
   Json sensed = Json::array();
   for (std::size_t k = 0; k < rig.coils()->coils(); ++k)

@@ -18,6 +18,7 @@ namespace faba {
 namespace {
 
 constexpr const char* kStudy = "study.toml";
+constexpr double kRound = 1e-9;
 constexpr double kLook = 0.05;  // s between looks at the clock while nothing is to be done
 
 Json field_words(Vec2 b) { return {fmt::format("{} T", b.x), fmt::format("{} T", b.y)}; }
@@ -48,6 +49,23 @@ Scenes scenes_of(Document d) {
   d.set("duration", Json(fmt::format("{} s", p.before + p.record)), "step-response");
   d.set("record.lossless", Json(true), "step-response");
   return {gather, read_scenario(d, builtin_parts())};
+}
+
+// Coils that are asked for more than they take give another field, and in another direction.
+void check_field(const Scenario& s) {
+  const BenchControls c(s);
+  const double wanted = s.rig->step_response.field;
+  const Command asked = c.controller->update({}, {}, s.frame_period());
+  const std::vector<double> common = c.field->max_currents(s.limits.max_current),
+                            wired = s.rig->max_current();
+  double share = 1;
+  for (std::size_t k = 0; k < asked.current.size(); ++k)
+    if (const double i = std::fabs(asked.current[k]); i > 0)
+      share = std::min(share, std::min(common[k], wired[k]) / i);
+  if (share < 1 - kRound)
+    throw Error(Errc::usage, "rig.step_response.field",
+                fmt::format("is {:.3g} uT; with the currents that these coils take they give {:.3g} uT",
+                            1e6 * wanted, 1e6 * share * wanted));
 }
 
 // The study file: what is there already stays.
@@ -136,10 +154,13 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
     throw Error(Errc::usage, "--experiment", "is a name for files: without / and no dot in front");
   Scenes scenes = scenes_of(job.scene);
   const StepResponseParams p = scenes.gather.rig->step_response;
+  check_field(scenes.gather);
+  std::error_code ec;
+  if (std::filesystem::exists(job.run.out / run_files::kScenario, ec))
+    throw Error(Errc::usage, job.run.out.string(), "is the directory of a run; choose another --out");
   OpenBench bench(scenes.gather, job.seed);
   scenes.respond.camera.rate = scenes.gather.camera.rate;
   bench.try_coils();
-  std::error_code ec;
   std::filesystem::create_directories(job.run.out, ec);
   if (ec) throw Error(Errc::usage, job.run.out.string(), "cannot be made: " + ec.message());
   StudyFile study(job.run.out, p, job.experiment);

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <optional>
 
 #include "app/open_bench.h"
 #include "cli/quantity.h"
@@ -72,6 +75,23 @@ class Keyboard {
   double not_before_ = 0;  ///< s
 };
 
+// Towards what is asked, no faster than the guard allows.
+void approach(std::vector<double>& current, const std::vector<double>& asked, std::optional<double> slew,
+              double dt) {
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    const double most = slew ? *slew * dt : std::numeric_limits<double>::infinity();
+    current[k] += std::clamp(asked[k] - current[k], -most, most);
+  }
+}
+
+// What of a line a terminal shows in one.
+std::string cut_to_terminal(std::string line) {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 && line.size() >= size.ws_col)
+    line.resize(size.ws_col - 1U);
+  return line;
+}
+
 std::string line_of(const GuardReport& g, const std::vector<double>& asked, std::size_t chosen) {
   std::string line = fmt::format("{:<8}", word(g.state));
   for (std::size_t k = 0; k < asked.size(); ++k) {
@@ -79,11 +99,15 @@ std::string line_of(const GuardReport& g, const std::vector<double>& asked, std:
     if (!std::isnan(g.sensed[k])) line += fmt::format(", sensed {:+.3f}", g.sensed[k]);
     line += k == chosen ? "]" : " ";
   }
+  if (g.state == CoilGuard::State::faulted) {
+    line = fmt::format("faulted  {}{}; r makes it ready to be armed", g.reason.data(),
+                       g.obeyed ? "" : "; could not be told to rest: switch it off by hand");
+    return line;
+  }
   if (g.reason[0])
     line += fmt::format("  {}", g.reason.data());
   else if (g.state == CoilGuard::State::disarmed)
     line += "  a arms it";
-  if (!g.obeyed) line += "; could not be told to rest: switch it off by hand";
   return line;
 }
 
@@ -93,6 +117,7 @@ int rig_jog(const RigVerb& v, const Common& c) {
   Document d = read_scene(v.run);
   d.set("camera.sensor", Json("frames"), "faba rig");
   Scenario s = read_scenario(d, builtin_parts());
+  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench whose coils these are");
   const double step = quantity_of(v.step, "A", "--step", "50 mA");
   if (!(step > 0)) throw Error(Errc::usage, "--step", "must be above zero");
   if (const double largest = std::ranges::max(s.rig->max_current()); step > largest)
@@ -102,6 +127,8 @@ int rig_jog(const RigVerb& v, const Common& c) {
   GuardLink coils(bench.guard_setup({}));
   const std::vector<double> most = s.rig->max_current();
   std::vector<double> asked(most.size(), 0.0);
+  std::vector<double> put = asked;  // as far as they have come
+  double last = monotonic_now();    // s, of the request before
   std::size_t chosen = 0;
   std::string shown;
   Keyboard keys;
@@ -122,22 +149,28 @@ int rig_jog(const RigVerb& v, const Common& c) {
     if (key == 'r' && before.state == CoilGuard::State::faulted) coils.reset();
     if (before.state != CoilGuard::State::armed) {
       std::fill(asked.begin(), asked.end(), 0.0);  // current comes from nothing but a key
+      std::fill(put.begin(), put.end(), 0.0);
       if (key == 'a' && before.state == CoilGuard::State::disarmed) coils.arm();
     }
-    coils.request(asked, monotonic_now());
+    const double now = monotonic_now();
+    approach(put, asked, s.rig->guard.max_slew, now - last);
+    last = now;
+    coils.request(put, now);
     const std::string line = line_of(coils.report(), asked, chosen);
     if (line == shown || !speaks) continue;
-    fmt::print("{}{}{}", keys.terminal() ? "\r\033[K" : "", line, keys.terminal() ? "" : "\n");
+    fmt::print("{}{}{}", keys.terminal() ? "\r\033[K" : "", keys.terminal() ? cut_to_terminal(line) : line,
+               keys.terminal() ? "" : "\n");
     std::fflush(stdout);
     shown = line;
   }
   if (keys.terminal() && speaks) fmt::print("\n");
   coils.disarm();
+  const GuardReport g = coils.report();
   if (c.json) {
-    const GuardReport g = coils.report();
     fmt::print("{}\n", Json{{"state", word(g.state)}, {"reason", g.reason.data()}}.dump());
   }
-  return stop_requested().load() ? int(Errc::interrupted) : 0;
+  if (stop_requested().load()) return int(Errc::interrupted);
+  return g.state == CoilGuard::State::faulted ? int(Errc::device) : 0;
 }
 
 }  // namespace faba::cli

@@ -79,7 +79,7 @@ int rig_run(const RigVerb& v, const Common& c) {
   }
   bar.clear();
   write_run_report(session.dir());
-  session.complete();
+  if (whole) session.complete();
   const Metrics metrics = control_metrics(read_series(session.dir() / "series.csv"));
   const Json manifest = session.manifest();
   if (!c.quiet)
@@ -210,9 +210,10 @@ int rig_check(const RigVerb& v, const Common& c) {
   constexpr double kLook = 2;  // s
   Scenario s = bench_scene(v);
   const Json j = check_bench(s, s.params.seed.value_or(1), kLook);
+  const int code = j.at("cannot_arm").is_null() ? 0 : int(Errc::device);
   if (c.json) {
     fmt::print("{}\n", j.dump());
-    return 0;
+    return code;
   }
   const auto said = [&](const char* key, const char* unit) {
     return j.at(key).is_null() ? std::string("-") : three_digits(j.at(key).get<double>()) + unit;
@@ -236,7 +237,7 @@ int rig_check(const RigVerb& v, const Common& c) {
              sensed);
   if (!j["cannot_arm"].is_null())
     fmt::print("         cannot be armed: {}\n", j["cannot_arm"].get<std::string>());
-  return j["cannot_arm"].is_null() ? 0 : int(Errc::device);
+  return code;
 }
 
 int rig_replay(const RigVerb& v, const Common& c) {
@@ -262,6 +263,9 @@ int rig_replay(const RigVerb& v, const Common& c) {
 int rig_simulate(const RigVerb& v, const Common& c) {
   const Scenario s = bench_scene(v);
   const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
+  std::error_code ec;
+  if (!v.run.force && std::filesystem::exists(v.log, ec))
+    throw Error(Errc::usage, v.log.string(), "exists; choose another --log, or --force to replace it");
   Pool pool(v.run.threads);
   const auto ready = [&] {
     if (c.quiet || c.json) return;

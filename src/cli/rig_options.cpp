@@ -37,7 +37,7 @@ void add_rig_verbs(CLI::App& app, CommandLine& line) {
       ->check(not_empty);
   v->add_option("--format", o->format, "Of numbered pictures in a folder")
       ->check(CLI::IsMember({"png", "pgm", "ppm", "tiff"}));
-  v->add_option("--frames", o->frames, "End after as many frames of the camera")
+  v->add_option("--frames", o->frames, "End after as many frames of the camera, or --for if that is sooner")
       ->check(CLI::Range(std::uint64_t(1), std::uint64_t(1) << 40));
   v->add_option("--for", o->time, "End after as long, such as \"10 s\"; until Ctrl-C without an end");
   CLI::Option* one_of =
@@ -95,6 +95,7 @@ void add_rig_verbs(CLI::App& app, CommandLine& line) {
   add_scene(v, o->run);
   v->add_option("--at", o->at, "Name of the socket to be made")->required()->check(not_empty);
   v->add_option("--log", o->log, "CSV of times, voltages and currents")->check(not_empty);
+  v->add_flag("--force", o->run.force, "Replace an earlier log");
   v->add_flag("--once", o->once, "End when those that came have gone");
   v->callback([o, &line] { line.code = rig_simulate(*o, line.common); });
 }

@@ -17,7 +17,7 @@ Schema<Amplifier::Params> Amplifier::schema() {
            {.unit = "A/V", .min = -1e4, .max = 1e4, .doc = "Current per volt beyond it", .source = "assumed"})
       .add("saturation", &Params::saturation,
            {.unit = "A",
-            .min = 0,
+            .min = 1e-6,
             .max = 1e3,
             .doc = "Largest current of either direction",
             .source = "assumed"})
@@ -62,7 +62,11 @@ Schema<Amplifier::Params> Amplifier::schema() {
       .add("fault_after", &Params::fault_after,
            {.unit = "s", .min = 0, .max = 1e6, .doc = "Time after the first command when it breaks"})
       .check([](const Params& p) -> std::string {
-        return p.least_volts < p.most_volts ? "" : "least_volts must be below most_volts";
+        if (p.least_volts >= p.most_volts) return "least_volts must be below most_volts";
+        if (p.gain == 0) return "gain must not be 0: no voltage would give a current";
+        if (p.reference < p.least_volts || p.reference > p.most_volts)
+          return "reference must be between least_volts and most_volts: no current flows there";
+        return "";
       });
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/monotonic.h"
 #include "vision/image.h"
@@ -30,11 +31,11 @@ void BenchRig::begin() {
 void BenchRig::arm() {
   if (!coils_) throw Error(Errc::device, "rig", "has no coils to arm");
   coils_->arm();
-  armed_ = true;
+  armed_ = just_armed_ = true;
 }
 
 void BenchRig::safe() noexcept {
-  armed_ = false;
+  armed_ = just_armed_ = false;
   if (coils_) coils_->disarm();
 }
 
@@ -79,6 +80,7 @@ bool BenchRig::read(Observation& out) {
   out.seen.clear();
   out.image = frame.image;
   out.rested = coils_ && coils_->wake();
+  if (std::exchange(just_armed_, false)) out.rested = true;  // what was decided before went nowhere
   delays_.push_back({out.age, std::nan("")});
   return true;
 }

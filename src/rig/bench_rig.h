@@ -62,7 +62,7 @@ class BenchRig final : public Rig {
   std::deque<Asked> asked_;      ///< not answered yet
   std::vector<Delay> delays_;
   std::uint64_t dropped_before_ = 0;
-  bool armed_ = false;
+  bool armed_ = false, just_armed_ = false;
 };
 
 }  // namespace faba

@@ -75,12 +75,15 @@ Schema<WiredCoil> WiredCoil::schema() {
             .max = 1e3,
             .doc = "Highest voltage of the output",
             .source = "USB-6009"})
-      .add(
-          "max_current", &WiredCoil::max_current,
-          {.unit = "A", .min = 0, .max = 1e3, .doc = "The guard faults on a larger one", .source = "assumed"})
+      .add("max_current", &WiredCoil::max_current,
+           {.unit = "A",
+            .min = 1e-6,
+            .max = 1e3,
+            .doc = "The guard faults on a larger one",
+            .source = "assumed"})
       .add("max_rms", &WiredCoil::max_rms,
            {.unit = "A",
-            .min = 0,
+            .min = 1e-6,
             .max = 1e3,
             .doc = "Root mean square current that the coil bears without end; the guard faults above it",
             .source = "assumed"})

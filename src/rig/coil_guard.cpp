@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kWithin = 0.1, kFrames = 2;  // s and frames, in the larger of which all current must be gone
 constexpr double kReaction = 0.03;            // s of it: the guard, its device and a coil's L/R
-constexpr double kRound = 1 + 1e-9;           // slew is reckoned by doubles that went through a pipe
+constexpr double kRound = 1 + 1e-6;  // slew is reckoned by differences of times, 1e-10 s on an old clock
 
 const char* sentence(CoilGuard::Fault f) {
   using enum CoilGuard::Fault;
@@ -23,7 +23,7 @@ const char* sentence(CoilGuard::Fault f) {
     case over_current:
       return "more current was asked for than the coil bears";
     case over_slew:
-      return "a current was to change faster than limits.max_slew";
+      return "a current was to change faster than max_slew allows";
     case too_warm:
       return "a coil has had as much heat as it bears";
     case stale:
@@ -66,7 +66,7 @@ Schema<CoilGuard::Params> CoilGuard::schema() {
             .source = "100 ms less what device and coil take"})
       .add("max_slew", &Params::max_slew,
            {.unit = "A/s",
-            .min = 0,
+            .min = 1e-6,
             .max = 1e9,
             .doc = "Fastest change of any current; unlimited when absent"})
       .add("thermal_time", &Params::thermal_time,
@@ -201,12 +201,18 @@ void CoilGuard::warm(double now) {
   now_ = std::max(now, now_);
 }
 
-double CoilGuard::heat() const {
-  double most = 0;
-  for (std::size_t k = 0; k < coils_.size(); ++k)
-    if (heat_[k] > 0) most = std::max(most, heat_[k] / (coils_[k].max_rms * coils_[k].max_rms));
+double CoilGuard::heat_of(std::size_t k) const {
+  return heat_[k] > 0 ? heat_[k] / (coils_[k].max_rms * coils_[k].max_rms) : 0;
+}
+
+std::size_t CoilGuard::warmest() const {
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < coils_.size(); ++k)
+    if (heat_of(k) > heat_of(most)) most = k;
   return most;
 }
+
+double CoilGuard::heat() const { return coils_.empty() ? 0 : heat_of(warmest()); }
 
 void CoilGuard::look(double now) {
   warm(now);
@@ -216,7 +222,8 @@ void CoilGuard::look(double now) {
   else if (now - fresh_ > *p_.command_deadline)
     fail(Fault::late, fmt::format("for {:.0f} ms", 1e3 * (now - fresh_)), now);
   else if (heat() > 1)
-    fail(Fault::too_warm, fmt::format("its current's mean square over {:g} s", p_.thermal_time), now);
+    fail(Fault::too_warm,
+         fmt::format("coil {}: its current's mean square over {:g} s", warmest(), p_.thermal_time), now);
 }
 
 bool CoilGuard::flows() const {

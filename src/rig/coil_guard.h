@@ -94,6 +94,8 @@ class CoilGuard {
   };
   Fault objection(const Request& r, double now, std::string& detail) const;
   void warm(double now);
+  double heat_of(std::size_t coil) const;
+  std::size_t warmest() const;
   bool flows() const;
   void put(std::vector<double> current, double now);
 

@@ -5,7 +5,6 @@
 #include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <cstring>
 #include <utility>
 
+#include "core/child.h"
 #include "core/monotonic.h"
 #include "core/urgent.h"
 
@@ -21,6 +21,9 @@ namespace faba {
 namespace {
 
 constexpr double kPatience = 10;         // s for a device to be opened
+constexpr double kAnswer = 2;            // s for what an open device is told
+constexpr double kSilent = 1;            // s without a report, of which ten a second come: it stands still
+constexpr double kEnding = 5;            // s for the coils to be brought to rest once more
 constexpr double kBeatsPerDeadline = 8;  // so that one that comes late does no harm
 constexpr double kPatient = 0.7;         // of the guard's deadline, so that rest comes before it, a beat late
 
@@ -64,7 +67,7 @@ GuardLink::GuardLink(const GuardSetup& setup, const std::filesystem::path& guard
   const std::string text = setup.to_json().dump();
   try {
     if (send(link_, text.data(), text.size(), MSG_NOSIGNAL) != ssize_t(text.size())) fail("does not listen");
-    const GuardReport first = wait_for([](const GuardReport&) { return true; });
+    const GuardReport first = wait_for([](const GuardReport&) { return true; }, kPatience);
     if (first.state == CoilGuard::State::faulted) fail(first.reason.data());
   } catch (...) {
     close_link();
@@ -104,7 +107,7 @@ GuardLink::~GuardLink() {
 // The guard ends when the link does, and it is waited for: it may have a device to bring to rest.
 void GuardLink::close_link() noexcept {
   close(link_);
-  if (process_ > 0) waitpid(process_, nullptr, 0);
+  end_child(process_, kEnding);
 }
 
 bool GuardLink::tell(ToGuard m) const {
@@ -113,34 +116,39 @@ bool GuardLink::tell(ToGuard m) const {
   return send(link_, &m, sizeof m, MSG_DONTWAIT | MSG_NOSIGNAL) == ssize_t(sizeof m);
 }
 
-// Reads what is there. False when the guard is gone.
+// Reads what is there. False when the guard is gone, or stands still: it counts as gone from then on.
 bool GuardLink::drain() {
   GuardReport r;
   while (!gone_) {
     const ssize_t n = recv(link_, &r, sizeof r, MSG_DONTWAIT);
     if (n == ssize_t(sizeof r)) {
-      last_ = r;
+      last_ = r, heard_ = monotonic_now();
       if (r.number > 0 && on_answer) on_answer(r);
     } else if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
-      return true;
+      if (monotonic_now() - heard_ < kSilent) return true;
+      lose("the guard's process stands still");
+      last_.obeyed = false;
     } else {
-      gone_ = true;
+      lose("the guard's process is gone");
     }
   }
-  last_.state = CoilGuard::State::faulted;
-  if (last_.reason[0] == 0)
-    std::strncpy(last_.reason.data(), "the guard's process is gone", last_.reason.size() - 1);
   return false;
 }
 
-GuardReport GuardLink::wait_for(const std::function<bool(const GuardReport&)>& enough) {
-  const double until = monotonic_now() + kPatience;
+void GuardLink::lose(const char* why) {
+  gone_ = true;
+  last_.state = CoilGuard::State::faulted;
+  if (last_.reason[0] == 0) std::strncpy(last_.reason.data(), why, last_.reason.size() - 1);
+}
+
+GuardReport GuardLink::wait_for(const std::function<bool(const GuardReport&)>& enough, double patience) {
+  const double until = monotonic_now() + patience;
   for (;;) {
     pollfd ready{link_, POLLIN, 0};
     (void)poll(&ready, 1, 50);
     GuardReport r;
     while (recv(link_, &r, sizeof r, MSG_DONTWAIT) == ssize_t(sizeof r)) {
-      last_ = r;
+      last_ = r, heard_ = monotonic_now();
       if (enough(r)) return r;
     }
     if (ready.revents & (POLLHUP | POLLERR)) fail("its process ended; the coils are at rest");
@@ -150,7 +158,8 @@ GuardReport GuardLink::wait_for(const std::function<bool(const GuardReport&)>& e
 
 void GuardLink::arm() {
   if (!drain() || !tell({.kind = ToGuard::Kind::arm})) fail(last_.reason.data());
-  const GuardReport r = wait_for([](const GuardReport& g) { return g.state != CoilGuard::State::disarmed; });
+  const GuardReport r =
+      wait_for([](const GuardReport& g) { return g.state != CoilGuard::State::disarmed; }, kAnswer);
   if (r.state == CoilGuard::State::faulted) fail(r.reason.data());
 }
 
@@ -160,8 +169,8 @@ void GuardLink::disarm() noexcept {
       const std::lock_guard lock(mutex_);
       flows_ = resting_ = false;  // nobody is late with what is over
     }
-    if (tell({.kind = ToGuard::Kind::disarm}))
-      wait_for([](const GuardReport& g) { return g.state != CoilGuard::State::armed; });
+    if (tell({.kind = ToGuard::Kind::disarm}) && !gone_)
+      wait_for([](const GuardReport& g) { return g.state != CoilGuard::State::armed; }, kAnswer);
   } catch (const std::exception&) {
     return;  // closing the link, which follows, does the same
   }
@@ -169,7 +178,7 @@ void GuardLink::disarm() noexcept {
 
 void GuardLink::reset() {
   if (!drain() || !tell({.kind = ToGuard::Kind::reset})) fail(last_.reason.data());
-  wait_for([](const GuardReport& g) { return g.state == CoilGuard::State::disarmed; });
+  wait_for([](const GuardReport& g) { return g.state == CoilGuard::State::disarmed; }, kAnswer);
 }
 
 std::optional<std::uint64_t> GuardLink::request(std::span<const double> current, double frame_t) {

@@ -51,7 +51,8 @@ class GuardLink {
   bool tell(ToGuard m) const;
   void live(const std::stop_token& stop, double pause);
   bool drain();
-  GuardReport wait_for(const std::function<bool(const GuardReport&)>& enough);
+  void lose(const char* why);
+  GuardReport wait_for(const std::function<bool(const GuardReport&)>& enough, double patience);
   void close_link() noexcept;
 
   int link_ = -1;
@@ -65,6 +66,7 @@ class GuardLink {
   std::atomic<std::uint64_t> rests_ = 0;
   std::atomic<bool> patient_ = false;
   GuardReport last_;
+  double heard_ = 0;  ///< s, when it came
   bool gone_ = false;
   std::jthread heart_;
 };

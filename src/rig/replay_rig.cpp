@@ -19,7 +19,11 @@ ReplayRig::ReplayRig(const std::filesystem::path& video, const std::filesystem::
     if (one.empty()) break;
     current.push_back(one);
   }
+  const auto frame = table.column("frame");
   for (std::size_t i = 0; i < table.size(); ++i) {
+    if (frame[i] != double(i))
+      throw Error(Errc::input, commands.string(),
+                  fmt::format("row {} is of frame {:g}: it is not as it was recorded", i + 1, frame[i]));
     Row& row = rows_.emplace_back(Row{t[i], age[i], rested[i] != 0, {}});
     for (const auto& coil : current) row.current.push_back(coil[i]);
   }

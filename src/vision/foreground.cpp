@@ -27,8 +27,10 @@ constexpr float kOfLine = 0.3F;      // of a line's depth, below which a darker 
 constexpr double kTail = 0.7;   // of a cell's width, that it reaches beyond where it is above the threshold
 constexpr double kFew = 4.5;    // cells in a patch, of which a whole number is taken
 constexpr double kFirstSd = 4;  // of the smoothed noise, from which on the first picture shows a cell
-constexpr double kLeastThreshold = 1;  // grey: rounding does not look like noise when the light changes
-constexpr double kCellMemory = 0.2;    // share of a new picture in what a cell is thought to weigh
+constexpr double kWholePicture_s = 20;  // twice what codecs let pass between whole pictures, 250 at 25 Hz
+constexpr double kSmoothedAway = 1.5;   // times less noise than lately: a codec's work, not chance
+constexpr double kLeastThreshold = 1;   // grey: rounding does not look like noise when the light changes
+constexpr double kCellMemory = 0.2;     // share of a new picture in what a cell is thought to weigh
 
 // Marks every pixel within `reach` of a marked one, in a square.
 void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w, int h, int reach) {
@@ -186,6 +188,9 @@ void Foreground::look(double noise, double dt_s) {
   if (resized) known_ = false;
   const bool anew = !known_ && (resized || !options_.learn);
   const bool learns = options_.learn && !anew && !known_;
+  // Between its whole pictures a codec smooths noise away, and brings it back with the next.
+  noisiest_ = std::max(noise, anew ? 0 : noisiest_ * (1 - std::clamp(dt_s / kWholePicture_s, 0.0, 1.0)));
+  if (noisiest_ > kSmoothedAway * noise) noise = noisiest_;
   if (anew) begin(grey, noise);
   if (sign_ == 0) sign_ = told_polarity(smoothed(grey, std::max(sd_px_, 0.8)), std::max(sd_px_, 0.8), noise);
   weights_.width = grey.width, weights_.height = grey.height;
@@ -382,7 +387,7 @@ SwarmMoments Foreground::moments() const {
 }
 
 void Foreground::archive(Archive& a) {
-  a& sign_& cell_signal_& own_noise_& frames_& background_.width& background_.height& background_
+  a& sign_& cell_signal_& own_noise_& noisiest_& frames_& background_.width& background_.height& background_
       .px& covered_& guess_& still_grey_& still_s_;
 }
 

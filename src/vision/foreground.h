@@ -93,6 +93,7 @@ class Foreground {
   double sd_px_ = 1, sign_ = 0;  ///< of a cell; -1 dark, +1 bright, 0 not yet known
   double cell_signal_ = 0;       ///< grey px^2
   double cell_guess_ = 0;        ///< from the last picture alone
+  double noisiest_ = 0;          ///< of the pictures lately, grey
   double own_noise_ = 0;         ///< variance of the background over that of the picture's noise
   std::uint64_t frames_ = 0;     ///< that the background rests on
   bool known_ = false;           ///< the background is given

@@ -18,8 +18,10 @@ TEST_CASE(
   CHECK(c.exit == 2);
   CHECK(one_clear_line(c.err));
   CHECK(std::filesystem::file_size(b.f.path / "run/commands.csv") == bytes);
-  CHECK(faba_in(b.f.path, "rig step-response scene.toml --arm --out new --set rig.driver.at=nowhere").exit ==
-        4);
+  CHECK(faba_in(b.f.path,
+                "rig step-response scene.toml --arm --out new --set rig.driver.at=nowhere "
+                "--set rig.step_response.field='100 uT'")
+            .exit == 4);
   CHECK_FALSE(std::filesystem::exists(b.f.path / "new"));
   CHECK(faba_in(b.f.path, "rig run scene.toml --arm --force --out run --set rig.driver.at=nowhere").exit ==
         4);
@@ -36,6 +38,9 @@ TEST_CASE("who comes second to a bench is turned away, and the first goes on") {
   CHECK(b.flows());
   b.program->signal(SIGINT);
   CHECK(b.program->wait() == 130);
+  // What was ended by hand does not pass as whole.
+  CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));
+  CHECK(read_file(b.f.path / "run/manifest.json").find("ended by hand after") != std::string::npos);
 }
 
 TEST_CASE("coils begin disarmed: without --arm nothing is opened, and --arm is what it asks for") {
@@ -46,6 +51,9 @@ TEST_CASE("coils begin disarmed: without --arm nothing is opened, and --arm is w
   CHECK(c.err.find("--arm") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(b.f.path / "run"));
   for (const Flowing& one : b.log()) CHECK(one.most < kZero);
+  const Called log = faba_in(b.f.path, "rig simulate scene.toml --at other --log coils.csv");
+  CHECK(log.exit == 2);
+  CHECK(one_clear_line(log.err));
 }
 
 TEST_CASE("a bench without an enable line is not armed") {
@@ -53,6 +61,7 @@ TEST_CASE("a bench without an enable line is not armed") {
   b.run();
   CHECK(b.program->wait() == 4);
   CHECK(b.err().find("enable line") != std::string::npos);
+  CHECK(faba_in(b.f.path, "rig check scene.toml --json").exit == 4);
   for (const Flowing& one : b.log()) CHECK(one.most < kZero);
 }
 
@@ -116,6 +125,13 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
   CHECK(faba_in(b.f.path, "track a.avi --json").exit == 0);
   for (const Flowing& one : b.log()) CHECK(one.most < kZero);
 
+  // Five pictures are played in less time than a look at the camera's delay takes.
+  const Called over = faba_in(b.f.path,
+                              "rig check scene.toml --set \"rig.camera={ type = 'playback', file = "
+                              "'pictures', fps = '60 Hz' }\"");
+  CHECK(over.exit == 4);
+  CHECK(one_clear_line(over.err));
+
   // Played as a camera it ends before the scene does, which is said.
   const Called played = faba_in(b.f.path,
                                 "rig run scene.toml --arm --json --out played --set rig.driver=none "
@@ -165,6 +181,8 @@ TEST_CASE(
   const Called other = faba_in(f.path, "rig replay run --json");
   CHECK(other.exit == 1);
   CHECK(other.json()["first_other"] == 30);
+  std::ofstream(f.path / "run/commands.csv") << commands.replace(line, 4, "\n31,");
+  CHECK(faba_in(f.path, "rig replay run").exit == 3);
 
   CHECK(faba_in(f.path, "rig replay nowhere").exit == 3);
 }
@@ -176,6 +194,14 @@ TEST_CASE("step responses on a schedule: gathered, reversed, recorded, and liste
   const Called refused = faba_in(b.f.path, "rig step-response scene.toml --out study");
   CHECK(refused.exit == 2);
   CHECK(one_clear_line(refused.err));
+  for (const char* no : {"--out new --set rig.step_response.field='50 mT'", "--out run"}) {
+    std::filesystem::create_directory(b.f.path / "run");
+    std::ofstream(b.f.path / "run/scenario.toml") << "seed = 1\n";
+    const Called other = faba_in(b.f.path, std::string("rig step-response scene.toml --arm ") + no);
+    CHECK(other.exit == 2);
+    CHECK(one_clear_line(other.err));
+  }
+  CHECK_FALSE(std::filesystem::exists(b.f.path / "new"));
   CHECK_FALSE(std::filesystem::exists(b.f.path / "study"));
   const Called c =
       faba_in(b.f.path, "rig step-response scene.toml --arm --exposure '90 s' --out study --json");
@@ -239,4 +265,28 @@ TEST_CASE("currents by hand, from keys in a pipe: what a key says flows, and not
   CHECK(check.json()["cannot_arm"].is_null());
   CHECK(faba_in(b.f.path, "rig jog scene.toml --step '3 m'").exit == 2);
   CHECK(faba_in(b.f.path, "rig jog scene.toml --step 20").exit == 2);
+  const Called none = faba_in(b.f.path, "rig jog '" FABA_SCENES "/steer.toml'");
+  CHECK(none.exit == 2);
+  CHECK(one_clear_line(none.err));
+}
+
+TEST_CASE("currents that may change but slowly: the loop keeps to it, and so do keys") {
+  OnBench b("", kPatient);
+  const std::string slow = " --set rig.guard.max_slew='2 A/s'";
+  const Called keys = faba_in(b.f.path, "rig jog scene.toml --step '0.1 A'" + slow, "printf 'a+++   q' | ");
+  CHECK_MESSAGE(keys.exit == 0, keys.err);
+  const Called run = faba_in(b.f.path, "rig run scene.toml --arm --duration '1 s' --out slow --quiet" + slow);
+  CHECK_MESSAGE(run.exit == 0, run.err);
+  // 0.25 A take 0.125 s, less a frame and its like: without the limit they take 10 ms.
+  double none_until = 0;
+  int rises = 0;
+  bool below = true;
+  for (const Flowing& one : b.log()) {
+    if (one.most < kZero) none_until = one.t, below = true;
+    if (one.most > 0.25 && below) {
+      CHECK(one.t - none_until > 0.08);
+      below = false, ++rises;
+    }
+  }
+  CHECK(rises == 2);
 }

@@ -87,7 +87,12 @@ TEST_CASE("serial: the guard is killed or stopped, the line goes: the board come
     ::kill(g.process(), signal);
     CHECK(f.rest_after(t) < kWithin + f.machine.longest());
     CHECK(f.log().back().furthest < 1e-6);
-    ::kill(g.process(), SIGCONT);
+    // And the program learns of it, and does not wait for ever for one that stands still.
+    CHECK(soon([&] { return g.report().state == CoilGuard::State::faulted; }, 5));
+    const std::string reason = g.report().reason.data();
+    CHECK_MESSAGE(reason.find(signal == SIGKILL ? "gone" : "stands still") != std::string::npos, reason);
+    CHECK(g.report().obeyed == (signal == SIGKILL));
+    CHECK_THROWS_AS(g.arm(), Error);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rendered_cells.h"
+#include "vision/smoothing.h"
 
 using namespace faba;
 
@@ -118,6 +119,24 @@ TEST_CASE("an empty picture shows no swarm, however uneven, noisy or flickering"
     f.take(Gray8(640, 480), 0.1);
     CHECK(std::isfinite(f.moments().signal));
   }
+}
+
+TEST_CASE(
+    "a codec smooths noise away between whole pictures, and what comes back with the next is no swarm") {
+  cells::Look l;
+  l.noise = 2.3;
+  Foreground f;
+  GrayF whole;
+  int wrong = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const bool anew = frame % 20 == 0;
+    if (anew) whole = cells::picture(l, {}, std::uint64_t(frame));
+    f.take(cells::bytes(anew ? whole : smoothed(whole, l.cell_sd_px)), 1.0 / 30);
+    wrong += f.moments().cells > 0;
+  }
+  // Against a background with frozen noise of its own a whole picture's has 4.1 of its sd, not 5: three such
+  // pictures of some 3800 places that are independent show one in 0.2 cases.
+  CHECK(wrong <= 1);
 }
 
 TEST_CASE("a swarm that leaves where it was first seen leaves no ghost") {

@@ -50,6 +50,9 @@ class SimulatedCoils final : public CoilDriver {
     m.volts.fill(std::nan(""));
     for (std::size_t i = 0; i < volts.size(); ++i) m.volts[outputs_[i]] = volts[i];
     if (!socket_.write(&m, sizeof m, kPatience)) return {at_ + ": the simulated bench is gone"};
+    // What is sent to one that stands still is not obeyed.
+    if (asked_ && monotonic_now() - *asked_ > kSlowest)
+      return {at_ + ": the simulated bench does not answer"};
     return {};
   }
   // Asks, and gives what was answered the last time: a bench that is slow to answer holds nobody up.
