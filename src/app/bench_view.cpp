@@ -123,7 +123,8 @@ Json BenchView::state() {
   j["rate_hz"] = v->rate > 0 ? Json(v->rate) : Json();
   if (!v->trouble.empty()) {
     j["trouble"] = v->trouble;
-  } else if (const double silent = monotonic_now() - v->came; silent > kSilent) {
+  } else if (const double silent = monotonic_now() - v->came;
+             silent > kSilent + (v->rate > 0 ? 2 / v->rate : 0)) {
     j["trouble"] = fmt::format("camera: has given no picture for {:.0f} s", silent);
   }
   if (j.contains("trouble")) j["rate_hz"] = nullptr;

@@ -64,7 +64,7 @@ void check_field(const Scenario& s) {
       share = std::min(share, std::min(common[k], wired[k]) / i);
   if (share < 1 - kRound)
     throw Error(Errc::usage, "rig.step_response.field",
-                fmt::format("is {:.3g} uT; with the currents that these coils take they give {:.3g} uT",
+                fmt::format("is {:.1f} uT; with the currents that these coils take they give {:.1f} uT",
                             1e6 * wanted, 1e6 * share * wanted));
 }
 

@@ -67,7 +67,7 @@ void summary(const nlohmann::ordered_json& j) {
     for (const auto& s : a["segments"])
       fmt::print("  {:7.2f} to {:7.2f} s  towards {:3} degrees\n", s["t0_s"].get<double>(),
                  s["t1_s"].get<double>(), whole_degrees(s["direction_deg"].get<double>()));
-    if (a["segments"].empty()) fmt::print("  nothing moves in one direction\n");
+    if (a["segments"].empty()) fmt::print("  at no time half of all that moves goes one way\n");
   }
   for (const auto& [name, words] :
        {std::pair{"peak_line", "time of the maximum"}, std::pair{"mean_line", "mean activity"},
