@@ -69,9 +69,15 @@ bool BenchRig::read(Observation& out) {
   }
   if (got == CameraFeed::Got::end) return false;
   check_guard();
-  if (got == CameraFeed::Got::nothing)
+  if (got == CameraFeed::Got::nothing) {
+    const double behind = began_ ? 0 : feed_.behind();
     throw Error(Errc::device, "camera",
-                fmt::format("has given no frame for {:g} s{}", p_.camera_timeout, and_the_coils()));
+                behind > 0
+                    ? fmt::format("gives frames that are {:.1f} s old: it, or a simulated bench on this "
+                                  "machine, is too slow for its rate{}",
+                                  behind, and_the_coils())
+                    : fmt::format("has given no frame for {:g} s{}", p_.camera_timeout, and_the_coils()));
+  }
   arrived_ = monotonic_now(), frame_t_ = frame.t;
   if (!began_) began_ = frame.t, first_ = frame.number;
   out.frame = frame.number - first_;

@@ -46,7 +46,10 @@ void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_p
       if (s->stop) break;
       if (last && frame.number > *last + 1) s->lost += frame.number - *last - 1;
       last = frame.number;
-      if (frame.t < s->since) continue;
+      if (frame.t < s->since) {
+        s->behind = monotonic_now() - frame.t;
+        continue;
+      }
       if (keep == Keep::newest && !s->waiting.empty()) {
         s->lost += s->waiting.size();
         s->waiting.clear();
@@ -86,12 +89,17 @@ CameraFeed::Got CameraFeed::next(CameraFrame& out, double until) {
 void CameraFeed::forget() {
   const std::lock_guard lock(shared_->mutex);
   shared_->waiting.clear();
-  shared_->since = monotonic_now();
+  shared_->since = monotonic_now(), shared_->behind = 0;
 }
 
 std::uint64_t CameraFeed::taken() const {
   const std::lock_guard lock(shared_->mutex);
   return shared_->taken;
+}
+
+double CameraFeed::behind() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->behind;
 }
 
 std::uint64_t CameraFeed::dropped() const {

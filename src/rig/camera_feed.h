@@ -32,6 +32,7 @@ class CameraFeed {
   /// taken.
   void forget();
   std::uint64_t taken() const;    ///< frames that next() gave
+  double behind() const;          ///< s, how old the last frame was that came and was forgotten; 0: none was
   std::uint64_t dropped() const;  ///< that the camera took and next() never gave, as far as is known
   Camera& camera() { return *camera_; }
 
@@ -41,7 +42,8 @@ class CameraFeed {
     std::condition_variable came;
     std::deque<CameraFrame> waiting;
     std::uint64_t lost = 0, taken = 0;
-    double since = 0;  ///< monotonic_now(): frames of before are forgotten
+    double since = 0;   ///< monotonic_now(): frames of before are forgotten
+    double behind = 0;  ///< s
     std::exception_ptr failure;
     bool end = false, stop = false, left = false;
   };

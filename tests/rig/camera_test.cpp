@@ -111,6 +111,16 @@ TEST_CASE(
   CHECK(rig.dropped() == 0);
 }
 
+TEST_CASE("a camera that falls ever further behind is said to") {
+  auto camera = std::make_shared<HandCamera>();
+  camera->began -= 1000;
+  BenchRig rig(camera, nullptr, {.camera_timeout = 0.2});
+  rig.begin();
+  camera->allowed = 3;
+  Observation o;
+  CHECK_THROWS_WITH_AS(rig.read(o), doctest::Contains("gives frames that are 997.0 s old"), Error);
+}
+
 TEST_CASE("a camera that fails says why to who reads it") {
   auto camera = std::make_shared<HandCamera>();
   BenchRig rig(camera, nullptr, {.camera_timeout = 5});
