@@ -48,7 +48,7 @@ BenchProcess::BenchProcess(const Scenario& s, std::uint64_t seed) {
   while (!std::filesystem::exists(at, ec)) {
     if (waitpid(process_, nullptr, WNOHANG) != 0) {
       process_ = -1;
-      std::filesystem::remove_all(folder_, ec);
+      end();
       fail("ended before it was there");
     }
     if (monotonic_now() > until) {

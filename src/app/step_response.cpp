@@ -18,8 +18,8 @@ namespace faba {
 namespace {
 
 constexpr const char* kStudy = "study.toml";
-constexpr double kRound = 1e-9;
-constexpr double kLook = 0.05;  // s between looks at the clock while nothing is to be done
+constexpr double kRound = 1e-9;  // share of a current that is rounding
+constexpr double kLook = 0.05;   // s between looks at the clock while nothing is to be done
 
 Json field_words(Vec2 b) { return {fmt::format("{} T", b.x), fmt::format("{} T", b.y)}; }
 

@@ -93,16 +93,14 @@ std::string cut_to_terminal(std::string line) {
 }
 
 std::string line_of(const GuardReport& g, const std::vector<double>& asked, std::size_t chosen) {
+  if (g.state == CoilGuard::State::faulted)
+    return fmt::format("faulted  {}{}; r makes it ready to be armed", g.reason.data(),
+                       g.obeyed ? "" : "; could not be told to rest: switch it off by hand");
   std::string line = fmt::format("{:<8}", word(g.state));
   for (std::size_t k = 0; k < asked.size(); ++k) {
     line += fmt::format(" {}coil {}: {:+.3f} A", k == chosen ? "[" : " ", k, asked[k]);
     if (!std::isnan(g.sensed[k])) line += fmt::format(", sensed {:+.3f}", g.sensed[k]);
     line += k == chosen ? "]" : " ";
-  }
-  if (g.state == CoilGuard::State::faulted) {
-    line = fmt::format("faulted  {}{}; r makes it ready to be armed", g.reason.data(),
-                       g.obeyed ? "" : "; could not be told to rest: switch it off by hand");
-    return line;
   }
   if (g.reason[0])
     line += fmt::format("  {}", g.reason.data());
@@ -166,9 +164,7 @@ int rig_jog(const RigVerb& v, const Common& c) {
   if (keys.terminal() && speaks) fmt::print("\n");
   coils.disarm();
   const GuardReport g = coils.report();
-  if (c.json) {
-    fmt::print("{}\n", Json{{"state", word(g.state)}, {"reason", g.reason.data()}}.dump());
-  }
+  if (c.json) fmt::print("{}\n", Json{{"state", word(g.state)}, {"reason", g.reason.data()}}.dump());
   if (stop_requested().load()) return int(Errc::interrupted);
   return g.state == CoilGuard::State::faulted ? int(Errc::device) : 0;
 }

@@ -156,6 +156,25 @@ TEST_CASE("changes are as slow as allowed, from frame to frame, but to zero it m
   CHECK(b.guard.fault() == Fault::over_slew);
 }
 
+TEST_CASE("who keeps to the slew limit by times since the run began is within it, however old the clock is") {
+  Bench b({.max_slew = 1.0});
+  const double began = 2.6e6;  // s, a month: its last bit is 5e-10 s
+  b.now = began + 0.1;
+  b.guard.arm(b.now);
+  double current = 0, before = 0;
+  for (int k = 0; k < 20; ++k) {
+    b.now = began + 0.1 + k * kPeriod;
+    const double t = b.now - began;
+    if (k > 0) current += t - before;  // as Limits reckons
+    before = t;
+    b.ask({current, 0});
+    CHECK(b.guard.state() == State::armed);
+  }
+  b.now += kPeriod;
+  b.ask({current + kPeriod + 1e-6, 0});
+  CHECK(b.guard.fault() == Fault::over_slew);
+}
+
 TEST_CASE("heat: the mean square of the current over the thermal time, as an average in time must be") {
   // dH/dt = (I^2 - H) / tau from H = 0: the bound R^2 is reached after tau ln(I^2 / (I^2 - R^2)).
   const double tau = 2, rms = 0.3, current = 0.5;
