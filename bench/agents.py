@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How fast the simulation is: ns per agent-step of its three models beside this machine's limits and beside the same
 step in plain NumPy, in vectorised Octave, in a plain sequential C++ program and in the thesis's own design, one after
 the other in one call. Prints the table and a verdict on every goal; keeps both in bench/results/.

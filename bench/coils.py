@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How fast the field of a solenoid is: ns per point beside the same formula on Boost.Math's and on SciPy's Carlson
 integrals, in one call. Prints the table and a verdict on every goal; keeps both in bench/results/.
 

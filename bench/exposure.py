@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Does `faba activity` give back the line of eq. 4.1? Videos of four experiments at eight exposures (scenes/exposure.toml), rendered
 with the camera's noise, are measured, and so are the same cells without noise. Prints a table and a verdict; keeps them in
 bench/results/. A seed takes two minutes.

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The loop on a bench: how late pictures and commands are, whether estimators keep up with a camera on one core, and how the same scene
 settles on three rigs. Checks that the swarm came to its setpoint on each. Writes bench/results/loop.md.
 

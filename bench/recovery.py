@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Whether `faba identify` finds what is known: experiments are rendered with a model, a speed and everything else drawn by chance,
 and identified from what a camera sees of them.
 

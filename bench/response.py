@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The step responses of ageing drops, recorded by `faba rig step-response` on simulated benches in real time, unattended, and what
 `faba activity` makes of them: the line of eq. 4.1 and the exposure beyond which nothing responds. Beside it the truth: the same drops under
 the same fields, simulated without a bench and rendered without noise. Writes bench/results/response.md. Takes half an hour.

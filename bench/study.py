@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How long a study of 2000 simulations takes: 500 cells, 90 frames of 320 x 240 px, one parameter. The cells themselves are measured (no
 camera), then what a camera sees of them at twelve moments, then the flow of all frames, as the thesis's rule does. Checks that the truth is
 in the interval, and prints a table; keeps it in bench/results/.

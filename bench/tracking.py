@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How exactly rendered cells are found: videos of the simulated microscope, in which every place is known, are measured as a
 camera's would be.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How fast videos are measured: optical flow of 640 x 480 px beside a plain loop, OpenCV's methods and the machine's memory, and
 the histogram distance. Prints the table and a verdict on every goal; keeps both in bench/results/.
 

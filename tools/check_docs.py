@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Fails when the documentation and the program have drifted apart.
 
     tools/check_docs.py --program build/faba --root .

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes docs/reference/ from what the program says of itself (`faba parts --json`, `faba schema`).
 
     tools/make_docs.py [PROGRAM] [--root DIR] [--picture]

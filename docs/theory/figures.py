@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Prints the numbers of the theory pages that follow from formulas alone, under the label of the section they
 stand in. Needs NumPy. Nothing here is random: run it twice, get the same digits.
 

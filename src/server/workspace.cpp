@@ -88,6 +88,7 @@ void Workspace::check_files(const Json& scenario) const {
     if (value.is_structured()) check_files(value);
     if (!value.is_string() || std::find(kNaming.begin(), kNaming.end(), key) == kNaming.end()) continue;
     const std::string name = value.get<std::string>();
+    if (name.empty()) continue;  // a resolved scenario names every key: "" stands for no file
     // As a scenario looks for it: beside itself, else from where the program was called.
     std::error_code ec;
     const bool beside = fs::exists(gallery_ / name, ec);

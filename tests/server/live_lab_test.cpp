@@ -5,6 +5,7 @@
 #include <future>
 
 #include "app/session.h"
+#include "server/workspace.h"
 #include "tests/temporary_folder.h"
 
 using namespace faba;
@@ -72,6 +73,20 @@ class Page {
 };
 
 }  // namespace
+
+TEST_CASE("every scene of the gallery starts as the page sends it: resolved") {
+  const Workspace workspace(std::filesystem::path(FABA_SCENES).parent_path(), {});
+  const std::vector<std::filesystem::path> scenes = workspace.scenes();
+  REQUIRE(scenes.size() >= 18);
+  LiveLab lab(1);
+  for (const std::filesystem::path& scene : scenes) {
+    INFO(scene.filename().string());
+    const Json resolved = read_scenario(read_toml(scene), builtin_parts()).resolved();
+    CHECK_NOTHROW(workspace.check_files(resolved));
+    const Json a = answer([&](auto done) { lab.start(workspace.page_document(resolved), 1, done); });
+    CHECK_MESSAGE(a.value("ok", true), a.dump());
+  }
+}
 
 TEST_CASE("a run is begun, watched, steered, paused, stepped, and recorded as it was") {
   Page page;
