@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.h"
-#include "field/axial.h"
+#include "field/kernels/axial.h"
 #include "machine.h"
 #include "timing.h"
 

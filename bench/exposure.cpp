@@ -8,10 +8,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/simulation.h"
-#include "study/activity_report.h"
-#include "study/flow_report.h"
-#include "vision/flow_file.h"
+#include "app/run/simulation.h"
+#include "app/scenario/read_scenario.h"
+#include "study/pages/activity_report.h"
+#include "study/pages/flow_report.h"
+#include "vision/flow/flow_file.h"
 
 using namespace faba;
 

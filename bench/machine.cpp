@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/philox_row.h"
+#include "core/kernels/philox_row.h"
 #include "core/vectorised.h"
 
 namespace faba::bench {

@@ -1,5 +1,7 @@
 #include "scene.h"
 
+#include "app/scenario/read_scenario.h"
+
 #include <fmt/format.h>
 #include <malloc.h>
 

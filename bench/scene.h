@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "app/simulation.h"
+#include "app/run/simulation.h"
 
 namespace faba::bench {
 

@@ -11,12 +11,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/parts.h"
+#include "app/scenario/parts.h"
 #include "machine.h"
 #include "timing.h"
-#include "vision/flow_sweep.h"
-#include "vision/histogram_distance.h"
-#include "vision/horn_schunck.h"
+#include "vision/flow/horn_schunck.h"
+#include "vision/flow/kernels/flow_sweep.h"
+#include "vision/image/kernels/histogram_distance.h"
 
 using namespace faba;
 using namespace faba::bench;

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "vision/microscope.h"
-#include "vision/video_writer.h"
+#include "vision/files/video_writer.h"
+#include "vision/render/microscope.h"
 
 namespace faba {
 

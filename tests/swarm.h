@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/simulation.h"
+#include "app/run/simulation.h"
 
 namespace faba {
 

@@ -8,8 +8,8 @@
 #include "cli/verbs.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "study/activity_report.h"
-#include "study/flow_report.h"
+#include "study/pages/activity_report.h"
+#include "study/pages/flow_report.h"
 
 namespace faba::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include "cli/progress.h"
 #include "cli/verbs.h"
 #include "core/file.h"
-#include "study/compare_report.h"
-#include "study/flow_report.h"
-#include "study/segments.h"
+#include "study/motion/segments.h"
+#include "study/pages/compare_report.h"
+#include "study/pages/flow_report.h"
 
 namespace faba::cli {
 namespace {

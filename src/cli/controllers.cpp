@@ -3,8 +3,8 @@
 #include "cli/study.h"
 #include "core/counted.h"
 #include "core/file.h"
-#include "study/controller_report.h"
-#include "study/markup.h"
+#include "study/pages/controller_report.h"
+#include "study/plot/markup.h"
 
 namespace faba::cli {
 namespace {

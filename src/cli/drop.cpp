@@ -3,7 +3,7 @@
 #include "cli/output_file.h"
 #include "cli/verbs.h"
 #include "core/error.h"
-#include "study/drop_report.h"
+#include "study/pages/drop_report.h"
 
 namespace faba::cli {
 

@@ -10,7 +10,7 @@
 #include "cli/quantity.h"
 #include "cli/verbs.h"
 #include "core/error.h"
-#include "study/field_report.h"
+#include "study/coils/field_report.h"
 
 namespace faba::cli {
 namespace {

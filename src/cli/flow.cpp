@@ -5,8 +5,8 @@
 #include "cli/verbs.h"
 #include "core/counted.h"
 #include "core/error.h"
-#include "study/distance_report.h"
-#include "study/flow_report.h"
+#include "study/pages/distance_report.h"
+#include "study/pages/flow_report.h"
 
 namespace faba::cli {
 namespace {

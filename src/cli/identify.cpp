@@ -2,8 +2,8 @@
 
 #include "cli/study.h"
 #include "core/file.h"
-#include "study/best_scene.h"
-#include "study/identify_report.h"
+#include "study/identify/best_scene.h"
+#include "study/pages/identify_report.h"
 
 namespace faba::cli {
 namespace {

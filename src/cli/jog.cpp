@@ -10,7 +10,8 @@
 #include <limits>
 #include <optional>
 
-#include "app/open_bench.h"
+#include "app/bench/open_bench.h"
+#include "app/scenario/read_scenario.h"
 #include "cli/quantity.h"
 #include "cli/scene.h"
 #include "cli/verbs.h"

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
-#include "app/rig_file.h"
-#include "app/scenario.h"
+#include "app/scenario/rig_file.h"
+#include "app/scenario/scenario.h"
+#include "app/scenario/scenario_schema.h"
 #include "cli/verbs.h"
-#include "study/activity.h"
-#include "study/controller_study.h"
-#include "study/identify.h"
+#include "study/identify/identify.h"
+#include "study/motion/activity.h"
+#include "study/steering/controller_study.h"
 
 namespace faba::cli {
 namespace {

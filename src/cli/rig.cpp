@@ -2,20 +2,21 @@
 
 #include <cstdio>
 
-#include "app/bench_session.h"
-#include "app/capture.h"
-#include "app/open_bench.h"
-#include "app/replay.h"
-#include "app/session.h"
-#include "app/simulated_bench.h"
-#include "app/step_response.h"
+#include "app/bench/bench_session.h"
+#include "app/bench/capture.h"
+#include "app/bench/open_bench.h"
+#include "app/bench/replay.h"
+#include "app/bench/simulated_bench.h"
+#include "app/bench/step_response.h"
+#include "app/recording/session.h"
+#include "app/scenario/read_scenario.h"
 #include "cli/progress.h"
 #include "cli/quantity.h"
 #include "cli/scene.h"
 #include "cli/verbs.h"
-#include "study/markup.h"
-#include "study/metrics.h"
-#include "study/run_report.h"
+#include "study/pages/run_report.h"
+#include "study/plot/markup.h"
+#include "study/steering/metrics.h"
 
 namespace faba::cli {
 namespace {

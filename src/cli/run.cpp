@@ -2,12 +2,13 @@
 
 #include <cstdio>
 
-#include "app/session.h"
+#include "app/recording/session.h"
+#include "app/scenario/read_scenario.h"
 #include "cli/progress.h"
 #include "cli/scene.h"
 #include "cli/verbs.h"
-#include "study/markup.h"
-#include "study/run_report.h"
+#include "study/pages/run_report.h"
+#include "study/plot/markup.h"
 
 namespace faba::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/quantity.h"
 #include "cli/verbs.h"
 #include "core/error.h"
-#include "study/scale.h"
+#include "study/pages/scale.h"
 
 namespace faba::cli {
 namespace {

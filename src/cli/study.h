@@ -3,8 +3,8 @@
 
 #include "cli/progress.h"
 #include "cli/verbs.h"
-#include "study/study_directory.h"
-#include "study/sweep.h"
+#include "study/sweep/study_directory.h"
+#include "study/sweep/sweep.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "app/calibration_file.h"
+#include "app/scenario/calibration_file.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
 #include "core/counted.h"
 #include "core/error.h"
-#include "study/track_report.h"
+#include "study/pages/track_report.h"
 
 #include <nlohmann/json.hpp>
 

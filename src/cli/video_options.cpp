@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "app/parts.h"
+#include "app/scenario/parts.h"
 #include "cli/command_line.h"
 #include "cli/verbs.h"
 #include "core/units.h"

@@ -2,7 +2,7 @@
 #include "core/frame.h"
 #include "core/schema.h"
 #include "core/signals.h"
-#include "vision/foreground.h"
+#include "vision/foreground/foreground.h"
 
 namespace faba {
 

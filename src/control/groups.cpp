@@ -4,7 +4,7 @@
 
 #include "control/controller.h"
 #include "control/foreground_params.h"
-#include "vision/fuzzy_groups.h"
+#include "vision/foreground/fuzzy_groups.h"
 
 namespace faba {
 namespace {
@@ -13,7 +13,7 @@ constexpr int kBins = 32;         // across, for grouping: a thousand places say
 constexpr double kLarger = 1.25;  // times the share of the followed group, from which on another is followed
 
 /// Several swarms: the cells in view, or the light of the camera's picture where the rig gives no positions,
-/// put into groups by fuzzy c-means (vision/fuzzy_groups.h). The estimate is that of one group.
+/// put into groups by fuzzy c-means (vision/foreground/fuzzy_groups.h). The estimate is that of one group.
 class EstimatorGroups final : public Estimator {
  public:
   enum class Follow { largest, first };

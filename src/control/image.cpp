@@ -2,14 +2,15 @@
 
 #include "control/controller.h"
 #include "control/foreground_params.h"
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 namespace faba {
 namespace {
 
-/// The swarm as the camera's picture shows it, without looking for single cells (vision/foreground.h):
-/// centroid and covariance of the light that cells take away or add. `groups` holds one group whose share is
-/// the signal now over the largest so far: how much of the swarm is in view.
+/// The swarm as the camera's picture shows it, without looking for single cells
+/// (vision/foreground/foreground.h): centroid and covariance of the light that cells take away or add.
+/// `groups` holds one group whose share is the signal now over the largest so far: how much of the swarm is
+/// in view.
 class EstimatorImage final : public Estimator {
  public:
   using Params = ForegroundParams;

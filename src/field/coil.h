@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "core/schema.h"
-#include "field/axial.h"
 #include "field/field.h"
+#include "field/kernels/axial.h"
 
 namespace faba {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/h5.h"
-#include "field/field_table.h"
+#include "field/kernels/field_table.h"
 
 namespace faba {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/monotonic.h"
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 namespace faba {
 

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "core/table.h"
-#include "vision/grey_scale.h"
+#include "vision/image/kernels/grey_scale.h"
 
 namespace faba {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "rig/rig.h"
-#include "vision/video_reader.h"
+#include "vision/files/video_reader.h"
 
 namespace faba {
 

@@ -6,15 +6,17 @@
 #include <atomic>
 #include <mutex>
 
-#include "app/notes.h"
-#include "app/scenario.h"
-#include "app/session.h"
+#include "app/recording/session.h"
+#include "app/run/notes.h"
+#include "app/scenario/read_scenario.h"
+#include "app/scenario/scenario.h"
+#include "app/scenario/scenario_schema.h"
 #include "core/file.h"
 #include "server/embedded_page.h"
 #include "server/recorded_run.h"
-#include "study/drop_report.h"
-#include "study/scale.h"
-#include "study/thumbnail.h"
+#include "study/pages/drop_report.h"
+#include "study/pages/scale.h"
+#include "study/pages/thumbnail.h"
 
 namespace faba {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include <functional>
 
-#include "app/bench_view.h"
-#include "app/parts.h"
+#include "app/bench/bench_view.h"
+#include "app/scenario/parts.h"
 #include "server/job_list.h"
 #include "server/web_server.h"
 #include "server/workspace.h"

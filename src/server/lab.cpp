@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "app/scenario/read_scenario.h"
 #include "core/file.h"
 #include "server/api.h"
 #include "server/live_lab.h"

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "app/live_run.h"
+#include "app/run/live_run.h"
 #include "server/frame_message.h"
 
 namespace faba {

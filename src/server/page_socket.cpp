@@ -31,10 +31,10 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
     t.handshake_timeout = kHandshake, t.idle_timeout = kIdle, t.keep_alive_pings = true;
     stream_.set_option(t);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& r) {
-      r.set(http::field::sec_websocket_protocol, WebServer::kSubprotocol);
+      r.set(http::field::sec_websocket_protocol, kPageProtocol);
       r.set(http::field::server, "faba");
     }));
-    stream_.read_message_max(WebServer::kMostMessage);
+    stream_.read_message_max(kMostPageMessage);
     stream_.auto_fragment(false);
     stream_.write_buffer_bytes(64u << 10);
     stream_.async_accept(request, [self = shared_from_this()](beast::error_code ec) {

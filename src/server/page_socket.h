@@ -3,7 +3,7 @@
 #include <boost/beast/http.hpp>
 #include <memory>
 
-#include "server/web_server.h"
+#include "server/web_handlers.h"
 
 namespace faba {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/session.h"
+#include "app/recording/session.h"
 #include "core/file.h"
 #include "core/h5.h"
 #include "server/frame_message.h"

@@ -150,9 +150,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     if (target_->path != "/ws") return refuse(404, "the socket is at /ws");
     if (!beast::websocket::is_upgrade(request)) return refuse(400, "is not a WebSocket's request");
     auto offered = http::token_list(request[http::field::sec_websocket_protocol]);
-    if (!offered.exists(WebServer::kSubprotocol))
-      return refuse(
-          400, fmt::format("speaks another protocol than {}; load the page again", WebServer::kSubprotocol));
+    if (!offered.exists(kPageProtocol))
+      return refuse(400, fmt::format("speaks another protocol than {}; load the page again", kPageProtocol));
     stream_.expires_never();
     open_page_socket(stream_.release_socket(), request, server_.handlers, server_.next_page++, counted_);
   }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "app/run_lock.h"
-#include "app/session.h"
+#include "app/recording/run_lock.h"
+#include "app/recording/session.h"
 #include "core/error.h"
-#include "study/run_video.h"
+#include "study/data/run_video.h"
 
 namespace faba {
 namespace {

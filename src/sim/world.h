@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "field/field_table.h"
+#include "field/kernels/field_table.h"
 #include "sim/exclusion.h"
 #include "sim/motility.h"
 #include "sim/start.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/session.h"
+#include "app/recording/session.h"
 #include "core/file.h"
 
 namespace faba {

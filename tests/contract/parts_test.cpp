@@ -5,6 +5,8 @@
 
 #include "tests/swarm.h"
 
+#include "app/scenario/read_scenario.h"
+
 using namespace faba;
 
 namespace {

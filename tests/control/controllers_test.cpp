@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "app/scenario.h"
+#include "app/scenario/scenario.h"
 
 using namespace faba;
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/parts.h"
+#include "app/scenario/parts.h"
 #include "core/error.h"
 #include "core/toml.h"
 #include "tests/vision/rendered_cells.h"

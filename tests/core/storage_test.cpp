@@ -4,7 +4,7 @@
 #include "core/archive.h"
 #include "core/h5.h"
 #include "core/parallel.h"
-#include "tests/app/run_directory.h"
+#include "tests/app/recording/run_directory.h"
 
 using namespace faba;
 

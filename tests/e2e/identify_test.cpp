@@ -8,8 +8,8 @@
 #include <string>
 
 #include "tests/e2e/program.h"
-#include "vision/picture.h"
-#include "vision/video_reader.h"
+#include "vision/files/picture.h"
+#include "vision/files/video_reader.h"
 
 using namespace faba;
 

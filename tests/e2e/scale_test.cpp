@@ -5,7 +5,7 @@
 
 #include "tests/e2e/program.h"
 #include "tests/vision/ruler_pictures.h"
-#include "vision/picture.h"
+#include "vision/files/picture.h"
 
 using namespace faba;
 

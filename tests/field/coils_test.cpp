@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "field/axial.h"
-#include "field/field_table.h"
+#include "field/kernels/axial.h"
+#include "field/kernels/field_table.h"
 #include "tests/field/field_of.h"
 #include "tests/field/wires.h"
 

@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "app/scenario.h"
+#include "app/scenario/read_event.h"
+#include "app/scenario/read_scenario.h"
+#include "app/scenario/scenario.h"
 #include "server/page_message.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -6,7 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "app/scenario.h"
+#include "app/scenario/read_scenario.h"
+#include "app/scenario/scenario.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const faba::Parts parts = faba::builtin_parts();

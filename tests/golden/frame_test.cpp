@@ -4,9 +4,10 @@
 // and `make dev` with -O0.
 #include <doctest/doctest.h>
 
+#include "app/scenario/read_scenario.h"
 #include "core/hash.h"
 #include "tests/swarm.h"
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 using namespace faba;
 

@@ -6,6 +6,8 @@
 
 #include "tests/swarm.h"
 
+#include "app/scenario/read_scenario.h"
+
 using namespace faba;
 
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "study/activity.h"
-#include "study/flow_report.h"
+#include "study/motion/activity.h"
+#include "study/pages/flow_report.h"
 
 using namespace faba;
 

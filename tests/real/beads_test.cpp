@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "study/track_report.h"
+#include "study/pages/track_report.h"
 
 using namespace faba;
 

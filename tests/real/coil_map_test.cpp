@@ -1,7 +1,7 @@
 // A measured map of a flat coil, fitted. Skipped where it is not there.
 #include <doctest/doctest.h>
 
-#include "study/field_report.h"
+#include "study/coils/field_report.h"
 
 using namespace faba;
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/rig_file.h"
+#include "app/scenario/rig_file.h"
 #include "core/file.h"
-#include "field/axial.h"
+#include "field/kernels/axial.h"
 
 using namespace faba;
 

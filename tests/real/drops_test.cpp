@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "vision/drop_edge.h"
-#include "vision/picture.h"
+#include "vision/drop/drop_edge.h"
+#include "vision/files/picture.h"
 
 using namespace faba;
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "core/table.h"
-#include "study/flow_report.h"
-#include "vision/horn_schunck.h"
+#include "study/pages/flow_report.h"
+#include "vision/flow/horn_schunck.h"
 
 using namespace faba;
 

@@ -1,4 +1,4 @@
-#include "vision/microscope.h"
+#include "vision/render/microscope.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "tests/vision/media.h"
-#include "vision/picture.h"
-#include "vision/video_ground.h"
-#include "vision/video_writer.h"
+#include "vision/cells/video_ground.h"
+#include "vision/files/picture.h"
+#include "vision/files/video_writer.h"
 
 using namespace faba;
 

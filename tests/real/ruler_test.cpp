@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "app/calibration_file.h"
-#include "study/scale.h"
-#include "tests/app/run_directory.h"
+#include "app/scenario/calibration_file.h"
+#include "study/pages/scale.h"
+#include "tests/app/recording/run_directory.h"
 
 using namespace faba;
 

@@ -9,7 +9,7 @@
 #include "rig/bench_rig.h"
 #include "tests/rendered_video.h"
 #include "tests/temporary_folder.h"
-#include "vision/video_writer.h"
+#include "vision/files/video_writer.h"
 
 using namespace faba;
 

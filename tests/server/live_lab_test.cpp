@@ -4,7 +4,8 @@
 
 #include <future>
 
-#include "app/session.h"
+#include "app/recording/session.h"
+#include "app/scenario/read_scenario.h"
 #include "server/workspace.h"
 #include "tests/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "study/signature.h"
+#include "study/motion/signature.h"
 
 namespace faba::test {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "study/parameter_search.h"
+#include "study/identify/parameter_search.h"
 
 namespace faba {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/vec.h"
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 namespace faba {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <system_error>
 
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 namespace faba::media {
 

@@ -8,7 +8,7 @@
 
 #include "core/philox.h"
 #include "core/vec.h"
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 namespace faba::cells {
 

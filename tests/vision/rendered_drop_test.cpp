@@ -5,7 +5,7 @@
 
 #include "core/philox.h"
 #include "tests/rendered_video.h"
-#include "vision/drop_edge.h"
+#include "vision/drop/drop_edge.h"
 
 using namespace faba;
 

@@ -1,5 +1,5 @@
 #include "app/sinks/sinks.h"
-#include "vision/flow_file.h"
+#include "vision/flow/flow_file.h"
 
 namespace faba {
 namespace {

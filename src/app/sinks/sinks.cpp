@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/simulation.h"
-#include "vision/video_format.h"
+#include "app/run/simulation.h"
+#include "vision/files/video_format.h"
 
 namespace faba {
 

@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/loop.h"
-#include "app/scenario.h"
+#include "app/loop/loop.h"
+#include "app/scenario/scenario.h"
 #include "core/archive.h"
-#include "rig/sim_rig.h"
-#include "vision/flow.h"
+#include "rig/simulated/sim_rig.h"
+#include "vision/flow/flow.h"
 
 namespace faba {
 

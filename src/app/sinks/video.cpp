@@ -1,6 +1,6 @@
-#include "app/drawn_swarm.h"
+#include "app/recording/drawn_swarm.h"
 #include "app/sinks/sinks.h"
-#include "vision/video_writer.h"
+#include "vision/files/video_writer.h"
 
 namespace faba {
 namespace {

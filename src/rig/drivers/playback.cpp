@@ -5,8 +5,8 @@
 
 #include "core/monotonic.h"
 #include "rig/camera.h"
-#include "vision/grey_scale.h"
-#include "vision/grey_video.h"
+#include "vision/files/grey_video.h"
+#include "vision/image/kernels/grey_scale.h"
 
 namespace faba {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "rig/bench_socket.h"
 #include "rig/camera.h"
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 namespace faba {
 namespace {

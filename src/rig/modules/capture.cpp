@@ -11,7 +11,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "core/monotonic.h"
-#include "vision/image.h"
+#include "vision/image/image.h"
 
 namespace faba {
 namespace {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/philox_row.h"
+#include "core/kernels/philox_row.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
 #include "sim/agents/iterations.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/philox_row.h"
+#include "core/kernels/philox_row.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
 #include "sim/agent_model.h"

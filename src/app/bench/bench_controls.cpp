@@ -1,0 +1,44 @@
+#include "app/bench/bench_controls.h"
+
+#include <algorithm>
+
+#include "app/run/simulation.h"
+
+namespace faba {
+
+BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
+  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench that it could run on");
+  if (!s.events.empty())
+    throw Error(Errc::usage, "event", "a bench cannot exchange parts during a run; take [[event]] out");
+  field = s.field.make({});
+  frame = s.arena.make({s.si_scale()})->frame();
+  ControlContext control = control_context(s, field, frame, nullptr);
+  control.delay_frames = s.rig->params.delay.value_or(0) / s.frame_period();
+  estimator = s.estimator.make(control);
+  reference = s.reference.make(control);
+  controller = s.controller.make(control);
+  std::vector<double> most = field->max_currents(s.limits.max_current);
+  const std::vector<double> wired = s.rig->max_current();
+  for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::min(most[k], wired[k]);
+  Limits::Params p = s.limits;
+  if (const auto slew = s.rig->guard.max_slew) p.max_slew = std::min(*slew, p.max_slew.value_or(*slew));
+  const CoilWiring wiring(s.rig->coils);
+  std::function<void(std::vector<double>&)> together;
+  if (wiring.channels().size() < wiring.coils().size())
+    together = [wiring](std::vector<double>& current) { current = wiring.currents(wiring.volts(current)); };
+  limits = Limits(p, most, together);
+}
+
+Loop BenchControls::loop(Rig& rig, double frame_period) {
+  return {.rig = rig,
+          .estimator = estimator.get(),
+          .reference = reference.get(),
+          .controller = controller.get(),
+          .limits = limits,
+          .frame_period = frame_period,
+          .sinks = {},
+          .between = {},
+          .last = {}};
+}
+
+}  // namespace faba

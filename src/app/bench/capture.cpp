@@ -1,0 +1,202 @@
+#include "app/bench/capture.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <optional>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/monotonic.h"
+#include "rig/camera_feed.h"
+#include "vision/files/frame_encoder.h"
+#include "vision/files/video_writer.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kBacklog = 64;       // frames that may wait for a disk before some are lost
+constexpr double kShortOfMemory = 0.05;    // of all memory, below which a buffered capture ends
+constexpr double kLook = 0.1;              // s between looks at whether to stop
+constexpr std::uint64_t kMemoryEvery = 8;  // frames between looks at the memory
+
+// Where pictures go, with the table of their times.
+class Store {
+ public:
+  Store(const std::filesystem::path& times) : times_(times) { times_.append("frame,camera_frame,t_s\n"); }
+  virtual ~Store() = default;
+  void put(const CameraFrame& f, double t) {
+    write(*f.image);
+    times_.append(fmt::format("{},{},{:.6f}\n", at_.size(), f.number, t));
+    at_.push_back(t);
+  }
+  virtual void finish() {}
+  virtual std::string begun() const = 0;  ///< where the pictures are that were not finished
+  std::uint64_t size() const { return at_.size(); }
+
+ protected:
+  virtual void write(const Gray8& picture) = 0;
+  std::vector<double> at_;  ///< s, of each
+
+ private:
+  OutputFile times_;
+};
+
+class VideoStore final : public Store {
+ public:
+  VideoStore(const CaptureJob& job, const Camera& camera, double rate)
+      : Store(job.out.string() + ".csv"),
+        out_(job.out),
+        writer_(job.out.string() + ".part",
+                job.format == "mp4" ? VideoFormat::mp4 : VideoFormat::lossless_avi, camera.width(),
+                camera.height(), rate, 0, VideoPixels::grey8) {}
+  std::string begun() const override { return out_.string() + ".part"; }
+  void finish() override {
+    if (at_.empty()) {  // nothing is left of nothing
+      std::error_code ec;
+      std::filesystem::remove(out_.string() + ".part", ec);
+      std::filesystem::remove(out_.string() + ".csv", ec);
+      return;
+    }
+    writer_.finish(out_, false, [this](long long i) {
+      const auto k = std::size_t(i);
+      return k < at_.size() ? at_[k] : 2 * at_.back() - at_[at_.size() > 1 ? at_.size() - 2 : 0];
+    });
+  }
+
+ private:
+  void write(const Gray8& picture) override { writer_.write(picture); }
+  std::filesystem::path out_;
+  VideoWriter writer_;
+};
+
+class PictureStore final : public Store {
+ public:
+  PictureStore(const CaptureJob& job, const Camera& camera)
+      : Store(job.out / "times.csv"),
+        job_(job),
+        colour_(job.format == "ppm"),
+        encoder_(kind_of(job.format), camera.width(), camera.height(), {}, job.out.string()) {}
+  std::string begun() const override { return job_.out.string(); }
+
+ private:
+  static FrameEncoder::Kind kind_of(const std::string& format) {
+    using enum FrameEncoder::Kind;
+    return format == "pgm" ? pgm : format == "ppm" ? ppm : format == "tiff" ? tiff : png_grey;
+  }
+  void write(const Gray8& picture) override {
+    std::span<const std::uint8_t> bytes;
+    if (colour_) {
+      rgb_ = RgbImage(picture.width, picture.height);
+      for (std::size_t i = 0; i < picture.px.size(); ++i)
+        rgb_.px[i] = {picture.px[i], picture.px[i], picture.px[i]};
+      bytes = encoder_.encode(rgb_);
+    } else {
+      bytes = encoder_.encode(picture);
+    }
+    write_file(job_.out / fmt::format("frame-{:06}.{}", size(), job_.format),
+               {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+
+  const CaptureJob& job_;
+  bool colour_;
+  FrameEncoder encoder_;
+  RgbImage rgb_;
+};
+
+std::unique_ptr<Store> store_for(const CaptureJob& job, const Camera& camera) {
+  std::error_code ec;
+  const bool there = std::filesystem::exists(job.out, ec);
+  if (job.format == "mp4" || job.format == "avi") {
+    if (there && !job.force)
+      throw Error(Errc::usage, job.out.string(), "exists; choose another --out, or --force to replace it");
+    if (!job.out.parent_path().empty()) std::filesystem::create_directories(job.out.parent_path(), ec);
+    const double rate = camera.rate() > 0 ? camera.rate() : 25;
+    return std::make_unique<VideoStore>(job, camera,
+                                        job.every > 0 ? 1 / job.every : rate / double(job.one_of));
+  }
+  if (there && !(std::filesystem::is_directory(job.out, ec) && std::filesystem::is_empty(job.out, ec)))
+    throw Error(Errc::usage, job.out.string(), "exists and is no empty folder; choose another --out");
+  std::filesystem::create_directories(job.out, ec);
+  if (ec) throw Error(Errc::usage, job.out.string(), "cannot be made: " + ec.message());
+  return std::make_unique<PictureStore>(job, camera);
+}
+
+bool short_of_memory() {
+  std::ifstream in("/proc/meminfo");
+  double total = 0, available = 0, kib = 0;
+  std::string name, unit;
+  while (available == 0 && in >> name >> kib >> unit) {
+    if (name == "MemTotal:") total = kib;
+    if (name == "MemAvailable:") available = kib;
+  }
+  return available < kShortOfMemory * total;
+}
+
+}  // namespace
+
+Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
+  const std::unique_ptr<Store> store = store_for(job, *camera);
+  CameraFeed feed(camera, camera->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::all,
+                  job.buffered ? SIZE_MAX : kBacklog);
+  Captured done;
+  std::vector<CameraFrame> waiting;
+  double began = 0, due = 0, heard = monotonic_now();
+  const auto stopped = [&] { return job.stop && job.stop->load(); };
+  const auto keep = [&](CameraFrame&& f) {
+    ++done.kept;
+    if (job.buffered)
+      waiting.push_back(std::move(f));
+    else
+      store->put(f, f.t - began);
+  };
+  std::optional<Error> failure;
+  try {
+    while (!stopped()) {
+      CameraFrame f;
+      const CameraFeed::Got got = feed.next(f, monotonic_now() + kLook);
+      if (got == CameraFeed::Got::end) break;
+      if (got == CameraFeed::Got::nothing) {
+        if (monotonic_now() - heard > job.patience)
+          throw Error(Errc::device, "camera", fmt::format("has given no frame for {:g} s", job.patience));
+        continue;
+      }
+      heard = monotonic_now();
+      if (done.taken == 0) began = f.t;
+      const double t = f.t - began;
+      if (job.time > 0 && t >= job.time) break;
+      ++done.taken, done.duration = t;
+      // A millionth of a second: due times are sums.
+      const bool wanted = job.every > 0 ? t >= due - 1e-6 : (done.taken - 1) % job.one_of == 0;
+      while (wanted && job.every > 0 && due <= t + 1e-6) due += job.every;
+      if (wanted) keep(std::move(f));
+      if (job.progress) {
+        if (job.frames > 0)
+          job.progress(done.taken, job.frames);
+        else
+          job.progress(std::uint64_t(1e3 * t), std::uint64_t(1e3 * job.time));
+      }
+      if (job.frames > 0 && done.taken >= job.frames) break;
+      if (job.buffered && done.taken % kMemoryEvery == 0 && short_of_memory()) {
+        done.memory_full = true;
+        break;
+      }
+    }
+  } catch (const Error& e) {
+    failure = e;
+  }
+  done.dropped = feed.dropped(), done.corrupt = camera->corrupt();
+  for (CameraFrame& f : waiting) {
+    store->put(f, f.t - began);
+    f.image.reset();
+  }
+  if (failure && store->size() > 0)
+    throw Error(failure->code(), failure->where(),
+                fmt::format("{}; {} frames are in {}", failure->reason(), store->size(), store->begun()));
+  store->finish();
+  if (failure) throw Error(*failure);
+  return done;
+}
+
+}  // namespace faba

@@ -1,0 +1,102 @@
+#include "app/bench/open_bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/monotonic.h"
+
+namespace faba {
+
+OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what) {
+  (void)BenchControls(s);  // what does not fit is said before a device is touched
+  const Parts parts = builtin_parts();
+  setup_ = *s.rig;
+  if (setup_.needs_bench()) {
+    process_ = std::make_unique<BenchProcess>(s, seed);
+    setup_ = setup_.at(process_->at(), parts.camera, parts.driver);
+  }
+  frame_period_ = s.frame_period();
+  if (what == Open::coils) return;
+  camera_ = setup_.camera.make({});
+  if (camera_->rate() > 0) s.camera.rate = camera_->rate();
+  frame_period_ = s.frame_period();
+  const Frame frame = s.arena.make({s.si_scale()})->frame();
+  if (camera_->width() != frame.width || camera_->height() != frame.height)
+    throw Error(Errc::usage, "arena",
+                fmt::format("is seen in {} x {} px, and the camera gives {} x {} px", frame.width,
+                            frame.height, camera_->width(), camera_->height()));
+}
+
+BenchRig& OpenBench::rig(const std::filesystem::path& log) {
+  if (rig_) return *rig_;
+  const BenchRig::Params p{setup_.params.camera_timeout,
+                           camera_->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::newest};
+  rig_ = std::make_unique<BenchRig>(camera_, std::make_unique<GuardLink>(guard_setup(log)), p);
+  return *rig_;
+}
+
+void OpenBench::try_coils() const {
+  if (!rig_) (void)GuardLink(guard_setup({}));
+}
+
+double OpenBench::delay(const Scenario& s) {
+  if (setup_.driver.type == "none" || camera_->waits()) return 0;
+  constexpr int kLook = 11;  // pictures; what only the first one takes is not in their median
+  BenchControls controls(s);
+  std::vector<double> took;
+  Observation seen;
+  rig({}).begin();
+  for (int i = 0; i < kLook && rig_->read(seen); ++i) {
+    const double came = monotonic_now();
+    const Estimate e = controls.estimator->update(seen, {});
+    (void)controls.controller->update(e, controls.reference->update(e), frame_period_);
+    took.push_back(seen.age + monotonic_now() - came);
+  }
+  if (took.empty()) return 0;
+  const auto middle = took.begin() + std::ptrdiff_t(took.size() / 2);
+  std::nth_element(took.begin(), middle, took.end());
+  return *middle;
+}
+
+Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
+  OpenBench bench(s, seed);
+  const double delay = bench.delay(s);
+  BenchRig& rig = bench.rig({});
+  rig.begin();
+  BenchControls controls(s);
+  Observation seen;
+  Estimate estimate;
+  std::uint64_t frames = 0;
+  double first = 0;
+  for (const double until = monotonic_now() + seconds; monotonic_now() < until && rig.read(seen); ++frames) {
+    if (frames == 0) first = seen.t;
+    estimate = controls.estimator->update(seen, {});
+  }
+  if (frames == 0) throw Error(Errc::device, "camera", "has no more pictures to look at");
+  const GuardReport guard = rig.coils()->report();
+  Json sensed = Json::array();
+  for (std::size_t k = 0; k < rig.coils()->coils(); ++k)
+    sensed.push_back(std::isnan(guard.sensed[k]) ? Json() : Json(guard.sensed[k]));
+  Json j = {{"camera", s.rig->camera.type},
+            {"size_px", {bench.camera()->width(), bench.camera()->height()}},
+            {"rate_hz", frames > 1 ? Json(double(frames - 1) / (seen.t - first)) : Json()},
+            {"frames", frames},
+            {"dropped", rig.dropped()},
+            {"corrupt", bench.camera()->corrupt()},
+            {"age_ms", 1e3 * seen.age},
+            {"delay_ms", 1e3 * delay},
+            {"driver", s.rig->driver.type},
+            {"guard", word(guard.state)},
+            {"cannot_arm", guard.reason[0] ? Json(guard.reason.data()) : Json()},
+            {"sensed_a", sensed},
+            {"swarm", nullptr}};
+  if (estimate.visible > 0) {
+    const Vec2 at = controls.frame.image_from_world(estimate.centroid);
+    j["swarm"] = {{"cells", estimate.visible}, {"centroid_px", {at.x, at.y}}};
+  }
+  return j;
+}
+
+}  // namespace faba

@@ -1,0 +1,42 @@
+#include "app/bench/replay.h"
+#include "app/scenario/read_scenario.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "app/bench/bench_controls.h"
+#include "app/recording/run_directory.h"
+#include "rig/replay_rig.h"
+
+namespace faba {
+
+Replayed replay_run(const std::filesystem::path& dir,
+                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& go_on) {
+  std::error_code ec;
+  const auto commands = dir / run_files::kCommands, video = dir / "video.avi";
+  if (!std::filesystem::exists(commands, ec))
+    throw Error(Errc::input, dir.string(), "is no run on a bench: it has no commands.csv");
+  if (!std::filesystem::exists(video, ec))
+    throw Error(Errc::input, dir.string(),
+                "has no video.avi with the pictures as they were; record it with record.lossless = true");
+  const Scenario s = read_scenario(read_toml(dir / run_files::kScenario), builtin_parts());
+  BenchControls controls(s);
+  ReplayRig rig(video, commands);
+  Loop loop = controls.loop(rig, s.frame_period());
+  bool stopped = false;
+  run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
+    stopped = !go_on(loop.next, rig.frames());
+    return !stopped;
+  });
+  if (stopped) throw Error(Errc::interrupted, dir.string(), "was not replayed to its end");
+  if (loop.next < rig.frames())
+    throw Error(Errc::input, video.string(),
+                fmt::format("ends after {} frames, and commands.csv has {}", loop.next, rig.frames()));
+  if (rig.more())
+    throw Error(Errc::input, commands.string(),
+                fmt::format("ends after {} frames, and video.avi has more", rig.frames()));
+  return {rig.frames(), rig.equal(), rig.first_other()};
+}
+
+}  // namespace faba

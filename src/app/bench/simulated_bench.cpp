@@ -1,0 +1,259 @@
+#include "app/bench/simulated_bench.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "app/run/simulation.h"
+#include "core/file.h"
+#include "core/monotonic.h"
+#include "rig/bench_socket.h"
+#include "vision/image/image.h"
+
+namespace faba {
+namespace {
+
+constexpr double kSlice = 1e-3;  // s between looks at the sockets, and lines of the log while currents change
+constexpr double kSending = 0.5;  // s that a client may take for what is a few bytes
+constexpr double kFetching = 10;  // s for a frame: who has just connected has its coils to open first
+constexpr auto kAlive = std::chrono::milliseconds(10);  // between looks at whether a client is still there
+constexpr double kStep = 2e-3;  // s, the longest of the world: a command waits for the next to begin
+constexpr double kAffordable =
+    2e7;  // steps of cells a second, a fifth of what a core makes (bench/results/agents.md)
+constexpr double kNobody = 30;        // s after which a bench that is to serve once ends, when nobody comes
+constexpr double kAlone = 5;          // s after which it does when everybody has gone
+constexpr double kNoticeable = 1e-5;  // A
+
+struct CoilEvent {
+  double t;
+  std::vector<double> volts;
+  bool enable;
+};
+
+// The coils' side: takes voltages as they come and logs what flows.
+class Coils {
+ public:
+  Coils(const BenchParams& p, std::size_t outputs, const std::filesystem::path& log)
+      : p_(p), amplifier_(p.amplifier, outputs), outputs_(outputs), volts_(outputs, p.amplifier.reference) {
+    if (log.empty()) return;
+    log_ = std::make_unique<OutputFile>(log);
+    std::string head = "t_s,enable,relay";
+    for (std::size_t k = 0; k < outputs; ++k) head += fmt::format(",volts_{}", k);
+    for (std::size_t k = 0; k < outputs; ++k) head += fmt::format(",current_{}_a", k);
+    log_->append(head + '\n');
+  }
+
+  void connect(BenchSocket s) {
+    const BenchDevice device{std::uint32_t(outputs_), p_.amplifier.enable_line ? 1U : 0U};
+    socket_ = std::move(s);
+    if (!socket_.write(&device, sizeof device, kSending)) socket_.close();
+  }
+  bool connected() const { return bool(socket_); }
+
+  // Reads what has come; to be called every kSlice.
+  void work() {
+    BenchVolts m;
+    while (socket_) {
+      const auto got = socket_.read(&m, sizeof m, 0);
+      if (got == BenchSocket::Got::nothing) break;
+      if (got == BenchSocket::Got::closed) {
+        socket_.close();  // the voltages stay as they are, as those of an unplugged device do
+        break;
+      }
+      if (m.set) take(m);
+      if (m.tell) tell();
+    }
+    record(monotonic_now());
+  }
+  // Events until time t, for the world.
+  std::vector<CoilEvent> until(double t) {
+    const std::lock_guard lock(mutex_);
+    std::vector<CoilEvent> due;
+    while (!events_.empty() && events_.front().t <= t) {
+      due.push_back(std::move(events_.front()));
+      events_.pop_front();
+    }
+    return due;
+  }
+
+ private:
+  void take(const BenchVolts& m) {
+    const double now = monotonic_now();
+    for (std::size_t k = 0; k < outputs_; ++k)
+      if (!std::isnan(m.volts[k])) volts_[k] = m.volts[k];
+    enable_ = m.enable != 0;
+    amplifier_.take(volts_, enable_, now);
+    {
+      const std::lock_guard lock(mutex_);
+      events_.push_back({now, volts_, enable_});
+    }
+    record(now);
+  }
+  void tell() {
+    BenchSense answer;
+    amplifier_.at(monotonic_now());
+    const std::vector<double> volts = amplifier_.sensed();
+    std::copy(volts.begin(), volts.end(), answer.volts.begin());
+    if (!socket_.write(&answer, sizeof answer, kSending)) socket_.close();
+  }
+  void record(double now) {
+    if (!log_) return;
+    const std::vector<double>& i = amplifier_.at(now);
+    bool changed = logged_.empty() || relay_ != amplifier_.enabled() || logged_enable_ != enable_;
+    for (std::size_t k = 0; k < outputs_ && !changed; ++k)
+      changed = std::fabs(i[k] - logged_[k]) > kNoticeable || volts_[k] != logged_[outputs_ + k];
+    if (!changed) return;
+    relay_ = amplifier_.enabled(), logged_enable_ = enable_;
+    logged_ = i;
+    logged_.insert(logged_.end(), volts_.begin(), volts_.end());
+    log_->append(fmt::format("{:.6f},{},{},{:.6g},{:.6g}\n", now, int(enable_), int(relay_),
+                             fmt::join(volts_, ","), fmt::join(i, ",")));
+  }
+
+  BenchParams p_;
+  Amplifier amplifier_;
+  std::size_t outputs_;
+  std::vector<double> volts_;
+  bool enable_ = false, relay_ = false, logged_enable_ = false;
+  std::vector<double> logged_;
+  BenchSocket socket_;
+  std::unique_ptr<OutputFile> log_;
+  std::mutex mutex_;
+  std::deque<CoilEvent> events_;
+};
+
+// The camera's side: hands the newest frame to whoever is connected.
+class Sender {
+ public:
+  explicit Sender(double rate) : rate_(rate), thread_([this](const std::stop_token& s) { work(s); }) {}
+  ~Sender() {
+    thread_.request_stop();
+    came_.notify_all();
+  }
+  void connect(BenchSocket s) {
+    const std::lock_guard lock(mutex_);
+    fresh_ = std::move(s);
+    connected_ = true;
+  }
+  bool connected() const { return connected_; }
+  void offer(std::uint64_t number, double t, ImageRef image) {
+    const std::lock_guard lock(mutex_);
+    if (image_ && connected_) ++unfetched_;
+    number_ = number, t_ = t, image_ = std::move(image);
+    came_.notify_all();
+  }
+  std::uint64_t unfetched() const { return unfetched_; }
+
+ private:
+  void work(const std::stop_token& stop) {
+    BenchSocket socket;
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      came_.wait_for(lock, kAlive, [&] { return image_ || stop.stop_requested(); });
+      if (socket && socket.hung_up()) {
+        socket.close();
+        connected_ = bool(fresh_);
+      }
+      if (fresh_) socket = std::move(fresh_), fresh_ = BenchSocket();
+      if (!image_) continue;
+      const ImageRef image = std::exchange(image_, nullptr);
+      const BenchFrame head{number_, t_, image->width, image->height, rate_};
+      if (!socket) continue;
+      lock.unlock();
+      const bool sent = socket.write(&head, sizeof head, kFetching) &&
+                        socket.write(image->px.data(), image->px.size(), kFetching);
+      if (!sent) socket.close();
+      lock.lock();
+      if (!sent && !fresh_) connected_ = false;
+    }
+  }
+
+  double rate_;
+  std::mutex mutex_;
+  std::condition_variable came_;
+  BenchSocket fresh_;
+  std::uint64_t number_ = 0;
+  double t_ = 0;
+  ImageRef image_;
+  std::atomic<bool> connected_ = false;
+  std::atomic<std::uint64_t> unfetched_ = 0;
+  std::jthread thread_;
+};
+
+}  // namespace
+
+SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool& pool, const Options& o) {
+  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench to be simulated");
+  const BenchParams bench = s.rig->bench;
+  s.camera.sensor = CameraParams::Sensor::frames;
+  s.camera.delay_frames = 0;
+  double cells = 0;
+  for (const Swarm& swarm : s.swarms) cells += double(swarm.params.count);
+  s.simulation.longest = std::max(kStep, cells / kAffordable);
+  Simulation simulation(s, seed, pool);
+  World& world = simulation.world();
+  const std::size_t outputs = world.parts().field->coils();
+
+  BenchSocket listener = BenchSocket::listen(o.at);
+  struct Unlink {
+    std::filesystem::path at;
+    ~Unlink() {
+      std::error_code ec;
+      std::filesystem::remove(at, ec);
+    }
+  } unlink{o.at};
+  Coils coils(bench, outputs, o.log);
+  if (o.ready) o.ready();
+  Sender sender(s.camera.rate);
+  std::atomic<bool> left_alone = false;
+  std::jthread io([&](const std::stop_token& stop) {
+    double until = monotonic_now() + kNobody;
+    while (!stop.stop_requested()) {
+      coils.work();  // first, so that one that has just gone is not in the next one's way
+      if (BenchSocket come = listener.accept(0)) {
+        BenchHello hello;
+        if (come.read(&hello, sizeof hello, kSending) == BenchSocket::Got::all &&
+            hello.version == kBenchVersion) {
+          // One at a time: who comes second is turned away, and finds the connection closed.
+          if (hello.role == BenchHello::Role::coils && !coils.connected())
+            coils.connect(std::move(come));
+          else if (hello.role == BenchHello::Role::camera && !sender.connected())
+            sender.connect(std::move(come));
+        }
+      }
+      if (coils.connected() || sender.connected()) until = monotonic_now() + kAlone;
+      if (o.once && monotonic_now() > until) left_alone = true;
+      std::this_thread::sleep_for(std::chrono::duration<double>(kSlice));
+    }
+  });
+
+  Summary summary;
+  Amplifier amplifier(bench.amplifier, outputs);
+  const double began = monotonic_now();
+  const auto stopped = [&] { return left_alone || (o.stop && o.stop->load()); };
+  simulation.rig().before_steps([&] {
+    // A step is made when its time is over: by then all that flowed in it is known.
+    const double t = began + world.state().t, over = t + world.parts().dt;
+    for (double left = over - monotonic_now(); left > 0 && !stopped(); left = over - monotonic_now())
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.05)));
+    summary.behind = std::max(summary.behind, monotonic_now() - over);
+    for (const CoilEvent& e : coils.until(t)) amplifier.take(e.volts, e.enable, e.t);
+    world.command(amplifier.at(t));
+    return !stopped();
+  });
+  Observation seen;
+  while (!stopped() && simulation.rig().read(seen)) {
+    ++summary.frames;
+    const double t = began + seen.t;
+    const bool frozen = bench.freeze_after && seen.t >= *bench.freeze_after;
+    if (!frozen) sender.offer(seen.frame + 1, t, seen.image);
+  }
+  summary.unfetched = sender.unfetched();
+  return summary;
+}
+
+}  // namespace faba

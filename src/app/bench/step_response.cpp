@@ -1,0 +1,204 @@
+#include "app/bench/step_response.h"
+#include "app/scenario/read_scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "app/bench/bench_session.h"
+#include "core/file.h"
+#include "core/monotonic.h"
+#include "core/portable_math.h"
+#include "core/units.h"
+#include "core/urgent.h"
+
+namespace faba {
+namespace {
+
+constexpr const char* kStudy = "study.toml";
+constexpr double kRound = 1e-9;  // share of a current that is rounding
+constexpr double kLook = 0.05;   // s between looks at the clock while nothing is to be done
+
+Json field_words(Vec2 b) { return {fmt::format("{} T", b.x), fmt::format("{} T", b.y)}; }
+
+// The scene with fields in place of its controller: one that drives the cells to a side, and another after
+// `before`.
+struct Scenes {
+  Scenario gather, respond;
+};
+Scenes scenes_of(Document d) {
+  d.set("camera.sensor", Json("frames"), "step-response");
+  for (const char* key : {"reference", "controller", "event"}) d.root.erase(key);
+  if (!d.root.contains("estimator")) d.set("estimator", Json("image"), "step-response");
+  const Scenario s = read_scenario(d, builtin_parts());
+  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench to record on");
+  const StepResponseParams& p = s.rig->step_response;
+  const auto way = portable::sincos(p.direction * kDegree);
+  // Picture directions turn clockwise, the world's y is up; south-seeking cells swim against the field.
+  const Vec2 field = (s.polarity() * p.field) * Vec2{way.cos, -way.sin};
+  const Json there = {{"type", "manual"}, {"field", field_words(field)}};
+  Json back = there;
+  back["segment"] =
+      Json::array({{{"at", fmt::format("{} s", p.before)}, {"field", field_words(-1.0 * field)}}});
+  d.set("controller", there, "step-response");
+  d.set("duration", Json(fmt::format("{} s", p.gather)), "step-response");
+  const Scenario gather = read_scenario(d, builtin_parts());
+  d.set("controller", back, "step-response");
+  d.set("duration", Json(fmt::format("{} s", p.before + p.record)), "step-response");
+  d.set("record.lossless", Json(true), "step-response");
+  return {gather, read_scenario(d, builtin_parts())};
+}
+
+// Coils that are asked for more than they take give another field, and in another direction.
+void check_field(const Scenario& s) {
+  const BenchControls c(s);
+  const double wanted = s.rig->step_response.field;
+  const Command asked = c.controller->update({}, {}, s.frame_period());
+  const std::vector<double> common = c.field->max_currents(s.limits.max_current),
+                            wired = s.rig->max_current();
+  double share = 1;
+  for (std::size_t k = 0; k < asked.current.size(); ++k)
+    if (const double i = std::fabs(asked.current[k]); i > 0)
+      share = std::min(share, std::min(common[k], wired[k]) / i);
+  if (share < 1 - kRound)
+    throw Error(Errc::usage, "rig.step_response.field",
+                fmt::format("is {:.1f} uT; with the currents that these coils take they give {:.1f} uT",
+                            1e6 * wanted, 1e6 * share * wanted));
+}
+
+// The study file: what is there already stays.
+class StudyFile {
+ public:
+  StudyFile(const std::filesystem::path& dir, const StepResponseParams& p, std::string experiment)
+      : path_(dir / kStudy), experiment_(std::move(experiment)) {
+    std::error_code ec;
+    if (std::filesystem::exists(path_, ec)) root_ = read_toml(path_).root;
+    if (!root_.contains("video")) {
+      root_["video"] = Json::array();
+    }
+    if (experiment_.empty()) {
+      std::vector<std::string> names;
+      for (const Json& v : root_["video"]) names.push_back(v.value("experiment", ""));
+      std::sort(names.begin(), names.end());
+      experiment_ = std::to_string(std::unique(names.begin(), names.end()) - names.begin() + 1);
+    }
+    direction_ = std::fmod(p.direction + 180, 360), from_ = p.before;
+  }
+  const std::string& experiment() const { return experiment_; }
+  void add(const RecordedResponse& r) {
+    root_["video"].push_back({{"file", r.dir.filename().string()},
+                              {"exposure", fmt::format("{:.1f} s", r.exposure)},
+                              {"experiment", experiment_},
+                              {"direction", direction_},
+                              {"from", fmt::format("{} s", from_)}});
+    write_file(path_, to_toml(root_));
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string experiment_;
+  Json root_ = Json::object();
+  double direction_ = 0, from_ = 0;  ///< deg; s
+};
+
+// A schedule in time, that somebody may stop.
+class Schedule {
+ public:
+  Schedule(const StepResponseJob& job, const StepResponseParams& p)
+      : job_(job),
+        began_(monotonic_now()),
+        whole_(p.every * (p.repeat - 1) + p.gather + p.before + p.record) {}
+  double now() const { return monotonic_now() - began_; }
+  bool stopped() const { return job_.run.stop && job_.run.stop->load(); }
+  bool go_on() const {
+    if (job_.run.progress)
+      job_.run.progress(std::uint64_t(1e3 * std::min(now(), whole_)), std::uint64_t(1e3 * whole_));
+    return !stopped();
+  }
+  void wait_until(double t) const {
+    while (now() < t && go_on())
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kLook, t - now())));
+  }
+
+ private:
+  const StepResponseJob& job_;
+  double began_, whole_;  ///< s
+};
+
+// Drives the cells to one side, and says where the swarm is then.
+void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, RecordedResponse& out) {
+  BenchControls controls(s);
+  BenchRig& rig = bench.rig({});
+  rig.begin();
+  Loop loop = controls.loop(rig, s.frame_period());
+  struct Newest final : Sink {
+    void take(const Tick& t) override { estimate = t.estimate; }
+    Estimate estimate;
+  } newest;
+  loop.sinks = {&newest};
+  const Urgent urgent;
+  run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
+    if (loop.next == 1) rig.arm();
+    return loop.last_t + 0.5 * loop.frame_period < s.params.duration && schedule.go_on();
+  });
+  out.cells = newest.estimate.visible;
+  if (out.cells > 0) out.at_px = controls.frame.image_from_world(newest.estimate.centroid);
+}
+
+}  // namespace
+
+std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) {
+  if (job.experiment.find('/') != std::string::npos || job.experiment.starts_with('.'))
+    throw Error(Errc::usage, "--experiment", "is a name for files: without / and no dot in front");
+  Scenes scenes = scenes_of(job.scene);
+  const StepResponseParams p = scenes.gather.rig->step_response;
+  check_field(scenes.gather);
+  std::error_code ec;
+  if (std::filesystem::exists(job.run.out / run_files::kScenario, ec))
+    throw Error(Errc::usage, job.run.out.string(), "is the directory of a run; choose another --out");
+  OpenBench bench(scenes.gather, job.seed);
+  scenes.respond.camera.rate = scenes.gather.camera.rate;
+  bench.try_coils();
+  std::filesystem::create_directories(job.run.out, ec);
+  if (ec) throw Error(Errc::usage, job.run.out.string(), "cannot be made: " + ec.message());
+  StudyFile study(job.run.out, p, job.experiment);
+  bench.rig(job.run.out / fmt::format("coils-{}.log", study.experiment()));
+  scenes.gather.rig->params.delay = scenes.respond.rig->params.delay =
+      scenes.gather.rig->params.delay.value_or(0);  // a schedule reckons with none
+
+  std::vector<RecordedResponse> all;
+  const Schedule schedule(job, p);
+  const auto check = [&] {
+    if (schedule.stopped())
+      throw Error(Errc::interrupted, job.run.out.string(),
+                  fmt::format("has {} of {} step responses", all.size(), p.repeat));
+  };
+  for (int i = 0; i < p.repeat; ++i) {
+    schedule.wait_until(i * p.every);
+    check();
+    RecordedResponse one;
+    gather(bench, scenes.gather, schedule, one);
+    check();
+    Scenario s = scenes.respond;
+    one.exposure = s.params.exposure = scenes.gather.params.exposure + schedule.now();
+    RunOptions o = job.run;
+    o.out /= fmt::format("{}-{:.0f}s", study.experiment(), one.exposure);
+    o.numbered = true;
+    o.progress = [&](std::uint64_t, std::uint64_t) { (void)schedule.go_on(); };
+    BenchSession session =
+        BenchSession::begin(s, std::shared_ptr<OpenBench>(&bench, [](OpenBench*) {}), job.seed, o);
+    one.dir = session.dir();
+    if (!session.run()) check();
+    one.frames = session.manifest().at("frames"), one.dropped = session.manifest().at("frames_dropped");
+    if (job.done) job.done(one);
+    session.complete();
+    study.add(one);
+    all.push_back(one);
+  }
+  return all;
+}
+
+}  // namespace faba

@@ -1,0 +1,42 @@
+#include "app/recording/drawn_swarm.h"
+
+#include <cmath>
+
+namespace faba {
+
+DrawnSwarm::DrawnSwarm(const World& world, const Loop& loop, double um_per_px)
+    : world_(world), loop_(loop), um_per_px_(um_per_px) {}
+
+RgbImage DrawnSwarm::draw(double t, Vec2 target) {
+  const State& s = world_.state();
+  const Frame& frame = world_.parts().arena->frame();
+  const auto x = s.agents["x"], y = s.agents["y"], response = s.agents["response"];
+  const auto& populations = world_.parts().populations;
+  cells_.clear();
+  double sx = 0, sy = 0;
+  for (std::size_t k = 0; k < populations.size(); ++k)
+    for (std::size_t i = populations[k].begin; i < populations[k].end; ++i) {
+      sx += double(x[i]), sy += double(y[i]);
+      const Vec2 p = frame.image_from_world({double(x[i]), double(y[i])});
+      cells_.push_back({float(p.x), float(p.y), std::uint8_t(k), response[i] != 0.0f});
+    }
+  const Vec2 mean{sx / double(x.size()), sy / double(x.size())};
+  const Vec3 b = world_.parts().field->at({mean.x, mean.y, 0}, s.current);
+  const Outline edge = world_.parts().arena->outline();
+  SwarmScene scene;
+  scene.width = frame.width, scene.height = frame.height;
+  scene.um_per_px = um_per_px_;
+  scene.t = t;
+  scene.cells = cells_;
+  scene.edge_centre = edge.centre_image, scene.edge_radius_px = edge.radius_px;
+  scene.centroid = frame.image_from_world(mean);
+  if (std::isfinite(target.x)) scene.setpoint = frame.image_from_world(target);
+  route_.clear();
+  for (const Vec2 p : loop_.reference->setpoints()) route_.push_back(frame.image_from_world(p));
+  scene.route = route_;
+  scene.field_ut = {b.x * 1e6, b.y * 1e6};
+  if (ground_.empty()) ground_ = draw_ground(scene);
+  return draw_swarm(scene, ground_);
+}
+
+}  // namespace faba

@@ -1,0 +1,86 @@
+#include "app/recording/run_directory.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+using namespace run_files;
+constexpr const char* kOurs[] = {kMarker,       kCheckpoint,      kScenario,       kManifest,
+                                 "series.csv",  "tracks.h5",      "tracks.h5.new", "video.mp4.part",
+                                 "video.mp4",   "video.avi.part", "video.avi",     "flow.h5",
+                                 "report.html", kCommands,        kCoilsLog,       "latency.csv"};
+
+bool holds_run(const std::filesystem::path& dir) {
+  std::error_code ec;
+  const auto has = [&](const char* name) { return std::filesystem::is_regular_file(dir / name, ec); };
+  return RunLock::marks(dir) || (has(kManifest) && has(kScenario));
+}
+
+// Whether the directory is new. All that can be wrong with an old one is found here, before anything in it
+// goes.
+bool make_directory(const std::filesystem::path& dir, bool force) {
+  std::error_code ec;
+  if (dir.has_parent_path()) std::filesystem::create_directories(dir.parent_path(), ec);
+  if (std::filesystem::create_directory(dir, ec)) return true;
+  if (!std::filesystem::is_directory(dir)) {
+    if (std::filesystem::exists(std::filesystem::symlink_status(dir)))
+      throw Error(Errc::usage, dir.string(), "exists and is not a directory");
+    throw Error(Errc::internal, dir.string(),
+                fmt::format("cannot be made: {}; choose another --out", ec.message()));
+  }
+  if (std::filesystem::is_empty(dir, ec)) return false;
+  if (!holds_run(dir))
+    throw Error(Errc::usage, dir.string(), "holds other files and no run; choose another --out");
+  if (!force)
+    throw Error(Errc::usage, dir.string(),
+                "already holds a run; choose another --out, or --force to replace it");
+  for (const char* name : kOurs)
+    if (std::filesystem::is_directory(dir / name, ec))
+      throw Error(Errc::usage, (dir / name).string(),
+                  "is a directory where a file of the run is to be; choose another --out");
+  return false;
+}
+
+// The first of `base`, `base`-2, `base`-3 ... that is not there yet; made, so that nobody else takes it.
+std::filesystem::path make_numbered(const std::filesystem::path& base) {
+  for (int i = 1;; ++i) {
+    std::filesystem::path dir = i == 1 ? base.string() : fmt::format("{}-{}", base.string(), i);
+    if (std::filesystem::exists(std::filesystem::symlink_status(dir))) continue;
+    try {
+      if (make_directory(dir, false)) return dir;
+    } catch (const Error& e) {
+      if (e.code() != Errc::usage) throw;  // somebody was quicker
+    }
+  }
+}
+
+}  // namespace
+
+RunDirectory RunDirectory::make(const Wish& w) {
+  RunDirectory d;
+  if (w.numbered)
+    d.path_ = make_numbered(w.out);
+  else
+    make_directory(d.path_ = w.out, w.force);
+  d.lock_ = RunLock(d.path_, w.program);
+  std::error_code ec;
+  if (!w.force && std::filesystem::exists(d.path_ / kManifest, ec)) {  // somebody was quicker, and is done
+    d.lock_.complete();
+    throw Error(Errc::usage, d.path_.string(),
+                "already holds a run; choose another --out, or --force to replace it");
+  }
+  for (const char* name : kOurs)  // what is not ours stays
+    if (std::string_view(name) != kMarker) std::filesystem::remove(d.path_ / name, ec);
+  return d;
+}
+
+void RunDirectory::complete() {
+  std::error_code ec;
+  std::filesystem::remove(path_ / kCheckpoint, ec);
+  lock_.complete();
+}
+
+}  // namespace faba

@@ -1,0 +1,28 @@
+#include "app/recording/run_lock.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace faba {
+namespace {
+
+constexpr const char* kSecond = "This run is not complete. ";
+
+std::string words(const std::filesystem::path& dir, const std::string& program) {
+  if (program.empty()) return fmt::format("{}It was on a bench and cannot go on.\n", kSecond);
+  return fmt::format("{}Go on with: {} resume {}\n", kSecond, program, dir.string());
+}
+
+}  // namespace
+
+RunLock::RunLock(const std::filesystem::path& dir, const std::string& program)
+    : lock_(dir / kFile, dir, words(dir, program)) {}
+
+bool RunLock::marks(const std::filesystem::path& dir) {
+  std::ifstream in(dir / kFile);
+  std::string first, second;
+  return std::getline(in, first) && std::getline(in, second) && second.starts_with(kSecond);
+}
+
+}  // namespace faba

@@ -1,0 +1,168 @@
+#include "app/run/notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "field/null.h"
+
+namespace faba {
+namespace {
+
+using Notes = std::vector<std::string>;
+
+// Amperes from what a resolved scenario says: "0.5 A".
+std::vector<double> currents_in(const Json& list) {
+  std::vector<double> a;
+  for (const Json& one : list)
+    a.push_back(one.is_string() ? parse_quantity(one.get<std::string>()).value : one.get<double>());
+  return a;
+}
+
+void note_goals(const Simulation& simulation, Notes& notes) {
+  const Arena& arena = *simulation.world().parts().arena;
+  for (const Vec2 at : simulation.reference().setpoints()) {
+    const Vec2 px = simulation.frame().image_from_world(at);
+    if (arena.depth(at) >= 0) {
+      if (!simulation.frame().in_view(px))
+        notes.push_back(
+            fmt::format("reference: the setpoint ({:g}, {:g}) px is out of the camera's view", px.x, px.y));
+      continue;
+    }
+    notes.push_back(fmt::format(
+        "reference: the setpoint ({:g}, {:g}) px lies outside of the {}; the swarm cannot get there", px.x,
+        px.y, arena.outline().radius_px > 0 ? "drop" : "box"));
+  }
+}
+
+void note_polarities(const Scenario& s, Notes& notes) {
+  const bool north = s.polarity() > 0;
+  for (std::size_t i = 0; i < s.swarms.size(); ++i) {
+    if ((s.swarms[i].params.polarity == Swarm::Polarity::north) == north) continue;
+    notes.push_back(
+        fmt::format("swarm[{}]: the controller steers the {}-seeking cells; what draws them to the setpoint "
+                    "drives these away",
+                    i, north ? "north" : "south"));
+  }
+}
+
+std::string in_px(Vec2 px) { return fmt::format("({:.0f}, {:.0f}) px", px.x, px.y); }
+
+constexpr const char* kSaddle =
+    "a saddle: without divergence the field that draws cells together along one direction drives them away "
+    "along the other. Four coils can trap along both, as in rigs/thesis-four-coils.toml (theory C6)";
+
+// Where a controller of gradients puts its zeros, and what they do.
+void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
+  const Field& field = *simulation.world().parts().field;
+  const std::vector<double> most = field.max_currents(s.limits.max_current);
+  for (const Vec2 at : simulation.reference().setpoints()) {
+    const FieldNull n = null_at(field, at, s.polarity(), most);
+    const std::string place = in_px(simulation.frame().image_from_world(at));
+    if (!n.reachable)
+      notes.push_back(
+          fmt::format("controller: these coils cannot put a zero of the field at {}; nothing "
+                      "gathers the swarm there",
+                      place));
+    else if (n.saddle)
+      notes.push_back(fmt::format("controller: the zero of the field at {} is {}", place, kSaddle));
+  }
+}
+
+// Currents given one by one: where they cancel near the sample, and what becomes of cells there.
+void note_currents(const Scenario& s, const Simulation& simulation, Notes& notes) {
+  const WorldParts& parts = simulation.world().parts();
+  const auto look = [&](const Json& from) {
+    const std::vector<double> current =
+        from.value("current", Json::array()).empty() ? std::vector<double>() : currents_in(from["current"]);
+    if (current.empty()) return;
+    const Vec2 at = find_null(*parts.field, current, {});
+    if (!std::isfinite(at.x) || parts.field->clearance({at.x, at.y, 0}) < 1e-4) return;
+    const std::string place = in_px(simulation.frame().image_from_world(at));
+    const double outside = -parts.arena->depth(at);
+    const NullGradient g = null_gradient(*parts.field, current, at);
+    const bool north = s.polarity() > 0;
+    const bool traps = north ? g[1] < 0 : g[0] > 0, flees = north ? g[0] > 0 : g[1] < 0;
+    notes.push_back(fmt::format(
+        "controller: with these currents the field is zero at {}{}; it is {}", place,
+        outside > 0
+            ? fmt::format(", {:.2g} mm outside of the sample, so the swarm goes to one side", outside * 1e3)
+            : "",
+        traps   ? "a trap"
+        : flees ? "a place that cells flee in every direction"
+                : kSaddle));
+  };
+  look(s.controller.resolved);
+  for (const Json& segment : s.controller.resolved.value("segment", Json::array())) look(segment);
+}
+
+void note_helpless(const Scenario& s, const Simulation& simulation, Notes& notes) {
+  if (s.limits.max_current == 0)
+    notes.emplace_back("limits.max_current is 0: the coils stay without current");
+  if (std::all_of(s.swarms.begin(), s.swarms.end(), [](const Swarm& w) { return w.params.responding == 0; }))
+    notes.emplace_back("responding is 0 for every swarm: no cell feels the field");
+  if (s.params.exposure > 0 && s.motility.type == "none")
+    notes.emplace_back(
+        "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
+  if (!s.renders() &&
+      MicroscopeParams::schema().to_json(s.microscope) != MicroscopeParams::schema().to_json({}))
+    notes.emplace_back(
+        "microscope: has no effect; it needs camera.sensor = \"frames\", record.as_seen = true "
+        "(--as-seen) or record.flow = true");
+  if (const double steps = s.frame_period() / simulation.step(); steps > 1e5)
+    notes.push_back(
+        fmt::format("simulation: the models need {:.2g} steps per frame to be accurate, which will take "
+                    "long; less field, slower turning or less diffusion need fewer",
+                    steps));
+  if (s.frames() == 1)
+    notes.push_back(
+        fmt::format("duration: the run has one frame, its beginning; at {:g} Hz the next one comes "
+                    "after {:g} s",
+                    s.camera.rate, s.frame_period()));
+}
+
+std::string in_bytes(double bytes) {
+  return bytes < 1e12 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} TB", bytes / 1e12);
+}
+
+// Positions are what grows: two floats for every cell and frame, of which compression leaves three quarters.
+void note_size(const Scenario& s, std::size_t cells, std::filesystem::path out, Notes& notes) {
+  if (!s.record.tracks) return;
+  constexpr double kBytesPerCell = 8, kLeftByCompression = 0.75, kMuch = 10e9;
+  const double bytes = kBytesPerCell * (s.record.compress ? kLeftByCompression : 1) * double(cells) *
+                       double(s.frames()) / s.record.tracks_every;
+  std::error_code ec;
+  while (out.has_parent_path() && !std::filesystem::exists(out, ec)) out = out.parent_path();
+  const auto disk = std::filesystem::space(std::filesystem::exists(out, ec) ? out : ".", ec);
+  const bool fits = ec || bytes < double(disk.available);
+  if (fits && bytes < kMuch) return;
+  notes.push_back(fmt::format(
+      "record: tracks.h5 will take about {}{}; a larger tracks_every keeps fewer "
+      "frames, tracks = false none",
+      in_bytes(bytes), fits ? "" : ", and the disk has " + in_bytes(double(disk.available)) + " left"));
+}
+
+}  // namespace
+
+std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulation,
+                                  const std::filesystem::path& out) {
+  Notes notes;
+  note_helpless(s, simulation, notes);
+  if (s.steers()) {
+    note_goals(simulation, notes);
+    note_polarities(s, notes);
+  }
+  if (s.controller.type.starts_with("gradient")) note_traps(s, simulation, notes);
+  if (const auto& table = simulation.world().parts().table; table && table->error() > FieldTable::kTolerance)
+    notes.push_back(fmt::format(
+        "library: on its grid the field is off by up to {:.1g} of a coil's largest; a finer one needs "
+        "a smaller --spacing",
+        table->error()));
+  if (s.controller.type == "manual") note_currents(s, simulation, notes);
+  note_size(s, simulation.world().state().agents.size(), out, notes);
+  return notes;
+}
+
+}  // namespace faba

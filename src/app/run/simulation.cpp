@@ -1,0 +1,222 @@
+#include "app/run/simulation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/scenario/rig_file.h"
+#include "field/library.h"
+
+namespace faba {
+namespace {
+
+// The strongest field in the plane that the coils can make anywhere in the arena, T.
+double strongest(const WorldParts& w, double max_current) {
+  const std::vector<double> most = w.field->max_currents(max_current);
+  if (w.table) return w.table->strongest(most);
+  std::vector<Vec3> b(w.field->coils());
+  w.field->basis({}, b, {});
+  const Vec3 earth = w.field->ambient();
+  Vec2 sum{std::fabs(earth.x), std::fabs(earth.y)};
+  for (std::size_t k = 0; k < b.size(); ++k)
+    sum = sum + Vec2{most[k] * std::fabs(b[k].x), most[k] * std::fabs(b[k].y)};
+  return norm(sum);
+}
+
+// Over the rectangle that the arena lies in, or at the nodes of a library that must cover it.
+FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary* library, const Scenario& s) {
+  const Vec2 low{double(g.left), double(g.low)};
+  const Vec2 high = low + double(g.cell) * Vec2{double(g.columns), double(g.rows)};
+  if (!library) return {field, low, high};
+  const Vec2 from = library->grid().low, to = library->grid().high();
+  constexpr double kRim = 1e-9;  // m
+  if (low.x < from.x - kRim || low.y < from.y - kRim || high.x > to.x + kRim || high.y > to.y + kRim)
+    throw Error(
+        Errc::usage, "library",
+        fmt::format("covers {:.4g} x {:.4g} mm about the centre, the arena reaches over {:.4g} x {:.4g} mm; "
+                    "make it larger with --size",
+                    1e3 * (to - from).x, 1e3 * (to - from).y, 1e3 * (high - low).x, 1e3 * (high - low).y));
+  return library->table(field, rig_fingerprint(s.field.resolved));
+}
+
+constexpr double kJitterSteps = 4;  // in one sd of the frames' times, so that whole steps do not show
+
+// Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
+// whole.
+int steps_per_frame(const Scenario& s, double longest) {
+  const double frame = s.frame_period();
+  if (s.camera.jitter > 0) longest = std::min(longest, s.camera.jitter / kJitterSteps);
+  if (s.simulation.step) {
+    if (s.camera.jitter > 0 && *s.simulation.step > s.camera.jitter)
+      throw Error(
+          Errc::usage, "camera.jitter",
+          fmt::format("{:g} s is less than a step ({:g} s), and frames are taken at whole steps; a shorter "
+                      "simulation.step",
+                      s.camera.jitter, *s.simulation.step));
+    const double n = frame / *s.simulation.step, whole = std::floor(n + 0.5);
+    if (whole < 1 || std::fabs(n - whole) > 1e-6 * whole)
+      throw Error(Errc::usage, "simulation.step",
+                  fmt::format("{:g} s is not a whole part of a frame ({:g} s); the nearest is {:.9g} s",
+                              *s.simulation.step, frame, frame / std::max(1.0, whole)));
+    return int(whole);
+  }
+  const double needed = std::max(1.0, std::ceil(frame / longest - 1e-9));
+  if (!(needed < 1e9))
+    throw Error(Errc::usage, "simulation",
+                fmt::format("the models need {:.2g} steps per frame to be accurate; use less field, slower "
+                            "turning or less diffusion, or say yourself with simulation.step",
+                            needed));
+  const int least = int(needed);
+  const double iteration = s.si_scale().iteration;
+  for (int n = least; n <= least + 3 + int(std::ceil(frame / iteration)); ++n) {
+    const double per_iteration = iteration * n / frame;
+    if (per_iteration > 0.5 && std::fabs(per_iteration - std::floor(per_iteration + 0.5)) < 1e-6) return n;
+  }
+  return least;  // models that count in iterations will say what is wrong
+}
+
+std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool,
+                                 const VideoGround* ground) {
+  SimRig::Params p{steps, s.frame_period(), s.camera.delay_frames, s.camera.jitter};
+  p.frames = s.camera.sensor == CameraParams::Sensor::frames;
+  if (s.renders()) {
+    const Outline edge = world.parts().arena->outline();
+    p.microscope = std::make_shared<Microscope>(s.microscope, world.parts().arena->frame(),
+                                                Circle{edge.centre_image, edge.radius_px}, s.frame_period(),
+                                                seed, ground);
+    p.pool = &pool;
+  }
+  return std::make_unique<SimRig>(world, p);
+}
+
+}  // namespace
+
+ControlContext control_context(const Scenario& s, const std::shared_ptr<const Field>& field,
+                               const Frame& frame, const std::shared_ptr<const FieldLibrary>& library) {
+  return {field,
+          s.si_scale(),
+          frame,
+          s.polarity(),
+          s.frame_period(),
+          double(s.camera.delay_frames),
+          field->max_currents(s.limits.max_current),
+          library};
+}
+
+struct Simulation::Exchanged {
+  std::unique_ptr<Estimator> estimator;
+  std::unique_ptr<Reference> reference;
+  std::unique_ptr<Controller> controller;
+  std::shared_ptr<const AgentModel> model;
+};
+
+Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
+                       const std::shared_ptr<const VideoGround>& ground)
+    : events_(s.events) {
+  const Scale scale = s.si_scale();
+  WorldParts w;
+  w.seed = seed;
+  w.exclusion = s.exclusion;
+  w.arena = s.arena.make({scale});
+  w.field = s.field.make({});
+  std::shared_ptr<const FieldLibrary> library;
+  if (s.library) library = std::make_shared<FieldLibrary>(s.library->file);
+  if (library || w.field->varies()) w.table = tabulated(*w.field, w.arena->grid(), library.get(), s);
+  w.motility = s.motility.make({w.arena.get(), s.params.exposure});
+  frame_ = w.arena->frame();
+
+  // A model must be asked for its longest step before the step is known: build it twice, it is cheap.
+  double longest = std::min(s.frame_period(), s.simulation.longest);
+  strongest_t_ = strongest(w, s.limits.max_current);
+  const auto shorten = [&](const ModelRegistry::PartType& model) {
+    longest = std::min(longest, model.make({scale, scale.iteration})->longest_step(strongest_t_));
+  };
+  for (const Swarm& swarm : s.swarms) shorten(swarm.model);
+  for (const Event& e : s.events)
+    if (e.model) shorten(*e.model);
+  const int steps = steps_per_frame(s, longest);
+  w.dt = s.frame_period() / steps;
+
+  std::size_t at = 0;
+  for (const Swarm& swarm : s.swarms) {
+    Population p;
+    p.begin = at;
+    p.end = at += std::size_t(swarm.params.count);
+    p.polarity = swarm.params.polarity == Swarm::Polarity::north ? 1 : -1;
+    p.responding = swarm.params.responding;
+    p.heading = swarm.params.heading;
+    p.model = swarm.model.make({scale, w.dt});
+    p.start = swarm.start.make({w.arena.get()});
+    w.populations.push_back(std::move(p));
+  }
+  if (double(s.frames()) * steps > 4e9)
+    throw Error(
+        Errc::usage, "duration",
+        fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
+
+  limits_ = Limits(s.limits, w.field->max_currents(s.limits.max_current));
+  control_ = control_context(s, w.field, frame_, library);
+  world_ = std::make_unique<World>(std::move(w), pool);
+  rig_ = make_rig(s, *world_, steps, seed, pool, ground.get());
+  estimator_ = s.estimator.make(control_);
+  reference_ = s.reference.make(control_);
+  controller_ = s.controller.make(control_);
+  loop_ = std::make_unique<Loop>(Loop{.rig = *rig_,
+                                      .estimator = estimator_.get(),
+                                      .reference = reference_.get(),
+                                      .controller = controller_.get(),
+                                      .limits = limits_,
+                                      .frame_period = s.frame_period(),
+                                      .sinks = {},
+                                      .between = [this] { apply_due(loop_->next + 1); },
+                                      .last = {}});
+  for (const Event& e : events_) make(e);  // what does not fit is said before the run begins
+}
+
+Simulation::Exchanged Simulation::make(const Event& e) const {
+  Exchanged made;
+  if (e.estimator) made.estimator = e.estimator->make(control_);
+  if (e.reference) made.reference = e.reference->make(control_);
+  if (e.controller) made.controller = e.controller->make(control_);
+  if (e.model) {
+    made.model = e.model->make({control_.scale, step()});
+    if (const double longest = made.model->longest_step(strongest_t_); longest < step() * (1 - 1e-9))
+      throw Error(
+          Errc::usage, "model",
+          fmt::format("needs steps of {:.3g} s, and the run has steps of {:.3g} s; begin it anew with "
+                      "this model, or set simulation.step",
+                      longest, step()));
+  }
+  return made;
+}
+
+void Simulation::apply(const Event& e) {
+  Exchanged made = make(e);
+  if (made.estimator) estimator_ = std::move(made.estimator);
+  if (made.reference) reference_ = std::move(made.reference);
+  if (made.controller) controller_ = std::move(made.controller);
+  if (made.model) world_->exchange_model(e.swarm, std::move(made.model));
+  loop_->estimator = estimator_.get(), loop_->reference = reference_.get();
+  loop_->controller = controller_.get();
+}
+
+void Simulation::apply_due(std::uint64_t turns) {
+  for (; next_event_ < events_.size() && events_[next_event_].frame < turns; ++next_event_)
+    apply(events_[next_event_]);
+}
+
+void Simulation::archive(Archive& a) {
+  State state = a.reading() ? State{} : world_->state();
+  a& state & loop_->next & loop_->last_t & loop_->last.current;
+  if (a.reading()) {
+    apply_due(loop_->next);  // so that the parts are those whose memory is read below
+    world_->restore(std::move(state));
+  }
+  rig_->archive(a);
+  estimator_->archive(a);
+  reference_->archive(a);
+  controller_->archive(a);
+  limits_.archive(a);
+}
+
+}  // namespace faba

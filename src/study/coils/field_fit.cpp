@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <unsupported/Eigen/LevenbergMarquardt>
+#include <unsupported/Eigen/NumericalDiff>
+
+#include "app/scenario/rig_file.h"
+#include "core/file.h"
+#include "core/units.h"
+#include "field/field_data.h"
+#include "study/coils/field_report.h"
+#include "study/plot/plot_svg.h"
+
+namespace faba {
+namespace {
+
+constexpr double kMuch = 0.1;  // assumed: a rig that is right leaves a few hundredths, of probe and formula
+
+/// The measured values as one list, and what the rig says of them when it is stronger by `gain`, moved by
+/// `shift`, and has `offset` added.
+class Model {
+ public:
+  Model(const Field& field, const FieldData& data)
+      : field_(field), data_(data), current_(field.own_currents()) {
+    for (std::size_t i = 0; i < data.at.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (data.given[k]) values_.push_back(part(data.b[i], k));
+    // Parameters of about 1: lengths in the size of the map, fields in that of the field.
+    for (const Vec3& p : data.at) size_ = std::max({size_, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    for (const double v : values_) strength_ += v * v / double(values_.size());
+    strength_ = std::sqrt(strength_);
+    for (const std::size_t axis : {0u, 1u, 2u})
+      if (!data.about_axis || axis == 2) moves_.push_back(axis);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (data.given[k]) offsets_.push_back(k);
+  }
+  Eigen::Index parameters() const { return Eigen::Index(1 + moves_.size() + offsets_.size()); }
+  const std::vector<double>& values() const { return values_; }
+  double strength() const { return strength_; }
+
+  struct Meaning {
+    double gain = 1;
+    std::array<double, 3> shift{}, offset{};  // m, T; NaN is "not asked for" in standard errors
+  };
+  // All parameters are 1 where the rig is as its file says: forward differences take a share of a parameter
+  // as their step.
+  Meaning meaning(const Eigen::VectorXd& x) const { return in_units(x, 1, 0); }
+  Meaning errors(const Eigen::VectorXd& se) const {
+    return in_units(se, 0, std::numeric_limits<double>::quiet_NaN());
+  }
+  std::vector<double> predicted(const Eigen::VectorXd& x) const {
+    const Meaning m = meaning(x);
+    std::vector<Vec3> at = data_.at, b(at.size());
+    for (Vec3& p : at) p = p - Vec3{m.shift[0], m.shift[1], m.shift[2]};
+    field_.at(at, current_, b);
+    const Vec3 earth = field_.ambient();
+    std::vector<double> out;
+    for (const Vec3& v : b)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (data_.given[k]) out.push_back(m.gain * part(v - earth, k) + part(earth, k) + m.offset[k]);
+    return out;
+  }
+
+ private:
+  Meaning in_units(const Eigen::VectorXd& x, double zero, double absent) const {
+    Meaning m;
+    m.shift.fill(absent), m.offset.fill(absent);
+    m.gain = x[0];
+    Eigen::Index at = 1;
+    for (const std::size_t axis : moves_) m.shift[axis] = (x[at++] - zero) * size_;
+    for (const std::size_t k : offsets_) m.offset[k] = (x[at++] - zero) * strength_;
+    return m;
+  }
+  static double part(Vec3 v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+  const Field& field_;
+  const FieldData& data_;
+  std::vector<double> current_, values_;
+  double size_ = 1e-6, strength_ = 0;
+  std::vector<std::size_t> moves_, offsets_;
+};
+
+struct Residuals : Eigen::DenseFunctor<double> {
+  const Model& model;
+  explicit Residuals(const Model& m) : DenseFunctor(int(m.parameters()), int(m.values().size())), model(m) {}
+  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
+    const std::vector<double> p = model.predicted(x);
+    for (std::size_t i = 0; i < p.size(); ++i)
+      r[Eigen::Index(i)] = (p[i] - model.values()[i]) / model.strength();
+    return 0;
+  }
+};
+
+// The rig with its coils as strong and where the measurement has them, and what no coil made as Earth's
+// field.
+void write_rig(const std::filesystem::path& file, Json rig, const Model::Meaning& m,
+               const std::string& data) {
+  for (Json& coil : rig["coil"]) {
+    coil["gain"] = in_si(coil["gain"]) * m.gain;
+    for (std::size_t k = 0; k < 3; ++k)
+      coil["position"][k] = format_quantity(in_si(coil["position"][k]) + m.shift[k], "m");
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    rig["earth"]["field"][k] = format_quantity(in_si(rig["earth"]["field"][k]) + m.offset[k], "T");
+  rig.erase("type");
+  write_file(file, "# Fitted to " + data + " with `faba field fit`.\n" + to_toml(rig));
+}
+
+void draw(const std::filesystem::path& file, const Model& model, const std::vector<double>& predicted) {
+  Plot p;
+  p.title = "What the fitted rig leaves over";
+  p.x.label = "measured field (mT)";
+  p.y.label = "measured less fitted (mT)";
+  Scatter dots;
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    dots.x.push_back(1e3 * model.values()[i]);
+    dots.y.push_back(1e3 * (model.values()[i] - predicted[i]));
+  }
+  p.add(Rule{.at = 0, .of_x = false}).add(std::move(dots));
+  write_file(file, svg(p));
+}
+
+}  // namespace
+
+nlohmann::ordered_json field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
+                                 const std::filesystem::path& out, const std::filesystem::path& picture) {
+  const auto part = read_rig(rig, builtin_parts());
+  const auto field = part.make({});
+  const std::vector<double> current = field->own_currents();
+  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
+    throw Error(Errc::usage, rig.string(),
+                "no current flows in it; give its coils the `current` with which the field was measured");
+  const FieldData data = read_field_data(measured);
+  const Model model(*field, data);
+  const auto n = Eigen::Index(model.values().size()), p = model.parameters();
+  if (n <= p) throw Error(Errc::input, measured.string(), fmt::format("has {} values for {} unknowns", n, p));
+
+  Residuals residuals(model);
+  Eigen::NumericalDiff<Residuals> slope(residuals);
+  Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> lm(slope);
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(p);
+  lm.minimize(x);
+  Eigen::VectorXd left(n);
+  residuals(x, left);
+  if (!left.allFinite())
+    throw Error(Errc::input, measured.string(),
+                "has points where the rig has no field: in a coil, or beyond a map");
+  Eigen::MatrixXd j(n, p);
+  slope.df(x, j);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(j);
+  qr.setThreshold(1e-6);  // what a forward difference leaves of a column that says nothing
+  if (qr.rank() < p)
+    throw Error(
+        Errc::input, measured.string(),
+        "does not say where the coils are: another place and strength fit as well; more points, off the "
+        "axis, would tell");
+  const double variance = left.squaredNorm() / double(n - p);
+  const Eigen::VectorXd se = (variance * (j.transpose() * j).inverse().diagonal()).cwiseSqrt();
+
+  const Model::Meaning m = model.meaning(x), e = model.errors(se);
+  const auto known = [](const std::array<double, 3>& v) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const double s : v)
+      list.push_back(std::isnan(s) ? nlohmann::ordered_json() : nlohmann::ordered_json(s));
+    return list;
+  };
+  nlohmann::ordered_json report;
+  report["values"] = n;
+  report["gain"] = m.gain, report["gain_se"] = e.gain;
+  report["shift_m"] = m.shift, report["shift_se_m"] = known(e.shift);
+  report["offset_t"] = m.offset, report["offset_se_t"] = known(e.offset);
+  report["rms_t"] = model.strength() * std::sqrt(left.squaredNorm() / double(n));
+  report["rms_field_t"] = model.strength();
+  const double left_share = std::sqrt(left.squaredNorm() / double(n));
+  report["note"] =
+      left_share > kMuch ? fmt::format(
+                               "the fit leaves {:.0f} % of the field over: columns, units or a value may be "
+                               "wrong, or the rig is another one",
+                               100 * left_share)
+      : m.gain < 0                 ? "the gain is negative: the sense of a current or of an axis is reversed"
+      : m.gain < 0.5 || m.gain > 2 ? "the gain is far from 1: turns, current or units may be wrong"
+                                   : "";
+  if (!out.empty()) write_rig(out, part.resolved, m, measured.filename().string());
+  if (!picture.empty()) draw(picture, model, model.predicted(x));
+  return report;
+}
+
+}  // namespace faba

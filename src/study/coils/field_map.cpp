@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scenario/rig_file.h"
+#include "core/h5.h"
+#include "field/kernels/field_table.h"
+#include "field/null.h"
+#include "study/coils/field_report.h"
+#include "vision/draw/field_picture.h"
+#include "vision/files/picture.h"
+
+namespace faba {
+namespace {
+
+constexpr int kWidth = 800;  // px of the picture and columns of the file
+
+struct Map {
+  int width = 0, height = 0;
+  double m_per_px = 0;
+  std::vector<Vec3> at, b;  ///< row by row from the top, m and T
+
+  Vec2 px(Vec2 world) const {
+    return {world.x / m_per_px + (width - 1) / 2.0, (height - 1) / 2.0 - world.y / m_per_px};
+  }
+};
+
+Map computed(const Field& field, const std::vector<double>& current, const FieldMapOptions& o) {
+  Map m;
+  m.width = kWidth;
+  m.height = std::clamp(int(std::lround(kWidth * o.height / o.width)), 60, 4000);
+  m.m_per_px = o.width / kWidth;
+  for (int row = 0; row < m.height; ++row)
+    for (int column = 0; column < m.width; ++column)
+      m.at.push_back(
+          {(column - (m.width - 1) / 2.0) * m.m_per_px, ((m.height - 1) / 2.0 - row) * m.m_per_px, 0});
+  m.b.resize(m.at.size());
+  field.at(m.at, current, m.b);
+  return m;
+}
+
+/// All zeros in the rectangle, sought from a grid of places; two nearer than a thousandth of it are one.
+std::vector<Vec2> zeros_in(const Field& field, const std::vector<double>& current, const FieldMapOptions& o) {
+  std::vector<Vec2> found;
+  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; })) return found;
+  constexpr int kTries = 21;
+  for (int i = 0; i < kTries; ++i)
+    for (int j = 0; j < kTries; ++j) {
+      const Vec2 from{o.width * ((i + 0.5) / kTries - 0.5), o.height * ((j + 0.5) / kTries - 0.5)};
+      const Vec2 at = find_null(field, current, from);
+      if (!(std::fabs(at.x) <= o.width / 2 && std::fabs(at.y) <= o.height / 2)) continue;
+      if (std::none_of(found.begin(), found.end(), [&](Vec2 f) { return norm(f - at) < 1e-3 * o.width; }))
+        found.push_back(at);
+    }
+  return found;
+}
+
+const char* kind_of(const NullGradient& g) {
+  return g[1] < 0 ? "traps north-seekers" : g[0] > 0 ? "traps south-seekers" : "saddle";
+}
+
+/// Takes a file away that did not get its final name.
+struct Unfinished {
+  std::filesystem::path file;
+  explicit Unfinished(std::filesystem::path f) : file(std::move(f)) {}
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  ~Unfinished() {
+    std::error_code ec;
+    if (!file.empty()) std::filesystem::remove(file, ec);
+  }
+};
+
+void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vector<double>& current) {
+  const std::filesystem::path part = file.string() + ".part";
+  Unfinished unfinished{part};
+  H5File h5 = H5File::create(part);
+  const auto columns = std::uint64_t(m.width);
+  H5Table b = h5.table<double>("b_t", {columns, 3}, 16, columns, true);
+  H5Table x = h5.table<double>("x_m", {}, 1024, 1, false), y = h5.table<double>("y_m", {}, 1024, 1, false);
+  h5.attribute("/", "format", std::string("faba field map 1"));
+  h5.attribute("b_t", "axes",
+               std::string("row from the top, column from the left, (x right, y up, z to the camera)"));
+  for (std::size_t k = 0; k < current.size(); ++k)
+    h5.attribute("/", fmt::format("current_{}_a", k), current[k]);
+  h5.begin_writing();
+  std::vector<double> row(3 * columns);
+  for (int r = 0; r < m.height; ++r) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      const Vec3 v = m.b[std::size_t(r) * columns + c];
+      row[3 * c] = v.x, row[3 * c + 1] = v.y, row[3 * c + 2] = v.z;
+    }
+    b.append<double>(row);
+    y.append<double>({&m.at[std::size_t(r) * columns].y, 1});
+  }
+  for (std::size_t c = 0; c < columns; ++c) x.append<double>({&m.at[c].x, 1});
+  h5.close();
+  std::filesystem::rename(part, file);
+  unfinished.file.clear();
+}
+
+void draw(const FieldMapOptions& o, const Field& field, const Map& m, const nlohmann::ordered_json& zeros) {
+  FieldScene s;
+  s.width = m.width, s.height = m.height;
+  s.um_per_px = m.m_per_px * 1e6;
+  if (o.view) s.view_px = (1 / m.m_per_px) * *o.view;
+  s.drop_radius_px = o.drop_radius / m.m_per_px;
+  for (const Vec3& v : m.b) s.b.push_back({v.x, v.y});
+  for (const auto& stroke : field.outline()) {
+    s.coils.emplace_back();
+    for (const Vec3& p : stroke) s.coils.back().push_back(m.px({p.x, p.y}));
+  }
+  for (const auto& z : zeros)
+    s.zeros.push_back(
+        {m.px({z["at_m"][0].get<double>(), z["at_m"][1].get<double>()}), z["kind"].get<std::string>()});
+  write_png(o.picture, draw_field(s));
+}
+
+// A map may show the coils themselves, a table of the field may not hold them.
+nlohmann::ordered_json table_report(const Field& field, const FieldMapOptions& o) {
+  try {
+    const FieldTable table(field, {-o.width / 2, -o.height / 2}, {o.width / 2, o.height / 2});
+    return {{"spacing_m", table.grid().spacing},
+            {"columns", table.grid().columns},
+            {"rows", table.grid().rows},
+            {"error", table.error()}};
+  } catch (const Error&) {
+    if (o.picture.empty() && o.hdf5.empty()) throw;
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
+  const auto field = read_rig(rig, builtin_parts()).make({});
+  const std::vector<double> current = o.current.empty() ? field->own_currents() : o.current;
+  if (current.size() != field->coils())
+    throw Error(Errc::usage, "--current",
+                fmt::format("has {} currents, the rig has {} coils", current.size(), field->coils()));
+  std::string note;
+  for (std::size_t k = 0; k < current.size(); ++k) {
+    if (!(std::fabs(current[k]) <= 1e4))
+      throw Error(Errc::usage, "--current", fmt::format("{:g} A is more than any coil bears", current[k]));
+    if (std::fabs(current[k]) > field->circuit(k).max_current)
+      note = fmt::format("{:g} A is more than the max_current of {}", current[k], field->circuit(k).name);
+  }
+  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
+    note = "no current flows; say which, such as --current 0.5,0.5";
+  const Map m = computed(*field, current, o);
+  nlohmann::ordered_json j;
+  j["currents_a"] = current;
+  j["note"] = note;
+  j["zeros"] = nlohmann::ordered_json::array();
+  for (const Vec2 at : zeros_in(*field, current, o)) {
+    const NullGradient g = null_gradient(*field, current, at);
+    j["zeros"].push_back({{"at_m", {at.x, at.y}}, {"eigenvalues_t_per_m", g}, {"kind", kind_of(g)}});
+  }
+  double strongest = 0;
+  for (const Vec3& v : m.b) strongest = std::max(strongest, norm(Vec2{v.x, v.y}));
+  j["strongest_t"] = strongest;
+  j["table"] = table_report(*field, o);
+  if (!o.picture.empty()) draw(o, *field, m, j["zeros"]);
+  if (!o.hdf5.empty()) write_hdf5(o.hdf5, m, current);
+  return j;
+}
+
+}  // namespace faba

@@ -1,0 +1,61 @@
+#include "study/coils/field_report.h"
+
+#include <cmath>
+
+#include "app/scenario/rig_file.h"
+#include "core/table.h"
+#include "field/null.h"
+
+namespace faba {
+namespace {
+
+std::unique_ptr<Field> rig_of(const std::filesystem::path& file) {
+  return read_rig(file, builtin_parts()).make({});
+}
+
+}  // namespace
+
+FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points) {
+  const auto field = rig_of(rig);
+  FieldAtPoints out;
+  out.current = field->own_currents();
+  const Table table = read_table(points);
+  const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m");
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (!std::isfinite(x[i] + y[i] + z[i]))
+      throw Error(Errc::input, table.place(i), "a coordinate is missing");
+    out.at.push_back({x[i], y[i], z[i]});
+  }
+  out.b.resize(out.at.size());
+  field->at(out.at, out.current, out.b);
+  return out;
+}
+
+nlohmann::ordered_json null_report(const std::filesystem::path& rig, Vec2 at, int polarity) {
+  const auto field = rig_of(rig);
+  if (!(field->clearance({at.x, at.y, 0}) > 0))
+    throw Error(Errc::usage, rig.string(),
+                "there is a winding at that place, or it lies outside of a measured map");
+  const FieldNull n = null_at(*field, at, polarity, current_limits(*field));
+  if (!std::isfinite(n.gradient[0] + n.gradient[1]))
+    throw Error(Errc::usage, rig.string(), "has no field that can be computed there");
+  nlohmann::ordered_json j;
+  j["at_m"] = {at.x, at.y};
+  j["coils"] = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < field->coils(); ++k) j["coils"].push_back(field->circuit(k).name);
+  j["currents_a"] = n.current;
+  j["eigenvalues_t_per_m"] = n.gradient;
+  j["dbz_dz_t_per_m"] = n.out_of_plane;
+  j["reachable"] = n.reachable;
+  j["saddle"] = n.saddle;
+  j["note"] =
+      !n.reachable ? "these coils cannot put a zero of the field there within their current limits"
+      : n.saddle && (polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0
+          ? "the zero drives cells away along every direction: no currents within the limits trap there"
+      : n.saddle ? "the zero is a saddle: it draws cells together along one direction and drives them "
+                   "away along the other"
+                 : "";
+  return j;
+}
+
+}  // namespace faba

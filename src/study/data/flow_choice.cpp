@@ -1,0 +1,34 @@
+#include "study/data/flow_choice.h"
+
+#include <fmt/format.h>
+
+#include "app/scenario/parts.h"
+
+namespace faba {
+
+FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults) {
+  const Parts parts = builtin_parts();
+  for (const auto& [key, _] : choice.values)
+    if (const Json& known = parts.flow.json_schema(choice.method)["properties"]; !known.contains(key))
+      throw Error(Errc::usage, "--" + key, fmt::format("is no parameter of method {}", choice.method));
+  Document d;
+  d.name = "--method " + choice.method;
+  d.set("flow.type", Json(choice.method), "--method " + choice.method);
+  if (choice.method == defaults.method)
+    for (const auto& [key, value] : defaults.values) d.set("flow." + key, value, "--" + key);
+  for (const auto& [key, value] : choice.values) d.set("flow." + key, value, "--" + key);
+  return parts.flow.resolve(Node(d).child("flow"));
+}
+
+std::string options_said(const FlowChoice& choice, int shrink, double fps) {
+  std::string said = choice.method == FlowChoice{}.method ? "" : "--method";
+  const auto add = [&](const std::string& option) { said += (said.empty() ? "--" : ", --") + option; };
+  for (const auto& [key, _] : choice.values) add(key);
+  if (shrink > 0) add("shrink");
+  if (fps > 0) add("fps");
+  return said;
+}
+
+FlowChoice published_flow() { return {"horn_schunck", {{"preset", "published"}}}; }
+
+}  // namespace faba

@@ -1,0 +1,124 @@
+#include "study/data/run_info.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/toml.h"
+
+namespace faba {
+namespace {
+
+/// An object of the manifest that knows its own name, so that a message can say which key is wrong.
+class Keys {
+ public:
+  Keys(const Json& json, std::string file, std::string prefix)
+      : json_(json), file_(std::move(file)), prefix_(std::move(prefix)) {}
+
+  const Json* find(const char* key) const {
+    const auto at = json_.find(key);
+    return at == json_.end() || at->is_null() ? nullptr : &*at;
+  }
+  [[noreturn]] void fail(const char* key, const char* wanted) const {
+    throw Error(Errc::input, file_, fmt::format("{}{} must be {}", prefix_, key, wanted));
+  }
+  /// Texts, whole numbers and anything else that is shown as it stands.
+  std::string text(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return {};
+    if (value->is_structured()) fail(key, "a text or a number");
+    return value->is_string() ? value->get<std::string>() : value->dump();
+  }
+  std::optional<double> number(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return std::nullopt;
+    if (!value->is_number()) fail(key, "a number");
+    return value->get<double>();
+  }
+  std::optional<Vec2> pair(const char* key) const {
+    const Json* value = find(key);
+    if (!value) return std::nullopt;
+    if (!value->is_array() || value->size() != 2 || !(*value)[0].is_number() || !(*value)[1].is_number()) {
+      fail(key, "two numbers");
+    }
+    return Vec2{(*value)[0].get<double>(), (*value)[1].get<double>()};
+  }
+
+ private:
+  const Json& json_;
+  std::string file_, prefix_;
+};
+
+Json parsed(const std::filesystem::path& path) {
+  Json json = Json::parse(read_file(path), nullptr, false);
+  if (!json.is_object()) throw Error(Errc::input, path.string(), "is not a JSON object");
+  return json;
+}
+
+/// The members of an object that are not themselves structures, as "name value, name value".
+std::string one_line(const Json& object) {
+  std::string line;
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_structured() || value.is_null()) continue;
+    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", key,
+                        value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return line;
+}
+
+}  // namespace
+
+RunInfo read_run_info(const std::filesystem::path& path) {
+  const Json json = parsed(path);
+  const Keys keys(json, path.string(), "");
+  RunInfo info;
+  info.version = keys.text("version");
+  if (info.version.empty())
+    throw Error(Errc::input, path.string(), "has no version; it is not the manifest of a run");
+  info.title = keys.text("title");
+  info.polarity = keys.text("polarity");
+  info.seed = keys.text("seed");
+  info.threads = keys.text("threads");
+  info.state_hash = keys.text("state_hash");
+  info.scenario_hash = keys.text("scenario_hash");
+  info.video_shows = keys.text("video_shows");
+  if (const Json* complete = keys.find("complete")) {
+    if (!complete->is_boolean()) keys.fail("complete", "true or false");
+    info.complete = complete->get<bool>();
+  }
+  info.duration_s = keys.number("duration_s");
+  info.wall_time_s = keys.number("wall_time_s");
+  info.setpoints = keys.number("setpoints");
+  info.um_per_px = keys.number("um_per_px");
+  if (info.um_per_px && !(*info.um_per_px > 0)) keys.fail("um_per_px", "greater than 0");
+  info.view_px = keys.pair("view_px");
+  if (info.view_px && !(info.view_px->x > 0 && info.view_px->y > 0)) keys.fail("view_px", "greater than 0");
+
+  if (const Json* arena = keys.find("arena")) {
+    if (!arena->is_object()) keys.fail("arena", "an object");
+    const Keys inside(*arena, path.string(), "arena.");
+    const auto centre = inside.pair("centre_px");
+    if (centre)
+      info.arena = {inside.text("type"), *centre, inside.number("radius_px"), inside.pair("size_px")};
+  }
+  if (const Json* notes = keys.find("notes")) {
+    if (!notes->is_array()) keys.fail("notes", "a list");
+    for (const Json& note : *notes) {
+      if (!note.is_string()) keys.fail("notes", "a list of texts");
+      info.notes.push_back(note.get<std::string>());
+    }
+  }
+  if (const Json* swarms = keys.find("swarms")) {
+    if (!swarms->is_array()) keys.fail("swarms", "a list");
+    for (const Json& swarm : *swarms) {
+      if (!swarm.is_object()) keys.fail("swarms", "a list of objects");
+      info.swarms.push_back(one_line(swarm));
+    }
+  }
+  return info;
+}
+
+}  // namespace faba

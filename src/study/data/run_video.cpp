@@ -1,0 +1,44 @@
+#include "study/data/run_video.h"
+
+#include <array>
+
+#include "app/recording/run_lock.h"
+#include "app/recording/session.h"
+#include "study/data/run_info.h"
+
+namespace faba {
+namespace {
+
+constexpr std::array kVideos = {"video.avi", "video.mp4"};  // the first one without loss
+
+}  // namespace
+
+bool is_run(const std::filesystem::path& path) {
+  std::error_code absent;
+  return std::filesystem::exists(path / run_files::kManifest, absent);
+}
+
+bool is_whole(const std::filesystem::path& run) { return !RunLock::marks(run); }
+
+bool has_camera_video(const std::filesystem::path& run) {
+  std::error_code absent;
+  for (const char* video : kVideos)
+    if (std::filesystem::exists(run / video, absent))
+      return read_run_info(run / run_files::kManifest).video_shows == "camera";
+  return false;
+}
+
+RunVideo run_video(const std::filesystem::path& path) {
+  if (!is_run(path)) return {path, {}};
+  const RunInfo info = read_run_info(path / run_files::kManifest);
+  for (const char* video : kVideos) {
+    if (!std::filesystem::exists(path / video)) continue;
+    if (info.video_shows != "camera")
+      throw Error(Errc::input, path.string(),
+                  "its video is a drawing, not what a camera sees; record the run with --as-seen");
+    return {path / video, info.um_per_px};
+  }
+  throw Error(Errc::input, path.string(), "is a run without a video; record it with --as-seen");
+}
+
+}  // namespace faba

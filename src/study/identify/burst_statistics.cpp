@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+
+#include "study/identify/episode.h"
+#include "study/stats/statistics.h"
+#include "vision/cells/detector.h"
+#include "vision/cells/tracker.h"
+
+namespace faba {
+namespace {
+
+constexpr int kBursts = 3;       // of each drive
+constexpr int kFrames = 8;       // of each burst
+constexpr int kSeenIn = 6;       // frames of a burst at least, that a cell must be seen in
+constexpr double kFrom = 0.2;    // share of a drive after which the first burst begins: cells have turned
+constexpr double kTo = 0.9;      // and before which the last one ends: the end is not known to the frame
+constexpr double kStill = 0.01;  // px^2: added to squared steps before the logarithm
+/// A number, and how uncertain it is beside chance: real cells differ in more than a model knows of, and
+/// others than cells are followed. Speeds in px per frame, the last two are logarithms. Assumed.
+struct What {
+  const char* name;
+  double blur;
+};
+constexpr What kWhat[] = {{"10 % of speeds along", 0.1}, {"median speed along", 0.05},
+                          {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
+                          {"median step", 0.3},          {"cells followed", 0.3}};
+
+/// Short pieces of tracks: how fast cells move along the drive and across it, and how far in one frame, which
+/// with diffusion is more than their speed says. Speeds are px per frame.
+class BurstStatistics final : public EpisodeStatistics {
+ public:
+  BurstStatistics(const Episode& episode, const CellView& view) : episode_(episode), view_(view) {
+    for (std::size_t d = 0; d < episode.drives.size(); ++d) {
+      const Drive& drive = episode.drives[d];
+      const double length = drive.t1_s - drive.t0_s, burst = (kFrames - 1) * view.frame_s;
+      const double first = kFrom * length, last = std::max(first, kTo * length - burst);
+      for (int b = 0; b < kBursts; ++b)
+        for (int k = 0; k < kFrames; ++k)
+          times_s_.push_back(drive.t0_s + first + (last - first) * b / (kBursts - 1) + k * view.frame_s);
+      for (const What& what : kWhat) numbers_.push_back({what.name, d, drive.t1_s});
+    }
+  }
+
+  std::vector<double> of_frames(const std::vector<GrayF>& frames) const override {
+    const Detector detector = view_.detector();
+    std::vector<std::vector<Spot>> spots;
+    spots.reserve(frames.size());
+    for (const GrayF& f : frames) spots.push_back(detector.find(f));
+    return summed(spots);
+  }
+
+  std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override {
+    std::vector<std::vector<Spot>> spots;
+    for (const auto& frame : seen) {
+      auto& one = spots.emplace_back();
+      for (const Vec2 at : frame) one.push_back({.x_px = at.x, .y_px = at.y, .mass = 1, .snr = 10});
+    }
+    return summed(spots);
+  }
+
+  void blur(std::vector<double>& numbers, StudyRandom& random) const override {
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      numbers[k] += kWhat[k % std::size(kWhat)].blur * random.normal();
+  }
+
+ private:
+  std::vector<Track> followed(const std::vector<std::vector<Spot>>& spots, std::size_t first) const {
+    TrackerOptions o;
+    o.reach_px = view_.reach_px, o.least_points = kSeenIn;
+    Tracker tracker(o);
+    for (std::size_t k = 0; k < kFrames; ++k) tracker.take(k, double(k) * view_.frame_s, spots[first + k]);
+    tracker.finish();
+    return tracker.finished();
+  }
+
+  std::vector<double> summed(const std::vector<std::vector<Spot>>& spots) const {
+    std::vector<double> out;
+    for (std::size_t d = 0; d < episode_.drives.size(); ++d) {
+      const Vec2 way = unit_vector(episode_.drives[d].direction_deg);
+      std::vector<double> along, across, steps;
+      for (std::size_t b = 0; b < kBursts; ++b)
+        for (const Track& t : followed(spots, (d * kBursts + b) * kFrames)) {
+          const TrackPoint &p = t.points.front(), &q = t.points.back();
+          const Vec2 v = 1 / double(q.frame - p.frame) * Vec2{q.x_px - p.x_px, q.y_px - p.y_px};
+          along.push_back(dot(v, way)), across.push_back(dot(v, {-way.y, way.x}));
+          for (std::size_t k = 1; k < t.points.size(); ++k) {
+            const Vec2 step{t.points[k].x_px - t.points[k - 1].x_px, t.points[k].y_px - t.points[k - 1].y_px};
+            steps.push_back(dot(step, step));
+          }
+        }
+      const double cells = double(along.size()) / kBursts;
+      if (along.empty()) along = across = steps = {0};
+      for (const double p : {0.1, 0.5, 0.9}) out.push_back(quantile(along, p));
+      out.push_back(quantile(across, 0.9) - quantile(across, 0.1));
+      out.push_back(std::log(kStill + quantile(steps, 0.5)));
+      out.push_back(std::log1p(cells));
+    }
+    return out;
+  }
+
+  Episode episode_;
+  CellView view_;
+};
+
+}  // namespace
+
+std::unique_ptr<EpisodeStatistics> burst_statistics(const Episode& episode, const CellView& view) {
+  return std::make_unique<BurstStatistics>(episode, view);
+}
+
+}  // namespace faba

@@ -1,0 +1,77 @@
+#include "study/identify/experiment_bootstrap.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "study/stats/statistics.h"
+#include "study/stats/study_random.h"
+
+namespace faba {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kResamples = 1000;
+constexpr double kStep = 0.5;  // of derivatives, in sd of the posterior
+constexpr double kFlatPrior =
+    1.0 / 12;  // variance of a uniform law: what holds a parameter that nothing tells
+
+/// A log-likelihood near a point, as a parabola: its slopes, and minus its second derivatives.
+struct Parabola {
+  VectorXd slope;
+  MatrixXd curvature;
+};
+
+Parabola parabola_of(const SyntheticLikelihood& l, const VectorXd& centre, const VectorXd& step) {
+  const Index d = centre.size();
+  const auto at = [&](Index i, double a, Index j, double b) {
+    VectorXd u = centre;
+    u[i] += a * step[i], u[j] += b * step[j];
+    return l.log_likelihood(u);
+  };
+  const double here = l.log_likelihood(centre);
+  Parabola p{VectorXd(d), MatrixXd(d, d)};
+  for (Index i = 0; i < d; ++i) {
+    const double up = at(i, 1, i, 0), down = at(i, -1, i, 0);
+    p.slope[i] = (up - down) / (2 * step[i]);
+    p.curvature(i, i) = (2 * here - up - down) / (step[i] * step[i]);
+    for (Index j = 0; j < i; ++j)
+      p.curvature(i, j) = p.curvature(j, i) =
+          -(at(i, 1, j, 1) - at(i, 1, j, -1) - at(i, -1, j, 1) + at(i, -1, j, -1)) / (4 * step[i] * step[j]);
+  }
+  return p;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& search,
+                                                       const std::vector<std::vector<Index>>& experiments,
+                                                       const VectorXd& centre, const VectorXd& sd,
+                                                       std::uint64_t seed) {
+  if (experiments.size() < 3) return {};
+  const Index d = centre.size();
+  std::vector<Parabola> each;
+  each.reserve(experiments.size());
+  for (const auto& columns : experiments)
+    each.push_back(parabola_of(search.likelihood(columns), centre, kStep * sd));
+  StudyRandom random(seed, 3);
+  std::vector<std::vector<double>> estimates(static_cast<std::size_t>(d));
+  for (int k = 0; k < kResamples; ++k) {
+    VectorXd slope = VectorXd::Zero(d);
+    MatrixXd curvature = MatrixXd::Identity(d, d) / kFlatPrior;
+    for (std::size_t e = 0; e < each.size(); ++e) {
+      const Parabola& drawn = each[random.below(each.size())];
+      slope += drawn.slope, curvature += drawn.curvature;
+    }
+    const VectorXd u = centre + curvature.ldlt().solve(slope);
+    for (Index j = 0; j < d; ++j) estimates[std::size_t(j)].push_back(std::clamp(u[j], 0.0, 1.0));
+  }
+  std::vector<std::array<double, 2>> out;
+  out.reserve(estimates.size());
+  for (const auto& e : estimates) out.push_back({quantile(e, 0.05), quantile(e, 0.95)});
+  return out;
+}
+
+}  // namespace faba

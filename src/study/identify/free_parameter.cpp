@@ -1,0 +1,223 @@
+#include "study/identify/free_parameter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scenario/parts.h"
+#include "app/scenario/scenario.h"
+#include "app/scenario/scenario_schema.h"
+#include "core/error.h"
+#include "core/units.h"
+
+namespace faba {
+namespace {
+
+struct Shown {
+  const char *unit, *name;
+  double times;
+};
+constexpr Shown kShown[] = {
+    {"m/s", "um/s", 1e6}, {"m", "um", 1e6}, {"m^2/s", "um^2/s", 1e12}, {"T", "uT", 1e6}};
+
+/// What the schemas say of the value at a path.
+struct Description {
+  const Json* schema = nullptr;    ///< null: no such path
+  const Json* value = nullptr;     ///< what stands there; null: nothing
+  std::vector<std::string> known;  ///< keys that are there in its place
+};
+
+std::vector<std::string> keys_of(const Json& properties) {
+  std::vector<std::string> keys;
+  for (const auto& [key, _] : properties.items()) keys.push_back(key);
+  return keys;
+}
+
+// The schema of the part that stands at a place which several can take.
+const Json* chosen(const Json& schema, const Json* value) {
+  const std::string type = !value               ? ""
+                           : value->is_string() ? value->get<std::string>()
+                           : value->is_object() && value->contains("type")
+                               ? (*value)["type"].get<std::string>()
+                               : "";
+  for (const Json& one : schema["oneOf"])
+    if (one.value("title", "") == type) return &one;
+  return nullptr;
+}
+
+Description describe(const std::string& path, const Json& scenario) {
+  static const Json all = scenario_json_schema(builtin_parts());
+  const Json *schema = &all, *value = &scenario;
+  std::size_t at = 0;
+  while (at < path.size()) {
+    const std::size_t end = std::min(path.find_first_of(".[", at), path.size());
+    const std::string key = path.substr(at, end - at);
+    if (schema->contains("oneOf")) schema = chosen(*schema, value);
+    if (!schema || !schema->contains("properties")) return {};
+    if (!(*schema)["properties"].contains(key)) return {nullptr, nullptr, keys_of((*schema)["properties"])};
+    schema = &(*schema)["properties"][key];
+    value = value && value->is_object() && value->contains(key) ? &(*value)[key] : nullptr;
+    at = end;
+    if (at < path.size() && path[at] == '[') {
+      const std::size_t close = path.find(']', at);
+      if (close == std::string::npos || !schema->contains("items")) return {};
+      const std::size_t index = std::size_t(std::strtoul(path.c_str() + at + 1, nullptr, 10));
+      schema = &(*schema)["items"];
+      value = value && value->is_array() && index < value->size() ? &(*value)[index] : nullptr;
+      if (!value) return {};
+      at = close + 1;
+    }
+    if (at < path.size() && path[at] == '.') ++at;
+  }
+  return {schema, value, {}};
+}
+
+double number(const Node& n, const FreeParameter& p) {
+  if (n.json->is_number()) return n.json->get<double>();
+  if (!n.json->is_string())
+    n.fail("must be a number" + (p.unit.empty() ? "" : " or a quantity in " + p.unit));
+  try {
+    const Quantity q = parse_quantity(n.json->get<std::string>());
+    if (q.dimension == parse_unit(p.unit).dimension) return q.value;
+  } catch (const std::invalid_argument&) {
+  }
+  n.fail(fmt::format("\"{}\" is not a quantity in {}", n.json->get<std::string>(),
+                     p.unit.empty() ? "numbers" : p.unit));
+}
+
+double quantity_of(const Json& v, const FreeParameter& p) {
+  if (v.is_number()) return v.get<double>();
+  return v.is_string() && !p.unit.empty() ? parse_quantity(v.get<std::string>()).value : 0;
+}
+
+// Tables that the video, the study or the recording decides.
+constexpr const char* kDecided[] = {"title",  "seed",      "duration",  "camera",     "arena",   "record",
+                                    "limits", "estimator", "reference", "controller", "library", "flow"};
+
+FreeParameter read_one(const std::string& path, const Node& n, const Json* given, const Json& scenario) {
+  for (const char* key : kDecided)
+    if (path.substr(0, path.find_first_of(".[")) == key)
+      throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                  "cannot be found: the video or the study decides it");
+  const Description d = describe(path, scenario);
+  if (!d.schema) {
+    const std::string key = path.substr(path.find_last_of('.') + 1);
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                "there is no such value in the scenario" + suggestion(key, d.known));
+  }
+  const Json& s = *d.schema;
+  if (!s.contains("minimum") || !s.contains("maximum"))
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not a number that could be found");
+  FreeParameter p{.path = path, .unit = s.value("x-unit", ""), .whole = s["type"] == "integer"};
+  const double least = s["minimum"].get<double>(), most = s["maximum"].get<double>();
+  p.low = least, p.high = most;
+  if (given && *given == false)
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not free; leave it out, or set it");
+  if ((!given || given->is_boolean()) && p.whole)
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "needs a range, such as [50, 1000]");
+  const bool all = !given || given->is_boolean();
+  if (all) {
+    const double usual = s.contains("default") ? quantity_of(s["default"], p) : 0;
+    const double place = (usual - p.low) / (p.high - p.low);
+    if (place > 0 && place < 0.5) p.stretch = 2 * std::log(1 / place - 1);
+  } else if (given->is_array()) {
+    if (given->size() != 2) n.fail(path + ": must be [lowest, highest]");
+    p.low = number({(*given)[0], n.path + "." + path, n.document}, p);
+    p.high = number({(*given)[1], n.path + "." + path, n.document}, p);
+  } else if (given->is_object() && given->contains("mean") && given->contains("sd")) {
+    FreeParameter::Known k;
+    k.mean = number({(*given)["mean"], n.path + "." + path, n.document}, p);
+    k.sd = number({(*given)["sd"], n.path + "." + path, n.document}, p);
+    if (!(k.sd > 0)) n.fail(path + ": the sd must be above 0");
+    p.low = std::max(least, k.mean - 4 * k.sd), p.high = std::min(most, k.mean + 4 * k.sd);
+    p.known = k;
+  } else {
+    n.fail(path + ": must be true, [lowest, highest] or { mean = ..., sd = ... }");
+  }
+  const std::string unit = p.shown_unit().empty() ? "" : " " + p.shown_unit();
+  if (!(p.low < p.high))
+    n.fail(fmt::format("{}: must be [lowest, highest], not {:g} to {:g}{}", path, p.shown(p.low),
+                       p.shown(p.high), unit));
+  if (!(p.low >= least) || !(p.high <= most))
+    n.fail(fmt::format("{}: {:g} to {:g} must be a range inside of {:g} to {:g}{}", path, p.shown(p.low),
+                       p.shown(p.high), p.shown(least), p.shown(most), unit));
+  p.low_is_least = p.low <= least, p.high_is_most = p.high >= most;
+  return p;
+}
+
+}  // namespace
+
+std::string FreeParameter::name() const { return path.substr(path.find_last_of('.') + 1); }
+
+std::string FreeParameter::shown_unit() const {
+  for (const Shown& s : kShown)
+    if (unit == s.unit) return s.name;
+  return unit;
+}
+
+double FreeParameter::shown(double value) const {
+  for (const Shown& s : kShown)
+    if (unit == s.unit) return value * s.times;
+  return value;
+}
+
+double FreeParameter::value(double u) const {
+  const double share = stretch > 0 ? std::expm1(stretch * u) / std::expm1(stretch) : u;
+  const double v = low + (high - low) * share;
+  return whole ? std::floor(v + 0.5) : v;
+}
+
+double FreeParameter::share(double value) const {
+  const double at = std::clamp((value - low) / (high - low), 0.0, 1.0);
+  return stretch > 0 ? std::log1p(at * std::expm1(stretch)) / stretch : at;
+}
+
+Json FreeParameter::json(double u) const {
+  const double v = value(u);
+  if (whole) return std::int64_t(v);
+  return unit.empty() ? Json(v) : Json(fmt::format("{} {}", v, unit));
+}
+
+double FreeParameter::log_prior(double u) const {
+  if (!known) return 0;
+  const double z = (value(u) - known->mean) / known->sd;
+  return -0.5 * z * z;
+}
+
+double read_value(const Node& n, const FreeParameter& p) {
+  const double v = number(n, p);
+  if (!(v >= p.low && v <= p.high))
+    n.fail(fmt::format("{:g} is not in the range of {}, {:g} to {:g}{}", v, p.path, p.low, p.high,
+                       p.unit.empty() ? "" : " " + p.unit));
+  return v;
+}
+
+std::optional<double> scenario_number(const std::string& path, const Json& scenario) {
+  const Description d = describe(path, scenario);
+  if (!d.schema) return {};
+  const Json* v = d.value ? d.value : d.schema->contains("default") ? &(*d.schema)["default"] : nullptr;
+  if (!v || !(v->is_number() || v->is_string())) return {};
+  return v->is_number() ? v->get<double>() : parse_quantity(v->get<std::string>()).value;
+}
+
+std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& scenario) {
+  std::vector<FreeParameter> all;
+  if (free.json->is_array()) {
+    for (std::size_t i = 0; i < free.json->size(); ++i) {
+      const Node n = free.item(i);
+      if (!n.json->is_string()) n.fail("must be the path of a value, such as \"swarm[0].model.speed\"");
+      all.push_back(read_one(n.json->get<std::string>(), free, nullptr, scenario));
+    }
+  } else if (free.json->is_object()) {
+    for (const auto& [path, given] : free.json->items())
+      all.push_back(read_one(path, free, &given, scenario));
+  } else {
+    free.fail("must be a list of paths or a table of paths and bounds");
+  }
+  if (all.size() > 8)
+    free.fail(fmt::format("{} parameters at once are too many; 8 are the most", all.size()));
+  return all;
+}
+
+}  // namespace faba

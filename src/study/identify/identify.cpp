@@ -1,0 +1,332 @@
+#include "study/identify/identify.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "app/scenario/parts.h"
+#include "app/scenario/read_scenario.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "study/identify/found_model.h"
+#include "study/identify/legacy_selection.h"
+#include "study/identify/parameter_search.h"
+#include "study/identify/response_survey.h"
+#include "study/identify/u_turn.h"
+#include "study/stats/statistics.h"
+
+namespace faba {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Frames, sd: how well the moment is known at which a field turns, when it is given to a frame either way,
+// and when it is told from the swarm's way.
+constexpr double kTimingGiven = 0.58, kTimingFound = 1.5;
+
+/// One of the parts of the videos that are simulated: which, and where its numbers stand in the whole list.
+struct Part {
+  std::size_t video = 0, episode = 0;
+  Index begin = 0, count = 0;
+  std::shared_ptr<const EpisodeStatistics> statistics;
+};
+
+/// All that is observed, in one list of numbers, and how it falls into experiments.
+struct Observed {
+  std::vector<Part> parts;
+  VectorXd numbers;
+  std::vector<Identification::Statistic> statistics;
+  std::vector<std::string> experiments;
+  std::vector<std::vector<Index>> columns;  ///< of each experiment
+};
+
+// With one experiment its drives are what stands for several.
+Observed gather(const std::vector<ResponseVideo>& videos) {
+  Observed o;
+  std::vector<double> numbers;
+  std::vector<std::string> experiment, drive;  // of each number
+  for (std::size_t v = 0; v < videos.size(); ++v)
+    for (std::size_t e = 0; e < videos[v].episodes.size(); ++e) {
+      const ResponseVideo& video = videos[v];
+      const auto& statistics = video.statistics[e];
+      const std::string own =
+          video.input.experiment.empty() ? fmt::format("video {}", v + 1) : video.input.experiment;
+      o.parts.push_back({v, e, Index(numbers.size()), Index(video.observed[e].size()), statistics});
+      for (std::size_t k = 0; k < video.observed[e].size(); ++k) {
+        numbers.push_back(video.observed[e][k]);
+        const EpisodeStatistics::Number& n = statistics->numbers()[k];
+        const bool several = videos.size() > 1 || video.episodes.size() > 1;
+        o.statistics.push_back(
+            {fmt::format("{}drive {}, {:.3g} s: {}", several ? video.episodes[e].name + ": " : "",
+                         n.drive + 1, n.t_s, n.what),
+             v, e, n, video.observed[e][k]});
+        experiment.push_back(own);
+        drive.push_back(fmt::format("{}, drive {}", own, e + n.drive + 1));
+      }
+    }
+  const bool one =
+      std::all_of(experiment.begin(), experiment.end(), [&](const auto& x) { return x == experiment[0]; });
+  const auto& label = one ? drive : experiment;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto at = std::find(o.experiments.begin(), o.experiments.end(), label[k]);
+    const auto i = std::size_t(at - o.experiments.begin());
+    if (at == o.experiments.end()) o.experiments.push_back(label[k]), o.columns.emplace_back();
+    o.columns[i].push_back(Index(k));
+  }
+  o.numbers = Eigen::Map<VectorXd>(numbers.data(), Index(numbers.size()));
+  return o;
+}
+
+std::string digest(const VectorXd& v) {
+  Hash h;
+  h.values(std::span<const double>(v.data(), std::size_t(v.size())));
+  return h.hex();
+}
+
+/// One candidate while it is being identified.
+struct Search {
+  std::unique_ptr<ParameterSearch> search;
+  std::string failed;
+};
+
+ParameterSearch::LogPrior prior_of(const Candidate& c) {
+  return [&c](const VectorXd& u) {
+    double sum = 0;
+    for (std::size_t j = 0; j < c.free.size(); ++j) sum += c.free[j].log_prior(u[Index(j)]);
+    return sum;
+  };
+}
+
+Document scenario_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v, const Episode& e,
+                     const VectorXd& u, const DriveTiming& timing) {
+  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_in(v)}, timing);
+  for (std::size_t j = 0; j < c.free.size(); ++j) d.set(c.free[j].path, c.free[j].json(u[Index(j)]), "free");
+  return d;
+}
+
+/// The simulations of one round, and the place of each in what it is to be.
+class Round {
+ public:
+  Round(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos, const Observed& observed,
+        const Parts& parts)
+      : study_(study), videos_(videos), observed_(observed), parts_(parts), seen_(digest(observed.numbers)) {}
+
+  /// Simulations of candidate number `candidate`, one for each row of `u`.
+  void add(const Candidate& c, const MatrixXd& u, std::size_t candidate, std::size_t number) {
+    for (Index i = 0; i < u.rows(); ++i)
+      for (std::size_t p = 0; p < observed_.parts.size(); ++p)
+        add_one(c, u.row(i).transpose(), candidate, number, i, p);
+  }
+  const std::vector<Task>& tasks() const { return tasks_; }
+
+ private:
+  void add_one(const Candidate& c, const VectorXd& u, std::size_t candidate, std::size_t number, Index i,
+               std::size_t p) {
+    const Part& part = observed_.parts[p];
+    const ResponseVideo& video = videos_[part.video];
+    // A seed of its own for each: what chance does to one simulation says nothing of the next.
+    Hash h;
+    h.value(study_.seed), h.value(candidate), h.value(number), h.value(i), h.value(p);
+    const std::uint64_t seed = h.result() >> 1;
+    const Episode& episode = video.episodes[part.episode];
+    const double usual = (video.drives_found ? kTimingFound : kTimingGiven) / video.fps;
+    const DriveTiming timing = drawn_timing(episode, study_.timing_s.value_or(usual), seed);
+    const auto d = std::make_shared<const Document>(scenario_of(study_, c, video, episode, u, timing));
+    const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
+                                                 timing.lead_s, seen_, p, int(study_.look)));
+    tasks_.push_back({key, [this, d, seed, lead = timing.lead_s, &part, &video] {
+                        try {
+                          const SeenEpisode seen =
+                              simulate_episode(read_scenario(*d, parts_), seed, lead,
+                                               part.statistics->times_s(), study_.look, video.ground);
+                          std::vector<double> numbers = study_.look == Look::video
+                                                            ? part.statistics->of_frames(seen.frames)
+                                                            : part.statistics->of_positions(seen.positions);
+                          StudyRandom random(seed, 10);
+                          part.statistics->blur(numbers, random);
+                          return numbers;
+                        } catch (const Error& e) {
+                          if (e.code() != Errc::usage) throw;
+                          // Values that do not go together, such as speeds that want too many steps.
+                          return std::vector<double>(std::size_t(part.count), std::nan(""));
+                        }
+                      }});
+  }
+  const IdentifyStudy& study_;
+  const std::vector<ResponseVideo>& videos_;
+  const Observed& observed_;
+  const Parts& parts_;
+  std::string seen_;
+  std::vector<Task> tasks_;
+};
+
+// Rows of statistics for the simulations that a search waits for, in the order of their tasks.
+MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std::size_t& at, Index rows,
+                 const Observed& o) {
+  MatrixXd s = MatrixXd::Constant(rows, o.numbers.size(), std::nan(""));
+  for (Index i = 0; i < rows; ++i)
+    for (const Part& part : o.parts) {
+      const std::vector<double>& values = *results.find(tasks[at++].key);
+      if (Index(values.size()) != part.count)
+        throw Error(
+            Errc::usage, "results.jsonl",
+            fmt::format("has a result of {} numbers where there are {}; take the file away to compute all of "
+                        "them again",
+                        values.size(), part.count));
+      s.row(i).segment(part.begin, part.count) =
+          Eigen::Map<const VectorXd>(values.data(), part.count).transpose();
+    }
+  return s;
+}
+
+// A moment shows in how long a U-turn takes, and not at all where that is shorter than a frame.
+void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
+                 const std::vector<ResponseVideo>& videos) {
+  const ResponseVideo& v = videos.front();
+  for (FoundParameter& p : m.parameters) {
+    if (p.parameter.name() != "moment" || p.doubt.empty()) continue;
+    const Document d =
+        scenario_of(study, c, v, v.episodes.front(), VectorXd::Constant(Index(c.free.size()), 0.5),
+                    exact_timing(v.episodes.front()));
+    const double turn = u_turn_s(d.root["swarm"][0]["model"], p.median, c.drive_in(v)), frame = 1 / v.fps;
+    if (turn < frame)
+      p.doubt += fmt::format(
+          "; a U-turn lasts less than a frame, {:.2g} of {:.2g} s: drive with a weaker field", turn, frame);
+  }
+}
+
+// What the best model would show again and again, with all that is not known of it.
+bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSearch& search, const Observed& o,
+              const Parts& parts, ResultStore& results, const SweepOptions& options) {
+  constexpr int kAgain = 40;
+  constexpr std::size_t kNumber = 1000000;  // of a round that the search never has
+  const MatrixXd u = search.posterior({}, kAgain, study.seed + 5);
+  Round round(study, r.videos, o, parts);
+  round.add(study.candidates[r.best], u, r.best, kNumber);
+  if (!sweep(results, round.tasks(), options)) return false;
+  std::size_t at = 0;
+  const MatrixXd shown = collect(results, round.tasks(), at, u.rows(), o);
+  for (Index k = 0; k < shown.cols(); ++k) {
+    std::vector<double> v;
+    for (const double x : shown.col(k))
+      if (std::isfinite(x)) v.push_back(x);
+    r.models[r.best].foretold90.push_back(v.empty() ? std::array{std::nan(""), std::nan("")}
+                                                    : std::array{quantile(v, 0.05), quantile(v, 0.95)});
+  }
+  return true;
+}
+
+// One camera: what differs between videos is to be the experiments.
+void check_alike(const std::vector<ResponseVideo>& videos) {
+  const ResponseVideo& first = videos.front();
+  for (const ResponseVideo& v : videos) {
+    const auto differs = [&](int a, int b) {
+      return std::abs(a * v.side - b * first.side) >= std::max(v.side, first.side);
+    };
+    if (differs(v.view.width, first.view.width) || differs(v.view.height, first.view.height))
+      throw Error(Errc::input, v.input.file.string(),
+                  fmt::format("has pictures of {} x {} px, {} of {} x {}; one study is of one camera",
+                              v.view.width * v.side, v.view.height * v.side, first.input.file.string(),
+                              first.view.width * first.side, first.view.height * first.side));
+    if (std::fabs(v.fps / first.fps - 1) > 0.01)
+      throw Error(Errc::input, v.input.file.string(),
+                  fmt::format("has {:.4g} frames per second, {} has {:.4g}; one study is of one rate", v.fps,
+                              first.input.file.string(), first.fps));
+  }
+}
+
+// The field decides how fast cells turn.
+void note_drive(const IdentifyStudy& study, ResponseVideo& v) {
+  constexpr double kSame = 0.02;
+  for (const Candidate& c : study.candidates) {
+    const double t = c.drive_in(v);
+    if (!c.drive_t && !v.field_t) {
+      v.notes.push_back(
+          fmt::format("does not tell how strong its field is: simulated with {:g} uT; say it with drive = "
+                      "\"115 uT\"",
+                      1e6 * t));
+      return;
+    }
+    if (v.field_t && std::fabs(t / *v.field_t - 1) > kSame)
+      v.notes.push_back(
+          fmt::format("recorded a field of {:.4g} uT; {} is simulated with {:.4g} uT, as the study says",
+                      1e6 * *v.field_t, c.model.name, 1e6 * t));
+  }
+}
+
+}  // namespace
+
+std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
+                                       const std::function<void()>& reading) {
+  Identification r;
+  r.study = study;
+  for (std::size_t v = 0; v < study.videos.size(); ++v)
+    r.videos.push_back(survey_response(study.videos[v], study.boundary, study.measure, [&] {
+      reading();
+      if (options.stop())
+        throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
+    }));
+  check_alike(r.videos);
+  for (ResponseVideo& v : r.videos) note_drive(study, v);
+  const Observed o = gather(r.videos);
+  for (Index k = 0; k < o.numbers.size(); ++k)
+    if (!std::isfinite(o.numbers[k]))
+      throw Error(
+          Errc::input, study.videos.front().file.string(),
+          fmt::format("shows no cells while they should move ({})", o.statistics[std::size_t(k)].name));
+  const Parts parts = builtin_parts();
+  std::vector<Search> searches;
+  for (std::size_t c = 0; c < study.candidates.size(); ++c) {
+    const Candidate& candidate = study.candidates[c];
+    searches.push_back(
+        {std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
+                                           SearchRounds::of(study.simulations), study.seed + 1000 * (c + 1)),
+         {}});
+  }
+  for (std::size_t number = 0;; ++number) {
+    Round round(study, r.videos, o, parts);
+    for (std::size_t c = 0; c < searches.size(); ++c)
+      if (searches[c].failed.empty() && searches[c].search->next())
+        round.add(study.candidates[c], *searches[c].search->next(), c, number);
+    if (round.tasks().empty()) break;
+    if (!sweep(results, round.tasks(), options)) return {};
+    std::size_t at = 0;
+    for (Search& s : searches) {
+      if (!s.failed.empty() || !s.search->next()) continue;
+      try {
+        s.search->take(collect(results, round.tasks(), at, s.search->next()->rows(), o));
+      } catch (const Error& e) {
+        if (e.code() != Errc::input) throw;
+        s.failed = e.what();
+      }
+    }
+  }
+  VectorXd scale = VectorXd::Zero(o.numbers.size());
+  double models = 0;
+  for (const Search& s : searches)
+    if (s.failed.empty()) scale += noise_of(*s.search), models += 1;
+  scale /= std::max(1.0, models);
+  for (std::size_t c = 0; c < searches.size(); ++c) {
+    FoundModel m;
+    if (searches[c].failed.empty())
+      m = found_model(study.candidates[c], *searches[c].search, o.columns, scale, study.seed + 77 * (c + 1));
+    m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
+    tell_u_turn(m, study, study.candidates[c], r.videos);
+    r.models.push_back(std::move(m));
+  }
+  r.statistics = o.statistics, r.experiments = o.experiments;
+  judge(r);
+  if (!foretell(study, r, *searches[r.best].search, o, parts, results, options)) return {};
+  if (study.legacy) {
+    auto legacy = legacy_selection(study, r.videos, results, options, reading);
+    if (!legacy) return {};
+    r.legacy = std::move(*legacy);
+  }
+  return r;
+}
+
+}  // namespace faba

@@ -1,0 +1,323 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "app/scenario/calibration_file.h"
+#include "app/scenario/parts.h"
+#include "app/scenario/read_scenario.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/units.h"
+#include "study/data/run_video.h"
+#include "study/identify/identify_study.h"
+#include "study/identify/parameter_search.h"
+
+namespace faba {
+namespace {
+
+// Tables that say what the video does not.
+constexpr const char* kOfScene[] = {"exclusion", "field", "library", "limits", "motility", "simulation"};
+
+struct StudyFile {
+  std::string title;
+  std::uint64_t seed = 1;
+  Boundary boundary = Boundary::drop;
+  Look look = Look::video;
+  std::optional<Measure> measure;
+  int simulations = 600;
+  bool legacy = false;
+  std::optional<double> um_per_px, reversal, direction, duration, timing;
+  std::string scale;
+  std::optional<double> drive;
+  static Schema<StudyFile> schema() {
+    return Schema<StudyFile>("identify", "Which model and which parameters explain videos")
+        .add("title", &StudyFile::title, {.doc = "What the study is called in reports"})
+        .add("seed", &StudyFile::seed, {.min = 0, .max = 9e15, .doc = "Of all randomness"})
+        .add("boundary", &StudyFile::boundary,
+             {.doc = "What keeps the cells together", .choices = {"drop", "box", "none"}})
+        .add("look", &StudyFile::look,
+             {.doc = "How simulations are looked at: through the microscope, as the videos were, or by the "
+                     "positions "
+                     "of the cells, which is quick and blind to what a camera does",
+              .choices = {"video", "positions"}})
+        .add("measure", &StudyFile::measure,
+             {.doc = "What videos are compared by: where the swarm is (density), or how cells move that are "
+                     "followed for a moment (tracks); tracks without a boundary, else density, when absent",
+              .choices = {"density", "tracks"}})
+        .add("simulations", &StudyFile::simulations,
+             {.min = 100, .max = 1e6, .doc = "Simulations of each video with each model"})
+        .add("legacy", &StudyFile::legacy,
+             {.doc = "Also what the selection rule of the 2016 thesis says, which is not to be trusted"})
+        .add("um_per_px", &StudyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
+        .add("scale", &StudyFile::scale, {.doc = "Calibration file of `faba scale`, in place of um_per_px"})
+        .add("reversal", &StudyFile::reversal,
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
+        .add("direction", &StudyFile::direction,
+             {.unit = "deg",
+              .min = -360,
+              .max = 360,
+              .doc = "In which cells swim from then on: 0 right, 90 down in the picture"})
+        .add("duration", &StudyFile::duration,
+             {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at from there on"})
+        .add("timing", &StudyFile::timing,
+             {.unit = "s",
+              .min = 0,
+              .max = 10,
+              .doc = "How well the moments are known at which the field turns, sd; 0.58 frames, which is a "
+                     "frame either way, when absent"})
+        .add(
+            "drive", &StudyFile::drive,
+            {.unit = "T",
+             .min = 0,
+             .max = 1,
+             .doc =
+                 "Strength of the field that drives the cells; what a run recorded, else 1 mT, when absent"});
+  }
+};
+
+struct DriveFile {
+  double from = 0, to = 0, direction = 0;
+  static Schema<DriveFile> schema() {
+    return Schema<DriveFile>("drive", "A time during which the field drives the cells one way")
+        .add("from", &DriveFile::from,
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "When it begins, in the video"})
+        .add("to", &DriveFile::to, {.unit = "s", .min = 0, .max = 1e6, .doc = "When it ends"})
+        .add("direction", &DriveFile::direction,
+             {.unit = "deg",
+              .min = -360,
+              .max = 360,
+              .doc = "In which cells swim: 0 right, 90 down in the picture"});
+  }
+};
+
+struct VideoFile {
+  std::string file, experiment;
+  double exposure = 0, fps = 0;
+  std::optional<double> um_per_px, reversal, direction, duration;
+  std::vector<DriveFile> drive;
+  static Schema<VideoFile> schema() {
+    return Schema<VideoFile>("video", "A video of an experiment")
+        .add("file", &VideoFile::file, {.doc = "Video or run directory; beside the study"})
+        .add("experiment", &VideoFile::experiment, {.doc = "The experiment that it belongs to: a drop"})
+        .add("exposure", &VideoFile::exposure,
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time in air before it"})
+        .add("fps", &VideoFile::fps,
+             {.min = 0, .max = 1e6, .doc = "Frames per second, where it does not state them"})
+        .add("um_per_px", &VideoFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
+        .add("reversal", &VideoFile::reversal,
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
+        .add("direction", &VideoFile::direction,
+             {.unit = "deg", .min = -360, .max = 360, .doc = "In which cells swim from then on"})
+        .add("duration", &VideoFile::duration,
+             {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at"})
+        .add("drive", &VideoFile::drive,
+             {.doc = "[[video.drive]]: several drives, in place of reversal and duration"});
+  }
+};
+
+ResponseInput input_of(const Node& n, const StudyFile& study, std::optional<double> um_per_px) {
+  const VideoFile v = VideoFile::schema().parse(n);
+  if (v.file.empty()) n.fail("needs file = \"...\"");
+  ResponseInput r;
+  if (!v.drive.empty() && (v.reversal || v.direction || v.duration))
+    n.fail("gives drives as well as reversal, direction or duration; give one of both");
+  if (!std::filesystem::exists(n.file(v.file)))
+    throw Error(Errc::input, n.where("file"), "no such file: " + v.file);
+  r.file = n.file(v.file), r.experiment = v.experiment, r.exposure_s = v.exposure, r.fps = v.fps;
+  r.um_per_px = v.um_per_px ? v.um_per_px : um_per_px;
+  r.reversal_s = v.reversal ? v.reversal : study.reversal;
+  r.direction_deg = v.direction ? v.direction : study.direction;
+  r.duration_s = v.duration ? v.duration : study.duration;
+  double last = 0;
+  for (const DriveFile& d : v.drive) {
+    if (!(d.to > d.from) || d.from < last)
+      n.fail("drives must follow each other, each from a time to a later one");
+    r.drives.push_back({d.from, last = d.to, d.direction});
+  }
+  return r;
+}
+
+// A video that there need not be, to check scenarios with.
+ResponseVideo any_video() {
+  ResponseVideo v;
+  v.view.width = 64, v.view.height = 48, v.fps = 15, v.um_per_px = 1;
+  v.edge.emplace();
+  v.edge->centre_image = {32, 24}, v.edge->radius_px = 100;
+  v.cell_px = 3, v.contrast = -0.4;
+  v.episodes.push_back({"any", 0, {{0, 1, 0}}, {{32, 24}}});
+  return v;
+}
+
+Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyStudy& study, const Node& root,
+                       std::size_t index) {
+  Candidate c{model, f.drive, {}, {}};
+  const Node here = root.has("model") ? root.child("model").item(index) : root;
+  if (c.model.extra.contains("drive")) {
+    const Node n{c.model.extra["drive"], here.path + ".drive", root.document};
+    c.drive_t = schema_detail::read_number(n, {.unit = "T", .min = 0, .max = 1});
+  }
+  const Parts parts = builtin_parts();
+  if (!c.model.part.is_null()) (void)parts.model.resolve({c.model.part, here.path, root.document});
+  const ResponseVideo video = any_video();
+  Document d = episode_scenario(video, video.episodes[0], {study.boundary, study.scene, c.model, kUsualDrive},
+                                exact_timing(video.episodes[0]));
+  d.root["microscope"].erase("background");
+  if (c.model.extra.contains("free"))
+    c.free = read_free_parameters({c.model.extra["free"], here.path + ".free", root.document}, d.root);
+  if (c.free.empty())
+    throw Error(Errc::usage, c.model.origin,
+                "has nothing to find: give free = { \"swarm[0].model.speed\" = [\"20 um/s\", \"300 um/s\"] "
+                "}, or another "
+                "path of the scenario");
+  if (c.model.extra.contains("legacy")) {
+    const Node n{c.model.extra["legacy"], here.path + ".legacy", root.document};
+    if (!n.json->is_array() || n.json->size() < 3)
+      n.fail("must be three values or more of the first free parameter");
+    for (std::size_t i = 0; i < n.json->size(); ++i)
+      c.legacy_values.push_back(read_value(n.item(i), c.free.front()));
+  }
+  if (const int least = ParameterSearch::least_simulations(int(c.free.size())); study.simulations < least)
+    throw Error(Errc::usage, c.model.origin,
+                fmt::format("{} parameters take {} simulations or more, not {}", c.free.size(), least,
+                            study.simulations));
+  // Both ends of every range, and the middle.
+  for (const double u : {0.5, 0.0, 1.0}) {
+    Document one = d;
+    for (const FreeParameter& p : c.free) one.set(p.path, p.json(u), c.model.origin + ".free");
+    try {
+      (void)read_scenario(one, parts);
+    } catch (const Error& e) {
+      std::string values;
+      for (const FreeParameter& p : c.free)
+        values += fmt::format("{}{} = {:.4g}{}{}", values.empty() ? "" : ", ", p.path, p.shown(p.value(u)),
+                              p.shown_unit().empty() ? "" : " ", p.shown_unit());
+      throw Error(Errc::usage, c.model.origin,
+                  fmt::format("free may be {}, and then {}; give narrower ranges", values, e.what()));
+    }
+  }
+  return c;
+}
+
+}  // namespace
+
+IdentifyStudy read_identify_study(const std::filesystem::path& file) {
+  const Document d = read_toml(file);
+  const Node root(d);
+  const StudyFile f = StudyFile::schema().parse(root, {"video", "model", "scene"});
+  IdentifyStudy study;
+  study.title = f.title.empty() ? file.stem().string() : f.title;
+  study.seed = f.seed, study.boundary = f.boundary, study.look = f.look, study.simulations = f.simulations;
+  study.measure = f.measure.value_or(f.boundary == Boundary::none ? Measure::tracks : Measure::density);
+  study.timing_s = f.timing, study.legacy = f.legacy;
+  if (root.has("scene")) {
+    if (!root.child("scene").json->is_object())
+      root.child("scene").fail("must be a table with tables of a scenario");
+    study.scene = *root.child("scene").json;
+    for (const auto& [key, _] : study.scene.items())
+      if (std::find(std::begin(kOfScene), std::end(kOfScene), key) == std::end(kOfScene))
+        throw Error(
+            Errc::usage, root.child("scene").where(key),
+            fmt::format(
+                "is not for [scene] to say: the video tells it, or it changes nothing; [scene] takes {}",
+                fmt::join(kOfScene, ", ")));
+  }
+  std::optional<double> um_per_px = f.um_per_px;
+  if (!f.scale.empty()) {
+    if (um_per_px) root.fail("gives both um_per_px and scale");
+    um_per_px = parse_calibration(root.file(f.scale).string(), root.where("scale")).um_per_px;
+  }
+  if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
+    root.fail("needs [[video]], once for each video");
+  const Node videos = root.child("video");
+  std::set<std::filesystem::path> seen;
+  for (std::size_t i = 0; i < videos.json->size(); ++i) {
+    study.videos.push_back(input_of(videos.item(i), f, um_per_px));
+    if (!seen.insert(std::filesystem::weakly_canonical(study.videos.back().file)).second)
+      videos.item(i).fail("is a video that is there already; it would count as another experiment");
+  }
+  if (!root.has("model")) root.fail("needs [[model]], once for each candidate");
+  const std::vector<Variant> models = read_variants(root, "model", {"free", "drive", "legacy"});
+  for (std::size_t i = 0; i < models.size(); ++i)
+    study.candidates.push_back(candidate_of(models[i], f, study, root, i));
+  return study;
+}
+
+Json identify_study_schema() {
+  Json j = StudyFile::schema().json_schema();
+  Json& p = j["properties"];
+  p["scene"] = {{"type", "object"},
+                {"description",
+                 fmt::format("Tables of a scenario that all models share: {}", fmt::join(kOfScene, ", "))}};
+  Json video = VideoFile::schema().json_schema();
+  p["video"] = {{"type", "array"}, {"description", "[[video]], once for each"}, {"items", video}};
+  Json model = variant_schema("A candidate");
+  model["properties"]["free"] = {{"type", "object"},
+                                 {"description",
+                                  "What is to be found, by path: [lowest, highest], true for the range of "
+                                  "the reference, or { mean, sd }"}};
+  model["properties"]["drive"] = {{"type", "string"},
+                                  {"description", "Strength of the field for this model"}};
+  model["properties"]["legacy"] = {
+      {"type", "array"},
+      {"items", {{"type", "number"}}},
+      {"description", "Values of the first free parameter that the legacy rule tries"}};
+  p["model"] = {{"type", "array"}, {"description", "[[model]], once for each candidate"}, {"items", model}};
+  return j;
+}
+
+namespace {
+
+// What is in a video, wherever it lies: another one of the same name is another study.
+void hash_content(const std::filesystem::path& file, Hash& h) {
+  namespace fs = std::filesystem;
+  if (fs::is_directory(file)) {
+    std::set<fs::path> inside;  // in order
+    for (const auto& e : fs::directory_iterator(file)) inside.insert(e.path());
+    for (const fs::path& p : inside) {
+      const std::string name = p.filename().string();
+      const bool counts = !is_run(file) || name.starts_with("video.") || name == "series.csv";
+      if (fs::is_regular_file(p) && counts) h.text(name), hash_content(p, h);
+    }
+    return;
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::vector<char> block(1u << 20);
+  while (in) {
+    in.read(block.data(), std::streamsize(block.size()));
+    h.text({block.data(), std::size_t(in.gcount())});
+  }
+}
+
+}  // namespace
+
+std::string fingerprint(const IdentifyStudy& study) {
+  Hash h;
+  h.text("identify");
+  h.value(study.seed), h.value(int(study.boundary)), h.value(int(study.look)), h.value(int(study.measure)),
+      h.value(study.simulations);
+  h.value(study.timing_s.value_or(-1));
+  h.text(study.scene.dump());
+  for (const ResponseInput& v : study.videos) {
+    hash_content(v.file, h), h.text(v.experiment);
+    for (const double x : {v.exposure_s, v.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
+                           v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
+      h.value(x);
+    for (const Drive& d : v.drives) h.value(d.t0_s), h.value(d.t1_s), h.value(d.direction_deg);
+  }
+  for (const Candidate& c : study.candidates) {
+    h.text(c.model.name), h.text(c.model.part.dump()), h.value(c.drive_t.value_or(-1));
+    for (const double v : c.legacy_values) h.value(v);
+    for (const auto& [path, value] : c.model.set) h.text(path), h.text(value.dump());
+    for (const FreeParameter& p : c.free) {
+      h.text(p.path);
+      for (const double x :
+           {p.low, p.high, p.stretch, p.known ? p.known->mean : 0, p.known ? p.known->sd : 0})
+        h.value(x);
+    }
+  }
+  return h.hex();
+}
+
+}  // namespace faba

@@ -1,0 +1,177 @@
+#include "study/identify/legacy_selection.h"
+#include "study/identify/response_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/scenario/parts.h"
+#include "app/scenario/read_scenario.h"
+#include "core/hash.h"
+#include "study/data/flow_choice.h"
+#include "study/motion/flow_histograms.h"
+#include "study/motion/signature.h"
+#include "vision/image/kernels/histogram_distance.h"
+
+namespace faba {
+namespace {
+
+constexpr int kValues = 5, kRepeats = 3;    // of the thesis
+constexpr double kM = 0.9, kThreshold = 3;  // of the distance (A17)
+constexpr const char* kVersion = "legacy 1";
+
+/// The first drive of an episode as the thesis looked at it: the flow of every pair of frames.
+struct LegacyReference {
+  std::vector<double> times_s;  ///< of the frames, from the episode's beginning
+  FlowFilter filter;
+  std::vector<FlowHistograms> pairs;
+};
+
+std::vector<FlowHistograms> histograms_of(const std::vector<GrayF>& frames, const FlowFilter& filter) {
+  Pool pool(1);
+  const auto method = flow_part({}, published_flow()).make({&pool});
+  std::vector<FlowHistograms> pairs(frames.size() - 1);
+  Flow flow;
+  for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
+    method->between(frames[i], frames[i + 1], flow);
+    flow_histograms(flow, filter, 1, pairs[i]);
+  }
+  return pairs;
+}
+
+LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std::function<void()>& reading) {
+  LegacyReference r;
+  const Drive& drive = e.drives.front();
+  const auto last = std::lround(drive.t1_s / v.view.frame_s);
+  for (long k = 0; k <= last; ++k) r.times_s.push_back(double(k) * v.view.frame_s);
+  std::vector<double> at;
+  for (const double t : r.times_s) at.push_back(e.begins_s + t);
+  Pool pool(1);
+  FlowSourceOptions options;
+  options.method = flow_part({}, published_flow());
+  options.shrink = v.side, options.fps = v.input.fps;
+  r.filter.threshold_px =
+      noise_level(v.file, options, pool, [&](auto, auto) { reading(); }).threshold_px / v.side;
+  r.filter.direction_deg = drive.direction_deg;
+  r.pairs = histograms_of(frames_at(v, at, reading), r.filter);
+  return r;
+}
+
+std::vector<double> distances(const LegacyReference& r, const std::vector<GrayF>& frames) {
+  HistogramDistance distance(BinSimilarity::truncated_linear(kThreshold), kM);
+  const std::vector<FlowHistograms> simulated = histograms_of(frames, r.filter);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < simulated.size(); ++i)
+    out.push_back(distance(r.pairs[i].x, simulated[i].x) + distance(r.pairs[i].y, simulated[i].y));
+  return out;
+}
+
+void conclude(LegacyModel& m) {
+  std::vector<double> value, slope, level_of;
+  std::map<double, std::vector<double>> level;
+  for (LegacySimulation& s : m.simulations) {
+    std::vector<double> frame(s.distance.size());
+    for (std::size_t i = 0; i < frame.size(); ++i) frame[i] = double(i);
+    s.line = fit_line(frame, s.distance), s.mean = mean(s.distance);
+    value.push_back(s.value), slope.push_back(s.line.slope), level_of.push_back(s.mean);
+    level[s.value].push_back(s.mean);
+  }
+  m.slopes = fit_line(value, slope);
+  m.zero = -m.slopes.intercept / m.slopes.slope;
+  m.zero_ci95 = zero_crossing_ci95(m.slopes, mean(value));
+  m.mean = mean(level_of), m.sd = sample_sd(level_of);
+  m.least_distance_at = std::min_element(level.begin(), level.end(), [](const auto& a, const auto& b) {
+                          return mean(a.second) < mean(b.second);
+                        })->first;
+  const auto [low, high] = std::minmax_element(value.begin(), value.end());
+  const FreeParameter& p = m.parameter;
+  if (!m.zero_ci95)
+    m.meaningless = fmt::format(
+        "the slope does not depend on {} beyond chance, so that its zero may lie anywhere", p.path);
+  else if (m.zero < *low || m.zero > *high)
+    m.meaningless = fmt::format(
+        "its zero, {:.4g}, lies beyond all values that were tried, {:.4g} to {:.4g}{}", p.shown(m.zero),
+        p.shown(*low), p.shown(*high), p.shown_unit().empty() ? "" : " " + p.shown_unit());
+}
+
+}  // namespace
+
+std::optional<std::array<double, 2>> zero_crossing_ci95(const LineFit& line, double mean_x) {
+  const double t = student_t_quantile(0.975, line.freedom), tt = t * t;
+  const double va = line.se_slope * line.se_slope, vb = line.se_intercept * line.se_intercept,
+               vab = -mean_x * va;
+  const double a = line.slope * line.slope - tt * va, b = line.slope * line.intercept - tt * vab,
+               c = line.intercept * line.intercept - tt * vb;
+  if (!(a > 0)) return {};
+  const double root = std::sqrt(std::max(0.0, b * b - a * c));
+  return std::array{(-b - root) / a, (-b + root) / a};
+}
+
+namespace {
+
+// Of the first free parameter, as shares of its range.
+std::vector<double> shares_tried(const Candidate& c) {
+  std::vector<double> shares;
+  for (const double v : c.legacy_values) shares.push_back(c.free.front().share(v));
+  for (int i = 0; c.legacy_values.empty() && i < kValues; ++i) shares.push_back((i + 0.5) / kValues);
+  return shares;
+}
+
+}  // namespace
+
+std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& study,
+                                                         const std::vector<ResponseVideo>& videos,
+                                                         ResultStore& results, const SweepOptions& options,
+                                                         const std::function<void()>& reading) {
+  const Parts parts = builtin_parts();
+  std::vector<std::vector<LegacyReference>> references;
+  for (const ResponseVideo& v : videos) {
+    auto& of_video = references.emplace_back();
+    for (const Episode& e : v.episodes) of_video.push_back(reference_of(v, e, reading));
+  }
+  std::vector<LegacyModel> models;
+  std::vector<Task> tasks;
+  for (const Candidate& c : study.candidates) {
+    LegacyModel m;
+    m.name = c.model.name, m.parameter = c.free.front();
+    const std::vector<double> shares = shares_tried(c);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      for (std::size_t v = 0; v < videos.size(); ++v)
+        for (std::size_t e = 0; e < videos[v].episodes.size(); ++e)
+          for (int k = 0; k < kRepeats; ++k) {
+            const ResponseVideo& video = videos[v];
+            Episode episode = video.episodes[e];
+            episode.drives.resize(1);
+            const double u = shares[i];
+            Document d =
+                episode_scenario(video, episode, {study.boundary, study.scene, c.model, c.drive_in(video)},
+                                 exact_timing(episode));
+            d.set(c.free.front().path, c.free.front().json(u), "legacy");
+            d.root["microscope"]["noise"] = 0;
+            Hash h;
+            h.value(study.seed), h.text(c.model.name), h.value(int(i)), h.value(v), h.value(e), h.value(k);
+            const std::uint64_t seed = h.result() >> 1;
+            m.simulations.push_back({c.free.front().value(u), v, e, std::size_t(k), {}, {}, 0});
+            const LegacyReference& r = references[v][e];
+            const auto scenario = std::make_shared<const Document>(std::move(d));
+            tasks.push_back({task_key(fmt::format("{} {} {}", kVersion, scenario->root.dump(), seed)),
+                             [scenario, seed, &r, &video, &parts] {
+                               return distances(r, simulate_episode(read_scenario(*scenario, parts), seed, 0,
+                                                                    r.times_s, Look::video, video.ground)
+                                                       .frames);
+                             }});
+          }
+    models.push_back(std::move(m));
+  }
+  if (!sweep(results, tasks, options)) return {};
+  std::size_t at = 0;
+  for (LegacyModel& m : models) {
+    for (LegacySimulation& s : m.simulations) s.distance = *results.find(tasks[at++].key);
+    conclude(m);
+  }
+  return models;
+}
+
+}  // namespace faba

@@ -1,0 +1,57 @@
+#include "study/identify/profile.h"
+
+#include <nlopt.hpp>
+#include <vector>
+
+namespace faba {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr int kTries = 400;  // of the others at one value
+
+struct Search {
+  const std::function<double(const VectorXd&)>* log_likelihood;
+  VectorXd u;
+  Index fixed;
+
+  double operator()(const std::vector<double>& others) {
+    Index k = 0;
+    for (const double x : others) u[k + (k >= fixed)] = x, ++k;
+    return (*log_likelihood)(u);
+  }
+};
+
+double value(const std::vector<double>& x, std::vector<double>&, void* search) {
+  return (*static_cast<Search*>(search))(x);
+}
+
+}  // namespace
+
+Profile profile_likelihood(const std::function<double(const VectorXd&)>& log_likelihood,
+                           const ParameterBox& box, const VectorXd& start, Index j, int points) {
+  Profile p{VectorXd::LinSpaced(points, box.low[j], box.high[j]), VectorXd(points)};
+  std::vector<double> low, high, begin;
+  for (Index k = 0; k < start.size(); ++k)
+    if (k != j) low.push_back(box.low[k]), high.push_back(box.high[k]), begin.push_back(start[k]);
+  for (std::size_t k = 0; k < begin.size(); ++k) begin[k] = std::min(std::max(begin[k], low[k]), high[k]);
+  for (Index i = 0; i < points; ++i) {
+    Search search{&log_likelihood, start, j};
+    search.u[j] = p.u[i];
+    if (begin.empty()) {
+      p.log_likelihood[i] = log_likelihood(search.u);
+      continue;
+    }
+    nlopt::opt seek(nlopt::LN_SBPLX, unsigned(begin.size()));
+    seek.set_lower_bounds(low), seek.set_upper_bounds(high);
+    seek.set_max_objective(value, &search);
+    seek.set_maxeval(kTries), seek.set_xtol_abs(1e-4);
+    std::vector<double> at = begin;
+    seek.optimize(at, p.log_likelihood[i]);
+  }
+  p.log_likelihood.array() -= p.log_likelihood.maxCoeff();
+  return p;
+}
+
+}  // namespace faba

@@ -1,0 +1,309 @@
+#include "study/identify/response_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "app/recording/session.h"
+#include "core/error.h"
+#include "study/data/run_info.h"
+#include "study/data/run_video.h"
+#include "study/identify/found_drives.h"
+#include "study/identify/matched_look.h"
+#include "study/stats/statistics.h"
+#include "study/tracks/track_survey.h"
+#include "vision/cells/tracker.h"
+#include "vision/cells/video_ground.h"
+#include "vision/files/grey_video.h"
+
+namespace faba {
+namespace {
+
+constexpr double kResolved =
+    0.8;  // share of the cells that are seen one by one, from which on their places count
+constexpr double kShortestDrive = 0.2;  // s
+constexpr double kShortestBurst = 12;   // frames: a burst of eight in the part of a drive that is measured
+constexpr double kWidthEnough = 5;      // px: cells need be no wider
+constexpr double kFaint = 0.25;         // of the signal-to-noise that a tenth of what is seen exceeds
+constexpr double kLeastWay = 0.1;       // share of the view that a swarm goes, or it does not
+constexpr double kSameWay = 60;         // degrees
+constexpr double kUncovered = 0.85;     // share of the frames in which a place may be covered by cells
+constexpr double kReach = 2;            // times as far as what is seen
+constexpr double kWhite = 255;
+constexpr double kSameScale = 1e-3;  // as a share
+
+// Cells one by one where they can be told apart; where not, as many places as there are cells, spread as what
+// is seen.
+std::vector<Vec2> places_in(const GrayF& frame, const CellView& view, Measure measure) {
+  const Foreground foreground = view.seen_in(frame);
+  const double cells = foreground.moments().cells;
+  std::vector<Vec2> places;
+  for (const Spot& s : view.detector().find(frame)) places.push_back({s.x_px, s.y_px});
+  if (measure == Measure::tracks || double(places.size()) >= kResolved * cells) return places;
+  places.clear();
+  const GrayF& w = foreground.weights();
+  double sum = 0;
+  for (const float x : w.px) sum += std::max(0.0, double(x));
+  const int n = std::max(1, int(std::lround(cells)));
+  double due = 0.5 * sum / n, so_far = 0;
+  for (int r = 0; r < w.height; ++r)
+    for (int c = 0; c < w.width; ++c) {
+      so_far += std::max(0.0, double(w.at(c, r)));
+      for (; so_far > due && int(places.size()) < n; due += sum / n) places.push_back({double(c), double(r)});
+    }
+  return places;
+}
+
+// In an order of which every beginning is spread as the whole: a simulation of fewer cells takes the first of
+// them, one of more takes the first twice. The golden ratio does that.
+std::vector<Vec2> evenly_mixed(const std::vector<Vec2>& places) {
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto key = [](std::size_t k) { return std::fmod(kGolden * double(k), 1.0); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<Vec2> mixed;
+  mixed.reserve(order.size());
+  for (const std::size_t k : order) mixed.push_back(places[k]);
+  return mixed;
+}
+
+/// Where the swarm is in each frame.
+std::vector<Drive> drives_of_drop(const ResponseVideo& v, const std::function<void()>& tick) {
+  GreyVideo video(v.file, v.input.fps, v.side);
+  std::vector<double> t_s;
+  std::vector<Vec2> centroid;
+  GrayF frame;
+  for (double t = 0; video.read(frame, t); tick()) {
+    const SwarmMoments m = v.view.seen_in(frame).moments();
+    t_s.push_back(t);
+    centroid.push_back(m.signal > 0 ? m.centroid_image : Vec2{std::nan(""), std::nan("")});
+  }
+  return drives_of_swarm(t_s, centroid, kLeastWay * std::min(v.view.width, v.view.height));
+}
+
+/// What a run says of its own field; none for a video that is no run, or whose field was not recorded.
+std::vector<Drive> recorded_drives(const std::filesystem::path& run) {
+  if (!is_run(run) || !std::filesystem::exists(run / "series.csv")) return {};
+  return drives_of_field(read_series(run / "series.csv"),
+                         read_run_info(run / run_files::kManifest).polarity == "south");
+}
+
+std::vector<Drive> drives_in(const ResponseVideo& v, const std::vector<Drive>& recorded, Boundary boundary,
+                             double duration_s, const std::function<void()>& tick) {
+  const ResponseInput& in = v.input;
+  if (!in.drives.empty()) return in.drives;
+  const double end =
+      in.duration_s && in.reversal_s ? std::min(*in.reversal_s + *in.duration_s, duration_s) : duration_s;
+  if (in.reversal_s && in.direction_deg) return {{*in.reversal_s, end, *in.direction_deg}};
+  std::vector<Drive> found = !recorded.empty() ? recorded
+                             : boundary == Boundary::none
+                                 ? drives_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, tick)
+                                 : drives_of_drop(v, tick);
+  if (in.direction_deg)
+    std::erase_if(found, [&](const Drive& d) {
+      return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kSameWay;
+    });
+  std::erase_if(found, [&](const Drive& d) { return d.t1_s <= in.reversal_s.value_or(0); });
+  if (found.empty())
+    throw Error(
+        Errc::input, in.file.string(),
+        "shows nothing that moves one way; if it does, give reversal and direction, or [[video.drive]]");
+  if (in.reversal_s) found.front().t0_s = *in.reversal_s;
+  if (in.duration_s) {
+    const double until = found.front().t0_s + *in.duration_s;
+    std::erase_if(found, [&](const Drive& d) { return d.t0_s >= until; });
+    found.back().t1_s = std::min(found.back().t1_s, until);
+  }
+  return found;
+}
+
+// With nothing to hold them cells leave the view and others come: each drive then begins with what is seen.
+std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
+                                 const std::vector<Drive>& drives) {
+  std::vector<Episode> episodes;
+  for (Drive d : drives) {
+    if (boundary == Boundary::none || episodes.empty()) {
+      Episode& e = episodes.emplace_back();
+      e.begins_s = d.t0_s;
+      e.name = v.input.experiment.empty() ? v.input.file.stem().string() : v.input.experiment;
+      if (boundary == Boundary::none && drives.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
+    }
+    Episode& e = episodes.back();
+    d.t0_s -= e.begins_s, d.t1_s -= e.begins_s;
+    e.drives.push_back(d);
+  }
+  return episodes;
+}
+
+// The light behind crowds that cover the place where they are held for most of the time, and the noise. Where
+// cells are followed one by one what stands still is background.
+void find_ground(ResponseVideo& v, Measure measure, double from_s, double to_s,
+                 const std::function<void()>& tick) {
+  VideoGroundOptions o;
+  o.fps = v.input.fps, o.side = v.side, o.tick = tick;
+  if (measure == Measure::density)
+    o.share = v.view.cells.polarity == Polarity::bright ? 1 - kUncovered : kUncovered;
+  o.from_s = from_s - 0.5 * v.view.frame_s, o.to_s = to_s + 0.5 * v.view.frame_s;
+  v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, o));
+  Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
+  for (float& x : b.level.px) x *= float(kWhite);
+  std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, v.ground->noise_sd * kWhite)));
+  v.view.background = std::make_shared<const Background>(std::move(b));
+}
+
+// Light, noise and looks of the cells, and the place.
+TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
+                        const std::function<void()>& tick) {
+  const std::string name = v.input.file.string();
+  TrackOptions options;
+  options.video = v.input.file, options.fps = v.input.fps;
+  const auto survey = [&] {
+    return survey_tracks(
+        options, v.file, [&](auto, auto) { tick(); }, v.side);
+  };
+  TrackSurvey s = survey();
+  if (s.frames < 3) throw Error(Errc::input, name, "has fewer than three frames");
+  if (!s.timed) throw Error(Errc::input, name, "states no frame rate; give fps");
+  if (!s.size_found) throw Error(Errc::input, name, "shows no cells: nothing stands out of its noise");
+  v.side = std::max(1, int(s.size_px / kWidthEnough));
+  if (v.side > 1) {
+    v.notes.push_back(fmt::format("cells are {:.3g} px wide: its frames are averaged over squares of {} px",
+                                  s.size_px, v.side));
+    s = survey();
+  }
+  v.um_per_px *= v.side;
+  v.fps = 1 / s.frame_s;
+  v.view.width = s.first.width, v.view.height = s.first.height, v.view.frame_s = s.frame_s;
+  v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
+  v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
+  find_ground(v, measure, 0, s.duration_s, tick);
+  if (boundary == Boundary::drop) {
+    DropEdgeOptions edge;
+    edge.name = name;
+    v.edge = find_drop_edge(s.first, edge);
+  }
+  // How spots are found is an option of `track`; a crowd is measured as a whole.
+  std::erase_if(s.notes,
+                [](const std::string& note) { return note.find("--background") != std::string::npos; });
+  v.notes.insert(v.notes.end(), s.notes.begin(), s.notes.end());
+  return s;
+}
+
+// How cells are followed one by one. What is much fainter than most is dirt, or far out of focus. Simulated
+// cells that are faster are to be followed, too.
+void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
+  const Detector detector = v.view.detector();
+  std::vector<std::vector<Spot>> spots;
+  std::vector<double> snr;
+  for (const GrayF& f : frames) {
+    spots.push_back(detector.find(f));
+    for (const Spot& s : spots.back()) snr.push_back(s.snr);
+  }
+  v.view.threshold_sd = std::max(detector.threshold_sd(), snr.empty() ? 0 : kFaint * quantile(snr, 0.9));
+  double count = 1;
+  for (auto& one : spots) {
+    std::erase_if(one, [&](const Spot& s) { return s.snr < v.view.threshold_sd; });
+    count += double(one.size()) / double(frames.size());
+  }
+  const double apart = std::sqrt(double(v.view.width) * v.view.height / count);
+  v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * apart);
+}
+
+}  // namespace
+
+std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
+                             const std::function<void()>& tick) {
+  GreyVideo video(v.file, v.input.fps, v.side);
+  std::vector<GrayF> frames(times_s.size());
+  std::vector<double> off(times_s.size(), std::numeric_limits<double>::infinity());
+  const double last = times_s.empty() ? 0 : *std::max_element(times_s.begin(), times_s.end());
+  GrayF frame;
+  for (double t = 0; video.read(frame, t) && t <= last + 1;) {
+    tick();
+    for (std::size_t i = 0; i < times_s.size(); ++i)
+      if (const double d = std::fabs(t - times_s[i]); d < off[i]) frames[i] = frame, off[i] = d;
+  }
+  return frames;
+}
+
+std::vector<double> picture_times(const Episode& e) {
+  const double length = e.drives.front().t1_s;
+  return {0.15 * length, 0.5 * length, length};
+}
+
+ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Measure measure,
+                              const std::function<void()>& tick) {
+  ResponseVideo v;
+  v.input = input;
+  const RunVideo source = run_video(input.file);
+  v.file = source.file;
+  const std::optional<double> scale = input.um_per_px ? input.um_per_px : source.um_per_px;
+  if (!scale)
+    throw Error(Errc::input, input.file.string(), "has no scale; give um_per_px, or a calibration file");
+  v.um_per_px = *scale;
+  if (source.um_per_px && std::fabs(*scale / *source.um_per_px - 1) > kSameScale)
+    v.notes.push_back(fmt::format("was recorded with {:g} um per pixel; {:g} are taken, as the study says",
+                                  *source.um_per_px, *scale));
+  const TrackSurvey survey = survey_view(v, boundary, measure, tick);
+
+  const std::vector<Drive> recorded = recorded_drives(input.file);
+  const std::vector<Drive> drives = drives_in(v, recorded, boundary, survey.duration_s, tick);
+  for (const Drive& d : recorded) v.field_t = std::max(v.field_t.value_or(0), d.field_t.value_or(0));
+  v.drives_found = recorded.empty() && input.drives.empty() && !(input.reversal_s && input.direction_deg);
+  const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestDrive;
+  for (const Drive& d : drives)
+    if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
+      throw Error(
+          Errc::input, input.file.string(),
+          fmt::format(
+              "a drive from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
+              d.t0_s, d.t1_s, shortest, survey.duration_s));
+  if (v.drives_found) {
+    std::string all;
+    for (const Drive& d : drives)
+      all += fmt::format("{}{:.2f} to {:.2f} s at {:.0f} deg", all.empty() ? "" : ", ", d.t0_s, d.t1_s,
+                         d.direction_deg);
+    v.notes.push_back("drives were found, everything rests on them: " + all);
+  }
+  v.episodes = episodes_of(v, boundary, drives);
+  // Before the first drive a swarm may wait at one place for longer than it moves.
+  if (measure == Measure::density &&
+      (drives.front().t0_s > 0.2 * survey.duration_s || drives.back().t1_s < 0.8 * survey.duration_s))
+    find_ground(v, measure, drives.front().t0_s, drives.back().t1_s, tick);
+
+  // One pass for all frames: where cells begin, what is measured, what is shown.
+  std::vector<double> moments;
+  const auto want = [&](const Episode& e, const std::vector<double>& times) {
+    for (const double t : times) moments.push_back(e.begins_s + t);
+  };
+  for (const Episode& e : v.episodes) {
+    want(e, {0});
+    want(e, make_statistics(measure, e, v.view)->times_s());
+    want(e, picture_times(e));
+  }
+  std::vector<GrayF> frames = frames_at(v, moments, tick);
+  if (measure == Measure::tracks) find_followed(v, frames);
+  auto next = frames.begin();
+  for (Episode& e : v.episodes) {
+    const GrayF first = std::move(*next++);
+    e.places_image = evenly_mixed(places_in(first, v.view, measure));
+    if (e.places_image.empty())
+      throw Error(Errc::input, input.file.string(),
+                  fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
+    v.statistics.push_back(make_statistics(measure, e, v.view));
+    const auto measured_end = next + std::ptrdiff_t(v.statistics.back()->times_s().size());
+    const std::vector<GrayF> measured(std::make_move_iterator(next), std::make_move_iterator(measured_end));
+    next = measured_end + std::ptrdiff_t(picture_times(e).size());
+    v.pictures.emplace_back(std::make_move_iterator(measured_end), std::make_move_iterator(next));
+    // Where the swarm has spread cells are seen best.
+    if (v.contrast == 0) match_look(v, measured[measured.size() / 2], boundary);
+    v.observed.push_back(v.statistics.back()->of_frames(measured));
+  }
+  return v;
+}
+
+}  // namespace faba

@@ -1,0 +1,280 @@
+#include "study/motion/activity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/scenario/parts.h"
+#include "core/toml.h"
+#include "core/units.h"
+#include "study/tracks/swarm_view.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kBlocks = 6;  // of a video, whose flow across the direction is taken for independent
+constexpr double kResponds = 4;     // standard errors
+constexpr double kSameRate = 0.01;
+constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
+
+void check_stop(const ActivityJob& job, const ActivityInput& v) {
+  if (job.stop()) throw Error(Errc::interrupted, v.file.string(), "stopped; nothing was written");
+}
+
+double angle_of(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
+
+double found_direction(const VideoActivity& a) {
+  double longest = -1, deg = 0;
+  for (const MotionSegment& s : a.segments)
+    if (s.t1_s - s.t0_s > longest) longest = s.t1_s - s.t0_s, deg = s.direction_deg;
+  if (longest >= 0) return deg;
+  Vec2 all{0, 0};
+  for (std::size_t k = 0; k < a.signature.size(); ++k) all = all + a.signature.sum(k);
+  return angle_of(all);
+}
+
+// Where the fitted curve is a tenth of its height to either side of the maximum, inside the video.
+void mark_points(VideoActivity& a) {
+  if (!a.fit.good) return;
+  a.maximum_s = a.fit.peak_s;
+  const double reach = a.fit.sigma_s * std::sqrt(-2 * std::log(kOfTheRise));
+  if (a.fit.peak_s - reach > a.t_s.front()) a.onset_s = a.fit.peak_s - reach;
+  if (a.fit.peak_s + reach < a.t_s.back()) a.leaving_s = a.fit.peak_s + reach;
+}
+
+// The flow across the direction has no business there: its means over blocks tell how far chance takes a
+// mean.
+double signal_to_noise(const VideoActivity& a) {
+  const Signature& s = a.signature;
+  const Vec2 across{-std::sin(a.direction_deg * kDegree), std::cos(a.direction_deg * kDegree)};
+  if (s.size() < 2 * kBlocks) return 0;  // too short to tell
+  double squares = 0, block = 0;
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    block += dot(s.sum(k), across);
+    if ((k + 1) * kBlocks / s.size() == k * kBlocks / s.size()) continue;
+    squares += block * block;
+    block = 0;
+  }
+  const double total = a.mean_along * double(s.size()), error = std::sqrt(squares);
+  return error > 0 ? total / error : total > 0 ? 1e9 : 0;
+}
+
+FlowSourceOptions source_options(const ActivityJob& job, const ActivityInput& v) {
+  return {.method = job.method,
+          .shrink = job.shrink,
+          .t0_s = v.from_s,
+          .t1_s = v.to_s,
+          .fps = job.fps,
+          .said = job.said,
+          .frames = job.frames};
+}
+
+NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std::size_t index, Pool& pool) {
+  return noise_level(video.file, source_options(job, video), pool,
+                     [&](std::uint64_t done, std::uint64_t total) {
+                       job.progress(index, done, total);
+                       check_stop(job, video);
+                     });
+}
+
+VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {
+  VideoActivity a;
+  a.input = job.videos[index];
+  a.threshold_px = threshold;
+  a.direction_given = a.input.direction_deg.has_value();
+  const double zero = a.input.direction_deg.value_or(0);
+  a.signature = Signature(threshold, zero);
+  FlowSource source(a.input.file, source_options(job, a.input), pool);
+  FlowPair pair;
+  double most = -1;
+  while (source.next(pair)) {
+    a.signature.add(pair, source.shrink());
+    const std::size_t k = a.signature.size() - 1;
+    const double now = a.direction_given ? a.signature.along(k, zero) : norm(a.signature.sum(k));
+    if (now > most) most = now, a.busiest = pair, a.busiest_deg = angle_of(a.signature.sum(k));
+    job.progress(index, k + 1, source.pairs());
+    check_stop(job, a.input);
+  }
+  a.notes = source.notes();
+  if (a.signature.size() == 0)
+    throw Error(Errc::input, a.input.file.string(),
+                "has fewer than two frames in the time asked for; motion needs two or more");
+  a.segments = motion_segments(a.signature, a.input.direction_deg);
+  a.direction_deg = a.direction_given ? zero : found_direction(a);
+  const double cone = a.signature.nearest_deg(a.direction_deg);
+  for (std::size_t k = 0; k < a.signature.size(); ++k) {
+    a.t_s.push_back(a.signature.t_s(k));
+    a.amount.push_back(a.signature.amount(k, cone)), a.along.push_back(a.signature.along(k, cone));
+    a.mean_amount += a.amount.back(), a.mean_along += a.along.back();
+  }
+  a.mean_amount /= double(a.t_s.size()), a.mean_along /= double(a.t_s.size());
+  std::vector<double> gaps;
+  for (std::size_t k = 0; k < a.signature.size(); ++k)
+    gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
+  std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
+  a.frame_s = gaps[gaps.size() / 2];
+  if (job.cells)
+    a.visible_cells =
+        visible_cells(a.input.file, {a.input.from_s, a.input.to_s, job.fps}, [&] { return !job.stop(); });
+  a.fit = fit_gaussian(a.t_s, a.amount);
+  mark_points(a);
+  if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
+  a.responds = has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds : !a.segments.empty());
+  if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
+    a.notes.emplace_back(
+        "there is activity, but not in one direction: cells that move by more than twice their width from "
+        "frame "
+        "to frame are not followed; record more frames per second");
+  if (a.signature.still())
+    a.notes.emplace_back("nothing moves in it");
+  else if (!a.direction_given)
+    a.notes.push_back(
+        a.segments.empty()
+            ? fmt::format("no direction was given and nothing goes one way; {:.0f} degrees is where all "
+                          "flow together points",
+                          a.direction_deg)
+            : fmt::format("no direction was given; {:.0f} degrees is that of the longest motion found",
+                          a.direction_deg));
+  return a;
+}
+
+void conclude(ActivityResult& r) {
+  std::vector<ExposureValue> peaks, means, per_cell;
+  std::vector<ExposureResponse> responses;
+  for (const VideoActivity& a : r.videos) {
+    if (!a.input.exposure_s) continue;
+    responses.push_back({*a.input.exposure_s, a.responds});
+    means.push_back({*a.input.exposure_s, a.mean_amount, a.input.experiment});
+    if (const auto value = activity_per_cell(a))
+      per_cell.push_back({*a.input.exposure_s, *value, a.input.experiment});
+  }
+  r.cutoff = response_cutoff(responses);
+  // A peak of a sample that no longer responds is one of noise.
+  for (const VideoActivity& a : r.videos)
+    if (a.input.exposure_s && has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
+      peaks.push_back({*a.input.exposure_s, a.fit.peak_s - a.input.from_s, a.input.experiment});
+  r.peak_line = mixed_line(peaks), r.peak_line_pooled = pooled_line(peaks);
+  r.mean_line = mixed_line(means), r.mean_line_pooled = pooled_line(means);
+  r.per_cell_line = mixed_line(per_cell), r.per_cell_line_pooled = pooled_line(per_cell);
+  const double frame_s = r.videos.front().frame_s;
+  if (std::all_of(r.videos.begin(), r.videos.end(),
+                  [&](const VideoActivity& a) { return std::fabs(a.frame_s / frame_s - 1) < kSameRate; }))
+    r.frame_s = frame_s;
+}
+
+struct StudyVideo {
+  std::string file, experiment;
+  std::optional<double> exposure, direction, from, to;
+  static Schema<StudyVideo> schema() {
+    return Schema<StudyVideo>("video", "One video of the study")
+        .add("file", &StudyVideo::file,
+             {.doc = "Video, run directory or file of flows; beside the study file"})
+        .add("exposure", &StudyVideo::exposure,
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time of the sample in air before the video"})
+        .add("experiment", &StudyVideo::experiment,
+             {.doc = "Which experiment, that is which drop, it belongs to"})
+        .add("direction", &StudyVideo::direction,
+             {.unit = "deg",
+              .min = -360,
+              .max = 360,
+              .doc = "Direction of the response: 0 right, 90 down in the picture"})
+        .add("from", &StudyVideo::from,
+             {.unit = "s",
+              .min = 0,
+              .max = 1e9,
+              .doc = "Leave out what comes before, and count time from here"})
+        .add("to", &StudyVideo::to, {.unit = "s", .min = 0, .max = 1e9, .doc = "Leave out what comes after"})
+        .check([](const StudyVideo& v) -> std::string {
+          return v.file.empty() ? "needs file = \"a video\"" : "";
+        });
+  }
+};
+
+struct Study {
+  std::optional<double> direction, threshold, from, to;
+  std::string noise;
+  static Schema<Study> schema() {
+    return Schema<Study>("study", "Videos of samples after different times in air")
+        .add("direction", &Study::direction,
+             {.unit = "deg", .min = -360, .max = 360, .doc = "For all videos that give none"})
+        .add("from", &Study::from,
+             {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
+        .add("to", &Study::to, {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
+        .add("threshold", &Study::threshold,
+             {.unit = "px", .min = 0, .max = 1e3, .doc = "Flows of less are noise"})
+        .add("noise", &Study::noise, {.doc = "A video of a dead sample, to find the threshold from"})
+        .check([](const Study& s) -> std::string {
+          return s.threshold && !s.noise.empty() ? "give threshold or noise, not both" : "";
+        });
+  }
+};
+
+}  // namespace
+
+std::optional<double> activity_per_cell(const VideoActivity& a) {
+  if (!a.visible_cells || !(*a.visible_cells > 0)) return {};
+  return a.mean_amount / *a.visible_cells;
+}
+
+bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
+
+ActivityResult measure_activity(const ActivityJob& job) {
+  Pool pool(job.threads);
+  ActivityResult r;
+  std::vector<double> thresholds(job.videos.size(), job.threshold_px.value_or(0));
+  std::vector<bool> quiet(job.videos.size(), true);
+  if (!job.threshold_px && !job.noise.empty()) {
+    const double level = threshold_of(job, {.file = job.noise}, 0, pool).threshold_px;
+    std::fill(thresholds.begin(), thresholds.end(), level);
+  } else if (!job.threshold_px) {
+    for (std::size_t i = 0; i < job.videos.size(); ++i) {
+      const NoiseLevel level = threshold_of(job, job.videos[i], i, pool);
+      thresholds[i] = level.threshold_px, quiet[i] = level.quiet;
+      check_stop(job, job.videos[i]);
+    }
+    // Measured with one measure, so that what differs is the videos.
+    double least = 1e300;  // black videos have no noise, and say nothing about it
+    for (const double t : thresholds)
+      if (t > 0) least = std::min(least, t);
+    if (least < 1e300) std::fill(thresholds.begin(), thresholds.end(), least);
+  }
+  for (std::size_t i = 0; i < job.videos.size(); ++i) {
+    r.videos.push_back(measure(job, i, thresholds[i], pool));
+    if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
+      r.videos.back().notes.push_back(
+          "the video has no quiet moment to tell noise from; give a dead sample with --noise, or "
+          "--flow-threshold");
+  }
+  conclude(r);
+  return r;
+}
+
+Json activity_study_schema() {
+  Json j = Study::schema().json_schema();
+  j["properties"]["video"] = {{"type", "array"},
+                              {"description", "[[video]], once for each"},
+                              {"items", StudyVideo::schema().json_schema()}};
+  return j;
+}
+
+void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
+  const Document d = read_toml(file);
+  const Node root(d);
+  const Study study = Study::schema().parse(root, {"video", "flow"});
+  if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
+  if (study.threshold) job.threshold_px = study.threshold;
+  if (!study.noise.empty()) job.noise = root.file(study.noise);
+  if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
+    root.fail("needs [[video]], once for each video");
+  const Node list = root.child("video");
+  for (std::size_t i = 0; i < list.json->size(); ++i) {
+    const Node n = list.item(i);
+    const StudyVideo v = StudyVideo::schema().parse(n);
+    job.videos.push_back({n.file(v.file), v.exposure, v.experiment,
+                          v.direction ? v.direction : study.direction,
+                          v.from.value_or(study.from.value_or(0)), v.to ? v.to : study.to});
+  }
+}
+
+}  // namespace faba

@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "core/counted.h"
+#include "study/motion/flow_histograms.h"
+#include "study/pages/activity_report.h"
+#include "study/plot/markup.h"
+#include "study/plot/plot_svg.h"
+#include "study/plot/report_page.h"
+#include "vision/draw/flow_picture.h"
+#include "vision/files/picture.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kMostSignatures = 24;  // drawn one by one
+
+std::string title_of(const VideoActivity& a) {
+  std::string words = a.input.file.filename().string();
+  if (words.empty()) words = a.input.file.parent_path().filename().string();
+  if (a.input.exposure_s) words += fmt::format(", {} s in air", three_digits(*a.input.exposure_s));
+  return words;
+}
+
+std::string compass(double deg) {
+  static const char* const kNames[] = {"right", "down and right", "down", "down and left",
+                                       "left",  "up and left",    "up",   "up and right"};
+  return kNames[int(std::lround(deg / 45)) % 8];
+}
+
+Figure signature_figure(const VideoActivity& a) {
+  Figure f;
+  f.heading = title_of(a);
+  Plot& p = f.plot;
+  p.inlined = true;
+  p.description = "Activity of " + f.heading + " over time";
+  p.x.label = "time (s)", p.y.label = "activity (px × px² per pair)";
+  p.width = 620;
+  for (const MotionSegment& s : a.segments) p.add(Band{s.t0_s, s.t1_s, {}, true, Ink::muted});
+  p.add(Rule{.at = 0, .of_x = false});
+  p.add(Line{
+      .x = a.t_s, .y = a.amount, .label = "within 45° of the direction", .ink = Ink::blue, .width = 1.2});
+  p.add(Line{
+      .x = a.t_s, .y = a.along, .label = "along it, less against it", .ink = Ink::vermillion, .width = 1.2});
+  if (a.fit.good) {
+    Line curve;
+    curve.label = "Gaussian", curve.ink = Ink::text, curve.dashed = true;
+    for (const double t : a.t_s) {
+      const double z = (t - a.fit.peak_s) / a.fit.sigma_s;
+      curve.x.push_back(t), curve.y.push_back(a.fit.amplitude * std::exp(-z * z / 2) + a.fit.offset);
+    }
+    p.add(std::move(curve));
+  }
+  const std::pair<const std::optional<double>*, const char*> points[] = {
+      {&a.onset_s, "(1)"}, {&a.maximum_s, "(2)"}, {&a.leaving_s, "(3)"}};
+  for (const auto& [at, name] : points)
+    if (*at) p.add(Rule{.at = **at, .label = name});
+  f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
+                          a.direction_deg, compass(a.direction_deg));
+  if (!a.segments.empty()) f.caption += "Grey: times of motion in one direction. ";
+  f.caption +=
+      a.fit.good
+          ? "(1) onset, (2) maximum, (3) the swarm leaves: where the Gaussian is at a tenth and at its top."
+          : "No Gaussian: " + a.fit.why + ".";
+  return f;
+}
+
+// Something of each video that is drawn against its exposure; empty where the video has none.
+struct AgainstExposure {
+  std::string heading, label;
+  const std::optional<ExposureLine>& line;
+  std::function<std::optional<double>(const VideoActivity&)> value;
+};
+
+std::vector<AgainstExposure> against_exposure(const ActivityResult& r) {
+  return {{"Time of the maximum against exposure", "time of the maximum (s)", r.peak_line,
+           [&r](const VideoActivity& a) -> std::optional<double> {
+             if (!has_peak(a) || (r.cutoff && *a.input.exposure_s >= r.cutoff->cutoff_s)) return {};
+             return a.fit.peak_s - a.input.from_s;
+           }},
+          {"Mean activity against exposure", "mean activity (px × px² per pair)", r.mean_line,
+           [](const VideoActivity& a) { return std::optional(a.mean_amount); }},
+          {"Mean activity per visible cell against exposure", "mean activity per cell (px × px² per pair)",
+           r.per_cell_line, activity_per_cell}};
+}
+
+Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
+  Figure f;
+  const auto& line = what.line;
+  f.heading = what.heading;
+  Plot& p = f.plot;
+  p.inlined = true;
+  p.x.label = "time in air (s)";
+  p.y.label = what.label;
+  p.width = 620, p.height = 300;
+  double longest = 0;
+  std::vector<std::string> experiments;
+  for (const VideoActivity& a : r.videos) {
+    if (!a.input.exposure_s) continue;
+    longest = std::max(longest, *a.input.exposure_s);
+    if (std::find(experiments.begin(), experiments.end(), a.input.experiment) == experiments.end())
+      experiments.push_back(a.input.experiment);
+  }
+  for (const std::string& name : experiments) {
+    Scatter dots;
+    dots.label = name.empty() ? "" : "experiment " + name;
+    for (const VideoActivity& a : r.videos) {
+      if (!a.input.exposure_s || a.input.experiment != name) continue;
+      if (const auto value = what.value(a)) dots.x.push_back(*a.input.exposure_s), dots.y.push_back(*value);
+    }
+    p.add(std::move(dots));
+  }
+  if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "cut-off"});
+  p.add(Line{.x = {0, longest},
+             .y = {line->intercept, line->intercept + line->slope * longest},
+             .label = line->experiments > 1 ? "line, a shift for each experiment" : "line",
+             .ink = Ink::text});
+  f.caption = fmt::format(
+      "Slope {}, 95 % from {} to {}; intercept {} ({} to {}); {} in {}.", three_digits(line->slope),
+      three_digits(line->slope_ci95[0]), three_digits(line->slope_ci95[1]), three_digits(line->intercept),
+      three_digits(line->intercept_ci95[0]), three_digits(line->intercept_ci95[1]),
+      counted(std::uint64_t(line->values), "video"), counted(std::uint64_t(line->experiments), "experiment"));
+  return f;
+}
+
+std::string row(const std::vector<std::string>& cells, const char* tag) {
+  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", escape_markup(cells.front()));
+  for (std::size_t i = 1; i < cells.size(); ++i)
+    out += fmt::format("<{0}>{1}</{0}>", tag, escape_markup(cells[i]));
+  return out + "</tr>\n";
+}
+
+std::string table(const ActivityResult& r) {
+  std::string out = "<h2>Numbers</h2>\n<table class=\"numbers\">\n";
+  out += row({"video", "direction", "threshold (px)", "mean activity", "per visible cell", "signal to noise",
+              "maximum (s)", "width (s)"},
+             "th");
+  for (const VideoActivity& a : r.videos)
+    out += row(
+        {title_of(a), fmt::format("{}°", whole_degrees(a.direction_deg)), three_digits(a.threshold_px),
+         three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
+         a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
+         a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.peak_s), three_digits(a.fit.se_peak_s)) : "–",
+         a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.sigma_s), three_digits(a.fit.se_sigma_s))
+                    : "–"},
+        "td");
+  out += "</table>\n";
+  if (std::all_of(r.videos.begin(), r.videos.end(),
+                  [](const VideoActivity& a) { return a.segments.empty(); }))
+    return out;
+  out += "<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n";
+  out += row({"video", "from (s)", "to (s)", "direction"}, "th");
+  for (const VideoActivity& a : r.videos)
+    for (const MotionSegment& s : a.segments)
+      out += row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
+                  fmt::format("{}° ({})", whole_degrees(s.direction_deg), compass(s.direction_deg))},
+                 "td");
+  return out + "</table>\n";
+}
+
+std::string lead(const ActivityResult& r) {
+  if (r.videos.size() == 1) {
+    const VideoActivity& a = r.videos.front();
+    return a.segments.empty()
+               ? "Nothing in this video moves in one direction beyond chance."
+               : fmt::format("Something moves in one direction {}.", counted(a.segments.size(), "time"));
+  }
+  std::size_t respond = 0;
+  for (const VideoActivity& a : r.videos) respond += a.responds;
+  std::string words = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
+  if (r.cutoff)
+    words += fmt::format(" The cut-off is at {} s in air (between {} and {} s); {}.",
+                         three_digits(r.cutoff->cutoff_s), three_digits(r.cutoff->between_s[0]),
+                         three_digits(r.cutoff->between_s[1]),
+                         r.cutoff->wrong == 0   ? "beyond it none does"
+                         : r.cutoff->wrong == 1 ? "one video does not fit it"
+                                                : fmt::format("{} videos do not fit it", r.cutoff->wrong));
+  return words;
+}
+
+}  // namespace
+
+std::vector<Figure> activity_figures(const ActivityResult& r) {
+  std::vector<Figure> figures;
+  bool exposures = false;
+  for (const VideoActivity& a : r.videos) exposures = exposures || a.input.exposure_s;
+  if (exposures)
+    for (const AgainstExposure& what : against_exposure(r))
+      if (what.line) figures.push_back(line_figure(r, what));
+  for (std::size_t i = 0; i < std::min(r.videos.size(), kMostSignatures); ++i)
+    figures.push_back(signature_figure(r.videos[i]));
+  return figures;
+}
+
+std::string activity_page(const ActivityResult& r) {
+  std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
+  for (const VideoActivity& a : r.videos)
+    for (const std::string& note : a.notes)
+      out += fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(title_of(a)), escape_markup(note));
+  int number = 0;
+  for (const Figure& f : activity_figures(r))
+    out += fmt::format(
+        "<figure class=\"wide\">\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
+        escape_markup(f.heading), svg(f.plot), ++number, escape_markup(f.caption));
+  return html_page("Activity", out + table(r));
+}
+
+void write_activity_picture(const std::filesystem::path& file, const VideoActivity& a) {
+  if (a.busiest.image.empty())
+    throw Error(Errc::usage, "--picture", "needs the frames, and a file of flows holds none");
+  const double direction = a.direction_given ? a.direction_deg : a.busiest_deg;
+  const Flow kept = kept_flow(a.busiest.flow, {a.threshold_px, direction});
+  FlowDrawing how;
+  how.full_px = std::max(full_speed(a.busiest.flow), 1e-6);
+  how.arrow_step_px = 0;
+  how.words = fmt::format("flow at {:.2f} s", a.busiest.t1_s);
+  const RgbImage all = draw_flow(a.busiest.flow, how);
+  how.words = fmt::format("above {:.3g} px, about {} degrees", a.threshold_px, whole_degrees(direction));
+  const RgbImage left = draw_flow(kept, how);
+  RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
+  for (int y = 0; y < all.height; ++y)
+    for (int x = 0; x < all.width; ++x)
+      out.at(x, y) = all.at(x, y), out.at(all.width + 8 + x, y) = left.at(x, y);
+  write_png(file, out);
+}
+
+}  // namespace faba

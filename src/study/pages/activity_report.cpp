@@ -1,0 +1,107 @@
+#include "study/pages/activity_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/toml.h"
+
+namespace faba {
+namespace {
+
+template <class T>
+Json or_null(const std::optional<T>& v) {
+  return v ? Json(*v) : Json();
+}
+
+Json gaussian_json(const GaussianFit& f) {
+  if (!f.good && f.amplitude == 0) {  // nothing to fit to
+    Json j{{"good", false}, {"why", f.why}};
+    for (const char* key : {"amplitude", "peak_s", "sigma_s", "offset"}) j[key] = nullptr;
+    return j;
+  }
+  return {{"amplitude", f.amplitude},
+          {"peak_s", f.peak_s},
+          {"sigma_s", f.sigma_s},
+          {"offset", f.offset},
+          {"se_amplitude", f.se_amplitude},
+          {"se_peak_s", f.se_peak_s},
+          {"se_sigma_s", f.se_sigma_s},
+          {"se_offset", f.se_offset},
+          {"scatter", f.scatter},
+          {"good", f.good},
+          {"why", f.why}};
+}
+
+Json video_json(const VideoActivity& a) {
+  Json j;
+  j["video"] = a.input.file.string();
+  j["exposure_s"] = or_null(a.input.exposure_s);
+  j["experiment"] = a.input.experiment;
+  j["pairs"] = a.t_s.size();
+  j["threshold_px"] = a.threshold_px;
+  j["direction_deg"] = a.direction_deg;
+  j["direction_given"] = a.direction_given;
+  j["segments"] = Json::array();
+  for (const MotionSegment& s : a.segments)
+    j["segments"].push_back({{"t0_s", s.t0_s}, {"t1_s", s.t1_s}, {"direction_deg", s.direction_deg}});
+  j["mean_activity"] = a.mean_amount;
+  j["mean_along"] = a.mean_along;
+  j["visible_cells"] = or_null(a.visible_cells);
+  j["mean_activity_per_cell"] = or_null(activity_per_cell(a));
+  j["frame_s"] = a.frame_s;
+  j["signal_to_noise"] = or_null(a.signal_to_noise);
+  j["responds"] = a.responds;
+  j["gaussian"] = gaussian_json(a.fit);
+  j["onset_s"] = or_null(a.onset_s);
+  j["maximum_s"] = or_null(a.maximum_s);
+  j["leaving_s"] = or_null(a.leaving_s);
+  j["notes"] = a.notes;
+  return j;
+}
+
+Json line_json(const std::optional<ExposureLine>& line) {
+  if (!line) return {};
+  return {{"slope", line->slope},           {"intercept", line->intercept},
+          {"ci95", line->slope_ci95},       {"intercept_ci95", line->intercept_ci95},
+          {"scatter_sd", line->scatter_sd}, {"experiment_sd", line->experiment_sd},
+          {"values", line->values},         {"experiments", line->experiments}};
+}
+
+}  // namespace
+
+Json activity_json(const ActivityResult& r) {
+  Json j;
+  j["videos"] = Json::array();
+  for (const VideoActivity& a : r.videos) j["videos"].push_back(video_json(a));
+  const auto with_pooled = [](const auto& line, const auto& pooled) {
+    Json one = line_json(line);
+    if (!one.is_null()) one["pooled"] = line_json(pooled);
+    return one;
+  };
+  j["peak_line"] = with_pooled(r.peak_line, r.peak_line_pooled);
+  // As the thesis has it, in frames: the time of the maximum over the time of a frame.
+  if (r.peak_line && r.frame_s)
+    j["peak_line"]["frames"] = {{"rate_hz", 1 / *r.frame_s},
+                                {"slope", r.peak_line->slope / *r.frame_s},
+                                {"intercept", r.peak_line->intercept / *r.frame_s}};
+  j["mean_line"] = with_pooled(r.mean_line, r.mean_line_pooled);
+  j["per_cell_line"] = with_pooled(r.per_cell_line, r.per_cell_line_pooled);
+  j["cutoff_s"] = r.cutoff ? Json(r.cutoff->cutoff_s) : Json();
+  j["cutoff_wrong"] = r.cutoff ? Json(r.cutoff->wrong) : Json();
+  j["cutoff_between_s"] = r.cutoff ? Json(r.cutoff->between_s) : Json();
+  return j;
+}
+
+std::string activity_csv(const ActivityResult& r) {
+  std::string out = "video,t0_s,t1_s,activity,along\n";
+  for (std::size_t i = 0; i < r.videos.size(); ++i) {
+    const VideoActivity& a = r.videos[i];
+    for (std::size_t k = 0; k < a.t_s.size(); ++k)
+      out += fmt::format("{},{:.6f},{:.6f},{:.7g},{:.7g}\n", i + 1, a.signature.t0_s(k), a.signature.t1_s(k),
+                         a.amount[k], a.along[k]);
+  }
+  return out;
+}
+
+}  // namespace faba

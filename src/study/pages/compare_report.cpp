@@ -1,0 +1,179 @@
+#include "study/pages/compare_report.h"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "core/counted.h"
+#include "core/toml.h"
+#include "study/plot/inline_picture.h"
+#include "study/plot/markup.h"
+#include "study/plot/plot_svg.h"
+#include "study/plot/report_page.h"
+#include "vision/draw/flow_picture.h"
+
+namespace faba {
+namespace {
+
+Json score_of(const Comparison& c, double mean) {
+  if (!c.floor || !(c.naive.mean > *c.floor)) return {};
+  return (mean - *c.floor) / (c.naive.mean - *c.floor);
+}
+
+std::string name_of(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  return name.empty() ? file.parent_path().filename().string() : name;
+}
+
+Plot distances(const Comparison& c) {
+  Plot p;
+  p.inlined = true;
+  p.width = 620, p.height = 300;
+  p.x.label = "time after the alignment (s)", p.y.label = "distance", p.y.lo = 0;
+  for (const ComparedRun& r : c.runs) {
+    p.add(Line{.x = r.distance.t_s, .y = r.distance.value, .label = name_of(r.file), .width = 1.2});
+    const LineFit& fit = r.distance.line;
+    const std::vector<double>& t = r.distance.t_s;
+    p.add(Line{.x = {t.front(), t.back()},
+               .y = {fit.intercept, fit.intercept + fit.slope * double(t.size() - 1)},
+               .ink = Ink::muted,
+               .dashed = true});
+  }
+  p.add(
+      Line{.x = c.naive.t_s, .y = c.naive.value, .label = "nothing moves", .ink = Ink::muted, .width = 1.2});
+  if (c.floor) p.add(Rule{.at = *c.floor, .label = "same model, another seed", .of_x = false});
+  return p;
+}
+
+std::vector<double> bins(std::size_t n) {
+  std::vector<double> x(n);
+  std::iota(x.begin(), x.end(), 0.0);
+  return x;
+}
+
+Plot histogram(const char* axis, const std::vector<double>& reference, const std::vector<double>& run) {
+  Plot p;
+  p.inlined = true;
+  p.height = 190;
+  p.x.label = axis, p.y.label = "flow (px × px)";
+  p.add(Line{
+      .x = bins(reference.size()), .y = reference, .label = "reference", .ink = Ink::blue, .width = 1.2});
+  p.add(Line{.x = bins(run.size()), .y = run, .label = "run", .ink = Ink::vermillion, .width = 1.2});
+  return p;
+}
+
+std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
+  FlowDrawing how;
+  how.arrow_step_px = 0;
+  how.full_px = std::max({full_speed(r.furthest.reference), full_speed(r.furthest.run), 1e-6});
+  std::string out = fmt::format(
+      "<h2>{}: filtered flow where the distance is largest, {:.2f} s</h2>\n<div class=\"figures\">\n",
+      escape_markup(name_of(r.file)), r.furthest.t_s);
+  const std::pair<const Flow*, const char*> both[] = {{&r.furthest.reference, "Reference"},
+                                                      {&r.furthest.run, "Run"}};
+  for (const auto& [flow, words] : both)
+    out += fmt::format(
+        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Flow within 45° of the direction.</figcaption>\n</figure>\n",
+        words, inline_picture(draw_flow(kept_flow(*flow, filter), how), words));
+  out += fmt::format("<figure>\n<h3>Over columns</h3>\n{}</figure>\n",
+                     svg(histogram("column (px)", r.furthest.reference_bins.x, r.furthest.run_bins.x)));
+  out += fmt::format("<figure>\n<h3>Over rows</h3>\n{}</figure>\n</div>\n",
+                     svg(histogram("row (px)", r.furthest.reference_bins.y, r.furthest.run_bins.y)));
+  return out;
+}
+
+std::string table(const Comparison& c) {
+  std::string out =
+      "<table class=\"numbers\">\n<thead><tr><th>run</th><th>mean</th><th>s.d.</th><th>slope per "
+      "frame</th><th>score</th>"
+      "<th>legacy mean</th></tr></thead>\n<tbody>\n";
+  const auto line = [&](const std::string& name, const DistanceSeries& d, const Json& score) {
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        escape_markup(name), three_digits(d.mean), three_digits(d.sd), three_digits(d.line.slope),
+        score.is_null() ? "–" : three_digits(score.get<double>()), three_digits(d.legacy_mean));
+  };
+  for (const ComparedRun& r : c.runs) line(name_of(r.file), r.distance, score_of(c, r.distance.mean));
+  line("nothing moves", c.naive, Json());
+  out += "</tbody></table>\n<p>Mean, s.d. and slope are those of the distance from frame to frame.";
+  if (std::any_of(c.runs.begin(), c.runs.end(),
+                  [&](const ComparedRun& r) { return !score_of(c, r.distance.mean).is_null(); }))
+    out +=
+        " The score puts the mean on a scale of its own: 0 is the distance of two runs of one scenario with "
+        "different seeds, so that less than 0 is chance (or the same run), and 1 that of a video in which "
+        "nothing "
+        "moves, so that 1 or more says no more than no model at all.";
+  return out + " Legacy is the thesis's sum, for comparison with its figures.</p>\n";
+}
+
+}  // namespace
+
+Json compare_json(const Comparison& c, const CompareJob& job) {
+  Json j;
+  j["reference"] = job.reference.string();
+  j["reference_t0_s"] = c.reference_t0_s;
+  j["alignment"] = c.alignment;
+  j["direction_deg"] = c.filter.direction_deg;
+  j["flow_threshold_px"] = c.filter.threshold_px;
+  j["m"] = job.m;
+  j["threshold"] = job.threshold;
+  j["runs"] = Json::array();
+  for (const ComparedRun& r : c.runs) {
+    const DistanceSeries& d = r.distance;
+    j["runs"].push_back({{"run", r.file.string()},
+                         {"t0_s", r.t0_s},
+                         {"pairs", d.t_s.size()},
+                         {"mean", d.mean},
+                         {"sd", d.sd},
+                         {"slope", d.line.slope},
+                         {"slope_ci95", d.line.slope_ci95()},
+                         {"intercept", d.line.intercept},
+                         {"score", score_of(c, d.mean)},
+                         {"legacy",
+                          {{"mean", d.legacy_mean},
+                           {"sd", d.legacy_sd},
+                           {"slope", d.legacy_line.slope},
+                           {"intercept", d.legacy_line.intercept}}},
+                         {"notes", r.notes}});
+  }
+  j["floor"] = c.floor ? Json(*c.floor) : Json();
+  j["floor_from"] = c.floor_from;
+  j["naive"] = c.naive.mean;
+  j["notes"] = c.notes;
+  return j;
+}
+
+std::string compare_page(const Comparison& c, const CompareJob& job) {
+  std::string out = fmt::format("<h1>Comparison with {}</h1>\n", escape_markup(name_of(job.reference)));
+  out += fmt::format("<p class=\"lead\">{} compared with it, {}.</p>\n",
+                     c.runs.size() == 1 ? name_of(c.runs.front().file) : counted(c.runs.size(), "video"),
+                     escape_markup(c.alignment));
+  for (const std::string& note : c.notes)
+    out += fmt::format("<p class=\"note\">{}.</p>\n", escape_markup(note));
+  for (const ComparedRun& r : c.runs)
+    for (const std::string& note : r.notes)
+      out +=
+          fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
+  out += fmt::format(
+      "<figure>\n<h3>Distance of the flows over time</h3>\n{}<figcaption>Quadratic-Chi distance (m = {:g}, "
+      "bins alike up to {:g}) of "
+      "the flow's sums over columns and rows. Dashed: straight lines. Same model, another seed: "
+      "{}.</figcaption>\n</figure>\n",
+      svg(distances(c)), job.m, job.threshold, escape_markup(c.floor_from));
+  out += table(c);
+  for (const ComparedRun& r : c.runs) out += pictures(r, c.filter);
+  return html_page("Comparison", out);
+}
+
+std::string compare_csv(const Comparison& c) {
+  std::string out = "run,t_s,distance,legacy\n";
+  const auto add = [&](std::size_t number, const DistanceSeries& d) {
+    for (std::size_t i = 0; i < d.t_s.size(); ++i)
+      out += fmt::format("{},{:.6f},{:.9g},{:.9g}\n", number, d.t_s[i], d.value[i], d.legacy[i]);
+  };
+  for (std::size_t i = 0; i < c.runs.size(); ++i) add(i + 1, c.runs[i].distance);
+  add(0, c.naive);
+  return out;
+}
+
+}  // namespace faba

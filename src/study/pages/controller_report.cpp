@@ -1,0 +1,223 @@
+#include "study/pages/controller_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/counted.h"
+#include "core/toml.h"
+#include "study/plot/markup.h"
+#include "study/plot/report_page.h"
+
+namespace faba {
+namespace {
+
+const MeanOverSeeds* metric(const Combination& c, const char* name) {
+  const auto it = c.metrics.find(name);
+  return it == c.metrics.end() ? nullptr : &it->second;
+}
+
+Json mean_json(const MeanOverSeeds& m) {
+  return {{"mean", m.mean}, {"sd", m.sd}, {"ci95", m.ci95}, {"n", m.n}};
+}
+
+// "2.13" with "1.9 to 2.4" below it; markup.
+std::string with_interval(const MeanOverSeeds* m) {
+  if (!m) return "–";
+  if (m->n < 2) return three_digits(m->mean);
+  return fmt::format("{}<small>{} to {}</small>", three_digits(m->mean), three_digits(m->ci95[0]),
+                     three_digits(m->ci95[1]));
+}
+
+constexpr std::pair<const char*, const char*> kColumns[] = {
+    {"settling_time_s", "settling time (s)"},
+    {"steady_rms_px", "steady error (px rms)"},
+    {"iae_px_s", "IAE (px s)"},
+    {"cross_track_95_px", "off the route (px, 95 %)"},
+    {"rms_radius_px", "dispersion at the end (px rms)"},
+    {"control_effort_a2_s", "effort (A² s)"},
+    {"total_variation_ut", "restlessness (µT)"}};
+
+std::string row(const std::vector<std::string>& cells, const char* tag) {
+  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", cells.front());
+  for (std::size_t i = 1; i < cells.size(); ++i) out += fmt::format("<{0}>{1}</{0}>", tag, cells[i]);
+  return out + "</tr>\n";
+}
+
+bool several_delays(const ControllerComparison& r) { return r.study.delays.size() > 1; }
+
+std::string place(const ControllerComparison& r, const Combination& c) {
+  std::string words = r.study.models.size() > 1 ? c.model : "";
+  if (several_delays(r))
+    words += fmt::format("{}{} late", words.empty() ? "" : ", ", counted(std::uint64_t(c.delay), "frame"));
+  return words;
+}
+
+std::string table(const ControllerComparison& r) {
+  std::vector<std::pair<const char*, const char*>> columns;
+  for (const auto& column : kColumns)
+    if (std::any_of(r.combinations.begin(), r.combinations.end(), [&](const Combination& c) {
+          return metric(c, column.first) && metric(c, column.first)->mean != 0;
+        }))
+      columns.push_back(column);
+  std::vector<std::string> head{"controller", "settled"};
+  if (!place(r, r.combinations.front()).empty()) head.insert(head.begin() + 1, "with");
+  head.emplace_back("behind the best (px)");
+  for (const auto& column : columns) head.emplace_back(column.second);
+  std::string out = "<h2>Numbers</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>" +
+                    row(head, "th") + "</thead><tbody>\n";
+  for (const Combination& c : r.combinations) {
+    std::vector<std::string> cells{escape_markup(c.controller), fmt::format("{} of {}", c.settled, c.trials)};
+    if (head[1] == "with") cells.insert(cells.begin() + 1, escape_markup(place(r, c)));
+    cells.push_back(c.behind_best ? with_interval(&*c.behind_best) : "–");
+    for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
+    out += row(cells, "td");
+  }
+  return out +
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % intervals (Student's "
+             "t); settling times of the trials that settled. Behind the best: the mean of the differences in "
+             "steady error, seed by seed, to the controller with the least.</p>\n",
+             counted(std::uint64_t(r.study.seeds), "seed"));
+}
+
+// The combinations of one model and delay, which are next to each other.
+std::vector<std::vector<const Combination*>> groups(const ControllerComparison& r) {
+  std::vector<std::vector<const Combination*>> all;
+  for (std::size_t i = 0; i < r.combinations.size(); ++i) {
+    if (i % r.study.controllers.size() == 0) all.emplace_back();
+    all.back().push_back(&r.combinations[i]);
+  }
+  return all;
+}
+
+constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange, Ink::sky};
+
+Figure over_time(const ControllerComparison& r, const std::vector<const Combination*>& group, bool distance) {
+  Figure f{distance ? "Distance to the setpoint" : "Dispersion", "", {}};
+  const std::string where = place(r, *group.front());
+  if (!where.empty()) f.heading += ": " + where;
+  f.caption = fmt::format("{} over time, mean over {}. Shaded: one standard deviation between seeds.",
+                          distance ? "Distance from the swarm's centroid to the setpoint"
+                                   : "Root-mean-square distance of the cells from their centroid",
+                          counted(std::uint64_t(r.study.seeds), "seed"));
+  f.plot.description = f.heading, f.plot.inlined = true;
+  f.plot.x.label = "time (s)", f.plot.y.label = distance ? "distance (px)" : "dispersion (px rms)";
+  f.plot.y.lo = 0;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const auto& mean = distance ? group[i]->distance_px : group[i]->rms_radius_px;
+    const auto& sd = distance ? group[i]->distance_sd_px : group[i]->rms_radius_sd_px;
+    Ribbon band{group[i]->t_s, {}, {}, {}, kInks[i % std::size(kInks)]};
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      band.lo.push_back(std::max(0.0, mean[k] - sd[k])), band.hi.push_back(mean[k] + sd[k]);
+    f.plot.add(std::move(band));
+  }
+  for (std::size_t i = 0; i < group.size(); ++i)
+    f.plot.add(Line{.x = group[i]->t_s,
+                    .y = distance ? group[i]->distance_px : group[i]->rms_radius_px,
+                    .label = group[i]->controller,
+                    .ink = kInks[i % std::size(kInks)]});
+  return f;
+}
+
+Figure against_delay(const ControllerComparison& r, const Variant& model) {
+  Figure f{"Steady error against delay",
+           "Root mean square of the distance over the last third of the run, mean over the seeds.",
+           {}};
+  if (r.study.models.size() > 1) f.heading += ": " + model.name;
+  f.plot.description = f.heading, f.plot.inlined = true;
+  f.plot.x.label = "delay (frames)", f.plot.y.label = "steady error (px rms)";
+  f.plot.y.lo = 0;
+  for (std::size_t i = 0; i < r.study.controllers.size(); ++i) {
+    Line line{.x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = kInks[i % std::size(kInks)]};
+    for (const Combination& c : r.combinations)
+      if (c.model == model.name && c.controller == line.label)
+        if (const MeanOverSeeds* m = metric(c, "steady_rms_px"))
+          line.x.push_back(c.delay), line.y.push_back(m->mean);
+    f.plot.add(Scatter{.x = line.x, .y = line.y, .label = {}, .ink = line.ink});
+    f.plot.add(std::move(line));
+  }
+  return f;
+}
+
+// Which controller is best: a sentence, or a row for each model and delay.
+std::string verdict(const ControllerComparison& r) {
+  std::string rows, sentence;
+  for (const auto& group : groups(r)) {
+    const Combination* best = nullptr;
+    bool sure = true;
+    for (const Combination* c : group) {
+      if (!c->behind_best && metric(*c, "steady_rms_px")) best = c;
+      if (c->behind_best && c->behind_best->ci95[0] <= 0) sure = false;
+    }
+    if (!best || group.size() < 2) continue;
+    const std::string at = fmt::format("{} px rms{}", three_digits(metric(*best, "steady_rms_px")->mean),
+                                       sure ? "" : "; the seeds do not tell it from all others");
+    sentence = fmt::format("<p class=\"lead\">{} keeps nearest to the setpoint, at {}.</p>\n",
+                           escape_markup(best->controller), at);
+    rows +=
+        row({escape_markup(place(r, *best)), fmt::format("{}, at {}", escape_markup(best->controller), at)},
+            "td");
+  }
+  if (groups(r).size() < 2 || rows.empty()) return sentence;
+  return "<p class=\"lead\">Which controller keeps nearest to the setpoint</p>\n<table "
+         "class=\"facts\"><tbody>\n" +
+         rows + "</tbody></table>\n";
+}
+
+}  // namespace
+
+nlohmann::ordered_json controllers_json(const ControllerComparison& r) {
+  Json j{{"title", r.study.title},
+         {"seeds", r.study.seeds},
+         {"notes", r.notes},
+         {"combinations", Json::array()}};
+  for (const Combination& c : r.combinations) {
+    Json one{
+        {"controller", c.controller}, {"model", c.model},
+        {"delay_frames", c.delay},    {"trials", c.trials},
+        {"settled", c.settled},       {"settled_ci95", c.settled_ci95},
+        {"metrics", Json::object()},  {"behind_best_px", c.behind_best ? mean_json(*c.behind_best) : Json()}};
+    for (const auto& [name, m] : c.metrics) one["metrics"][name] = mean_json(m);
+    j["combinations"].push_back(std::move(one));
+  }
+  return j;
+}
+
+std::string controllers_csv(const ControllerComparison& r) {
+  const auto quoted = [](const std::string& words) {
+    std::string out = "\"";
+    for (const char ch : words) out += ch == '"' ? std::string("\"\"") : std::string(1, ch);
+    return out + "\"";
+  };
+  std::string out = "controller,model,delay_frames,metric,mean,sd,ci95_low,ci95_high,n\n";
+  for (const Combination& c : r.combinations)
+    for (const auto& [name, m] : c.metrics)
+      out += fmt::format("{},{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", quoted(c.controller),
+                         quoted(c.model), c.delay, name, m.mean, m.sd, m.ci95[0], m.ci95[1], m.n);
+  return out;
+}
+
+std::vector<Figure> controllers_figures(const ControllerComparison& r) {
+  std::vector<Figure> figures;
+  for (const auto& group : groups(r))
+    for (const bool distance : {true, false}) figures.push_back(over_time(r, group, distance));
+  if (several_delays(r))
+    for (const Variant& model : r.study.models) figures.push_back(against_delay(r, model));
+  return figures;
+}
+
+std::string controllers_page(const ControllerComparison& r) {
+  std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + verdict(r) + table(r) +
+                    "<h2>Figures</h2>\n";
+  int number = 0;
+  out += "<div class=\"figures\">\n";
+  for (const Figure& f : controllers_figures(r)) out += figure_markup(f, ++number);
+  out += "</div>\n";
+  for (const std::string& note : r.notes)
+    out += fmt::format("<p class=\"warning\">{}</p>\n", escape_markup(note));
+  return html_page(r.study.title, out);
+}
+
+}  // namespace faba

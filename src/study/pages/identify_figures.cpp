@@ -1,0 +1,282 @@
+#include "study/pages/identify_figures.h"
+#include "study/identify/response_survey.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/scenario/parts.h"
+#include "app/scenario/read_scenario.h"
+#include "study/plot/markup.h"
+
+namespace faba {
+namespace {
+
+constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostEpisodes = 4;  // that are drawn
+constexpr int kBins = 24;
+constexpr double kNinety = -1.353;  // 90 % of one degree of freedom: half of 2.706
+
+using Statistic = Identification::Statistic;
+
+std::string label_of(const FreeParameter& p) {
+  const std::string unit = p.shown_unit();
+  return p.path + (unit.empty() ? "" : " (" + unit + ")");
+}
+
+Plot plot_of(const std::string& heading, std::string x, std::string y) {
+  Plot p;
+  p.description = heading, p.inlined = true;
+  p.x.label = std::move(x), p.y.label = std::move(y);
+  return p;
+}
+
+/// The numbers of one kind of an episode over time, with a gap between drives.
+struct Course {
+  Line observed;
+  Ribbon shown;
+};
+Course course_of(const Identification& r, std::size_t video, std::size_t episode, const std::string& what,
+                 const std::string& label, Ink ink, double (*map)(double)) {
+  Course c;
+  c.observed.label = label, c.observed.ink = c.shown.ink = ink;
+  std::size_t drive = 0;
+  for (std::size_t k = 0; k < r.statistics.size(); ++k) {
+    const Statistic& s = r.statistics[k];
+    if (s.video != video || s.episode != episode || s.number.what != what) continue;
+    if (s.number.drive != drive) {
+      drive = s.number.drive;
+      c.observed.x.push_back(s.number.t_s), c.observed.y.push_back(kGap);
+      c.shown.x.push_back(s.number.t_s), c.shown.lo.push_back(kGap), c.shown.hi.push_back(kGap);
+    }
+    const auto& band = r.models[r.best].foretold90[k];
+    c.observed.x.push_back(s.number.t_s), c.observed.y.push_back(map(s.observed));
+    c.shown.x.push_back(s.number.t_s), c.shown.lo.push_back(map(band[0])), c.shown.hi.push_back(map(band[1]));
+  }
+  return c;
+}
+
+double as_it_is(double x) { return x; }
+double from_log(double x) { return std::exp(x); }
+
+Figure courses(const Identification& r, std::size_t video, std::size_t episode, const std::string& heading,
+               const std::string& caption, const std::string& y,
+               const std::vector<std::tuple<const char*, const char*, Ink>>& what, double (*map)(double)) {
+  Figure f{heading, caption, plot_of(heading, "time (s)", y)};
+  std::vector<Course> all;
+  all.reserve(what.size());
+  for (const auto& [name, label, ink] : what)
+    all.push_back(course_of(r, video, episode, name, label, ink, map));
+  for (Course& c : all) f.plot.add(std::move(c.shown));
+  for (Course& c : all) {
+    f.plot.add(Scatter{.x = c.observed.x, .y = c.observed.y, .label = {}, .ink = c.observed.ink});
+    f.plot.add(std::move(c.observed));
+  }
+  return f;
+}
+
+Figure by_drive(const Identification& r) {
+  Figure f{
+      "Speed along each drive",
+      "Median speed along the drive of the cells that were followed: in the video (dots), and where 90 % of "
+      "the simulations of the best model have it (bars).",
+      plot_of("Speed along each drive", "drive", "speed along (um/s)")};
+  Line bars{.x = {}, .y = {}, .label = "simulated, 90 %", .ink = Ink::vermillion, .width = 5};
+  Scatter dots{.x = {}, .y = {}, .label = "video", .ink = Ink::blue, .size = 8};
+  double n = 0;
+  for (std::size_t k = 0; k < r.statistics.size(); ++k) {
+    const Statistic& s = r.statistics[k];
+    if (s.number.what != "median speed along") continue;
+    const ResponseVideo& v = r.videos[s.video];
+    const double um_s = v.um_per_px * v.fps;  // of a pixel per frame
+    const auto& band = r.models[r.best].foretold90[k];
+    ++n;
+    dots.x.push_back(n), dots.y.push_back(s.observed * um_s);
+    for (const double x : {band[0] * um_s, band[1] * um_s, kGap}) bars.x.push_back(n), bars.y.push_back(x);
+  }
+  f.plot.x.lo = 0.5, f.plot.x.hi = n + 0.5;
+  f.plot.add(std::move(bars)).add(std::move(dots));
+  return f;
+}
+
+/// How much of a swarm lies in each of the bins along a direction, sum 1.
+std::vector<double> spread_along(const GrayF& frame, const CellView& view, double direction_deg) {
+  const Foreground foreground = view.seen_in(frame);
+  const Vec2 way = unit_vector(direction_deg);
+  const double half = 0.5 * (std::fabs(way.x) * view.width + std::fabs(way.y) * view.height);
+  const Vec2 middle{0.5 * view.width, 0.5 * view.height};
+  std::vector<double> sum(kBins, 0.0);
+  double all = 0;
+  const GrayF& w = foreground.weights();
+  for (int r = 0; r < w.height; ++r)
+    for (int c = 0; c < w.width; ++c) {
+      const double place = (dot(Vec2{double(c), double(r)} - middle, way) / half + 1) / 2;
+      const double mass = double(w.at(c, r));
+      sum[std::size_t(std::clamp(int(place * kBins), 0, kBins - 1))] += mass, all += mass;
+    }
+  for (double& x : sum) x /= all > 0 ? all : 1;
+  return sum;
+}
+
+Figure spread_figure(const EpisodePictures& e, const ResponseVideo& v, double deg) {
+  Figure f{
+      "Cells along the drive",
+      "Share of what is seen of the swarm in each 24th of the view along the first drive: video (full) and "
+      "one simulation of the best model (dashed).",
+      plot_of("Cells along the drive", "along the drive (share of the view)", "share of the cells")};
+  constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};
+  std::vector<double> x(kBins);
+  for (int i = 0; i < kBins; ++i) x[std::size_t(i)] = (i + 0.5) / kBins;
+  for (std::size_t k = 0; k < e.t_s.size(); ++k) {
+    f.plot.add(Line{.x = x,
+                    .y = spread_along(e.real[k], v.view, deg),
+                    .label = fmt::format("{:.2g} s", e.t_s[k]),
+                    .ink = kInks[k % 3]});
+    f.plot.add(Line{.x = x,
+                    .y = spread_along(e.simulated[k], v.view, deg),
+                    .label = {},
+                    .ink = kInks[k % 3],
+                    .dashed = true});
+  }
+  return f;
+}
+
+}  // namespace
+
+std::vector<Figure> predictive_figures(const Identification& r) {
+  if (r.study.measure == Measure::tracks) return {by_drive(r)};
+  std::vector<Figure> figures;
+  for (std::size_t v = 0; v < r.videos.size() && figures.size() < 2 * kMostEpisodes; ++v)
+    for (std::size_t e = 0; e < r.videos[v].episodes.size() && figures.size() < 2 * kMostEpisodes; ++e) {
+      const std::string where = r.videos.size() > 1 ? ": " + r.videos[v].episodes[e].name : "";
+      figures.push_back(
+          courses(r, v, e, "Where the swarm is" + where,
+                  "10, 50 and 90 % of the cells in view lie behind these lines, measured along each "
+                  "drive: in the video (dots), and in 90 % of the simulations of the best model "
+                  "(shaded).",
+                  "along the drive (share of the view)",
+                  {{"10 % along", "10 %", Ink::blue},
+                   {"median along", "half", Ink::vermillion},
+                   {"90 % along", "90 %", Ink::green}},
+                  as_it_is));
+      figures.push_back(courses(r, v, e, "Cells in view" + where, "What is seen of the swarm, over its mean.",
+                                "relative to the mean", {{"cells in view", "cells in view", Ink::blue}},
+                                from_log));
+    }
+  return figures;
+}
+
+Figure posterior_figure(const FoundParameter& p) {
+  const FreeParameter& q = p.parameter;
+  Figure f{q.path,
+           fmt::format("{} [{}, {}] {}: median and 90 % of the posterior. Dashed: the same by approximate "
+                       "Bayesian computation{}.{}",
+                       three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
+                       three_digits(q.shown(p.ci90[1])), q.shown_unit(),
+                       p.resampled90 ? ", and with experiments drawn anew" : "",
+                       p.doubt.empty() ? "" : " " + p.doubt + "."),
+           plot_of("Posterior of " + q.path, label_of(q), "density")};
+  const auto [lo, hi] = std::minmax_element(p.draws.begin(), p.draws.end());
+  const double from = q.shown(*lo), step = (q.shown(*hi) - from) / kBins;
+  std::vector<double> count(kBins, 0.0);
+  if (step > 0)
+    for (const double x : p.draws)
+      count[std::size_t(std::clamp(int((q.shown(x) - from) / step), 0, kBins - 1))] +=
+          1 / (double(p.draws.size()) * step);
+  Line steps{.x = {}, .y = {}, .label = {}, .ink = Ink::blue, .held = true};
+  for (int i = 0; i <= kBins; ++i)
+    steps.x.push_back(from + i * step), steps.y.push_back(i < kBins ? count[std::size_t(i)] : 0);
+  f.plot.y.lo = 0;
+  f.plot.add(Band{q.shown(p.ci90[0]), q.shown(p.ci90[1]), {}, true});
+  f.plot.add(std::move(steps));
+  f.plot.add(Rule{.at = q.shown(p.median), .label = {}, .ink = Ink::blue});
+  const double top = *std::max_element(count.begin(), count.end());
+  const auto across = [&](const std::array<double, 2>& interval, double height, const char* label, Ink ink) {
+    f.plot.add(Line{.x = {q.shown(interval[0]), q.shown(interval[1])},
+                    .y = {height * top, height * top},
+                    .label = label,
+                    .ink = ink,
+                    .dashed = true,
+                    .width = 3});
+  };
+  across(p.abc_ci90, 0.04, "ABC, 90 %", Ink::vermillion);
+  if (p.resampled90) across(*p.resampled90, 0.08, "experiments anew, 90 %", Ink::green);
+  return f;
+}
+
+Figure profile_figure(const FoundParameter& p) {
+  const FreeParameter& q = p.parameter;
+  Figure f{"Profile of " + q.path,
+           "Largest log-likelihood that the other parameters can give each value. Flat: the videos do not "
+           "tell it. "
+           "Above the line lie 90 %.",
+           plot_of("Profile of " + q.path, label_of(q), "log-likelihood")};
+  std::vector<double> x;
+  for (const double v : p.profile_at) x.push_back(q.shown(v));
+  f.plot.y.lo = -8, f.plot.y.hi = 0.5;
+  f.plot.add(Rule{.at = kNinety, .label = "90 %", .of_x = false});
+  f.plot.add(Line{.x = x, .y = p.profile, .label = {}, .ink = Ink::blue});
+  return f;
+}
+
+std::vector<Figure> legacy_figures(const LegacyModel& m) {
+  const FreeParameter& q = m.parameter;
+  Figure over{m.name + ": difference over the frames",
+              "Quadratic-Chi distance between the flows of the video and of a simulation, pair by pair, with "
+              "its line: "
+              "the first simulation of each value.",
+              plot_of("Difference over the frames", "pair of frames", "difference")};
+  Figure slopes{m.name + ": slope against " + q.name(),
+                fmt::format("Each dot is the slope of one simulation. Their line is zero at {}.",
+                            three_digits(q.shown(m.zero))),
+                plot_of("Slope against the parameter", label_of(q), "slope per pair")};
+  Scatter dots{.x = {}, .y = {}, .label = {}, .ink = Ink::blue};
+  constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange};
+  std::size_t shown = 0;
+  for (const LegacySimulation& s : m.simulations) {
+    dots.x.push_back(q.shown(s.value)), dots.y.push_back(s.line.slope);
+    if (s.repeat > 0 || s.video > 0 || s.episode > 0) continue;
+    const Ink ink = kInks[shown++ % std::size(kInks)];
+    Line series{.x = {}, .y = s.distance, .label = three_digits(q.shown(s.value)), .ink = ink, .width = 1.2};
+    for (std::size_t i = 0; i < s.distance.size(); ++i) series.x.push_back(double(i));
+    const double last = double(s.distance.size() - 1);
+    over.plot.add(std::move(series));
+    over.plot.add(Line{.x = {0, last},
+                       .y = {s.line.intercept, s.line.intercept + s.line.slope * last},
+                       .label = {},
+                       .ink = ink,
+                       .dashed = true});
+  }
+  const auto [low, high] = std::minmax_element(dots.x.begin(), dots.x.end());
+  const double per_shown = q.shown(1);
+  const auto line_at = [&](double x) { return m.slopes.intercept + m.slopes.slope * x / per_shown; };
+  slopes.plot.add(Rule{.at = 0, .label = {}, .of_x = false});
+  slopes.plot.add(
+      Line{.x = {*low, *high}, .y = {line_at(*low), line_at(*high)}, .label = {}, .ink = Ink::vermillion});
+  slopes.plot.add(std::move(dots));
+  return {over, slopes};
+}
+
+std::vector<EpisodePictures> episode_pictures(const Identification& r) {
+  const Candidate& candidate = r.study.candidates[r.best];
+  std::vector<EpisodePictures> all;
+  for (const ResponseVideo& v : r.videos)
+    for (std::size_t e = 0; e < v.episodes.size() && all.size() < 2; ++e) {
+      const Episode& episode = v.episodes[e];
+      Document d = episode_scenario(v, episode,
+                                    {r.study.boundary, r.study.scene, candidate.model, candidate.drive_in(v)},
+                                    exact_timing(episode));
+      for (const auto& [path, value] : r.models[r.best].best.items()) d.set(path, value, "best");
+      EpisodePictures& one = all.emplace_back();
+      one.name = episode.name, one.t_s = picture_times(episode), one.real = v.pictures[e];
+      one.simulated =
+          simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video, v.ground)
+              .frames;
+      one.spread = spread_figure(one, v, episode.drives.front().direction_deg);
+    }
+  return all;
+}
+
+}  // namespace faba

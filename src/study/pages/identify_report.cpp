@@ -1,0 +1,74 @@
+#include "study/pages/identify_report.h"
+
+#include "core/toml.h"
+
+namespace faba {
+namespace {
+
+Json parameter_json(const FoundParameter& p) {
+  return {{"median", p.median},
+          {"ci90", p.ci90},
+          {"unit", p.parameter.unit},
+          {"range", {p.parameter.low, p.parameter.high}},
+          {"share_of_range", p.share_of_range},
+          {"doubt", p.doubt.empty() ? Json() : Json(p.doubt)},
+          {"abc", {{"median", p.abc_median}, {"ci90", p.abc_ci90}}},
+          {"resampled90", p.resampled90 ? Json(*p.resampled90) : Json()}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json identify_json(const Identification& r) {
+  Json j{{"title", r.study.title}, {"models", Json::array()}};
+  for (const FoundModel& m : r.models) {
+    Json one{{"name", m.name}};
+    if (!m.failed.empty()) {
+      one["failed"] = m.failed;
+    } else {
+      one["score"] = m.score, one["scores"] = m.scores, one["fit_p"] = m.fit_p,
+      one["simulations"] = m.simulations;
+      for (const FoundParameter& p : m.parameters) one["parameters"][p.parameter.path] = parameter_json(p);
+    }
+    j["models"].push_back(std::move(one));
+  }
+  j["best"] = r.models[r.best].name;
+  j["evidence"] = r.evidence;
+  j["words"] = r.words;
+  j["experiments"] = r.experiments;
+  j["ahead"] = r.ahead_ci95 ? Json{{"mean", r.ahead}, {"ci95", *r.ahead_ci95}} : Json();
+  j["statistics"] = Json::array();
+  for (std::size_t k = 0; k < r.statistics.size(); ++k) {
+    Json one{
+        {"what", r.statistics[k].name}, {"observed", r.statistics[k].observed}, {"foretold", Json::object()}};
+    for (const FoundModel& m : r.models)
+      if (m.failed.empty()) one["foretold"][m.name] = {{"mean", m.foretold[k]}, {"sd", m.foretold_sd[k]}};
+    one["foretold90"] = r.models[r.best].foretold90[k];
+    j["statistics"].push_back(std::move(one));
+  }
+  for (const LegacyModel& m : r.legacy)
+    j["legacy"].push_back(
+        {{"name", m.name},
+         {"parameter", m.parameter.path},
+         {"zero", m.zero},
+         {"zero_ci95", m.zero_ci95 ? Json(*m.zero_ci95) : Json()},
+         {"slope_of_slopes",
+          {{"slope", m.slopes.slope}, {"se", m.slopes.se_slope}, {"intercept", m.slopes.intercept}}},
+         {"mean", m.mean},
+         {"sd", m.sd},
+         {"least_distance_at", m.least_distance_at},
+         {"meaningless", m.meaningless.empty() ? Json() : Json(m.meaningless)}});
+  j["notes"] = notes_of(r);
+  return j;
+}
+
+std::vector<std::string> notes_of(const Identification& r) {
+  std::vector<std::string> all;
+  for (const ResponseVideo& v : r.videos)
+    for (const std::string& note : v.notes) {
+      const std::string name = v.input.file.string() + ": ";
+      all.push_back(note.starts_with(name) ? note : name + note);
+    }
+  return all;
+}
+
+}  // namespace faba

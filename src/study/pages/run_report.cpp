@@ -1,0 +1,326 @@
+#include "study/pages/run_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/file.h"
+#include "study/data/series.h"
+#include "study/pages/frame_strip.h"
+#include "study/pages/latency_figure.h"
+#include "study/pages/run_figures.h"
+#include "study/plot/markup.h"
+#include "study/plot/report_page.h"
+
+namespace faba {
+namespace {
+
+constexpr double kLate = 2.0 / 3;          // of the run, where the steady error begins
+constexpr std::size_t kFewSetpoints = 50;  // more are called a moving setpoint, not a route
+
+/// "12.3 px (9.86 µm)", or pixels alone without a picture scale.
+std::string length_in_words(double px, const RunInfo& info) {
+  std::string words = three_digits(px) + "\u00A0px";
+  if (info.um_per_px) words += fmt::format(" ({}\u00A0µm)", three_digits(px * *info.um_per_px));
+  return words;
+}
+
+std::string seconds(double s) { return three_digits(s) + "\u00A0s"; }
+
+std::string spread_in_words(const Metrics& m, const RunInfo& info) {
+  if (!m.sigma_x_px || !m.sigma_y_px) return {};
+  std::string words =
+      fmt::format("{}\u00A0×\u00A0{}\u00A0px", three_digits(*m.sigma_x_px), three_digits(*m.sigma_y_px));
+  if (info.um_per_px) {
+    words += fmt::format(" ({}\u00A0×\u00A0{}\u00A0µm)", three_digits(*m.sigma_x_px * *info.um_per_px),
+                         three_digits(*m.sigma_y_px * *info.um_per_px));
+  }
+  return words;
+}
+
+std::string arrival_in_words(const Metrics& m, const RunInfo& info) {
+  const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
+  const bool moving = given > kFewSetpoints, route = given > 1 && !moving;
+  if (route && m.setpoints < given) {
+    return fmt::format(
+        "After {} the swarm {} setpoint {} of {}, {} away from it.", seconds(m.duration_s),
+        *m.final_distance_px <= *m.settling_band_px ? "had come to" : "was still on its way to", m.setpoints,
+        given, length_in_words(*m.final_distance_px, info));
+  }
+  const std::string goal = moving  ? "its moving setpoint"
+                           : route ? fmt::format("the last of {} setpoints", given)
+                                   : "its setpoint";
+  if (!m.settling_time_s) {
+    const std::string from =
+        given > 1 ? "" : fmt::format("it started {} away and ", length_in_words(*m.initial_error_px, info));
+    return fmt::format("The swarm did not settle at {}: {}was {} away at the end, after {}.", goal,
+                       from.empty() ? "it " : from, length_in_words(*m.final_distance_px, info),
+                       seconds(m.duration_s));
+  }
+  if (*m.settling_time_s > kLate * m.duration_s) {  // the steady error would speak of the approach
+    return fmt::format("The swarm reached {} only after {}, late in a run of {}; at the end it was {} away.",
+                       goal, seconds(*m.settling_time_s), seconds(m.duration_s),
+                       length_in_words(*m.final_distance_px, info));
+  }
+  std::string words = *m.settling_time_s == 0
+                          ? fmt::format("The swarm was at {} from the start", goal)
+                          : fmt::format("The swarm reached {} after {}", goal, seconds(*m.settling_time_s));
+  if (m.steady_rms_px) {
+    words += fmt::format(" and stayed within {} rms of it over the last third of the run",
+                         length_in_words(*m.steady_rms_px, info));
+  }
+  return words + ".";
+}
+
+/// One row of the table of metrics. `um_power` says how often the scale multiplies the value in the second
+/// column.
+struct Row {
+  const char* name;
+  const char* meaning;
+  std::optional<double> value;
+  const char* unit;
+  int um_power = 0;
+  const char* um_unit = "µm";
+};
+
+std::string table_row(const Row& row, const RunInfo& info) {
+  if (!row.value) return {};
+  const std::string value = fmt::format("{}\u00A0{}", three_digits(*row.value), row.unit);
+  std::string cells = fmt::format("<td>{}</td>", value);
+  if (info.um_per_px) {
+    cells += row.um_power == 0 ? "<td></td>"
+                               : fmt::format("<td>{}\u00A0{}</td>",
+                                             three_digits(*row.value * *info.um_per_px), row.um_unit);
+  }
+  return fmt::format("<tr><th scope=\"row\">{}<small>{}</small></th>{}</tr>\n", row.name, row.meaning, cells);
+}
+
+std::optional<double> percent(std::optional<double> share) {
+  return share ? std::optional<double>(100 * *share) : std::nullopt;
+}
+
+using Group = std::pair<const char*, std::vector<Row>>;
+
+std::vector<Group> metric_groups(const Metrics& m) {
+  std::optional<double> settled = m.settling_time_s;
+  return {
+      {"Reaching the setpoint",
+       {{"Initial error", "distance when the first target was given", m.initial_error_px, "px", 1},
+        {"Settling time", "until the last entry into the settling band", settled, "s"},
+        {"Settling band", "the larger of 5 % of the initial error and 10 px", m.settling_band_px, "px", 1},
+        {"Rise time", "from 90 % to 10 % of the initial error, first setpoint", m.rise_time_s, "s"},
+        {"Overshoot", "past the first setpoint, of the initial error", m.overshoot_percent, "%"}}},
+      {"Staying there",
+       {{"Steady error", "rms distance over the last third of the frames", m.steady_rms_px, "px", 1},
+        {"Final distance", "at the last frame", m.final_distance_px, "px", 1},
+        {"IAE", "integral of the distance over time", m.iae_px_s, "px s", 1, "µm s"},
+        {"ITAE", "the same weighted by time", m.itae_px_s2, "px s²", 1, "µm s²"}}},
+      {"Path",
+       {{"Path length", "of the centroid, its jitter included", m.path_length_px, "px", 1},
+        {"Tracking error", "rms distance to the route, from the second setpoint on", m.path_tracking_rms_px,
+         "px", 1},
+        {"Cross-track error, 95 %", "19 of 20 frames are nearer to the route", m.cross_track_95_px, "px",
+         1}}},
+      {"Spread at the last frame",
+       {{"σx", "standard deviation of the cells' x", m.sigma_x_px, "px", 1},
+        {"σy", "standard deviation of the cells' y", m.sigma_y_px, "px", 1},
+        {"RMS radius", "root-mean-square distance from the centroid", m.rms_radius_px, "px", 1}}},
+      {"Command",
+       {{"Control effort", "sum over the coils of the integral of I²", m.control_effort_a2_s, "A² s"},
+        {"Variation of the currents", "sum of all changes from frame to frame", m.total_variation_a, "A"},
+        {"Variation of the field", "sum of all changes from frame to frame", m.total_variation_ut, "µT"},
+        {"Limited", "share of the frames whose command was clipped", percent(m.limited_fraction), "%"}}}};
+}
+
+std::string metrics_table(const Metrics& m, const RunInfo& info) {
+  std::string out = "<h2>Measures</h2>\n<table class=\"numbers\"><thead><tr><th scope=\"col\">Quantity</th>";
+  out += info.um_per_px ? "<th scope=\"col\">in pixels</th><th scope=\"col\">in µm</th>"
+                        : "<th scope=\"col\">Value</th>";
+  out += "</tr></thead>\n<tbody>\n";
+  for (const auto& [name, rows] : metric_groups(m)) {
+    std::string group;
+    for (const Row& row : rows) group += table_row(row, info);
+    if (group.empty()) continue;
+    out += fmt::format("<tr><th colspan=\"{}\" scope=\"colgroup\">{}</th></tr>\n", info.um_per_px ? 3 : 2,
+                       name) +
+           group;
+  }
+  return out + "</tbody></table>\n";
+}
+
+std::string card(const char* name, const std::string& value, const std::string& detail) {
+  return fmt::format("<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n", name, value, detail);
+}
+
+std::string in_um(double px, const RunInfo& info, const char* otherwise) {
+  return info.um_per_px ? three_digits(px * *info.um_per_px) + "\u00A0µm" : std::string(otherwise);
+}
+
+std::string cards(const Metrics& m, const RunInfo& info) {
+  std::string out;
+  if (m.initial_error_px) {
+    out += card("Settling time", m.settling_time_s ? seconds(*m.settling_time_s) : "never",
+                fmt::format("into ±{}\u00A0px", three_digits(*m.settling_band_px)));
+  }
+  if (m.steady_rms_px) {
+    out += card("Steady error, rms", three_digits(*m.steady_rms_px) + "\u00A0px",
+                in_um(*m.steady_rms_px, info, "last third"));
+  }
+  if (m.path_tracking_rms_px) {
+    out += card("Off the route, rms", three_digits(*m.path_tracking_rms_px) + "\u00A0px",
+                in_um(*m.path_tracking_rms_px, info, "from the second setpoint"));
+  }
+  if (m.rms_radius_px) {
+    out += card("Spread, rms radius", three_digits(*m.rms_radius_px) + "\u00A0px",
+                in_um(*m.rms_radius_px, info, "last frame"));
+  }
+  if (m.limited_fraction && m.initial_error_px) {
+    out += card("Command limited", three_digits(100 * *m.limited_fraction) + "\u00A0%", "of the frames");
+  }
+  return out.empty() ? out : "<dl class=\"cards\">\n" + out + "</dl>\n";
+}
+
+std::string video_figure(const RunInfo& info) {
+  const Vec2 size = info.view_px.value_or(Vec2{4, 3});  // only its shape counts, until the video is loaded
+  return fmt::format(
+      "<figure class=\"video\">\n<h3>Video</h3>\n<video controls=\"controls\" preload=\"metadata\" "
+      "width=\"{}\" "
+      "height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>{}: "
+      "<a href=\"video.mp4\">video.mp4</a>, beside this page.</figcaption>\n</figure>\n",
+      size.x, size.y, info.video_shows == "camera" ? "The run as the camera saw it" : "The run, drawn");
+}
+
+std::string figures_section(const std::vector<Figure>& figures, const std::string& video) {
+  std::string out = "<h2>Figures</h2>\n<div class=\"figures\">\n";
+  int number = 0;
+  for (const Figure& figure : figures) out += figure_markup(figure, ++number);
+  return out + video + "</div>\n";
+}
+
+std::string fact(const char* name, const std::string& value) {
+  if (value.empty()) return {};
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, escape_markup(value));
+}
+
+std::string computing_time(const Metrics& m, const RunInfo& info) {
+  if (!info.wall_time_s) return {};
+  std::string words = three_digits(*info.wall_time_s) + " s";
+  const double simulated = info.duration_s.value_or(m.duration_s);
+  if (*info.wall_time_s > 0 && simulated > 0) {
+    words += fmt::format(", {} times real time", three_digits(simulated / *info.wall_time_s));
+  }
+  return words;
+}
+
+std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {
+  std::string out = "<h2>How it was made</h2>\n<table class=\"facts\"><tbody>\n";
+  out += fact("Program", "Faba " + info.version);
+  out += fact("Duration",
+              fmt::format("{} s, {} frames", three_digits(info.duration_s.value_or(m.duration_s)), m.frames));
+  for (std::size_t i = 0; i < info.swarms.size(); ++i) {
+    out += fact(info.swarms.size() == 1 ? "Swarm" : fmt::format("Swarm {}", i + 1).c_str(), info.swarms[i]);
+  }
+  out += fact("Polarity", info.polarity);
+  if (info.arena) out += fact("Arena", info.arena->type);
+  if (info.um_per_px) out += fact("Picture scale", fmt::format("{:.4g} µm per px", *info.um_per_px));
+  out += fact("Seed", info.seed);
+  out += fact("Threads", info.threads.empty() ? "" : info.threads + " (the result does not depend on it)");
+  out += fact("Computing time", computing_time(m, info));
+  out += fact("Scenario hash", info.scenario_hash);
+  out += fact("State hash", info.state_hash);
+  out += "</tbody></table>\n";
+  if (!scenario) return out;
+  const std::string command =
+      "faba run scenario.toml" + (info.seed.empty() ? "" : " --seed " + info.seed) + " --out repeated";
+  out += fmt::format("<p>To repeat it, in this directory:</p>\n<pre><code>{}</code></pre>\n",
+                     escape_markup(command));
+  if (!info.state_hash.empty()) {
+    out += fmt::format("<p class=\"note\">The same version gives the same state hash, {}.</p>\n",
+                       escape_markup(info.state_hash));
+  }
+  return out;
+}
+
+std::string existing_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(file, ignored) ? read_file(file) : std::string();
+}
+
+std::string body_of(const std::filesystem::path& run_dir, const std::string& title, const Series& series,
+                    const RunInfo& info) {
+  const Metrics m = control_metrics(series);
+  const std::string scenario = existing_text(run_dir / "scenario.toml");
+  std::error_code ignored;
+  const bool video = std::filesystem::is_regular_file(run_dir / "video.mp4", ignored);
+  const std::string seen =
+      (video ? video_figure(info) : "") + frame_strip(run_dir / (video ? "video.mp4" : "video.avi"));
+
+  const RunInWords words = run_in_words(m, info);
+  std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(title),
+                                escape_markup(words.outcome));
+  if (!words.details.empty())
+    out += fmt::format("<p class=\"details\">{}</p>\n", escape_markup(words.details));
+  for (const std::string& note : info.notes)
+    out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note));
+  if (!info.um_per_px)
+    out += "<p class=\"note\">The run has no picture scale, so lengths are in pixels only.</p>\n";
+  if (!info.complete)
+    out += "<p class=\"warning\">The run was stopped before its end; this is what was recorded.</p>\n";
+  if (series.last_line_cut()) {
+    out +=
+        "<p class=\"warning\">The recording ends in the middle of a line, as when a run is stopped. That "
+        "last frame is "
+        "left out here.</p>\n";
+  }
+  out += cards(m, info);
+  std::vector<Figure> figures = run_figures(series, m, info);
+  const auto t = series.column("t_s");
+  if (t.size() > 1)
+    if (auto late = latency_figure(run_dir, (t.back() - t.front()) / double(t.size() - 1)))
+      figures.push_back(*late);
+  if (!figures.empty() || !seen.empty()) out += figures_section(figures, seen);
+  if (m.frames > 0) out += metrics_table(m, info);
+  out += provenance(m, info, !scenario.empty());
+  if (!scenario.empty()) {
+    out += fmt::format(
+        "<details><summary>The scenario, scenario.toml</summary>\n<pre><code>{}</code></pre></details>\n",
+        escape_markup(scenario));
+  }
+  return out;
+}
+
+}  // namespace
+
+RunInWords run_in_words(const Metrics& m, const RunInfo& info) {
+  if (m.frames == 0) return {"No frame was recorded.", ""};
+  RunInWords words;
+  if (m.frames == 1) return {"One frame was recorded, the beginning of the run.", ""};
+  words.outcome = m.initial_error_px ? arrival_in_words(m, info)
+                                     : fmt::format("The swarm had no setpoint and was recorded for {}.",
+                                                   seconds(m.duration_s));
+  if (m.cross_track_95_px) {
+    words.details =
+        fmt::format("From the second setpoint on it kept within {} of the route in 19 of 20 frames. ",
+                    length_in_words(*m.cross_track_95_px, info));
+  }
+  const std::string spread = spread_in_words(m, info);
+  if (!spread.empty()) {
+    words.details +=
+        fmt::format("At the end its cells are spread over {}, standard deviations in x and y.", spread);
+  }
+  return words;
+}
+
+void write_run_report(const std::filesystem::path& run_dir) {
+  const RunInfo info = read_run_info(run_dir / "manifest.json");
+  const Series series = read_series(run_dir / "series.csv");
+  const std::string title = info.title.empty() ? "Run report" : info.title;
+  write_file(run_dir / "report.html", html_page(title, body_of(run_dir, title, series, info)));
+}
+
+}  // namespace faba

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "study/tracks/track_options.h"
+
+namespace faba {
+
+/// Called between frames with the work done and to do (0: not known). When it gives false the work is broken
+/// off with Error(Errc::interrupted), and no file is left behind.
+using TrackProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
+
+/// Detects and tracks what moves in a video and measures how it moves: two passes over the frames, the first
+/// for background, size and times. Writes the files that are named, each when it is whole. Returns what
+/// docs/formats/cli.md lists: how spots were found and joined, mean-square displacement, diffusion and
+/// persistent walk, speeds, turns, all with units in their names and, where a scale is known, in um too.
+/// Throws Error(Errc::input) for what cannot be read, and for a run directory whose video is a drawing.
+nlohmann::ordered_json track_video(const TrackOptions& options, const TrackProgress& progress = {});
+
+}  // namespace faba

@@ -1,0 +1,291 @@
+#include "study/plot/plot_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "study/plot/markup.h"
+
+namespace faba::drawing {
+namespace {
+
+// In the order of Ink, without `automatic`.
+constexpr std::array<Shade, 8> kShades{{{"blue", "#0072b2", "#56b4e9"},
+                                        {"vermillion", "#d55e00", "#e69f00"},
+                                        {"green", "#009e73", "#009e73"},
+                                        {"purple", "#cc79a7", "#cc79a7"},
+                                        {"orange", "#e69f00", "#d55e00"},
+                                        {"sky", "#56b4e9", "#0072b2"},
+                                        {"text", "#1d2329", "#e6e9ec"},
+                                        {"muted", "#5c6670", "#a4adb6"}}};
+constexpr double kFar = 1e5;  // coordinates beyond this are as good as infinite, and renderers lose precision
+
+double place(double share, bool flip, double size) {
+  return std::clamp((flip ? 1 - share : share) * size, -kFar, kFar);
+}
+
+}  // namespace
+
+const Shade& shade(Ink ink) { return kShades[ink == Ink::automatic ? 0 : std::size_t(ink) - 1]; }
+// The light colour is an attribute, which every reader of SVG understands; the class lets the style sheet
+// darken it.
+std::string stroke(const Shade& s) { return fmt::format(R"(class="s-{}" stroke="{}")", s.name, s.light); }
+std::string fill(const Shade& s) { return fmt::format(R"(class="f-{}" fill="{}")", s.name, s.light); }
+
+std::string style_sheet() {
+  std::string css = "@media screen and (prefers-color-scheme:dark){";
+  const auto rule = [&](const Shade& s) {
+    css += fmt::format(".faba-plot .s-{0}{{stroke:{1}}}.faba-plot .f-{0}{{fill:{1}}}", s.name, s.dark);
+  };
+  for (const Shade& s : kShades) rule(s);
+  rule(kPaper);
+  rule(kGrid);
+  return css + "}";
+}
+
+double letters(std::string_view text) {
+  return double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+double Map::to_x(double v) const { return place((v - x.lo) / x.length(), flip_x, w); }
+double Map::to_y(double v) const { return place((v - y.lo) / y.length(), !flip_y, h); }
+
+std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view words,
+                    const char* more) {
+  return fmt::format(R"(<text {} x="{:.1f}" y="{:.1f}" text-anchor="{}"{}>{}</text>)", fill(s), p.x, p.y,
+                     anchor, more, escape_markup(words));
+}
+
+std::string rectangle(const std::string& look, PlotPoint a, PlotPoint b) {
+  return fmt::format(R"(<rect {} x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", look,
+                     std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y));
+}
+
+namespace {
+
+void extent(const Line& l, Range& x, Range& y) {
+  for (const double v : l.x) x.take(v);
+  for (const double v : l.y) y.take(v);
+}
+void extent(const Scatter& s, Range& x, Range& y) {
+  for (const double v : s.x) x.take(v);
+  for (const double v : s.y) y.take(v);
+}
+void extent(const Band& b, Range& x, Range& y) {
+  for (const double v : {b.lo, b.hi}) (b.of_x ? x : y).take(v);
+}
+void extent(const Ribbon& r, Range& x, Range& y) {
+  for (const double v : r.x) x.take(v);
+  for (const auto* side : {&r.lo, &r.hi})
+    for (const double v : *side) y.take(v);
+}
+void extent(const Rule& r, Range& x, Range& y) { (r.of_x ? x : y).take(r.at); }
+void extent(const Ellipse& e, Range& x, Range& y) {
+  for (const double side : {-1.0, 1.0}) x.take(e.x + side * e.radius_x), y.take(e.y + side * e.radius_y);
+}
+void extent(const Box& b, Range& x, Range& y) {
+  for (const double v : {b.x0, b.x1}) x.take(v);
+  for (const double v : {b.y0, b.y1}) y.take(v);
+}
+
+/// First, lowest, highest and last point of every pixel column, in the order of the curve.
+std::vector<PlotPoint> thinned_by_column(const std::vector<PlotPoint>& all) {
+  std::vector<PlotPoint> kept;
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t end = first + 1, lowest = first, highest = first;
+    for (; end < all.size() && std::floor(all[end].x) == std::floor(all[first].x); ++end) {
+      if (all[end].y < all[lowest].y) lowest = end;
+      if (all[end].y > all[highest].y) highest = end;
+    }
+    std::array<std::size_t, 4> pick{first, std::min(lowest, highest), std::max(lowest, highest), end - 1};
+    const auto stop = std::unique(pick.begin(), pick.end());
+    for (auto i = pick.begin(); i != stop; ++i) kept.push_back(all[*i]);
+    first = end;
+  }
+  return kept;
+}
+
+/// A curve that turns back: drops what is nearer than half a unit to the point kept before.
+std::vector<PlotPoint> thinned_by_distance(const std::vector<PlotPoint>& all) {
+  std::vector<PlotPoint> kept{all.front()};
+  for (const PlotPoint& p : all) {
+    if (std::hypot(p.x - kept.back().x, p.y - kept.back().y) >= 0.5) kept.push_back(p);
+  }
+  return kept;
+}
+
+/// Drops what lies left or right of a drawing area `w` wide, but for the neighbours that a line runs to.
+void crop(std::vector<PlotPoint>& forward, double w) {
+  const auto left_of = [](double edge) { return [edge](const PlotPoint& p) { return p.x < edge; }; };
+  const auto end = std::partition_point(forward.begin(), forward.end(), left_of(w));
+  if (end != forward.end()) forward.erase(end + 1, forward.end());
+  const auto begin = std::partition_point(forward.begin(), forward.end(), left_of(0));
+  if (begin != forward.begin()) forward.erase(forward.begin(), begin - 1);
+}
+
+void append_stretch(std::string& path, std::vector<PlotPoint>& stretch, const Line& line, const Map& map) {
+  if (stretch.empty()) return;
+  const auto back = [](PlotPoint a, PlotPoint b) { return b.x < a.x; };
+  const bool forward = std::adjacent_find(stretch.begin(), stretch.end(), back) == stretch.end();
+  if (forward) crop(stretch, map.w);
+  if (double(stretch.size()) > 4 * map.w) {
+    stretch = forward ? thinned_by_column(stretch) : thinned_by_distance(stretch);
+  }
+  const auto out = std::back_inserter(path);
+  fmt::format_to(out, "M{:.1f} {:.1f}", stretch[0].x, stretch[0].y);
+  if (stretch.size() == 1) path += "h0";  // with round caps, a dot
+  for (std::size_t i = 1; i < stretch.size(); ++i) {
+    if (line.held)
+      fmt::format_to(out, "H{:.1f}V{:.1f}", stretch[i].x, stretch[i].y);
+    else
+      fmt::format_to(out, "L{:.1f} {:.1f}", stretch[i].x, stretch[i].y);
+  }
+  stretch.clear();
+}
+
+std::string dashes(bool dashed) { return dashed ? R"( stroke-dasharray="6 5")" : ""; }
+
+std::string draw(const Line& line, Ink ink, const Map& map) {
+  std::string path;
+  std::vector<PlotPoint> stretch;
+  for (std::size_t i = 0; i < std::min(line.x.size(), line.y.size()); ++i) {
+    if (std::isfinite(line.x[i]) && std::isfinite(line.y[i])) {
+      stretch.push_back({map.to_x(line.x[i]), map.to_y(line.y[i])});
+    } else {
+      append_stretch(path, stretch, line, map);
+    }
+  }
+  append_stretch(path, stretch, line, map);
+  if (path.empty()) return {};
+  return fmt::format(R"(<path {} stroke-width="{}"{} d="{}"/>)", stroke(shade(ink)), line.width,
+                     dashes(line.dashed), path);
+}
+
+/// One mark as path data; dots are strokes of no length with round caps.
+std::string mark_at(const Scatter& s, PlotPoint p) {
+  const double r = s.size / 2;
+  switch (s.mark) {
+    case Scatter::Mark::ring:
+      return fmt::format("M{:.1f} {:.1f}a{r} {r} 0 1 0 {} 0a{r} {r} 0 1 0 {} 0", p.x - r, p.y, 2 * r, -2 * r,
+                         fmt::arg("r", r));
+    case Scatter::Mark::cross:
+      return fmt::format("M{:.1f} {:.1f}h{}m{} {}v{}", p.x - r, p.y, 2 * r, -r, -r, 2 * r);
+    case Scatter::Mark::dot:
+      break;
+  }
+  return fmt::format("M{:.1f} {:.1f}h0", p.x, p.y);
+}
+
+double mark_stroke(const Scatter& s) { return s.mark == Scatter::Mark::dot ? s.size : 2; }
+
+std::string draw(const Scatter& s, Ink ink, const Map& map) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> half_units;  // two marks nearer than that look like one
+  for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i) {
+    if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+    half_units.emplace_back(std::llround(2 * map.to_x(s.x[i])), std::llround(2 * map.to_y(s.y[i])));
+  }
+  std::sort(half_units.begin(), half_units.end());
+  half_units.erase(std::unique(half_units.begin(), half_units.end()), half_units.end());
+  if (half_units.empty()) return {};
+  std::string path;
+  for (const auto& [x, y] : half_units) path += mark_at(s, {0.5 * double(x), 0.5 * double(y)});
+  return fmt::format(R"(<path {} stroke-width="{}" d="{}"/>)", stroke(shade(ink)), mark_stroke(s), path);
+}
+
+std::string draw(const Band& b, Ink ink, const Map& map) {
+  if (!std::isfinite(b.lo) || !std::isfinite(b.hi)) return {};
+  const std::string look = fill(shade(ink)) + R"( fill-opacity="0.18")";
+  if (b.of_x) return rectangle(look, {map.to_x(b.lo), 0}, {map.to_x(b.hi), map.h});
+  return rectangle(look, {0, map.to_y(b.lo)}, {map.w, map.to_y(b.hi)});
+}
+
+std::string draw(const Ribbon& r, Ink ink, const Map& map) {
+  std::string out, there, back;
+  const auto close = [&] {
+    if (!there.empty())
+      out += fmt::format(R"(<polygon {} fill-opacity="0.25" points="{}{}"/>)", fill(shade(ink)), there, back);
+    there.clear(), back.clear();
+  };
+  for (std::size_t i = 0; i < std::min({r.x.size(), r.lo.size(), r.hi.size()}); ++i) {
+    if (!std::isfinite(r.x[i] + r.lo[i] + r.hi[i])) {
+      close();  // a gap, as in a line
+      continue;
+    }
+    there += fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.hi[i]));
+    back.insert(0, fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.lo[i])));
+  }
+  close();
+  return out;
+}
+
+std::string draw(const Rule& r, Ink ink, const Map& map) {
+  if (!std::isfinite(r.at)) return {};
+  const double at = r.of_x ? map.to_x(r.at) : map.to_y(r.at);
+  std::string out = fmt::format(
+      R"(<path {} stroke-width="1.2" stroke-dasharray="3 3" d="M{:.1f} {:.1f}{}{:.1f}"/>)",
+      stroke(shade(ink)), r.of_x ? at : 0, r.of_x ? 0 : at, r.of_x ? 'V' : 'H', r.of_x ? map.h : map.w);
+  if (r.label.empty()) return out;
+  const bool leftwards = r.of_x && at + 6 + kTextWidth * letters(r.label) > map.w;
+  const PlotPoint spot =
+      r.of_x ? PlotPoint{leftwards ? at - 5 : at + 5, 14} : PlotPoint{map.w - 4, at < 20 ? at + 14 : at - 5};
+  const char* halo = leftwards || !r.of_x ? "end" : "start";
+  out += fmt::format(R"(<g class="s-paper" stroke="{}" stroke-width="4" paint-order="stroke">{}</g>)",
+                     kPaper.light, text_at(spot, halo, shade(ink), r.label));
+  return out;
+}
+
+std::string draw(const Ellipse& e, Ink ink, const Map& map) {
+  if (!std::isfinite(e.x + e.y + e.radius_x + e.radius_y)) return {};
+  const PlotPoint c{map.to_x(e.x), map.to_y(e.y)};
+  const double rx = std::abs(e.radius_x) * map.w / map.x.length(),
+               ry = std::abs(e.radius_y) * map.h / map.y.length();
+  return fmt::format(R"(<ellipse {} stroke-width="1.5"{} cx="{:.1f}" cy="{:.1f}" rx="{:.1f}" ry="{:.1f}"/>)",
+                     stroke(shade(ink)), dashes(e.dashed), c.x, c.y, std::min(rx, kFar), std::min(ry, kFar));
+}
+
+std::string draw(const Box& b, Ink ink, const Map& map) {
+  if (!std::isfinite(b.x0 + b.y0 + b.x1 + b.y1)) return {};
+  return rectangle(stroke(shade(ink)) + R"( stroke-width="1.5")" + dashes(b.dashed),
+                   {map.to_x(b.x0), map.to_y(b.y0)}, {map.to_x(b.x1), map.to_y(b.y1)});
+}
+
+// What stands in the legend for a layer, around (0, 0).
+std::string swatch(const Line& l, Ink ink) {
+  return fmt::format(R"(<path {} stroke-width="{}"{} d="M-9 0h18"/>)", stroke(shade(ink)),
+                     std::max(2.0, l.width), dashes(l.dashed));
+}
+std::string swatch(const Scatter& s, Ink ink) {
+  return fmt::format(R"(<path {} stroke-width="{}" d="{}"/>)", stroke(shade(ink)), mark_stroke(s),
+                     mark_at(s, {0, 0}));
+}
+std::string swatch(const Ribbon&, Ink ink) {
+  return rectangle(fill(shade(ink)) + R"( fill-opacity="0.3")", {-9, -5}, {9, 5});
+}
+std::string swatch(const Band&, Ink ink) {
+  return rectangle(fill(shade(ink)) + R"( fill-opacity="0.3")", {-9, -5}, {9, 5});
+}
+std::string swatch(const Rule&, Ink) { return {}; }  // has its words beside it
+template <class Outline>
+std::string swatch(const Outline& o, Ink ink) {
+  return fmt::format(R"(<path {} stroke-width="1.5"{} d="M-9 0h18"/>)", stroke(shade(ink)), dashes(o.dashed));
+}
+
+}  // namespace
+
+void layer_extent(const Plot::Layer& layer, Range& x, Range& y) {
+  std::visit([&](const auto& l) { extent(l, x, y); }, layer);
+}
+std::string layer_drawing(const Plot::Layer& layer, Ink ink, const Map& map) {
+  return std::visit([&](const auto& l) { return draw(l, ink, map); }, layer);
+}
+std::string layer_swatch(const Plot::Layer& layer, Ink ink) {
+  return std::visit([&](const auto& l) { return swatch(l, ink); }, layer);
+}
+
+}  // namespace faba::drawing

@@ -1,0 +1,133 @@
+#include "study/stats/gaussian_fit.h"
+
+#include <unsupported/Eigen/LevenbergMarquardt>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace faba {
+namespace {
+
+// F of the fit over a constant: of 3 and many degrees of freedom chance exceeds it once in a million, and
+// there are some hundred places and widths that a peak could have.
+constexpr double kGain = 10;
+
+/// Residuals in units of the largest value, over times in units of the series' length. The last unknown is
+/// the root of the offset: an activity is not below zero, and without that a broad peak would be the top of
+/// an endless one.
+struct Peak : Eigen::DenseFunctor<double> {
+  const std::vector<double>&t, &y;
+  Peak(const std::vector<double>& times, const std::vector<double>& values)
+      : DenseFunctor(4, int(values.size())), t(times), y(values) {}
+  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r) const {
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double z = (t[i] - x[1]) / x[2];
+      r[Eigen::Index(i)] = x[0] * std::exp(-z * z / 2) + x[3] * x[3] - y[i];
+    }
+    return 0;
+  }
+  int df(const Eigen::VectorXd& x, Eigen::MatrixXd& j) const {
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double z = (t[i] - x[1]) / x[2], e = std::exp(-z * z / 2);
+      j.row(Eigen::Index(i)) << e, x[0] * e * z / x[2], x[0] * e * z * z / x[2], 2 * x[3];
+    }
+    return 0;
+  }
+};
+
+double quantile(std::vector<double> v, double share) {
+  const auto at = v.begin() + std::ptrdiff_t(share * double(v.size() - 1));
+  std::nth_element(v.begin(), at, v.end());
+  return *at;
+}
+
+// Mean over five values: the start must not be a single spike.
+std::vector<double> smoothed(const std::vector<double>& y) {
+  std::vector<double> out(y.size());
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const std::size_t a = i < 2 ? 0 : i - 2, b = std::min(y.size(), i + 3);
+    for (std::size_t k = a; k < b; ++k) out[i] += y[k] / double(b - a);
+  }
+  return out;
+}
+
+Eigen::VectorXd start(const std::vector<double>& t, const std::vector<double>& y) {
+  const std::vector<double> s = smoothed(y);
+  const auto top = std::size_t(std::max_element(s.begin(), s.end()) - s.begin());
+  const double floor = quantile(s, 0.1), half = (s[top] + floor) / 2;
+  std::size_t left = top, right = top;
+  while (left > 0 && s[left] > half) --left;
+  while (right + 1 < s.size() && s[right] > half) ++right;
+  Eigen::VectorXd x(4);
+  x << s[top] - floor, t[top], std::max((t[right] - t[left]) / 2.355, 1.5 / double(t.size())),
+      std::sqrt(std::max(floor, 1e-4));
+  return x;
+}
+
+// Neighbours share a frame and move alike: so many values count as one.
+double values_to_one(const Eigen::VectorXd& r) {
+  const Eigen::Index n = r.size();
+  const double rho =
+      std::clamp(r.head(n - 1).dot(r.tail(n - 1)) / std::max(r.squaredNorm(), 1e-300), 0.0, 0.95);
+  return (1 + rho) / (1 - rho);
+}
+
+}  // namespace
+
+GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> values) {
+  GaussianFit fit;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (values.size() < 6 || !(*high > *low) || !(*high > 0)) {
+    fit.why = values.size() < 6 ? "fewer than six values" : "all values are equal";
+    if (!values.empty()) fit.offset = values.front();
+    return fit;
+  }
+  const double begin = t_s.front(), length = t_s.back() - begin, range = *high;
+  std::vector<double> t, y;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    t.push_back((t_s[i] - begin) / length), y.push_back(values[i] / range);
+
+  Peak peak(t, y);
+  Eigen::VectorXd x = start(t, y);
+  Eigen::LevenbergMarquardt<Peak> lm(peak);
+  lm.minimize(x);
+  x[2] = std::fabs(x[2]);
+  Eigen::VectorXd r(Eigen::Index(y.size()));
+  Eigen::MatrixXd j(Eigen::Index(y.size()), 4);
+  peak(x, r), peak.df(x, j);
+  const double variance = r.squaredNorm() / double(y.size() - 4);
+  const Eigen::MatrixXd covariance =
+      (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse() * variance * values_to_one(r);
+  const auto se = [&](int i) { return std::sqrt(std::max(covariance(i, i), 0.0)); };
+  fit.amplitude = x[0] * range, fit.peak_s = begin + x[1] * length, fit.sigma_s = x[2] * length;
+  fit.offset = x[3] * x[3] * range;
+  fit.se_amplitude = se(0) * range, fit.se_peak_s = se(1) * length, fit.se_sigma_s = se(2) * length;
+  fit.se_offset = 2 * std::fabs(x[3]) * se(3) * range;
+  fit.scatter = std::sqrt(variance) * range;
+  double constant = 0, mean = 0;
+  for (const double v : y) mean += v / double(y.size());
+  for (const double v : y) constant += (v - mean) * (v - mean);
+  const double free_values = double(y.size()) / values_to_one(r) - 4;
+  const double gain =
+      free_values > 1 ? (constant / std::max(r.squaredNorm(), 1e-300) - 1) / 3 * free_values : 0;
+  if (!(std::isfinite(x.sum()))) {
+    fit = {};
+    fit.why = "the fit came to no end";
+  } else if (!(x[0] > 3 * std::sqrt(variance)))
+    fit.why = "the peak is no higher than three times the scatter about it";
+  else if (!(fit.amplitude > 2 * fit.se_amplitude))
+    fit.why = "its height cannot be told from its width and offset";
+  else if (!(gain > kGain))
+    fit.why = "a constant fits nearly as well";
+  else if (!(x[1] > 0 && x[1] < 1))
+    fit.why = "the peak lies outside of the video";
+  else if (!(x[2] * double(y.size() - 1) > 1))
+    fit.why = "the peak is narrower than two values";
+  else if (!(x[2] < 1))
+    fit.why = "the peak is wider than the video is long";
+  fit.good = fit.why.empty();
+  return fit;
+}
+
+}  // namespace faba

@@ -1,0 +1,122 @@
+#include "study/stats/msd_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faba {
+namespace {
+
+// Weight of a lag: by its standard error where that is known, else by what it would be for independent pairs.
+double weight_of(const Msd& m, std::size_t k) {
+  if (m.se_px2[k] > 0) return 1 / (m.se_px2[k] * m.se_px2[k]);
+  return m.pairs[k] / std::max(m.msd_px2[k] * m.msd_px2[k], 1e-300);
+}
+
+// y = a x + b.
+struct StraightLine {
+  double slope = 0, offset = 0;
+};
+StraightLine straight_line(const std::vector<double>& x, const std::vector<double>& y,
+                           const std::vector<double>& w) {
+  double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    s += w[i], sx += w[i] * x[i], sy += w[i] * y[i], sxx += w[i] * x[i] * x[i], sxy += w[i] * x[i] * y[i];
+  const double det = s * sxx - sx * sx;
+  if (!(det > 0)) return {0, sy / s};
+  return {(s * sxy - sx * sy) / det, (sxx * sy - sx * sxy) / det};
+}
+
+// 2 tau^2 (x - 1 + exp(-x)), x = t / tau; the difference of nearly equal numbers is taken by its series.
+double persistent_shape(double t, double tau) {
+  const double x = t / tau;
+  if (x < 1e-3) return t * t * (1 - x / 3 + x * x / 12);
+  return 2 * tau * tau * (x - 1 + std::exp(-x));
+}
+
+struct Linear {
+  double v2 = 0, offset = 0, chi2 = std::numeric_limits<double>::infinity();
+};
+Linear solve_for(const Msd& m, double tau) {
+  std::vector<double> g, w;
+  for (std::size_t k = 0; k < m.size(); ++k)
+    g.push_back(persistent_shape(m.lag_s[k], tau)), w.push_back(weight_of(m, k));
+  Linear out;
+  const StraightLine both = straight_line(g, m.msd_px2, w);
+  out.v2 = both.slope, out.offset = both.offset;
+  if (out.offset < 0 || out.v2 < 0) {
+    double gg = 0, gy = 0;
+    for (std::size_t k = 0; k < g.size(); ++k) gg += w[k] * g[k] * g[k], gy += w[k] * g[k] * m.msd_px2[k];
+    out.v2 = std::max(0.0, gy / gg), out.offset = 0;
+  }
+  out.chi2 = 0;
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    const double off = m.msd_px2[k] - out.v2 * g[k] - out.offset;
+    out.chi2 += w[k] * off * off;
+  }
+  return out;
+}
+
+}  // namespace
+
+DiffusionFit fit_diffusion(const Msd& m, std::size_t first, std::size_t lags) {
+  DiffusionFit fit;
+  const std::size_t all = m.size() > first ? m.size() - first : 0;
+  if (all < 2) return first > 0 ? fit_diffusion(m, 0, lags) : fit;
+  const std::size_t least = first > 0 ? 4 : 2;
+  std::size_t use = lags > 0 ? lags : 4;
+  for (int round = 0; round < 10; ++round) {
+    use = std::min(std::max(use, least), all);
+    std::vector<double> x, y, w;
+    for (std::size_t k = first; k < first + use; ++k)
+      x.push_back(m.lag_s[k]), y.push_back(m.msd_px2[k]), w.push_back(weight_of(m, k));
+    const StraightLine line = straight_line(x, y, w);
+    fit = {true, line.slope / 4, line.offset, first, use};
+    if (lags > 0 || !(line.slope > 0)) break;
+    // Ratio of the localisation error to the displacement of one frame.
+    const double ratio = std::max(0.0, line.offset / 4) / (fit.d_px2_s * m.lag_s[0]);
+    const auto best = std::max(least, std::size_t(std::floor(2 + 2.3 * std::pow(ratio, 0.52))));
+    if (best == use) break;
+    use = best;
+  }
+  return fit;
+}
+
+PersistentFit fit_persistent(const Msd& m) {
+  PersistentFit fit;
+  if (m.size() < 4) return fit;
+  const double least = 0.2 * m.lag_s.front(), most = 20 * m.lag_s.back();
+  constexpr int kSteps = 400;
+  Linear best;
+  int at = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double tau = least * std::pow(most / least, double(i) / kSteps);
+    const Linear l = solve_for(m, tau);
+    if (l.chi2 < best.chi2) best = l, fit.tau_s = tau, at = i;
+  }
+  fit.good = best.v2 > 0 && at > 0;  // at the shortest time tried nothing is told of it
+  fit.speed_px_s = std::sqrt(std::max(0.0, best.v2));
+  fit.offset_px2 = best.offset;
+  fit.tau_open = at == kSteps || fit.tau_s > 5 * m.lag_s.back();
+  return fit;
+}
+
+double fit_exponent(const Msd& m, double offset, std::size_t first) {
+  std::vector<double> x, y, w;
+  const double taken_off = std::max(0.0, offset);
+  for (std::size_t k = first; k < m.size(); ++k) {
+    const double left = m.msd_px2[k] - offset;
+    if (!(left > taken_off) || !(left > 0)) continue;
+    x.push_back(std::log(m.lag_s[k])), y.push_back(std::log(left));
+    w.push_back(weight_of(m, k) * left * left);
+  }
+  if (x.size() < 3) return std::numeric_limits<double>::quiet_NaN();
+  return straight_line(x, y, w).slope;
+}
+
+double diffusion_msd(const DiffusionFit& f, double t) { return 4 * f.d_px2_s * t + f.offset_px2; }
+double persistent_msd(const PersistentFit& f, double t) {
+  return f.speed_px_s * f.speed_px_s * persistent_shape(t, f.tau_s) + f.offset_px2;
+}
+
+}  // namespace faba

@@ -1,0 +1,250 @@
+#include "study/steering/controller_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "app/run/notes.h"
+#include "app/run/simulation.h"
+#include "app/scenario/parts.h"
+#include "app/scenario/read_scenario.h"
+#include "core/hash.h"
+#include "study/stats/statistics.h"
+#include "study/steering/metrics.h"
+#include "study/steering/trial.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kMostPoints = 600;  // of the curves over time that are kept of a trial
+
+struct Named {
+  const char* name;
+  std::optional<double> Metrics::*value;
+};
+constexpr Named kMetrics[] = {{"settling_time_s", &Metrics::settling_time_s},
+                              {"rise_time_s", &Metrics::rise_time_s},
+                              {"overshoot_percent", &Metrics::overshoot_percent},
+                              {"steady_rms_px", &Metrics::steady_rms_px},
+                              {"iae_px_s", &Metrics::iae_px_s},
+                              {"itae_px_s2", &Metrics::itae_px_s2},
+                              {"path_tracking_rms_px", &Metrics::path_tracking_rms_px},
+                              {"cross_track_95_px", &Metrics::cross_track_95_px},
+                              {"path_length_px", &Metrics::path_length_px},
+                              {"sigma_x_px", &Metrics::sigma_x_px},
+                              {"sigma_y_px", &Metrics::sigma_y_px},
+                              {"rms_radius_px", &Metrics::rms_radius_px},
+                              {"control_effort_a2_s", &Metrics::control_effort_a2_s},
+                              {"total_variation_ut", &Metrics::total_variation_ut},
+                              {"limited_fraction", &Metrics::limited_fraction}};
+constexpr std::size_t kSteady = 3;  // steady_rms_px
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+struct StudyFile {
+  std::string title, scene;
+  int seeds = 20;
+  std::uint64_t first_seed = 1;
+  std::vector<int> delays;
+  static Schema<StudyFile> schema() {
+    return Schema<StudyFile>("compare-controllers", "Controllers with models and delays, over seeds")
+        .add("title", &StudyFile::title, {.doc = "What the study is called in reports"})
+        .add("scene", &StudyFile::scene, {.doc = "Scenario that all trials share; beside the study"})
+        .add("seeds", &StudyFile::seeds, {.min = 2, .max = 100000, .doc = "Trials of each combination"})
+        .add("first_seed", &StudyFile::first_seed, {.min = 0, .max = 9e15, .doc = "Seed of the first trial"})
+        .add("delays", &StudyFile::delays,
+             {.min = 0, .max = 1000, .doc = "Ages of the picture, frames; the scene's own when absent"});
+  }
+};
+
+/// A combination with its scenario.
+struct Setting {
+  std::size_t controller = 0, model = 0;
+  int delay = 0;
+  Scenario scenario;
+};
+
+std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::string>* notes = nullptr) {
+  std::vector<Setting> all;
+  const Parts parts = builtin_parts();
+  std::vector<std::optional<int>> delays(study.delays.begin(), study.delays.end());
+  if (delays.empty()) delays.emplace_back();
+  Pool pool(1);
+  for (std::size_t m = 0; m < study.models.size(); ++m)
+    for (const std::optional<int> delay : delays)
+      for (std::size_t c = 0; c < study.controllers.size(); ++c) {
+        Document d = study.scene;
+        apply(study.models[m], "model", d);
+        apply(study.controllers[c], "controller", d);
+        if (delay) d.set("camera.delay_frames", Json(*delay), "delays");
+        Scenario s = read_scenario(d, parts);
+        const Simulation check(s, study.first_seed, pool);
+        if (check.reference().setpoints().empty())
+          throw Error(Errc::usage, study.scene.name,
+                      fmt::format("has no setpoint with controller \"{}\"; give it a [reference]",
+                                  study.controllers[c].name));
+        if (notes)
+          for (const std::string& note : notes_on(s, check, std::filesystem::current_path()))
+            if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
+        const int frames = s.camera.delay_frames;
+        all.push_back({c, m, frames, std::move(s)});
+      }
+  return all;
+}
+
+/// What is kept of a trial: the metrics, then times, distances and radii of some of the frames.
+std::vector<double> trial_values(const Scenario& s, std::uint64_t seed, const std::function<bool()>& stop) {
+  const Series series = trial(s, seed, stop);
+  const Metrics m = control_metrics(series);
+  std::vector<double> values;
+  for (const Named& one : kMetrics) values.push_back((m.*one.value).value_or(kNaN));
+  const std::size_t stride = (series.size() + kMostPoints - 1) / kMostPoints;
+  for (const char* column : {"t_s", "distance_px", "rms_radius_px"})
+    for (std::size_t k = 0; k < series.size(); k += stride) values.push_back(series.column(column)[k]);
+  return values;
+}
+
+MeanOverSeeds mean_of(const std::vector<double>& values) {
+  MeanOverSeeds m;
+  std::vector<double> defined;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(defined),
+               [](double v) { return std::isfinite(v); });
+  m.n = int(defined.size());
+  if (m.n == 0) return m;
+  for (const double v : defined) m.mean += v / m.n;
+  m.sd = sample_sd(defined);
+  const double half = m.n > 1 ? student_t_quantile(0.975, m.n - 1) * m.sd / std::sqrt(m.n) : kNaN;
+  m.ci95 = {m.mean - half, m.mean + half};
+  return m;
+}
+
+// Wilson's interval of a share.
+std::array<double, 2> share_ci95(int k, int n) {
+  constexpr double z = 1.959964;
+  const double p = double(k) / n, centre = p + z * z / (2 * n);
+  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4.0 * n * n)), scale = 1 + z * z / n;
+  return {std::max(0.0, (centre - half) / scale), std::min(1.0, (centre + half) / scale)};
+}
+
+// Mean and standard deviation over the trials, point by point.
+void curves(const std::vector<const std::vector<double>*>& trials, Combination& c) {
+  const std::size_t first = std::size(kMetrics), points = (trials.front()->size() - first) / 3;
+  const auto value = [&](const std::vector<double>& t, std::size_t what, std::size_t k) {
+    return t[first + what * points + k];
+  };
+  for (std::size_t k = 0; k < points; ++k) {
+    c.t_s.push_back(value(*trials.front(), 0, k));
+    for (const std::size_t what : {std::size_t(1), std::size_t(2)}) {
+      std::vector<double> one;
+      one.reserve(trials.size());
+      for (const auto* t : trials) one.push_back(value(*t, what, k));
+      const MeanOverSeeds m = mean_of(one);
+      (what == 1 ? c.distance_px : c.rms_radius_px).push_back(m.n > 0 ? m.mean : kNaN);
+      (what == 1 ? c.distance_sd_px : c.rms_radius_sd_px).push_back(m.n > 0 ? m.sd : kNaN);
+    }
+  }
+}
+
+using Trials = std::vector<const std::vector<double>*>;
+
+Combination conclude(const ControllerStudy& study, const Setting& s, const Trials& trials) {
+  Combination c;
+  c.controller = study.controllers[s.controller].name, c.model = study.models[s.model].name;
+  c.delay = s.delay, c.trials = int(trials.size());
+  for (std::size_t i = 0; i < std::size(kMetrics); ++i) {
+    std::vector<double> values;
+    for (const auto* t : trials) values.push_back((*t)[i]);
+    const MeanOverSeeds m = mean_of(values);
+    if (i == 0) c.settled = m.n;
+    if (m.n > 0) c.metrics[kMetrics[i].name] = m;
+  }
+  c.settled_ci95 = share_ci95(c.settled, c.trials);
+  curves(trials, c);
+  return c;
+}
+
+// Among the controllers with one model and one delay.
+void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>& trials, std::size_t begin,
+                       std::size_t end) {
+  const auto steady = [&](std::size_t i) {
+    const auto it = all[i].metrics.find(kMetrics[kSteady].name);
+    return it == all[i].metrics.end() ? std::numeric_limits<double>::infinity() : it->second.mean;
+  };
+  std::size_t best = begin;
+  for (std::size_t i = begin; i < end; ++i)
+    if (steady(i) < steady(best)) best = i;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i == best) continue;
+    std::vector<double> difference;
+    for (std::size_t k = 0; k < trials[i].size(); ++k)
+      difference.push_back((*trials[i][k])[kSteady] - (*trials[best][k])[kSteady]);
+    const MeanOverSeeds m = mean_of(difference);
+    if (m.n > 1) all[i].behind_best = m;
+  }
+}
+
+}  // namespace
+
+ControllerStudy read_controller_study(const std::filesystem::path& file) {
+  const Document d = read_toml(file);
+  const Node root(d);
+  const StudyFile f = StudyFile::schema().parse(root, {"controller", "model"});
+  if (f.scene.empty()) root.fail("needs scene = \"...\", the scenario that all trials share");
+  ControllerStudy study;
+  study.title = f.title.empty() ? file.stem().string() : f.title;
+  study.scene = read_toml(root.file(f.scene));
+  study.controllers = read_variants(root, "controller");
+  study.models = read_variants(root, "model");
+  if (std::set<int>(f.delays.begin(), f.delays.end()).size() != f.delays.size())
+    root.child("delays").fail("names a delay twice");
+  study.delays = f.delays, study.seeds = f.seeds, study.first_seed = f.first_seed;
+  return study;
+}
+
+Json controller_study_schema() {
+  Json j = StudyFile::schema().json_schema();
+  j["properties"]["controller"] = {{"type", "array"},
+                                   {"description", "[[controller]], once for each"},
+                                   {"items", variant_schema("A controller")}};
+  j["properties"]["model"] = {{"type", "array"},
+                              {"description", "[[model]], once for each"},
+                              {"items", variant_schema("A model of the cells")}};
+  return j;
+}
+
+std::string fingerprint(const ControllerStudy& study) {
+  Hash h;
+  h.text("compare-controllers");
+  for (const Setting& s : settings(study)) h.text(s.scenario.hash());
+  h.value(study.seeds), h.value(study.first_seed);
+  return h.hex();
+}
+
+std::optional<ControllerComparison> compare_controllers(const ControllerStudy& study, ResultStore& results,
+                                                        const SweepOptions& options) {
+  std::vector<std::string> notes;
+  const std::vector<Setting> all = settings(study, &notes);
+  std::vector<Task> tasks;
+  for (const Setting& s : all)
+    for (int k = 0; k < study.seeds; ++k) {
+      const std::uint64_t seed = study.first_seed + std::uint64_t(k);
+      tasks.push_back({task_key(fmt::format("controller trial {} {}", s.scenario.hash(), seed)),
+                       [&s, seed, &options] { return trial_values(s.scenario, seed, options.stop); }});
+    }
+  if (!sweep(results, tasks, options)) return {};
+  ControllerComparison c{study, {}, std::move(notes)};
+  std::vector<Trials> trials;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Trials& of = trials.emplace_back();
+    for (int k = 0; k < study.seeds; ++k)
+      of.push_back(results.find(tasks[i * std::size_t(study.seeds) + std::size_t(k)].key));
+    c.combinations.push_back(conclude(study, all[i], of));
+  }
+  for (std::size_t i = 0; i < all.size(); i += study.controllers.size())
+    compare_with_best(c.combinations, trials, i, i + study.controllers.size());
+  return c;
+}
+
+}  // namespace faba

@@ -1,0 +1,308 @@
+#include "study/steering/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/toml.h"
+#include "core/vec.h"
+#include "study/stats/statistics.h"
+
+namespace faba {
+namespace {
+
+using Values = std::span<const double>;
+
+constexpr double kBandFraction = 0.05;
+constexpr double kBandFloorPx = 10;
+constexpr double kQuantile = 0.95;
+
+std::optional<double> finite(double value) {
+  return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+bool finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+struct Timed {
+  double t, d;
+};
+
+std::vector<Vec2> points(const Series& s, const char* x, const char* y) {
+  const Values xs = s.find(x), ys = s.find(y);
+  std::vector<Vec2> out(std::min(xs.size(), ys.size()));
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = {xs[k], ys[k]};
+  return out;
+}
+
+void check_times(const Series& s, Values t) {
+  for (std::size_t k = 0; k < t.size(); ++k) {
+    if (!std::isfinite(t[k])) throw Error(Errc::input, s.place(k), "t_s is missing");
+    if (k > 0 && t[k] <= t[k - 1]) {
+      throw Error(Errc::input, s.place(k),
+                  fmt::format("t_s goes from {} to {}; it must increase", t[k - 1], t[k]));
+    }
+  }
+}
+
+/// The setpoints in the order they were given, and the row from which each one held.
+struct Route {
+  std::vector<Vec2> vertex;
+  std::vector<std::size_t> since;
+};
+
+Route route_of(const std::vector<Vec2>& setpoint) {
+  Route route;
+  for (std::size_t k = 0; k < setpoint.size(); ++k) {
+    if (!finite(setpoint[k]) || (!route.vertex.empty() && route.vertex.back() == setpoint[k])) continue;
+    route.vertex.push_back(setpoint[k]);
+    route.since.push_back(k);
+  }
+  return route;
+}
+
+double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 ab = b - a;
+  const double square = dot(ab, ab);
+  const double along = square > 0 ? std::clamp(dot(p - a, ab) / square, 0.0, 1.0) : 0;
+  return norm(p - (a + along * ab));
+}
+
+/// A rectangle around a part of a polyline, and how far a point is from it at least.
+struct Bounds {
+  Vec2 lo, hi;
+  void take(const Bounds& b) {
+    lo = {std::min(lo.x, b.lo.x), std::min(lo.y, b.lo.y)};
+    hi = {std::max(hi.x, b.hi.x), std::max(hi.y, b.hi.y)};
+  }
+  double distance(Vec2 p) const {
+    return norm(p - Vec2{std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y)});
+  }
+};
+
+/// Nearest distance to a polyline of two or more vertices. A target that moves every frame has as many
+/// segments as the run has frames, so they are kept in a tree of bounds: what is further off than the best so
+/// far is not looked into.
+class Polyline {
+ public:
+  explicit Polyline(const std::vector<Vec2>& vertex) : vertex_(vertex) {
+    std::vector<Bounds> segments;
+    for (std::size_t i = 0; i + 1 < vertex.size(); ++i) {
+      segments.push_back({vertex[i], vertex[i]});
+      segments.back().take({vertex[i + 1], vertex[i + 1]});
+    }
+    levels_.push_back(std::move(segments));
+    while (levels_.back().size() > 1) {
+      std::vector<Bounds> above;
+      for (std::size_t i = 0; i < levels_.back().size(); ++i) {
+        if (i % kChildren == 0) above.push_back(levels_.back()[i]);
+        above.back().take(levels_.back()[i]);
+      }
+      levels_.push_back(std::move(above));
+    }
+  }
+
+  /// Points that follow each other are near each other: the segment found last gives a good first bound.
+  double distance(Vec2 p) {
+    double best = segment_distance(p, vertex_[nearest_], vertex_[nearest_ + 1]);
+    descend(levels_.size() - 1, 0, p, best);
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t kChildren = 8;
+
+  void descend(std::size_t level, std::size_t index, Vec2 p, double& best) {
+    if (levels_[level][index].distance(p) >= best) return;
+    if (level == 0) {
+      const double d = segment_distance(p, vertex_[index], vertex_[index + 1]);
+      if (d < best) best = d, nearest_ = index;
+      return;
+    }
+    const std::size_t end = std::min(kChildren * (index + 1), levels_[level - 1].size());
+    for (std::size_t child = kChildren * index; child < end; ++child) descend(level - 1, child, p, best);
+  }
+
+  const std::vector<Vec2>& vertex_;
+  std::vector<std::vector<Bounds>> levels_;  // of single segments, of kChildren of those, and so on up to one
+  std::size_t nearest_ = 0;
+};
+
+std::optional<double> settling_time(const std::vector<Timed>& targeted, double band) {
+  if (targeted.back().d > band) return std::nullopt;
+  std::size_t entry = targeted.size() - 1;
+  while (entry > 0 && targeted[entry - 1].d <= band) --entry;
+  return targeted[entry].t - targeted.front().t;
+}
+
+/// Time of the first fall to `level`, between frames.
+std::optional<double> first_fall(const std::vector<Timed>& leg, double level) {
+  for (std::size_t k = 1; k < leg.size(); ++k) {
+    if (leg[k].d > level) continue;
+    const Timed a = leg[k - 1], b = leg[k];
+    return a.t + (b.t - a.t) * (a.d - level) / (a.d - b.d);
+  }
+  return std::nullopt;
+}
+
+void measure_error(Metrics& m, Values t, Values d, std::size_t first_leg_end) {
+  std::vector<Timed> targeted, first_leg;
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    if (!std::isfinite(d[k])) continue;
+    targeted.push_back({t[k], d[k]});
+    if (k < first_leg_end) first_leg.push_back({t[k], d[k]});
+  }
+  if (targeted.empty()) return;
+  const auto [t0, d0] = targeted.front();
+  m.initial_error_px = d0;
+  m.final_distance_px = targeted.back().d;
+  m.settling_band_px = std::max(kBandFraction * d0, kBandFloorPx);
+  m.settling_time_s = settling_time(targeted, *m.settling_band_px);
+  if (d0 > kBandFloorPx) {
+    const auto from = first_fall(first_leg, 0.9 * d0), to = first_fall(first_leg, 0.1 * d0);
+    if (from && to) m.rise_time_s = *to - *from;
+  }
+
+  double square = 0;
+  std::size_t count = 0;
+  for (std::size_t k = 2 * d.size() / 3; k < d.size(); ++k) {
+    if (std::isfinite(d[k])) square += d[k] * d[k], ++count;
+  }
+  if (count > 0) m.steady_rms_px = std::sqrt(square / double(count));
+
+  for (std::size_t k = 1; k < d.size(); ++k) {
+    if (!std::isfinite(d[k - 1]) || !std::isfinite(d[k])) continue;
+    const double half = 0.5 * (t[k] - t[k - 1]);
+    m.iae_px_s = m.iae_px_s.value_or(0) + half * (d[k - 1] + d[k]);
+    m.itae_px_s2 = m.itae_px_s2.value_or(0) + half * ((t[k - 1] - t0) * d[k - 1] + (t[k] - t0) * d[k]);
+  }
+}
+
+std::optional<double> overshoot_percent(const std::vector<Vec2>& centroid, const Route& route,
+                                        std::size_t leg_end) {
+  std::size_t first = route.since.front();
+  while (first < leg_end && !finite(centroid[first])) ++first;
+  if (first + 1 >= leg_end) return std::nullopt;
+  const Vec2 way = route.vertex.front() - centroid[first];
+  const double length = norm(way);
+  if (length <= kBandFloorPx) return std::nullopt;
+  double furthest = 0;
+  for (std::size_t k = first; k < leg_end; ++k) {
+    const double progress = dot(centroid[k] - centroid[first], way) / (length * length);
+    if (progress > furthest) furthest = progress;  // false for NaN
+  }
+  return 100 * std::max(0.0, furthest - 1);
+}
+
+void measure_route(Metrics& m, const std::vector<Vec2>& centroid, const Route& route) {
+  if (route.vertex.size() < 2) return;
+  Polyline polyline(route.vertex);
+  std::vector<double> error;
+  double square = 0;
+  for (std::size_t k = route.since[1]; k < centroid.size(); ++k) {
+    if (!finite(centroid[k])) continue;
+    error.push_back(polyline.distance(centroid[k]));
+    square += error.back() * error.back();
+  }
+  if (error.empty()) return;
+  m.path_tracking_rms_px = std::sqrt(square / double(error.size()));
+  m.cross_track_95_px = quantile(std::move(error), kQuantile);
+}
+
+std::optional<double> way_length(const std::vector<Vec2>& at) {
+  std::optional<double> sum;
+  for (std::size_t k = 1; k < at.size(); ++k) {
+    if (finite(at[k - 1]) && finite(at[k])) sum = sum.value_or(0) + norm(at[k] - at[k - 1]);
+  }
+  return sum;
+}
+
+void measure_command(Metrics& m, const Series& series, Values t) {
+  for (std::size_t coil = 0;; ++coil) {
+    const Values current = series.find(fmt::format("current_{}_a", coil));
+    if (current.empty()) break;
+    double effort = m.control_effort_a2_s.value_or(0), variation = m.total_variation_a.value_or(0);
+    for (std::size_t k = 0; k + 1 < t.size(); ++k) {
+      if (!std::isfinite(current[k])) continue;
+      effort += current[k] * current[k] * (t[k + 1] - t[k]);
+      if (std::isfinite(current[k + 1])) variation += std::abs(current[k + 1] - current[k]);
+    }
+    m.control_effort_a2_s = effort;
+    m.total_variation_a = variation;
+  }
+  m.total_variation_ut = way_length(points(series, "field_x_ut", "field_y_ut"));
+
+  std::size_t known = 0, limited = 0;
+  for (const double value : series.find("limited")) {
+    known += std::isfinite(value);
+    limited += std::isfinite(value) && value != 0;
+  }
+  if (known > 0) m.limited_fraction = double(limited) / double(known);
+}
+
+}  // namespace
+
+Metrics control_metrics(const Series& series) {
+  const Values t = series.column("t_s"), d = series.column("distance_px");
+  const Values sigma_x = series.column("sigma_x_px"), sigma_y = series.column("sigma_y_px");
+  const Values radius = series.column("rms_radius_px");
+  static_cast<void>(series.column("centroid_x_px"));
+  static_cast<void>(series.column("centroid_y_px"));
+  check_times(series, t);
+
+  Metrics m;
+  m.frames = series.size();
+  if (m.frames == 0) return m;
+  m.duration_s = t.back() - t.front();
+  const std::vector<Vec2> centroid = points(series, "centroid_x_px", "centroid_y_px");
+  const Route route = route_of(points(series, "setpoint_x_px", "setpoint_y_px"));
+  const std::size_t first_leg_end = route.since.size() > 1 ? route.since[1] : m.frames;
+
+  measure_error(m, t, d, first_leg_end);
+  m.setpoints = route.vertex.size();
+  if (m.setpoints == 0 && m.initial_error_px) m.setpoints = 1;  // older recordings keep only the distance
+  if (!route.vertex.empty()) m.overshoot_percent = overshoot_percent(centroid, route, first_leg_end);
+  m.path_length_px = way_length(centroid);
+  measure_route(m, centroid, route);
+  m.sigma_x_px = finite(sigma_x.back());
+  m.sigma_y_px = finite(sigma_y.back());
+  m.rms_radius_px = finite(radius.back());
+  measure_command(m, series, t);
+  return m;
+}
+
+nlohmann::ordered_json metrics_json(const Metrics& m) {
+  const auto value = [](const std::optional<double>& v) {
+    return v && std::isfinite(*v) ? Json(*v) : Json();
+  };
+  Json j;
+  j["frames"] = m.frames;
+  j["duration_s"] = m.duration_s;
+  j["setpoints"] = m.setpoints;
+  j["settling_time_s"] = value(m.settling_time_s);
+  j["settling_band_px"] = value(m.settling_band_px);
+  j["rise_time_s"] = value(m.rise_time_s);
+  j["overshoot_percent"] = value(m.overshoot_percent);
+  j["initial_error_px"] = value(m.initial_error_px);
+  j["final_distance_px"] = value(m.final_distance_px);
+  j["steady_rms_px"] = value(m.steady_rms_px);
+  j["iae_px_s"] = value(m.iae_px_s);
+  j["itae_px_s2"] = value(m.itae_px_s2);
+  j["path_length_px"] = value(m.path_length_px);
+  j["path_tracking_rms_px"] = value(m.path_tracking_rms_px);
+  j["cross_track_95_px"] = value(m.cross_track_95_px);
+  j["dispersion_px"] = Json::array({value(m.sigma_x_px), value(m.sigma_y_px)});
+  j["rms_radius_px"] = value(m.rms_radius_px);
+  j["control_effort_a2_s"] = value(m.control_effort_a2_s);
+  j["total_variation_a"] = value(m.total_variation_a);
+  j["total_variation_ut"] = value(m.total_variation_ut);
+  j["limited_fraction"] = value(m.limited_fraction);
+  return j;
+}
+
+}  // namespace faba

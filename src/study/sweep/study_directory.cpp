@@ -1,0 +1,89 @@
+#include "study/sweep/study_directory.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char *kMarker = "incomplete", *kStudy = "study.json", *kResults = "results.jsonl";
+
+// Fingerprint of the study that a directory holds.
+std::optional<std::string> held(const fs::path& dir) {
+  if (!fs::is_regular_file(dir / kStudy)) return {};
+  const auto j = nlohmann::json::parse(read_file(dir / kStudy), nullptr, false);
+  if (!j.is_object() || !j.contains("fingerprint") || !j["fingerprint"].is_string()) return {};
+  return j["fingerprint"].get<std::string>();
+}
+
+// What studies of any kind write.
+constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best.toml",  "background.png",
+                                    "controllers.json", "controllers.csv", "report.html"};
+
+}  // namespace
+
+bool holds_complete_study(const fs::path& dir, const std::string& fingerprint) {
+  return held(dir) == fingerprint && !fs::exists(dir / kMarker);
+}
+
+StudyDirectory::~StudyDirectory() {
+  if (!new_ || whole_ || !results_ || !results_->empty()) return;
+  results_.reset();
+  lock_.complete();
+  std::error_code ignored;
+  for (const char* name : {kResults, kStudy}) fs::remove(dir_ / name, ignored);
+  fs::remove(dir_, ignored);  // not when something else is in it
+}
+
+StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerprint, const std::string& again,
+                               bool force)
+    : dir_(dir), fingerprint_(fingerprint) {
+  std::error_code ec;
+  if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
+    throw Error(Errc::usage, dir.string(), "exists and is not a directory");
+  new_ = !fs::is_directory(dir);
+  if (new_) fs::create_directories(dir, ec);
+  if (!fs::is_directory(dir))
+    throw Error(Errc::internal, dir.string(),
+                fmt::format("cannot be made: {}; choose another --out", ec.message()));
+  const auto there = held(dir);
+  if (!there && !fs::is_empty(dir, ec))
+    throw Error(Errc::usage, dir.string(), "holds other files and no study; choose another --out");
+  const bool same = there == fingerprint;
+  if (there && !same && !force)
+    throw Error(Errc::usage, dir.string(),
+                "holds another study; choose another --out, or --force to replace it");
+  if (same && !fs::exists(dir / kMarker) && !force)
+    throw Error(
+        Errc::usage, dir.string(),
+        "holds this study already, complete; choose another --out, or --force to write its pages again");
+  lock_ = FileLock(dir / kMarker, dir, fmt::format("This study is not complete. Go on with: {}\n", again));
+  if (!same) {
+    fs::remove(dir / kResults, ec);
+    if (there)
+      for (const char* name : kWritten) fs::remove(dir / name, ec);
+    write_file(
+        dir / kStudy,
+        nlohmann::ordered_json{{"fingerprint", fingerprint}, {"version", FABA_VERSION}}.dump(2) + "\n");
+  }
+  results_ = std::make_unique<ResultStore>(dir / kResults);
+}
+
+void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
+  for (const fs::path& other : dirs) {
+    const auto there = held(other);
+    if (!there) throw Error(Errc::input, other.string(), "holds no study");
+    if (*there != fingerprint_) throw Error(Errc::usage, other.string(), "holds another study than this one");
+    if (fs::weakly_canonical(other) != fs::weakly_canonical(dir_) && fs::exists(other / kResults))
+      results_->merge(other / kResults);
+  }
+}
+
+}  // namespace faba

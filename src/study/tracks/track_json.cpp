@@ -1,0 +1,127 @@
+#include "study/tracks/track_json.h"
+
+#include <cmath>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "core/toml.h"
+
+namespace faba {
+namespace {
+
+// Two-sided 95 % of Student's t with 19 degrees of freedom: 20 groups in the jackknife.
+constexpr double kNineteenOfTwenty = 2.093;
+
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+// NAME_px_s, NAME_se..., and the same in um; `power` of the length in the unit.
+struct Writer {
+  Json json;
+  double um_per_px = 0;
+
+  void put(const std::string& name, const std::string& px, const std::string& um, int power,
+           const Estimated& e) {
+    one(name + "_" + px, 1, e);
+    if (um_per_px > 0) one(name + "_" + um, power == 2 ? um_per_px * um_per_px : um_per_px, e);
+  }
+  void one(const std::string& key, double scale, const Estimated& e) {
+    json[key] = number(scale * e.value);
+    json[key + "_se"] = number(scale * e.se);
+    const double half = kNineteenOfTwenty * e.se;
+    json[key + "_ci95"] = {number(scale * (e.value - half)), number(scale * (e.value + half))};
+  }
+  void list(const std::string& px, const std::string& um, const std::vector<double>& v) {
+    Json a = Json::array(), b = Json::array();
+    for (const double x : v) a.push_back(number(x)), b.push_back(number(um_per_px * x));
+    json[px] = a;
+    if (um_per_px > 0) json[um] = b;
+  }
+};
+
+Json list_of(const std::vector<double>& v) {
+  Json a = Json::array();
+  for (const double x : v) a.push_back(number(x));
+  return a;
+}
+
+Json msd_of(const Msd& m) {
+  return {{"lag_s", list_of(m.lag_s)},
+          {"msd_px2", list_of(m.msd_px2)},
+          {"se_px2", list_of(m.se_px2)},
+          {"pairs", list_of(m.pairs)}};
+}
+
+Json diffusion_of(const TrackSummary& s, double um) {
+  if (!s.diffusion.good) return nullptr;
+  Writer w{Json::object(), um};
+  w.put("d", "px2_s", "um2_s", 2, s.d_px2_s);
+  w.json["offset_px2"] = number(s.diffusion.offset_px2);
+  w.json["first_lag_s"] = s.msd.lag_s[s.diffusion.first];
+  w.json["lags"] = s.diffusion.lags;
+  return w.json;
+}
+
+Json walk_of(const TrackSummary& s, double um) {
+  if (!s.persistent.good) return nullptr;
+  Writer w{Json::object(), um};
+  w.put("speed_rms", "px_s", "um_s", 1, s.speed_rms_px_s);
+  w.one("tau_s", 1, s.tau_s);
+  w.json["tau_longer_than_seen"] = s.persistent.tau_open;
+  w.json["offset_px2"] = number(s.persistent.offset_px2);
+  return w.json;
+}
+
+Json speed_of(const TrackSummary& s, double um) {
+  Writer w{Json::object(), um};
+  w.json["interval_frames"] = s.interval_frames;
+  w.json["interval_s"] = s.interval_s;
+  w.json["displacements"] = s.speed_count;
+  w.put("mean", "px_s", "um_s", 1, s.mean_speed_px_s);
+  w.list("quantiles_10_50_90_px_s", "quantiles_10_50_90_um_s", s.speed_quantiles_px_s);
+  w.list("histogram_edges_px_s", "histogram_edges_um_s", s.speeds_px_s.edges);
+  w.json["histogram_counts"] = list_of(s.speeds_px_s.counts);
+  return w.json;
+}
+
+Json turn_of(const TrackSummary& s) {
+  Writer w{Json::object(), 0};
+  w.json["turns"] = s.turn_count;
+  w.one("mean_size_deg_s", 1, s.turn_deg_s);
+  w.one("mean_signed_deg_s", 1, s.signed_turn_deg_s);
+  w.json["quantiles_10_50_90_deg_s"] = list_of(s.turn_quantiles_deg_s);
+  w.json["noise_deg_s"] = number(s.turn_noise_deg_s);
+  return w.json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json track_json(const TrackSummary& s, double um) {
+  Json j;
+  j["msd"] = msd_of(s.msd);
+  Writer drift{Json::object(), um};
+  drift.put("x", "px_s", "um_s", 1, s.drift_x_px_s);
+  drift.put("y", "px_s", "um_s", 1, s.drift_y_px_s);
+  j["drift"] = s.msd.size() > 0 ? drift.json : Json(nullptr);
+  j["diffusion"] = diffusion_of(s, um);
+  j["persistent_walk"] = walk_of(s, um);
+  j["supported"] = s.msd.size() < 2 ? Json(nullptr) : Json(s.persists ? "persistent_walk" : "diffusion");
+  Writer alpha{Json::object(), 0};
+  alpha.one("persistence", 1, s.persistence);
+  alpha.json["persistence_scale_s"] = number(s.persistence_scale_s);
+  alpha.json["memory_frames"] = s.memory_frames;
+  alpha.one("alpha", 1, s.alpha);
+  j.update(alpha.json);
+  j["localisation_px"] = s.msd.size() < 2 ? Json(nullptr) : number(s.localisation_px);
+  j["speed"] = s.speed_count > 0 ? speed_of(s, um) : Json(nullptr);
+  j["turn"] = s.turn_count > 0 ? turn_of(s) : Json(nullptr);
+  j["order"] = number(s.speed_count > 0 ? s.order : std::nan(""));
+  double order = 0, n = 0;
+  for (std::size_t i = 0; i < s.order_in_time.size(); ++i)
+    if (std::isfinite(s.order_in_time[i]))
+      order += s.order_in_time[i] * s.count_in_time[i], n += s.count_in_time[i];
+  j["order_at_a_time"] = number(n > 0 ? order / n : std::nan(""));
+  return j;
+}
+
+}  // namespace faba

@@ -1,0 +1,100 @@
+#include "study/tracks/track_output.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/h5.h"
+
+namespace faba {
+namespace {
+
+std::filesystem::path temporary(const std::filesystem::path& path) { return path.string() + ".tmp"; }
+
+void remove_quietly(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+}
+
+class CsvTracks final : public TrackOutput {
+ public:
+  explicit CsvTracks(std::filesystem::path path) : path_(std::move(path)), file_(temporary(path_), 0, path_) {
+    file_.append("track,frame,t_s,x_px,y_px,mass,snr\n");
+  }
+  ~CsvTracks() override {
+    if (!whole_) file_.close(), remove_quietly(temporary(path_));
+  }
+  void write(const Track& track) override {
+    std::string lines;
+    for (const TrackPoint& p : track.points)
+      fmt::format_to(std::back_inserter(lines), "{},{},{:.6f},{:.3f},{:.3f},{:.4g},{:.4g}\n", track.number,
+                     p.frame, p.t_s, p.x_px, p.y_px, p.mass, p.snr);
+    file_.append(lines);
+  }
+  void complete() override {
+    file_.sync();
+    file_.close();
+    rename_complete(temporary(path_), path_);
+    whole_ = true;
+  }
+
+ private:
+  std::filesystem::path path_;
+  OutputFile file_;
+  bool whole_ = false;
+};
+
+class H5Tracks final : public TrackOutput {
+ public:
+  H5Tracks(std::filesystem::path path, const TrackedVideo& video)
+      : path_(std::move(path)), file_(H5File::create(temporary(path_))) {
+    constexpr std::uint64_t kRows = 4096;
+    for (const char* name : {"track", "frame"})
+      whole_numbers_.push_back(file_.table<std::uint64_t>(name, {}, kRows, 1, true));
+    for (const char* name : {"t_s", "x_px", "y_px", "mass", "snr"})
+      numbers_.push_back(file_.table<double>(name, {}, kRows, 1, true));
+    file_.attribute("/", "format", std::string("faba tracked 1"));
+    file_.attribute("/", "width_px", double(video.width));
+    file_.attribute("/", "height_px", double(video.height));
+    if (video.um_per_px > 0) file_.attribute("/", "um_per_px", video.um_per_px);
+    file_.begin_writing();
+  }
+  ~H5Tracks() override {
+    if (!whole_) remove_quietly(temporary(path_));
+  }
+  void write(const Track& track) override {
+    for (const TrackPoint& p : track.points) {
+      whole_numbers_[0].append<std::uint64_t>({&track.number, 1});
+      whole_numbers_[1].append<std::uint64_t>({&p.frame, 1});
+      const double row[] = {p.t_s, p.x_px, p.y_px, p.mass, p.snr};
+      for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i].append<double>({&row[i], 1});
+    }
+  }
+  void complete() override {
+    file_.sync();
+    whole_numbers_.clear(), numbers_.clear();
+    file_.close();
+    rename_complete(temporary(path_), path_);
+    whole_ = true;
+  }
+
+ private:
+  std::filesystem::path path_;
+  H5File file_;
+  std::vector<H5Table> whole_numbers_, numbers_;
+  bool whole_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<TrackOutput> track_output(const std::filesystem::path& path, const TrackedVideo& video) {
+  if (path.extension() == ".csv") return std::make_unique<CsvTracks>(path);
+  if (path.extension() == ".h5") return std::make_unique<H5Tracks>(path, video);
+  throw Error(Errc::usage, path.string(), "must end in .csv or .h5, which is what is written");
+}
+
+}  // namespace faba

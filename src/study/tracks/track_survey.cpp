@@ -1,0 +1,133 @@
+#include "study/tracks/track_survey.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/counted.h"
+#include "core/error.h"
+#include "vision/files/video_reader.h"
+#include "vision/image/kernels/grey_scale.h"
+#include "vision/image/kernels/smoothing.h"
+
+namespace faba {
+namespace {
+
+constexpr int kFewFrames = 10;        // below this a median over time says little
+constexpr double kSizeIfNone = 4;     // px
+constexpr std::size_t kGaps = 10000;  // times between frames that are kept
+
+// Differences of what a cell could be from its surroundings, 1.5 to 8 px wide.
+Polarity found_polarity(const GrayF& frame, const Background& b) {
+  GrayF d = frame;
+  for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] -= b.level.px[i];
+  GrayF fine = smoothed(d, 1);
+  const GrayF coarse = smoothed(d, 6);
+  for (std::size_t i = 0; i < d.px.size(); ++i) fine.px[i] -= coarse.px[i];
+  return polarity_of(fine.px);
+}
+
+std::int64_t count_spots(const TrackOptions& o, const TrackSurvey& s, const Background& b,
+                         const GrayF& frame) {
+  return std::int64_t(Detector(b, detector_options(o, s, {})).find(frame).size());
+}
+
+void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler) {
+  const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
+  const Background fine =
+      spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
+  Background median = sampler.background();
+  const bool many = s.frames >= kFewFrames;
+  const Background& first_guess = many ? median : fine;
+  s.polarity = o.polarity == Polarity::automatic ? found_polarity(middle, first_guess) : o.polarity;
+  s.size_px = o.size_px > 0 ? o.size_px : spot_size(middle, first_guess, s.polarity);
+  if (!(s.size_px > 0) && many) s.size_px = spot_size(middle, fine, s.polarity);
+  if (!(s.size_px > 0)) s.size_px = kSizeIfNone, s.size_found = false;
+  s.smoothing_px = std::max(8.0, 4 * s.size_px);
+  Background smooth = spatial_background(middle, s.smoothing_px);
+  const std::int64_t by_space = count_spots(o, s, smooth, middle);
+  const std::int64_t by_time = many ? count_spots(o, s, median, middle) : 0;
+  if (many) s.still_spots = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
+  s.temporal = o.background == BackgroundKind::median ||
+               (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
+  s.spots = s.temporal ? by_time : by_space;
+  // Noise over time is measured per pixel where there is one; it weighs the picture's parts.
+  s.background = std::move(s.temporal ? median : smooth);
+}
+
+}  // namespace
+
+DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
+                                 const std::optional<DropMask>& drop) {
+  DetectorOptions d;
+  d.size_px = s.size_px;
+  d.polarity = s.polarity;
+  d.threshold_sd = o.threshold_sd;
+  d.drop = drop;
+  return d;
+}
+
+void make_finite(GrayF& frame) {
+  // What is not finite stays so when it is multiplied by nothing.
+  float sum = 0;
+  for (const float v : frame.px) sum += 0 * v;
+  if (sum == 0) return;
+  std::vector<float> finite;
+  for (const float v : frame.px)
+    if (std::isfinite(v)) finite.push_back(v);
+  const float fill = finite.empty() ? 0 : robust_spread(finite).median;
+  for (float& v : frame.px)
+    if (!std::isfinite(v)) v = fill;
+}
+
+TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,
+                          const std::function<void(std::int64_t, std::int64_t)>& tick, int side) {
+  TrackSurvey s;
+  VideoReader reader(video, o.fps);
+  s.timed = reader.fps() > 0;
+  BackgroundSampler sampler;
+  std::vector<double> gaps;
+  GrayF frame;
+  double t_s = 0, last = 0;
+  for (GrayF raw; reader.read(raw, t_s); ++s.frames) {
+    make_finite(raw);
+    side > 1 ? shrink(raw, side, frame) : std::swap(raw, frame);
+    if (s.frames == 0) s.first = frame;
+    if (s.frames > 0 && t_s > last && gaps.size() < kGaps) gaps.push_back(t_s - last);
+    last = t_s;
+    sampler.take(frame);
+    tick(s.frames + 1, reader.frames_stated());
+  }
+  if (s.frames == 0) throw Error(Errc::input, video.string(), "no frame could be read");
+  s.duration_s = last;
+  if (!gaps.empty()) {
+    std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
+    s.frame_s = gaps[gaps.size() / 2];
+  }
+  std::vector<float> levels = s.first.px;
+  const auto at = [&](double share) {
+    const auto i = std::ptrdiff_t(share * double(levels.size() - 1));
+    std::nth_element(levels.begin(), levels.begin() + i, levels.end());
+    return levels[std::size_t(i)];
+  };
+  s.black = at(0.001), s.white = at(0.999);
+  if (reader.truncated() || reader.damaged_frames() > 0)
+    s.notes.push_back(fmt::format("{}: {} could be read; {}", video.string(),
+                                  counted(std::uint64_t(s.frames), "frame"), reader.damage()));
+  if (s.frames == 1) s.notes.emplace_back("one frame only: spots are found, nothing is tracked");
+  if (!s.timed && s.frames > 1)
+    s.notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");
+  choose_background(o, s, sampler);
+  if (!s.size_found)
+    s.notes.push_back(
+        fmt::format("nothing stands out of the noise at any size; spots of {} px are looked for", s.size_px));
+  if (s.temporal && s.size_found && s.still_spots * 4 > s.spots)
+    s.notes.push_back(fmt::format(
+        "{} things of this size stand in the median of all frames and are left out as background: they never "
+        "move, or others often come to where they are; to keep them, --background spatial",
+        s.still_spots));
+  return s;
+}
+
+}  // namespace faba

@@ -1,0 +1,77 @@
+// Compiled as C++17 (CMakeLists.txt): LEMON 1.3.1 uses what C++20 took out of std::allocator.
+#include "vision/cells/assignment.h"
+
+#include <lemon/matching.h>
+#include <lemon/smart_graph.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace faba {
+namespace {
+
+constexpr double kSteps = 1 << 20;  // gains are matched as whole numbers of this fineness
+
+// Disjoint sets of nodes: rows first, then columns.
+class Parts {
+ public:
+  explicit Parts(int n) : parent_(std::size_t(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int root(int i) {
+    while (parent_[std::size_t(i)] != i)
+      i = parent_[std::size_t(i)] = parent_[std::size_t(parent_[std::size_t(i)])];
+    return i;
+  }
+  void join(int a, int b) { parent_[std::size_t(root(a))] = root(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+void match(const std::vector<PossiblePair>& part, int rows, std::vector<int>& of_row) {
+  using Graph = lemon::SmartGraph;
+  Graph graph;
+  std::unordered_map<int, Graph::Node> nodes;
+  const auto node = [&](int i) {
+    const auto at = nodes.find(i);
+    return at != nodes.end() ? at->second : nodes.emplace(i, graph.addNode()).first->second;
+  };
+  std::vector<Graph::Edge> edges;
+  for (const PossiblePair& c : part) {
+    const Graph::Node a = node(c.row), b = node(rows + c.column);
+    edges.push_back(graph.addEdge(a, b));
+  }
+  Graph::EdgeMap<std::int64_t> weight(graph);
+  for (std::size_t i = 0; i < part.size(); ++i) weight[edges[i]] = std::llround(part[i].gain * kSteps);
+  lemon::MaxWeightedMatching<Graph, Graph::EdgeMap<std::int64_t>> matching(graph, weight);
+  matching.run();
+  for (std::size_t i = 0; i < part.size(); ++i)
+    if (matching.matching(edges[i])) of_row[std::size_t(part[i].row)] = part[i].column;
+}
+
+}  // namespace
+
+std::vector<int> best_assignment(int rows, int columns, const std::vector<PossiblePair>& candidates) {
+  std::vector<int> of_row(std::size_t(rows), -1);
+  Parts parts(rows + columns);
+  for (const PossiblePair& c : candidates) parts.join(c.row, rows + c.column);
+  std::vector<std::vector<PossiblePair>> by_part;
+  std::vector<int> part_of(std::size_t(rows + columns), -1);
+  for (const PossiblePair& c : candidates) {
+    int& part = part_of[std::size_t(parts.root(c.row))];
+    if (part < 0) part = int(by_part.size()), by_part.emplace_back();
+    by_part[std::size_t(part)].push_back(c);
+  }
+  for (const auto& part : by_part) {
+    if (part.size() == 1)
+      of_row[std::size_t(part[0].row)] = part[0].column;
+    else
+      match(part, rows, of_row);
+  }
+  return of_row;
+}
+
+}  // namespace faba

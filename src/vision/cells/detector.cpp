@@ -1,0 +1,181 @@
+#include "vision/cells/detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/error.h"
+#include "vision/cells/spot_fit.h"
+#include "vision/image/kernels/smoothing.h"
+
+namespace faba {
+namespace {
+
+constexpr double kWide = 2.5;  // sd of the subtracted Gaussian over that of the spot
+
+// What the band pass makes of white noise: its gain, and the density of maxima (root of the determinant of
+// the second spectral moments over the variance).
+struct NoiseLaw {
+  double gain = 1, density = 1;
+};
+
+NoiseLaw noise_law(double sd) {
+  // The kernel is G(a) - G(b), and the integral of a product of Gaussians of sd a and b is a Gaussian of
+  // a^2 + b^2 at zero.
+  const auto overlap = [](double aa) { return 1 / (2 * std::numbers::pi * aa); };
+  const auto slope = [](double aa) { return 1 / (2 * std::numbers::pi * aa * aa); };
+  // Sampling adds 1/12 px^2 of variance, which matters for the narrowest kernels only.
+  const double a = sd * sd + 1.0 / 12, b = kWide * kWide * sd * sd;
+  const double variance = overlap(2 * a) + overlap(2 * b) - 2 * overlap(a + b);
+  const double gradient = slope(2 * a) + slope(2 * b) - 2 * slope(a + b);
+  return {std::sqrt(variance), gradient / variance};
+}
+
+GrayF band_passed(const GrayF& difference, double sd) {
+  GrayF out = smoothed(difference, sd);
+  const GrayF wide = smoothed(difference, kWide * sd);
+  for (std::size_t i = 0; i < out.px.size(); ++i) out.px[i] -= wide.px[i];
+  return out;
+}
+
+GrayF difference_of(const GrayF& frame, const Background& background, double sign) {
+  GrayF d(frame.width, frame.height);
+  const auto s = float(sign);
+  for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] = s * (frame.px[i] - background.level.px[i]);
+  return d;
+}
+
+bool masked(const std::optional<DropMask>& drop, double x, double y) {
+  if (!drop) return false;
+  const double depth = drop->radius_px - norm(Vec2{x, y} - drop->centre_image);
+  return (drop->inside ? depth : -depth) < drop->margin_px;
+}
+
+struct Maximum {
+  int col = 0, row = 0;
+  float value = 0;
+};
+
+// Maxima above threshold(index) that are the largest within `reach`; of equal ones the first counts.
+template <class Threshold>
+std::vector<Maximum> maxima(const GrayF& g, int reach, int margin, const Threshold& threshold) {
+  std::vector<Maximum> out;
+  for (int row = margin; row < g.height - margin; ++row)
+    for (int col = margin; col < g.width - margin; ++col) {
+      const float v = g.at(col, row);
+      if (!(v > threshold(std::size_t(row) * std::size_t(g.width) + std::size_t(col)))) continue;
+      bool largest = true;
+      for (int dy = -reach; dy <= reach && largest; ++dy)
+        for (int dx = -reach; dx <= reach && largest; ++dx) {
+          const int c = col + dx, r = row + dy;
+          if ((dx == 0 && dy == 0) || dx * dx + dy * dy > reach * reach + 1 || c < 0 || r < 0 ||
+              c >= g.width || r >= g.height)
+            continue;
+          const float other = g.at(c, r);
+          largest = v > other || (v == other && (dy > 0 || (dy == 0 && dx > 0)));
+        }
+      if (largest) out.push_back({col, row, v});
+    }
+  return out;
+}
+
+float spread_of(const GrayF& g) {
+  std::vector<float> work;
+  const std::size_t step = std::max<std::size_t>(1, g.px.size() / 100000);
+  for (std::size_t i = 0; i < g.px.size(); i += step) work.push_back(g.px[i]);
+  return work.empty() ? 0 : robust_spread(work).sd;
+}
+
+}  // namespace
+
+double detection_threshold(double size_px, double pixels, double false_alarms) {
+  const double sd = size_px / kFwhmPerSd;
+  const double scale = pixels * noise_law(sd).density / std::pow(2 * std::numbers::pi, 1.5);
+  const auto expected = [&](double k) { return scale * k * std::exp(-0.5 * k * k); };
+  double low = 1, high = 40;  // expected() falls from 1 on
+  for (int i = 0; i < 100; ++i) {
+    const double k = 0.5 * (low + high);
+    (expected(k) > false_alarms ? low : high) = k;
+  }
+  return high;
+}
+
+Detector::Detector(Background background, DetectorOptions options)
+    : background_(std::move(background)), options_(options) {
+  if (!(options_.size_px >= 1 && options_.size_px <= 60) || options_.polarity == Polarity::automatic ||
+      !(options_.false_alarms > 0) || background_.level.empty())
+    throw Error(Errc::internal, "detector", "needs a background, a size of 1 to 60 px and a polarity");
+  sd_px_ = options_.size_px / kFwhmPerSd;
+  if (options_.separation_px <= 0) options_.separation_px = std::max(1.0, 0.5 * options_.size_px);
+  threshold_ =
+      options_.threshold_sd > 0
+          ? options_.threshold_sd
+          : detection_threshold(options_.size_px, double(background_.level.px.size()), options_.false_alarms);
+  noise_gain_ = noise_law(sd_px_).gain;
+  relative_noise_ = background_.noise_sd;
+  std::vector<float> work = relative_noise_.px;
+  const float typical = robust_spread(work).median;
+  for (float& v : relative_noise_.px) v /= typical;
+}
+
+std::vector<Spot> Detector::find(const GrayF& frame) const {
+  if (frame.width != background_.level.width || frame.height != background_.level.height)
+    throw Error(Errc::internal, "detector", "the frame has another size than the background");
+  std::vector<Spot> spots;
+  const int reach = std::max(1, int(std::lround(options_.separation_px)));
+  const int margin = std::max(1, int(std::ceil(0.5 * options_.size_px)));
+  for (const double sign : {-1.0, 1.0}) {
+    if (options_.polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
+    const GrayF difference = difference_of(frame, background_, sign);
+    const GrayF response = band_passed(difference, sd_px_);
+    const float sd = spread_of(response);
+    // An even picture, or one whose noise is coded away, has no spread: the grey step is then the noise.
+    const float noise = std::max(sd, float(noise_gain_) * 0.25F);
+    const auto threshold = [&](std::size_t i) { return float(threshold_) * noise * relative_noise_.px[i]; };
+    std::vector<SpotSeed> seeds;
+    for (const Maximum& m : maxima(response, reach, margin, threshold)) {
+      if (masked(options_.drop, m.col, m.row)) continue;
+      const double local = double(noise * relative_noise_.at(m.col, m.row));
+      seeds.push_back({m.col, m.row, double(m.value) / local, double(background_.noise_sd.at(m.col, m.row))});
+    }
+    for (Spot& spot : fit_spots(difference, seeds, sd_px_)) {
+      spot.bright = sign > 0;
+      if (!masked(options_.drop, spot.x_px, spot.y_px)) spots.push_back(spot);
+    }
+  }
+  std::stable_sort(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.y_px < b.y_px; });
+  return spots;
+}
+
+double spot_size(const GrayF& frame, const Background& background, Polarity polarity) {
+  constexpr double kLeastSnr = 6;
+  constexpr int kSizes = 16;  // 2 to 30.8 px
+  double best = 0, size_of_best = 0, size = 2;
+  std::size_t count = 0;
+  for (int step = 0; step < kSizes; ++step, size *= 1.2) {
+    const double sd = size / kFwhmPerSd;
+    if (8 * sd > std::min(frame.width, frame.height)) break;
+    // Over what white noise would leave: the picture's own noise is no measure here, since what is out of
+    // focus and what a codec smoothed away make it differ from size to size.
+    const double gain = noise_law(sd).gain;
+    std::vector<double> snr;
+    for (const double sign : {-1.0, 1.0}) {
+      if (polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
+      const GrayF response = band_passed(difference_of(frame, background, sign), sd);
+      const float noise = std::max(spread_of(response), float(gain) * 0.25F);
+      const float least = float(kLeastSnr) * noise;
+      for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, [&](std::size_t) { return least; }))
+        snr.push_back(double(m.value) / gain);
+    }
+    std::sort(snr.begin(), snr.end(), std::greater<>());
+    // The same number of maxima at every size: that of the strongest fifth where they first stand out.
+    if (count == 0 && !snr.empty()) count = std::max<std::size_t>(1, snr.size() / 5);
+    double sum = 0;
+    for (std::size_t i = 0; i < std::min(count, snr.size()); ++i) sum += snr[i];
+    if (sum > best) best = sum, size_of_best = size;
+  }
+  return size_of_best;
+}
+
+}  // namespace faba

@@ -1,0 +1,95 @@
+#include "vision/cells/video_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "vision/files/grey_video.h"
+#include "vision/foreground/background.h"
+
+namespace faba {
+namespace {
+
+constexpr int kMostFrames = 48;
+constexpr int kFinest = 4096;       // bins of the histogram of changes
+constexpr double kFine = 1.0 / 16;  // of a level, where greys are not whole ones
+constexpr double kOneSd = 0.6826894921370859;
+
+/// Sizes of the changes from frame to frame, in grey levels, sorted by steps of `step` levels.
+class Changes {
+ public:
+  explicit Changes(double step) : step_(step) {}
+  void take(const GrayF& before, const GrayF& now) {
+    for (std::size_t i = 0; i < now.px.size(); ++i) {
+      const float change = std::fabs(now.px[i] - before.px[i]) / float(step_);
+      ++count_[std::size_t(std::min(change + 0.5F, float(kFinest - 1)))];
+    }
+  }
+  /// Sd of the noise of one frame, grey levels. A change of whole steps stands for half a step to each side.
+  double sd() const {
+    double all = 0, below = 0;
+    for (const auto n : count_) all += double(n);
+    for (std::size_t k = 0; k < count_.size() && all > 0; ++k) {
+      const auto n = double(count_[k]);
+      if (below + n >= kOneSd * all) {
+        const double from = k == 0 ? 0 : double(k) - 0.5, width = k == 0 ? 0.5 : 1;
+        const double change = from + width * (kOneSd * all - below) / n;
+        return step_ * std::sqrt(std::max(change * change / 2 - 1.0 / 12, 0.0));
+      }
+      below += n;
+    }
+    return 0;
+  }
+
+ private:
+  double step_;
+  std::vector<std::uint64_t> count_ = std::vector<std::uint64_t>(kFinest);
+};
+
+/// The value below which a share of a normal law lies, to 4.5e-4 (Abramowitz and Stegun 26.2.23).
+double normal_quantile(double share) {
+  const double t = std::sqrt(-2 * std::log(std::min(share, 1 - share)));
+  const double z =
+      t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+  return share < 0.5 ? -z : z;
+}
+
+GrayF quantile_over_time(const std::vector<GrayF>& frames, double share) {
+  GrayF out(frames.front().width, frames.front().height);
+  std::vector<float> values(frames.size());
+  const auto at = values.begin() + std::lround(share * double(frames.size() - 1));
+  for (std::size_t i = 0; i < out.px.size(); ++i) {
+    for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
+    std::nth_element(values.begin(), at, values.end());
+    out.px[i] = *at;
+  }
+  return out;
+}
+
+}  // namespace
+
+VideoGround read_video_ground(const std::filesystem::path& video, const VideoGroundOptions& o) {
+  constexpr float kWhite = 255;
+  GreyVideo frames(video, o.fps, o.side);
+  BackgroundSampler sampler(kMostFrames);
+  const bool whole = o.side == 1 && frames.reader().bits() <= 8;
+  Changes changes(whole ? 1 : kFine);
+  GrayF now, before;
+  for (double t = 0; frames.read(now, t); o.tick()) {
+    if (t < o.from_s || t > o.to_s) continue;
+    sampler.take(now);
+    if (!before.empty()) changes.take(before, now);
+    std::swap(now, before);
+  }
+  if (sampler.kept().empty()) throw Error(Errc::input, video.string(), "has no frame at the times asked for");
+  VideoGround ground{quantile_over_time(sampler.kept(), o.share), changes.sd()};
+  const auto off = o.share == 0.5 ? 0.0F : float(normal_quantile(o.share) * ground.noise_sd);
+  for (float& grey : ground.light.px) grey = (grey - off) / kWhite;
+  ground.noise_sd /= double(kWhite);
+  return ground;
+}
+
+}  // namespace faba

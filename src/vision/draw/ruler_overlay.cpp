@@ -1,0 +1,62 @@
+#include "vision/draw/ruler_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "vision/files/picture.h"
+
+namespace faba {
+namespace {
+
+// Okabe and Ito's colour-blind-safe palette.
+const cv::Scalar kSky(86, 180, 233), kYellow(240, 228, 66), kOrange(255, 120, 0), kRim(0, 0, 0);
+constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
+
+cv::Point fixed(Vec2 p) {
+  return {int(std::lround(p.x * (1 << kShift))), int(std::lround(p.y * (1 << kShift)))};
+}
+
+void label(cv::Mat3b& canvas, Vec2 at, const std::string& text, double size) {
+  int below = 0;
+  const cv::Size box = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &below);
+  const cv::Point corner(int(std::lround(at.x)) - box.width / 2, int(std::lround(at.y)) + box.height / 2);
+  const int width = std::max(1, int(size * 2));
+  cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, size, kRim, width + 2, cv::LINE_AA);
+  cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, size, kYellow, width, cv::LINE_AA);
+}
+
+}  // namespace
+
+RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler) {
+  const Gray8 grey = stretched(picture, 0.001, 0.999);
+  cv::Mat3b canvas(grey.height, grey.width);
+  std::transform(grey.px.begin(), grey.px.end(), canvas.begin(),
+                 [](std::uint8_t g) { return cv::Vec3b(g, g, g); });
+  const MarkRow& row = ruler.row;
+  const int width = std::clamp(int(row.pitch_px / 8), 1, 3);
+  const double size = std::clamp(std::min(grey.width, grey.height) / 1100.0, 0.4, 1.2);
+  const Vec2 across{-std::sin(row.angle), std::cos(row.angle)};
+  const int every = std::max(1, int(std::ceil(28 * size * 2 / (10 * row.pitch_px)))) * 10;
+  for (const RowMark& m : row.marks) {
+    const int number = m.index - row.marks.front().index;
+    const Vec2 middle = 0.5 * (m.from_image + m.to_image);
+    const bool tenth = number % 10 == 0;
+    // Every tenth reaches beyond the marks, where its number stands.
+    const Vec2 end = tenth ? m.to_image + (10 * size * 2) * across : m.to_image;
+    cv::line(canvas, fixed(middle), fixed(end),
+             !m.used ? kOrange
+             : tenth ? kYellow
+                     : kSky,
+             width, cv::LINE_AA, kShift);
+    if (number % every == 0) label(canvas, end + (14 * size * 2) * across, std::to_string(number), size);
+  }
+  RgbImage out(grey.width, grey.height);
+  std::transform(canvas.begin(), canvas.end(), out.px.begin(), [](const cv::Vec3b& v) {
+    return Rgb{v[0], v[1], v[2]};
+  });
+  return out;
+}
+
+}  // namespace faba

@@ -1,0 +1,121 @@
+#include "vision/draw/swarm_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/draw/scale_bar.h"
+
+namespace faba {
+namespace {
+
+// Okabe-Ito colours: apart for every kind of colour vision.
+const cv::Scalar kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90, 20}};
+const cv::Scalar kPale{178, 182, 190}, kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
+const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kInk{60, 60, 60};
+constexpr int kShift = 4;  // sub-pixel bits of OpenCV's drawing
+constexpr std::size_t kManyCells =
+    20000;  // beyond this a cell is one pixel: anti-aliased discs would take longer than the step
+
+cv::Point fixed(double x, double y) {
+  const auto clamped = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
+  return {clamped(x), clamped(y)};
+}
+
+void line(cv::Mat& m, Vec2 a, Vec2 b, const cv::Scalar& colour, int thickness = 1) {
+  cv::line(m, fixed(a.x, a.y), fixed(b.x, b.y), colour, thickness, cv::LINE_AA, kShift);
+}
+
+void cross(cv::Mat& m, Vec2 at, double arm, const cv::Scalar& colour) {
+  line(m, {at.x - arm, at.y}, {at.x + arm, at.y}, colour, 2);
+  line(m, {at.x, at.y - arm}, {at.x, at.y + arm}, colour, 2);
+}
+
+void text(cv::Mat& m, const std::string& s, cv::Point at, double size) {
+  cv::putText(m, s, at, cv::FONT_HERSHEY_SIMPLEX, size, {250, 250, 248}, 3, cv::LINE_AA);  // halo
+  cv::putText(m, s, at, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
+}
+
+void ground(cv::Mat& m, const SwarmScene& s) {
+  if (s.background && s.background->width == s.width && s.background->height == s.height) {
+    for (int y = 0; y < m.rows; ++y)
+      for (int x = 0; x < m.cols; ++x) {
+        const auto g = std::uint8_t(150 + s.background->at(x, y) * 100 / 255);
+        m.at<cv::Vec3b>(y, x) = {g, g, g};
+      }
+    return;
+  }
+  m.setTo(s.edge_radius_px > 0 ? kOutside : kGround);
+  if (s.edge_radius_px > 0)
+    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kGround, cv::FILLED,
+               cv::LINE_AA, kShift);
+}
+
+void cells(cv::Mat& m, const SwarmScene& s) {
+  const int r = std::max(1, int(std::lround(s.cell_radius_px * (1 << kShift))));
+  for (const auto& c : s.cells) {
+    if (c.x < -3 || c.y < -3 || c.x > float(s.width + 2) || c.y > float(s.height + 2)) continue;
+    const cv::Scalar& colour = c.responding ? kSwarm[c.swarm % 4] : kPale;
+    if (s.cells.size() <= kManyCells) {
+      cv::circle(m, fixed(double(c.x), double(c.y)), r, colour, cv::FILLED, cv::LINE_AA, kShift);
+    } else if (const cv::Point p(int(std::lround(c.x)), int(std::lround(c.y)));
+               p.x >= 0 && p.y >= 0 && p.x < m.cols && p.y < m.rows) {
+      m.at<cv::Vec3b>(p) = {std::uint8_t(colour[0]), std::uint8_t(colour[1]), std::uint8_t(colour[2])};
+    }
+  }
+}
+
+void scale_bar(cv::Mat& m, const SwarmScene& s) {
+  const ScaleBar bar = scale_bar_for(s.width, s.um_per_px);
+  const double x = 12, y = s.height - 14;
+  cv::rectangle(m, cv::Point(int(x), int(y)), cv::Point(int(std::lround(x + bar.length_px)), int(y) + 3),
+                kInk, cv::FILLED);
+  text(m, bar.words, {int(x), int(y) - 6}, 0.45);
+}
+
+// Long as 40 px at 100 uT, growing with the square root so that 20 uT and 2 mT both show.
+void field_arrow(cv::Mat& m, const SwarmScene& s) {
+  const double b = norm(s.field_ut);
+  const Vec2 at{s.width - 44.0, s.height - 44.0};
+  cv::circle(m, fixed(at.x, at.y), 2 << kShift, kInk, cv::FILLED, cv::LINE_AA, kShift);
+  if (b > 0.05) {
+    const double length = std::min(40.0, 4 * std::sqrt(b));
+    const Vec2 d{s.field_ut.x / b, -s.field_ut.y / b}, tip = at + length * d, across{-d.y, d.x};
+    line(m, at, tip, kInk, 2);
+    line(m, tip, tip - 7 * d + 4 * across, kInk, 2);
+    line(m, tip, tip - 7 * d - 4 * across, kInk, 2);
+  }
+  const std::string label = b < 0.05 ? "B = 0" : fmt::format("{:.0f} uT", b);
+  text(m, label, {s.width - 44 - int(4.2 * double(label.size())), 24}, 0.45);
+}
+
+}  // namespace
+
+RgbImage draw_ground(const SwarmScene& s) {
+  RgbImage out(s.width, s.height);
+  cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
+  ground(m, s);
+  if (s.edge_radius_px > 0)
+    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kEdge, 1,
+               cv::LINE_AA, kShift);
+  for (std::size_t i = 1; i < s.route.size(); ++i) line(m, s.route[i - 1], s.route[i], {210, 160, 210});
+  return out;
+}
+
+RgbImage draw_swarm(const SwarmScene& s, const RgbImage& on_ground) {
+  RgbImage out = on_ground;
+  cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
+  cells(m, s);
+  if (s.setpoint) cross(m, *s.setpoint, 10, kPurple);
+  if (s.centroid) cross(m, *s.centroid, 7, kGreen);
+  if (s.width >= 160 && s.height >= 120) {  // smaller pictures have no room for writing
+    scale_bar(m, s);
+    field_arrow(m, s);
+    text(m, fmt::format("{:.2f} s", s.t), {12, 24}, 0.5);
+  }
+  return out;
+}
+
+}  // namespace faba

@@ -1,0 +1,340 @@
+#include "vision/files/av_stream.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+}
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "core/error.h"
+#include "vision/files/frame_grey.h"
+#include "vision/files/libav.h"
+
+namespace faba {
+namespace {
+
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // a hostile header may claim anything
+
+using Frame = std::unique_ptr<AVFrame, libav::Freed<av_frame_free>>;
+using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
+using Codec = std::unique_ptr<AVCodecContext, libav::Freed<avcodec_free_context>>;
+using Container = std::unique_ptr<AVFormatContext, libav::Freed<avformat_close_input>>;
+struct CloseIo {
+  void operator()(AVIOContext* io) const { avio_close(io); }
+};
+using Io = std::unique_ptr<AVIOContext, CloseIo>;
+
+// Kinds that libavformat would draw or guess out of any bytes, or that are lists of other files.
+bool is_no_video(std::string_view kind) {
+  constexpr std::array<std::string_view, 12> kRefused = {
+      "tty", "bin", "xbin", "adf", "idf", "rawvideo", "hls", "concat", "dash", "applehttp", "sdp", "imf"};
+  return std::find(kRefused.begin(), kRefused.end(), kind) != kRefused.end();
+}
+
+bool is_still(std::string_view kind) { return kind.ends_with("_pipe") || kind == "image2"; }
+
+// An AVI states its own size; libavformat does not compare it with the file's.
+bool is_avi_cut_short(const std::filesystem::path& path) {
+  std::array<unsigned char, 8> head{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
+  std::uint64_t stated = 8;
+  for (unsigned i = 0; i < 4; ++i) stated += std::uint64_t{head[4 + i]} << (8 * i);
+  return stated > std::filesystem::file_size(path) + 1;  // the last chunk may lack its padding byte
+}
+
+// The decoder fills up the rest of a JPEG that lacks its end mark. The bytes FF DA (a scan begins) and FF D9
+// (the end) cannot occur inside coded data.
+bool is_jpeg_cut_short(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  const auto scan = bytes.rfind("\xFF\xDA");
+  return scan == std::string::npos || bytes.find("\xFF\xD9", scan) == std::string::npos;
+}
+
+// FFmpeg reads PGM and PPM with any white space in the header, but recognizes only one field a line.
+const AVInputFormat* portable_map(AVIOContext& io) {
+  unsigned char magic[3] = {};
+  const int read = avio_read(&io, magic, 3);
+  avio_seek(&io, 0, SEEK_SET);
+  if (read < 3 || magic[0] != 'P' || std::isspace(magic[2]) == 0) return nullptr;
+  return magic[1] == '5'   ? av_find_input_format("pgm_pipe")
+         : magic[1] == '6' ? av_find_input_format("ppm_pipe")
+                           : nullptr;
+}
+
+}  // namespace
+
+struct AvStream::Impl {
+  std::filesystem::path path;
+  Io io;  // outlives the container, which reads through it
+  Container container;
+  Codec codec;
+  // One packet is held back: only the next read tells whether the last one was cut.
+  Packet held{av_packet_alloc()}, incoming{av_packet_alloc()};
+  Frame frame{av_frame_alloc()};
+  AVStream* stream = nullptr;
+
+  int width = 0, height = 0, pixel_bits = 0;
+  double fps = 0;
+  bool still = false, frame_waiting = false, cut_short = false;
+  std::string probing_complaint;  // of a file so short that its end was met while it was opened
+  bool holding = false, complained = false, all_read = false;
+  // After damage: what is predicted from a lost frame is wrong as well.
+  bool need_key_packet = false, need_key_frame = false;
+  std::int64_t damaged = 0, delivered = 0;
+  std::string damage;
+  std::int64_t first_stamp = AV_NOPTS_VALUE;
+  double last_t = 0;
+
+  [[noreturn]] void refuse(const std::string& why) const { throw Error(Errc::input, path.string(), why); }
+  void open();
+  void open_codec();
+  bool decode();
+  bool next(RawFrame& out, double& t_s);  // `out` is good until the next call
+  void feed();
+  bool read_packet();
+  void end_of_file(int result);
+  void send(AVPacket& packet);
+  void note_damage(const std::string& why);
+  double time_of_frame();
+};
+
+void AvStream::Impl::open() {
+  libav::quiet();
+  libav::forget_messages();
+  AVIOContext* raw_io = nullptr;
+  int result = avio_open(&raw_io, ("file:" + path.string()).c_str(), AVIO_FLAG_READ);
+  if (result < 0) refuse("cannot be opened: " + libav::reason(result));
+  io.reset(raw_io);
+
+  const AVInputFormat* kind_by_magic = portable_map(*io);
+  AVFormatContext* raw = avformat_alloc_context();
+  raw->pb = io.get();
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "protocol_whitelist", "none", 0);           // play lists may not open anything
+  result = avformat_open_input(&raw, "", kind_by_magic, &options);  // frees `raw` itself on failure
+  av_dict_free(&options);
+  if (result < 0)
+    refuse("is no picture or video that can be read, or was cut short: " + libav::reason(result));
+  container.reset(raw);
+  const std::string_view kind = container->iformat->name;
+  if (is_no_video(kind)) refuse("is no picture or video");
+  still = is_still(kind);
+  if (kind == "jpeg_pipe" && is_jpeg_cut_short(path))
+    refuse("is damaged or cut short: the end of the JPEG is missing");
+
+  libav::forget_messages();
+  result = avformat_find_stream_info(container.get(), nullptr);
+  if (result < 0) refuse("its streams cannot be read: " + libav::reason(result));
+  if (io->eof_reached != 0) probing_complaint = libav::first_message();
+  result = av_find_best_stream(container.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (result < 0) refuse("holds no picture stream");
+  stream = container->streams[result];
+  if ((stream->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0)
+    refuse("is a sound file; its cover is no video");
+  open_codec();
+}
+
+void AvStream::Impl::open_codec() {
+  const char* name = avcodec_get_name(stream->codecpar->codec_id);
+  const AVCodec* decoder = avcodec_find_decoder(stream->codecpar->codec_id);
+  if (decoder == nullptr) {
+    refuse(std::string("is coded in a way that cannot be read here: ") + name +
+           "; convert it to H.264 or PNG");
+  }
+  codec.reset(avcodec_alloc_context3(decoder));
+  avcodec_parameters_to_context(codec.get(), stream->codecpar);
+  codec->thread_count = 1;
+  codec->max_pixels = kMaxPixels;
+  codec->pkt_timebase = stream->time_base;
+  // A still is whole or refused; in a video a flaw in some side information must not cost the frame.
+  codec->err_recognition = AV_EF_CRCCHECK | (still ? AV_EF_EXPLODE | AV_EF_BITSTREAM | AV_EF_BUFFER : 0);
+  libav::forget_messages();
+  const int result = avcodec_open2(codec.get(), decoder, nullptr);
+  if (result < 0) refuse(std::string("its ") + name + " stream cannot be decoded: " + libav::reason(result));
+
+  frame_waiting = decode();
+  if (!frame_waiting)
+    refuse("is damaged or cut short, no whole frame in it" + (damage.empty() ? "" : ": " + damage));
+  width = frame->width;
+  height = frame->height;
+  pixel_bits = grey_bits(frame->format);
+  if (pixel_bits == 0) {
+    refuse("has pixels of a kind that cannot be read: " + pixel_format_name(frame->format));
+  }
+  const AVRational mean = stream->avg_frame_rate;
+  const AVRational rate = mean.num > 0 && mean.den > 0 ? mean : stream->r_frame_rate;
+  if (!still && rate.num > 0 && rate.den > 0) fps = av_q2d(rate);
+}
+
+void AvStream::Impl::note_damage(const std::string& why) {
+  ++damaged;
+  need_key_packet = true;
+  if (!damage.empty()) return;
+  damage = (delivered == 0 ? "" : "after " + std::to_string(delivered) + " whole frames ") + why;
+}
+
+// Decodes until a whole frame is in `frame`; false at the end.
+bool AvStream::Impl::decode() {
+  for (;;) {
+    libav::forget_messages();
+    const int result = avcodec_receive_frame(codec.get(), frame.get());
+    if (result == AVERROR_EOF) {
+      if (need_key_packet) cut_short = true;
+      return false;
+    }
+    if (result == AVERROR(EAGAIN)) {
+      feed();
+    } else if (result < 0) {
+      note_damage("a frame cannot be decoded: " + libav::reason(result));
+    } else if (frame->decode_error_flags != 0 || (frame->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
+      note_damage("parts of a frame are missing");
+      need_key_frame = true;
+    } else if (need_key_frame && frame->key_frame == 0) {
+      ++damaged;
+    } else {
+      need_key_frame = false;
+      return true;
+    }
+  }
+}
+
+// Gives the decoder one packet, or word that there are no more.
+void AvStream::Impl::feed() {
+  while (!all_read) {
+    const bool more = read_packet();
+    std::swap(held, incoming);
+    const bool ready = std::exchange(holding, more);
+    if (ready) return send(*incoming);
+  }
+  avcodec_send_packet(codec.get(), nullptr);
+}
+
+// Reads the next packet of the stream into `incoming`. At the end of a file cut short the packet held is
+// dropped.
+bool AvStream::Impl::read_packet() {
+  for (;;) {
+    libav::forget_messages();
+    av_packet_unref(incoming.get());
+    const int result = av_read_frame(container.get(), incoming.get());
+    complained = !libav::first_message().empty() || (result < 0 && complained);
+    if (result < 0) {
+      end_of_file(result);
+      return false;
+    }
+    if (incoming->stream_index == stream->index) return true;
+  }
+}
+
+void AvStream::Impl::send(AVPacket& packet) {
+  const bool key = (packet.flags & AV_PKT_FLAG_KEY) != 0;
+  if ((packet.flags & AV_PKT_FLAG_CORRUPT) != 0) {
+    note_damage("a frame is incomplete");
+  } else if (need_key_packet && !key) {
+    ++damaged;
+  } else {
+    need_key_packet = false;
+    libav::forget_messages();
+    const int result = avcodec_send_packet(codec.get(), &packet);
+    if (result < 0) note_damage("a frame cannot be decoded: " + libav::reason(result));
+  }
+}
+
+void AvStream::Impl::end_of_file(int result) {
+  all_read = true;
+  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
+  bool missing = container->iformat->name == std::string_view("avi") && is_avi_cut_short(path);
+  for (int i = 0; i < avformat_index_get_entries_count(stream) && !missing; ++i) {
+    const AVIndexEntry* entry = avformat_index_get_entry(stream, i);
+    missing = entry->pos + entry->size > size;
+  }
+  cut_short = missing || complained || !probing_complaint.empty() || result != AVERROR_EOF;
+  const std::string complaint = libav::first_message().empty() ? probing_complaint : libav::first_message();
+  if (complained && holding) held->flags |= AV_PKT_FLAG_CORRUPT;
+  if (cut_short && damage.empty()) {
+    damage = "the file ends before it should" + (complaint.empty() ? "" : " (" + complaint + ")");
+  }
+}
+
+double AvStream::Impl::time_of_frame() {
+  const double step = fps > 0 ? 1 / fps : 1;
+  double t = delivered == 0 ? 0 : last_t + step;
+  const std::int64_t stamp = frame->best_effort_timestamp;
+  if (stamp != AV_NOPTS_VALUE && fps > 0) {
+    if (first_stamp == AV_NOPTS_VALUE) first_stamp = stamp;
+    const double stamped = static_cast<double>(stamp - first_stamp) * av_q2d(stream->time_base);
+    if (delivered == 0 || stamped > last_t) t = stamped;  // time never stands still, whatever a file says
+  }
+  last_t = t;
+  return t;
+}
+
+AvStream::AvStream(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  impl_->open();
+}
+AvStream::~AvStream() = default;
+AvStream::AvStream(AvStream&&) noexcept = default;
+AvStream& AvStream::operator=(AvStream&&) noexcept = default;
+
+int AvStream::width() const { return impl_->width; }
+int AvStream::height() const { return impl_->height; }
+int AvStream::bits() const { return impl_->pixel_bits; }
+double AvStream::fps() const { return impl_->fps; }
+bool AvStream::truncated() const { return impl_->cut_short; }
+std::int64_t AvStream::damaged_frames() const { return impl_->damaged; }
+const std::string& AvStream::damage() const { return impl_->damage; }
+
+std::int64_t AvStream::frames_stated() const {
+  if (impl_->still) return 1;
+  const AVStream& stream = *impl_->stream;
+  if (stream.nb_frames > 0) return stream.nb_frames;
+  double duration_s = 0;
+  if (stream.duration > 0) {
+    duration_s = static_cast<double>(stream.duration) * av_q2d(stream.time_base);
+  } else if (impl_->container->duration > 0) {
+    duration_s = static_cast<double>(impl_->container->duration) / AV_TIME_BASE;
+  }
+  return std::llround(duration_s * impl_->fps);
+}
+
+bool AvStream::Impl::next(RawFrame& out, double& t_s) {
+  if (!frame_waiting) frame_waiting = decode();
+  if (!frame_waiting) return false;
+  frame_waiting = false;
+  const AVFrame& raw = *frame;
+  if (raw.width != width || raw.height != height || grey_bits(raw.format) != pixel_bits) {
+    refuse("frame " + std::to_string(delivered) +
+           " has another size or depth than the first; cut the video there");
+  }
+  t_s = time_of_frame();
+  out = {raw.data, raw.linesize, raw.width, raw.height, raw.format, raw.color_range, raw.colorspace};
+  ++delivered;
+  return true;
+}
+
+bool AvStream::read(GrayF& frame, double& t_s) {
+  RawFrame raw;
+  if (!impl_->next(raw, t_s)) return false;
+  to_grey(raw, frame);
+  return true;
+}
+
+bool AvStream::read_colours(RgbImage& frame, double& t_s) {
+  RawFrame raw;
+  if (!impl_->next(raw, t_s)) return false;
+  if (!to_colours(raw, frame)) impl_->refuse("colours of this kind are not understood");
+  return true;
+}
+
+}  // namespace faba

@@ -1,0 +1,160 @@
+#include "vision/files/remux.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/rational.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "vision/files/libav.h"
+
+namespace faba {
+namespace {
+
+using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
+using Input = std::unique_ptr<AVFormatContext, libav::Freed<avformat_close_input>>;
+struct FreeOutput {
+  void operator()(AVFormatContext* container) const {
+    avio_closep(&container->pb);
+    avformat_free_context(container);
+  }
+};
+using Output = std::unique_ptr<AVFormatContext, FreeOutput>;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, int result) {
+  throw Error(Errc::internal, path.string(), what + ": " + libav::reason(result));
+}
+
+std::string file_url(const std::filesystem::path& path) { return "file:" + path.string(); }
+
+class Remuxer {
+ public:
+  Remuxer(const std::filesystem::path& part, VideoFormat format, FrameRate rate,
+          const std::filesystem::path& to, const std::function<double(long long)>& time_s)
+      : part_(part),
+        to_(to),
+        mp4_(format == VideoFormat::mp4),
+        rate_(rate),
+        time_s_(mp4_ ? time_s : nullptr) {}
+  // Writes the whole of `temporary`; blames `to` for its failures.
+  long long write(const std::filesystem::path& temporary) {
+    open_input();
+    open_output(temporary);
+    const long long frames = copy_frames();
+    finish();
+    return frames;
+  }
+
+ private:
+  void open_input();
+  void open_output(const std::filesystem::path& temporary);
+  long long copy_frames();
+  void finish();
+  AVRational tick() const {
+    return time_s_ ? AVRational{1, 1000000} : AVRational{rate_.denominator, rate_.numerator};
+  }
+  std::int64_t stamp(long long frame) const {
+    return time_s_ ? std::llround(time_s_(frame) * 1e6) : std::int64_t{frame};
+  }
+
+  const std::filesystem::path &part_, &to_;
+  const bool mp4_;
+  const FrameRate rate_;
+  const std::function<double(long long)> time_s_;  // empty: regular times
+  Input in_;
+  Output out_;
+};
+
+void Remuxer::open_input() {
+  libav::forget_messages();
+  AVFormatContext* raw = nullptr;
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "pattern_type", "none", 0);
+  const AVInputFormat* kind = av_find_input_format(mp4_ ? "h264" : "png_pipe");
+  int result = avformat_open_input(&raw, file_url(part_).c_str(), kind, &options);
+  av_dict_free(&options);
+  if (result < 0) fail(part_, "the recorded frames cannot be read back", result);
+  in_.reset(raw);
+  result = avformat_find_stream_info(raw, nullptr);
+  if (result < 0) fail(part_, "the recorded frames cannot be read back", result);
+}
+
+void Remuxer::open_output(const std::filesystem::path& temporary) {
+  libav::forget_messages();
+  AVFormatContext* raw = nullptr;
+  int result =
+      avformat_alloc_output_context2(&raw, nullptr, mp4_ ? "mp4" : "avi", file_url(temporary).c_str());
+  if (result < 0) fail(to_, "no such container in this FFmpeg", result);
+  out_.reset(raw);
+  raw->flags |= AVFMT_FLAG_BITEXACT;  // no version and no date: the same frames give the same file
+  AVStream* stream = avformat_new_stream(raw, nullptr);
+  avcodec_parameters_copy(stream->codecpar, in_->streams[0]->codecpar);
+  stream->codecpar->codec_tag = mp4_ ? MKTAG('a', 'v', 'c', '1') : MKTAG('M', 'P', 'N', 'G');
+  stream->time_base = tick();
+  stream->avg_frame_rate = {rate_.numerator, rate_.denominator};
+  result = avio_open(&raw->pb, file_url(temporary).c_str(), AVIO_FLAG_WRITE);
+  if (result < 0) fail(to_, "cannot be written", result);
+  AVDictionary* options = nullptr;
+  if (mp4_) av_dict_set(&options, "movflags", "+faststart", 0);
+  result = avformat_write_header(raw, &options);
+  av_dict_free(&options);
+  if (result < 0) fail(to_, "cannot be written", result);
+}
+
+long long Remuxer::copy_frames() {
+  const Packet packet(av_packet_alloc());
+  AVStream* stream = out_->streams[0];
+  long long frames = 0;
+  for (;; ++frames) {
+    int result = av_read_frame(in_.get(), packet.get());
+    if (result == AVERROR_EOF) break;
+    if (result < 0) fail(part_, "the recorded frames cannot be read back", result);
+    packet->stream_index = 0;
+    packet->pts = packet->dts = stamp(frames);
+    packet->duration = std::max<std::int64_t>(1, stamp(frames + 1) - stamp(frames));
+    packet->pos = -1;
+    av_packet_rescale_ts(packet.get(), tick(), stream->time_base);
+    result = av_write_frame(out_.get(), packet.get());
+    av_packet_unref(packet.get());
+    if (result < 0) fail(to_, "cannot be written", result);
+  }
+  if (frames == 0)
+    throw Error(Errc::internal, part_.string(), "holds no frame, so there is no video to finish");
+  return frames;
+}
+
+void Remuxer::finish() {
+  libav::forget_messages();
+  int result = av_write_trailer(out_.get());
+  if (result >= 0) result = out_->pb->error;
+  const int closed = avio_closep(&out_->pb);
+  if (result >= 0) result = closed;
+  if (result < 0) fail(to_, "cannot be written", result);
+}
+
+}  // namespace
+
+long long remux(const std::filesystem::path& part, VideoFormat format, FrameRate rate,
+                const std::filesystem::path& to, const std::function<double(long long)>& time_s) {
+  libav::quiet();
+  const std::filesystem::path temporary = to.string() + ".tmp";
+  try {
+    const long long frames = Remuxer(part, format, rate, to, time_s).write(temporary);
+    rename_complete(temporary, to);
+    return frames;
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw;
+  }
+}
+
+}  // namespace faba

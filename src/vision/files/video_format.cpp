@@ -1,0 +1,21 @@
+#include "vision/files/video_format.h"
+
+extern "C" {
+#include <libavutil/rational.h>
+}
+
+#include <string>
+
+#include "core/error.h"
+
+namespace faba {
+
+FrameRate frame_rate_near(double fps) {
+  if (!(fps >= kSlowestVideo && fps <= kFastestVideo)) {
+    throw Error(Errc::internal, "", "a video cannot have " + std::to_string(fps) + " frames per second");
+  }
+  const AVRational rate = av_d2q(fps, 100000);
+  return {rate.num, rate.den};
+}
+
+}  // namespace faba

@@ -1,0 +1,111 @@
+#include "vision/foreground/background.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/error.h"
+#include "vision/image/kernels/smoothing.h"
+
+namespace faba {
+namespace {
+
+constexpr float kMadToSd = 1.4826F;   // of a Gaussian
+constexpr float kLeastNoise = 0.25F;  // grey steps: quantisation alone makes 1 / sqrt(12)
+constexpr int kFewestFrames = 5;
+constexpr double kNoiseSmoothing = 3;  // px
+
+float middle(std::vector<float>& v) {
+  const auto at = v.begin() + std::ptrdiff_t((v.size() - 1) / 2);
+  std::nth_element(v.begin(), at, v.end());
+  return *at;
+}
+
+// Standard deviation of what lies within three robust ones: whole grey steps make the robust one coarse.
+float fine_spread(const std::vector<float>& values) {
+  constexpr double kOfNormal = 0.98658;  // sd of a normal distribution cut off at three sd
+  std::vector<float> work = values;
+  const RobustSpread rough = robust_spread(work);
+  double n = 0, sum = 0, squares = 0;
+  for (const float v : values) {
+    const double d = double(v) - double(rough.median);
+    if (std::fabs(d) > 3 * double(rough.sd)) continue;
+    n += 1, sum += d, squares += d * d;
+  }
+  return n > 1 ? float(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) / kOfNormal) : 0.0F;
+}
+
+}  // namespace
+
+RobustSpread robust_spread(std::vector<float>& values) {
+  const float median = middle(values);
+  for (float& v : values) v = std::fabs(v - median);
+  return {median, kMadToSd * middle(values)};
+}
+
+BackgroundSampler::BackgroundSampler(int most_frames, std::size_t most_bytes)
+    : most_frames_(std::max(1, most_frames)), most_bytes_(most_bytes) {}
+
+void BackgroundSampler::take(const GrayF& frame) {
+  if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
+    throw Error(Errc::internal, "", "frames of a background must have one size");
+  const bool wanted = seen_ % stride_ == 0;
+  ++seen_;
+  if (!wanted) return;
+  const auto fit = most_bytes_ / std::max<std::size_t>(1, frame.px.size() * sizeof(float));
+  const auto most = std::clamp<std::size_t>(fit, std::size_t(std::min(kFewestFrames, most_frames_)),
+                                            std::size_t(most_frames_));
+  if (kept_.size() >= most) {
+    std::size_t to = 0;
+    for (std::size_t from = 0; from < kept_.size(); from += 2) std::swap(kept_[to++], kept_[from]);
+    kept_.resize(to);
+    stride_ *= 2;
+    if ((seen_ - 1) % stride_ != 0) return;
+  }
+  kept_.push_back(frame);
+}
+
+Background BackgroundSampler::background() const {
+  Background b;
+  if (kept_.empty()) return b;
+  const int w = kept_[0].width, h = kept_[0].height;
+  b.level = b.noise_sd = GrayF(w, h);
+  b.frames = int(kept_.size());
+  std::vector<float> values(kept_.size());
+  for (std::size_t i = 0; i < b.level.px.size(); ++i) {
+    for (std::size_t k = 0; k < kept_.size(); ++k) values[k] = kept_[k].px[i];
+    const RobustSpread s = robust_spread(values);
+    b.level.px[i] = s.median;
+    b.noise_sd.px[i] = s.sd;
+  }
+  b.noise_sd = smoothed(b.noise_sd, kNoiseSmoothing);
+  for (float& v : b.noise_sd.px) v = std::max(v, kLeastNoise);
+  return b;
+}
+
+Background spatial_background(const GrayF& frame, double sd_px) {
+  Background b;
+  b.level = smoothed(frame, sd_px);
+  b.frames = 1;
+  std::vector<float> steps;
+  for (int row = 0; row < frame.height; ++row)
+    for (int col = 0; col + 1 < frame.width; ++col)
+      steps.push_back(frame.at(col + 1, row) - frame.at(col, row));
+  const float sd = steps.empty() ? 0 : fine_spread(steps) / std::sqrt(2.0F);
+  b.noise_sd = GrayF(frame.width, frame.height, std::max(sd, kLeastNoise));
+  return b;
+}
+
+Polarity polarity_of(const std::vector<float>& differences) {
+  if (differences.empty()) return Polarity::dark;
+  std::vector<float> work = differences;
+  const RobustSpread s = robust_spread(work);
+  double third = 0;
+  for (const float d : differences) {
+    const double z = double(d) - double(s.median);
+    if (std::fabs(z) > 3 * double(s.sd)) third += z * z * z;
+  }
+  return third > 0 ? Polarity::bright : Polarity::dark;
+}
+
+}  // namespace faba

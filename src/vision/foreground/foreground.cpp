@@ -1,0 +1,394 @@
+#include "vision/foreground/foreground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/portable_math.h"
+#include "vision/foreground/kernels/foreground_pixels.h"
+#include "vision/foreground/kernels/line_closing.h"
+#include "vision/image/kernels/smoothing.h"
+#include "vision/image/mask.h"
+
+namespace faba {
+namespace {
+
+constexpr double kFwhmToSd = 1 / 2.354820045;
+constexpr double kFollow_s = 2;  // in which uncovered background follows the picture
+constexpr float kStillAfterChange_s = 1, kStillFromStart_s = 10;
+constexpr double kUncover = 0.6;  // share by which background that proves too dark (or bright) is corrected
+constexpr double kCurvatureSd =
+    3.5;  // of the noise of a curvature, from which on a spot is one: a false one is harmless
+constexpr float kSpotShape =
+    0.15F;  // smaller over larger curvature of a spot; a rod twice as long as wide has 0.25
+constexpr double kCellsPerLine = 9;  // length of the pieces that fill cells and leave lines, in cells
+constexpr float kOfLine = 0.3F;      // of a line's depth, below which a darker place on it is no cell
+constexpr double kTail = 0.7;   // of a cell's width, that it reaches beyond where it is above the threshold
+constexpr double kFew = 4.5;    // cells in a patch, of which a whole number is taken
+constexpr double kFirstSd = 4;  // of the smoothed noise, from which on the first picture shows a cell
+constexpr double kWholePicture_s = 20;  // twice what codecs let pass between whole pictures, 250 at 25 Hz
+constexpr double kSmoothedAway = 1.5;   // times less noise than lately: a codec's work, not chance
+constexpr double kLeastThreshold = 1;   // grey: rounding does not look like noise when the light changes
+constexpr double kCellMemory = 0.2;     // share of a new picture in what a cell is thought to weigh
+
+// Marks every pixel within `reach` of a marked one, in a square.
+void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w, int h, int reach) {
+  work.assign(m.size(), 0);
+  for (int row = 0; row < h; ++row) {
+    const std::uint8_t* in = &m[std::size_t(row) * std::size_t(w)];
+    std::uint8_t* out = &work[std::size_t(row) * std::size_t(w)];
+    for (int k = -reach; k <= reach; ++k) {
+      const int first = std::max(0, -k), end = std::min(w, w - k);
+      for (int i = first; i < end; ++i) out[i] |= in[i + k];
+    }
+  }
+  m.assign(m.size(), 0);
+  for (int row = 0; row < h; ++row) {
+    std::uint8_t* out = &m[std::size_t(row) * std::size_t(w)];
+    for (int r = std::max(0, row - reach); r <= std::min(h - 1, row + reach); ++r) {
+      const std::uint8_t* in = &work[std::size_t(r) * std::size_t(w)];
+      for (int i = 0; i < w; ++i) out[i] |= in[i];
+    }
+  }
+}
+
+// The two curvatures of a surface, in the direction of `sign` (+1: of bright spots), the smaller first.
+struct Curvatures {
+  float small, large;
+};
+Curvatures curvatures(const GrayF& g, int col, int row, float sign) {
+  const float v = g.at(col, row), l = g.at(col - 1, row), r = g.at(col + 1, row), u = g.at(col, row - 1),
+              d = g.at(col, row + 1);
+  const float xx = sign * (2 * v - l - r), yy = sign * (2 * v - u - d);
+  const float xy =
+      sign * 0.25F *
+      (g.at(col + 1, row - 1) + g.at(col - 1, row + 1) - g.at(col + 1, row + 1) - g.at(col - 1, row - 1));
+  const float half = 0.5F * (xx - yy), mean = 0.5F * (xx + yy), apart = std::sqrt(half * half + xy * xy);
+  return {mean - apart, mean + apart};
+}
+
+// Brightness of the picture over that of the background: median of the quotients, where no cells are.
+double common_gain(const GrayF& picture, const GrayF& background,
+                   const std::vector<std::uint8_t>& leave_out) {
+  constexpr int kBins = 8192;  // of quotients from 0 to 4
+  constexpr float kPerUnit = kBins / 4.0F;
+  std::vector<int> count(kBins);
+  int total = 0;
+  for (std::size_t i = 0; i < picture.px.size(); i += 7) {
+    if (leave_out[i] || !(background.px[i] > 1)) continue;
+    ++count[std::size_t(std::min(int(picture.px[i] / background.px[i] * kPerUnit), kBins - 1))], ++total;
+  }
+  if (total < 100) return 1;
+  int sum = 0, bin = 0;
+  while (2 * (sum + count[std::size_t(bin)]) < total) sum += count[std::size_t(bin++)];
+  const double inside = (0.5 * total - sum) / std::max(1, count[std::size_t(bin)]);
+  return std::max(0.05, (bin + inside) * 4 / kBins);
+}
+
+}  // namespace
+
+double picture_noise(const Gray8& picture) {
+  std::array<int, 256> count{};
+  int total = 0;
+  for (int row = 0; row < picture.height; row += 2)
+    for (int col = 0; col + 1 < picture.width; col += 2)
+      ++count[std::size_t(std::abs(int(picture.at(col + 1, row)) - int(picture.at(col, row))))], ++total;
+  if (total == 0) return 0.3;
+  int sum = 0, bin = 0;
+  while (2 * (sum + count[std::size_t(bin)]) < total) sum += count[std::size_t(bin++)];
+  // A whole step stands for the values half a step about it; differences of nothing for half that width.
+  const double inside = (0.5 * total - sum) / count[std::size_t(bin)];
+  const double median = bin == 0 ? 0.5 * inside : bin - 0.5 + inside;
+  return std::max(0.3, median / (0.6744897502 * 1.4142135624));
+}
+
+Foreground::Foreground(ForegroundOptions options) : options_(options) {
+  sd_px_ = options_.cell_px * kFwhmToSd;
+  sign_ = options_.polarity == Polarity::dark ? -1 : options_.polarity == Polarity::bright ? 1 : 0;
+}
+
+// The first background: the picture without what is dark (or bright) and small in every direction.
+void Foreground::begin(const GrayF& picture, double noise) {
+  const double s = std::max(sd_px_, 0.8);
+  const GrayF fine = smoothed(picture, s);
+  if (sign_ == 0) sign_ = told_polarity(fine, s, noise);
+  GrayF turned = fine;  // cells dark
+  if (sign_ > 0)
+    for (float& v : turned.px) v = -v;
+  const LineClosing closing = line_closing(turned, kCellsPerLine * options_.cell_px);
+  const GrayF& closed = closing.least;
+  // What the noise lifts, where no cells are: most of the picture.
+  std::vector<float> lifted;
+  for (std::size_t i = 0; i < closed.px.size(); i += 7) lifted.push_back(closed.px[i] - turned.px[i]);
+  const auto middle = lifted.begin() + std::ptrdiff_t(lifted.size() / 2);
+  if (!lifted.empty()) std::nth_element(lifted.begin(), middle, lifted.end());
+  const float lift = lifted.empty() ? 0 : *middle;
+  const auto threshold = float(std::max(kLeastThreshold, kFirstSd * noise * smoothing_gain()));
+  covered_.assign(picture.px.size(), 0);
+  for (std::size_t i = 0; i < closed.px.size(); ++i) {
+    const float depth = closing.largest.px[i] - closed.px[i];
+    covered_[i] = closed.px[i] - lift - turned.px[i] > std::max(threshold, kOfLine * depth) ? 1 : 0;
+  }
+  dilate(covered_, work_, picture.width, picture.height, std::max(1, int(std::ceil(0.7 * options_.cell_px))));
+  background_ = picture;
+  guess_.assign(picture.px.size(), seen);
+  still_grey_.assign(picture.px.size(), 0), still_s_.assign(picture.px.size(), 0);
+  for (std::size_t i = 0; i < closed.px.size(); ++i)
+    if (covered_[i]) background_.px[i] = float(-sign_) * (closed.px[i] - lift), guess_[i] = guessed;
+}
+
+// By the curvatures of spots: what is bent alike in all directions.
+int Foreground::told_polarity(const GrayF& fine, double sd, double noise) const {
+  // Noise of a second difference of the smoothed picture; its variance is 3 / (16 pi s^6) of the noise's.
+  const auto least = float(kCurvatureSd * noise * std::sqrt(3 / (16 * portable::kPi)) / (sd * sd * sd));
+  // Mirrored at the border, a line that meets it looks bent.
+  const int border = 1 + int(std::ceil(4 * sd));
+  std::array<double, 2> evidence{};
+  for (int row = border; row + border < fine.height; ++row)
+    for (int col = border; col + border < fine.width; ++col)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Curvatures c = curvatures(fine, col, row, k == 0 ? -1.0F : 1.0F);
+        if (c.small > least && c.small > kSpotShape * c.large) evidence[k] += double(c.small);
+      }
+  return evidence[1] > evidence[0] ? 1 : -1;
+}
+
+// What the smoothing leaves of white noise.
+double Foreground::smoothing_gain() const {
+  const std::vector<float> kernel = gaussian_weights(std::max(sd_px_, 0.6));
+  double square = double(kernel[0]) * double(kernel[0]);
+  for (std::size_t k = 1; k < kernel.size(); ++k) square += 2 * double(kernel[k]) * double(kernel[k]);
+  return square;
+}
+
+void Foreground::know(const Background& background) {
+  constexpr double kOfMedian = 1.5707963268;  // variance of a median over that of a mean
+  background_ = background.level;
+  own_noise_ = kOfMedian / std::max(1, background.frames);
+  covered_.assign(background_.px.size(), 0);
+  known_ = true;
+}
+
+void Foreground::take(const Gray8& picture, double dt_s) {
+  picture_.width = picture.width, picture_.height = picture.height;
+  picture_.px.resize(picture.px.size());
+  for (std::size_t i = 0; i < picture.px.size(); ++i) picture_.px[i] = float(picture.px[i]);
+  look(picture_noise(picture), dt_s);
+}
+
+void Foreground::take(const GrayF& picture, double noise, double dt_s) {
+  picture_ = picture;
+  look(noise, dt_s);
+}
+
+void Foreground::look(double noise, double dt_s) {
+  const GrayF& grey = picture_;
+  const bool resized = background_.width != grey.width || background_.height != grey.height;
+  if (resized) known_ = false;
+  const bool anew = !known_ && (resized || !options_.learn);
+  const bool learns = options_.learn && !anew && !known_;
+  // Between its whole pictures a codec smooths noise away, and brings it back with the next.
+  noisiest_ = std::max(noise, anew ? 0 : noisiest_ * (1 - std::clamp(dt_s / kWholePicture_s, 0.0, 1.0)));
+  if (noisiest_ > kSmoothedAway * noise) noise = noisiest_;
+  if (anew) begin(grey, noise);
+  if (sign_ == 0) sign_ = told_polarity(smoothed(grey, std::max(sd_px_, 0.8)), std::max(sd_px_, 0.8), noise);
+  weights_.width = grey.width, weights_.height = grey.height;
+  weights_.px.resize(grey.px.size());
+  const double common = anew ? 1 : common_gain(grey, background_, covered_);
+  const auto gain = float(common);
+  // A background that rests on few frames has their noise.
+  if (anew) frames_ = 0;
+  find_covered(gain, noise * std::sqrt(1 + (anew ? 0 : own_noise_)));
+  if (anew) own_noise_ = 1;
+  // Strip by strip, so that what one step has read or written is still in the cache for the next.
+  constexpr int kStrip = 1 << 13;  // px
+  const LightLoss loss{gain, float(noise), sign_ < 0 ? gain * middle_brightness() : 0};
+  const Learning learning = learns ? learn_at(common, dt_s, noise) : Learning{};
+  const int n = int(grey.px.size());
+  for (int first = 0; first < n; first += kStrip) {
+    const int end = std::min(n, first + kStrip);
+    if (sign_ < 0) take_logarithms(loss, first, end);
+    if (learns) learn(learning, first, end);
+    clear_uncovered(covered_.data() + first, weights_.px.data() + first, end - first);
+  }
+  ++frames_;
+  count_cells();
+}
+
+// What most patches weigh: single cells are the commonest until they touch. 0 where there are too few.
+double Foreground::signal_of_one(std::vector<double> patches) const {
+  constexpr std::size_t kEnough = 8;
+  constexpr double kAlike = 1.6;  // largest over smallest of what counts as one weight
+  std::sort(patches.begin(), patches.end());
+  std::size_t most = 0, at = 0;
+  for (std::size_t first = 0, end = 0; first < patches.size(); ++first) {
+    if (!(patches[first] > 0)) continue;
+    end = std::max(end, first);
+    while (end < patches.size() && patches[end] < kAlike * patches[first]) ++end;
+    if (end - first > most) most = end - first, at = first;
+  }
+  return most < kEnough ? 0 : patches[at + most / 2];
+}
+
+void Foreground::count_cells() {
+  const std::size_t w = std::size_t(weights_.width);
+  const auto weights_of = [&](const PatchRun& r) { return &weights_.px[std::size_t(r.row) * w]; };
+  std::vector<double> signal(std::size_t(find_patches(covered_, weights_.width, weights_.height, runs_)));
+  for (const PatchRun& r : runs_) {
+    const float* v = weights_of(r);
+    double sum = 0;
+    for (int i = r.first; i < r.end; ++i) sum += double(v[i]);
+    signal[std::size_t(r.patch)] += sum;
+  }
+  const double found = signal_of_one(signal), now = found > 0 ? found : cell_guess_;
+  if (now > 0)
+    cell_signal_ =
+        cell_signal_ == 0 || frames_ == 1 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
+  if (!(found > 0)) return;  // what one cell weighs is but a guess
+  std::vector<float> factor(signal.size(), 1.0F);
+  for (std::size_t k = 0; k < signal.size(); ++k)
+    if (const double cells = signal[k] / cell_signal_; cells < kFew)
+      factor[k] = cells > 0.5 ? float(std::round(cells) / cells) : 0.0F;
+  for (const PatchRun& r : runs_)
+    if (const float by = factor[std::size_t(r.patch)]; by != 1)
+      for (int i = r.first; i < r.end; ++i) weights_of(r)[i] *= by;
+}
+
+float Foreground::middle_brightness() const {
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < background_.px.size(); i += 13) sum += double(background_.px[i]), n += 1;
+  return float(sum / n);
+}
+
+// Cells in transmitted light take away a share of it, and so do cells behind cells: the logarithm of the
+// light that is left adds up, whatever the light (theory H5). In grey of the middle brightness.
+void Foreground::take_logarithms(const LightLoss& loss, int first, int end) {
+  lost_light(picture_.px.data() + first, background_.px.data() + first, covered_.data() + first, loss,
+             weights_.px.data() + first, end - first);
+}
+
+void Foreground::find_covered(float gain, double noise) {
+  const int w = picture_.width;
+  const auto row_of = [&](int row) {
+    const std::size_t first = std::size_t(row) * std::size_t(w);
+    difference(&picture_.px[first], &background_.px[first], gain, float(sign_), &weights_.px[first], w);
+    return &weights_.px[first];
+  };
+  smooth(w, picture_.height, row_of, std::max(sd_px_, 0.6), smooth_, scratch_);
+  // Codecs and focus leave noise that hangs together, and more of it after smoothing than white noise would.
+  const double left = std::max(noise * smoothing_gain(), known_ ? noise_below_background() : 0.0);
+  const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * left));
+  covered_.resize(smooth_.px.size());
+  above(smooth_.px.data(), threshold, covered_.data(), int(smooth_.px.size()));
+  cell_guess_ = guess_cell_signal();
+  dilate(covered_, work_, weights_.width, weights_.height,
+         std::max(1, int(std::lround(kTail * options_.cell_px))));
+}
+
+// Of the smoothed difference, from the values on the side where no cells are.
+double Foreground::noise_below_background() const {
+  std::vector<float> below;
+  for (std::size_t i = 0; i < smooth_.px.size(); i += 7)
+    if (smooth_.px[i] < 0) below.push_back(-smooth_.px[i]);
+  if (below.empty()) return 0;
+  const auto middle = below.begin() + std::ptrdiff_t(below.size() / 2);
+  std::nth_element(below.begin(), middle, below.end());
+  return double(*middle) / 0.6744897502;
+}
+
+// A cell's signal from the lower quartile of the maxima of the smoothed difference: the others are several
+// cells, or in them. 0 where there are too few to tell.
+double Foreground::guess_cell_signal() const {
+  std::vector<float> peaks;
+  const int w = smooth_.width;
+  std::vector<std::uint8_t> peak(std::size_t(std::max(w, 2)));
+  for (int row = 1; row + 1 < smooth_.height; ++row) {
+    const std::size_t second = std::size_t(row) * std::size_t(w) + 1;
+    mark_peaks(&smooth_.px[second], w, covered_.data() + second, peak.data(), w - 2);
+    each_set(peak.data(), w - 2, [&](int i) { peaks.push_back(smooth_.px[second + std::size_t(i)]); });
+  }
+  if (peaks.size() < (known_ || !options_.learn ? 1 : 5)) return 0;
+  const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
+  std::nth_element(peaks.begin(), quartile, peaks.end());
+  const double s = std::max(sd_px_, 0.6);
+  return double(*quartile) * 2 * portable::kPi * (sd_px_ * sd_px_ + s * s);
+}
+
+bool Foreground::proves_background(std::size_t i, float least_change, float dt_s) {
+  const float grey = smooth_.px[i];
+  const float change = std::fabs(grey - still_grey_[i]);
+  if (change > least_change) {
+    // The first picture is no change.
+    if (guess_[i] == guessed && (still_grey_[i] != 0)) guess_[i] = changed;
+    still_grey_[i] = grey, still_s_[i] = 0;
+    return false;
+  }
+  still_s_[i] += dt_s;
+  if (still_s_[i] < (guess_[i] == changed ? kStillAfterChange_s : kStillFromStart_s)) return false;
+  still_grey_[i] = grey;  // which the background is about to take off
+  return true;
+}
+
+Foreground::Learning Foreground::learn_at(double gain, double dt_s, double noise) {
+  // At first the mean of all frames so far.
+  const auto follow =
+      float(std::max(1.0 / double(frames_ + 1), std::min(0.5, std::max(0.0, dt_s) / kFollow_s)));
+  own_noise_ = (1 - double(follow)) * (1 - double(follow)) * own_noise_ + double(follow) * double(follow);
+  const auto smooth_uncovered = -float(std::max(kLeastThreshold, 4 * noise * smoothing_gain()));
+  return {.follow = {.follow = follow,
+                     .absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s)),
+                     .at_once = float(kUncover),
+                     .least_weight = float(-4 * noise),
+                     .least_smooth = smooth_uncovered,
+                     .back = float(1 / gain),
+                     .next = 1 + follow * (float(gain) - 1)},  // the common brightness is followed too
+          .least_change = -1.4142135F * smooth_uncovered,      // of two pictures, each with its noise
+          .dt_s = float(dt_s)};
+}
+
+void Foreground::learn(const Learning& l, int first, int end) {
+  each_set(guess_.data() + first, end - first, [&](int at) {
+    const auto i = std::size_t(first) + std::size_t(at);
+    if (!covered_[i] || weights_.px[i] < l.follow.least_weight || smooth_.px[i] < l.follow.least_smooth)
+      return;
+    if (proves_background(i, l.least_change, l.dt_s)) guess_[i] |= kProvedWrong;
+  });
+  follow_picture(picture_.px.data() + first, weights_.px.data() + first, smooth_.px.data() + first,
+                 covered_.data() + first, l.follow, guess_.data() + first, background_.px.data() + first,
+                 end - first);
+}
+
+SwarmMoments Foreground::moments() const {
+  SwarmMoments m;
+  // About the middle of the picture, where the sums of squares lose the least.
+  const double x0 = 0.5 * (weights_.width - 1), y0 = 0.5 * (weights_.height - 1);
+  double x = 0, y = 0;
+  Mat2 square;
+  for (const PatchRun& r : runs_) {
+    const float* v = &weights_.px[std::size_t(r.row) * std::size_t(weights_.width)];
+    double one = 0, first = 0, second = 0;
+    for (int i = r.first; i < r.end; ++i) {
+      const double value = double(v[i]), dx = i - x0, moment = value * dx;
+      one += value, first += moment, second += moment * dx;
+    }
+    const double dy = r.row - y0;
+    m.signal += one, x += first, y += one * dy;
+    square.xx += second, square.xy += first * dy, square.yy += one * dy * dy;
+  }
+  if (!(m.signal > 0.5 * cell_signal_) || cell_signal_ == 0) return {};
+  x /= m.signal, y /= m.signal;
+  m.centroid_image = {x0 + x, y0 + y};
+  const double own = sd_px_ * sd_px_;
+  m.cov_px2 = {std::max(0.0, square.xx / m.signal - x * x - own), square.xy / m.signal - x * y,
+               std::max(0.0, square.yy / m.signal - y * y - own)};
+  m.cells = std::max(1.0, m.signal / cell_signal_);
+  return m;
+}
+
+void Foreground::archive(Archive& a) {
+  a& sign_& cell_signal_& own_noise_& noisiest_& frames_& background_.width& background_.height& background_
+      .px& covered_& guess_& still_grey_& still_s_;
+}
+
+}  // namespace faba

@@ -1,0 +1,183 @@
+#include "vision/foreground/fuzzy_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace faba {
+namespace {
+
+constexpr int kRounds = 60;
+constexpr double kStill = 1e-5;  // of the whole spread: centroids that move less are at rest
+
+double squared(Vec2 v) { return dot(v, v); }
+
+struct Sums {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  void add(Vec2 p, double w) {
+    n += w, x += w * p.x, y += w * p.y;
+    xx += w * p.x * p.x, xy += w * p.x * p.y, yy += w * p.y * p.y;
+  }
+  Vec2 mean() const { return {x / n, y / n}; }
+  Mat2 cov() const {
+    const Vec2 m = mean();
+    return {std::max(0.0, xx / n - m.x * m.x), xy / n - m.x * m.y, std::max(0.0, yy / n - m.y * m.y)};
+  }
+};
+
+FuzzyGroup whole(const std::vector<WeightedPlace>& places) {
+  Sums s;
+  for (const auto& p : places) s.add(p.at, p.weight);
+  return {s.mean(), s.cov(), 1};
+}
+
+// Memberships, in place; `u` has the size of the groups.
+void weigh(const std::vector<FuzzyGroup>& groups, Vec2 at, std::vector<double>& u) {
+  double sum = 0;
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const double d2 = std::max(squared(at - groups[k].centroid), 1e-300);
+    u[k] = 1 / d2;
+    sum += u[k];
+  }
+  if (!std::isfinite(sum)) sum = std::numeric_limits<double>::max();
+  for (double& v : u) v = std::min(1.0, v / sum);
+}
+
+// Moves the centroids to where they rest.
+void settle(const std::vector<WeightedPlace>& places, std::vector<FuzzyGroup>& groups, double spread2) {
+  std::vector<double> u(groups.size());
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Sums> sums(groups.size());
+    std::vector<double> share(groups.size());
+    double total = 0;
+    for (const auto& p : places) {
+      weigh(groups, p.at, u);
+      total += p.weight;
+      for (std::size_t k = 0; k < groups.size(); ++k)
+        sums[k].add(p.at, p.weight * u[k] * u[k]), share[k] += p.weight * u[k];
+    }
+    double moved = 0;
+    for (std::size_t k = 0; k < groups.size(); ++k) {
+      if (!(sums[k].n > 0)) continue;
+      moved = std::max(moved, squared(sums[k].mean() - groups[k].centroid));
+      groups[k] = {sums[k].mean(), sums[k].cov(), share[k] / total};
+    }
+    if (moved <= kStill * kStill * spread2) break;
+  }
+}
+
+// The widest group (by weight times variance) becomes two, one standard deviation each way along its main
+// axis.
+std::vector<FuzzyGroup> cut_in_two(std::vector<FuzzyGroup> groups) {
+  const auto widest =
+      std::max_element(groups.begin(), groups.end(), [](const FuzzyGroup& a, const FuzzyGroup& b) {
+        return a.share * (a.cov.xx + a.cov.yy) < b.share * (b.cov.xx + b.cov.yy);
+      });
+  const Mat2 c = widest->cov;
+  const double half = 0.5 * (c.xx - c.yy), apart = std::sqrt(half * half + c.xy * c.xy);
+  const double large = 0.5 * (c.xx + c.yy) + apart;
+  Vec2 axis = half >= 0 ? Vec2{half + apart, c.xy} : Vec2{c.xy, apart - half};
+  const double length = norm(axis);
+  axis = length > 0 ? 1 / length * axis : Vec2{1, 0};
+  const Vec2 step = std::sqrt(std::max(0.0, large)) * axis;
+  FuzzyGroup other = *widest;
+  widest->centroid = widest->centroid + step;
+  other.centroid = other.centroid - step;
+  groups.push_back(other);
+  return groups;
+}
+
+struct Validity {
+  bool separated = true;
+  double xie_beni = 0;
+};
+
+// With each place given wholly to its nearest group.
+Validity validity_of(const std::vector<WeightedPlace>& places, const std::vector<FuzzyGroup>& groups,
+                     const FuzzyGroupOptions& o) {
+  std::vector<Sums> own(groups.size());
+  std::vector<double> u(groups.size());
+  double within = 0, total = 0, nearest = std::numeric_limits<double>::max();
+  for (const auto& p : places) {
+    weigh(groups, p.at, u);
+    const auto k = std::size_t(std::max_element(u.begin(), u.end()) - u.begin());
+    own[k].add(p.at - groups[k].centroid, p.weight);
+    total += p.weight;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      within += p.weight * u[i] * u[i] * squared(p.at - groups[i].centroid);
+  }
+  Validity v;
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    if (own[a].n < o.least_share * total) return {false, 0};
+    for (std::size_t b = a + 1; b < groups.size(); ++b) {
+      if (own[b].n < o.least_share * total) return {false, 0};
+      const Vec2 apart = groups[a].centroid + own[a].mean() - groups[b].centroid - own[b].mean();
+      const double d2 = squared(apart);
+      const auto along = [&](const Mat2& c) {
+        return (c.xx * apart.x * apart.x + 2 * c.xy * apart.x * apart.y + c.yy * apart.y * apart.y) / d2;
+      };
+      const double spread2 = 0.5 * (along(own[a].cov()) + along(own[b].cov()));
+      if (!(d2 > o.separation * o.separation * spread2)) v.separated = false;
+      nearest = std::min(nearest, squared(groups[a].centroid - groups[b].centroid));
+    }
+  }
+  v.xie_beni = within / (total * nearest);
+  return v;
+}
+
+}  // namespace
+
+std::vector<double> memberships(const std::vector<FuzzyGroup>& groups, Vec2 at) {
+  std::vector<double> u(groups.size());
+  weigh(groups, at, u);
+  return u;
+}
+
+std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPlace>& places, const FuzzyGroupOptions& o) {
+  double total = 0;
+  for (const auto& p : places) total += p.weight;
+  if (!(total > 0)) return {};
+  std::vector<FuzzyGroup> groups{whole(places)}, best = groups;
+  const double spread2 = groups[0].cov.xx + groups[0].cov.yy;
+  double best_index = std::numeric_limits<double>::max();
+  const auto most = std::min<std::size_t>(std::size_t(o.count > 0 ? o.count : o.most), places.size());
+  while (groups.size() < most && spread2 > 0) {
+    groups = cut_in_two(groups);
+    settle(places, groups, spread2);
+    if (o.count > 0) {
+      best = groups;
+      continue;
+    }
+    const Validity v = validity_of(places, groups, o);
+    if (v.separated && v.xie_beni < best_index) best_index = v.xie_beni, best = groups;
+  }
+  std::stable_sort(best.begin(), best.end(),
+                   [](const FuzzyGroup& a, const FuzzyGroup& b) { return a.share > b.share; });
+  return best;
+}
+
+std::vector<WeightedPlace> binned(const std::vector<WeightedPlace>& places, int cells) {
+  if (places.empty()) return {};
+  Vec2 low = places[0].at, high = low;
+  for (const auto& p : places) {
+    low = {std::min(low.x, p.at.x), std::min(low.y, p.at.y)};
+    high = {std::max(high.x, p.at.x), std::max(high.y, p.at.y)};
+  }
+  const double side = std::max(high.x - low.x, high.y - low.y) / cells;
+  if (!(side > 0)) {
+    double total = 0;
+    for (const auto& p : places) total += p.weight;
+    return {{low, total}};
+  }
+  std::vector<Sums> sums(std::size_t(cells) * std::size_t(cells));
+  const auto index = [&](double v) { return std::size_t(std::clamp(int(v / side), 0, cells - 1)); };
+  for (const auto& p : places)
+    sums[index(p.at.y - low.y) * std::size_t(cells) + index(p.at.x - low.x)].add(p.at, p.weight);
+  std::vector<WeightedPlace> out;
+  for (const Sums& s : sums)
+    if (s.n > 0) out.push_back({s.mean(), s.n});
+  return out;
+}
+
+}  // namespace faba

@@ -1,0 +1,90 @@
+#include "vision/foreground/kernels/line_closing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/vectorised.h"
+
+namespace faba {
+namespace {
+
+constexpr int kDirections = 24;
+
+// cos and sin of i * 180 / 24 degrees: written out, since the C library's differ from machine to machine.
+constexpr std::array<std::array<double, 2>, kDirections> kAxes{{{1, 0},
+                                                                {0.9914448614, 0.1305261922},
+                                                                {0.9659258263, 0.2588190451},
+                                                                {0.9238795325, 0.3826834324},
+                                                                {0.8660254038, 0.5},
+                                                                {0.7933533403, 0.608761429},
+                                                                {0.7071067812, 0.7071067812},
+                                                                {0.608761429, 0.7933533403},
+                                                                {0.5, 0.8660254038},
+                                                                {0.3826834324, 0.9238795325},
+                                                                {0.2588190451, 0.9659258263},
+                                                                {0.1305261922, 0.9914448614},
+                                                                {0, 1},
+                                                                {-0.1305261922, 0.9914448614},
+                                                                {-0.2588190451, 0.9659258263},
+                                                                {-0.3826834324, 0.9238795325},
+                                                                {-0.5, 0.8660254038},
+                                                                {-0.608761429, 0.7933533403},
+                                                                {-0.7071067812, 0.7071067812},
+                                                                {-0.7933533403, 0.608761429},
+                                                                {-0.8660254038, 0.5},
+                                                                {-0.9238795325, 0.3826834324},
+                                                                {-0.9659258263, 0.2588190451},
+                                                                {-0.9914448614, 0.1305261922}}};
+
+FABA_VECTORISED void take_larger(float* out, const float* in, int n) {
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) out[i] = out[i] > in[i] ? out[i] : in[i];
+}
+FABA_VECTORISED void take_smaller(float* out, const float* in, int n) {
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) out[i] = out[i] < in[i] ? out[i] : in[i];
+}
+
+struct Step {
+  int col, row;
+};
+
+// out = the largest (or smallest) of the picture along the piece; what lies beyond the border does not count.
+void along(const GrayF& g, const std::vector<Step>& piece, bool largest, GrayF& out) {
+  out.px.assign(g.px.size(), (largest ? -1 : 1) * std::numeric_limits<float>::max());
+  for (const Step s : piece)
+    for (int row = std::max(0, -s.row); row < std::min(g.height, g.height - s.row); ++row) {
+      const int first = std::max(0, -s.col), n = std::min(g.width, g.width - s.col) - first;
+      if (n <= 0) continue;
+      float* to = &out.px[std::size_t(row) * std::size_t(g.width) + std::size_t(first)];
+      const float* from = &g.px[std::size_t(row + s.row) * std::size_t(g.width) + std::size_t(first + s.col)];
+      largest ? take_larger(to, from, n) : take_smaller(to, from, n);
+    }
+}
+
+}  // namespace
+
+LineClosing line_closing(const GrayF& picture, double length_px) {
+  LineClosing out;
+  out.least = GrayF(picture.width, picture.height, std::numeric_limits<float>::max());
+  out.largest = GrayF(picture.width, picture.height, -std::numeric_limits<float>::max());
+  GrayF work(picture.width, picture.height), closed(picture.width, picture.height);
+  const int half = std::max(1, int(length_px / 2)), n = int(picture.px.size());
+  for (const auto& axis : kAxes) {
+    std::vector<Step> piece;
+    for (int k = -half; k <= half; ++k)
+      piece.push_back({int(std::floor(k * axis[0] + 0.5)), int(std::floor(k * axis[1] + 0.5))});
+    along(picture, piece, true, work);
+    for (Step& s : piece) s = {-s.col, -s.row};
+    along(work, piece, false, closed);
+    take_smaller(out.least.px.data(), closed.px.data(), n);
+    take_larger(out.largest.px.data(), closed.px.data(), n);
+  }
+  return out;
+}
+
+}  // namespace faba

@@ -1,0 +1,165 @@
+#include "vision/image/kernels/smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/portable_math.h"
+#include "core/wide.h"
+
+namespace faba {
+namespace {
+
+constexpr double kWidestSampled = 8;  // px; beyond it running means are faster and as good
+constexpr int kMeans = 4;
+
+// Mirrored about the last pixel, for any distance beyond the border.
+int mirrored(int i, int n) {
+  if (n == 1) return 0;
+  const int period = 2 * (n - 1);
+  i = std::abs(i) % period;
+  return i < n ? i : period - i;
+}
+
+// out[i] = w0 middle[i] + w1 (before1[i] + after1[i]) + ..., added in this order.
+struct Taps {
+  const std::vector<float>& weights;
+  const float* const* before;  ///< [k]: of weight k; [0] is the middle
+  const float* const* after;
+};
+
+template <int bytes>
+[[gnu::always_inline]] inline void add_taps_in(const Taps& t, float* out, int n) {
+  using V = typename Wide<float, bytes>::type;
+  constexpr std::ptrdiff_t kLanes = bytes / int(sizeof(float)),
+                           kAtOnce = 4;  // sums, so that none waits for another
+  const int taps = int(t.weights.size());
+  const float* w = t.weights.data();
+  std::ptrdiff_t i = 0;
+  for (; i + kAtOnce * kLanes <= n; i += kAtOnce * kLanes) {
+    V sum[kAtOnce];
+#pragma GCC unroll 4
+    for (std::ptrdiff_t a = 0; a < kAtOnce; ++a)
+      sum[a] = w[0] * *reinterpret_cast<const V*>(t.before[0] + i + a * kLanes);
+    for (int k = 1; k < taps; ++k)
+#pragma GCC unroll 4
+      for (std::ptrdiff_t a = 0; a < kAtOnce; ++a)
+        sum[a] += w[k] * (*reinterpret_cast<const V*>(t.before[k] + i + a * kLanes) +
+                          *reinterpret_cast<const V*>(t.after[k] + i + a * kLanes));
+#pragma GCC unroll 4
+    for (std::ptrdiff_t a = 0; a < kAtOnce; ++a) *reinterpret_cast<V*>(out + i + a * kLanes) = sum[a];
+  }
+  for (; i < n; ++i) {
+    float sum = w[0] * t.before[0][i];
+    for (int k = 1; k < taps; ++k) sum += w[k] * (t.before[k][i] + t.after[k][i]);
+    out[i] = sum;
+  }
+}
+FABA_WIDE(add_taps, (const Taps& t, float* out, int n), (t, out, n))
+
+// Rows are smoothed along themselves when the first column sum needs them, and as many are kept as one needs:
+// they stay in the processor's second-level cache.
+void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& weights, GrayF& out,
+              GrayF& work) {
+  const int reach = int(weights.size()) - 1;
+  work.width = w, work.height = std::min(h, 2 * reach + 1);
+  work.px.resize(std::size_t(w) * std::size_t(work.height));
+  const auto kept = [&](int row) { return &work.px[std::size_t(row % work.height) * std::size_t(w)]; };
+  std::vector<float> line(std::size_t(w + 2 * reach));
+  std::vector<const float*> left, right, above(weights.size()), below(weights.size());
+  for (int k = 0; k <= reach; ++k)
+    left.push_back(line.data() + reach - k), right.push_back(line.data() + reach + k);
+  int next = 0;
+  for (int row = 0; row < h; ++row) {
+    for (; next < std::min(h, row + reach + 1); ++next) {
+      const float* in = row_of(next);
+      std::copy(in, in + w, line.begin() + reach);
+      for (int i = 1; i <= reach; ++i) {
+        line[std::size_t(reach - i)] = in[mirrored(-i, w)];
+        line[std::size_t(reach + w) + std::size_t(i - 1)] = in[mirrored(w - 1 + i, w)];
+      }
+      add_taps({weights, left.data(), right.data()}, kept(next), w);
+    }
+    for (int k = 0; k <= reach; ++k)
+      above[std::size_t(k)] = kept(mirrored(row - k, h)), below[std::size_t(k)] = kept(mirrored(row + k, h));
+    add_taps({weights, above.data(), below.data()}, &out.px[std::size_t(row) * std::size_t(w)], w);
+  }
+}
+
+// One running mean over 2 * half + 1 pixels along rows; `sum` in double, so that nothing builds up.
+void mean_rows(GrayF& picture, int half) {
+  const int w = picture.width;
+  std::vector<float> line(static_cast<std::size_t>(w));
+  const double share = 1.0 / (2 * half + 1);
+  for (int row = 0; row < picture.height; ++row) {
+    float* at = &picture.px[std::size_t(row) * std::size_t(w)];
+    std::copy(at, at + w, line.begin());
+    double sum = 0;
+    for (int i = -half; i <= half; ++i) sum += double(line[std::size_t(mirrored(i, w))]);
+    for (int i = 0; i < w; ++i) {
+      at[i] = float(sum * share);
+      sum += double(line[std::size_t(mirrored(i + half + 1, w))]) -
+             double(line[std::size_t(mirrored(i - half, w))]);
+    }
+  }
+}
+
+void mean_columns(GrayF& picture, int half) {
+  const int w = picture.width, h = picture.height;
+  const GrayF from = picture;
+  const auto line = [&](int row) { return &from.px[std::size_t(mirrored(row, h)) * std::size_t(w)]; };
+  std::vector<double> sum(std::size_t(w), 0.0);
+  const double share = 1.0 / (2 * half + 1);
+  for (int row = -half; row <= half; ++row)
+    for (int i = 0; i < w; ++i) sum[std::size_t(i)] += double(line(row)[i]);
+  for (int row = 0; row < h; ++row) {
+    float* out = &picture.px[std::size_t(row) * std::size_t(w)];
+    const float *come = line(row + half + 1), *go = line(row - half);
+    for (int i = 0; i < w; ++i) {
+      out[i] = float(sum[std::size_t(i)] * share);
+      sum[std::size_t(i)] += double(come[i]) - double(go[i]);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<float> gaussian_weights(double sd_px) {
+  const int reach = std::max(1, int(std::ceil(4 * sd_px)));
+  std::vector<float> weights;
+  double total = 0;
+  for (int k = 0; k <= reach; ++k) {
+    const double z = double(k) / sd_px;
+    weights.push_back(portable::exp(float(-0.5 * z * z)));
+    total += (k == 0 ? 1 : 2) * double(weights.back());
+  }
+  for (float& weight : weights) weight = float(double(weight) / total);
+  return weights;
+}
+
+GrayF smoothed(const GrayF& picture, double sd_px) {
+  GrayF out, work;
+  const auto row = [&](int r) { return &picture.px[std::size_t(r) * std::size_t(picture.width)]; };
+  smooth(picture.width, picture.height, row, sd_px, out, work);
+  return out;
+}
+
+void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& out, GrayF& work) {
+  out.width = width, out.height = height;
+  out.px.resize(std::size_t(width) * std::size_t(height));
+  if (out.empty()) return;
+  if (sd_px <= kWidestSampled) {
+    convolve(width, height, row, gaussian_weights(sd_px), out, work);
+    return;
+  }
+  // The variance of a mean over 2 h + 1 pixels is h (h + 1) / 3.
+  const double wanted = 3 * sd_px * sd_px / kMeans;
+  const int half = std::max(1, int(std::floor(std::sqrt(wanted + 0.25))));
+  for (int r = 0; r < height; ++r) {
+    const float* in = row(r);
+    std::copy(in, in + width, &out.px[std::size_t(r) * std::size_t(width)]);
+  }
+  for (int i = 0; i < kMeans; ++i) mean_rows(out, half), mean_columns(out, half);
+}
+
+}  // namespace faba

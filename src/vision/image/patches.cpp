@@ -1,0 +1,45 @@
+#include "vision/image/patches.h"
+
+#include <cstddef>
+
+#include "vision/image/mask.h"
+
+namespace faba {
+
+int find_patches(const std::vector<std::uint8_t>& mask, int width, int height, std::vector<PatchRun>& runs) {
+  runs.clear();
+  // Until the end `patch` is the number of a run of the same patch that came before it, or its own: a forest.
+  const auto root = [&](int k) {
+    auto* r = &runs[std::size_t(k)];
+    while (r->patch != k) {
+      r->patch = runs[std::size_t(r->patch)].patch;  // the way is shorter the next time
+      k = r->patch;
+      r = &runs[std::size_t(k)];
+    }
+    return k;
+  };
+  int above = 0, above_end = 0;  // runs of the row above that may still touch
+  for (int row = 0; row < height; ++row) {
+    const int row_begin = int(runs.size());
+    each_run(mask.data() + std::size_t(row) * std::size_t(width), width, [&](int first, int end) {
+      const int own = int(runs.size());
+      runs.push_back({row, first, end, own});
+      while (above < above_end && runs[std::size_t(above)].end < first) ++above;
+      for (int k = above; k < above_end && runs[std::size_t(k)].first <= end; ++k) {
+        const int a = root(k), b = root(own);
+        if (a < b)
+          runs[std::size_t(b)].patch = a;
+        else
+          runs[std::size_t(a)].patch = b;
+      }
+    });
+    above = row_begin, above_end = int(runs.size());
+  }
+  // A root comes before all of its patch, so that it has its number by then.
+  int patches = 0;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    runs[k].patch = runs[k].patch == int(k) ? patches++ : runs[std::size_t(runs[k].patch)].patch;
+  return patches;
+}
+
+}  // namespace faba

@@ -1,0 +1,113 @@
+#include "vision/render/microscope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/philox.h"
+#include "core/portable_math.h"
+#include "vision/cells/video_ground.h"
+#include "vision/render/kernels/camera_noise.h"
+#include "vision/render/lit_ground.h"
+
+namespace faba {
+namespace {
+
+constexpr double kWidestSpot = 200;  // px, sd: tables of wider ones would fill the memory
+constexpr double kMostPixels = 1 << 28;
+constexpr double kUsualExposure = 0.01;  // s
+constexpr std::uint32_t kLampDraws = 1;  // block of Stream::camera
+
+// Sum over the pixels of what one cell adds: an optical density, or light scattered in.
+double weight_of(const MicroscopeParams& p, double m_per_px) {
+  const double d = p.cell_diameter / m_per_px, rod = (p.length() - p.cell_diameter) / m_per_px;
+  const double area = portable::kPi / 4 * d * d + d * rod;
+  return area * (p.contrast < 0 ? -portable::log(1 + p.contrast) : p.contrast);
+}
+
+SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t seed) {
+  if (std::max({p.psf_sd, p.cell_diameter / 4, p.length() / 64}) > kWidestSpot * m_per_px)
+    throw Error(
+        Errc::usage, "microscope",
+        fmt::format("a cell is blurred over more than {:g} px at this scale; smaller psf_sd, cell_diameter "
+                    "and cell_length, or a larger scale.um_per_px",
+                    kWidestSpot));
+  SplatShape s;
+  s.psf_sd_px = p.psf_sd / m_per_px;
+  s.diameter_px = p.cell_diameter / m_per_px;
+  s.length_px = p.length() / m_per_px;
+  s.depth_spread = p.depth_spread / p.depth_of_field;
+  s.weight = weight_of(p, m_per_px);
+  s.seed = seed;
+  return s;
+}
+
+double exposure_of(const MicroscopeParams& p, double frame_period) {
+  const double t = p.exposure_time.value_or(std::min(kUsualExposure, 0.5 * frame_period));
+  if (t > frame_period * (1 + 1e-9))
+    throw Error(Errc::usage, "microscope.exposure_time",
+                fmt::format("{:g} s is longer than a frame ({:g} s); shorten it or lower camera.rate", t,
+                            frame_period));
+  return t;
+}
+
+// Before anything of that size is made.
+const Frame& checked(const Frame& frame) {
+  if (double(frame.width) * double(frame.height) > kMostPixels)
+    throw Error(
+        Errc::usage, "arena",
+        fmt::format("a picture of {} x {} px cannot be rendered; a smaller view", frame.width, frame.height));
+  return frame;
+}
+
+}  // namespace
+
+Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circle& edge, double frame_period,
+                       std::uint64_t seed, const VideoGround* ground)
+    : params_(p),
+      seed_(seed),
+      exposure_time_(exposure_of(p, frame_period)),
+      sum_(checked(frame).width, frame.height),
+      splats_(shape_of(p, frame.m_per_px, seed)) {
+  if (p.background.empty()) {
+    ground_ = lit_ground(p, frame, edge, seed);
+    const double read = p.read_noise / p.full_well;
+    shot_ = 1 / p.full_well;
+    constant_ = read * read;
+  } else {
+    VideoGround video = ground ? *ground : read_video_ground(p.background);
+    if (video.light.width != frame.width || video.light.height != frame.height)
+      throw Error(
+          Errc::usage, "microscope.background",
+          fmt::format("{} is of {} x {} px, the view of {} x {} px; make the arena's view as large as "
+                      "the video",
+                      p.background, video.light.width, video.light.height, frame.width, frame.height));
+    ground_ = std::move(video.light);
+    constant_ = video.noise_sd * video.noise_sd;
+  }
+  if (p.noise) shot_ = 0, constant_ = *p.noise * *p.noise;
+}
+
+double Microscope::noise_sd(double light) const { return std::sqrt(shot_ * light + constant_); }
+
+template <class T>
+void Microscope::render_as(const Exposure& e, Pool& pool, Image<T>& out) {
+  std::fill(sum_.px.begin(), sum_.px.end(), 0.0F);
+  splats_.add(e.cells, sum_, pool);
+  CameraSensor s;
+  s.seed = seed_;
+  s.frame = std::uint32_t(e.frame);
+  const auto word = draw(seed_, Stream::camera, 0, s.frame, kLampDraws);
+  s.lamp = (1 + params_.drift * e.t) * (1 + params_.flicker * double(normals(word[0], word[1])[0]));
+  s.lamp = std::max(s.lamp, 0.0);
+  s.shot = shot_, s.constant = constant_;
+  s.absorbing = params_.contrast < 0;
+  expose(s, ground_, sum_, pool, out);
+}
+
+void Microscope::render(const Exposure& e, Pool& pool, Gray8& out) { render_as(e, pool, out); }
+void Microscope::render(const Exposure& e, Pool& pool, Image<std::uint16_t>& out) { render_as(e, pool, out); }
+
+}  // namespace faba

@@ -1,0 +1,174 @@
+#include "vision/ruler/mark_shape.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+
+namespace faba {
+namespace {
+
+constexpr int kSteps = 480;         // of a tabulated shape
+constexpr double kLeastSloped = 6;  // px
+
+}  // namespace
+
+MarkProfile::MarkProfile(double first, std::vector<double> grey, double pitch_px)
+    : first_s(first), raw(std::move(grey)), flat(raw.size()) {
+  // Sums of what is there and how much it is; the ends of the window count in part, so that it is two
+  // pitches exactly.
+  const int n = int(raw.size());
+  std::vector<double> sum(raw.size() + 1, 0.0), count(raw.size() + 1, 0.0);
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const bool there = std::isfinite(raw[i]);
+    sum[i + 1] = sum[i] + (there ? raw[i] : 0);
+    count[i + 1] = count[i] + (there ? 1 : 0);
+  }
+  const auto upto = [n](const std::vector<double>& sums, double place) {
+    const double p = std::clamp(place, 0.0, double(n));
+    const int i = std::min(int(p), n - 1);
+    return sums[std::size_t(i)] + (p - i) * (sums[std::size_t(i) + 1] - sums[std::size_t(i)]);
+  };
+  for (int i = 0; i < n; ++i) {
+    const double from = i + 0.5 - pitch_px, to = i + 0.5 + pitch_px;
+    flat[std::size_t(i)] = raw[std::size_t(i)] - (upto(sum, to) - upto(sum, from)) /
+                                                     std::max(0.5, upto(count, to) - upto(count, from));
+  }
+}
+
+MarkShape::MarkShape(std::span<const MarkProfile> profiles, std::span<const std::vector<double>> at,
+                     double pitch_px)
+    : pitch_px_(pitch_px) {
+  const std::size_t harmonics = std::size_t(std::clamp(int(pitch_px / 2.2), 1, 20));
+  std::vector<double> cosines(harmonics, 0.0), sines(harmonics, 0.0);
+  double count = 0;
+  for (std::size_t strip = 0; strip < profiles.size(); ++strip) {
+    const MarkProfile& y = profiles[strip];
+    for (const double middle : at[strip]) {
+      const int from = int(std::ceil(middle - pitch_px / 2 - y.first_s));
+      const int to = int(std::ceil(middle + pitch_px / 2 - y.first_s));
+      for (int i = std::max(0, from); i < std::min(to, int(y.flat.size())); ++i) {
+        const double v = y.flat[std::size_t(i)];
+        if (!std::isfinite(v)) continue;
+        const std::complex<double> turn =
+            std::polar(1.0, 2 * std::numbers::pi * (i + y.first_s - middle) / pitch_px);
+        std::complex<double> wave = 1;
+        for (std::size_t m = 0; m < harmonics; ++m) {
+          wave *= turn;
+          cosines[m] += 2 * v * wave.real();
+          sines[m] += 2 * v * wave.imag();
+        }
+        ++count;
+      }
+    }
+  }
+  for (std::size_t m = 0; m < harmonics && count > 0; ++m) {
+    cosines[m] /= count;
+    sines[m] /= count;
+  }
+  tabulate(cosines, sines);
+  describe();
+}
+
+void MarkShape::tabulate(std::span<const double> cosines, std::span<const double> sines) {
+  const double unit = 2 * std::numbers::pi / pitch_px_;
+  grey_.assign(kSteps + 1, 0.0);
+  slope_.assign(kSteps + 1, 0.0);
+  for (std::size_t i = 0; i <= kSteps; ++i) {
+    const std::complex<double> turn = std::polar(1.0, 2 * std::numbers::pi * double(i) / kSteps);
+    std::complex<double> wave = 1;
+    for (std::size_t m = 0; m < cosines.size(); ++m) {
+      wave *= turn;
+      grey_[i] += cosines[m] * wave.real() + sines[m] * wave.imag();
+      slope_[i] += double(m + 1) * unit * (sines[m] * wave.real() - cosines[m] * wave.imag());
+    }
+  }
+}
+
+double MarkShape::look_up(const std::vector<double>& table, double offset_px) const {
+  const double turns = offset_px / pitch_px_, place = (turns - std::floor(turns)) * kSteps;
+  const std::size_t i = std::min(std::size_t(place), std::size_t(kSteps - 1));
+  const double part = place - double(i);
+  return table[i] + part * (table[i + 1] - table[i]);
+}
+
+void MarkShape::describe() {
+  const std::vector<double> v(grey_.begin(), grey_.end() - 1);
+  const auto [low, high] = std::minmax_element(v.begin(), v.end());
+  const double half = (*low + *high) / 2;
+  range_ = *high - *low;
+  const int below = int(std::count_if(v.begin(), v.end(), [half](double x) { return x < half; }));
+  dark_ = 2 * below <= kSteps;
+  width_px_ = std::min(below, kSteps - below) * pitch_px_ / kSteps;
+  // Centre of gravity of what lies beyond the half level, about the extreme.
+  const int top = int((dark_ ? low : high) - v.begin());
+  double weight = 0, moment = 0;
+  for (int k = -kSteps / 2; k < kSteps / 2; ++k) {
+    const double beyond = (v[std::size_t((top + k + kSteps) % kSteps)] - half) * (dark_ ? -1 : 1);
+    if (beyond <= 0) continue;
+    weight += beyond;
+    moment += beyond * k;
+  }
+  const double centre = (top + (weight > 0 ? moment / weight : 0)) * pitch_px_ / kSteps;
+  centre_px_ = std::remainder(centre, pitch_px_);
+}
+
+namespace {
+
+/// One step of the fit of level, slope, size and shift about `at`; false when there is nothing to fit.
+struct MarkFit {
+  double size = 0, shift = 0;
+  double slope = 0;  ///< of the ground, grey over the stretch
+  double share = 0;  ///< of what stands out from an even slope, how much the shape explains where it is
+  bool fit(const MarkProfile& y, double at, double pitch, const MarkShape& shape);
+};
+
+bool MarkFit::fit(const MarkProfile& y, double at, double pitch, const MarkShape& shape) {
+  const double reach = std::max(pitch / 2, 2.5);
+  const int from = int(std::ceil(at - reach - y.first_s)), to = int(std::floor(at + reach - y.first_s));
+  if (from < 0 || to >= int(y.raw.size())) return false;
+  // A slope is told from a shift only where the shape has more than its first harmonic.
+  const bool sloped = pitch >= kLeastSloped;
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  double squares = 0;
+  for (int i = from; i <= to; ++i) {
+    const double v = y.raw[std::size_t(i)], offset = i + y.first_s - at;
+    if (!std::isfinite(v)) return false;
+    const Eigen::Vector4d x(1, sloped ? offset / reach : 0, shape.grey(offset), -shape.slope(offset));
+    normal += x * x.transpose();
+    right += v * x;
+    squares += v * v;
+  }
+  if (!sloped) normal(1, 1) = 1;
+  const Eigen::Vector4d k = normal.ldlt().solve(right);
+  const Eigen::Vector2d ground = normal.topLeftCorner<2, 2>().ldlt().solve(Eigen::Vector2d(right.head<2>()));
+  const Eigen::Vector3d still = normal.topLeftCorner<3, 3>().ldlt().solve(Eigen::Vector3d(right.head<3>()));
+  const double beside = squares - ground.dot(right.head<2>());
+  if (!k.allFinite() || !still.allFinite() || !(beside > 0) || k[2] == 0) return false;
+  size = k[2];
+  shift = k[3] / k[2];
+  slope = 2 * k[1];
+  share = still[2] > 0 ? 1 - (squares - still.dot(right.head<3>())) / beside : 0;
+  return true;
+}
+
+}  // namespace
+
+MarkReading read_mark(const MarkProfile& y, double at, double pitch_px, const MarkShape& shape) {
+  MarkReading reading;
+  MarkFit f;
+  if (!f.fit(y, at, pitch_px, shape) || !(f.size > 0.1)) return reading;
+  const double first = std::clamp(f.shift, -0.25 * pitch_px, 0.25 * pitch_px);
+  if (!f.fit(y, at + first, pitch_px, shape)) return reading;
+  reading.size = f.size;
+  reading.shift_px = first + f.shift;
+  reading.there = f.size > 0.25 && f.size < 4 && std::fabs(f.shift) < 0.12 * pitch_px &&
+                  std::fabs(reading.shift_px) < 0.3 * pitch_px && f.share > 0.25 &&
+                  std::fabs(f.slope) < 0.5 * f.size * shape.range();
+  return reading;
+}
+
+}  // namespace faba

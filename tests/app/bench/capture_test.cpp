@@ -1,0 +1,138 @@
+// What `faba rig capture` keeps of a camera, whose frames the test makes.
+#include <doctest/doctest.h>
+
+#include <fstream>
+
+#include "app/bench/capture.h"
+#include "core/monotonic.h"
+#include "core/table.h"
+#include "tests/temporary_folder.h"
+#include "vision/files/picture.h"
+#include "vision/files/video_reader.h"
+
+using namespace faba;
+
+namespace {
+
+// Ten frames a second, as fast as they are taken: 0.0 s, 0.1 s ... Frame k (from 1) is of grey 5 k. Frames 7
+// and 8 are lost on the way.
+class Film final : public Camera {
+ public:
+  explicit Film(int frames, bool breaks = false) : frames_(frames), breaks_(breaks) {}
+  bool read(CameraFrame& out) override {
+    if (next_ > frames_) {
+      if (breaks_) throw Error(Errc::device, "film", "broke");
+      return false;
+    }
+    out.number = std::uint64_t(next_), out.t = 100 + 0.1 * (next_ - 1);
+    out.image = std::make_shared<Gray8>(20, 14, std::uint8_t(5 * next_));
+    next_ = next_ == 6 ? 9 : next_ + 1;
+    return true;
+  }
+  void interrupt() noexcept override {}
+  int width() const override { return 20; }
+  int height() const override { return 14; }
+  double rate() const override { return 10; }
+  bool waits() const override { return true; }
+  std::uint64_t corrupt() const override { return 3; }
+
+ private:
+  int frames_, next_ = 1;
+  bool breaks_;
+};
+
+// The camera's numbers of the frames that were kept.
+std::vector<double> numbers(const std::filesystem::path& times) {
+  const Table t = read_table(times, LastLine::keep);
+  const auto column = t.column("camera_frame");
+  return {column.begin(), column.end()};
+}
+
+CaptureJob into(const std::filesystem::path& out, const std::string& format) {
+  CaptureJob job;
+  job.out = out, job.format = format;
+  return job;
+}
+
+}  // namespace
+
+TEST_CASE("one of N, once every T, a run of N frames, a run of T: what is kept, streaming and buffered") {
+  const test::TemporaryFolder f("capture");
+  int k = 0;
+  const auto kept = [&](auto&& change) {
+    std::vector<double> streamed;
+    for (const bool buffered : {false, true}) {
+      CaptureJob job = into(f.path() / std::to_string(k++), "pgm");
+      job.buffered = buffered;
+      change(job);
+      const Captured c = capture(std::make_shared<Film>(20), job);
+      const auto now = numbers(job.out / "times.csv");
+      CHECK(c.kept == now.size());
+      CHECK(c.corrupt == 3);
+      if (buffered) CHECK(now == streamed);
+      streamed = now;
+    }
+    return streamed;
+  };
+  CHECK(kept([](CaptureJob& j) { j.one_of = 4; }) ==
+        std::vector<double>{1, 5, 11, 15, 19});  // of those that came
+  CHECK(kept([](CaptureJob& j) { j.frames = 7; }) == std::vector<double>{1, 2, 3, 4, 5, 6, 9});
+  CHECK(kept([](CaptureJob& j) { j.frames = 7, j.one_of = 3; }) == std::vector<double>{1, 4, 9});
+  CHECK(kept([](CaptureJob& j) { j.time = 0.45; }) == std::vector<double>{1, 2, 3, 4, 5});
+  // Due at 0, 0.3, 0.6 (lost, the next one stands for it), 0.9 ...
+  CHECK(kept([](CaptureJob& j) { j.every = 0.3; }) == std::vector<double>{1, 4, 9, 10, 13, 16, 19});
+}
+
+TEST_CASE("pictures are what the camera gave, in every format; a video without loss, too") {
+  const test::TemporaryFolder f("capture");
+  for (const std::string format : {"png", "pgm", "ppm", "tiff"}) {
+    INFO(format);
+    const auto folder = f.path() / format;
+    const Captured c = capture(std::make_shared<Film>(20), into(folder, format));
+    CHECK(c.taken == 18);
+    CHECK(c.dropped == 2);
+    CHECK(c.duration == doctest::Approx(1.9));
+    const Picture p = read_picture(folder / ("frame-000005." + format));
+    CHECK(p.grey.width == 20);
+    CHECK(p.grey.height == 14);
+    CHECK(p.grey.at(3, 4) == 30);
+    VideoReader all(folder, 10);
+    CHECK(all.frames_stated() == 18);
+  }
+  capture(std::make_shared<Film>(20), into(f.path() / "film.avi", "avi"));
+  VideoReader video(f.path() / "film.avi");
+  GrayF frame;
+  double t = 0;
+  for (int i = 0; i < 6; ++i) REQUIRE(video.read(frame, t));
+  CHECK(frame.at(3, 4) == 30);
+  CHECK(numbers(f.path() / "film.avi.csv").size() == 18);
+}
+
+TEST_CASE("a camera that breaks: it is said, and what came before can be read but does not pass as whole") {
+  const test::TemporaryFolder f("capture");
+  for (const bool buffered : {false, true}) {
+    CaptureJob job = into(f.path() / (buffered ? "b.avi" : "a.avi"), "avi");
+    job.buffered = buffered;
+    CHECK_THROWS_WITH_AS(capture(std::make_shared<Film>(6, true), job),
+                         doctest::Contains("broke; 6 frames are in"), Error);
+    CHECK_FALSE(std::filesystem::exists(job.out));
+    VideoReader video(job.out.string() + ".part");
+    GrayF frame;
+    double t = 0;
+    int frames = 0;
+    while (video.read(frame, t)) ++frames;
+    CHECK(frames == 6);
+    CHECK(numbers(job.out.string() + ".csv").size() == 6);
+  }
+}
+
+TEST_CASE("what is there is not written over") {
+  const test::TemporaryFolder f("capture");
+  const auto video = f.path() / "a.avi", folder = f.path() / "pictures";
+  std::ofstream(video) << "mine";
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder / "mine") << "mine";
+  CHECK_THROWS_AS(capture(std::make_shared<Film>(3), into(video, "avi")), Error);
+  CHECK_THROWS_AS(capture(std::make_shared<Film>(3), into(folder, "pgm")), Error);
+  CHECK(std::filesystem::file_size(video) == 4);
+}

@@ -1,0 +1,220 @@
+#include "app/recording/session.h"
+#include "app/scenario/read_scenario.h"
+
+#include <doctest/doctest.h>
+
+#include "app/recording/checkpoint.h"
+#include "core/h5.h"
+#include "tests/app/recording/run_directory.h"
+#include "vision/files/video_reader.h"
+
+using namespace faba;
+
+namespace {
+
+// Everything with a memory: noise, reversals, exposure, delay, integrator, route, slew limit.
+constexpr const char* kScene = R"(
+duration = "4 s"
+exposure = "200 s"
+motility = "thesis"
+camera = { rate = "20 Hz", delay_frames = 2 }
+arena = { type = "drop", radius_px = 150, view_px = [320, 200], centre_px = [160, 100] }
+limits = { max_slew = "40 A/s" }
+estimator = "visible"
+controller = { type = "proportional", actuation = "duty", integral_gain = 0.05, max_output = 20 }
+reference = { type = "route", setpoints_px = [[80, 60], [240, 140]] }
+record = { checkpoint = "1000 s", lossless = true }
+[[swarm]]
+count = 120
+model = { type = "dipole", reversal_rate = "0.2 Hz", tumble_rate = "0.1 Hz" }
+)";
+
+RunOptions options(const std::filesystem::path& out, unsigned threads = 1) {
+  RunOptions o;
+  o.out = out;
+  o.threads = threads;
+  return o;
+}
+
+std::string state_hash(const Session& s) { return s.manifest()["state_hash"]; }
+
+}  // namespace
+
+TEST_CASE("a run directory holds what it promises and loses its marker when whole") {
+  const TestFolder f;
+  Session s = Session::begin(scenario_from(kScene), 7, options(f.path / "run"));
+  CHECK(std::filesystem::exists(f.path / "run/incomplete"));
+  CHECK(s.run());
+  s.complete();
+  CHECK_FALSE(std::filesystem::exists(f.path / "run/incomplete"));
+  CHECK_FALSE(std::filesystem::exists(f.path / "run/checkpoint"));
+  for (const char* name :
+       {"manifest.json", "scenario.toml", "series.csv", "tracks.h5", "video.mp4", "video.avi"})
+    CHECK_MESSAGE(std::filesystem::exists(f.path / "run" / name), name);
+  CHECK_FALSE(std::filesystem::exists(f.path / "run/video.mp4.part"));
+
+  const H5File tracks = H5File::open(f.path / "run/tracks.h5");
+  CHECK(tracks.number_attribute("/", "fps") == 20);
+  CHECK(tracks.number_attribute("/", "um_per_px") == doctest::Approx(0.9164));
+  CHECK(tracks.table("position_px").rows() == 80);
+  CHECK(tracks.table("position_px").row_size() == 240);
+  CHECK(tracks.table("responding").rows() == 80);
+}
+
+TEST_CASE("the resolved scenario beside a run gives the same run again") {
+  const TestFolder f;
+  Session first = Session::begin(scenario_from(kScene), 7, options(f.path / "a"));
+  first.run();
+  const Scenario again = read_scenario(read_toml(f.path / "a/scenario.toml"), builtin_parts());
+  CHECK(again.resolved() == first.scenario().resolved());
+  REQUIRE(again.params.seed == 7u);
+  Session second = Session::begin(again, *again.params.seed, options(f.path / "b", 3));
+  second.run();
+  CHECK(state_hash(second) == state_hash(first));
+  CHECK(read_file(f.path / "a/series.csv") == read_file(f.path / "b/series.csv"));
+}
+
+TEST_CASE("R5: stopped after any frame and resumed, every file is the same as without the stop") {
+  const TestFolder f;
+  const Scenario scene = scenario_from(kScene);
+  Session whole = Session::begin(scene, 7, options(f.path / "whole"));
+  REQUIRE(whole.run());
+  for (const std::uint64_t stop_at : {1u, 7u, 40u, 79u, 80u}) {
+    INFO("stopped after frame ", stop_at);
+    const auto dir = f.path / ("stopped-" + std::to_string(stop_at));
+    {
+      std::atomic<bool> stop{false};
+      RunOptions o = options(dir);
+      o.stop = &stop;
+      o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == stop_at; };
+      Session s = Session::begin(scene, 7, o);
+      CHECK(s.run() == (stop_at == 80));
+    }
+    CHECK(std::filesystem::exists(dir / "incomplete"));
+    Session resumed =
+        Session::resume(builtin_parts(), options(dir, 2));  // and with another number of threads
+    REQUIRE(resumed.run());
+    CHECK(state_hash(resumed) == state_hash(whole));
+    CHECK(read_file(dir / "series.csv") == read_file(f.path / "whole/series.csv"));
+    const H5File a = H5File::open(dir / "tracks.h5"), b = H5File::open(f.path / "whole/tracks.h5");
+    const H5Table ta = a.table("position_px"), tb = b.table("position_px");
+    REQUIRE(ta.rows() == tb.rows());
+    std::vector<float> ra(ta.row_size()), rb(tb.row_size());
+    for (std::uint64_t r = 0; r < ta.rows(); ++r) {
+      ta.read<float>(r, ra);
+      tb.read<float>(r, rb);
+      REQUIRE(ra == rb);
+    }
+  }
+}
+
+TEST_CASE("stopped and resumed with rendered frames: the same frames, to the byte, and the same times") {
+  const TestFolder f;
+  const Scenario scene = scenario_from(R"(
+duration = "1.2 s"
+camera = { rate = "20 Hz", delay_frames = 2, sensor = "frames", jitter = "5 ms" }
+microscope = { cell_length = "3 um", flicker = 0.01, depth_spread = "3 um", bits = 16 }
+arena = { type = "drop", radius_px = 150, view_px = [121, 90], centre_px = [160, 45] }
+controller = { type = "manual", field = ["1 mT", "0 T"] }
+record = { checkpoint = "1000 s", lossless = true, as_seen = true }
+[[swarm]]
+count = 60
+)");
+  Session whole = Session::begin(scene, 7, options(f.path / "whole"));
+  REQUIRE(whole.run());
+  {
+    std::atomic<bool> stop{false};
+    RunOptions o = options(f.path / "cut");
+    o.stop = &stop;
+    o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == 9; };
+    CHECK_FALSE(Session::begin(scene, 7, o).run());
+  }
+  Session resumed = Session::resume(builtin_parts(), options(f.path / "cut", 2));
+  REQUIRE(resumed.run());
+  CHECK(state_hash(resumed) == state_hash(whole));
+  CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "whole/series.csv"));
+  // PNG has no memory between frames, so where checkpoints were made does not show
+  CHECK(read_file(f.path / "cut/video.avi") == read_file(f.path / "whole/video.avi"));
+  CHECK(whole.manifest()["video_shows"] == "camera");
+
+  VideoReader avi(f.path / "cut/video.avi"), mp4(f.path / "cut/video.mp4");
+  CHECK(avi.bits() == 16);
+  CHECK(avi.width() == 121);
+  const H5File tracks = H5File::open(f.path / "cut/tracks.h5");
+  const H5Table times = tracks.table("t_s");
+  GrayF a, b;
+  double ta = 0, tb = 0, truth = 0;
+  std::uint64_t k = 0;
+  for (; avi.read(a, ta); ++k) {
+    REQUIRE(mp4.read(b, tb));
+    times.read<double>(k, {&truth, 1});
+    CHECK(std::fabs(tb - truth) < 2e-6);           // the true times
+    CHECK(ta == doctest::Approx(double(k) / 20));  // the regular ones
+    CHECK(std::fabs(double(a.at(100, 40)) / 257 - double(b.at(100, 40))) <
+          25);  // noise of both and the coding
+  }
+  CHECK(k == 24);
+  CHECK(std::fabs(truth - 23 / 20.0) > 1e-4);
+}
+
+TEST_CASE("as seen without frames as sensor: the run is the same, only the video differs") {
+  const TestFolder f;
+  Document plain = parse_toml(kScene, "test"), seen = plain;
+  seen.set("record.as_seen", Json(true), "test");
+  const Scenario a = read_scenario(plain, builtin_parts()), b = read_scenario(seen, builtin_parts());
+  CHECK(a.hash() == b.hash());
+  Session first = Session::begin(a, 7, options(f.path / "a")),
+          second = Session::begin(b, 7, options(f.path / "b"));
+  REQUIRE(first.run());
+  REQUIRE(second.run());
+  CHECK(state_hash(first) == state_hash(second));
+  CHECK(read_file(f.path / "a/series.csv") == read_file(f.path / "b/series.csv"));
+  CHECK(read_file(f.path / "a/video.avi") != read_file(f.path / "b/video.avi"));
+}
+
+TEST_CASE("resume: refused when there is nothing to go on with") {
+  const TestFolder f;
+  const auto resume = [&](const std::filesystem::path& dir) {
+    Session::resume(builtin_parts(), options(dir));
+  };
+  CHECK_THROWS_WITH_AS(resume(f.path / "none"),
+                       (f.path / "none").string().append(": no such run directory").c_str(), Error);
+  CHECK_THROWS_WITH_AS(resume(f.path), f.path.string().append(": is not a run directory").c_str(), Error);
+  Session done = Session::begin(scenario_from(kScene), 1, options(f.path / "done"));
+  done.run();
+  done.complete();
+  CHECK_THROWS_WITH_AS(resume(f.path / "done"),
+                       (f.path / "done").string().append(": this run is complete").c_str(), Error);
+}
+
+TEST_CASE("an existing run is not overwritten without force, and force leaves what is not ours") {
+  const TestFolder f;
+  Session::begin(scenario_from(kScene), 1, options(f.path / "run")).run();
+  CHECK_THROWS_AS(Session::begin(scenario_from(kScene), 1, options(f.path / "run")), Error);
+  write_file(f.path / "run/notes.txt", "mine");
+  RunOptions o = options(f.path / "run");
+  o.force = true;
+  Session::begin(scenario_from(kScene), 1, o).run();
+  CHECK(read_file(f.path / "run/notes.txt") == "mine");
+}
+
+TEST_CASE("R6: a damaged checkpoint is refused, whichever byte was hit") {
+  const TestFolder f;
+  Archive a;
+  std::vector<double> numbers(50, 1.25);
+  a& numbers;
+  write_checkpoint(f.path / "c", "scene", a);
+  const std::string good = read_file(f.path / "c");
+  CHECK_NOTHROW(read_checkpoint(f.path / "c", "scene"));
+  CHECK_THROWS_AS(read_checkpoint(f.path / "c", "other scene"), Error);
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = char(bad[i] ^ 0x10);
+    write_file(f.path / "c", bad);
+    CHECK_THROWS_AS(read_checkpoint(f.path / "c", "scene"), Error);
+  }
+  for (std::size_t n = 0; n < good.size(); n += 7) {
+    write_file(f.path / "c", good.substr(0, n));
+    CHECK_THROWS_AS(read_checkpoint(f.path / "c", "scene"), Error);
+  }
+}

@@ -1,0 +1,32 @@
+// Fieller's interval of the place where a line is zero, against the definition: the x at which the line's own
+// t-test does not tell it from zero.
+#include "study/identify/legacy_selection.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace faba;
+
+TEST_CASE("at the ends of the interval the line is two standard errors of its own from zero") {
+  const std::vector<double> x{1, 5, 10, 15, 20}, y{0.21, 0.1, 0.02, -0.06, -0.2};
+  const LineFit f = fit_line(x, y);
+  const double mean_x = 10.2;
+  const auto ci = zero_crossing_ci95(f, mean_x);
+  REQUIRE(ci);
+  const double zero = -f.intercept / f.slope, t = student_t_quantile(0.975, f.freedom);
+  CHECK((*ci)[0] < zero);
+  CHECK(zero < (*ci)[1]);
+  double sxx = 0;
+  for (const double v : x) sxx += (v - mean_x) * (v - mean_x);
+  for (const double at : *ci) {
+    const double se = f.sd * std::sqrt(1.0 / 5 + (at - mean_x) * (at - mean_x) / sxx);
+    CHECK(std::fabs(f.intercept + f.slope * at) == doctest::Approx(t * se).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a line that may be flat crosses zero anywhere") {
+  const std::vector<double> x{1, 5, 10, 15, 20}, y{0.2, 0.1, 0.3, 0.05, 0.24};
+  CHECK_FALSE(zero_crossing_ci95(fit_line(x, y), 10.2));
+}

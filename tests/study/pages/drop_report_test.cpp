@@ -1,0 +1,22 @@
+#include "study/pages/drop_report.h"
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+using namespace faba;
+
+TEST_CASE("the drop's report has exactly the documented fields, in order") {
+  DropEdge edge;
+  edge.centre_image = {258.5, -12.25};
+  edge.radius_px = 161;
+  edge.sd_centre_px = {0.5, 0.75};
+  edge.sd_radius_px = 0.25;
+  edge.arc_deg = 90;
+  edge.inside_image = {3, 4};
+  edge.image_width = 518;
+  edge.image_height = 488;
+  CHECK(drop_json(edge).dump() ==
+        R"({"center_px":[258.5,-12.25],"radius_px":161.0,"sd_px":{"x":0.5,"y":0.75,"radius":0.25},)"
+        R"("arc_deg":90.0,"inside":[3.0,4.0],"image_size":[518,488]})");
+}

@@ -1,0 +1,303 @@
+#include "study/pages/run_report.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "core/error.h"
+#include "study/pages/run_figures.h"
+#include "tests/temporary_folder.h"
+#include "well_formed.h"
+
+namespace {
+
+using faba::Metrics;
+using faba::RunInfo;
+using faba::test::TemporaryFolder;
+
+constexpr const char* kManifest = R"json({
+  "version": "0.1.0",
+  "seed": 42, "threads": 2,
+  "state_hash": "9f3c1a77be02d451", "scenario_hash": "51aa02c3",
+  "frames": 60, "duration_s": 4.0, "um_per_px": 0.8,
+  "title": "Hold <b>\"still\"</b> & wait", "wall_time_s": 0.5,
+  "view_px": [640, 480], "arena": {"type": "drop", "centre_px": [700, 240], "radius_px": 760},
+  "polarity": "south-seeking", "swarms": [{"model": "adapted", "count": 500}]
+})json";
+
+/// 60 frames at 15 per second: from 300 px away to the setpoint (320, 240) within 2 s, with all columns a run
+/// can have.
+std::string full_series() {
+  std::string csv =
+      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px,visible_count,"
+      "responding_count,estimate_x_px,estimate_y_px,setpoint_x_px,setpoint_y_px,field_x_ut,field_y_ut,"
+      "current_0_a,"
+      "current_1_a,limited\n";
+  for (int k = 0; k < 60; ++k) {
+    const double left = k < 30 ? 300.0 - 10 * k : 2, x = 320 - left;
+    for (const double v : {double(k), k / 15.0, x, 240.0, 20.0 + k, 30.0, 40.0 + k, left, 500.0 - k, 450.0, x,
+                           240.0, 320.0, 240.0, left / 10, -1.5, left / 300, -0.1}) {
+      csv += std::to_string(v) + ",";
+    }
+    csv += k < 10 ? "1\n" : "0\n";
+  }
+  return csv;
+}
+
+void put(const std::filesystem::path& file, const std::string& content) {
+  std::ofstream(file, std::ios::binary) << content;
+}
+std::string get(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+std::string report_of(const TemporaryFolder& run) {
+  faba::write_run_report(run.path());
+  const std::string html = get(run.path() / "report.html");
+  CHECK(faba::test::XmlCheck::complaint(html) == "");
+  for (const char* outside :
+       {"http:", "https:", "src=\"//", "@import", "url(", "<script", "<link", "<iframe"}) {
+    CHECK_MESSAGE(!has(html, outside), outside);
+  }
+  CHECK_FALSE(has(html, run.path().string()));
+  CHECK_FALSE(has(html, ">nan"));
+  return html;
+}
+
+faba::Errc code_of(const TemporaryFolder& run, const std::string& where, const std::string& part) {
+  try {
+    faba::write_run_report(run.path());
+  } catch (const faba::Error& e) {
+    CHECK(has(e.where(), where));
+    CHECK_MESSAGE(has(e.what(), part), e.what());
+    return e.code();
+  }
+  FAIL("nothing was thrown");
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("run report: a full run has every figure, both units, its video and how to repeat it") {
+  const TemporaryFolder run("report");
+  put(run.path() / "series.csv", full_series());
+  put(run.path() / "manifest.json", kManifest);
+  put(run.path() / "scenario.toml", "title = \"Hold <b>\"  # 1 < 2 & so on\n");
+  put(run.path() / "video.mp4", "not looked at");
+  put(run.path() / "report.html", "an older one");
+  const std::string html = report_of(run);
+
+  for (const char* heading : {"Distance to the setpoint", "Path in the picture", "Staying there",
+                              "Dispersion", "Magnetic field", "Coil currents", "Cells"}) {
+    CHECK_MESSAGE(has(html, std::string("<h3>") + heading + "</h3>"), heading);
+  }
+  for (const char* words :
+       {"settling band", "settled,", "drop edge", "coil 1", "limited", "visible", "distance (µm)"}) {
+    CHECK_MESSAGE(has(html, words), words);
+  }
+  // The band is 15 px; the distance is 20 px at frame 28 and 10 px at frame 29, which is 29 / 15 s.
+  CHECK(has(html, "The swarm reached its setpoint after 1.93\u00A0s"));
+  CHECK(has(html, "<td>300\u00A0px</td><td>240\u00A0µm</td>"));  // the initial error at 0.8 um per px
+  CHECK(has(html, "<td>2.00\u00A0px</td><td>1.60\u00A0µm</td>"));
+  CHECK(has(html, "<title>Hold &lt;b&gt;&quot;still&quot;&lt;/b&gt; &amp; wait</title>"));
+  CHECK_FALSE(has(html, "<b>\"still"));
+  CHECK(has(html, "src=\"video.mp4\""));
+  CHECK_FALSE(has(html, "<h3>Frames</h3>"));  // of a video that cannot be read
+  CHECK(has(html, "controls"));
+  CHECK(has(html, "faba run scenario.toml --seed 42 --out repeated"));
+  CHECK(has(html, "9f3c1a77be02d451"));
+  CHECK(has(html, "Faba 0.1.0"));
+  CHECK(has(html, "# 1 &lt; 2 &amp; so on"));
+  CHECK(has(html, "8.00 times real time"));
+  CHECK_FALSE(std::filesystem::exists(run.path() / "report.html.tmp"));
+}
+
+TEST_CASE("run report: works with the least a run can have") {
+  const TemporaryFolder run("report");
+  put(run.path() / "series.csv",
+      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px\n"
+      "0,0,10,20,3,4,5,\n1,1,11,20,3,4,5,\n");
+  put(run.path() / "manifest.json", R"({"version": "0.1.0", "um_per_px": null, "arena": null})");
+  const std::string html = report_of(run);
+  CHECK(has(html, "had no setpoint"));
+  CHECK(has(html, "lengths are in pixels only"));
+  CHECK_FALSE(has(html, "stopped before"));
+  CHECK(has(html, "<h3>Path in the picture</h3>"));
+  CHECK(has(html, "<h3>Dispersion</h3>"));
+  for (const char* absent : {"Distance to the setpoint</h3>", "Magnetic field</h3>", "Coil currents</h3>",
+                             "Cells</h3>", "<video", "<details", "To repeat it", "µm</td>", "State hash"}) {
+    CHECK_MESSAGE(!has(html, absent), absent);
+  }
+}
+
+TEST_CASE("run report: no frames, and a recording cut off in the middle of a line") {
+  const TemporaryFolder run("report");
+  const std::string head =
+      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px\n";
+  put(run.path() / "manifest.json", R"({"version": "0.1.0", "complete": false})");
+  put(run.path() / "series.csv", head);
+  CHECK(has(report_of(run), "No frame was recorded."));
+  put(run.path() / "series.csv", head + "0,0,10,20,3,4,5,80\n1,0.1,12,20,3,4,");
+  const std::string html = report_of(run);
+  CHECK(has(html, "in the middle of a line"));
+  CHECK(has(html, "One frame was recorded"));
+  CHECK(has(html, "stopped before its end"));
+}
+
+TEST_CASE("run report: what is missing or wrong is named, and an older report stays") {
+  const TemporaryFolder run("report");
+  put(run.path() / "report.html", "an older one");
+  CHECK(code_of(run, "manifest.json", "") == faba::Errc::input);
+  put(run.path() / "manifest.json", "{\"version\": ");
+  CHECK(code_of(run, "manifest.json", "JSON") == faba::Errc::input);
+  put(run.path() / "manifest.json", "[1, 2]");
+  CHECK(code_of(run, "manifest.json", "JSON") == faba::Errc::input);
+  put(run.path() / "manifest.json", R"({"seed": 1})");
+  CHECK(code_of(run, "manifest.json", "version") == faba::Errc::input);
+  for (const auto& [json, key] :
+       {std::pair{R"("um_per_px": "0.8")", "um_per_px"},
+        {R"("um_per_px": -1)", "um_per_px"},
+        {R"("view_px": [640])", "view_px"},
+        {R"("view_px": [640, 0])", "view_px"},
+        {R"("arena": "drop")", "arena"},
+        {R"("arena": {"centre_px": [1, 2], "radius_px": "big"})", "arena.radius_px"},
+        {R"("swarms": {})", "swarms"},
+        {R"("swarms": ["basic"])", "swarms"},
+        {R"("complete": 1)", "complete"},
+        {R"("title": ["a"])", "title"}}) {
+    put(run.path() / "manifest.json", std::string(R"({"version": "0.1.0", )") + json + "}");
+    CHECK(code_of(run, "manifest.json", key) == faba::Errc::input);
+  }
+  put(run.path() / "manifest.json", R"({"version": "0.1.0"})");
+  CHECK(code_of(run, "series.csv", "") == faba::Errc::input);
+  put(run.path() / "series.csv", "frame,t_s\n0,0\n");
+  CHECK(code_of(run, "series.csv:1", "distance_px") == faba::Errc::input);
+  CHECK(get(run.path() / "report.html") == "an older one");
+}
+
+TEST_CASE("run report: a manifest is read as it is written") {
+  const TemporaryFolder run("report");
+  put(run.path() / "manifest.json", kManifest);
+  const RunInfo info = faba::read_run_info(run.path() / "manifest.json");
+  CHECK(info.version == "0.1.0");
+  CHECK(info.seed == "42");
+  CHECK(info.title == "Hold <b>\"still\"</b> & wait");
+  CHECK(*info.um_per_px == 0.8);
+  CHECK(info.view_px->x == 640);
+  CHECK(info.view_px->y == 480);
+  CHECK(info.arena->type == "drop");
+  CHECK(info.arena->centre_px == faba::Vec2{700, 240});
+  CHECK(*info.arena->radius_px == 760);
+  CHECK_FALSE(info.arena->size_px);
+  REQUIRE(info.swarms.size() == 1);
+  CHECK(info.swarms[0] == "model adapted, count 500");
+}
+
+TEST_CASE("run report: the outcome in words fits what happened") {
+  RunInfo info;
+  info.um_per_px = 0.5;
+  Metrics m;
+  m.frames = 100, m.duration_s = 30, m.setpoints = 1;
+  m.initial_error_px = 300, m.final_distance_px = 80;
+  m.sigma_x_px = 12, m.sigma_y_px = 34.5;
+
+  SUBCASE("never settled") {
+    const faba::RunInWords words = run_in_words(m, info);
+    CHECK(words.outcome ==
+          "The swarm did not settle at its setpoint: it started 300\u00A0px (150\u00A0µm) away and was "
+          "80.0\u00A0px "
+          "(40.0\u00A0µm) away at the end, after 30.0\u00A0s.");
+    CHECK(words.details ==
+          "At the end its cells are spread over 12.0\u00A0×\u00A034.5\u00A0px "
+          "(6.00\u00A0×\u00A017.2\u00A0µm), standard deviations in x and y.");
+  }
+  SUBCASE("settled") {
+    m.settling_time_s = 4.25, m.steady_rms_px = 2;
+    CHECK(run_in_words(m, info).outcome ==
+          "The swarm reached its setpoint after 4.25\u00A0s and stayed within 2.00\u00A0px (1.00\u00A0µm) "
+          "rms of it over "
+          "the last third of the run.");
+    info.um_per_px.reset();
+    CHECK(has(run_in_words(m, info).outcome, "within 2.00\u00A0px rms"));
+  }
+  SUBCASE("settled so late that the last third was the approach") {
+    m.settling_time_s = 29, m.steady_rms_px = 120;
+    const std::string outcome = run_in_words(m, info).outcome;
+    CHECK(has(outcome, "only after 29.0\u00A0s"));
+    CHECK_FALSE(has(outcome, "120"));
+  }
+  SUBCASE("there from the start") {
+    m.settling_time_s = 0, m.steady_rms_px = 2;
+    CHECK(has(run_in_words(m, info).outcome, "was at its setpoint from the start and stayed"));
+  }
+  SUBCASE("a route") {
+    m.setpoints = 4, m.settling_time_s = 12, m.steady_rms_px = 2, m.cross_track_95_px = 6;
+    const faba::RunInWords words = run_in_words(m, info);
+    CHECK(has(words.outcome, "reached the last of 4 setpoints after 12.0\u00A0s"));
+    CHECK(has(words.details, "within 6.00\u00A0px (3.00\u00A0µm) of the route in 19 of 20 frames"));
+  }
+  SUBCASE("a route that was not finished") {
+    info.setpoints = 6;
+    m.setpoints = 4, m.settling_time_s = 12, m.steady_rms_px = 2, m.cross_track_95_px = 6;
+    m.settling_band_px = 15;
+    CHECK(has(run_in_words(m, info).outcome, "was still on its way to setpoint 4 of 6, 80.0"));
+    m.final_distance_px = 3;
+    CHECK(has(run_in_words(m, info).outcome, "had come to setpoint 4 of 6, 3.00"));
+    m.setpoints = 6, m.settling_time_s.reset();
+    CHECK(has(run_in_words(m, info).outcome, "did not settle at the last of 6 setpoints: it was 3.00"));
+  }
+  SUBCASE("a target that moves all the time") {
+    m.setpoints = 900, m.settling_time_s = 3, m.steady_rms_px = 9;
+    CHECK(has(run_in_words(m, info).outcome, "its moving setpoint"));
+  }
+}
+
+TEST_CASE("run report: a short approach is shown by itself, and only then") {
+  const auto headings = [](int frames) {
+    std::vector<double> t, d, zero(std::size_t(frames), 0.0);
+    for (int k = 0; k < frames; ++k) t.push_back(k / 15.0), d.push_back(k < 30 ? 300 - 10 * k : 1);
+    const faba::Series series(
+        "series.csv",
+        {"t_s", "distance_px", "centroid_x_px", "centroid_y_px", "sigma_x_px", "sigma_y_px", "rms_radius_px"},
+        {t, d, zero, zero, zero, zero, zero});
+    std::string all;
+    for (const faba::Figure& f : run_figures(series, control_metrics(series), {})) all += f.heading + ";";
+    return all;
+  };
+  CHECK(has(headings(900), "Approach;"));
+  CHECK_FALSE(has(headings(90), "Approach;"));
+}
+
+TEST_CASE("run report: a command that switches too often to be read is shown by its mean and range") {
+  const auto drawn = [](int half_period) {
+    std::vector<double> t, current, zero(600, 0.0);
+    for (int k = 0; k < 600; ++k) t.push_back(k / 60.0), current.push_back(k / half_period % 2 ? 1 : -1);
+    const faba::Series series("series.csv",
+                              {"t_s", "distance_px", "centroid_x_px", "centroid_y_px", "sigma_x_px",
+                               "sigma_y_px", "rms_radius_px", "current_0_a"},
+                              {t, zero, zero, zero, zero, zero, zero, current});
+    for (const faba::Figure& f : run_figures(series, control_metrics(series), {}))
+      if (f.heading == "Coil currents") return f;
+    return faba::Figure{};
+  };
+  const faba::Figure calm = drawn(60), restless = drawn(1);
+  REQUIRE(calm.plot.layers.size() == 1);
+  CHECK(std::get<faba::Line>(calm.plot.layers[0]).y.size() == 600);
+  CHECK_FALSE(has(calm.caption, "faster"));
+  REQUIRE(restless.plot.layers.size() == 2);
+  const auto& range = std::get<faba::Ribbon>(restless.plot.layers[0]);
+  const auto& mean = std::get<faba::Line>(restless.plot.layers[1]);
+  REQUIRE(range.x.size() == 60);
+  for (std::size_t i = 0; i < 60; ++i) {
+    CHECK(range.lo[i] == -1);
+    CHECK(range.hi[i] == 1);
+    CHECK(mean.y[i] == 0);
+  }
+  CHECK(has(restless.caption, "means over 0.167 s"));
+}

@@ -1,0 +1,162 @@
+#include "study/pages/scale.h"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "study/stats/statistics.h"
+#include "tests/app/recording/run_directory.h"
+#include "tests/vision/drop_pictures.h"
+
+using namespace faba;
+
+namespace {
+
+// The thesis's table 4.1.
+const char* const kTable41 =
+    "width_um,px_1,px_2\n30,41.42,40.31\n50,63.25,64.19\n70,87.52,90.10\n100,121.44,122.40\n"
+    "200,228.55,225.66\n";
+
+nlohmann::ordered_json report(const std::string& csv) {
+  const TestFolder folder;
+  const auto file = folder.path / "ruler.csv";
+  write_file(file, csv);
+  return report_scale_table(file);
+}
+
+std::string refused(const std::string& csv) {
+  try {
+    report(csv);
+  } catch (const Error& e) {
+    CHECK(e.code() == Errc::input);
+    return e.what();
+  }
+  return "";
+}
+
+bool says(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("table 4.1 to all printed digits") {
+  const auto j = report(kTable41);
+  const auto fixed = [&](const char* key, int digits) {
+    return fmt::format("{:.{}f}", j[key].get<double>(), digits);
+  };
+  const auto end = [&](const char* key, int i, int digits) {
+    return fmt::format("{:.{}f}", j[key][std::size_t(i)].get<double>(), digits);
+  };
+  // REFERENCE A20; the same numbers stand in docs/theory/thesis-models.md.
+  CHECK(fixed("intercept_px", 2) == "10.27");
+  CHECK(end("intercept_ci95_px", 0, 1) == "7.1");
+  CHECK(end("intercept_ci95_px", 1, 1) == "13.5");
+  CHECK(fixed("slope_px_per_um", 4) == "1.0912");
+  CHECK(fixed("um_per_px", 4) == "0.9164");
+  CHECK(end("ci95", 0, 3) == "0.892");
+  CHECK(end("ci95", 1, 3) == "0.942");
+  CHECK(fixed("repeatability_px", 2) == "1.34");
+  const char* const ratios[] = {"0.734125", "0.784683", "0.788200", "0.820210", "0.880650"};
+  for (int i = 0; i < 5; ++i) CHECK(end("ratios", i, 6) == ratios[i]);
+  CHECK(fixed("ratio_mean", 6) == "0.801573");
+  CHECK(fixed("ratio_sd", 6) == "0.053884");
+  CHECK(fixed("ratio_sd_population", 6) == "0.048195");
+  CHECK(fixed("ratio_sem", 4) == "0.0241");
+  CHECK(j["spearman"].get<double>() == doctest::Approx(1));
+  CHECK(j["edge_excess_significant"] == true);
+  CHECK(1 / (1 + j["ratio_bias"].get<double>()) == doctest::Approx(1.143).epsilon(5e-4));
+  CHECK(j["take"] == "regression");
+}
+
+TEST_CASE("every way to write the same table") {
+  const auto wanted = report(kTable41);
+  std::string narrow = "width_um,px\n", mm = "\"Width (mm)\",first,second\n",
+              other = "n,pixels a,pixels b,um\n";
+  const double rows[][3] = {{30, 41.42, 40.31},
+                            {50, 63.25, 64.19},
+                            {70, 87.52, 90.10},
+                            {100, 121.44, 122.40},
+                            {200, 228.55, 225.66}};
+  mm = "Width (mm),first,second\n";
+  int n = 0;
+  for (const auto& r : rows) {
+    narrow += fmt::format("{},{}\n{},{}\n", r[0], r[1], r[0], r[2]);
+    mm += fmt::format("{},{},{}\n", r[0] / 1000, r[1], r[2]);
+    other += fmt::format("{},{},{},{}\n", ++n, r[1], r[2], r[0]);
+  }
+  for (const std::string& csv : {narrow, mm, other}) {
+    CAPTURE(csv);
+    const auto j = report(csv);
+    for (const char* key : {"um_per_px", "ratio_mean", "ratio_sd", "repeatability_px"})
+      CHECK(j[key].get<double>() == doctest::Approx(wanted[key].get<double>()).epsilon(1e-12));
+    CHECK(j["widths_um"] == wanted["widths_um"]);
+  }
+  CHECK(report("µm,px\n10,20\n20,40.1\n30,60\n")["um_per_px"].get<double>() ==
+        doctest::Approx(0.5).epsilon(0.02));
+  CHECK(report("width_microns,px\n10,20\n20,40.1\n30,60\n")["repeatability_px"].is_null());
+}
+
+TEST_CASE("the interval holds the truth as often as it says") {
+  // 400 tables of 6 widths read twice, 1.2 um/px, 7 px of edge, readings good to 1.5 px. The number of hits
+  // is binomial: 380 +- 4.4; 5 standard deviations to each side.
+  int hits = 0, ratio_hits = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    FrameNoise noise(seed);
+    RulerReadings r;
+    for (const double w : {20.0, 40.0, 60.0, 100.0, 150.0, 300.0})
+      for (int k = 0; k < 2; ++k) {
+        r.width_m.push_back(w * 1e-6);
+        r.reading_px.push_back(7 + w / 1.2 + 1.5 * noise.gauss());
+      }
+    const auto j = scale_json(r, "made");
+    hits += j["ci95"][0].get<double>() < 1.2 && 1.2 < j["ci95"][1].get<double>();
+    const double reach = student_t_quantile(0.975, 5) * j["ratio_sem"].get<double>();
+    ratio_hits += std::fabs(j["ratio_mean"].get<double>() - 1.2) < reach;
+  }
+  CHECK(hits > 358);
+  CHECK(ratio_hits < 200);  // what edges do to the mean of the ratios
+}
+
+TEST_CASE("without an excess both estimators agree and the note says so") {
+  const auto j = report("width_um,px_1,px_2\n10,20.1,19.9\n20,40.2,39.9\n50,99.8,100.3\n");
+  CHECK(j["edge_excess_significant"] == false);
+  CHECK(j["ratio_mean"].get<double>() == doctest::Approx(j["um_per_px"].get<double>()).epsilon(0.01));
+  CHECK(says(j["note"].get<std::string>(), "may be 0"));
+}
+
+TEST_CASE("tables that are none") {
+  CHECK(says(refused("dear diary\nwe measured\n"), ":2"));
+  CHECK(says(refused("width_um,px\n30,41\nforty,52\n"), ":3"));
+  CHECK(says(refused("width,px\n30,41\n50,63\n70,88\n"), "width_um"));
+  CHECK(says(refused("width_um,length_mm\n30,41\n50,63\n70,88\n"), "two columns of lengths"));
+  CHECK(says(refused("width_um\n30\n50\n"), "no column of readings"));
+  CHECK(says(refused("width_um,px\n"), "no readings"));
+  CHECK(says(refused("width_um,px_1,px_2,px_3\n30,41,42,40\n"), "one width"));
+  CHECK(says(refused("width_um,px\n30,41\n50,63\n"), "three readings"));
+  CHECK(says(refused("width_um,px\n-30,41\n50,63\n70,88\n"), "above 0"));
+  CHECK(says(refused("width_um,px\n30,41\n50,0\n70,88\n"), ":3"));
+  CHECK(says(refused("width_um,px\n30,41\n50,nan\n70,88\n"), "not a number"));
+  CHECK(says(refused("width_um,px_1,px_2\n30,41,42\n50,,63\n70,88,89\n"), "empty"));
+  CHECK(says(refused("width_um,px\n30,inf\n50,63\n70,88\n"), ":2"));
+  CHECK(says(refused("width_um,px\n30,88\n50,63\n70,41\n"), "do not grow"));
+  CHECK(says(refused("width_um,px\n30,50\n50,80\n70,51\n"), "beyond doubt"));
+}
+
+TEST_CASE("the calibration file of a report reads back") {
+  const TestFolder folder;
+  const auto file = folder.path / "calibration.toml";
+  const auto j = report(kTable41);
+  write_calibration(file, calibration_of(j));
+  const Calibration c = read_calibration(file);
+  CHECK(c.um_per_px == j["um_per_px"].get<double>());
+  REQUIRE(c.ci95);
+  CHECK(c.ci95->x == j["ci95"][0].get<double>());
+  CHECK(c.ci95->y == j["ci95"][1].get<double>());
+  CHECK(says(c.source, "ruler.csv"));
+  CHECK(parse_calibration(file.string(), "--scale").um_per_px == c.um_per_px);
+}
