@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/scenario/read_scenario.h"
 #include "app/run/simulation.h"
 
 namespace faba {

@@ -107,7 +107,7 @@ int parts(const PartsVerb& v, const Common& c) {
 
 int schema(const std::string& file, const Common&) {
   const Parts parts = builtin_parts();
-  const Json j = file == "rig"                   ? rig_json_schema(parts)
+  const Json j = file == "rig"                   ? rig_file_json_schema(parts)
                  : file == "identify"            ? identify_study_schema()
                  : file == "compare-controllers" ? controller_study_schema()
                  : file == "activity"            ? activity_study_schema()

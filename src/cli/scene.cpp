@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "app/scenario/from_picture.h"
+#include "app/files/from_picture.h"
 #include "core/error.h"
 
 namespace faba::cli {

@@ -10,6 +10,7 @@ namespace {
 class EstimatorNone final : public Estimator {
  public:
   struct Params {};
+  static constexpr std::array kTraits = {Trait::no_estimate};
   static Schema<Params> schema() {
     return Schema<Params>("none", "No estimate, for runs without feedback")
         .validity("A feedback controller does nothing without an estimate.");

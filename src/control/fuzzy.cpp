@@ -34,6 +34,7 @@ class Fuzzy final : public Controller {
     std::vector<Set> set;
     Direction direction = Direction::vector;
   };
+  static constexpr std::array kTraits = {Trait::feedback};
   static Schema<Params> schema();
   Fuzzy(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;

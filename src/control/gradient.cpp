@@ -10,6 +10,7 @@ class Gradient final : public Controller {
   struct Params {
     Trap::Params trap;
   };
+  static constexpr std::array kTraits = {Trait::feedback, Trait::seeks_null};
   static Schema<Params> schema() {
     return Schema<Params>("gradient",
                           "Open loop: a zero of the field at the setpoint gathers the swarm there")

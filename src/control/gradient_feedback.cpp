@@ -18,6 +18,7 @@ class GradientFeedback final : public Controller {
     double most_px = 2000;
     Trap::Params trap;
   };
+  static constexpr std::array kTraits = {Trait::feedback, Trait::seeks_null};
   static Schema<Params> schema() {
     return Schema<Params>("gradient_feedback",
                           "A zero of the field, moved until the swarm is at the setpoint")

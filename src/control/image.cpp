@@ -14,6 +14,7 @@ namespace {
 class EstimatorImage final : public Estimator {
  public:
   using Params = ForegroundParams;
+  static constexpr std::array kTraits = {Trait::needs_pictures};
   static Schema<Params> schema() {
     return foreground_schema("image", "Centroid, spread and visible share from the camera's picture")
         .validity(

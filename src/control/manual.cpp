@@ -28,6 +28,7 @@ class Manual final : public Controller {
     std::vector<double> current;
     std::vector<Segment> segment;
   };
+  static constexpr std::array kTraits = {Trait::open_loop};
   static Schema<Params> schema();
   Manual(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;

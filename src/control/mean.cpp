@@ -9,6 +9,7 @@ namespace {
 class EstimatorMean final : public Estimator {
  public:
   struct Params {};
+  static constexpr std::array kTraits = {Trait::needs_positions};
   static Schema<Params> schema() {
     return Schema<Params>("mean", "Mean of all cells, in view or not: the thesis's estimate")
         .validity("A camera cannot see cells outside its view; use `visible` for what a bench would give.");

@@ -9,6 +9,7 @@ namespace {
 class ReferenceNone final : public Reference {
  public:
   struct Params {};
+  static constexpr std::array kTraits = {Trait::no_target};
   static Schema<Params> schema() {
     return Schema<Params>("none", "No setpoint; the default of the manual controller, which follows none");
   }

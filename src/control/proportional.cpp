@@ -32,6 +32,7 @@ class Proportional final : public Controller {
     double speed = 186e-6;
     std::optional<double> lead;
   };
+  static constexpr std::array kTraits = {Trait::feedback};
   static Schema<Params> schema();
   Proportional(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;

@@ -9,6 +9,7 @@ namespace {
 class EstimatorVisible final : public Estimator {
  public:
   struct Params {};
+  static constexpr std::array kTraits = {Trait::needs_positions};
   static Schema<Params> schema() {
     return Schema<Params>("visible", "Mean of the cells in view")
         .validity("Biased towards the view's centre when part of the swarm is outside.");

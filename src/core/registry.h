@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "core/schema.h"
+#include "core/traits.h"
 
 namespace faba {
 
@@ -15,8 +17,11 @@ namespace faba {
 template <class Interface, class Context>
 struct Part {
   std::string type;
+  std::vector<Trait> traits;
   Json resolved;  ///< `type` and every parameter, defaults included
   std::function<std::unique_ptr<Interface>(const Context&)> make;
+
+  bool has(Trait t) const { return std::find(traits.begin(), traits.end(), t) != traits.end(); }
 };
 
 /// Names -> factories for one kind of part. An ordinary value, not a global: the application owns it, tests
@@ -35,19 +40,34 @@ class Registry {
   /// const Node&), so that what is resolved stands by itself.
   template <class T>
   void add() {
-    const auto s = T::schema();
+    add<T>(T::schema());
+  }
+  /// The same with a schema that is not the class's alone, as that of a part which holds other parts.
+  template <class T>
+  void add(const Schema<typename T::Params>& s) {
     Entry e;
+    e.traits = traits::of<T>();
     e.json_schema = s.json_schema();
-    e.resolve = [s](const Node& n) {
+    e.json_schema["x-traits"] = Json::array();
+    for (const Trait t : e.traits) e.json_schema["x-traits"].push_back(traits::kWords.at(std::size_t(t)));
+    e.resolve = [s, traits = e.traits](const Node& n) {
       typename T::Params p = s.parse(n, {"type"});
       if constexpr (requires { T::settle(p, n); }) T::settle(p, n);
       Json resolved = {{"type", s.name()}};
       resolved.update(s.to_json(p));
-      return PartType{s.name(), std::move(resolved),
+      return PartType{s.name(), traits, std::move(resolved),
                       [p](const Context& c) { return std::make_unique<T>(p, c); }};
     };
     if (!entries_.emplace(s.name(), std::move(e)).second)
       throw Error(Errc::internal, kind_ + " " + s.name(), "registered twice");
+  }
+
+  /// The parts with a trait, as a registry of another kind.
+  Registry only(Trait t, std::string kind, std::string doc) const {
+    Registry some(std::move(kind), std::move(doc));
+    for (const auto& [name, e] : entries_)
+      if (std::find(e.traits.begin(), e.traits.end(), t) != e.traits.end()) some.entries_.emplace(name, e);
+    return some;
   }
 
   /// Reads `{ type = "name", ... }`, or just "name" for a part with its defaults. Throws Error(usage).
@@ -64,18 +84,50 @@ class Registry {
     return it->second.resolve(node);
   }
 
+  bool empty() const { return entries_.empty(); }
   std::vector<std::string> names() const {
     std::vector<std::string> v;
     for (const auto& [k, _] : entries_) v.push_back(k);
     return v;
   }
+  /// Names of the parts with a trait.
+  std::vector<std::string> names_with(Trait t) const { return only(t, "", "").names(); }
+  /// Names of the parts without any of these traits: what a message proposes instead of one that has
+  /// them.
+  std::vector<std::string> names_without(std::initializer_list<Trait> unwanted) const {
+    std::vector<std::string> v;
+    for (const auto& [name, e] : entries_)
+      if (std::find_first_of(e.traits.begin(), e.traits.end(), unwanted.begin(), unwanted.end()) ==
+          e.traits.end())
+        v.push_back(name);
+    return v;
+  }
   /// JSON Schema of one part's parameters. The name must exist.
   const Json& json_schema(const std::string& name) const { return entries_.at(name).json_schema; }
+  /// JSON Schema of a table that names any of the parts by its `type`.
+  Json json_schema_of_any() const {
+    Json any = Json::array();
+    for (const auto& [name, e] : entries_) {
+      Json one = e.json_schema;
+      one["properties"]["type"] = {{"const", name}};
+      one["required"] = Json::array({"type"});
+      any.push_back(one);
+    }
+    return {{"oneOf", any}};
+  }
+  /// The same, where a part with its defaults may also be given by its name alone.
+  Json json_schema_of_choice() const {
+    Json any = Json::array({Json{{"type", "string"}, {"enum", names()}}});
+    const Json tables = json_schema_of_any();
+    for (const Json& one : tables.at("oneOf")) any.push_back(one);
+    return {{"description", doc_}, {"oneOf", any}};
+  }
   const std::string& kind() const { return kind_; }
   const std::string& doc() const { return doc_; }
 
  private:
   struct Entry {
+    std::vector<Trait> traits;
     Json json_schema;
     std::function<PartType(const Node&)> resolve;
   };

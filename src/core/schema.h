@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -22,6 +23,9 @@ struct FieldInfo {
   std::string doc = {};                   ///< one sentence
   std::string source = {};                ///< where the default comes from; "assumed" when nobody measured it
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
+  /// For a type whose description needs something, such as the registry of the parts that a table may name:
+  /// handed to its schema(context).
+  std::shared_ptr<const void> context = {};
 };
 
 namespace schema_detail {
@@ -47,6 +51,19 @@ template <class T>
 concept Described = requires {
   T::schema();
 };
+template <class T>
+concept DescribedIn = requires(const void* context) {
+  T::schema(context);
+};
+
+/// The schema of a struct that is a field of another.
+template <class T>
+auto nested(const FieldInfo& f) {
+  if constexpr (DescribedIn<T>)
+    return T::schema(f.context.get());
+  else
+    return T::schema();
+}
 
 template <class T>
 T read(const Node& n, const FieldInfo& f) {
@@ -74,9 +91,9 @@ T read(const Node& n, const FieldInfo& f) {
     for (std::size_t i = 0; i < n.json->size(); ++i) v.push_back(read<typename T::value_type>(n.item(i), f));
     return v;
   } else {
-    static_assert(Described<T>,
+    static_assert(Described<T> || DescribedIn<T>,
                   "a parameter's type must be known to the schema or have a schema() of its own");
-    return T::schema().parse(n);
+    return nested<T>(f).parse(n);
   }
 }
 
@@ -99,7 +116,7 @@ Json dump(const T& v, const FieldInfo& f) {
     for (const auto& e : v) j.push_back(dump(e, f));
     return j;
   } else {
-    return T::schema().to_json(v);
+    return nested<T>(f).to_json(v);
   }
 }
 
@@ -125,7 +142,7 @@ Json describe(const FieldInfo& f, const Json& fallback) {
     j["items"] = describe<typename T::value_type>(f, Json());
     return j;
   } else {
-    return T::schema().json_schema();
+    return nested<T>(f).json_schema();
   }
 }
 

@@ -286,6 +286,11 @@ std::string Node::where(const std::string& key) const {
 
 void Node::fail(const std::string& what) const { throw Error(Errc::usage, where(), what); }
 
+Table Node::table(const std::string& name) const {
+  const std::filesystem::path at = file(name);
+  return document && document->table_reader ? document->table_reader(at) : read_table(at);
+}
+
 std::filesystem::path Node::file(const std::string& name) const {
   if (!document) return name;
   const std::filesystem::path beside = std::filesystem::path(document->name).parent_path() / name;

@@ -1,9 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+
+#include "core/table.h"
 
 namespace faba {
 using Json = nlohmann::ordered_json;
@@ -14,6 +17,8 @@ struct Document {
   Json root = Json::object();
   std::map<std::string, std::string>
       origin;  ///< path such as `swarm[0].count` -> "scenes/x.toml:12" or "--set"
+  /// Reads the tables of numbers that the document names; CSV alone when empty.
+  std::function<Table(const std::filesystem::path&)> table_reader = {};
 
   /// Replaces or adds one value, as `--set swarm[0].model.speed="150 um/s"` does. `value` is read as TOML;
   /// what is not TOML is taken as a plain string, so that a shell needs one pair of quotes. Tables on the way
@@ -39,6 +44,8 @@ struct Node {
   [[noreturn]] void fail(const std::string& what) const;
   /// The file called `name`: beside the document when it is there, else from where the program was called.
   std::filesystem::path file(const std::string& name) const;
+  /// The table of numbers in that file, read by the document's table_reader. Throws Error(input).
+  Table table(const std::string& name) const;
 };
 
 /// Reads a TOML file. Missing, a directory, over 4 MiB, not TOML: Error(usage) with file and line.

@@ -59,6 +59,7 @@ class Coil final : public Field {
     PoseParams pose;
     CircuitParams circuit;
   };
+  static constexpr std::array kTraits = {Trait::coil};
   static Schema<Params> schema() {
     const auto shape = Source::schema();
     return Schema<Params>(shape.name(), shape.summary())

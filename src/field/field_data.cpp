@@ -10,8 +10,6 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/h5.h"
-#include "core/table.h"
 
 namespace faba {
 namespace {
@@ -52,10 +50,9 @@ std::optional<Column> column_of(const Table& t, const std::string& quantity, std
   return std::nullopt;
 }
 
-FieldData from_csv(const std::filesystem::path& file) {
-  const Table t = read_table(file);
+FieldData from_columns(const Table& t) {
   FieldData d;
-  d.source = file.string();
+  d.source = t.source();
   const auto rho = column_of(t, "rho", kLengths), b_rho = column_of(t, "brho", kFields);
   d.about_axis = rho || b_rho;
   const std::array<std::optional<Column>, 3> place{d.about_axis ? rho : column_of(t, "x", kLengths),
@@ -89,48 +86,11 @@ FieldData from_csv(const std::filesystem::path& file) {
   return d;
 }
 
-std::vector<double> numbers(const H5Table& t) {
-  std::vector<double> v(std::size_t(t.rows()));
-  if (t.row_size() == 1)
-    for (std::size_t i = 0; i < v.size(); ++i) t.read<double>(i, {&v[i], 1});
-  return v;
-}
-
-FieldData from_hdf5(const std::filesystem::path& file) {
-  const H5File h5 = H5File::open(file);
-  const H5Table b = h5.table("b_t");
-  const std::vector<double> x = numbers(h5.table("x_m")), y = numbers(h5.table("y_m"));
-  const std::vector<double> z = h5.has("z_m") ? numbers(h5.table("z_m")) : std::vector<double>();
-  const std::size_t rows = b.rows(), columns = b.row_size() / 3;
-  const bool grid = b.row_size() != 3;
-  if (b.row_size() % 3 != 0 || y.size() != rows || x.size() != (grid ? columns : rows) ||
-      (!z.empty() && (grid || z.size() != rows)))
-    throw Error(Errc::input, file.string(),
-                "b_t, x_m, y_m and z_m do not fit together; see `faba parts field map`");
-  FieldData d;
-  d.source = file.string();
-  d.given = {true, true, true};
-  std::vector<double> row(b.row_size());
-  for (std::size_t r = 0; r < rows; ++r) {
-    b.read<double>(r, row);
-    for (std::size_t c = 0; c < columns; ++c) {
-      d.at.push_back({grid ? x[c] : x[r], y[r], z.empty() ? 0 : z[r]});
-      d.b.push_back({row[3 * c], row[3 * c + 1], row[3 * c + 2]});
-      const Vec3 p = d.at.back(), v = d.b.back();
-      if (!(norm(p) <= kLargest && norm(v) <= kLargest))
-        throw Error(Errc::input, d.source,
-                    fmt::format("a value in row {} is not finite, or beyond any laboratory's", r));
-    }
-  }
-  return d;
-}
-
 }  // namespace
 
-FieldData read_field_data(const std::filesystem::path& file) {
-  const std::string ending = lower(file.extension().string());
-  FieldData d = ending == ".h5" || ending == ".hdf5" ? from_hdf5(file) : from_csv(file);
-  if (d.at.empty()) throw Error(Errc::input, file.string(), "has no points");
+FieldData field_data(const Table& t) {
+  FieldData d = from_columns(t);
+  if (d.at.empty()) throw Error(Errc::input, d.source, "has no points");
   return d;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "core/table.h"
 #include "core/vec.h"
 
 namespace faba {
@@ -17,15 +17,10 @@ struct FieldData {
   bool about_axis = false;    ///< x is the distance from an axis of symmetry, along z
 };
 
-/// Reads
-/// - CSV: coordinates `x`, `y`, `z`, or `rho`, `z` about an axis, and the field's components `bx`, `by`,
-/// `bz`,
-///   or `brho`, `bz`, each followed by its unit: `x_mm`, `bz_gauss`. Lengths in m, cm, mm or um, fields in t,
-///   mt, ut, nt or gauss. Coordinates that are absent are 0.
-/// - HDF5, told by its name (.h5, .hdf5), as `faba field map` writes it: `b_t` with rows of (x, y, z) along
-///   `x_m`, one row for each of `y_m`, in the plane z = 0; or `b_t` with one (x, y, z) a row and `x_m`,
-///   `y_m`, `z_m` as long.
-/// Throws Error(input) naming file, line or column, and what is expected.
-FieldData read_field_data(const std::filesystem::path& file);
+/// What the columns of a table say: coordinates `x`, `y`, `z`, or `rho`, `z` about an axis, and the field's
+/// components `bx`, `by`, `bz`, or `brho`, `bz`, each followed by its unit: `x_mm`, `bz_gauss`. Lengths in m,
+/// cm, mm or um, fields in t, mt, ut, nt or gauss. Coordinates that are absent are 0. Throws Error(input)
+/// naming file, line or column, and what is expected.
+FieldData field_data(const Table& t);
 
 }  // namespace faba

@@ -1,12 +1,11 @@
 #pragma once
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/h5.h"
 #include "field/kernels/field_table.h"
 
 namespace faba {
@@ -21,27 +20,27 @@ struct LibraryEntry {
 };
 
 /// The library of the thesis (3.3.4.2): many sets of currents, each with the zero of the field that it makes
-/// and the field at the nodes of a grid, kept in a file. A controller takes the currents whose zero is
-/// nearest to where it wants one.
-///
-/// HDF5: `current_a` (entry, coil), `zero_m` (entry, (x, y)), `gradient_t_per_m` (entry, 2), `field_t`
-/// (entry, row from below, column, (x, y)); attributes `format`, `rig` (fingerprint of the rig), `low_x_m`,
-/// `low_y_m`, `spacing_m`, `columns`, `rows`, `coils`, `task`.
+/// and the field at the nodes of a grid. A controller takes the currents whose zero is nearest to where it
+/// wants one.
 class FieldLibrary {
  public:
-  /// Throws Error(input) when the file is not a whole library.
-  explicit FieldLibrary(const std::filesystem::path& file);
+  struct Content {
+    std::string source;  ///< file name, for messages
+    std::string rig;     ///< fingerprint of the coils that it was made for
+    TableGrid grid;
+    std::vector<LibraryEntry> entries;
+    /// The field of an entry at all nodes, T: x and y of every node, row by row from below.
+    std::function<std::vector<float>(std::size_t entry)> field;
+  };
+  explicit FieldLibrary(Content content);
   FieldLibrary(const FieldLibrary&) = delete;
   FieldLibrary& operator=(const FieldLibrary&) = delete;
   ~FieldLibrary();
 
-  /// How a library was made: the rig's fingerprint, grid and currents. Throws Error(input).
-  static std::string task(const std::filesystem::path& file);
-
-  const TableGrid& grid() const { return grid_; }
-  const std::vector<LibraryEntry>& entries() const { return entries_; }
-  /// The field of an entry at all nodes as in the file, T: x and y of every node, row by row from below.
-  std::vector<float> field(std::size_t entry) const;
+  const TableGrid& grid() const { return content_.grid; }
+  const std::vector<LibraryEntry>& entries() const { return content_.entries; }
+  /// As Content::field.
+  std::vector<float> field(std::size_t entry) const { return content_.field(entry); }
   /// The field of a rig at the nodes of the library's grid. Throws Error(input) unless this is the rig that
   /// the library was made for: the fingerprints are equal, and so is the field of some of the entries.
   FieldTable table(const Field& field, const std::string& fingerprint) const;
@@ -53,38 +52,8 @@ class FieldLibrary {
 
  private:
   struct Tree;
-  std::filesystem::path path_;
-  H5File file_;
-  std::string rig_;
-  TableGrid grid_;
-  std::vector<LibraryEntry> entries_;
+  Content content_;
   std::unique_ptr<Tree> north_, south_;
-};
-
-/// Writes a library entry by entry. What is there stays readable whatever happens; the library gets its name
-/// when it is whole.
-class LibraryWriter {
- public:
-  /// `task` says how the library is made, the rig included. Where an unfinished library of the same task is,
-  /// its entries are taken over.
-  LibraryWriter(const std::filesystem::path& file, const std::string& rig, const std::string& task,
-                const TableGrid& grid, std::size_t coils);
-  /// Sets of currents that need not be tried again: where to go on.
-  std::uint64_t done() const { return done_; }
-  std::size_t entries() const;
-  /// `combination` counts what was tried, upwards.
-  void add(std::uint64_t combination, const LibraryEntry& e, std::span<const float> field);
-  /// All sets of currents before this one were tried: an unfinished library goes on from here.
-  void tried(std::uint64_t combinations);
-  void finish();
-
- private:
-  void take_over(const std::string& task);
-
-  std::filesystem::path path_, part_;
-  H5File file_;
-  std::optional<H5Table> combination_, current_, zero_, gradient_, field_, tried_, whole_;
-  std::uint64_t done_ = 0;
 };
 
 }  // namespace faba

@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "core/schema.h"
-#include "field/coils/coils.h"
+#include "field/field.h"
 
 namespace faba {
 namespace {
@@ -11,20 +11,12 @@ struct RigCoil {
   FieldRegistry::PartType part;
 
   struct Description {
-    RigCoil parse(const Node& n) const { return {coil_kinds().resolve(n)}; }
+    const FieldRegistry& coils;
+    RigCoil parse(const Node& n) const { return {coils.resolve(n)}; }
     Json to_json(const RigCoil& c) const { return c.part.resolved; }
-    Json json_schema() const {
-      Json any = Json::array();
-      for (const auto& name : coil_kinds().names()) {
-        Json one = coil_kinds().json_schema(name);
-        one["properties"]["type"] = {{"const", name}};
-        one["required"] = Json::array({"type"});
-        any.push_back(one);
-      }
-      return {{"oneOf", any}};
-    }
+    Json json_schema() const { return coils.json_schema_of_any(); }
   };
-  static Description schema() { return {}; }
+  static Description schema(const void* coils) { return {*static_cast<const FieldRegistry*>(coils)}; }
 };
 
 struct Earth {
@@ -44,10 +36,11 @@ class Rig final : public Field {
     std::vector<RigCoil> coil;
     Earth earth;
   };
-  static Schema<Params> schema() {
+  static constexpr std::array kTraits = {Trait::coil_system};
+  static Schema<Params> schema(const std::shared_ptr<const FieldRegistry>& coils) {
     return Schema<Params>("rig", "Any number of coils, and the Earth's field")
         .add("coil", &Params::coil,
-             {.doc = "The coils, one [[coil]] each; their order is that of the currents"})
+             {.doc = "The coils, one [[coil]] each; their order is that of the currents", .context = coils})
         .add("earth", &Params::earth, {.doc = "The field that no coil makes"})
         .check([](const Params& p) -> std::string {
           return p.coil.empty() ? "needs at least one [[coil]], or file = \"a rig's TOML file\"" : "";
@@ -96,6 +89,11 @@ class Rig final : public Field {
 
 }  // namespace
 
-void add_rig(FieldRegistry& r) { r.add<Rig>(); }
+// Its coils are those that were registered before it.
+void add_rig(FieldRegistry& r) {
+  const auto coils =
+      std::make_shared<const FieldRegistry>(r.only(Trait::coil, "coil", "A coil of a rig: [[coil]]"));
+  r.add<Rig>(Rig::schema(coils));
+}
 
 }  // namespace faba

@@ -1,13 +1,13 @@
 // faba-coil-guard: the process that owns the coils' driver. Begun by faba, never by hand; see
-// rig/guard_loop.h.
+// rig/guard/guard_loop.h.
 #include <sys/mman.h>
 #include <sys/socket.h>
 
 #include <cstdio>
 
 #include "core/urgent.h"
-#include "rig/guard_loop.h"
-#include "rig/guard_setup.h"
+#include "rig/guard/guard_loop.h"
+#include "rig/setup/guard_setup.h"
 
 namespace {
 

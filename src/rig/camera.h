@@ -49,7 +49,4 @@ class Camera {
 struct CameraContext {};
 using CameraRegistry = Registry<Camera, CameraContext>;
 
-/// The cameras that come with the program.
-CameraRegistry builtin_cameras();
-
 }  // namespace faba

@@ -37,7 +37,7 @@ struct DriverContext {
 };
 using CoilDriverRegistry = Registry<CoilDriver, DriverContext>;
 
-/// The drivers that come with the program.
+/// The drivers that come with the program, for the guard of the coils, which is linked with them alone.
 CoilDriverRegistry builtin_coil_drivers();
 
 }  // namespace faba

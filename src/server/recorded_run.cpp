@@ -4,7 +4,7 @@
 
 #include "app/recording/session.h"
 #include "core/file.h"
-#include "core/h5.h"
+#include "core/h5/h5.h"
 #include "server/frame_message.h"
 
 namespace faba {

@@ -49,6 +49,8 @@ class Arena {
   virtual Grid grid() const = 0;
   virtual Frame frame() const = 0;
   virtual Outline outline() const = 0;
+  /// Whether moves that it undoes may put cells on top of each other, unless exclusion sees to it.
+  virtual bool needs_exclusion() const { return false; }
 };
 
 struct ArenaContext {

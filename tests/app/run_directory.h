@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/scenario/read_scenario.h"
 #include "app/recording/session.h"
 #include "core/file.h"
 

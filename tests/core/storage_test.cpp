@@ -2,9 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "core/archive.h"
-#include "core/h5.h"
+#include "core/h5/h5.h"
 #include "core/parallel.h"
-#include "tests/app/recording/run_directory.h"
+#include "tests/app/run_directory.h"
 
 using namespace faba;
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/h5.h"
+#include "core/h5/h5.h"
 #include "tests/e2e/program.h"
 
 using namespace faba;

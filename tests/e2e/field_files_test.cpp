@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "field/library.h"
+#include "app/files/library_file.h"
 #include "tests/e2e/program.h"
 
 using namespace faba;
@@ -160,7 +160,8 @@ TEST_CASE("kill -9 at any moment of building a library: the same command goes on
   const TestFolder f;
   const std::string build = "field library '" + kRigs + "thesis-four-coils.toml' --levels 12 --quiet --out ";
   REQUIRE(faba_in(f.path, build + "whole.h5").exit == 0);
-  const FieldLibrary whole(f.path / "whole.h5");
+  const auto kept_whole = open_library(f.path / "whole.h5");
+  const FieldLibrary& whole = *kept_whole;
   for (int kill = 1; kill <= 6; ++kill) {
     const std::string name = "cut" + std::to_string(kill) + ".h5", after = std::to_string(0.05 * kill);
     for (int i = 0; i < 2; ++i) faba_in(f.path, build + name, "timeout -s KILL " + after);
@@ -168,7 +169,8 @@ TEST_CASE("kill -9 at any moment of building a library: the same command goes on
     if (!std::filesystem::exists(f.path / name)) c = faba_in(f.path, build + name, "timeout 900");
     INFO("killed after ", after, " s: ", c.err);
     REQUIRE(std::filesystem::exists(f.path / name));
-    const FieldLibrary cut(f.path / name);
+    const auto kept_cut = open_library(f.path / name);
+    const FieldLibrary& cut = *kept_cut;
     REQUIRE(cut.entries().size() == whole.entries().size());
     for (std::size_t i = 0; i < cut.entries().size(); ++i) {
       CHECK(cut.entries()[i].current == whole.entries()[i].current);

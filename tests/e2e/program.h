@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/app/recording/run_directory.h"
+#include "tests/app/run_directory.h"
 
 namespace faba {
 

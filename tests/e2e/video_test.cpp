@@ -6,7 +6,7 @@
 
 #include "core/file.h"
 #include "core/table.h"
-#include "tests/app/recording/run_directory.h"
+#include "tests/app/run_directory.h"
 #include "tests/e2e/program.h"
 #include "tests/vision/raw_files.h"
 

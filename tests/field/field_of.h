@@ -3,17 +3,14 @@
 #include <string>
 
 #include "core/toml.h"
-#include "field/coils/coils.h"
+#include "app/scenario/parts.h"
 
 namespace faba {
 
 /// A coil or a rig from TOML.
 inline std::unique_ptr<Field> field_of(const std::string& toml) {
-  FieldRegistry r{"field", ""};
-  add_coils(r);
-  add_rig(r);
   const Document d = parse_toml(toml, "test");
-  return r.resolve(Node(d)).make({});
+  return engine_parts().field.resolve(Node(d)).make({});
 }
 
 }  // namespace faba

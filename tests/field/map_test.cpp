@@ -75,7 +75,7 @@ TEST_CASE("a map of a coil is that coil, from a box of points and from one plane
   for (const int layers : {11, 1}) {
     const Sampled s(11, layers, 0);
     const double depth = layers == 1 ? 0 : 5e-3, r = norm({5e-3, 5e-3, depth});
-    const int degree = fit_harmonics(read_field_data(s.file)).field.degree();
+    const int degree = fit_harmonics(field_data(read_table(s.file))).field.degree();
     INFO(layers, " layers, degree ", degree);
     CHECK(degree >= 12);
     CHECK(off(*field_of(s.toml()), 5e-3, depth).worst < std::pow(r / d, degree));
@@ -84,7 +84,7 @@ TEST_CASE("a map of a coil is that coil, from a box of points and from one plane
 
 TEST_CASE("noise is smoothed, not followed, and what is left over says how large it was") {
   const Sampled noisy(11, 5, 0.002);  // mT, for 2 A
-  const HarmonicFit fit = fit_harmonics(read_field_data(noisy.file));
+  const HarmonicFit fit = fit_harmonics(field_data(read_table(noisy.file)));
   // Of N values with noise s a fit of P coefficients leaves s sqrt(1 - P / N), give or take 1 / sqrt(2 N),
   // and is off by s sqrt(P / N) rms over the points themselves, and less between them than at the rim.
   const double n = 3.0 * 11 * 11 * 5, p = double(fit.field.coefficients.size()), s = 2e-6;

@@ -4,7 +4,7 @@
 
 #include "app/scenario/calibration_file.h"
 #include "study/pages/scale.h"
-#include "tests/app/recording/run_directory.h"
+#include "tests/app/run_directory.h"
 
 using namespace faba;
 

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <thread>
 
+#include "app/scenario/parts.h"
 #include "core/monotonic.h"
-#include "rig/bench_rig.h"
+#include "rig/bench/bench_rig.h"
 #include "tests/rendered_video.h"
 #include "tests/temporary_folder.h"
 #include "vision/files/video_writer.h"
@@ -50,7 +51,7 @@ std::filesystem::path film(const std::filesystem::path& folder) {
 std::shared_ptr<Camera> playback(const std::filesystem::path& file, bool fast) {
   Document d;
   d.root = {{"camera", {{"type", "playback"}, {"file", file.string()}, {"fast", fast}}}};
-  return builtin_cameras().resolve(Node(d).child("camera")).make({});
+  return builtin_parts().camera.resolve(Node(d).child("camera")).make({});
 }
 
 }  // namespace
@@ -178,5 +179,5 @@ TEST_CASE("what cannot be played is said") {
   CHECK_THROWS_AS(playback(folder.path() / "none.avi", true), Error);
   Document d;
   d.root = {{"camera", "playback"}};
-  CHECK_THROWS_AS(builtin_cameras().resolve(Node(d).child("camera")), Error);
+  CHECK_THROWS_AS(builtin_parts().camera.resolve(Node(d).child("camera")), Error);
 }

@@ -7,8 +7,9 @@
 #include <sstream>
 #include <vector>
 
+#include "app/scenario/parts.h"
 #include "core/schema.h"
-#include "rig/guard_link.h"
+#include "rig/guard/guard_link.h"
 #include "tests/e2e/child.h"
 #include "tests/temporary_folder.h"
 
@@ -100,7 +101,7 @@ inline GuardSetup coils_on(const Json& driver, const std::vector<std::string>& c
   if (patient) s.guard.command_deadline = s.guard.heartbeat_deadline = 1;  // s
   Document d;
   d.root = {{"driver", driver}};
-  s.driver = builtin_coil_drivers().resolve(Node(d).child("driver"));
+  s.driver = builtin_parts().driver.resolve(Node(d).child("driver"));
   for (std::size_t k = 0; k < channels.size(); ++k) {
     WiredCoil c{.channel = channels[k],
                 .gain = 0.2,

@@ -13,7 +13,7 @@
 #include "core/child.h"
 #include "core/file.h"
 #include "core/monotonic.h"
-#include "rig/bench_socket.h"
+#include "rig/bench/bench_socket.h"
 
 namespace faba {
 namespace {

@@ -6,7 +6,7 @@
 #include <atomic>
 
 #include "core/monotonic.h"
-#include "rig/camera_feed.h"
+#include "rig/bench/camera_feed.h"
 #include "vision/files/frame_encoder.h"
 
 namespace faba {

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/monotonic.h"
-#include "rig/camera_feed.h"
+#include "rig/bench/camera_feed.h"
 #include "vision/files/frame_encoder.h"
 #include "vision/files/video_writer.h"
 

@@ -42,7 +42,7 @@ void OpenBench::try_coils() const {
 }
 
 double OpenBench::delay(const Scenario& s) {
-  if (setup_.driver.type == "none" || camera_->waits()) return 0;
+  if (setup_.driver.has(Trait::no_current) || camera_->waits()) return 0;
   constexpr int kLook = 11;  // pictures; what only the first one takes is not in their median
   BenchControls controls(s);
   std::vector<double> took;

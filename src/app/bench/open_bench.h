@@ -3,8 +3,8 @@
 
 #include "app/bench/bench_controls.h"
 #include "app/bench/bench_process.h"
-#include "rig/bench_rig.h"
-#include "rig/device_list.h"
+#include "rig/bench/bench_rig.h"
+#include "rig/bench/device_list.h"
 
 namespace faba {
 

@@ -7,7 +7,7 @@
 
 #include "app/bench/bench_controls.h"
 #include "app/recording/run_directory.h"
-#include "rig/replay_rig.h"
+#include "rig/bench/replay_rig.h"
 
 namespace faba {
 

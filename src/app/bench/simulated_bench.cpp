@@ -11,7 +11,7 @@
 #include "app/run/simulation.h"
 #include "core/file.h"
 #include "core/monotonic.h"
-#include "rig/bench_socket.h"
+#include "rig/bench/bench_socket.h"
 #include "vision/image/image.h"
 
 namespace faba {

@@ -9,8 +9,8 @@
 namespace faba {
 
 /// A bench that is not there: the scenario's swarm in real time, its microscope as a camera and its coils
-/// behind an amplifier, for programs in other processes (rig/bench_socket.h). It obeys voltages and nothing
-/// else, as a bench does, and keeps a log of what flowed when.
+/// behind an amplifier, for programs in other processes (rig/bench/bench_socket.h). It obeys voltages and
+/// nothing else, as a bench does, and keeps a log of what flowed when.
 class SimulatedBench {
  public:
   struct Options {

@@ -5,37 +5,6 @@
 
 namespace faba {
 
-Schema<Limits::Params> Limits::schema() {
-  return Schema<Params>("limits", "What the loop lets through to the coils")
-      .add("max_current", &Params::max_current,
-           {.unit = "A", .min = 0, .max = 1000, .doc = "Largest current in any coil", .source = "assumed"})
-      .add("max_slew", &Params::max_slew,
-           {.unit = "A/s",
-            .min = 1e-6,
-            .max = 1e9,
-            .doc = "Fastest change of any current; unlimited when absent"})
-      .add("max_frame_age", &Params::max_frame_age,
-           {.unit = "s",
-            .min = 1e-3,
-            .max = 1e6,
-            .doc = "Older pictures are not acted on: all currents go to zero"});
-}
-
-bool Limits::apply(Command& c, double dt, double frame_age) {
-  const std::vector<double> asked = c.current;
-  last_.resize(c.current.size(), 0.0);
-  if (wired_) wired_(c.current);
-  for (std::size_t k = 0; k < c.current.size(); ++k) {
-    double& i = c.current[k];
-    if (!std::isfinite(i) || frame_age > p_.max_frame_age) i = 0;
-    const double most = k < most_.size() ? std::min(most_[k], p_.max_current) : p_.max_current;
-    i = std::clamp(i, -most, most);
-    if (p_.max_slew) i = std::clamp(i, last_[k] - *p_.max_slew * dt, last_[k] + *p_.max_slew * dt);
-  }
-  last_ = c.current;
-  return c.current != asked;
-}
-
 void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on) {
   struct Guard {
     Rig& rig;

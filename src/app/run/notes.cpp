@@ -103,7 +103,7 @@ void note_helpless(const Scenario& s, const Simulation& simulation, Notes& notes
     notes.emplace_back("limits.max_current is 0: the coils stay without current");
   if (std::all_of(s.swarms.begin(), s.swarms.end(), [](const Swarm& w) { return w.params.responding == 0; }))
     notes.emplace_back("responding is 0 for every swarm: no cell feels the field");
-  if (s.params.exposure > 0 && s.motility.type == "none")
+  if (s.params.exposure > 0 && s.motility.has(Trait::inert))
     notes.emplace_back(
         "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
   if (!s.renders() &&
@@ -154,13 +154,13 @@ std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulatio
     note_goals(simulation, notes);
     note_polarities(s, notes);
   }
-  if (s.controller.type.starts_with("gradient")) note_traps(s, simulation, notes);
+  if (s.controller.has(Trait::seeks_null)) note_traps(s, simulation, notes);
   if (const auto& table = simulation.world().parts().table; table && table->error() > FieldTable::kTolerance)
     notes.push_back(fmt::format(
         "library: on its grid the field is off by up to {:.1g} of a coil's largest; a finer one needs "
         "a smaller --spacing",
         table->error()));
-  if (s.controller.type == "manual") note_currents(s, simulation, notes);
+  if (s.controller.has(Trait::open_loop)) note_currents(s, simulation, notes);
   note_size(s, simulation.world().state().agents.size(), out, notes);
   return notes;
 }

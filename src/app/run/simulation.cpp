@@ -80,10 +80,11 @@ std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std
   SimRig::Params p{steps, s.frame_period(), s.camera.delay_frames, s.camera.jitter};
   p.frames = s.camera.sensor == CameraParams::Sensor::frames;
   if (s.renders()) {
+    const auto read = ground ? nullptr : s.ground();
     const Outline edge = world.parts().arena->outline();
     p.microscope = std::make_shared<Microscope>(s.microscope, world.parts().arena->frame(),
                                                 Circle{edge.centre_image, edge.radius_px}, s.frame_period(),
-                                                seed, ground);
+                                                seed, ground ? ground : read.get());
     p.pool = &pool;
   }
   return std::make_unique<SimRig>(world, p);
@@ -119,8 +120,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
   w.exclusion = s.exclusion;
   w.arena = s.arena.make({scale});
   w.field = s.field.make({});
-  std::shared_ptr<const FieldLibrary> library;
-  if (s.library) library = std::make_shared<FieldLibrary>(s.library->file);
+  const std::shared_ptr<const FieldLibrary> library = s.field_library();
   if (library || w.field->varies()) w.table = tabulated(*w.field, w.arena->grid(), library.get(), s);
   w.motility = s.motility.make({w.arena.get(), s.params.exposure});
   frame_ = w.arena->frame();

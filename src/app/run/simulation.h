@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "app/loop/loop.h"
 #include "app/scenario/scenario.h"
 #include "rig/simulated/sim_rig.h"
 
@@ -15,7 +16,7 @@ ControlContext control_context(const Scenario& s, const std::shared_ptr<const Fi
 class Simulation {
  public:
   /// Throws Error(usage) when the parts do not fit together. `ground`, when given, is what a video shows that
-  /// microscope.background names: those who simulate many times read it once.
+  /// microscope.background names: those who simulate many times read it once; else it is read.
   Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
              const std::shared_ptr<const VideoGround>& ground = nullptr);
   Simulation(const Simulation&) = delete;

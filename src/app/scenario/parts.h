@@ -1,14 +1,30 @@
 #pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
 #include "control/controller.h"
+#include "core/table.h"
 #include "rig/camera.h"
-#include "rig/guard_setup.h"
+#include "rig/coil_driver.h"
 #include "sim/motility.h"
 #include "sim/start.h"
 #include "vision/flow/flow.h"
+#include "vision/render/ground.h"
 
 namespace faba {
 
-/// Every part that a scenario can name, by kind.
+/// What reads the files that a scenario names. The engine alone reads CSV tables and nothing else: members
+/// that are empty make the scenario fail with Error(usage) where it names such a file.
+struct Readers {
+  std::function<Table(const std::filesystem::path&)> table;  ///< of numbers: measured fields
+  std::function<std::shared_ptr<const FieldLibrary>(const std::filesystem::path&)> library;
+  std::function<std::string(const std::filesystem::path&)> library_task;  ///< how a library was made
+  std::function<VideoGround(const std::filesystem::path&)> ground;        ///< light and noise of a video
+};
+
+/// Every part that a scenario can name, by kind, and what reads the files that it can name.
 struct Parts {
   ModelRegistry model{"agent model", "Law of motion of a swarm: [swarm.model]"};
   StartRegistry start{"start", "Where a swarm begins: [swarm.start]"};
@@ -19,9 +35,13 @@ struct Parts {
   ReferenceRegistry reference{"reference", "Where the swarm should be: [reference]"};
   ControllerRegistry controller{"controller", "Feedback law: [controller]"};
   FlowRegistry flow{"flow method", "Optical flow between two frames: [flow], --method"};
-  CameraRegistry camera = builtin_cameras();
-  CoilDriverRegistry driver = builtin_coil_drivers();
+  CameraRegistry camera{"camera", "Where the bench's pictures come from: [rig.camera]"};
+  CoilDriverRegistry driver{"coil driver", "What puts current through the coils: [rig.driver]"};
+  Readers readers;
 };
+
+/// The parts of the simulation engine: no devices, no optical flow, no files but CSV. Part of faba_engine.
+Parts engine_parts();
 
 /// All parts that come with the program.
 Parts builtin_parts();

@@ -2,21 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "app/scenario/read_scenario.h"
+#include "app/scenario/control_rules.h"
 
 namespace faba {
 namespace {
-
-struct When {
-  std::uint64_t frame = 0;
-  std::uint64_t swarm = 0;
-  static Schema<When> schema() {
-    return Schema<When>("event", "Parts that are exchanged while the run goes on")
-        .add("frame", &When::frame,
-             {.min = 0, .max = 1e9, .doc = "Before this frame; the run begins with frame 0"})
-        .add("swarm", &When::swarm, {.min = 0, .max = 1e6, .doc = "Whose model it is, from 0 on"});
-  }
-};
 
 const std::vector<std::string> kParts = {"model", "estimator", "reference", "controller"};
 
@@ -30,9 +19,10 @@ void change(const Event& e, Scenario& s) {
 }
 
 Event read_event(const Node& n, Scenario& now, const Parts& parts) {
-  const When when = When::schema().parse(n, kParts);
+  const EventTime when = EventTime::schema().parse(n, kParts);
   Event e;
-  e.frame = when.frame, e.swarm = std::size_t(when.swarm);
+  e.frame = when.frame;
+  e.swarm = std::size_t(when.swarm);
   if (n.has("model")) {
     if (e.swarm >= now.swarms.size())
       n.child("swarm").fail(fmt::format("there are {} swarms, counted from 0 on", now.swarms.size()));
@@ -45,21 +35,30 @@ Event read_event(const Node& n, Scenario& now, const Parts& parts) {
   Scenario next = now;
   change(e, next);
   if (next.steers()) {
-    const auto usual = [&](const auto& registry, const char* kind, const char* name) {
-      const Json word = name;
-      return registry.resolve(Node(word, kind, n.document));
+    const auto usual = [&](const auto& registry, const char* kind, const Json& name) {
+      return registry.resolve(Node(name, kind, n.document));
     };
-    if (!e.estimator && next.estimator.type == "none")
-      e.estimator = usual(parts.estimator, "estimator", usual_estimator(next));
-    if (!e.reference && next.reference.type == "none")
-      e.reference = usual(parts.reference, "reference", "hold");
+    if (!e.estimator && next.estimator.has(Trait::no_estimate))
+      e.estimator = usual(parts.estimator, "estimator", next.usual_estimator());
+    if (!e.reference && next.reference.has(Trait::no_target))
+      e.reference = usual(parts.reference, "reference", next.usual_reference());
     change(e, next);
   }
-  check_control(n, next);
+  check_control(n, next, parts);
   now = std::move(next);
   return e;
 }
 
-Json event_json_schema() { return When::schema().json_schema(); }
+void read_events(const Node& root, const Parts& parts, Scenario& s) {
+  const Node events = root.child("event");
+  if (!events.json->is_array()) events.fail("write [[event]], once for each change");
+  Scenario now = s;
+  for (std::size_t i = 0; i < events.json->size(); ++i) {
+    const Node n = events.item(i);
+    s.events.push_back(read_event(n, now, parts));
+    if (i > 0 && s.events[i].frame < s.events[i - 1].frame)
+      n.child("frame").fail("events must be in order of time");
+  }
+}
 
 }  // namespace faba

@@ -11,7 +11,4 @@ Event read_event(const Node& n, Scenario& now, const Parts& parts);
 /// Makes the change of an event in a scenario.
 void change(const Event& e, Scenario& s);
 
-/// JSON Schema of one event.
-Json event_json_schema();
-
 }  // namespace faba

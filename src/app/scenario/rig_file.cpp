@@ -8,9 +8,10 @@ namespace faba {
 
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts) {
   Document d = read_toml(file);
+  d.table_reader = parts.readers.table;
   if (!d.root.contains("coil"))
     throw Error(Errc::usage, file.string(), "is no rig: it has no [[coil]]; see rigs/ for some");
-  d.root["type"] = "rig";
+  d.root["type"] = parts.field.names_with(Trait::coil_system).front();
   return parts.field.resolve(Node(d));
 }
 
@@ -27,8 +28,8 @@ void files_from_here(Document& rig) {
 
 }  // namespace
 
-Json rig_json_schema(const Parts& parts) {
-  Json j = parts.field.json_schema("rig");
+Json rig_file_json_schema(const Parts& parts) {
+  Json j = parts.field.json_schema(parts.field.names_with(Trait::coil_system).front());
   j["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   j["required"] = Json::array({"coil"});
   return j;

@@ -9,7 +9,7 @@ namespace faba {
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts);
 
 /// JSON Schema of a rig file.
-Json rig_json_schema(const Parts& parts);
+Json rig_file_json_schema(const Parts& parts);
 
 /// What a resolved rig, or any other field, is told by: everything but names, where maps were read from, and
 /// the currents that flow when nothing commands them.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/sinks/sinks.h"
-#include "core/h5.h"
+#include "core/h5/h5.h"
 
 namespace faba {
 namespace {

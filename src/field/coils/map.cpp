@@ -56,6 +56,7 @@ class Map final : public Field {
     CircuitParams circuit;
     std::optional<Expansion> expansion;
   };
+  static constexpr std::array kTraits = {Trait::coil};
   static Schema<Params> schema() {
     return Schema<Params>("map", "The field of a coil as it was measured, or computed by other software")
         .add("file", &Params::file,
@@ -90,7 +91,7 @@ class Map final : public Field {
   }
   static void settle(Params& p, const Node& n) {
     if (p.expansion) return;
-    FieldData data = read_field_data(n.file(p.file));
+    FieldData data = field_data(n.table(p.file));
     if (data.about_axis || !data.given[0] || !data.given[1])
       throw Error(Errc::input, data.source,
                   "a map needs the columns x, y, bx and by, and best z and bz, such as x_mm and bx_mt");

@@ -10,6 +10,7 @@ namespace {
 class NoCoils final : public CoilDriver {
  public:
   struct Params {};
+  static constexpr std::array kTraits = {Trait::no_current};
   static Schema<Params> schema() {
     return Schema<Params>("none", "Nothing: commands are made, recorded and go nowhere");
   }

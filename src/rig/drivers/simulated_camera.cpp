@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "rig/bench_socket.h"
+#include "rig/bench/bench_socket.h"
 #include "rig/camera.h"
 #include "vision/image/image.h"
 
@@ -14,6 +14,7 @@ class SimulatedCamera final : public Camera {
   struct Params {
     std::string at;
   };
+  static constexpr std::array kTraits = {Trait::simulated};
   static Schema<Params> schema() {
     return Schema<Params>("simulated",
                           "The microscope of a simulated bench, in another process and in real time")

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "core/monotonic.h"
-#include "rig/bench_socket.h"
+#include "rig/bench/bench_socket.h"
 #include "rig/coil_driver.h"
 
 namespace faba {
@@ -18,6 +18,7 @@ class SimulatedCoils final : public CoilDriver {
   struct Params {
     std::string at;
   };
+  static constexpr std::array kTraits = {Trait::simulated};
   static Schema<Params> schema() {
     return Schema<Params>("simulated", "The coils of a simulated bench, in another process")
         .add("at", &Params::at,

@@ -30,6 +30,7 @@ class Box final : public Arena {
   Grid grid() const override;
   Frame frame() const override;
   Outline outline() const override { return {frame().centre_image, 0}; }
+  bool needs_exclusion() const override { return p_.limits == Limits::reject; }
 
  private:
   Params p_;

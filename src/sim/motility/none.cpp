@@ -7,6 +7,7 @@ namespace {
 class MotilityNone final : public Motility {
  public:
   struct Params {};
+  static constexpr std::array kTraits = {Trait::inert};
   static Schema<Params> schema() {
     return Schema<Params>("none", "Air does nothing: cells keep speed and response");
   }

@@ -5,6 +5,7 @@
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <unsupported/Eigen/NumericalDiff>
 
+#include "app/files/field_points.h"
 #include "app/scenario/rig_file.h"
 #include "core/file.h"
 #include "core/units.h"
@@ -130,7 +131,7 @@ nlohmann::ordered_json field_fit(const std::filesystem::path& rig, const std::fi
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
     throw Error(Errc::usage, rig.string(),
                 "no current flows in it; give its coils the `current` with which the field was measured");
-  const FieldData data = read_field_data(measured);
+  const FieldData data = field_data(read_field_points(measured));
   const Model model(*field, data);
   const auto n = Eigen::Index(model.values().size()), p = model.parameters();
   if (n <= p) throw Error(Errc::input, measured.string(), fmt::format("has {} values for {} unknowns", n, p));

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
+#include "app/files/library_file.h"
 #include "app/scenario/rig_file.h"
 #include "core/file_lock.h"
 #include "core/parallel.h"
-#include "field/library.h"
 #include "field/null.h"
 #include "study/coils/field_report.h"
 
@@ -211,13 +211,13 @@ nlohmann::ordered_json build_field_library(const std::filesystem::path& rig, con
   o.progress(lattice.size(), lattice.size());
   writer.finish();
 
-  const FieldLibrary library(out);
+  const std::shared_ptr<const FieldLibrary> library = open_library(out);
   nlohmann::ordered_json j{
-      {"out", out.string()}, {"combinations", lattice.size()}, {"entries", library.entries().size()},
+      {"out", out.string()}, {"combinations", lattice.size()}, {"entries", library->entries().size()},
       {"levels", levels},    {"columns", grid.columns},        {"rows", grid.rows}};
-  j["traps"] = std::count_if(library.entries().begin(), library.entries().end(),
+  j["traps"] = std::count_if(library->entries().begin(), library->entries().end(),
                              [](const LibraryEntry& e) { return e.gradient[1] < 0 || e.gradient[0] > 0; });
-  compare_with_solver(*field, library, half, j);
+  compare_with_solver(*field, *library, half, j);
   return j;
 }
 

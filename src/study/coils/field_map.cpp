@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/scenario/rig_file.h"
-#include "core/h5.h"
+#include "core/h5/h5.h"
 #include "field/kernels/field_table.h"
 #include "field/null.h"
 #include "study/coils/field_report.h"

@@ -21,7 +21,7 @@ struct What {
   const char* name;
   double blur;
 };
-constexpr What kWhat[] = {{"10 % of speeds along", 0.1}, {"median speed along", 0.05},
+constexpr What kBurstNumbers[] = {{"10 % of speeds along", 0.1}, {"median speed along", 0.05},
                           {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
                           {"median step", 0.3},          {"cells followed", 0.3}};
 
@@ -37,7 +37,7 @@ class BurstStatistics final : public EpisodeStatistics {
       for (int b = 0; b < kBursts; ++b)
         for (int k = 0; k < kFrames; ++k)
           times_s_.push_back(drive.t0_s + first + (last - first) * b / (kBursts - 1) + k * view.frame_s);
-      for (const What& what : kWhat) numbers_.push_back({what.name, d, drive.t1_s});
+      for (const What& what : kBurstNumbers) numbers_.push_back({what.name, d, drive.t1_s});
     }
   }
 
@@ -60,7 +60,7 @@ class BurstStatistics final : public EpisodeStatistics {
 
   void blur(std::vector<double>& numbers, StudyRandom& random) const override {
     for (std::size_t k = 0; k < numbers.size(); ++k)
-      numbers[k] += kWhat[k % std::size(kWhat)].blur * random.normal();
+      numbers[k] += kBurstNumbers[k % std::size(kBurstNumbers)].blur * random.normal();
   }
 
  private:

@@ -10,7 +10,7 @@ namespace {
 constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is spread over the view: where
                                     // none is seen quantiles are then those of the view
 constexpr double kFew = 0.02;       // share in view that is as good as none
-constexpr const char* kWhat[] = {"cells in view", "10 % along", "median along", "90 % along", "width across"};
+constexpr const char* kDensityNumbers[] = {"cells in view", "10 % along", "median along", "90 % along", "width across"};
 constexpr int kMoments = 6;  // of each drive
 // How many cells a crowd is taken for depends on how each of them looks. At the true parameters simulations
 // of experiments 0 and 1 of bench/recovery.py were counted 6 % above the videos, though as wide and as
@@ -64,7 +64,7 @@ class DensityStatistics final : public EpisodeStatistics {
   std::vector<double> of_frames(const std::vector<GrayF>& frames) const override;
   std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override;
   void blur(std::vector<double>& numbers, StudyRandom& random) const override {
-    for (std::size_t k = 0; k + 1 < numbers.size(); k += std::size(kWhat))
+    for (std::size_t k = 0; k + 1 < numbers.size(); k += std::size(kDensityNumbers))
       numbers[k] += kMass * random.normal();
     numbers.back() += kCount * random.normal();
   }
@@ -89,7 +89,7 @@ DensityStatistics::DensityStatistics(const Episode& e, const CellView& view) : e
       drive_at_.push_back(d);
     }
   for (std::size_t k = 0; k < times_s_.size(); ++k)
-    for (const char* what : kWhat) numbers_.push_back({what, drive_at_[k], times_s_[k]});
+    for (const char* what : kDensityNumbers) numbers_.push_back({what, drive_at_[k], times_s_[k]});
   numbers_.push_back({"number of cells", 0, times_s_.back()});
 }
 

@@ -11,7 +11,7 @@ using Eigen::VectorXd;
 
 constexpr int kTries = 400;  // of the others at one value
 
-struct Search {
+struct ProfileSearch {
   const std::function<double(const VectorXd&)>* log_likelihood;
   VectorXd u;
   Index fixed;
@@ -24,7 +24,7 @@ struct Search {
 };
 
 double value(const std::vector<double>& x, std::vector<double>&, void* search) {
-  return (*static_cast<Search*>(search))(x);
+  return (*static_cast<ProfileSearch*>(search))(x);
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ Profile profile_likelihood(const std::function<double(const VectorXd&)>& log_lik
     if (k != j) low.push_back(box.low[k]), high.push_back(box.high[k]), begin.push_back(start[k]);
   for (std::size_t k = 0; k < begin.size(); ++k) begin[k] = std::min(std::max(begin[k], low[k]), high[k]);
   for (Index i = 0; i < points; ++i) {
-    Search search{&log_likelihood, start, j};
+    ProfileSearch search{&log_likelihood, start, j};
     search.u[j] = p.u[i];
     if (begin.empty()) {
       p.log_likelihood[i] = log_likelihood(search.u);

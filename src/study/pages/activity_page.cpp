@@ -125,20 +125,18 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
   return f;
 }
 
-std::string row(const std::vector<std::string>& cells, const char* tag) {
-  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", escape_markup(cells.front()));
-  for (std::size_t i = 1; i < cells.size(); ++i)
-    out += fmt::format("<{0}>{1}</{0}>", tag, escape_markup(cells[i]));
-  return out + "</tr>\n";
+std::string text_row(std::vector<std::string> cells, const char* tag) {
+  for (std::string& cell : cells) cell = escape_markup(cell);
+  return table_row(cells, tag);
 }
 
 std::string table(const ActivityResult& r) {
   std::string out = "<h2>Numbers</h2>\n<table class=\"numbers\">\n";
-  out += row({"video", "direction", "threshold (px)", "mean activity", "per visible cell", "signal to noise",
+  out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell", "signal to noise",
               "maximum (s)", "width (s)"},
              "th");
   for (const VideoActivity& a : r.videos)
-    out += row(
+    out += text_row(
         {title_of(a), fmt::format("{}°", whole_degrees(a.direction_deg)), three_digits(a.threshold_px),
          three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
          a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
@@ -151,10 +149,10 @@ std::string table(const ActivityResult& r) {
                   [](const VideoActivity& a) { return a.segments.empty(); }))
     return out;
   out += "<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n";
-  out += row({"video", "from (s)", "to (s)", "direction"}, "th");
+  out += text_row({"video", "from (s)", "to (s)", "direction"}, "th");
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
-      out += row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
+      out += text_row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
                   fmt::format("{}° ({})", whole_degrees(s.direction_deg), compass(s.direction_deg))},
                  "td");
   return out + "</table>\n";

@@ -39,12 +39,6 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
     {"control_effort_a2_s", "effort (A² s)"},
     {"total_variation_ut", "restlessness (µT)"}};
 
-std::string row(const std::vector<std::string>& cells, const char* tag) {
-  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", cells.front());
-  for (std::size_t i = 1; i < cells.size(); ++i) out += fmt::format("<{0}>{1}</{0}>", tag, cells[i]);
-  return out + "</tr>\n";
-}
-
 bool several_delays(const ControllerComparison& r) { return r.study.delays.size() > 1; }
 
 std::string place(const ControllerComparison& r, const Combination& c) {
@@ -66,13 +60,13 @@ std::string table(const ControllerComparison& r) {
   head.emplace_back("behind the best (px)");
   for (const auto& column : columns) head.emplace_back(column.second);
   std::string out = "<h2>Numbers</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>" +
-                    row(head, "th") + "</thead><tbody>\n";
+                    table_row(head, "th") + "</thead><tbody>\n";
   for (const Combination& c : r.combinations) {
     std::vector<std::string> cells{escape_markup(c.controller), fmt::format("{} of {}", c.settled, c.trials)};
     if (head[1] == "with") cells.insert(cells.begin() + 1, escape_markup(place(r, c)));
     cells.push_back(c.behind_best ? with_interval(&*c.behind_best) : "–");
     for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
-    out += row(cells, "td");
+    out += table_row(cells, "td");
   }
   return out +
          fmt::format(
@@ -157,7 +151,7 @@ std::string verdict(const ControllerComparison& r) {
     sentence = fmt::format("<p class=\"lead\">{} keeps nearest to the setpoint, at {}.</p>\n",
                            escape_markup(best->controller), at);
     rows +=
-        row({escape_markup(place(r, *best)), fmt::format("{}, at {}", escape_markup(best->controller), at)},
+        table_row({escape_markup(place(r, *best)), fmt::format("{}, at {}", escape_markup(best->controller), at)},
             "td");
   }
   if (groups(r).size() < 2 || rows.empty()) return sentence;

@@ -76,4 +76,10 @@ std::string power_of_ten(int exponent) {
   return out;
 }
 
+std::string table_row(const std::vector<std::string>& cells, const char* tag) {
+  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", cells.front());
+  for (std::size_t i = 1; i < cells.size(); ++i) out += fmt::format("<{0}>{1}</{0}>", tag, cells[i]);
+  return out + "</tr>\n";
+}
+
 }  // namespace faba

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 #include <string_view>
 
 namespace faba {
@@ -14,5 +15,9 @@ std::string three_digits(double value);
 
 /// A power of ten for humans: "10³", "10⁻⁶".
 std::string power_of_ten(int exponent);
+
+/// A row of an HTML table: the first cell is its heading, the others are elements of `tag` ("td" or "th"). Cells are
+/// markup already.
+std::string table_row(const std::vector<std::string>& cells, const char* tag);
 
 }  // namespace faba

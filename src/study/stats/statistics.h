@@ -1,9 +1,13 @@
 #pragma once
+#include <limits>
 #include <array>
 #include <span>
 #include <vector>
 
 namespace faba {
+
+/// Stands for a figure that does not exist, such as the standard error of one value.
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Regularised incomplete beta function I_x(a, b), 0 <= x <= 1, a, b > 0, to some 1e-14: the continued
 /// fraction of DLMF 8.17.22 (https://dlmf.nist.gov/8.17), on the side where it converges fast.

@@ -41,7 +41,6 @@ constexpr Named kMetrics[] = {{"settling_time_s", &Metrics::settling_time_s},
                               {"total_variation_ut", &Metrics::total_variation_ut},
                               {"limited_fraction", &Metrics::limited_fraction}};
 constexpr std::size_t kSteady = 3;  // steady_rms_px
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct StudyFile {
   std::string title, scene;

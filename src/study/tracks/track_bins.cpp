@@ -1,5 +1,7 @@
 #include "study/tracks/track_bins.h"
 
+#include "study/stats/statistics.h"
+
 #include <cmath>
 #include <cstddef>
 
@@ -8,7 +10,6 @@ namespace {
 
 constexpr std::size_t kSpans = 512;
 constexpr double kFewest = 5;  // vectors, from which an order is said
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

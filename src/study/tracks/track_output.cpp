@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/h5.h"
+#include "core/h5/h5.h"
 
 namespace faba {
 namespace {

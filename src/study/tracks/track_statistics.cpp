@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "study/tracks/track_bins.h"
+#include "study/stats/statistics.h"
 
 namespace faba {
 namespace {
 
 constexpr std::size_t kGroups = 20;  // of tracks, by number: the jackknife leaves out one after the other
 constexpr std::size_t kPilotPoints = 50000;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLowSpeed = 1e-4;  // px per interval, where the logarithmic bins begin
 constexpr double kBinsPerDecade = 400;
 constexpr std::size_t kSpeedBins = 3600, kTurnBins = 720;

@@ -1,6 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "core/vec.h"
+
 #include "vision/cells/spot.h"
 #include "vision/image/image.h"
 

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/file.h"
-#include "core/h5.h"
+#include "core/h5/h5.h"
 
 namespace faba {
 namespace {

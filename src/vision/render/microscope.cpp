@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/philox.h"
 #include "core/portable_math.h"
-#include "vision/cells/video_ground.h"
 #include "vision/render/kernels/camera_noise.h"
 #include "vision/render/lit_ground.h"
 
@@ -77,7 +76,8 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
     shot_ = 1 / p.full_well;
     constant_ = read * read;
   } else {
-    VideoGround video = ground ? *ground : read_video_ground(p.background);
+    if (!ground) throw Error(Errc::internal, "microscope.background", "was not read");
+    VideoGround video = *ground;
     if (video.light.width != frame.width || video.light.height != frame.height)
       throw Error(
           Errc::usage, "microscope.background",

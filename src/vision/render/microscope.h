@@ -24,10 +24,9 @@ struct Exposure {
 /// number of threads and on every machine. Not to be shared between threads.
 class Microscope {
  public:
-  /// `edge`: the drop, image frame, px; radius 0 for none. `frame_period` s. Reads params.background when it
-  /// is given. Throws Error(usage) when the picture has more than 2^28 px, the exposure is longer than a
-  /// frame or the background has another size than the view, Error(input) when it cannot be read.
-  /// `ground`, when given, stands for what would be read from params.background.
+  /// `edge`: the drop, image frame, px; radius 0 for none. `frame_period` s. `ground`: what the video
+  /// params.background shows; needed when that is given. Throws Error(usage) when the picture has more than
+  /// 2^28 px, the exposure is longer than a frame or the background has another size than the view.
   Microscope(const MicroscopeParams& params, const Frame& frame, const Circle& edge, double frame_period,
              std::uint64_t seed, const VideoGround* ground = nullptr);
 

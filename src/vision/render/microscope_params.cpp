@@ -129,4 +129,9 @@ Schema<MicroscopeParams> MicroscopeParams::schema() {
           "rings out of focus.");
 }
 
+void MicroscopeParams::settle(MicroscopeParams& p, const Node& n) {
+  if (p.background.empty()) return;
+  p.background = std::filesystem::absolute(n.file(p.background)).lexically_normal().string();
+}
+
 }  // namespace faba

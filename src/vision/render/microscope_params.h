@@ -33,6 +33,8 @@ struct MicroscopeParams {
   double length() const { return cell_length.value_or(cell_diameter); }  ///< m
   /// Every key with unit, range, sentence and source.
   static Schema<MicroscopeParams> schema();
+  /// Finds the background's file as the scenario `n` names it.
+  static void settle(MicroscopeParams& p, const Node& n);
 };
 
 }  // namespace faba

@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 #include "app/recording/checkpoint.h"
-#include "core/h5.h"
-#include "tests/app/recording/run_directory.h"
+#include "core/h5/h5.h"
+#include "tests/app/run_directory.h"
 #include "vision/files/video_reader.h"
 
 using namespace faba;

@@ -8,7 +8,7 @@
 #include "app/scenario/scenario.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "tests/app/recording/run_directory.h"
+#include "tests/app/run_directory.h"
 
 using namespace faba;
 

@@ -172,7 +172,7 @@ TEST_CASE("estimators that need positions are refused where a camera tells none"
       FAIL("accepted");
     } catch (const Error& e) {
       CHECK(e.code() == Errc::usage);
-      CHECK(std::string(e.what()).find("use \"image\" or \"groups\"") != std::string::npos);
+      CHECK(std::string(e.what()).find("use one of \"groups\", \"image\"") != std::string::npos);
     }
   }
 }

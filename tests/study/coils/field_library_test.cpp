@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "app/files/library_file.h"
 #include "app/scenario/rig_file.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "field/library.h"
 #include "field/null.h"
 #include "study/coils/field_report.h"
 #include "tests/temporary_folder.h"
@@ -38,7 +38,8 @@ void check_equal(const FieldLibrary& a, const FieldLibrary& b) {
 TEST_CASE("field library: every entry is a zero that traps, and its field is the rig's") {
   const test::TemporaryFolder f("library");
   const auto j = build_field_library(kRig, f.path() / "l.h5", small());
-  const FieldLibrary l(f.path() / "l.h5");
+  const auto kept_l = open_library(f.path() / "l.h5");
+  const FieldLibrary& l = *kept_l;
   const auto rig = read_rig(kRig, builtin_parts());
   const auto field = rig.make({});
   CHECK_NOTHROW(l.table(*field, rig_fingerprint(rig.resolved)));
@@ -85,7 +86,7 @@ TEST_CASE("field library: stopped or crashed, it goes on to the same library, wi
   o.progress = [&](std::uint64_t done, std::uint64_t) { first = first ? first : done; };
   build_field_library(kRig, out, o);
   CHECK(first > 0);  // it did not begin again
-  check_equal(FieldLibrary(f.path() / "whole.h5"), FieldLibrary(out));
+  check_equal(*open_library(f.path() / "whole.h5"), *open_library(out));
 
   // A power cut leaves any part of the file: what can be read of it is used, and never more.
   for (const double share : {0.1, 0.5, 0.9}) {
@@ -93,7 +94,7 @@ TEST_CASE("field library: stopped or crashed, it goes on to the same library, wi
     write_file(cut.string() + ".part", left.substr(0, std::size_t(share * double(left.size()))));
     o.force = true, o.progress = [](auto, auto) {};
     build_field_library(kRig, cut, o);
-    check_equal(FieldLibrary(f.path() / "whole.h5"), FieldLibrary(cut));
+    check_equal(*open_library(f.path() / "whole.h5"), *open_library(cut));
   }
 }
 

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "study/pages/run_figures.h"
 #include "tests/temporary_folder.h"
-#include "well_formed.h"
+#include "tests/study/well_formed.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "study/stats/statistics.h"
-#include "tests/app/recording/run_directory.h"
+#include "tests/app/run_directory.h"
 #include "tests/vision/drop_pictures.h"
 
 using namespace faba;

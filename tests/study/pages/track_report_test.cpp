@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/h5.h"
+#include "core/h5/h5.h"
 #include "core/table.h"
 #include "tests/vision/media.h"
 #include "tests/vision/rendered_cells.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "well_formed.h"
+#include "tests/study/well_formed.h"
 
 namespace {
 

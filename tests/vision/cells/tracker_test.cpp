@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/error.h"
-#include "rendered_cells.h"
+#include "tests/vision/rendered_cells.h"
 #include "vision/cells/assignment.h"
 
 using namespace faba;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "media.h"
+#include "tests/vision/media.h"
 #include "vision/files/video_reader.h"
 
 using namespace faba;

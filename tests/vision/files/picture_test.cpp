@@ -1,4 +1,5 @@
 #include "vision/files/picture.h"
+#include "vision/image/grey_of.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +9,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "media.h"
-#include "raw_files.h"
+#include "tests/vision/media.h"
+#include "tests/vision/raw_files.h"
 
 using namespace faba;
 

@@ -5,9 +5,10 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "media.h"
-#include "raw_files.h"
+#include "tests/vision/media.h"
+#include "tests/vision/raw_files.h"
 #include "vision/files/picture.h"
+#include "vision/image/grey_of.h"
 
 using namespace faba;
 using media::TiffPage;

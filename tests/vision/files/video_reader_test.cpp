@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "media.h"
-#include "raw_files.h"
+#include "tests/vision/media.h"
+#include "tests/vision/raw_files.h"
 #include "vision/files/video_writer.h"
 
 using namespace faba;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "media.h"
+#include "tests/vision/media.h"
 #include "vision/files/video_reader.h"
 
 using namespace faba;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "rendered_cells.h"
+#include "tests/vision/rendered_cells.h"
 
 using namespace faba;
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "rendered_cells.h"
+#include "tests/vision/rendered_cells.h"
 #include "vision/image/kernels/smoothing.h"
 
 using namespace faba;

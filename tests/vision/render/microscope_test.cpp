@@ -11,6 +11,7 @@
 #include "core/philox.h"
 #include "tests/rendered_video.h"
 #include "tests/vision/media.h"
+#include "vision/cells/video_ground.h"
 #include "vision/files/picture.h"
 #include "vision/files/video_reader.h"
 
@@ -308,7 +309,8 @@ TEST_CASE("background and noise out of a video") {
   p.background = (folder / "real.avi").string();
   Frame frame = view(160, 90);
   const GrayF truth = Microscope(v.microscope, frame, {}, 1 / v.fps, v.seed).ground();
-  const Microscope m(p, frame, {}, 1 / v.fps, 2);
+  const VideoGround ground = read_video_ground(p.background);
+  const Microscope m(p, frame, {}, 1 / v.fps, 2, &ground);
   double worst = 0;
   for (std::size_t i = 0; i < truth.px.size(); ++i)
     worst = std::max(worst, double(std::fabs(truth.px[i] - m.ground().px[i])) * 255);
@@ -322,15 +324,17 @@ TEST_CASE("background and noise out of a video") {
   Gray8 still_picture(160, 90, 100);
   write_png(folder / "one.png", still_picture);
   p.background = (folder / "one.png").string();
-  const Microscope one(p, frame, {}, 0.1, 1);
+  const VideoGround still_ground = read_video_ground(p.background);
+  const Microscope one(p, frame, {}, 0.1, 1, &still_ground);
   CHECK(double(one.ground().at(80, 40)) == doctest::Approx(100.0 / 255));
   CHECK(one.noise_sd(0.5) == 0);
 
   p.background = (folder / "real.avi").string();
   frame.width = 161;
-  CHECK_THROWS_AS(Microscope(p, frame, {}, 0.1, 1), Error);
+  CHECK_THROWS_AS(Microscope(p, frame, {}, 0.1, 1, &ground), Error);
   p.background = (folder / "none.avi").string();
-  CHECK_THROWS_AS(Microscope(p, view(160, 90), {}, 0.1, 1), Error);
+  CHECK_THROWS_AS(read_video_ground(folder / "none.avi"), Error);
+  CHECK_THROWS_AS(Microscope(p, view(160, 90), {}, 0.1, 1), Error);  // nobody has read the background
 }
 
 TEST_CASE("an exposure longer than a frame is refused, and a cell that fills the view; usual exposure") {

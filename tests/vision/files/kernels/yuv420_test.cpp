@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "media.h"
+#include "tests/vision/media.h"
 
 using namespace faba;
 

@@ -1,0 +1,35 @@
+#include "app/files/from_picture.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "vision/drop/drop_edge.h"
+#include "vision/files/picture.h"
+
+namespace faba {
+
+void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_video) {
+  const Picture picture = read_picture(picture_or_video);
+  DropEdgeOptions options;
+  options.name = picture_or_video.string();
+  const DropEdge edge = find_drop_edge(picture.grey, options);
+  if (!edge.centre_side_inside)
+    throw Error(Errc::input, options.name,
+                "shows an air bubble in the liquid, not a drop: the cells are outside of the circle; give a "
+                "picture of a "
+                "drop, or write the arena by hand");
+  const std::string origin = "--from-video " + picture_or_video.string();
+  scenario.set("arena",
+               Json{{"type", "drop"},
+                    {"view_px", {edge.image_width, edge.image_height}},
+                    {"centre_px", {edge.centre_image.x, edge.centre_image.y}},
+                    {"radius_px", edge.radius_px}},
+               origin);
+  if (!scenario.root.contains("swarm") || !scenario.root["swarm"].is_array())
+    return;  // the reader will say so
+  for (std::size_t i = 0; i < scenario.root["swarm"].size(); ++i)
+    if (scenario.root["swarm"][i].is_object() && !scenario.root["swarm"][i].contains("start"))
+      scenario.set(fmt::format("swarm[{}].start", i), Json("visible"), origin);
+}
+
+}  // namespace faba

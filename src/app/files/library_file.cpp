@@ -1,0 +1,176 @@
+#include "app/files/library_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace faba {
+namespace {
+
+constexpr const char* kFormat = "faba field library 1";
+
+/// What a library is made of, in its file.
+struct Tables {
+  H5Table current, zero, gradient, field;
+  explicit Tables(const H5File& f)
+      : current(f.table("current_a")),
+        zero(f.table("zero_m")),
+        gradient(f.table("gradient_t_per_m")),
+        field(f.table("field_t")) {}
+  /// Entries that are there in full.
+  std::uint64_t rows() const {
+    return std::min({current.rows(), zero.rows(), gradient.rows(), field.rows()});
+  }
+  LibraryEntry entry(std::uint64_t row) const {
+    LibraryEntry e;
+    e.current.resize(current.row_size());
+    std::array<double, 2> at{};
+    current.read<double>(row, e.current);
+    zero.read<double>(row, at);
+    gradient.read<double>(row, e.gradient);
+    e.zero = {at[0], at[1]};
+    return e;
+  }
+};
+
+Error no_library(const std::filesystem::path& file, const Error& reason) {
+  return {
+      Errc::input, file.string(),
+      fmt::format("is not a whole field library ({}); make one with `faba field library RIG.toml --out FILE`",
+                  std::string(reason.what()).substr(reason.where().empty() ? 0 : reason.where().size() + 2))};
+}
+
+H5File opened(const std::filesystem::path& file) {
+  try {
+    return H5File::open(file);
+  } catch (const Error& e) {
+    throw no_library(file, e);
+  }
+}
+
+FieldLibrary::Content content_of(const std::filesystem::path& path) {
+  const auto file = std::make_shared<const H5File>(opened(path));
+  FieldLibrary::Content c;
+  c.source = path.string();
+  if (file->text_attribute("/", "format") != kFormat) throw Error(Errc::input, "", "format");
+  c.rig = file->text_attribute("/", "rig");
+  const auto number = [&](const char* name) { return file->number_attribute("/", name); };
+  c.grid = {{number("low_x_m"), number("low_y_m")},
+            number("spacing_m"),
+            int(number("columns")),
+            int(number("rows"))};
+  const Tables tables(*file);
+  std::uint64_t entries = 0;
+  file->table("entries").read<std::uint64_t>(0, {&entries, 1});
+  if (tables.rows() != entries || tables.field.row_size() != 2 * c.grid.nodes())
+    throw Error(Errc::input, "", "tables do not fit together");
+  for (std::uint64_t i = 0; i < entries; ++i) c.entries.push_back(tables.entry(i));
+  c.field = [file, nodes = c.grid.nodes()](std::size_t entry) {
+    std::vector<float> values(2 * nodes);
+    file->table("field_t").read<float>(entry, values);
+    return values;
+  };
+  return c;
+}
+
+}  // namespace
+
+std::shared_ptr<const FieldLibrary> open_library(const std::filesystem::path& file) {
+  try {
+    return std::make_shared<const FieldLibrary>(content_of(file));
+  } catch (const Error& e) {
+    throw no_library(file, e);
+  }
+}
+
+std::string library_task(const std::filesystem::path& file) {
+  const H5File h5 = opened(file);
+  try {
+    return h5.text_attribute("/", "task");
+  } catch (const Error& e) {
+    throw no_library(file, e);
+  }
+}
+
+LibraryWriter::LibraryWriter(const std::filesystem::path& file, const std::string& rig,
+                             const std::string& task, const TableGrid& grid, std::size_t coils)
+    : path_(file), part_(file.string() + ".part"), file_(H5File::create(part_.string() + ".new")) {
+  const auto columns = std::uint64_t(grid.columns), rows = std::uint64_t(grid.rows);
+  combination_ = file_.table<std::uint64_t>("combination", {}, 1024, 1, false);
+  current_ = file_.table<double>("current_a", {coils}, 1024, coils, false);
+  zero_ = file_.table<double>("zero_m", {2}, 1024, 2, false);
+  gradient_ = file_.table<double>("gradient_t_per_m", {2}, 1024, 2, false);
+  field_ = file_.table<float>("field_t", {rows, columns, 2}, 1, rows, true);
+  tried_ = file_.table<std::uint64_t>("tried", {}, 1024, 1, false);
+  whole_ = file_.table<std::uint64_t>("entries", {}, 1, 1, false);
+  file_.attribute("/", "format", std::string(kFormat));
+  file_.attribute("/", "rig", rig);
+  file_.attribute("/", "task", task);
+  for (const auto& [name, value] : {std::pair{"low_x_m", grid.low.x},
+                                    {"low_y_m", grid.low.y},
+                                    {"spacing_m", grid.spacing},
+                                    {"columns", double(columns)},
+                                    {"rows", double(rows)},
+                                    {"coils", double(coils)}})
+    file_.attribute("/", name, value);
+  file_.begin_writing();
+  take_over(task);
+}
+
+// HDF5 cannot go on in a file whose writer was killed, but it can read it.
+void LibraryWriter::take_over(const std::string& task) {
+  std::error_code ec;
+  if (std::filesystem::exists(part_, ec)) try {
+      const H5File old = H5File::open(part_);
+      if (old.text_attribute("/", "task") == task) {
+        const Tables tables(old);
+        const H5Table combination = old.table("combination");
+        const std::uint64_t whole = std::min(tables.rows(), combination.rows());
+        std::vector<float> nodes(field_->row_size());
+        for (std::uint64_t i = 0; i < whole; ++i) {
+          std::uint64_t from = 0;
+          combination.read<std::uint64_t>(i, {&from, 1});
+          tables.field.read<float>(i, nodes);
+          add(from, tables.entry(i), nodes);
+        }
+        std::uint64_t combinations = 0;
+        const H5Table tried_before = old.table("tried");
+        if (tried_before.rows() > 0)
+          tried_before.read<std::uint64_t>(tried_before.rows() - 1, {&combinations, 1});
+        if (combinations > done_) tried(combinations);
+      }
+    } catch (const Error& e) {
+      if (e.code() != Errc::input) throw;  // else what could be read is kept, and the rest is made again
+    }
+  std::filesystem::rename(part_.string() + ".new", part_);
+}
+
+std::size_t LibraryWriter::entries() const { return std::size_t(field_->rows()); }
+
+void LibraryWriter::add(std::uint64_t combination, const LibraryEntry& e, std::span<const float> field) {
+  const std::array<double, 2> at{e.zero.x, e.zero.y};
+  combination_->append<std::uint64_t>({&combination, 1});
+  current_->append<double>(e.current);
+  zero_->append<double>(at);
+  gradient_->append<double>(e.gradient);
+  field_->append<float>(field);
+  done_ = combination + 1;
+}
+
+void LibraryWriter::tried(std::uint64_t combinations) {
+  file_.sync();  // entries first: what counts as tried must be there
+  tried_->append<std::uint64_t>({&combinations, 1});
+  done_ = combinations;
+}
+
+void LibraryWriter::finish() {
+  const std::uint64_t n = entries();
+  whole_->append<std::uint64_t>({&n, 1});
+  for (auto* table : {&combination_, &current_, &zero_, &gradient_, &field_, &tried_, &whole_})
+    table->reset();
+  file_.close();
+  std::filesystem::rename(part_, path_);
+}
+
+}  // namespace faba

@@ -1,0 +1,104 @@
+// The list of all parts: what a scenario can name. This file is compiled three times: for the engine, which
+// has no devices, pictures' files and optical flow; for the guard of the coils, which has the coil drivers
+// alone; and for the program, which has everything (CMakeLists.txt).
+#include "app/scenario/parts.h"
+#ifdef FABA_PARTS_OF_PROGRAM
+#include "app/files/field_points.h"
+#include "app/files/library_file.h"
+#include "vision/cells/video_ground.h"
+#endif
+
+namespace faba {
+
+// To add a part: write its file, add its line here. Coils come before the coil system that they are parts of.
+#define FABA_ENGINE_PARTS(X)   \
+  X(model, basic)              \
+  X(model, adapted)            \
+  X(model, dipole)             \
+  X(start, start_uniform)      \
+  X(start, start_visible)      \
+  X(start, start_edge)         \
+  X(start, start_disc)         \
+  X(start, start_places)       \
+  X(arena, box)                \
+  X(arena, drop)               \
+  X(field, uniform)            \
+  X(field, loop)               \
+  X(field, solenoid)           \
+  X(field, thick_coil)         \
+  X(field, dipole_coil)        \
+  X(field, helmholtz)          \
+  X(field, map)                \
+  X(field, rig)                \
+  X(motility, motility_none)   \
+  X(motility, motility_thesis) \
+  X(estimator, mean)           \
+  X(estimator, visible)        \
+  X(estimator, estimator_none) \
+  X(estimator, image)          \
+  X(estimator, groups)         \
+  X(reference, none)           \
+  X(reference, hold)           \
+  X(reference, route)          \
+  X(controller, manual)        \
+  X(controller, fuzzy)         \
+  X(controller, proportional)  \
+  X(controller, gradient)      \
+  X(controller, gradient_feedback)
+
+#define FABA_PROGRAM_PARTS(X) \
+  X(flow, horn_schunck)       \
+  X(flow, dis)                \
+  X(flow, farneback)          \
+  X(camera, simulated_camera) \
+  X(camera, playback)         \
+  X(camera, opencv)
+
+#define FABA_COIL_DRIVERS(X) \
+  X(driver, no_coils)        \
+  X(driver, simulated_coils) \
+  X(driver, nidaqmx)         \
+  X(driver, serial)
+
+#define FABA_DECLARE(kind, name) void add_##name(decltype(Parts::kind)&);
+FABA_ENGINE_PARTS(FABA_DECLARE)
+FABA_PROGRAM_PARTS(FABA_DECLARE)
+FABA_COIL_DRIVERS(FABA_DECLARE)
+#undef FABA_DECLARE
+
+#define FABA_ADD(kind, name) add_##name(p.kind);
+
+#if defined FABA_PARTS_OF_PROGRAM
+
+Parts builtin_parts() {
+  Parts p;
+  FABA_ENGINE_PARTS(FABA_ADD)
+  FABA_PROGRAM_PARTS(FABA_ADD)
+  FABA_COIL_DRIVERS(FABA_ADD)
+  p.readers.table = read_field_points;
+  p.readers.library = open_library;
+  p.readers.library_task = library_task;
+  p.readers.ground = [](const std::filesystem::path& video) { return read_video_ground(video); };
+  return p;
+}
+
+#elif defined FABA_PARTS_OF_GUARD
+
+CoilDriverRegistry builtin_coil_drivers() {
+  Parts p;
+  FABA_COIL_DRIVERS(FABA_ADD)
+  return p.driver;
+}
+
+#else
+
+Parts engine_parts() {
+  Parts p;
+  FABA_ENGINE_PARTS(FABA_ADD)
+  return p;
+}
+
+#endif
+#undef FABA_ADD
+
+}  // namespace faba

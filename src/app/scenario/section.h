@@ -1,0 +1,141 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/scenario/parts.h"
+
+namespace faba {
+
+struct Scenario;
+
+/// One table of a scenario file, such as [camera]: how it is read, written and described.
+/// Scenario::describe() has the list; reading, resolving, JSON Schema, hashing and the reference pages go
+/// through it.
+struct Section {
+  /// Tables and parts stand by themselves; what is composed looks at the sections read before it.
+  enum class Kind { table, part, composed };
+  using Read = std::function<void(const Node& root, const Parts& parts, Scenario& s)>;
+
+  std::string key;
+  Kind kind = Kind::table;
+  Read read;     ///< from a file that has the section; throws Error(usage)
+  Read fill_in;  ///< for a file that has none; empty when the defaults of the member do
+  std::function<Json(const Scenario&)> resolved;  ///< null: it has no effect in this scenario
+  std::function<Json(const Scenario&)> hashed;    ///< what the scenario's hash covers of it; null: nothing
+  std::function<Json(const Parts&)> json_schema;
+  /// Whether it can be read with these parts: the engine alone leaves the sections of devices unread.
+  std::function<bool(const Parts&)> readable = [](const Parts&) { return true; };
+
+  /// It has an effect only when this holds.
+  Section& when(bool (Scenario::*holds)() const) {
+    resolved = only_when(holds, std::move(resolved));
+    return hashed_when(holds);
+  }
+  /// It is in the scenario's hash only when this holds.
+  Section& hashed_when(bool (Scenario::*holds)() const) {
+    hashed = only_when(holds, std::move(hashed));
+    return *this;
+  }
+  /// It says how a run is recorded or carried out, not what happens: no part of the hash.
+  Section& not_hashed() {
+    hashed = [](const Scenario&) { return Json(); };
+    return *this;
+  }
+  /// A key that include_...() replaces before the section is read.
+  Section& also_key(const std::string& name, Json described) {
+    json_schema = [all = std::move(json_schema), name, described](const Parts& p) {
+      Json j = all(p);
+      j["properties"][name] = described;
+      return j;
+    };
+    return *this;
+  }
+
+ private:
+  using Value = std::function<Json(const Scenario&)>;
+  static Value only_when(bool (Scenario::*holds)() const, Value all) {
+    return [holds, all = std::move(all)](const Scenario& s) { return (s.*holds)() ? all(s) : Json(); };
+  }
+};
+
+/// The list of sections, in the order in which a resolved scenario has them.
+class Sections {
+ public:
+  /// A table with a schema, kept in `member`.
+  template <class P>
+  Section& table(const char* key, P Scenario::*member, Schema<P> (*schema)()) {
+    Section s;
+    s.key = key;
+    s.read = [=](const Node& root, const Parts&, Scenario& to) {
+      const Node n = root.child(key);
+      to.*member = schema().parse(n);
+      if constexpr (requires(P & p) { P::settle(p, n); }) P::settle(to.*member, n);
+    };
+    s.resolved = [=](const Scenario& from) { return schema().to_json(from.*member); };
+    s.json_schema = [=](const Parts&) { return schema().json_schema(); };
+    return add(std::move(s));
+  }
+
+  /// A part of a kind, kept in `member`; `usual` gives the part of a file that names none.
+  template <class Registry>
+  Section& part(const char* key, typename Registry::PartType Scenario::*member, Registry Parts::*kind,
+                Json (Scenario::*usual)() const) {
+    Section s;
+    s.key = key;
+    s.kind = Section::Kind::part;
+    s.readable = [=](const Parts& parts) { return !(parts.*kind).empty(); };
+    s.read = [=](const Node& root, const Parts& parts, Scenario& to) {
+      to.*member = (parts.*kind).resolve(root.child(key));
+    };
+    s.fill_in = [=](const Node& root, const Parts& parts, Scenario& to) {
+      const Json name = (to.*usual)();
+      to.*member = (parts.*kind).resolve(Node(name, key, root.document));
+    };
+    s.resolved = [=](const Scenario& from) { return (from.*member).resolved; };
+    s.json_schema = [=](const Parts& parts) { return (parts.*kind).json_schema_of_choice(); };
+    return add(std::move(s));
+  }
+  /// The same with one usual part, whatever the rest of the scenario says.
+  template <class Registry>
+  Section& part(const char* key, typename Registry::PartType Scenario::*member, Registry Parts::*kind,
+                const Json& usual) {
+    Section& s = part(key, member, kind, static_cast<Json (Scenario::*)() const>(nullptr));
+    s.fill_in = [=](const Node& root, const Parts& parts, Scenario& to) {
+      to.*member = (parts.*kind).resolve(Node(usual, key, root.document));
+    };
+    s.json_schema = [=](const Parts& parts) {
+      Json j = (parts.*kind).json_schema_of_choice();
+      j["default"] = usual;
+      return j;
+    };
+    return s;
+  }
+
+  /// A section with functions of its own.
+  Section& composed(const char* key, Section::Read read, std::function<Json(const Scenario&)> resolved,
+                    std::function<Json(const Parts&)> json_schema) {
+    Section s;
+    s.key = key;
+    s.kind = Section::Kind::composed;
+    s.read = std::move(read);
+    s.resolved = std::move(resolved);
+    s.json_schema = std::move(json_schema);
+    return add(std::move(s));
+  }
+
+  const std::vector<Section>& all() const { return all_; }
+
+ private:
+  Section& add(Section s) {
+    s.hashed = s.resolved;
+    return all_.emplace_back(std::move(s));
+  }
+  std::vector<Section> all_;
+};
+
+/// Every section of a scenario.
+const std::vector<Section>& scenario_sections();
+
+}  // namespace faba

@@ -1,0 +1,20 @@
+#include "app/scenario/sections/field.h"
+
+#include <algorithm>
+
+namespace faba {
+
+Json field_json_schema(const Parts& parts) {
+  Json j = parts.field.json_schema_of_choice();
+  j["default"] = "uniform";
+  const char* holds_coils = traits::kWords.at(std::size_t(Trait::coil_system));
+  for (Json& one : j["oneOf"]) {
+    if (!one.contains("x-traits")) continue;
+    const Json& words = one["x-traits"];
+    if (std::find(words.begin(), words.end(), holds_coils) == words.end()) continue;
+    one["properties"]["file"] = {{"type", "string"}, {"description", "A rig file, taken in as it is"}};
+  }
+  return j;
+}
+
+}  // namespace faba

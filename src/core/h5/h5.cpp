@@ -1,0 +1,292 @@
+#include "core/h5/h5.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <mutex>
+#include <type_traits>
+#include <utility>
+
+#include "core/error.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kCacheBytes = 64u << 20;
+
+template <class T>
+hid_t type_of() {
+  if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
+  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
+  if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
+}
+
+// The innermost message of HDF5's error stack: "... No space left on device ..."
+std::string reason() {
+  std::string text;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned n, const H5E_error2_t* e, void* out) -> herr_t {
+        if (n == 0 && e->desc) *static_cast<std::string*>(out) = e->desc;
+        return 0;
+      },
+      &text);
+  if (const auto at = text.find("error message = '"); at != std::string::npos) {
+    text = text.substr(at + 17);
+    text = text.substr(0, text.find('\''));
+  }
+  return text.empty() ? "unknown HDF5 error" : text;
+}
+
+/// A handle closed by the function that belongs to it.
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(Handle&& o) noexcept : id_(std::exchange(o.id_, -1)), close_(o.close_) {}
+  Handle& operator=(Handle&& o) noexcept {
+    std::swap(id_, o.id_);
+    std::swap(close_, o.close_);
+    return *this;
+  }
+  ~Handle() { release(); }
+  bool release() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+  operator hid_t() const { return id_; }  // NOLINT: it stands for the id wherever the C library wants one
+
+ private:
+  hid_t id_ = -1;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+// What the library itself would say of an error; each thread has a switch of its own.
+void quiet() {
+  thread_local bool done = false;
+  if (std::exchange(done, true)) return;
+  static std::once_flag once;
+  std::call_once(once, [] {
+    H5dont_atexit();  // its clean-up loops for ever over a file that could not be flushed
+    H5open();
+  });
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+}  // namespace
+
+struct H5Table::Impl {
+  Handle set;
+  hid_t type = -1;
+  std::vector<hsize_t> dims;  ///< rows first
+  std::string where;
+  std::size_t row_size() const {
+    std::size_t n = 1;
+    for (std::size_t i = 1; i < dims.size(); ++i) n *= std::size_t(dims[i]);
+    return n;
+  }
+  [[noreturn]] void fail(Errc code, const char* doing) const {
+    throw Error(code, where, fmt::format("cannot {}: {}", doing, reason()));
+  }
+  // The part of the table that is one row.
+  /// One row, as it lies in memory and in the file.
+  struct Row {
+    Handle memory, in_file;
+  };
+  Row select(std::uint64_t row) const {
+    std::vector<hsize_t> start(dims.size(), 0), count = dims;
+    start[0] = row;
+    count[0] = 1;
+    Handle in_file(H5Dget_space(set), H5Sclose);
+    H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+    return {Handle(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose), std::move(in_file)};
+  }
+};
+
+struct H5File::Impl {
+  Handle file;
+  std::filesystem::path path;
+  std::vector<std::weak_ptr<H5Table::Impl>> tables;
+  [[noreturn]] void fail(Errc code, const char* doing) const {
+    throw Error(code, path.string(), fmt::format("cannot {}: {}", doing, reason()));
+  }
+};
+
+template <class T>
+void H5Table::append(std::span<const T> row) {
+  Impl& t = *impl_;
+  quiet();
+  if (row.size() != t.row_size() || type_of<T>() != t.type)
+    throw Error(Errc::internal, t.where, "row of another shape or type");
+  ++t.dims[0];
+  if (H5Dset_extent(t.set, t.dims.data()) < 0) t.fail(Errc::internal, "write");
+  const auto at = t.select(t.dims[0] - 1);
+  if (H5Dwrite(t.set, t.type, at.memory, at.in_file, H5P_DEFAULT, row.data()) < 0)
+    t.fail(Errc::internal, "write");
+}
+
+template <class T>
+void H5Table::read(std::uint64_t row, std::span<T> out) const {
+  const Impl& t = *impl_;
+  quiet();
+  if (row >= t.dims[0] || out.size() != t.row_size()) throw Error(Errc::input, t.where, "has no such row");
+  const auto at = t.select(row);
+  if (H5Dread(t.set, type_of<T>(), at.memory, at.in_file, H5P_DEFAULT, out.data()) < 0)
+    t.fail(Errc::input, "read");
+}
+
+std::uint64_t H5Table::rows() const { return impl_->dims[0]; }
+std::size_t H5Table::row_size() const { return impl_->row_size(); }
+
+H5File::H5File(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+H5File::H5File(H5File&&) noexcept = default;
+H5File& H5File::operator=(H5File&&) noexcept = default;
+H5File::~H5File() = default;
+
+H5File H5File::create(const std::filesystem::path& file) {
+  quiet();
+  auto impl = std::make_unique<Impl>();
+  impl->path = file;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110,
+                       H5F_LIBVER_V110);  // single writer, many readers needs this format
+  impl->file = Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  if (impl->file < 0) impl->fail(Errc::internal, "create");
+  return H5File(std::move(impl));
+}
+
+H5File H5File::open(const std::filesystem::path& file) {
+  quiet();
+  auto impl = std::make_unique<Impl>();
+  impl->path = file;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
+  // What a writer left half written is read again, each time after twice as long a pause, which by default
+  // goes on for hours: a millisecond is enough for a writer that lives.
+  constexpr unsigned kReadAttempts = 20;
+  H5Pset_metadata_read_attempts(access, kReadAttempts);
+  if (impl->file < 0)  // its writer died: the mark "being written" is still set
+    impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose);
+  if (impl->file < 0) impl->fail(Errc::input, "open");
+  return H5File(std::move(impl));
+}
+
+template <class T>
+H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>& row_shape,
+                      std::uint64_t chunk_rows, std::uint64_t chunk_columns, bool compress) {
+  auto t = std::make_shared<H5Table::Impl>();
+  t->where = impl_->path.string();
+  t->type = type_of<T>();
+  t->dims.assign({0});
+  t->dims.insert(t->dims.end(), row_shape.begin(), row_shape.end());
+  std::vector<hsize_t> most = t->dims, chunk = t->dims;
+  most[0] = H5S_UNLIMITED;
+  chunk[0] = chunk_rows;
+  if (chunk.size() > 1) chunk[1] = std::min<hsize_t>(chunk[1], chunk_columns);
+  const Handle space(H5Screate_simple(int(t->dims.size()), t->dims.data(), most.data()), H5Sclose);
+  const Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk(made, int(chunk.size()), chunk.data());
+  if (compress) {
+    H5Pset_shuffle(made);
+    H5Pset_deflate(made, 1);
+  }
+  H5Pset_fletcher32(made);  // a flipped bit is an error of reading
+  H5Pset_chunk_cache(access, 12421, kCacheBytes, 1.0);
+  t->set = Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, made, access), H5Dclose);
+  if (t->set < 0) impl_->fail(Errc::internal, "create a table in");
+  impl_->tables.push_back(t);
+  return H5Table(t);
+}
+
+H5Table H5File::table(const std::string& name) const {
+  auto t = std::make_shared<H5Table::Impl>();
+  t->where = impl_->path.string();
+  t->set = Handle(H5Dopen2(impl_->file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (t->set < 0) throw Error(Errc::input, t->where, fmt::format("has no table \"{}\"", name));
+  const Handle space(H5Dget_space(t->set), H5Sclose);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 1) throw Error(Errc::input, t->where, fmt::format("\"{}\" is not a table", name));
+  t->dims.resize(std::size_t(rank));
+  H5Sget_simple_extent_dims(space, t->dims.data(), nullptr);
+  return H5Table(t);
+}
+
+bool H5File::has(const std::string& name) const {
+  return H5Lexists(impl_->file, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+void H5File::attribute(const std::string& object, const std::string& name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space,
+                                   H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  if (a < 0 || H5Awrite(a, H5T_NATIVE_DOUBLE, &value) < 0) impl_->fail(Errc::internal, "write");
+}
+
+void H5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, std::max<std::size_t>(1, value.size()));
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                   H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  if (a < 0 || H5Awrite(a, type, value.c_str()) < 0) impl_->fail(Errc::internal, "write");
+}
+
+double H5File::number_attribute(const std::string& object, const std::string& name) const {
+  const Handle a(H5Aopen_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  double value = 0;
+  if (a < 0 || H5Aread(a, H5T_NATIVE_DOUBLE, &value) < 0)
+    throw Error(Errc::input, impl_->path.string(), fmt::format("has no number \"{}\"", name));
+  return value;
+}
+
+std::string H5File::text_attribute(const std::string& object, const std::string& name) const {
+  const Handle a(H5Aopen_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  if (a >= 0) {
+    const Handle type(H5Aget_type(a), H5Tclose);
+    std::string value(H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) ? H5Tget_size(type) : 0,
+                      '\0');
+    if (!value.empty() && H5Aread(a, type, value.data()) >= 0) return value.substr(0, value.find('\0'));
+  }
+  throw Error(Errc::input, impl_->path.string(), fmt::format("has no text \"{}\"", name));
+}
+
+void H5File::begin_writing() {
+  if (H5Fstart_swmr_write(impl_->file) < 0) impl_->fail(Errc::internal, "begin to write");
+}
+
+void H5File::sync() {
+  quiet();
+  if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->fail(Errc::internal, "write");
+  if (const int fd = ::open(impl_->path.c_str(), O_RDONLY | O_CLOEXEC); fd >= 0) {
+    ::fsync(fd);
+    ::close(fd);
+  }
+}
+
+void H5File::close() {
+  sync();
+  for (const auto& weak : impl_->tables)
+    if (const auto t = weak.lock(); t && !t->set.release()) impl_->fail(Errc::internal, "write");
+  if (!impl_->file.release()) impl_->fail(Errc::internal, "close");
+}
+
+#define FABA_H5_TYPE(T)                                                                                   \
+  template void H5Table::append<T>(std::span<const T>);                                                   \
+  template void H5Table::read<T>(std::uint64_t, std::span<T>) const;                                      \
+  template H5Table H5File::table<T>(const std::string&, const std::vector<std::uint64_t>&, std::uint64_t, \
+                                    std::uint64_t, bool);
+FABA_H5_TYPE(float)
+FABA_H5_TYPE(double)
+FABA_H5_TYPE(std::uint8_t)
+FABA_H5_TYPE(std::int32_t)
+FABA_H5_TYPE(std::uint64_t)
+#undef FABA_H5_TYPE
+
+}  // namespace faba

@@ -1,0 +1,109 @@
+#include "rig/bench/bench_rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/monotonic.h"
+#include "vision/image/image.h"
+
+namespace faba {
+
+BenchRig::BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> coils, const Params& p)
+    : p_(p), feed_(std::move(camera), p.keep), coils_(std::move(coils)) {
+  if (!coils_) return;
+  coils_->on_answer = [this](const GuardReport& r) { answered(r); };
+  coils_->rest_when_late();
+}
+
+BenchRig::~BenchRig() { safe(); }
+
+void BenchRig::begin() {
+  safe();
+  began_.reset();
+  if (!feed_.camera().waits()) feed_.forget();
+  asked_.clear(), delays_.clear();
+  dropped_before_ = feed_.dropped();
+}
+
+void BenchRig::arm() {
+  if (!coils_) throw Error(Errc::device, "rig", "has no coils to arm");
+  coils_->arm();
+  armed_ = just_armed_ = true;
+}
+
+void BenchRig::safe() noexcept {
+  armed_ = just_armed_ = false;
+  if (coils_) coils_->disarm();
+}
+
+std::string BenchRig::and_the_coils() const {
+  if (!coils_) return "";
+  return coils_->report().obeyed ? "; the coils are at rest"
+                                 : "; the coils could not be told to rest: switch them off by hand";
+}
+
+void BenchRig::check_guard() {
+  if (!armed_) return;
+  const GuardReport r = coils_->report();
+  if (r.state != CoilGuard::State::armed)
+    throw Error(Errc::device, "coil guard",
+                (r.reason[0] ? r.reason.data() : "is disarmed") + and_the_coils());
+}
+
+bool BenchRig::read(Observation& out) {
+  if (const double took = monotonic_now() - arrived_; armed_ && took > p_.camera_timeout)
+    throw Error(Errc::device, "rig",
+                fmt::format("the decision on a frame took {:.1f} s{}", took, and_the_coils()));
+  CameraFrame frame;
+  CameraFeed::Got got;
+  try {
+    got = feed_.next(frame, monotonic_now() + p_.camera_timeout);
+  } catch (const Error& e) {
+    check_guard();  // what came first is what is said
+    if (!armed_) throw;
+    safe();
+    throw Error(e.code(), e.where(), e.reason() + and_the_coils());
+  }
+  if (got == CameraFeed::Got::end) return false;
+  check_guard();
+  if (got == CameraFeed::Got::nothing) {
+    const double behind = began_ ? 0 : feed_.behind();
+    throw Error(Errc::device, "camera",
+                behind > 0
+                    ? fmt::format("gives frames that are {:.1f} s old: it, or a simulated bench on this "
+                                  "machine, is too slow for its rate{}",
+                                  behind, and_the_coils())
+                    : fmt::format("has given no frame for {:g} s{}", p_.camera_timeout, and_the_coils()));
+  }
+  arrived_ = monotonic_now(), frame_t_ = frame.t;
+  if (!began_) began_ = frame.t, first_ = frame.number;
+  out.frame = frame.number - first_;
+  out.t = frame.t - *began_;
+  out.age = feed_.camera().waits() ? 0 : std::max(0.0, arrived_ - frame.t);  // a file has no age
+  out.seen.clear();
+  out.image = frame.image;
+  out.rested = coils_ && coils_->wake();
+  if (std::exchange(just_armed_, false)) out.rested = true;  // what was decided before went nowhere
+  delays_.push_back({out.age, std::nan("")});
+  return true;
+}
+
+void BenchRig::write(const Command& c) {
+  if (!coils_ || !armed_) return;
+  check_guard();
+  if (const auto number = coils_->request(c.current, frame_t_))
+    asked_.push_back({*number, arrived_, delays_.size() - 1});
+}
+
+void BenchRig::answered(const GuardReport& r) {
+  while (!asked_.empty() && asked_.front().number < r.number) asked_.pop_front();
+  if (asked_.empty() || asked_.front().number != r.number) return;
+  const Asked& a = asked_.front();
+  if (a.frame < delays_.size()) delays_[a.frame].command = r.done - a.arrived;
+  asked_.pop_front();
+}
+
+}  // namespace faba

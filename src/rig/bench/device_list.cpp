@@ -1,0 +1,70 @@
+#include "rig/bench/device_list.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Names in a folder that begin with a word, in order.
+std::vector<fs::path> entries(const fs::path& folder, const std::string& begin) {
+  std::vector<fs::path> found;
+  std::error_code ec;
+  for (const auto& e : fs::directory_iterator(folder, ec))
+    if (e.path().filename().string().starts_with(begin)) found.push_back(e.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::string first_line(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+void add_ni(std::vector<Device>& all, const std::string& library) {
+  void* ni = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!ni) return;
+  const auto names =
+      reinterpret_cast<std::int32_t (*)(char*, std::uint32_t)>(dlsym(ni, "DAQmxGetSysDevNames"));
+  const auto product = reinterpret_cast<std::int32_t (*)(const char*, char*, std::uint32_t)>(
+      dlsym(ni, "DAQmxGetDevProductType"));
+  std::string list(4096, '\0');
+  if (!names || !product || names(list.data(), std::uint32_t(list.size())) < 0) return;
+  list.resize(list.find('\0'));
+  for (std::size_t at = 0; at < list.size();) {
+    const std::size_t comma = std::min(list.find(',', at), list.size());
+    const std::string name = list.substr(at, comma - at);
+    std::string type(256, '\0');
+    if (product(name.c_str(), type.data(), std::uint32_t(type.size())) < 0) type.assign(1, '\0');
+    type.resize(type.find('\0'));
+    all.push_back({"output device", name, type});
+    at = list.find_first_not_of(", ", comma);
+  }
+}
+
+}  // namespace
+
+std::vector<Device> device_list(const std::string& ni_library) {
+  std::vector<Device> all;
+  for (const fs::path& video : entries("/sys/class/video4linux", "video"))
+    all.push_back({"camera", "/dev/" + video.filename().string(), first_line(video / "name")});
+  for (const fs::path& fw : entries("/sys/bus/firewire/devices", "fw"))
+    if (fs::exists(fw / "model_name"))
+      all.push_back({"camera", fw.filename().string(), first_line(fw / "model_name")});
+  for (const char* kind : {"ttyACM", "ttyUSB"})
+    for (const fs::path& line : entries("/dev", kind)) all.push_back({"serial line", line.string(), ""});
+  for (const fs::path& line : entries("/dev/serial/by-id", ""))
+    all.push_back({"serial line", line.string(), fs::read_symlink(line).filename().string()});
+  add_ni(all, ni_library);
+  return all;
+}
+
+}  // namespace faba

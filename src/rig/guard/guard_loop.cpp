@@ -1,0 +1,186 @@
+#include "rig/guard/guard_loop.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "core/monotonic.h"
+
+namespace faba {
+namespace {
+
+volatile sig_atomic_t told_to_end = 0;
+
+constexpr double kSensing = 0.01;   // s between looks at the inputs
+constexpr double kReporting = 0.1;  // s between reports when nobody asks for anything
+constexpr double kResting = 1;      // s for which a device that does not obey is told again
+
+}  // namespace
+
+GuardLoop::GuardLoop(int link, CoilGuard guard, CoilWiring wiring, std::unique_ptr<CoilDriver> driver,
+                     std::unique_ptr<OutputFile> log)
+    : link_(link),
+      guard_(std::move(guard)),
+      wiring_(std::move(wiring)),
+      driver_(std::move(driver)),
+      log_(std::move(log)),
+      put_(wiring_.coils().size(), 0.0) {
+  sensed_.fill(std::nan(""));
+}
+
+void GuardLoop::note(const std::string& what) {
+  if (!log_) return;
+  try {
+    log_->append(fmt::format("{:.6f} {}\n", monotonic_now(), what));
+  } catch (const Error&) {
+    log_.reset();  // a full disk must not keep the coils on
+  }
+}
+
+void GuardLoop::report(std::uint64_t number, double sent) {
+  reported_ = monotonic_now();
+  GuardReport r;
+  r.state = guard_.state(), r.fault = guard_.fault(), r.obeyed = obeyed_;
+  r.number = number, r.sent = sent, r.done = done_;
+  r.heat = guard_.heat(), r.passed = guard_.passed(), r.refused = guard_.refused();
+  r.sensed = sensed_;
+  const std::string why = guard_.state() == CoilGuard::State::disarmed ? driver_->unsafe() : guard_.reason();
+  why.copy(r.reason.data(), r.reason.size() - 1);
+  // Who does not read misses reports; the coils do not wait for it.
+  (void)send(link_, &r, sizeof r, MSG_DONTWAIT | MSG_NOSIGNAL);
+}
+
+void GuardLoop::put_out(double now) {
+  const bool enable = guard_.state() == CoilGuard::State::armed;
+  if (guard_.current() == put_ && enable == armed_ && now - written_ < driver_->beat()) return;
+  const Status s = driver_->write(wiring_.volts(guard_.current()), enable);
+  obeyed_ = bool(s);
+  if (!s) {
+    guard_.fail(CoilGuard::Fault::device, s.trouble, now);
+    obeyed_ = bool(driver_->write(wiring_.neutral(), false));
+  }
+  put_ = guard_.current();
+  armed_ = guard_.state() == CoilGuard::State::armed;
+  written_ = monotonic_now();
+}
+
+void GuardLoop::obey(const ToGuard& m, double now) {
+  guard_.beat(now);
+  switch (m.kind) {
+    case ToGuard::Kind::beat:
+      return;
+    case ToGuard::Kind::arm:
+      if (const std::string why = driver_->unsafe(); !why.empty())
+        guard_.fail(CoilGuard::Fault::device, why, now);
+      else
+        guard_.arm(now);
+      break;
+    case ToGuard::Kind::disarm:
+      guard_.disarm(now);
+      break;
+    case ToGuard::Kind::reset:
+      guard_.reset();
+      break;
+    case ToGuard::Kind::request:
+      guard_.take(
+          {m.number, m.sent, m.frame_t, {m.current.data(), std::min<std::size_t>(m.coils, kMostCoils)}}, now);
+      break;
+  }
+  put_out(now);
+  done_ = monotonic_now();
+  report(m.kind == ToGuard::Kind::request ? m.number : 0, m.sent);
+}
+
+void GuardLoop::listen() {
+  ToGuard m;
+  for (;;) {
+    const ssize_t n = recv(link_, &m, sizeof m, MSG_DONTWAIT | MSG_TRUNC);
+    const double now = monotonic_now();
+    if (n == ssize_t(sizeof m)) {
+      guard_.look(now);  // what was late stays late, though the next word has come
+      obey(m, now);
+    } else if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
+      return;
+    } else {
+      if (guard_.state() == CoilGuard::State::armed) guard_.fail(CoilGuard::Fault::closed, "", now);
+      over_ = true;
+      return;
+    }
+  }
+}
+
+void GuardLoop::serve(double now) {
+  if (!wiring_.senses().empty() && now - sensed_at_ >= kSensing) {
+    std::vector<double> volts(wiring_.senses().size());
+    if (const Status s = driver_->sense(volts); !s) {
+      guard_.fail(CoilGuard::Fault::device, s.trouble, now);
+    } else {
+      const std::vector<double> amps = wiring_.sensed(volts);
+      std::copy(amps.begin(), amps.end(), sensed_.begin());
+      guard_.sensed(amps, now);
+    }
+    sensed_at_ = now;
+  }
+  guard_.look(now);
+  put_out(now);
+  if (now - reported_ >= kReporting) report();
+  if (guard_.state() == shown_) return;
+  shown_ = guard_.state();
+  note(shown_ == CoilGuard::State::faulted
+           ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
+                         obeyed_ ? "" : "; could not be told to rest")
+           : word(shown_));
+  report();
+}
+
+bool GuardLoop::rest() {
+  const double began = monotonic_now();
+  Status s;
+  do {
+    s = driver_->write(wiring_.neutral(), false);
+    if (s) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  } while (monotonic_now() - began < kResting);
+  note("could not be brought to rest: " + s.trouble);
+  return false;
+}
+
+bool GuardLoop::run() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { told_to_end = 1; };
+  for (const int s : {SIGTERM, SIGINT, SIGHUP, SIGQUIT}) sigaction(s, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  sigset_t closed, open;
+  sigfillset(&closed);
+  sigprocmask(SIG_SETMASK, &closed, &open);
+  sigemptyset(&open);
+  note("disarmed");
+  report();
+  while (!over_) {
+    const double now = monotonic_now();
+    double wait = driver_->beat() - (now - written_);
+    if (!wiring_.senses().empty()) wait = std::min(wait, kSensing - (now - sensed_at_));
+    if (guard_.state() == CoilGuard::State::armed) wait = std::min(wait, guard_.due() - now);
+    wait = std::clamp(wait, 0.0, 1.0);
+    const timespec timeout{time_t(wait), long(1e9 * (wait - std::floor(wait)))};
+    pollfd ready{link_, POLLIN, 0};
+    (void)ppoll(&ready, 1, &timeout, &open);
+    if (told_to_end) {
+      guard_.fail(CoilGuard::Fault::signal, "", monotonic_now());
+      over_ = true;
+    }
+    if (ready.revents) listen();
+    serve(monotonic_now());
+  }
+  report();
+  return rest();
+}
+
+}  // namespace faba

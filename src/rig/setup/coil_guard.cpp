@@ -1,0 +1,257 @@
+#include "rig/setup/coil_guard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace faba {
+namespace {
+
+constexpr double kWithin = 0.1, kFrames = 2;  // s and frames, in the larger of which all current must be gone
+constexpr double kReaction = 0.03;            // s of it: the guard, its device and a coil's L/R
+constexpr double kRound = 1 + 1e-6;  // slew is reckoned by differences of times, 1e-10 s on an old clock
+
+const char* sentence(CoilGuard::Fault f) {
+  using enum CoilGuard::Fault;
+  switch (f) {
+    case none:
+      return "";
+    case not_finite:
+      return "a current was not a number";
+    case over_current:
+      return "more current was asked for than the coil bears";
+    case over_slew:
+      return "a current was to change faster than max_slew allows";
+    case too_warm:
+      return "a coil has had as much heat as it bears";
+    case stale:
+      return "a command was too old when it came";
+    case disorder:
+      return "commands came out of order";
+    case late:
+      return "no fresh command came in time";
+    case silent:
+      return "the program gave no sign of life";
+    case closed:
+      return "the program is gone";
+    case signal:
+      return "the guard was told to end";
+    case sensed:
+      return "a coil's current is not what was asked for";
+    case device:
+      return "the driver failed";
+  }
+  return "";
+}
+
+}  // namespace
+
+Schema<CoilGuard::Params> CoilGuard::schema() {
+  return Schema<Params>("guard", "When the guard of the coils takes their current away")
+      .add(
+          "command_deadline", &Params::command_deadline,
+          {.unit = "s",
+           .min = 1e-3,
+           .max = 10,
+           .doc =
+               "No fresh command for as long; when absent, what leaves no current 100 ms or two frames after "
+               "the last one, whichever is longer"})
+      .add("heartbeat_deadline", &Params::heartbeat_deadline,
+           {.unit = "s",
+            .min = 5e-3,
+            .max = 1,
+            .doc = "No sign of life of the program for as long",
+            .source = "100 ms less what device and coil take"})
+      .add("max_slew", &Params::max_slew,
+           {.unit = "A/s",
+            .min = 1e-6,
+            .max = 1e9,
+            .doc = "Fastest change of any current; unlimited when absent"})
+      .add("thermal_time", &Params::thermal_time,
+           {.unit = "s",
+            .min = 0.1,
+            .max = 1e5,
+            .doc = "Time in which a coil warms up: its square current is averaged over it",
+            .source = "assumed"})
+      .add("sense_tolerance", &Params::sense_tolerance,
+           {.unit = "A",
+            .min = 1e-6,
+            .max = 1e3,
+            .doc = "How far a sensed current may be from the one asked for"})
+      .add("sense_settling", &Params::sense_settling,
+           {.unit = "s", .min = 0, .max = 10, .doc = "Time that a current may take to follow"})
+      .add("sense_samples", &Params::sense_samples,
+           {.min = 1, .max = 1e6, .doc = "Samples in a row that must be off"});
+}
+
+CoilGuard::CoilGuard(const Params& p, std::vector<Bounds> coils, double frame_period)
+    : p_(p),
+      coils_(std::move(coils)),
+      frame_period_(frame_period),
+      current_(coils_.size(), 0.0),
+      heat_(coils_.size(), 0.0) {
+  if (!p_.command_deadline) p_.command_deadline = std::max(kWithin, kFrames * frame_period) - kReaction;
+}
+
+bool CoilGuard::arm(double now) {
+  if (state_ != State::disarmed) return state_ == State::armed;
+  warm(now);
+  state_ = State::armed;
+  fresh_ = beat_ = now;
+  last_frame_t_.reset();
+  return true;
+}
+
+void CoilGuard::disarm(double now) {
+  put(std::vector<double>(coils_.size(), 0.0), now);
+  if (state_ == State::armed) state_ = State::disarmed;
+}
+
+void CoilGuard::reset() {
+  if (state_ != State::faulted) return;
+  state_ = State::disarmed, fault_ = Fault::none, reason_.clear(), off_ = 0;
+}
+
+CoilGuard::Fault CoilGuard::objection(const Request& r, double now, std::string& detail) const {
+  if (last_number_ && r.number <= *last_number_) {
+    detail = fmt::format("{} after {}", r.number, *last_number_);
+    return Fault::disorder;
+  }
+  if (const double age = now - r.sent; !(age <= *p_.command_deadline && age > -*p_.command_deadline)) {
+    detail = fmt::format("{:.0f} ms", 1e3 * age);
+    return Fault::stale;
+  }
+  if (r.current.size() != coils_.size()) {
+    detail = fmt::format("{} currents for {} coils", r.current.size(), coils_.size());
+    return Fault::not_finite;
+  }
+  const bool zero = std::all_of(r.current.begin(), r.current.end(), [](double i) { return i == 0; });
+  if (zero) return Fault::none;  // which is allowed at any moment, however fast
+  if (!std::isfinite(r.frame_t)) {
+    detail = "the time of its frame";
+    return Fault::not_finite;
+  }
+  for (std::size_t k = 0; k < coils_.size(); ++k) {
+    const double i = r.current[k];
+    if (!std::isfinite(i)) {
+      detail = fmt::format("coil {}", k);
+      return Fault::not_finite;
+    }
+    if (std::fabs(i) > coils_[k].max_current * kRound) {
+      detail = fmt::format("coil {}: {:g} A, at most {:g} A", k, i, coils_[k].max_current);
+      return Fault::over_current;
+    }
+    if (!p_.max_slew) continue;
+    const double dt = last_frame_t_ ? r.frame_t - *last_frame_t_ : frame_period_;
+    const double most = *p_.max_slew * std::max(0.0, dt) * kRound;
+    if (std::fabs(i - current_[k]) > most) {
+      detail =
+          fmt::format("coil {}: by {:g} A, at most {:g} A between these frames", k, i - current_[k], most);
+      return Fault::over_slew;
+    }
+  }
+  return Fault::none;
+}
+
+void CoilGuard::take(const Request& r, double now) {
+  if (state_ != State::armed) return;
+  std::string detail;
+  if (const Fault f = objection(r, now, detail); f != Fault::none) {
+    ++refused_;
+    fail(f, detail, now);
+    return;
+  }
+  ++passed_;
+  last_number_ = r.number, fresh_ = now;
+  if (std::isfinite(r.frame_t)) last_frame_t_ = r.frame_t;
+  put({r.current.begin(), r.current.end()}, now);
+}
+
+void CoilGuard::put(std::vector<double> current, double now) {
+  warm(now);
+  if (current == current_) return;
+  while (lately_.size() > 1 && lately_[1].t < now - p_.sense_settling) lately_.pop_front();
+  lately_.push_back({now, current_});  // which flowed until now
+  current_ = std::move(current);
+}
+
+void CoilGuard::sensed(std::span<const double> current, double now) {
+  bool off = false;
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < coils_.size() && k < current.size(); ++k) {
+    if (std::isnan(current[k])) continue;
+    double low = current_[k], high = current_[k];
+    for (const Passed& p : lately_)
+      if (p.t >= now - p_.sense_settling)
+        low = std::min(low, p.current[k]), high = std::max(high, p.current[k]);
+    if (current[k] >= low - p_.sense_tolerance && current[k] <= high + p_.sense_tolerance) continue;
+    off = true, worst = k;
+  }
+  off_ = off ? off_ + 1 : 0;
+  if (off_ >= p_.sense_samples)
+    fail(Fault::sensed,
+         fmt::format("coil {}: {:.3g} A instead of {:.3g} A", worst, current[worst], current_[worst]), now);
+}
+
+void CoilGuard::warm(double now) {
+  const double share = -std::expm1(-std::max(0.0, now - now_) / p_.thermal_time);
+  for (std::size_t k = 0; k < coils_.size(); ++k) heat_[k] += share * (current_[k] * current_[k] - heat_[k]);
+  now_ = std::max(now, now_);
+}
+
+double CoilGuard::heat_of(std::size_t k) const {
+  return heat_[k] > 0 ? heat_[k] / (coils_[k].max_rms * coils_[k].max_rms) : 0;
+}
+
+std::size_t CoilGuard::warmest() const {
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < coils_.size(); ++k)
+    if (heat_of(k) > heat_of(most)) most = k;
+  return most;
+}
+
+double CoilGuard::heat() const { return coils_.empty() ? 0 : heat_of(warmest()); }
+
+void CoilGuard::look(double now) {
+  warm(now);
+  if (state_ != State::armed || !flows()) return;  // zero that lasts does no harm
+  if (now - beat_ > p_.heartbeat_deadline)
+    fail(Fault::silent, fmt::format("for {:.0f} ms", 1e3 * (now - beat_)), now);
+  else if (now - fresh_ > *p_.command_deadline)
+    fail(Fault::late, fmt::format("for {:.0f} ms", 1e3 * (now - fresh_)), now);
+  else if (heat() > 1)
+    fail(Fault::too_warm,
+         fmt::format("coil {}: its current's mean square over {:g} s", warmest(), p_.thermal_time), now);
+}
+
+bool CoilGuard::flows() const {
+  return std::any_of(current_.begin(), current_.end(), [](double i) { return i != 0; });
+}
+
+double CoilGuard::due() const {
+  if (!flows()) return std::numeric_limits<double>::infinity();
+  return std::min(beat_ + p_.heartbeat_deadline, fresh_ + *p_.command_deadline);
+}
+
+void CoilGuard::fail(Fault f, const std::string& detail, double now) {
+  put(std::vector<double>(coils_.size(), 0.0), now);
+  if (state_ == State::faulted) return;
+  state_ = State::faulted, fault_ = f;
+  reason_ = detail.empty() ? sentence(f) : fmt::format("{} ({})", sentence(f), detail);
+}
+
+const char* word(CoilGuard::State s) {
+  using enum CoilGuard::State;
+  return s == disarmed ? "disarmed" : s == armed ? "armed" : "faulted";
+}
+
+const char* word(CoilGuard::Fault f) {
+  constexpr const char* kWords[] = {"none",   "not_finite", "over_current", "over_slew", "too_warm",
+                                    "stale",  "disorder",   "late",         "silent",    "closed",
+                                    "signal", "sensed",     "device"};
+  return kWords[std::size_t(f)];
+}
+
+}  // namespace faba
