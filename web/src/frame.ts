@@ -17,13 +17,27 @@ export interface Frame {
   bytes: number;
 }
 
-const kHeader = 48;
+const kHeader = 48; // bytes
+const kMagic = 0x46414241; // "FABA", read as a big-endian number
+const kVersion = 1;
 
-/** The parts of a message, without copying what lies in order. Throws on anything else. */
-export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
+function header(buffer: ArrayBuffer): DataView {
   const v = new DataView(buffer);
-  if (buffer.byteLength < kHeader || v.getUint32(0, false) !== 0x46414241) throw new Error('no frame');
-  if (v.getUint16(4, true) !== 1) throw new Error('frame of another version');
+  if (buffer.byteLength < kHeader || v.getUint32(0, false) !== kMagic) throw new Error('The message is not a frame.');
+  const version = v.getUint16(4, true);
+  if (version !== kVersion) throw new Error(`The frame has version ${version}; this page reads version ${kVersion}.`);
+  return v;
+}
+
+/** Number of the run that a message belongs to. The rest of the message can be read only with the columns of that run. */
+export const runOf = (buffer: ArrayBuffer): number => header(buffer).getUint32(8, true);
+
+/**
+ * Reads a message whose rows have `columns` numbers. Cells and picture are views of `buffer`, not copies.
+ * Throws an Error when the message is not a frame or when its length differs from what its header gives.
+ */
+export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
+  const v = header(buffer);
   const bits = v.getUint16(6, true);
   const cells = v.getUint32(12, true);
   const rowCount = v.getUint32(16, true);
@@ -33,7 +47,7 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
   const take = (bytes: number) => {
     const from = at;
     at += bytes;
-    if (at > buffer.byteLength) throw new Error('frame is cut short');
+    if (at > buffer.byteLength) throw new Error(`The frame is truncated: it has ${buffer.byteLength} bytes.`);
     return from;
   };
   const rows = new Float64Array(buffer.slice(take(rowCount * columns * 8), at));
@@ -44,6 +58,7 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
   const headings = bits & 4 ? new Uint8Array(buffer, take(cells), cells) : null;
   const responding = new Uint8Array(buffer, take(Math.ceil(cells / 8)), Math.ceil(cells / 8));
   const picture = bits & 8 ? { width, height, grey: new Uint8Array(buffer, take(width * height), width * height) } : null;
+  if (at !== buffer.byteLength) throw new Error(`The frame has ${buffer.byteLength} bytes; its header gives ${at}.`);
   return {
     run: v.getUint32(8, true),
     frame: Number(v.getBigUint64(32, true)),

@@ -27,7 +27,7 @@ const en = {
   'layers': 'Show', 'layer.trails': 'Trails', 'layer.density': 'Density', 'layer.field': 'Field', 'layer.edge': 'Edge', 'layer.swarm': 'Swarm', 'layer.route': 'Goal', 'layer.camera': 'Camera picture', 'view.whole': 'Whole view',
   'plots': 'Plots', 'plot.distance': 'Distance to the goal', 'plot.dispersion': 'Dispersion', 'plot.field': 'Field', 'plot.responding': 'Cells that respond', 'plot.speed': 'Speed of the swarm', 'plot.activity': 'Activity: mean speed of the cells', 'plot.earlier': 'earlier',
   'gallery.title': 'Scenes', 'gallery.start': 'Start', 'gallery.drop': 'Drop a picture or video of a real drop here, or choose one', 'gallery.looking': 'Looking for the edge …', 'gallery.edge': 'The edge of the drop',
-  'gallery.edge.help': 'Drag the circle or its rim where it does not fit, then start.', 'gallery.cells': '{n} cells',
+  'gallery.edge.help': 'Drag the circle or its rim where it does not fit, then start.', 'gallery.cells': '{n} cells', 'gallery.no_drop': 'The program has no arena with a circular edge.',
   'runs.title': 'Recorded runs', 'runs.none': 'There are none yet: press Record while a swarm swims.', 'runs.report': 'Report', 'runs.replay': 'Replay', 'runs.again': 'Start from it', 'runs.pin': 'Compare', 'runs.broken': 'not complete',
   'jobs': 'Work', 'jobs.none': 'Nothing to do.', 'jobs.cancel': 'Stop', 'job.waiting': 'waits', 'job.running': 'runs', 'job.done': 'done', 'job.failed': 'failed', 'job.cancelled': 'stopped', 'job.left': '{t} left', 'job.open': 'Open', 'job.close': 'Close', 'job.tab': 'In a tab of its own',
   'analyse.title': 'Analyse', 'analyse.activity': 'Activity of a video', 'analyse.compare': 'Compare two videos', 'analyse.identify': 'Identify a model, compare controllers', 'analyse.field': 'Map of a field', 'analyse.start': 'Start', 'analyse.direction': 'Direction of the field, degrees', 'analyse.video': 'Video or run', 'analyse.reference': 'Reference', 'analyse.study': 'Study', 'analyse.rig': 'Rig',
@@ -65,7 +65,7 @@ const pt: Record<Word, string> = {
   'layers': 'Mostrar', 'layer.trails': 'Rastros', 'layer.density': 'Densidade', 'layer.field': 'Campo', 'layer.edge': 'Borda', 'layer.swarm': 'Enxame', 'layer.route': 'Alvo', 'layer.camera': 'Imagem da câmera', 'view.whole': 'Ver tudo',
   'plots': 'Gráficos', 'plot.distance': 'Distância ao alvo', 'plot.dispersion': 'Dispersão', 'plot.field': 'Campo', 'plot.responding': 'Células que respondem', 'plot.speed': 'Velocidade do enxame', 'plot.activity': 'Atividade: velocidade média das células', 'plot.earlier': 'anterior',
   'gallery.title': 'Cenas', 'gallery.start': 'Começar', 'gallery.drop': 'Solte aqui uma foto ou um vídeo de uma gota real, ou escolha um arquivo', 'gallery.looking': 'Procurando a borda …', 'gallery.edge': 'A borda da gota',
-  'gallery.edge.help': 'Arraste o círculo ou sua borda onde não encaixa, e comece.', 'gallery.cells': '{n} células',
+  'gallery.edge.help': 'Arraste o círculo ou sua borda onde não encaixa, e comece.', 'gallery.cells': '{n} células', 'gallery.no_drop': 'O programa não tem arena com borda circular.',
   'runs.title': 'Gravações', 'runs.none': 'Ainda não há nenhuma: clique em Gravar enquanto um enxame nada.', 'runs.report': 'Relatório', 'runs.replay': 'Rever', 'runs.again': 'Começar daqui', 'runs.pin': 'Comparar', 'runs.broken': 'incompleta',
   'jobs': 'Tarefas', 'jobs.none': 'Nada a fazer.', 'jobs.cancel': 'Parar', 'job.waiting': 'espera', 'job.running': 'roda', 'job.done': 'pronta', 'job.failed': 'falhou', 'job.cancelled': 'parada', 'job.left': 'faltam {t}', 'job.open': 'Abrir', 'job.close': 'Fechar', 'job.tab': 'Em outra aba',
   'analyse.title': 'Análise', 'analyse.activity': 'Atividade de um vídeo', 'analyse.compare': 'Comparar dois vídeos', 'analyse.identify': 'Identificar um modelo, comparar controladores', 'analyse.field': 'Mapa de um campo', 'analyse.start': 'Começar', 'analyse.direction': 'Direção do campo, graus', 'analyse.video': 'Vídeo ou gravação', 'analyse.reference': 'Referência', 'analyse.study': 'Estudo', 'analyse.rig': 'Bobinas',
@@ -75,7 +75,7 @@ const pt: Record<Word, string> = {
 };
 
 export type Language = 'en' | 'pt';
-const kWords: Record<Language, Record<Word, string>> = { en, pt };
+export const kWords: Record<Language, Record<Word, string>> = { en, pt };
 
 export function words(language: Language) {
   return (key: Word, values: Record<string, string | number> = {}) =>

@@ -1,7 +1,8 @@
 // What the page knows of the lab: one object that all of its parts look at.
 
-import { Connection, type Answer, type News } from './connection';
-import { decodeFrame, type Frame } from './frame';
+import { Connection, get, type Answer, type News } from './connection';
+import type { Schema } from './form/schema';
+import { decodeFrame, runOf, type Frame } from './frame';
 import { Series } from './series';
 import type { Scene } from './view/overlay';
 
@@ -49,6 +50,8 @@ export class Lab {
   /** As it stands now, resolved. */
   scenario = $state.raw<Record<string, any>>({});
   jobs = $state.raw<Job[]>([]);
+  /** JSON Schema of a scenario; null until the program has sent it. */
+  schema = $state.raw<Schema | null>(null);
   trouble = $state.raw<Trouble | null>(null);
   stopped = $state.raw<Trouble | null>(null);
   /** Counts frames that came; what draws looks at it. */
@@ -68,7 +71,9 @@ export class Lab {
       state: (s) => {
         this.connected = s.connected;
         this.refused = s.refused;
-        if (s.connected) this.everConnected = true;
+        if (!s.connected) return;
+        this.everConnected = true;
+        void this.fetchSchema();
       },
     });
   }
@@ -82,6 +87,15 @@ export class Lab {
   }
   exchange(event: Record<string, unknown>) {
     return this.ask('exchange', { event });
+  }
+
+  private async fetchSchema() {
+    if (this.schema) return;
+    try {
+      this.schema = await get<Schema>('/api/schema');
+    } catch (e) {
+      this.trouble = { where: '/api/schema', what: (e as Error).message };
+    }
   }
 
   private hear(n: News) {
@@ -127,8 +141,9 @@ export class Lab {
 
   private see(b: ArrayBuffer) {
     if (!this.run) return;
+    // The server sends JSON before frames that wait: the last frame of a run can follow the news of the next one.
+    if (runOf(b) !== this.run.run) return;
     const f = decodeFrame(b, this.run.columns.length);
-    if (f.run !== this.run.run) return;
     this.frame = f;
     this.series.take(f.rows, f.rowCount);
     ++this.ticks;

@@ -41,18 +41,24 @@ export function inline(v: Json): string {
 
 const quoted = (s: string) => (/^[\w@%+=:,./[\]-]+$/.test(s) && !/[[\]]/.test(s) ? s : `'${s.replaceAll("'", `'\\''`)}'`);
 
+// --set takes whatever is a TOML value as that value, so a string that could be one needs quotes. A quantity such as "5 um" is none.
+const kQuantity = /^[-+]?[\d.]+(?:[eE][-+]?\d+)? [a-zA-Zµμ%]/;
+const isPlain = (s: string) => kQuantity.test(s) || (/^[^\s\d+\-.'"[{#]/.test(s) && !/^(true|false|inf|nan)\b/.test(s));
+const setValue = (v: Json) => (typeof v === 'string' && isPlain(v) ? v : inline(v));
+
 /** The line that does the same in a terminal; null when it takes a file of its own. */
 export function command(file: string, from: Json, to: Json, seed: number): string | null {
   const sets = differences({ ...from, seed: undefined }, { ...to, seed: undefined });
   if (!sets) return null;
-  return ['faba run', quoted(file), `--seed ${seed}`, ...sets.map(([p, v]) => `--set ${quoted(`${p}=${typeof v === 'string' ? v : inline(v)}`)}`)].join(' ');
+  return ['faba run', quoted(file), `--seed ${seed}`, ...sets.map(([p, v]) => `--set ${quoted(`${p}=${setValue(v)}`)}`)].join(' ');
 }
 
-/** The event that takes one scenario to another while it runs; null when it has to begin anew. */
+/** The events that take one scenario to another while it runs; null when only a restart does, as when a section is removed. */
 export function event(from: Json, to: Json): Json[] | null {
   const events: Json[] = [], parts: Json = {};
   for (const key of new Set([...Object.keys(from), ...Object.keys(to)])) {
     if (key === 'seed' || key === 'event' || JSON.stringify(from[key]) === JSON.stringify(to[key])) continue;
+    if (to[key] === undefined) return null;
     if ((kLive as readonly string[]).includes(key)) parts[key] = to[key];
     else if (key === 'swarm' && from.swarm?.length === to.swarm?.length) {
       for (let i = 0; i < to.swarm.length; ++i) {

@@ -1,6 +1,7 @@
 // What is recorded of every frame: columns of numbers that grow as the run goes on.
 
-const kMost = 30000; // rows; the older half goes when there are more
+const kMostLive = 30000; // rows of a live run
+const kFirstCapacity = 1024; // rows
 
 export class Series {
   names: string[] = [];
@@ -8,9 +9,12 @@ export class Series {
   length = 0;
   private last = -1;
 
+  /** `most`: number of rows at which the older half is removed before the next row is added. */
+  constructor(private most = kMostLive) {}
+
   begin(names: string[]) {
     this.names = names;
-    this.columns = names.map(() => new Float64Array(1024));
+    this.columns = names.map(() => new Float64Array(kFirstCapacity));
     this.length = 0;
     this.last = -1;
   }
@@ -19,9 +23,9 @@ export class Series {
     const n = this.names.length, before = this.length;
     for (let r = 0; r < count; ++r) {
       const frame = rows[r * n];
-      if (frame <= this.last) continue;
+      if (!(frame > this.last)) continue; // also a row without a frame number: NaN
       this.last = frame;
-      if (this.length === kMost) this.drop();
+      if (this.length === this.most) this.drop();
       if (this.length === this.columns[0].length) this.grow();
       for (let c = 0; c < n; ++c) this.columns[c][this.length] = rows[r * n + c];
       ++this.length;
@@ -60,9 +64,9 @@ export class Series {
     });
   }
   private drop() {
-    const half = kMost / 2;
-    for (const c of this.columns) c.copyWithin(0, half, this.length);
-    this.length -= half;
+    const removed = Math.ceil(this.length / 2);
+    for (const c of this.columns) c.copyWithin(0, removed, this.length);
+    this.length -= removed;
   }
 }
 
@@ -74,7 +78,7 @@ export async function recordedSeries(run: string): Promise<Series | null> {
 
 function parseCsv(text: string): Series {
   const [head, ...lines] = text.trim().split('\n');
-  const s = new Series();
+  const s = new Series(Infinity);
   const names = head.split(',');
   s.begin(names);
   const rows = new Float64Array(lines.length * names.length);

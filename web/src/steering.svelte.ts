@@ -1,6 +1,7 @@
 // The user's hands: field by pointer, keys and gamepad; goals and routes.
 
 import type { Lab } from './lab.svelte';
+import { defaultPart, handController, isOpenLoop, routeReference, sectionOf, setpointReference } from './part_traits';
 
 export const kWeakest = 5e-6, kStrongest = 5e-3; // T
 
@@ -20,9 +21,19 @@ export class Steering {
 
   constructor(private lab: Lab) {}
 
-  /** Whether the hand steers, not a controller. */
+  /** Whether the hand steers, not a controller with feedback. */
   get byHand() {
-    return this.lab.scenario.controller?.type === 'manual';
+    return isOpenLoop(this.lab.schema, this.lab.scenario.controller);
+  }
+  /** Whether the program has the part for steering by hand, to a goal and along a route. None is known without a schema. */
+  get mayPull() {
+    return handController(this.lab.schema) !== undefined;
+  }
+  get mayHold() {
+    return setpointReference(this.lab.schema) !== undefined;
+  }
+  get mayRoute() {
+    return routeReference(this.lab.schema) !== undefined;
   }
 
   /** A drag over the picture, px: a third of the view is a full pull. */
@@ -34,11 +45,13 @@ export class Steering {
   }
   /** Newest wins while one is on its way. */
   pull(way: [number, number]) {
+    const hand = handController(this.lab.schema);
+    if (hand === undefined) return;
     this.way = way;
     this.wanted = way;
-    if (!this.sending) void this.send();
+    if (!this.sending) void this.send(hand);
   }
-  private async send() {
+  private async send(hand: string) {
     this.sending = true;
     if (!this.byHand) {
       const { controller, estimator } = this.lab.scenario;
@@ -50,7 +63,7 @@ export class Steering {
       // What draws the swarm along: the field along the way for north-seeking cells, against it for the others;
       // the world's y points up.
       const b = this.strength * this.lab.polarity;
-      await this.lab.exchange({ controller: { type: 'manual', field: [`${(b * x).toPrecision(6)} T`, `${(-b * y).toPrecision(6)} T`] } });
+      await this.lab.exchange({ controller: { type: hand, field: [`${(b * x).toPrecision(6)} T`, `${(-b * y).toPrecision(6)} T`] } });
     }
     this.sending = false;
   }
@@ -69,25 +82,28 @@ export class Steering {
     this.before = null;
   }
 
+  /** The parts that take over from the hand: those that steered before it, or else the default controller. */
   private controller() {
     if (!this.byHand) return {};
-    return this.before ?? { controller: { type: 'fuzzy' } };
+    return this.before ?? { controller: { type: defaultPart(sectionOf(this.lab.schema, 'controller')) } };
   }
   async goal(at: [number, number]) {
+    const type = setpointReference(this.lab.schema);
+    if (type === undefined) return;
     this.way = [0, 0];
     this.asked = at;
-    const a = await this.lab.exchange({ ...this.controller(), reference: { type: 'hold', setpoint_px: at.map((v) => Math.round(v * 10) / 10) } });
+    await this.lab.exchange({ ...this.controller(), reference: { type, setpoint_px: at.map((v) => Math.round(v * 10) / 10) } });
     if (this.asked === at) this.asked = null;
-    return a;
   }
   point(at: [number, number], index: number | null) {
     const q: [number, number] = [Math.round(at[0] * 10) / 10, Math.round(at[1] * 10) / 10];
     this.sketch = index === null ? [...this.sketch, q] : this.sketch.map((p, i) => (i === index ? q : p));
   }
   async route() {
-    const a = await this.lab.exchange({ ...this.controller(), reference: { type: 'route', setpoints_px: this.sketch } });
+    const type = routeReference(this.lab.schema);
+    if (type === undefined) return;
+    const a = await this.lab.exchange({ ...this.controller(), reference: { type, setpoints_px: this.sketch } });
     if (a.ok) this.sketch = [];
-    return a;
   }
 
   private keys = new Set<string>();

@@ -17,6 +17,8 @@ export interface Schema {
   items?: Schema;
   properties?: Record<string, Schema>;
   oneOf?: Schema[];
+  /** What a part does, such as "open_loop": web/protocol.md. */
+  traits?: string[];
   'x-unit'?: string;
   'x-source'?: string;
   'x-validity'?: string;

@@ -7,6 +7,9 @@ export interface Box {
   bottom: number;
 }
 
+const kLargest = 60; // canvas px per picture px, unless the fitted scale is larger
+const kSmallest = 0.2; // of the fitted scale
+
 /** Maps picture pixels to the canvas: canvas = scale * picture + offset. Sizes of the canvas are in device pixels. */
 export class Camera {
   scale = 1;
@@ -22,7 +25,7 @@ export class Camera {
     this.fitted = box;
     this.untouched = true;
     const w = box.right - box.left, h = box.bottom - box.top;
-    this.scale = Math.min(this.width / w, this.height / h);
+    this.scale = this.fitting();
     this.x = (this.width - this.scale * w) / 2 - this.scale * box.left;
     this.y = (this.height - this.scale * h) / 2 - this.scale * box.top;
   }
@@ -37,13 +40,17 @@ export class Camera {
   }
   /** About a point of the canvas, which stays where it is. */
   zoom(factor: number, cx: number, cy: number) {
-    const smallest = 0.2 * Math.min(this.width / (this.fitted.right - this.fitted.left), this.height / (this.fitted.bottom - this.fitted.top));
-    const next = Math.min(Math.max(this.scale * factor, smallest), 60);
+    const fitting = this.fitting();
+    const next = Math.min(Math.max(this.scale * factor, kSmallest * fitting), Math.max(kLargest, fitting));
     const k = next / this.scale;
     this.x = cx - k * (cx - this.x);
     this.y = cy - k * (cy - this.y);
     this.scale = next;
     this.untouched = false;
+  }
+  private fitting(): number {
+    const b = this.fitted;
+    return Math.min(this.width / (b.right - b.left), this.height / (b.bottom - b.top));
   }
   pan(dx: number, dy: number) {
     this.x += dx;

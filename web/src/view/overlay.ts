@@ -250,10 +250,15 @@ export class Overlay {
   }
 }
 
-/** Field strength with the unit that suits it. */
+const kTeslas: [number, string][] = [[1e9, 'nT'], [1e6, 'µT'], [1e3, 'mT'], [1, 'T']];
+
+/** Field strength with three digits, in the smallest unit in which it is below 1000. */
 export function tesla(b: number): string {
-  const [k, unit] = b >= 1e-3 ? [1e3, 'mT'] : b >= 1e-6 ? [1e6, 'µT'] : [1e9, 'nT'];
-  return `${(b * k).toPrecision(3)} ${unit}`;
+  for (const [k, unit] of kTeslas) {
+    const digits = (b * k).toPrecision(3);
+    if (Number(digits) < 1000) return `${digits} ${unit}`;
+  }
+  return `${Math.round(b)} T`;
 }
 
 // Zeros of a field that is linear within each triangle of its grid, in columns and rows.

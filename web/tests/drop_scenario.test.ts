@@ -1,0 +1,22 @@
+import { expect, test } from 'vitest';
+import { dropScenario } from '../src/drop_scenario';
+import { sampleSchema } from './sample_schema';
+
+const drop = { picture: 'uploads/3/my drop.png', url: '/x', image_size: [640, 480] as [number, number], center_px: [320, 231] as [number, number], radius_px: 150, um_per_px: 0.9, found: true };
+
+test('the arena with a radius takes the edge of the drop, and the swarm the first preset', () => {
+  expect(dropScenario(sampleSchema, drop)).toMatchObject({
+    title: 'my drop.png',
+    scale: { um_per_px: 0.9 },
+    arena: { type: 'round', view_px: [640, 480], centre_px: [320, 231], radius_px: 150 },
+    swarm: [{ model: { type: 'rod', preset: 'first' } }],
+  });
+});
+test('without a model that has presets the swarm has the default model', () => {
+  const { arena } = sampleSchema.properties!;
+  expect(dropScenario({ properties: { arena } }, drop)!.swarm[0]).not.toHaveProperty('model');
+});
+test('there is none without a circular arena or a schema', () => {
+  expect(dropScenario({ properties: {} }, drop)).toBeNull();
+  expect(dropScenario(null, drop)).toBeNull();
+});

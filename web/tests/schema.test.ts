@@ -1,0 +1,107 @@
+import { describe, expect, test } from 'vitest';
+import { amount, check, kindOf, same, shown, variant, variants, type Schema } from '../src/form/schema';
+import { sampleSchema } from './sample_schema';
+
+const speed: Schema = { type: ['number', 'string'], 'x-unit': 'm/s', minimum: 7e-6, maximum: 3.2e-4 };
+const count: Schema = { type: 'integer', minimum: 1, maximum: 5e7 };
+const fraction: Schema = { type: 'number', minimum: 0, maximum: 1 };
+
+describe('the kind of a value', () => {
+  const number: Schema = { type: 'number' };
+  test.each<[string, Schema, string]>([
+    ['a part', { oneOf: [{ const: 'x' }] }, 'part'],
+    ['a choice', { type: 'string', enum: ['a', 'b'] }, 'choice'],
+    ['a flag', { type: 'boolean' }, 'flag'],
+    ['a whole number', { type: 'integer' }, 'whole'],
+    ['a number', number, 'number'],
+    ['a quantity', { type: ['number', 'string'], 'x-unit': 'm' }, 'number'],
+    ['a text', { type: 'string' }, 'text'],
+    ['a vector', { type: 'array', items: number, minItems: 2, maxItems: 2 }, 'vector'],
+    ['a list of numbers', { type: 'array', items: number }, 'numbers'],
+    ['a list of points', { type: 'array', items: { type: 'array', items: number } }, 'points'],
+    ['a list of tables', { type: 'array', items: { properties: { a: number } } }, 'tables'],
+    ['a list of parts', { type: 'array', items: { oneOf: [] } }, 'tables'],
+    ['a table', { type: 'object', properties: {} }, 'table'],
+  ])('%s', (_, schema, kind) => {
+    expect(kindOf(schema)).toBe(kind);
+  });
+});
+
+describe('checking what was typed', () => {
+  test('a quantity goes into the scenario in the unit of the schema, as the program would read it', () => {
+    expect(check('186 um/s', speed)).toEqual({ value: '0.000186 m/s' });
+    expect(check('7 um/s', speed)).toEqual({ value: '0.000007 m/s' });
+    expect(check('0.0002', speed)).toEqual({ value: '0.0002 m/s' });
+  });
+  test('a number without a unit stays a number', () => {
+    expect(check('12', count)).toEqual({ value: 12 });
+    expect(check('50 %', fraction)).toEqual({ value: 0.5 });
+  });
+  test('nothing typed is the default, unless a value is required', () => {
+    expect(check(' ', speed)).toEqual({});
+    expect(check('', speed, true)).toEqual({ wrong: ['form.number', {}] });
+  });
+  test('what is wrong', () => {
+    expect(check('fast', speed)).toEqual({ wrong: ['form.number', {}] });
+    expect(check('3 bananas', speed)).toEqual({ wrong: ['form.unit', { unit: 'm/s' }] });
+    expect(check('3 um', fraction)).toEqual({ wrong: ['form.number', {}] });
+    expect(check('1.5', count)).toEqual({ wrong: ['form.whole', {}] });
+    expect(check('-5 um/s', speed)).toEqual({ wrong: ['form.least', { limit: '7 µm/s' }] });
+    expect(check('0', count)).toEqual({ wrong: ['form.least', { limit: '1' }] });
+    expect(check('321 um/s', speed)).toEqual({ wrong: ['form.most', { limit: '320 µm/s' }] });
+    expect(check('1e999', { type: 'number' })).toEqual({ wrong: ['form.number', {}] });
+  });
+  test('a limit is permitted as it is shown', () => {
+    for (let n = 1; n < 1000; ++n) {
+      const limit = Number(`${n}e-6`), s: Schema = { type: ['number', 'string'], 'x-unit': 'm', minimum: limit, maximum: limit };
+      expect(check(shown(limit, s), s).wrong, `${n} um`).toBeUndefined();
+    }
+  });
+});
+
+describe('values of a scenario', () => {
+  test('the amount of a number or a quantity', () => {
+    expect(amount(3, 'm')).toBe(3);
+    expect(amount('3 um', 'm')).toBe(3e-6);
+    expect(amount('3 s', 'm')).toBeNull();
+    expect(amount([3], 'm')).toBeNull();
+    expect(amount(undefined, 'm')).toBeNull();
+  });
+  test('are shown with a common unit, others as they are', () => {
+    expect(shown('0.000186 m/s', speed)).toBe('186 µm/s');
+    expect(shown(0.5, fraction)).toBe('0.5');
+    expect(shown('north', { type: 'string' })).toBe('north');
+    expect(shown(undefined, speed)).toBe('');
+    expect(shown(null, speed)).toBe('');
+  });
+  test('are the same in whatever unit they are written', () => {
+    expect(same('186 um/s', '0.000186 m/s', speed)).toBe(true);
+    expect(same('186 um/s', 0.000186, speed)).toBe(true);
+    expect(same('186 um/s', '187 um/s', speed)).toBe(false);
+    expect(same(0, '0 m/s', speed)).toBe(true);
+    expect(same(0, 1e-30, speed)).toBe(false);
+  });
+  test('lists are compared item by item', () => {
+    const list: Schema = { type: 'array', items: { type: ['number', 'string'], 'x-unit': 'T' } };
+    expect(same(['1 mT', '0 T'], [0.001, 0], list)).toBe(true);
+    expect(same(['1 mT', '0 T'], [0.001], list)).toBe(false);
+    expect(same([0.001], ['1 mT', '0 T'], list)).toBe(false);
+    expect(same([[1, 2]], [[1, 2]], { items: { items: {} } })).toBe(true);
+    expect(same([[1, 2]], [[1, 3]], { items: { items: {} } })).toBe(false);
+  });
+  test('of any other type are compared as JSON', () => {
+    expect(same(true, true, {})).toBe(true);
+    expect(same(true, false, {})).toBe(false);
+    expect(same('a', undefined, {})).toBe(false);
+  });
+});
+
+describe('the parts of a section', () => {
+  const controllers = sampleSchema.properties!.controller;
+  test('by name', () => {
+    expect(variants(controllers)).toEqual(['alpha', 'beta', 'gamma', 'delta', 'zeta']);
+    expect(variant(controllers, 'beta')?.title).toBe('beta');
+    expect(variant(controllers, 'none')).toBeUndefined();
+    expect(variants({})).toEqual([]);
+  });
+});
