@@ -1,10 +1,19 @@
-"""Fails when a file includes a folder that its layer may not see (the dependency rule of ARCHITECTURE.md), or when two
-headers give different types one name, which no compiler notices and the linker makes one of."""
+#!/usr/bin/python3
+"""Checks the structure of src/ (ARCHITECTURE.md has the same tables in words). Fails when
+
+- a file includes a folder that its layer may not see, or a subfolder that its own subfolder may not see,
+- files include each other in a circle (a file is the .h and .cpp of one name),
+- a third-party library is included outside its home, or a header that shows a library's types leaves its folder,
+- two headers give different types one name, which no compiler notices and the linker makes one of,
+- a folder is not in the table, or has more files directly in it than a reader can take in.
+
+check_layers.py src    prints one line per violation and exits with 1 when there is one."""
 
 import pathlib
 import re
 import sys
 
+# Folders of src and the folders that each may include.
 MAY = {
     "core": "",
     "field": "core",
@@ -18,6 +27,60 @@ MAY = {
     "cli": "core app study server",
     "guard": "core rig",
 }
+# Subfolders and the siblings that each may include; "." is the folder itself. Folders that are not here have no rule
+# between their subfolders.
+WITHIN = {
+    "core": {".": "kernels", "kernels": ".", "h5": "."},
+    "vision": {
+        "image": "",
+        "files": "image",
+        "flow": "image",
+        "drop": "image",
+        "ruler": "image",
+        "foreground": "image",
+        "render": "image",
+        "cells": "image files foreground render",
+        "draw": "image files flow drop ruler",
+    },
+    "rig": {
+        ".": "",
+        "setup": ".",
+        "simulated": ".",
+        "guard": ". setup",
+        "bench": ". setup guard",
+        "drivers": ". bench modules",
+        "modules": ".",
+    },
+    "app": {
+        ".": "scenario files",
+        "loop": "",
+        "scenario": "loop",
+        "run": "loop scenario",
+        "files": "scenario",
+        "sinks": "loop scenario run",
+        "recording": "loop scenario run sinks",
+        "bench": "loop scenario run sinks recording",
+    },
+    "study": {
+        "data": "",
+        "stats": "",
+        "sweep": "",
+        "plot": "",
+        "tracks": "data stats",
+        "motion": "data stats tracks",
+        "steering": "data stats sweep",
+        "coils": "plot",
+        "identify": "data stats sweep tracks motion",
+        "pages": "data stats sweep plot tracks motion steering coils identify",
+    },
+}
+# What the engine is made of includes nothing else, whatever the tables above allow (CMakeLists.txt: faba_engine).
+ENGINE = (
+    "core core/kernels field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "
+    "app/loop app/scenario app/run"
+).split()
+# Headers that the engine may include though it does not have their sources: interfaces of parts that come on top.
+ENGINE_INTERFACES = ["rig/rig.h", "rig/camera.h", "rig/coil_driver.h", "vision/flow/flow.h"]
 # A third-party library has one home.
 HOME = {
     "opencv2/": {"vision", "rig"},
@@ -29,51 +92,160 @@ HOME = {
     "CLI/": {"cli"},
     "lemon/": {"vision"},
     "Eigen/": {"vision", "study", "field"},
+    "nanoflann": {"field"},
+    "nlopt": {"study"},
     "zlib": {"app"},
-    "boost/": {"server"},
+    "boost/asio": {"server"},
+    "boost/beast": {"server"},
 }
+MOST_FILES = 40
 
 
-def main(root):
-    bad = 0
-    internal, headers, includes, types = set(), {}, [], {}
-    for file in sorted(root.rglob("*.[hc]*")):
-        here = file.relative_to(root).parts[0]
-        if here not in MAY:
-            print(f"{file}: the folder {here} has no place in tools/check_layers.py")
-            bad = 1
+class Tree:
+    """The source files below a folder, and what they include."""
+
+    def __init__(self, root):
+        self.root = root
+        self.files = [f for f in sorted(root.rglob("*")) if f.suffix in (".h", ".cpp", ".c")]
+        self.includes = []  # (file, line number, included path as written, whether in quotes)
+        for file in self.files:
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                found = re.match(r'\s*#\s*include ([<"])([^>"]+)[>"]', line)
+                if found:
+                    self.includes.append((file, number, found[2], found[1] == '"'))
+
+    def name(self, file):
+        return str(file.relative_to(self.root))
+
+
+def subfolder(path):
+    """The part of vision/image/kernels/x.h that WITHIN speaks of: image; "." for a file directly in its folder."""
+    parts = path.split("/")
+    return parts[1] if len(parts) > 2 else "."
+
+
+def check_folders(tree):
+    count = {}
+    for file in tree.files:
+        count[file.parent] = count.get(file.parent, 0) + 1
+        folder = tree.name(file).split("/")[0]
+        if folder not in MAY:
+            yield f"{file}: the folder {folder} is not in the table of tools/check_layers.py"
+        elif folder in WITHIN and subfolder(tree.name(file)) not in WITHIN[folder]:
+            yield f"{file}: the subfolder {subfolder(tree.name(file))} is not in the table of tools/check_layers.py"
+    for folder, files in count.items():
+        if files > MOST_FILES:
+            yield f"{folder}: {files} files directly in one folder, at most {MOST_FILES} are allowed"
+
+
+def check_includes(tree):
+    for file, number, path, own in tree.includes:
+        here, name = tree.name(file).split("/")[0], tree.name(file)
+        there = path.split("/")[0]
+        if not own or there not in MAY or here not in MAY:
             continue
-        for number, line in enumerate(file.read_text().splitlines(), 1):
-            defined = re.match(r"(?:struct|class|enum class) (\w+)[^;]*$", line) if file.suffix == ".h" else None
-            if defined and types.setdefault(defined[1], file) != file:
-                print(f"{file}:{number}: {defined[1]} is the name of another type in {types[defined[1]]}")
-                bad = 1
-            own = re.match(r'\s*#\s*include "(\w+)/', line)
-            if own:
-                name = line.split('"')[1]
-                includes.append((file, name))
-                if file.suffix == ".h":
-                    headers.setdefault(str(file.relative_to(root)), set()).add(name)
-            if own and own[1] != here and own[1] not in MAY[here].split():
-                print(f"{file}:{number}: {here} must not include {own[1]}")
-                bad = 1
-            other = re.match(r"\s*#\s*include <([^>]+)>", line)
-            for prefix, homes in HOME.items():
-                if other and other[1].startswith(prefix) and here not in homes:
-                    print(f"{file}:{number}: <{other[1]}> may be included by {', '.join(sorted(homes))} only")
-                    bad = 1
-                elif other and other[1].startswith(prefix) and file.suffix == ".h":
-                    internal.add(str(file.relative_to(root)))
-    # A header that shows a library's types stays within its folder, and so does what includes it.
+        if here != there and there not in MAY[here].split():
+            yield f"{file}:{number}: {here} must not include {there}"
+        if here == there and here in WITHIN:
+            a, b = subfolder(name), subfolder(path)
+            if a != b and a in WITHIN[here] and b not in WITHIN[here][a].split():
+                yield f"{file}:{number}: {here}/{a} must not include {here}/{b}"
+
+
+def in_engine(path):
+    return any(path.startswith(folder + "/") and "/h5/" not in path for folder in ENGINE)
+
+
+def check_engine(tree):
+    for file, number, path, own in tree.includes:
+        if own and in_engine(tree.name(file)) and not in_engine(path) and path not in ENGINE_INTERFACES:
+            yield f"{file}:{number}: is part of the engine and must not include {path}"
+
+
+def check_circles(tree):
+    """Strongly connected files, by Tarjan's algorithm."""
+    edges = {}
+    for file in tree.files:
+        edges.setdefault(tree.name(file).rsplit(".", 1)[0], set())
+    for file, _, path, own in tree.includes:
+        if own:
+            edges[tree.name(file).rsplit(".", 1)[0]].add(path.rsplit(".", 1)[0])
+    index, low, stack, circles = {}, {}, [], []
+
+    def visit(node):
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for other in sorted(edges[node]):
+            if other not in edges or other == node:
+                continue
+            if other not in index:
+                visit(other)
+            if other in stack:
+                low[node] = min(low[node], low[other])
+        if low[node] == index[node]:
+            circle = stack[stack.index(node) :]
+            del stack[stack.index(node) :]
+            if len(circle) > 1:
+                circles.append(sorted(circle))
+
+    sys.setrecursionlimit(10000)
+    for node in sorted(edges):
+        if node not in index:
+            visit(node)
+    for circle in circles:
+        yield f"{tree.root}: an include circle: {', '.join(circle)}"
+
+
+def check_libraries(tree):
+    shows = set()  # headers with a library's types in them
+    headers = {}
+    for file, number, path, own in tree.includes:
+        here = tree.name(file).split("/")[0]
+        if own:
+            if file.suffix == ".h":
+                headers.setdefault(tree.name(file), set()).add(path)
+            continue
+        for prefix, homes in HOME.items():
+            if not path.startswith(prefix):
+                continue
+            if here not in homes:
+                yield f"{file}:{number}: <{path}> may be included by {', '.join(sorted(homes))} only"
+            elif file.suffix == ".h":
+                shows.add(tree.name(file))
     grown = True
     while grown:
-        grown = {h for h, included in headers.items() if included & internal} - internal
-        internal |= grown
-    for file, own in includes:
-        if own in internal and file.relative_to(root).parts[0] != own.split("/")[0]:
-            print(f"{file}: {own} shows a library's types and may be included by its own folder only")
-            bad = 1
-    return bad
+        grown = {h for h, included in headers.items() if included & shows} - shows
+        shows |= grown
+    for file, number, path, own in tree.includes:
+        if own and path in shows and tree.name(file).split("/")[0] != path.split("/")[0]:
+            yield f"{file}:{number}: {path} shows a library's types and may be included by its own folder only"
 
 
-sys.exit(main(pathlib.Path(sys.argv[1])))
+def check_types(tree):
+    types = {}
+    for file in tree.files:
+        if file.suffix != ".h":
+            continue
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            defined = re.match(r"(?:struct|class|enum class) (\w+)[^;]*$", line)
+            if defined and types.setdefault(defined[1], file) != file:
+                yield f"{file}:{number}: {defined[1]} is the name of another type in {types[defined[1]]}"
+
+
+def violations(root):
+    tree = Tree(root)
+    for check in (
+        check_folders,
+        check_includes,
+        check_engine,
+        check_circles,
+        check_libraries,
+        check_types,
+    ):
+        yield from check(tree)
+
+
+if __name__ == "__main__":
+    found = list(violations(pathlib.Path(sys.argv[1])))
+    print("\n".join(found) if found else "no violation")
+    sys.exit(1 if found else 0)

@@ -17,6 +17,7 @@ enum class Trait : std::size_t {
   needs_pictures,   ///< estimator: needs the camera's pictures
   no_estimate,      ///< estimator: estimates nothing
   no_target,        ///< reference: sets no target
+  in_view,          ///< start: puts every cell where the camera sees it
   inert,            ///< motility law: changes nothing
   coil,             ///< field: one coil or pair, which can be a [[coil]] of a coil system
   coil_system,      ///< field: holds coils; a scenario may give it as a file of its own
@@ -27,7 +28,7 @@ enum class Trait : std::size_t {
 namespace traits {
 /// The words that stand for traits in JSON, in the order of the enum.
 inline constexpr std::array kWords = {"feedback",       "open_loop",   "seeks_null", "needs_positions",
-                                      "needs_pictures", "no_estimate", "no_target",  "inert",
+                                      "needs_pictures", "no_estimate", "no_target", "in_view", "inert",
                                       "coil",           "coil_system", "simulated",  "no_current"};
 
 /// The traits that a part's class declares; none when it declares none.

@@ -8,16 +8,16 @@ const kCells = 300;
 
 /**
  * A swarm of the first preset in a drop of this size; null when the schema has no circular arena.
- * The start is the only part given by its name: no trait or property tells that it places cells within the picture.
  */
 export function dropScenario(schema: Schema | null, d: Drop): Record<string, any> | null {
   const arena = findPart(sectionOf(schema, 'arena'), { property: 'radius_px' });
   if (arena === undefined) return null;
+  const start = findPart(sectionOf(schema, 'swarm')?.items?.properties?.start, { trait: 'in_view' });
   return {
     title: d.picture.replace(/^.*\//, ''),
     scale: { um_per_px: d.um_per_px },
     arena: { type: arena, view_px: d.image_size, centre_px: d.center_px, radius_px: d.radius_px },
-    swarm: [{ count: kCells, ...presetModel(schema), start: { type: 'visible' } }],
+    swarm: [{ count: kCells, ...presetModel(schema), ...(start === undefined ? {} : { start: { type: start } }) }],
   };
 }
 

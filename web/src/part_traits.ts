@@ -22,7 +22,7 @@ export const defaultPart = (section: Schema | undefined): string | undefined => 
 
 function matches(part: Schema | undefined, wanted: Wanted): boolean {
   if (!part) return false;
-  if (wanted.trait !== undefined && !part.traits?.includes(wanted.trait)) return false;
+  if (wanted.trait !== undefined && !part['x-traits']?.includes(wanted.trait)) return false;
   return wanted.property === undefined || Object.hasOwn(part.properties ?? {}, wanted.property);
 }
 

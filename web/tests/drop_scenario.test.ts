@@ -9,7 +9,7 @@ test('the arena with a radius takes the edge of the drop, and the swarm the firs
     title: 'my drop.png',
     scale: { um_per_px: 0.9 },
     arena: { type: 'round', view_px: [640, 480], centre_px: [320, 231], radius_px: 150 },
-    swarm: [{ model: { type: 'rod', preset: 'first' } }],
+    swarm: [{ model: { type: 'rod', preset: 'first' }, start: { type: 'seen' } }],
   });
 });
 test('without a model that has presets the swarm has the default model', () => {

@@ -4,7 +4,7 @@ import type { Schema } from '../src/form/schema';
 const part = (type: string, traits: string[] | undefined, properties: Record<string, Schema> = {}): Schema => ({
   title: type,
   type: 'object',
-  ...(traits ? { traits } : {}),
+  ...(traits ? { 'x-traits': traits } : {}),
   properties: { ...properties, type: { const: type } },
 });
 const section = (standard: string | undefined, ...parts: Schema[]): Schema => ({
@@ -35,6 +35,7 @@ export const sampleSchema: Schema = {
         type: 'object',
         properties: {
           count: { type: 'integer' },
+          start: section('anywhere', part('anywhere', []), part('seen', ['in_view'])),
           model: section('dot', part('dot', []), part('rod', [], { preset: { type: 'string', enum: ['first', 'second'] } })),
         },
       },
@@ -43,4 +44,4 @@ export const sampleSchema: Schema = {
 };
 
 /** The schema of a program that sends neither traits nor defaults. */
-export const schemaWithoutTraits: Schema = JSON.parse(JSON.stringify(sampleSchema, (key, value) => (key === 'traits' || key === 'default' ? undefined : value)));
+export const schemaWithoutTraits: Schema = JSON.parse(JSON.stringify(sampleSchema, (key, value) => (key === 'x-traits' || key === 'default' ? undefined : value)));

@@ -3,18 +3,9 @@
 #include <string>
 
 #include "app/recording/run_lock.h"
+#include "app/sinks/run_files.h"
 
 namespace faba {
-
-/// A run directory's files, for those that look into one.
-namespace run_files {
-inline constexpr const char* kMarker = RunLock::kFile;
-inline constexpr const char* kCheckpoint = "checkpoint";
-inline constexpr const char* kScenario = "scenario.toml";
-inline constexpr const char* kManifest = "manifest.json";
-inline constexpr const char* kCommands = "commands.csv";  ///< of a bench
-inline constexpr const char* kCoilsLog = "coils.log";     ///< likewise
-}  // namespace run_files
 
 /// A directory that a run is written to, held against other processes.
 class RunDirectory {

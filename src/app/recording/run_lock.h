@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/sinks/run_files.h"
 #include "core/file_lock.h"
 
 namespace faba {
@@ -9,7 +10,7 @@ namespace faba {
 /// The file `incomplete` of a run directory, held while a process writes there.
 class RunLock {
  public:
-  static constexpr const char* kFile = "incomplete";
+  static constexpr const char* kFile = run_files::kMarker;
 
   RunLock() = default;
   /// Makes the file if it is not there. `program` is the command to go on with; empty: what was broken off

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "app/recording/run_directory.h"
+#include "app/sinks/run_files.h"
 #include "app/sinks/sinks.h"
 #include "core/file.h"
 

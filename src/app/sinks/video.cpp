@@ -1,4 +1,4 @@
-#include "app/recording/drawn_swarm.h"
+#include "app/sinks/drawn_swarm.h"
 #include "app/sinks/sinks.h"
 #include "vision/files/video_writer.h"
 

@@ -7,6 +7,7 @@ namespace {
 class StartVisible final : public Start {
  public:
   struct Params {};
+  static constexpr std::array kTraits = {Trait::in_view};
   static Schema<Params> schema() { return {"visible", "Anywhere in the visible part of the arena"}; }
   StartVisible(const Params&, const StartContext& c) : frame_(c.arena->frame()) {}
   std::optional<Vec2> place(const PlaceDraw& d) const override {

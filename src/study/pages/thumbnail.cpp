@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/recording/drawn_swarm.h"
+#include "app/sinks/drawn_swarm.h"
 #include "app/recording/session.h"
 #include "app/scenario/read_scenario.h"
 #include "vision/files/picture.h"

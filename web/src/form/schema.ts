@@ -18,7 +18,7 @@ export interface Schema {
   properties?: Record<string, Schema>;
   oneOf?: Schema[];
   /** What a part does, such as "open_loop": web/protocol.md. */
-  traits?: string[];
+  'x-traits'?: string[];
   'x-unit'?: string;
   'x-source'?: string;
   'x-validity'?: string;

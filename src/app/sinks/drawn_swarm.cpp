@@ -1,4 +1,4 @@
-#include "app/recording/drawn_swarm.h"
+#include "app/sinks/drawn_swarm.h"
 
 #include <cmath>
 

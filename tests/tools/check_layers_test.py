@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+"""tools/check_layers.py finds a planted violation of each kind, and nothing in a tree that has none."""
+
+import pathlib
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tools"))
+import check_layers  # noqa: E402
+
+CLEAN = {
+    "core/vec.h": "struct Vec {\n};\n",
+    "vision/image/image.h": '#include "core/vec.h"\n',
+    "vision/files/picture.cpp": '#include "vision/image/image.h"\n#include <libavutil/frame.h>\n',
+    "app/scenario/scenario.cpp": '#include "core/vec.h"\n#include "rig/camera.h"\n',
+    "rig/camera.h": "",
+}
+# What is planted, and words of the line that must be printed for it.
+PLANTED = {
+    "a folder of a higher row": ({"core/a.cpp": '#include "field/b.h"\n'}, "core must not include field"),
+    "a neighbour of its row": ({"sim/a.cpp": '#include "control/b.h"\n'}, "sim must not include control"),
+    "a sibling subfolder": (
+        {"vision/image/a.cpp": '#include "vision/files/b.h"\n'},
+        "vision/image must not include vision/files",
+    ),
+    "HDF5 in the engine": ({"field/a.cpp": '#include "core/h5/h5.h"\n'}, "part of the engine and must not include"),
+    "videos in the engine": (
+        {"control/a.cpp": '#include "vision/cells/tracker.h"\n'},
+        "part of the engine and must not include",
+    ),
+    "a circle of two": (
+        {"core/a.h": "", "core/a.cpp": '#include "core/b.h"\n', "core/b.h": '#include "core/a.h"\n'},
+        "an include circle: core/a, core/b",
+    ),
+    "a circle of three": (
+        {f"core/{a}.h": f'#include "core/{b}.h"\n' for a, b in ("xy", "yz", "zx")},
+        "an include circle: core/x, core/y, core/z",
+    ),
+    "a library away from its home": ({"study/a.cpp": "#include <opencv2/core.hpp>\n"}, "may be included by"),
+    "a library's types beyond its folder": (
+        {"server/a.h": "#include <boost/asio/ip/tcp.hpp>\n", "cli/b.cpp": '#include "server/a.h"\n'},
+        "shows a library's types",
+    ),
+    "two types of one name": ({"vision/drop/a.h": "struct Vec {\n};\n"}, "is the name of another type"),
+    "an unknown folder": ({"utils/a.cpp": ""}, "is not in the table"),
+    "an unknown subfolder": ({"vision/misc/a.cpp": ""}, "is not in the table"),
+    "a folder with too many files": ({f"core/f{i}.cpp": "" for i in range(41)}, "files directly in one folder"),
+}
+
+
+def found_in(files):
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in files.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text)
+        return list(check_layers.violations(root))
+
+
+wrong = [f"a clean tree: {v}" for v in found_in(CLEAN)]
+for what, (files, words) in PLANTED.items():
+    lines = found_in(CLEAN | files)
+    if not any(words in line for line in lines):
+        wrong.append(f"{what}: not found; found {lines}")
+print("\n".join(wrong) or f"{len(PLANTED)} planted violations were found")
+sys.exit(1 if wrong else 0)
