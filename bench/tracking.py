@@ -104,7 +104,7 @@ def swarm_errors(program, folder, cells, noise, seed):
         worst["centroid"] = max(worst["centroid"], away)
         worst["spread"] = max(worst["spread"], 100 * abs(wide / spread - 1))
         if k >= FIRST_ONLINE:
-            away = numpy.hypot(float(series["estimate_x_px"]) - centre[0], float(series["estimate_y_px"]) - centre[1])
+            away = numpy.hypot(float(series["estimated_centroid_x_px"]) - centre[0], float(series["estimated_centroid_y_px"]) - centre[1])
             worst["image"] = max(worst["image"], away)
     return worst
 

@@ -5,6 +5,7 @@
 - files include each other in a circle (a file is the .h and .cpp of one name),
 - a third-party library is included outside its home, or a header that shows a library's types leaves its folder,
 - two headers give different types one name, which no compiler notices and the linker makes one of,
+- two .cpp files of a folder of src have a name of their own in common, which compiling several at a time forbids,
 - a folder is not in the table, or has more files directly in it than a reader can take in.
 
 check_layers.py src    prints one line per violation and exits with 1 when there is one."""
@@ -98,6 +99,8 @@ HOME = {
     "boost/asio": {"server"},
     "boost/beast": {"server"},
 }
+# Folders that are compiled several files at a time (CMakeLists.txt: FABA_UNITY).
+UNITY = {"field", "control", "app", "study", "cli"}
 MOST_FILES = 40
 
 
@@ -232,6 +235,24 @@ def check_types(tree):
                 yield f"{file}:{number}: {defined[1]} is the name of another type in {types[defined[1]]}"
 
 
+def check_unity(tree):
+    """Where several files are compiled at a time, names of one file's own must not be those of another one's in the same
+    folder of src."""
+    own = {}
+    for file in tree.files:
+        if file.suffix != ".cpp" or tree.name(file).split("/")[0] not in UNITY:
+            continue
+        for body in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", file.read_text(), re.S | re.M):
+            for line in body.splitlines():
+                named = re.match(r"(?:struct|class|enum class) (\w+)", line) or re.match(
+                    r"(?:constexpr|const) [^=(]*?\b(k[A-Z]\w*)\b", line
+                )
+                if named:
+                    key = (tree.name(file).split("/")[0], named[1])
+                    if own.setdefault(key, file) != file:
+                        yield f"{file}: {named[1]} is also a name of {own[key]}'s own; give one of them another"
+
+
 def violations(root):
     tree = Tree(root)
     for check in (
@@ -241,6 +262,7 @@ def violations(root):
         check_circles,
         check_libraries,
         check_types,
+        check_unity,
     ):
         yield from check(tree)
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include <cstdio>
 
 #include "app/bench/bench_session.h"
@@ -35,20 +37,15 @@ void require_arm(const RigVerb& v) {
               "check`");
 }
 
-void latency(const Json& manifest) {
-  const auto ms = [](const Json& j, const char* key) {
-    return j.at(key).is_null() ? std::string("-") : three_digits(j.at(key).get<double>()) + " ms";
-  };
-  const Json& arrival = manifest.at("arrival_ms");
-  const Json& command = manifest.at("command_ms");
+void latency(std::uint64_t frames, const Manifest::Bench& b) {
+  const auto ms = [](double v) { return std::isnan(v) ? std::string("-") : three_digits(v) + " ms"; };
   fmt::print("frames {} taken, {} dropped, {} corrupt; {} after mid-exposure at the program (median)\n",
-             manifest.at("frames").dump(), manifest.at("frames_dropped").dump(),
-             manifest.at("frames_corrupt").dump(), ms(arrival, "median"));
+             frames, b.frames_dropped, b.frames_corrupt, ms(b.arrival.median));
   fmt::print("command at the coils {} after the frame came (median), 99.9 % within {}\n",
-             ms(command, "median"), ms(command, "p999"));
-  if (const auto rests = manifest.at("guard").at("rests").get<int>(); rests > 0)
-    fmt::print("the coils came to rest {} time{}, because no command came in time\n", rests,
-               rests == 1 ? "" : "s");
+             ms(b.command.median), ms(b.command.p999));
+  if (b.guard_rests > 0)
+    fmt::print("the coils came to rest {} time{}, because no command came in time\n", b.guard_rests,
+               b.guard_rests == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -75,26 +72,27 @@ int rig_run(const RigVerb& v, const Common& c) {
     whole = session.run();
   } catch (const Error&) {
     std::error_code ec;  // what was recorded can be looked at, too
-    if (std::filesystem::exists(session.dir() / run_files::kManifest, ec)) write_run_report(session.dir());
+    if (std::filesystem::exists(session.dir() / run_files::kManifest, ec))
+      write_run_report(session.dir(), run_info(session.manifest()), session.series());
     throw;
   }
   bar.clear();
-  write_run_report(session.dir());
+  const Manifest& manifest = session.manifest();
+  const Series series = session.series();
+  write_run_report(session.dir(), run_info(manifest), series);
   if (whole) session.complete();
-  const Metrics metrics = control_metrics(read_series(session.dir() / "series.csv"));
-  const Json manifest = session.manifest();
+  const Metrics metrics = control_metrics(series);
   if (!c.quiet)
-    for (const Json& note : manifest.at("notes"))
-      tell(fmt::format("faba: note: {}: {}", v.run.scene, note.get<std::string>()));
+    for (const std::string& note : manifest.notes) tell(fmt::format("faba: note: {}: {}", v.run.scene, note));
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
-    for (const auto& source : {manifest, metrics_json(metrics)})
+    for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})
       for (const auto& [k, value] : source.items())
         if (!j.contains(k)) j[k] = value;
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
-    fmt::print("{}\n", run_in_words(metrics, read_run_info(session.dir() / run_files::kManifest)).outcome);
-    latency(manifest);
+    fmt::print("{}\n", run_in_words(metrics, run_info(manifest)).outcome);
+    latency(manifest.frames, *manifest.bench);
     fmt::print("  report {}\n", (session.dir() / "report.html").string());
   }
   return whole ? 0 : int(Errc::interrupted);
@@ -165,7 +163,7 @@ int rig_step_response(const RigVerb& v, const Common& c) {
   Json all = Json::array();
   job.done = [&](const RecordedResponse& r) {
     bar.clear();
-    write_run_report(r.dir);
+    write_run_report(r.dir, read_run_info(r.dir / run_files::kManifest), read_series(r.dir / "series.csv"));
     all.push_back({{"out", r.dir.string()},
                    {"exposure_s", r.exposure},
                    {"cells", r.cells},

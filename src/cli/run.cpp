@@ -23,9 +23,9 @@ std::string again_with(const RunVerb& v, std::uint64_t seed) {
   return line;
 }
 
-void summary(const Session& session, const Metrics& m, const std::string& next) {
+void summary(const Session& session, const Manifest& manifest, const Metrics& m, const std::string& next) {
   const auto& dir = session.dir();
-  fmt::print("{}\n", run_in_words(m, read_run_info(dir / run_files::kManifest)).outcome);
+  fmt::print("{}\n", run_in_words(m, run_info(manifest)).outcome);
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
   if (m.setpoints > 0)
     fmt::print("settling time {}, steady error {} px rms, ",
@@ -39,8 +39,7 @@ void summary(const Session& session, const Metrics& m, const std::string& next) 
                                                        {"report", "report.html"}};
   for (const auto& [what, name] : files)
     if (std::filesystem::exists(dir / name)) fmt::print("  {:<7}{}\n", what, (dir / name).string());
-  fmt::print("seed {}, state_hash {}\n", session.manifest()["seed"].dump(),
-             session.manifest()["state_hash"].get<std::string>());
+  fmt::print("seed {}, state_hash {}\n", manifest.seed, manifest.simulated->state_hash);
   if (!next.empty()) fmt::print("now try: {}\n", next);
 }
 
@@ -53,17 +52,19 @@ int carry_out(Session& session, Progress& bar, const Common& c, const std::strin
                        shell_word(program()), shell_word(session.dir().string())));
     return int(Errc::interrupted);
   }
-  write_run_report(session.dir());
+  const Manifest manifest = session.manifest();
+  const Series series = session.series();
+  write_run_report(session.dir(), run_info(manifest), series);
   session.complete();
-  const Metrics metrics = control_metrics(read_series(session.dir() / "series.csv"));
+  const Metrics metrics = control_metrics(series);
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
-    for (const auto& source : {session.manifest(), metrics_json(metrics)})
+    for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})
       for (const auto& [k, v] : source.items())
         if (!j.contains(k)) j[k] = v;  // what both name is what the manifest says
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
-    summary(session, metrics, next);
+    summary(session, manifest, metrics, next);
   }
   return 0;
 }

@@ -136,4 +136,6 @@ void rename_complete(const std::filesystem::path& from, const std::filesystem::p
   flush_path(folder, O_DIRECTORY, to);
 }
 
+std::filesystem::path temporary_name(const std::filesystem::path& path) { return path.string() + ".tmp"; }
+
 }  // namespace faba

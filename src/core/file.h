@@ -51,4 +51,7 @@ class OutputFile {
 /// sure that content and name outlive a power cut. Throws Error(Errc::internal, to).
 void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to);
 
+/// What a file is called until it is complete and renamed: `path` + ".tmp".
+std::filesystem::path temporary_name(const std::filesystem::path& path);
+
 }  // namespace faba

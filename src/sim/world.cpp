@@ -114,6 +114,14 @@ void World::advance_currents() {
     state_.current[k] += follow_[k] * (state_.command[k] - state_.current[k]);
 }
 
+void World::command(const std::vector<double>& current) {
+  if (current.size() != parts_.field->coils())
+    throw Error(
+        Errc::usage, "command",
+        fmt::format("has {} currents; the field has {} coils", current.size(), parts_.field->coils()));
+  state_.command = current;
+}
+
 void World::step() {
   advance_currents();
   const bool proposals = exclusion_.active();

@@ -50,7 +50,8 @@ class World {
 
   const State& state() const { return state_; }
   const WorldParts& parts() const { return parts_; }
-  void command(const std::vector<double>& current) { state_.command = current; }  ///< A per coil
+  /// Currents for the coils, A, one per coil. Throws Error(usage) for another number of them.
+  void command(const std::vector<double>& current);
   /// From now on a population obeys another law. Its cells stay where they are and head where they do;
   /// everything else is drawn as for newborn ones.
   void exchange_model(std::size_t population, std::shared_ptr<const AgentModel> model);

@@ -132,7 +132,7 @@ await step('plots are drawn, compared with the recording, and saved', async () =
   };
   assert.ok((await saved(page.getByRole('button', { name: 'PNG' }).first())).subarray(1, 4).equals(Buffer.from('PNG')));
   assert.match(String(await saved(page.getByRole('button', { name: 'SVG' }).first())), /^<svg[^]*<path d="M/);
-  assert.match(String(await saved(page.getByRole('button', { name: 'CSV' }))), /^frame,t_s,centroid_x_px/);
+  assert.match(String(await saved(page.getByRole('button', { name: 'CSV' }))), /^frame,t_s,true_centroid_x_px/);
 });
 
 await step('the recording is replayed', async () => {

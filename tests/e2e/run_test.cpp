@@ -33,7 +33,9 @@ TEST_CASE("run: files, JSON fields, same hash for any thread count and again") {
   CHECK(nlohmann::json::parse(read_file(f.path / "a/manifest.json"))["state_hash"] == j["state_hash"]);
   const std::string series = read_file(f.path / "a/series.csv");
   CHECK(series.starts_with(
-      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px,"));
+      "frame,t_s,true_centroid_x_px,true_centroid_y_px,true_sigma_x_px,true_sigma_y_px,true_rms_radius_px,"
+      "estimated_centroid_x_px,estimated_centroid_y_px,estimated_sigma_x_px,estimated_sigma_y_px,distance_"
+      "px,"));
   REQUIRE(faba_in(f.path, "run s.toml --seed 5 --out b --quiet --set record.flow=true").exit == 0);
   CHECK(std::filesystem::exists(f.path / "b/flow.h5"));
   REQUIRE(faba_in(f.path, "run s.toml --seed 5 --out b --quiet --force").exit == 0);

@@ -65,7 +65,7 @@ TEST_CASE("image: from rendered frames at a drop's edge the loop knows where its
   // All cells are in view till then. The first pictures, of a pile at the edge, are good for 20 px only.
   for (std::size_t k = 10; k < t.size(); ++k) {
     CAPTURE(k);
-    CHECK(std::hypot(t.column("estimate_x_px")[k] - t.column("centroid_x_px")[k],
-                     t.column("estimate_y_px")[k] - t.column("centroid_y_px")[k]) < 2);
+    CHECK(std::hypot(t.column("estimated_centroid_x_px")[k] - t.column("true_centroid_x_px")[k],
+                     t.column("estimated_centroid_y_px")[k] - t.column("true_centroid_y_px")[k]) < 2);
   }
 }

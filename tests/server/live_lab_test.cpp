@@ -134,7 +134,7 @@ TEST_CASE("a run is begun, watched, steered, paused, stepped, and recorded as it
   o.out = folder.path() / "run";
   Session session = Session::begin(*recorded, *recorded->params.seed, o);
   REQUIRE(session.run());
-  CHECK(session.manifest()["state_hash"] == hash);
+  CHECK(session.manifest().simulated->state_hash == hash);
 
   CHECK(answer([&](auto done) { lab.restart(done); })["seed"] == 9);
   page.news("run", [](const Json& j) { return j["run"] == 2; });

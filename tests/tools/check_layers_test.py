@@ -42,6 +42,10 @@ PLANTED = {
         "shows a library's types",
     ),
     "two types of one name": ({"vision/drop/a.h": "struct Vec {\n};\n"}, "is the name of another type"),
+    "two files' own types of one name": (
+        {f"study/plot/{n}.cpp": "namespace {\nstruct Mine {\n};\n}  // namespace\n" for n in "ab"},
+        "give one of them another",
+    ),
     "an unknown folder": ({"utils/a.cpp": ""}, "is not in the table"),
     "an unknown subfolder": ({"vision/misc/a.cpp": ""}, "is not in the table"),
     "a folder with too many files": ({f"core/f{i}.cpp": "" for i in range(41)}, "files directly in one folder"),

@@ -78,7 +78,7 @@ def strength(s, scene):
     """Commanded strength in field units, frame by frame, and the distance it was commanded at."""
     unit, gain = _si(scene["scale"]["field_unit"], "T"), _si(scene["field"]["gain"], "T/A")
     m = np.hypot(s["current_0_a"], s["current_1_a"]) * gain / unit
-    d = np.hypot(s["estimate_x_px"] - s["setpoint_x_px"], s["estimate_y_px"] - s["setpoint_y_px"])
+    d = np.hypot(s["estimated_centroid_x_px"] - s["setpoint_x_px"], s["estimated_centroid_y_px"] - s["setpoint_y_px"])
     return d, m
 
 
@@ -185,7 +185,7 @@ def corner(lab, found):
     film = lab.run("corner", "scenes/corner.toml")
     times = []
     for s in seeds(lab, "corner-seed", "scenes/corner.toml"):
-        off = np.hypot(s["centroid_x_px"] - s["centroid_x_px"][-1], s["centroid_y_px"] - s["centroid_y_px"][-1])
+        off = np.hypot(s["true_centroid_x_px"] - s["true_centroid_x_px"][-1], s["true_centroid_y_px"] - s["true_centroid_y_px"][-1])
         times.append(float(s["t_s"][np.flatnonzero(off <= 30)[0]]))
     mean, low, high = stats.mean_ci95(times)
     found.value = f"{mean:.2f} s (95 % of the mean {low:.2f} to {high:.2f} s; ten seeds from {min(times):.2f} to {max(times):.2f} s)"
@@ -254,8 +254,8 @@ def dispersion(lab, found):
         '{name="far", trapezoid_px=[40, 120, 1e9, 1e9], output=5}]'
     )
     three = seeds(lab, "basic-three", BASIC, states)
-    last = {n: stats.mean_ci95([s["sigma_x_px"][-1] for s in of]) for n, of in {**runs, "bare": bare, "three": three}.items()}
-    at50 = {n: stats.mean_ci95([s["sigma_x_px"][50] for s in of]) for n, of in {**runs, "bare": bare}.items()}
+    last = {n: stats.mean_ci95([s["true_sigma_x_px"][-1] for s in of]) for n, of in {**runs, "bare": bare, "three": three}.items()}
+    at50 = {n: stats.mean_ci95([s["true_sigma_x_px"][50] for s in of]) for n, of in {**runs, "bare": bare}.items()}
     found.value = (
         f"σx after 50 iterations: Basic {at50['basic'][0]:.0f}, Adapted {at50['adapted'][0]:.0f} px; at the end"
         f" {last['basic'][0]:.0f} [{last['basic'][1]:.0f}, {last['basic'][2]:.0f}] and {last['adapted'][0]:.0f} [{last['adapted'][1]:.0f},"
@@ -271,7 +271,7 @@ def dispersion(lab, found):
         None,
         "more than half of the variance (0.75² = 0.56) is there without any randomness: cells differ in speed",
     )
-    change, low, high = stats.mean_ci95([a["rms_radius_px"][-1] - b["rms_radius_px"][-1] for a, b in zip(three, runs["basic"])])
+    change, low, high = stats.mean_ci95([a["true_rms_radius_px"][-1] - b["true_rms_radius_px"][-1] for a, b in zip(three, runs["basic"])])
     found.within(
         "Three fuzzy states less two: rms radius at the end, 95 % to",
         high,
@@ -285,12 +285,12 @@ def dispersion(lab, found):
         " has σ = 185 × 139 px."
     )
     layers = [
-        ("line", n, np.arange(400), np.mean([s["sigma_x_px"][:400] for s in of], axis=0))
+        ("line", n, np.arange(400), np.mean([s["true_sigma_x_px"][:400] for s in of], axis=0))
         for n, of in (("Basic", runs["basic"]), ("Adapted", runs["adapted"]), ("Adapted without noise", bare))
     ]
     found.show(
         both(
-            "Dispersion", "rms radius (px)", "rms_radius_px", runs, "Root-mean-square distance from the swarm's mean; means of ten seeds."
+            "Dispersion", "rms radius (px)", "true_rms_radius_px", runs, "Root-mean-square distance from the swarm's mean; means of ten seeds."
         ),
         plot.plot(
             "Dispersion along x",

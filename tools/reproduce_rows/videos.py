@@ -43,7 +43,7 @@ def response_frames(lab, found):
     step = lab.run("step-frames", "scenes/as-seen.toml", 'controller={type="manual", field=["-1 mT", "0 T"]}', "--duration", "4.2 s")
     s = read.series(step)
     rest = s["visible_count"][-1] / s["visible_count"][0]
-    moved = s["centroid_x_px"][-1] - s["centroid_x_px"][0]
+    moved = s["true_centroid_x_px"][-1] - s["true_centroid_x_px"][0]
     found.value = f"frames from 0 to {s['t_s'][-1]:.2f} s; {100 * rest:.0f} % of the cells are still in view at the end"
     found.about("Time of the last frame", float(s["t_s"][-1]), 4.16, 1 / 15, "as in the figure, to a frame", "s")
     found.within("Share of the swarm still in view", float(rest), None, 0.5, "the swarm leaves the field of view: more than half are gone")

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "app/bench/bench_controls.h"
-#include "app/recording/manifest.h"
 #include "app/recording/session.h"
 #include "core/file.h"
 #include "core/urgent.h"
@@ -26,13 +25,21 @@ double quantile(std::vector<double> v, double q) {
   return v[at];
 }
 
-Json in_ms(const std::vector<double>& s) {
-  const auto ms = [&](double q) {
-    const double v = 1e3 * quantile(s, q);
-    return std::isnan(v) ? Json() : Json(v);
-  };
-  return {{"median", ms(0.5)}, {"p99", ms(0.99)}, {"p999", ms(0.999)}, {"max", ms(1)}};
+Latency in_ms(const std::vector<double>& s) {
+  return {1e3 * quantile(s, 0.5), 1e3 * quantile(s, 0.99), 1e3 * quantile(s, 0.999), 1e3 * quantile(s, 1)};
 }
+
+/// The camera of a bench: what it saw comes with the observations.
+class BenchFrames final : public FrameSource {
+ public:
+  double time_of(const Tick& t) const override { return t.seen.t; }
+  std::optional<double> planned_time(std::uint64_t) const override { return std::nullopt; }
+  ImageRef picture(const Tick& t) const override { return t.seen.image; }
+  int bits() const override { return 8; }
+  const Image<std::uint16_t>& deep_picture() const override {
+    throw Error(Errc::internal, "camera", "gives pictures of 8 bits");
+  }
+};
 
 }  // namespace
 
@@ -44,52 +51,52 @@ struct BenchSession::Impl {
   std::unique_ptr<BenchControls> controls;
   std::shared_ptr<OpenBench> bench;
   BenchRig* rig = nullptr;  ///< of the bench
-  RunDirectory directory;
-  std::vector<std::unique_ptr<RunSink>> sinks;
+  Recording recording;
   std::unique_ptr<Sink> commands;
   std::unique_ptr<Loop> loop;
-  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
   std::size_t most_behind = 0;
   std::uint64_t commands_before = 0, refused_before = 0,
                 rests_before = 0;  ///< the bench may have had runs before
   bool whole = false;
-  Json notes = Json::array();
-  Json manifest;  ///< as it was when the run ended
+  std::vector<std::string> notes;
+  Manifest manifest;  ///< as it was when the run ended
 };
 
 BenchSession::BenchSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 BenchSession::~BenchSession() = default;
 BenchSession::BenchSession(BenchSession&&) noexcept = default;
-const std::filesystem::path& BenchSession::dir() const { return impl_->directory.path(); }
-void BenchSession::complete() { impl_->directory.complete(); }
+const std::filesystem::path& BenchSession::dir() const { return impl_->recording.dir(); }
+void BenchSession::complete() { impl_->recording.complete(); }
 
 BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, std::uint64_t seed,
                                  const RunOptions& o) {
   auto m = std::make_unique<Impl>();
   s.params.seed = seed;
-  s.record.as_seen = true, s.record.tracks = false;
-  m->seed = seed, m->options = o;
+  s.record.as_seen = true;
+  s.record.tracks = false;
+  m->seed = seed;
+  m->options = o;
   m->pool = std::make_unique<Pool>(o.threads);
   m->bench = std::move(bench);
   const Frame frame = BenchControls(s).frame;  // what does not fit is said before anything is written
   check_recording(s.record, frame, s.camera.rate);
 
   m->bench->try_coils();
-  m->directory = RunDirectory::make({o.out, o.numbered, o.force, ""});
-  const std::filesystem::path dir = m->directory.path();
+  RunDirectory directory = RunDirectory::make({o.out, o.numbered, o.force, ""});
+  const std::filesystem::path dir = directory.path();
   m->rig = &m->bench->rig(dir / run_files::kCoilsLog);
   if (!s.rig->params.delay) s.rig->params.delay = std::round(m->bench->delay(s) * kDelaySteps) / kDelaySteps;
   m->rig->begin();
   const GuardReport guard = m->rig->coils()->report();
-  m->commands_before = guard.passed, m->refused_before = guard.refused;
+  m->commands_before = guard.passed;
+  m->refused_before = guard.refused;
   m->rests_before = m->rig->coils()->rests();
   m->scenario = std::move(s);
   m->controls = std::make_unique<BenchControls>(m->scenario);
-  write_file(dir / run_files::kScenario, to_toml(m->scenario.resolved()));
+  m->recording = Recording(std::move(directory), m->scenario, false);
   const SinkContext c{.dir = dir,
-                      .world = nullptr,
+                      .frames = std::make_shared<BenchFrames>(),
                       .field = m->controls->field,
-                      .loop = nullptr,
                       .frame = frame,
                       .scale = m->scenario.si_scale(),
                       .frame_rate = m->scenario.camera.rate,
@@ -97,10 +104,7 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
                       .jitter = true,
                       .flow = m->scenario.flow,
                       .pool = m->pool.get()};
-  m->sinks.push_back(series_sink(c, nullptr));
-  if (c.record.video) m->sinks.push_back(video_sink(c, false, nullptr));
-  if (c.record.lossless) m->sinks.push_back(video_sink(c, true, nullptr));
-  if (c.record.flow) m->sinks.push_back(flow_sink(c, nullptr));
+  m->recording.open_sinks(c, nullptr);
   m->commands = commands_sink(c);
   m->loop = std::make_unique<Loop>(m->controls->loop(*m->rig, m->scenario.frame_period()));
   return BenchSession(std::move(m));
@@ -109,7 +113,7 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
 bool BenchSession::run() {
   Impl& m = *impl_;
   std::vector<Sink*> all{m.commands.get()};
-  for (auto& s : m.sinks) all.push_back(s.get());
+  for (Sink* s : m.recording.sinks()) all.push_back(s);
   Recorder recorder(all);
   Loop& loop = *m.loop;
   loop.sinks = {&recorder};
@@ -124,8 +128,7 @@ bool BenchSession::run() {
       latency.append(
           fmt::format("{},{},{}\n", i, ms(m.rig->delays()[i].arrival), ms(m.rig->delays()[i].command)));
     recorder.finish();
-    for (auto& s : m.sinks) s->finish(false);
-    write_file(dir() / run_files::kManifest, m.manifest.dump(2) + "\n");
+    m.recording.finish(m.manifest, false);
   };
   try {
     const Urgent urgent;
@@ -157,37 +160,41 @@ bool BenchSession::run() {
   return m.whole;
 }
 
-const Json& BenchSession::manifest() const { return impl_->manifest; }
+const Manifest& BenchSession::manifest() const { return impl_->manifest; }
+Table BenchSession::series() const { return impl_->recording.series(); }
 
-Json BenchSession::describe() const {
+Manifest BenchSession::describe() const {
   const Impl& m = *impl_;
   const Scenario& s = m.scenario;
   std::vector<double> arrival, command;
-  for (const BenchRig::Delay& d : m.rig->delays()) arrival.push_back(d.arrival), command.push_back(d.command);
+  for (const BenchRig::Delay& d : m.rig->delays()) {
+    arrival.push_back(d.arrival);
+    command.push_back(d.command);
+  }
   const GuardReport guard = m.rig->coils()->report();
-  Json j = scenario_manifest(s, m.seed, m.controls->frame, s.arena.make({s.si_scale()})->outline());
-  j.update(
-      {{"complete", m.whole},
-       {"rig", {{"camera", s.rig->camera.type}, {"driver", s.rig->driver.type}}},
-       {"frames", m.loop->next},
-       {"duration_s", m.loop->last_t + m.loop->frame_period},
-       {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - m.began).count()},
-       {"notes", m.notes},
-       {"setpoints", m.controls->reference->setpoints().size()},
-       {"video_shows", "camera"},
-       {"frames_dropped", m.rig->dropped()},
-       {"delay_ms", 1e3 * s.rig->params.delay.value_or(0)},
-       {"frames_corrupt", m.rig->feed().camera().corrupt()},
-       {"arrival_ms", in_ms(arrival)},
-       {"command_ms", in_ms(command)},
-       {"recorder_most_behind", m.most_behind},
-       {"guard",
-        {{"state", word(guard.state)},
-         {"commands", guard.passed - m.commands_before},
-         {"refused", guard.refused - m.refused_before},
-         {"rests", m.rig->coils()->rests() - m.rests_before},
-         {"heat", guard.heat}}}});
-  return j;
+  Manifest all = manifest_of(s, m.seed, m.controls->frame, s.arena.make({s.si_scale()})->outline());
+  all.complete = m.whole;
+  all.frames = m.loop->next;
+  all.duration_s = m.loop->last_t + m.loop->frame_period;
+  all.wall_time_s = m.recording.wall_time();
+  all.setpoints = m.controls->reference->setpoints().size();
+  all.video_shows = "camera";
+  all.distance_source = "estimated";
+  all.notes = m.notes;
+  all.bench = Manifest::Bench{.camera = s.rig->camera.type,
+                              .driver = s.rig->driver.type,
+                              .frames_dropped = m.rig->dropped(),
+                              .frames_corrupt = m.rig->feed().camera().corrupt(),
+                              .delay_ms = 1e3 * s.rig->params.delay.value_or(0),
+                              .arrival = in_ms(arrival),
+                              .command = in_ms(command),
+                              .recorder_most_behind = m.most_behind,
+                              .guard_state = word(guard.state),
+                              .guard_commands = guard.passed - m.commands_before,
+                              .guard_refused = guard.refused - m.refused_before,
+                              .guard_rests = m.rig->coils()->rests() - m.rests_before,
+                              .guard_heat = guard.heat};
+  return all;
 }
 
 }  // namespace faba

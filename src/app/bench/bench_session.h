@@ -3,8 +3,7 @@
 
 #include "app/bench/open_bench.h"
 #include "app/recording/recorder.h"
-#include "app/recording/run_directory.h"
-#include "app/sinks/sinks.h"
+#include "app/recording/recording.h"
 
 namespace faba {
 
@@ -26,14 +25,16 @@ class BenchSession {
   /// the first frame has been decided on, and at rest in the end. What was recorded is complete on every way
   /// out, also when Error(device) is thrown. Returns whether the end was reached.
   bool run();
-  /// manifest.json, once it ran.
-  const Json& manifest() const;
+  /// What manifest.json says, once it ran.
+  const Manifest& manifest() const;
+  /// series.csv, once it ran.
+  Table series() const;
   void complete();
   const std::filesystem::path& dir() const;
 
  private:
   struct Impl;
-  Json describe() const;
+  Manifest describe() const;
   explicit BenchSession(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBacklog = 64;       // frames that may wait for a disk before some are lost
 constexpr double kShortOfMemory = 0.05;    // of all memory, below which a buffered capture ends
-constexpr double kLook = 0.1;              // s between looks at whether to stop
+constexpr double kLookAtClock = 0.1;              // s between looks at whether to stop
 constexpr std::uint64_t kMemoryEvery = 8;  // frames between looks at the memory
 
 // Where pictures go, with the table of their times.
@@ -155,7 +155,7 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   try {
     while (!stopped()) {
       CameraFrame f;
-      const CameraFeed::Got got = feed.next(f, monotonic_now() + kLook);
+      const CameraFeed::Got got = feed.next(f, monotonic_now() + kLookAtClock);
       if (got == CameraFeed::Got::end) break;
       if (got == CameraFeed::Got::nothing) {
         if (monotonic_now() - heard > job.patience)

@@ -192,7 +192,8 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
         BenchSession::begin(s, std::shared_ptr<OpenBench>(&bench, [](OpenBench*) {}), job.seed, o);
     one.dir = session.dir();
     if (!session.run()) check();
-    one.frames = session.manifest().at("frames"), one.dropped = session.manifest().at("frames_dropped");
+    one.frames = session.manifest().frames;
+    one.dropped = session.manifest().bench->frames_dropped;
     if (job.done) job.done(one);
     session.complete();
     study.add(one);

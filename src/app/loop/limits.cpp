@@ -1,5 +1,7 @@
 #include "app/loop/limits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,13 +24,18 @@ Schema<Limits::Params> Limits::schema() {
 }
 
 bool Limits::apply(Command& c, double dt, double frame_age) {
+  if (!most_.empty() && c.current.size() != most_.size())
+    throw Error(
+        Errc::usage, "controller",
+        fmt::format("commands {} currents; the field has {} coils, and a command has one current for each",
+                    c.current.size(), most_.size()));
   const std::vector<double> asked = c.current;
   last_.resize(c.current.size(), 0.0);
   if (wired_) wired_(c.current);
   for (std::size_t k = 0; k < c.current.size(); ++k) {
     double& i = c.current[k];
     if (!std::isfinite(i) || frame_age > p_.max_frame_age) i = 0;
-    const double most = k < most_.size() ? std::min(most_[k], p_.max_current) : p_.max_current;
+    const double most = most_.empty() ? p_.max_current : std::min(most_[k], p_.max_current);
     i = std::clamp(i, -most, most);
     if (p_.max_slew) i = std::clamp(i, last_[k] - *p_.max_slew * dt, last_[k] + *p_.max_slew * dt);
   }

@@ -18,14 +18,16 @@ class Limits {
     double max_frame_age = 1;
   };
   static Schema<Params> schema();
-  /// `most`: the largest current of each coil, A; coils beyond its length have the common limit alone.
-  /// `wired`, when given: brings currents to what flows in coils that hang on one output.
+  /// `most`: the largest current of each coil, A, one per coil; when empty, there are as many coils as a
+  /// command has currents, and they have the common limit alone. `wired`, when given: brings currents to what
+  /// flows in coils that hang on one output.
   explicit Limits(const Params& p, std::vector<double> most = {},
                   std::function<void(std::vector<double>&)> wired = {})
       : p_(p), most_(std::move(most)), wired_(std::move(wired)) {}
 
   /// Clips to the current and slew limits; not-a-number becomes zero; all zero when the frame is older than
-  /// allowed. Returns whether anything was changed.
+  /// allowed. Returns whether anything was changed. Throws Error(usage) for another number of currents than
+  /// there are coils.
   bool apply(Command& c, double dt, double frame_age);
   /// The coils had no current for a while: changes are reckoned from there.
   void rested() { last_.assign(last_.size(), 0.0); }

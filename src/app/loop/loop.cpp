@@ -5,30 +5,33 @@
 
 namespace faba {
 
+bool turn(Loop& loop) {
+  Observation seen;
+  if (loop.between) loop.between();
+  if (!loop.rig.read(seen)) return false;
+  const double dt = loop.next == 0 ? loop.frame_period : seen.t - loop.last_t;
+  const Estimate estimate = loop.estimator->update(seen, loop.last);
+  const Target target = loop.reference->update(estimate);
+  Command command = loop.controller->update(estimate, target, dt);
+  if (seen.rested) loop.limits.rested();
+  // Nothing flowed in the frames before: a change out of rest has one frame's time, as the guard reckons.
+  const double changing = seen.rested ? std::min(dt, loop.frame_period) : dt;
+  const bool limited = loop.limits.apply(command, changing, seen.age);
+  loop.rig.write(command);
+  loop.last = command;
+  loop.last_t = seen.t;
+  for (Sink* s : loop.sinks) s->take({loop.next, seen, estimate, target, command, limited});
+  ++loop.next;
+  return true;
+}
+
 void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on) {
   struct Guard {
     Rig& rig;
     ~Guard() { rig.safe(); }
   } guard{loop.rig};
-  Observation seen;
-  while (loop.next < end) {
-    if (loop.between) loop.between();
-    if (!loop.rig.read(seen)) break;
-    const double dt = loop.next == 0 ? loop.frame_period : seen.t - loop.last_t;
-    const Estimate estimate = loop.estimator->update(seen, loop.last);
-    const Target target = loop.reference->update(estimate);
-    Command command = loop.controller->update(estimate, target, dt);
-    if (seen.rested) loop.limits.rested();
-    // Nothing flowed in the frames before: a change out of rest has one frame's time, as the guard reckons.
-    const double changing = seen.rested ? std::min(dt, loop.frame_period) : dt;
-    const bool limited = loop.limits.apply(command, changing, seen.age);
-    loop.rig.write(command);
-    loop.last = command;
-    loop.last_t = seen.t;
-    for (Sink* s : loop.sinks) s->take({loop.next, seen, estimate, target, command, limited});
-    ++loop.next;
+  while (loop.next < end && turn(loop))
     if (!go_on()) break;
-  }
 }
 
 }  // namespace faba

@@ -25,7 +25,7 @@ class Sink {
   virtual void take(const Tick& t) = 0;
 };
 
-/// The parts of a closed loop. They outlive it, or are exchanged between two turns.
+/// The parts of a control loop. They outlive it, or are exchanged between two turns.
 struct Loop {
   Rig& rig;
   Estimator* estimator;
@@ -41,9 +41,14 @@ struct Loop {
   Command last;            ///< written in the turn before
 };
 
-/// The only closed loop in the program; simulation, replay and hardware differ only in the rig:
-/// guard -> read -> estimate -> control -> limit -> write -> sinks. Runs until turn `end`, until the rig has
-/// no more frames, or until `go_on` (asked after every turn) says no. The rig is made safe on every way out.
+/// One turn: read -> estimate -> reference -> control -> limit -> write -> sinks. Returns false when the rig
+/// has no more frames, and then nothing was written. Who calls it sees to it that the rig is made safe; run()
+/// does. Throws Error(usage) when the controller gives another number of currents than there are coils.
+bool turn(Loop& loop);
+
+/// The only control loop in the program; simulation, replay and hardware differ only in the rig. Takes turns
+/// until turn `end`, until the rig has no more frames, or until `go_on` (asked after every turn) says no. The
+/// rig is made safe on every way out.
 void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on);
 
 }  // namespace faba

@@ -1,21 +1,106 @@
 #include "app/recording/manifest.h"
 
-namespace faba {
+#include <cmath>
 
-Json scenario_manifest(const Scenario& s, std::uint64_t seed, const Frame& frame, const Outline& outline) {
-  Json arena = {{"type", s.arena.type}, {"centre_px", {outline.centre_image.x, outline.centre_image.y}}};
-  if (outline.radius_px > 0)
-    arena["radius_px"] = outline.radius_px;
+namespace faba {
+namespace {
+
+Json latency_json(const Latency& l) {
+  const auto number = [](double v) { return std::isnan(v) ? Json() : Json(v); };
+  return {
+      {"median", number(l.median)}, {"p99", number(l.p99)}, {"p999", number(l.p999)}, {"max", number(l.max)}};
+}
+
+Json arena_json(const Manifest& m) {
+  Json j = {{"type", m.arena_type}, {"centre_px", {m.arena_centre_px.x, m.arena_centre_px.y}}};
+  if (m.arena_radius_px > 0)
+    j["radius_px"] = m.arena_radius_px;
   else
-    arena["size_px"] = {frame.width, frame.height};
-  return {{"version", FABA_VERSION},
-          {"title", s.params.title},
-          {"scenario_hash", s.hash()},
-          {"seed", seed},
-          {"um_per_px", s.scale.um_per_px},
-          {"view_px", {frame.width, frame.height}},
-          {"arena", arena},
-          {"polarity", s.polarity() > 0 ? "north" : "south"}};
+    j["size_px"] = {int(m.view_px.x), int(m.view_px.y)};
+  return j;
+}
+
+Json swarms_json(const std::vector<Manifest::Swarm>& swarms) {
+  Json all = Json::array();
+  for (const Manifest::Swarm& s : swarms) {
+    Json one = Swarm::schema().to_json(s.params);
+    one["model"] = s.model;
+    one["start"] = s.start;
+    all.push_back(one);
+  }
+  return all;
+}
+
+void add_simulated(Json& j, const Manifest& m) {
+  const Manifest::Simulated& s = *m.simulated;
+  j.update({{"threads", s.threads},
+            {"state_hash", s.state_hash},
+            {"frames", m.frames},
+            {"duration_s", m.duration_s},
+            {"step_s", s.step_s},
+            {"steps", s.steps},
+            {"wall_time_s", m.wall_time_s},
+            {"cells", s.cells},
+            {"swarms", swarms_json(s.swarms)},
+            {"setpoints", m.setpoints},
+            {"video_shows", m.video_shows},
+            {"distance_source", m.distance_source},
+            {"notes", m.notes}});
+}
+
+void add_bench(Json& j, const Manifest& m) {
+  const Manifest::Bench& b = *m.bench;
+  j.update({{"rig", {{"camera", b.camera}, {"driver", b.driver}}},
+            {"frames", m.frames},
+            {"duration_s", m.duration_s},
+            {"wall_time_s", m.wall_time_s},
+            {"notes", m.notes},
+            {"setpoints", m.setpoints},
+            {"video_shows", m.video_shows},
+            {"distance_source", m.distance_source},
+            {"frames_dropped", b.frames_dropped},
+            {"delay_ms", b.delay_ms},
+            {"frames_corrupt", b.frames_corrupt},
+            {"arrival_ms", latency_json(b.arrival)},
+            {"command_ms", latency_json(b.command)},
+            {"recorder_most_behind", b.recorder_most_behind},
+            {"guard",
+             {{"state", b.guard_state},
+              {"commands", b.guard_commands},
+              {"refused", b.guard_refused},
+              {"rests", b.guard_rests},
+              {"heat", b.guard_heat}}}});
+}
+
+}  // namespace
+
+Manifest manifest_of(const Scenario& s, std::uint64_t seed, const Frame& frame, const Outline& outline) {
+  Manifest m;
+  m.title = s.params.title;
+  m.scenario_hash = s.hash();
+  m.seed = seed;
+  m.um_per_px = s.scale.um_per_px;
+  m.view_px = {double(frame.width), double(frame.height)};
+  m.arena_type = s.arena.type;
+  m.arena_centre_px = outline.centre_image;
+  m.arena_radius_px = outline.radius_px;
+  m.polarity = s.polarity() > 0 ? "north" : "south";
+  return m;
+}
+
+Json manifest_json(const Manifest& m) {
+  Json j = {{"version", FABA_VERSION},
+            {"title", m.title},
+            {"scenario_hash", m.scenario_hash},
+            {"seed", m.seed},
+            {"um_per_px", m.um_per_px},
+            {"view_px", {int(m.view_px.x), int(m.view_px.y)}},
+            {"arena", arena_json(m)},
+            {"polarity", m.polarity},
+            {"complete", m.complete}};
+  if (m.simulated) add_simulated(j, m);
+  if (m.bench) add_bench(j, m);
+  return j;
 }
 
 }  // namespace faba

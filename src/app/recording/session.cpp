@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/recording/checkpoint.h"
-#include "app/recording/manifest.h"
 #include "app/run/notes.h"
 #include "core/file.h"
 
@@ -14,12 +13,7 @@ namespace faba {
 using namespace run_files;
 
 Session::Session(Scenario s, std::uint64_t seed, const RunOptions& o)
-    : scenario_(std::move(s)),
-      seed_(seed),
-      options_(o),
-      directory_(o.out, RunLock()),
-      pool_(std::make_unique<Pool>(o.threads)),
-      began_(std::chrono::steady_clock::now()) {
+    : scenario_(std::move(s)), seed_(seed), options_(o), pool_(std::make_unique<Pool>(o.threads)) {
   scenario_.params.seed = seed;
   simulation_ = std::make_unique<Simulation>(scenario_, seed, *pool_);
 }
@@ -29,10 +23,7 @@ Session::~Session() = default;
 Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& o) {
   Session session(s, seed, o);
   check_recording(s.record, session.simulation_->frame(), s.camera.rate);
-  session.directory_ = RunDirectory::make({o.out, o.numbered, o.force, o.program});
-  session.notes_ = notes_on(s, *session.simulation_, session.dir());
-  write_file(session.dir() / kScenario, to_toml(session.scenario_.resolved()));
-  session.open_sinks(nullptr);
+  session.record(RunDirectory::make({o.out, o.numbered, o.force, o.program}), nullptr);
   return session;
 }
 
@@ -63,27 +54,21 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
   Session session(s, *s.params.seed, o);
   Archive saved = read_checkpoint(o.out / kCheckpoint, s.hash());
   session.simulation_->archive(saved);
-  session.directory_ = RunDirectory(o.out, std::move(lock));
-  session.notes_ = notes_on(s, *session.simulation_, session.dir());
-  session.open_sinks(&saved);
+  session.record(RunDirectory(o.out, std::move(lock)), &saved);
   return session;
 }
 
-void Session::open_sinks(Archive* resume) {
-  const SinkContext c = sink_context(scenario_, *simulation_, *pool_, dir());
-  sinks_.push_back(series_sink(c, resume));
-  if (scenario_.record.tracks) sinks_.push_back(tracks_sink(c, resume));
-  if (scenario_.record.video) sinks_.push_back(video_sink(c, false, resume));
-  if (scenario_.record.lossless) sinks_.push_back(video_sink(c, true, resume));
-  if (scenario_.record.flow) sinks_.push_back(flow_sink(c, resume));
-  for (auto& s : sinks_) simulation_->loop().sinks.push_back(s.get());
+void Session::record(RunDirectory directory, Archive* resume) {
+  recording_ = Recording(std::move(directory), scenario_, resume != nullptr);
+  notes_ = notes_on(scenario_, *simulation_, dir());
+  recording_.open_sinks(sink_context(scenario_, *simulation_, *pool_, dir()), resume);
+  for (Sink* s : recording_.sinks()) simulation_->loop().sinks.push_back(s);
 }
 
 void Session::checkpoint() {
   Archive a;
   simulation_->archive(a);
-  for (auto& s : sinks_) s->checkpoint(a);
-  write_checkpoint(dir() / kCheckpoint, scenario_.hash(), a);
+  recording_.checkpoint(a);
 }
 
 bool Session::run() {
@@ -105,45 +90,41 @@ bool Session::run() {
         std::chrono::duration<double>(Clock::now() - last).count() >= scenario_.record.checkpoint;
     // Also at the end: a crash while files are completed then costs nothing. Before the rig is made safe, in
     // any case.
-    if (stop || due || loop.next == total) checkpoint(), last = Clock::now();
+    if (stop || due || loop.next == total) {
+      checkpoint();
+      last = Clock::now();
+    }
     return !stop;
   });
-  const bool whole = loop.next == total;
-  for (auto& s : sinks_) s->finish(!whole);
-  write_file(dir() / kManifest, manifest().dump(2) + "\n");
-  return whole;
+  const bool complete = loop.next == total;
+  recording_.finish(manifest(), !complete);
+  return complete;
 }
 
-Json Session::manifest() const {
+Manifest Session::manifest() const {
   const Loop& loop = simulation_->loop();
   const World& world = simulation_->world();
-  Json swarms = Json::array();
-  for (const Swarm& s : scenario_.swarms) {
-    Json one = Swarm::schema().to_json(s.params);
-    one["model"] = s.model.type;
-    one["start"] = s.start.type;
-    swarms.push_back(one);
-  }
   std::vector<Vec2> setpoints = simulation_->reference().setpoints();
   setpoints.erase(std::unique(setpoints.begin(), setpoints.end()),
                   setpoints.end());  // as a series shows them
-  Json j = scenario_manifest(scenario_, seed_, simulation_->frame(), world.parts().arena->outline());
-  j.update({{"complete", loop.next == scenario_.frames()},
-            {"threads", pool_->threads()},
-            {"state_hash", world.state().hash()},
-            {"frames", loop.next},
-            {"duration_s", double(loop.next) * scenario_.frame_period()},
-            {"step_s", simulation_->step()},
-            {"steps", world.state().step},
-            {"wall_time_s", std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count()},
-            {"cells", world.state().agents.size()},
-            {"swarms", swarms},
-            {"setpoints", setpoints.size()},
-            {"video_shows", scenario_.record.as_seen ? "camera" : "drawing"},
-            {"notes", notes_}});
-  return j;
+  Manifest m = manifest_of(scenario_, seed_, simulation_->frame(), world.parts().arena->outline());
+  m.complete = loop.next == scenario_.frames();
+  m.frames = loop.next;
+  m.duration_s = double(loop.next) * scenario_.frame_period();
+  m.wall_time_s = recording_.wall_time();
+  m.setpoints = setpoints.size();
+  m.video_shows = scenario_.record.as_seen ? "camera" : "drawing";
+  m.distance_source = "true";
+  m.notes = notes_;
+  Manifest::Simulated simulated{.threads = pool_->threads(),
+                                .state_hash = world.state().hash(),
+                                .step_s = simulation_->step(),
+                                .steps = world.state().step,
+                                .cells = world.state().agents.size(),
+                                .swarms = {}};
+  for (const Swarm& s : scenario_.swarms) simulated.swarms.push_back({s.params, s.model.type, s.start.type});
+  m.simulated = std::move(simulated);
+  return m;
 }
-
-void Session::complete() { directory_.complete(); }
 
 }  // namespace faba

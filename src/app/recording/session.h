@@ -1,13 +1,11 @@
 #pragma once
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
 
-#include "app/recording/run_directory.h"
+#include "app/recording/recording.h"
 #include "app/run/simulation.h"
-#include "app/sinks/sinks.h"
 
 namespace faba {
 
@@ -38,30 +36,30 @@ class Session {
 
   /// Runs to the end, or until asked to stop; then a checkpoint is left. Returns whether the end was reached.
   bool run();
-  /// manifest.json as it stands now.
-  Json manifest() const;
-  /// Call when the report, too, is written: the directory is whole.
-  void complete();
+  /// What manifest.json says, or would say now.
+  Manifest manifest() const;
+  /// series.csv, after run().
+  Table series() const { return recording_.series(); }
+  /// Call when the report, too, is written: the directory is complete.
+  void complete() { recording_.complete(); }
 
   const Scenario& scenario() const { return scenario_; }
   /// What is legal but probably not meant: notes_on().
   const std::vector<std::string>& notes() const { return notes_; }
-  const std::filesystem::path& dir() const { return directory_.path(); }
+  const std::filesystem::path& dir() const { return recording_.dir(); }
 
  private:
   Session(Scenario s, std::uint64_t seed, const RunOptions& o);
-  void open_sinks(Archive* resume);
+  void record(RunDirectory directory, Archive* resume);
   void checkpoint();
 
   Scenario scenario_;
   std::uint64_t seed_;
   RunOptions options_;
-  RunDirectory directory_;
   std::vector<std::string> notes_;
   std::unique_ptr<Pool> pool_;
   std::unique_ptr<Simulation> simulation_;
-  std::vector<std::unique_ptr<RunSink>> sinks_;
-  std::chrono::steady_clock::time_point began_;
+  Recording recording_;
 };
 
 }  // namespace faba

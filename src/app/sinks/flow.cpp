@@ -19,10 +19,10 @@ class FlowSink final : public RunSink {
   }
 
   void take(const Tick& t) override {
-    const ImageRef picture = c_.picture(t);
+    const ImageRef picture = c_.frames->picture(t);
     after_.width = picture->width, after_.height = picture->height;
     after_.px.assign(picture->px.begin(), picture->px.end());
-    const double now = c_.time_of(t);
+    const double now = c_.frames->time_of(t);
     if (t.index > 0) {
       method_->between(before_, after_, flow_);
       writer_->write(t.index - 1, t_before_, now, flow_);

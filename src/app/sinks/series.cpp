@@ -1,6 +1,10 @@
+#include "app/sinks/series.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "app/sinks/series_row.h"
 #include "core/file.h"
@@ -8,17 +12,32 @@
 namespace faba {
 namespace {
 
-class Series final : public RunSink {
+constexpr std::size_t kMostKept = 1'000'000;  // rows
+
+class Series final : public SeriesSink {
  public:
-  Series(const SinkContext& c, std::uint64_t keep) : row_(c), file_(c.dir / "series.csv", keep) {
+  Series(const SinkContext& c, std::uint64_t keep)
+      : row_(c),
+        path_(c.dir / "series.csv"),
+        file_(path_, keep),
+        kept_(keep == 0),
+        columns_(row_.names().size()) {
     if (keep == 0) file_.append(fmt::format("{}\n", fmt::join(row_.names(), ",")));
   }
 
   void take(const Tick& t) override {
+    const std::vector<double> values = row_.values(t);
+    kept_ = kept_ && columns_.front().size() < kMostKept;
+    if (!kept_) columns_ = {};
     std::string line;
-    for (const double v : row_.values(t)) {
-      if (!line.empty()) line += ',';
-      if (std::isfinite(v)) line += fmt::format("{:.9g}", v);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::string word = std::isfinite(values[k]) ? fmt::format("{:.9g}", values[k]) : "";
+      if (k > 0) line += ',';
+      line += word;
+      // What the file says: a reader of it must come to the same figures.
+      if (kept_)
+        columns_[k].push_back(word.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                           : std::strtod(word.c_str(), nullptr));
     }
     file_.append(line + '\n');
   }
@@ -32,15 +51,21 @@ class Series final : public RunSink {
     file_.sync();
     file_.close();
   }
+  Table rows() const override {
+    return kept_ ? Table(path_.string(), row_.names(), columns_) : read_table(path_, LastLine::drop);
+  }
 
  private:
   SeriesRow row_;
+  std::filesystem::path path_;
   OutputFile file_;
+  bool kept_;  ///< columns_ holds all rows
+  std::vector<std::vector<double>> columns_;
 };
 
 }  // namespace
 
-std::unique_ptr<RunSink> series_sink(const SinkContext& c, Archive* resume) {
+std::unique_ptr<SeriesSink> series_sink(const SinkContext& c, Archive* resume) {
   std::uint64_t keep = 0;
   if (resume) *resume& keep;
   return std::make_unique<Series>(c, keep);

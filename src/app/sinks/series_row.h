@@ -2,14 +2,14 @@
 #include <string>
 #include <vector>
 
-#include "app/sinks/sinks.h"
+#include "app/sinks/series_columns.h"
 
 namespace faba {
 
-/// What is recorded of every frame: the columns of series.csv (docs/formats/run-directory.md).
+/// The rows of series.csv of one run: the columns that this run has, and their values turn by turn.
 class SeriesRow {
  public:
-  explicit SeriesRow(SinkContext c) : c_(std::move(c)) {}
+  explicit SeriesRow(SinkContext c);
 
   std::vector<std::string> names() const;
   /// One value for each name; NaN stands for "nothing there", such as the distance to no setpoint.
@@ -17,6 +17,7 @@ class SeriesRow {
 
  private:
   SinkContext c_;
+  std::vector<SeriesColumn> columns_;
 };
 
 }  // namespace faba

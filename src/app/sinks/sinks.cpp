@@ -5,9 +5,30 @@
 #include <algorithm>
 
 #include "app/run/simulation.h"
+#include "app/sinks/drawn_swarm.h"
 #include "vision/files/video_format.h"
 
 namespace faba {
+namespace {
+
+/// The camera of a simulation.
+class SimulatedFrames final : public FrameSource {
+ public:
+  SimulatedFrames(SimRig& rig, bool jitter, double rate) : rig_(rig), jitter_(jitter), rate_(rate) {}
+  double time_of(const Tick& t) const override { return at(t.index); }
+  std::optional<double> planned_time(std::uint64_t turn) const override { return rig_.time_of(turn); }
+  ImageRef picture(const Tick&) const override { return rig_.picture(); }
+  int bits() const override { return rig_.bits(); }
+  const Image<std::uint16_t>& deep_picture() const override { return rig_.deep_picture(); }
+
+ private:
+  double at(std::uint64_t turn) const { return jitter_ ? rig_.time_of(turn) : double(turn) / rate_; }
+  SimRig& rig_;
+  bool jitter_;
+  double rate_;  ///< Hz
+};
+
+}  // namespace
 
 void check_recording(const Record& record, const Frame& frame, double rate) {
   if (!record.video && !record.lossless) return;
@@ -26,19 +47,26 @@ void check_recording(const Record& record, const Frame& frame, double rate) {
 
 SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
                          const std::filesystem::path& dir) {
-  return {.dir = dir,
-          .world = &simulation.world(),
-          .field = simulation.world().parts().field,
-          .loop = &simulation.loop(),
-          .frame = simulation.frame(),
-          .scale = s.si_scale(),
-          .frame_rate = s.camera.rate,
-          .record = s.record,
-          .dose = !s.motility.has(Trait::inert),
-          .rig = &simulation.rig(),
-          .jitter = s.camera.jitter > 0,
-          .flow = s.flow,
-          .pool = &pool};
+  const bool jitter = s.camera.jitter > 0;
+  SinkContext c{.dir = dir,
+                .frames = std::make_shared<SimulatedFrames>(simulation.rig(), jitter, s.camera.rate),
+                .field = simulation.world().parts().field,
+                .frame = simulation.frame(),
+                .scale = s.si_scale(),
+                .frame_rate = s.camera.rate,
+                .record = s.record,
+                .dose = !s.motility.has(Trait::inert),
+                .jitter = jitter,
+                .flow = s.flow,
+                .pool = &pool,
+                .truth = &simulation.world()};
+  if (!s.record.as_seen) {
+    const auto drawn = std::make_shared<DrawnSwarm>(simulation.world(), simulation.loop(), s.scale.um_per_px);
+    c.draw = [drawn, rate = s.camera.rate](const Tick& t) {
+      return drawn->draw(double(t.index) / rate, t.target.position);
+    };
+  }
+  return c;
 }
 
 }  // namespace faba

@@ -18,7 +18,7 @@ class Tracks final : public RunSink {
       : c_(c),
         path_(c.dir / "tracks.h5"),
         file_(H5File::create(keep ? path_.string() + ".new" : path_.string())) {
-    const auto n = std::uint64_t(c.world->state().agents.size());
+    const auto n = std::uint64_t(c.truth->state().agents.size());
     const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
     frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, 1024, 1, false));
     t_ = std::make_unique<H5Table>(file_.table<double>("t_s", {}, 1024, 1, false));
@@ -34,14 +34,14 @@ class Tracks final : public RunSink {
 
   void take(const Tick& t) override {
     if (t.index % std::uint64_t(c_.record.tracks_every)) return;
-    const State& s = c_.world->state();
+    const State& s = c_.truth->state();
     const auto x = s.agents["x"], y = s.agents["y"], response = s.agents["response"];
     row_.resize(2 * x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Vec2 p = c_.frame.image_from_world({double(x[i]), double(y[i])});
       row_[2 * i] = float(p.x), row_[2 * i + 1] = float(p.y);
     }
-    append(t.index, c_.time_of(t));
+    append(t.index, c_.frames->time_of(t));
     if (!responding_) return;
     flags_.resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) flags_[i] = response[i] != 0.0f;
@@ -75,8 +75,8 @@ class Tracks final : public RunSink {
     file_.attribute("position_px", "axes",
                     std::string("row, cell, (x right, y down); pixel centres are whole numbers"));
     // which cells belong to which [[swarm]]: they are numbered one swarm after the other
-    for (std::size_t k = 0; k < c_.world->parts().populations.size(); ++k) {
-      const auto& p = c_.world->parts().populations[k];
+    for (std::size_t k = 0; k < c_.truth->parts().populations.size(); ++k) {
+      const auto& p = c_.truth->parts().populations[k];
       file_.attribute("/", fmt::format("swarm_{}_first_cell", k), double(p.begin));
       file_.attribute("/", fmt::format("swarm_{}_cells", k), double(p.end - p.begin));
     }

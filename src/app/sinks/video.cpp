@@ -1,4 +1,3 @@
-#include "app/sinks/drawn_swarm.h"
 #include "app/sinks/sinks.h"
 #include "vision/files/video_writer.h"
 
@@ -12,7 +11,6 @@ class Video final : public RunSink {
         lossless_(lossless),
         part_(c.dir / (lossless ? "video.avi.part" : "video.mp4.part")),
         final_(c.dir / (lossless ? "video.avi" : "video.mp4")) {
-    if (!c.record.as_seen) drawn_.emplace(*c.world, *c.loop, c.scale.m_per_px * 1e6);
     // Killed after this file was completed and before the run was: there is nothing left to do.
     if (keep > 0 && !std::filesystem::exists(part_) && std::filesystem::exists(final_)) return;
     writer_.emplace(part_, lossless ? VideoFormat::lossless_avi : VideoFormat::mp4, c.frame.width,
@@ -22,13 +20,13 @@ class Video final : public RunSink {
   void take(const Tick& t) override {
     if (t.index % std::uint64_t(c_.record.video_every)) return;
     if (!writer_) return;
-    if (c_.jitter && !c_.rig) times_.push_back(c_.time_of(t));
-    if (drawn_)
-      writer_->write(drawn_->draw(double(t.index) / c_.frame_rate, t.target.position));
-    else if (lossless_ && c_.bits() == 16)
-      writer_->write(c_.rig->deep_picture());
+    if (c_.jitter && !c_.frames->planned_time(t.index)) times_.push_back(c_.frames->time_of(t));
+    if (c_.draw)
+      writer_->write(c_.draw(t));
+    else if (lossless_ && c_.frames->bits() == 16)
+      writer_->write(c_.frames->deep_picture());
     else
-      writer_->write(*c_.picture(t));
+      writer_->write(*c_.frames->picture(t));
   }
 
   void checkpoint(Archive& a) override {
@@ -41,7 +39,8 @@ class Video final : public RunSink {
     if (c_.jitter) {
       const auto every = std::uint64_t(c_.record.video_every);
       writer_->finish(final_, keep, [&](long long frame) {
-        return c_.rig ? c_.rig->time_of(std::uint64_t(frame) * every) : taken_at(std::size_t(frame));
+        const auto planned = c_.frames->planned_time(std::uint64_t(frame) * every);
+        return planned ? *planned : taken_at(std::size_t(frame));
       });
     } else {
       writer_->finish(final_, keep);
@@ -55,15 +54,14 @@ class Video final : public RunSink {
     return times_.back() + double(frame - times_.size() + 1) * c_.record.video_every / c_.frame_rate;
   }
   static VideoPixels grey(const SinkContext& c, bool lossless) {
-    if (!c.record.as_seen) return VideoPixels::colour;
-    return lossless && c.bits() == 16 ? VideoPixels::grey16 : VideoPixels::grey8;
+    if (c.draw) return VideoPixels::colour;
+    return lossless && c.frames->bits() == 16 ? VideoPixels::grey16 : VideoPixels::grey8;
   }
 
   SinkContext c_;
   bool lossless_;
   std::filesystem::path part_, final_;
   std::optional<VideoWriter> writer_;
-  std::optional<DrawnSwarm> drawn_;
   std::vector<double> times_;  ///< s, of the frames of a bench, which nobody knows beforehand
 };
 

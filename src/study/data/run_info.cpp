@@ -69,15 +69,13 @@ std::string one_line(const Json& object) {
   return line;
 }
 
-}  // namespace
-
-RunInfo read_run_info(const std::filesystem::path& path) {
-  const Json json = parsed(path);
-  const Keys keys(json, path.string(), "");
+/// `source`: for messages.
+RunInfo run_info(const Json& json, const std::string& source) {
+  const Keys keys(json, source, "");
   RunInfo info;
   info.version = keys.text("version");
   if (info.version.empty())
-    throw Error(Errc::input, path.string(), "has no version; it is not the manifest of a run");
+    throw Error(Errc::input, source, "has no version; it is not the manifest of a run");
   info.title = keys.text("title");
   info.polarity = keys.text("polarity");
   info.seed = keys.text("seed");
@@ -99,7 +97,7 @@ RunInfo read_run_info(const std::filesystem::path& path) {
 
   if (const Json* arena = keys.find("arena")) {
     if (!arena->is_object()) keys.fail("arena", "an object");
-    const Keys inside(*arena, path.string(), "arena.");
+    const Keys inside(*arena, source, "arena.");
     const auto centre = inside.pair("centre_px");
     if (centre)
       info.arena = {inside.text("type"), *centre, inside.number("radius_px"), inside.pair("size_px")};
@@ -120,5 +118,11 @@ RunInfo read_run_info(const std::filesystem::path& path) {
   }
   return info;
 }
+
+}  // namespace
+
+RunInfo run_info(const Manifest& m) { return run_info(manifest_json(m), "the manifest"); }
+
+RunInfo read_run_info(const std::filesystem::path& path) { return run_info(parsed(path), path.string()); }
 
 }  // namespace faba

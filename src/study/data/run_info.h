@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/recording/manifest.h"
 #include "core/vec.h"
 
 namespace faba {
@@ -31,6 +32,9 @@ struct RunInfo {
   std::vector<std::string> notes;   ///< what was legal but could not work, or was hardly meant
   std::vector<std::string> swarms;  ///< one line per swarm: "count 500, model adapted"
 };
+
+/// The same of a run that has just been made.
+RunInfo run_info(const Manifest& m);
 
 /// Reads a manifest: a JSON object with `version`, and as far as known `seed, threads, state_hash,
 /// scenario_hash, video_shows, duration_s, um_per_px, title, wall_time_s, view_px = [w, h], arena = {type,

@@ -1,4 +1,8 @@
 #pragma once
+#include <span>
+#include <string>
+#include <vector>
+
 #include "core/table.h"
 
 namespace faba {
@@ -8,13 +12,23 @@ namespace faba {
 /// microtesla in the world frame with y up, `_a` ampere). NaN stands for "nothing there", for instance a
 /// setpoint when there is no target.
 ///
-/// Columns of a run's `series.csv`:
-/// `frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px, distance_px`, and as far as
-/// the run has them `visible_count,responding_count,estimate_x_px,estimate_y_px,
-/// setpoint_x_px,setpoint_y_px,field_x_ut,field_y_ut,current_0_a,current_1_a,...,limited`.
+/// The columns of a run's `series.csv` are described in app/sinks/series_columns.h; `true_...` is what a
+/// simulation knows, `estimated_...` what the estimator believed.
 using Series = Table;
 
-/// Reads a series.csv. A last line without its line end, as a power cut leaves it, is left out.
-inline Series read_series(const std::filesystem::path& path) { return read_table(path, LastLine::drop); }
+/// Reads a series.csv. A last line without its line end, as a power cut leaves it, is left out. Columns of
+/// runs of version 0.1 are given today's names; where `commands.csv` beside it says that the run was on a
+/// bench, what was called `centroid` is an estimate.
+Series read_series(const std::filesystem::path& path);
+
+/// Where the swarm was in each row, px: the truth where the run has it, else the estimate.
+struct SwarmColumns {
+  std::string source;  ///< "true" or "estimated"
+  std::span<const double> x, y;
+  std::span<const double> sigma_x, sigma_y;
+  std::vector<double> rms_radius;  ///< root of the sum of both variances
+};
+/// Views into `series`. Throws Error(input) naming file and column when it has neither.
+SwarmColumns swarm_columns(const Series& series);
 
 }  // namespace faba

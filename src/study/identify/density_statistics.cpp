@@ -20,9 +20,9 @@ constexpr double kCount = 0.1;
 constexpr double kMass = 0.05;
 
 /// A distribution along one direction of the view, by bins of a pixel.
-class Profile {
+class LightProfile {
  public:
-  Profile(Vec2 along, int width, int height) : along_(along) {
+  LightProfile(Vec2 along, int width, int height) : along_(along) {
     for (const Vec2 corner :
          {Vec2{0, 0}, Vec2{double(width), 0}, Vec2{0, double(height)}, Vec2{double(width), double(height)}}) {
       const double p = dot(corner, along);
@@ -132,7 +132,7 @@ std::vector<double> DensityStatistics::summed(const std::vector<std::vector<Mass
   std::vector<double> out;
   for (std::size_t k = 0; k < seen.size(); ++k) {
     const Vec2 along = unit_vector(episode_.drives[drive_at_[k]].direction_deg), across{-along.y, along.x};
-    Profile a(along, view_.width, view_.height), b(across, view_.width, view_.height);
+    LightProfile a(along, view_.width, view_.height), b(across, view_.width, view_.height);
     for (const Mass& m : seen[k]) a.add(m.at, m.weight), b.add(m.at, m.weight);
     a.add_everywhere(kAnywhere * mean), b.add_everywhere(kAnywhere * mean);
     out.push_back(mean > 0 ? std::log(kFew + mass[k] / mean) : std::numeric_limits<double>::quiet_NaN());

@@ -88,7 +88,7 @@ std::string digest(const VectorXd& v) {
 }
 
 /// One candidate while it is being identified.
-struct Search {
+struct CandidateSearch {
   std::unique_ptr<ParameterSearch> search;
   std::string failed;
 };
@@ -279,7 +279,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
           Errc::input, study.videos.front().file.string(),
           fmt::format("shows no cells while they should move ({})", o.statistics[std::size_t(k)].name));
   const Parts parts = builtin_parts();
-  std::vector<Search> searches;
+  std::vector<CandidateSearch> searches;
   for (std::size_t c = 0; c < study.candidates.size(); ++c) {
     const Candidate& candidate = study.candidates[c];
     searches.push_back(
@@ -295,7 +295,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
     if (round.tasks().empty()) break;
     if (!sweep(results, round.tasks(), options)) return {};
     std::size_t at = 0;
-    for (Search& s : searches) {
+    for (CandidateSearch& s : searches) {
       if (!s.failed.empty() || !s.search->next()) continue;
       try {
         s.search->take(collect(results, round.tasks(), at, s.search->next()->rows(), o));
@@ -307,7 +307,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   }
   VectorXd scale = VectorXd::Zero(o.numbers.size());
   double models = 0;
-  for (const Search& s : searches)
+  for (const CandidateSearch& s : searches)
     if (s.failed.empty()) scale += noise_of(*s.search), models += 1;
   scale /= std::max(1.0, models);
   for (std::size_t c = 0; c < searches.size(); ++c) {

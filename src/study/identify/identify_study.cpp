@@ -20,7 +20,7 @@ namespace {
 // Tables that say what the video does not.
 constexpr const char* kOfScene[] = {"exclusion", "field", "library", "limits", "motility", "simulation"};
 
-struct StudyFile {
+struct IdentifyFile {
   std::string title;
   std::uint64_t seed = 1;
   Boundary boundary = Boundary::drop;
@@ -31,44 +31,44 @@ struct StudyFile {
   std::optional<double> um_per_px, reversal, direction, duration, timing;
   std::string scale;
   std::optional<double> drive;
-  static Schema<StudyFile> schema() {
-    return Schema<StudyFile>("identify", "Which model and which parameters explain videos")
-        .add("title", &StudyFile::title, {.doc = "What the study is called in reports"})
-        .add("seed", &StudyFile::seed, {.min = 0, .max = 9e15, .doc = "Of all randomness"})
-        .add("boundary", &StudyFile::boundary,
+  static Schema<IdentifyFile> schema() {
+    return Schema<IdentifyFile>("identify", "Which model and which parameters explain videos")
+        .add("title", &IdentifyFile::title, {.doc = "What the study is called in reports"})
+        .add("seed", &IdentifyFile::seed, {.min = 0, .max = 9e15, .doc = "Of all randomness"})
+        .add("boundary", &IdentifyFile::boundary,
              {.doc = "What keeps the cells together", .choices = {"drop", "box", "none"}})
-        .add("look", &StudyFile::look,
+        .add("look", &IdentifyFile::look,
              {.doc = "How simulations are looked at: through the microscope, as the videos were, or by the "
                      "positions "
                      "of the cells, which is quick and blind to what a camera does",
               .choices = {"video", "positions"}})
-        .add("measure", &StudyFile::measure,
+        .add("measure", &IdentifyFile::measure,
              {.doc = "What videos are compared by: where the swarm is (density), or how cells move that are "
                      "followed for a moment (tracks); tracks without a boundary, else density, when absent",
               .choices = {"density", "tracks"}})
-        .add("simulations", &StudyFile::simulations,
+        .add("simulations", &IdentifyFile::simulations,
              {.min = 100, .max = 1e6, .doc = "Simulations of each video with each model"})
-        .add("legacy", &StudyFile::legacy,
+        .add("legacy", &IdentifyFile::legacy,
              {.doc = "Also what the selection rule of the 2016 thesis says, which is not to be trusted"})
-        .add("um_per_px", &StudyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
-        .add("scale", &StudyFile::scale, {.doc = "Calibration file of `faba scale`, in place of um_per_px"})
-        .add("reversal", &StudyFile::reversal,
+        .add("um_per_px", &IdentifyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
+        .add("scale", &IdentifyFile::scale, {.doc = "Calibration file of `faba scale`, in place of um_per_px"})
+        .add("reversal", &IdentifyFile::reversal,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
-        .add("direction", &StudyFile::direction,
+        .add("direction", &IdentifyFile::direction,
              {.unit = "deg",
               .min = -360,
               .max = 360,
               .doc = "In which cells swim from then on: 0 right, 90 down in the picture"})
-        .add("duration", &StudyFile::duration,
+        .add("duration", &IdentifyFile::duration,
              {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at from there on"})
-        .add("timing", &StudyFile::timing,
+        .add("timing", &IdentifyFile::timing,
              {.unit = "s",
               .min = 0,
               .max = 10,
               .doc = "How well the moments are known at which the field turns, sd; 0.58 frames, which is a "
                      "frame either way, when absent"})
         .add(
-            "drive", &StudyFile::drive,
+            "drive", &IdentifyFile::drive,
             {.unit = "T",
              .min = 0,
              .max = 1,
@@ -117,7 +117,7 @@ struct VideoFile {
   }
 };
 
-ResponseInput input_of(const Node& n, const StudyFile& study, std::optional<double> um_per_px) {
+ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<double> um_per_px) {
   const VideoFile v = VideoFile::schema().parse(n);
   if (v.file.empty()) n.fail("needs file = \"...\"");
   ResponseInput r;
@@ -150,7 +150,7 @@ ResponseVideo any_video() {
   return v;
 }
 
-Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyStudy& study, const Node& root,
+Candidate candidate_of(const Variant& model, const IdentifyFile& f, const IdentifyStudy& study, const Node& root,
                        std::size_t index) {
   Candidate c{model, f.drive, {}, {}};
   const Node here = root.has("model") ? root.child("model").item(index) : root;
@@ -205,7 +205,7 @@ Candidate candidate_of(const Variant& model, const StudyFile& f, const IdentifyS
 IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   const Document d = read_toml(file);
   const Node root(d);
-  const StudyFile f = StudyFile::schema().parse(root, {"video", "model", "scene"});
+  const IdentifyFile f = IdentifyFile::schema().parse(root, {"video", "model", "scene"});
   IdentifyStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;
   study.seed = f.seed, study.boundary = f.boundary, study.look = f.look, study.simulations = f.simulations;
@@ -245,7 +245,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
 }
 
 Json identify_study_schema() {
-  Json j = StudyFile::schema().json_schema();
+  Json j = IdentifyFile::schema().json_schema();
   Json& p = j["properties"];
   p["scene"] = {{"type", "object"},
                 {"description",

@@ -86,7 +86,7 @@ std::vector<std::vector<const Combination*>> groups(const ControllerComparison& 
   return all;
 }
 
-constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange, Ink::sky};
+constexpr Ink kGroupInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange, Ink::sky};
 
 Figure over_time(const ControllerComparison& r, const std::vector<const Combination*>& group, bool distance) {
   Figure f{distance ? "Distance to the setpoint" : "Dispersion", "", {}};
@@ -102,7 +102,7 @@ Figure over_time(const ControllerComparison& r, const std::vector<const Combinat
   for (std::size_t i = 0; i < group.size(); ++i) {
     const auto& mean = distance ? group[i]->distance_px : group[i]->rms_radius_px;
     const auto& sd = distance ? group[i]->distance_sd_px : group[i]->rms_radius_sd_px;
-    Ribbon band{group[i]->t_s, {}, {}, {}, kInks[i % std::size(kInks)]};
+    Ribbon band{group[i]->t_s, {}, {}, {}, kGroupInks[i % std::size(kGroupInks)]};
     for (std::size_t k = 0; k < mean.size(); ++k)
       band.lo.push_back(std::max(0.0, mean[k] - sd[k])), band.hi.push_back(mean[k] + sd[k]);
     f.plot.add(std::move(band));
@@ -111,7 +111,7 @@ Figure over_time(const ControllerComparison& r, const std::vector<const Combinat
     f.plot.add(Line{.x = group[i]->t_s,
                     .y = distance ? group[i]->distance_px : group[i]->rms_radius_px,
                     .label = group[i]->controller,
-                    .ink = kInks[i % std::size(kInks)]});
+                    .ink = kGroupInks[i % std::size(kGroupInks)]});
   return f;
 }
 
@@ -124,7 +124,7 @@ Figure against_delay(const ControllerComparison& r, const Variant& model) {
   f.plot.x.label = "delay (frames)", f.plot.y.label = "steady error (px rms)";
   f.plot.y.lo = 0;
   for (std::size_t i = 0; i < r.study.controllers.size(); ++i) {
-    Line line{.x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = kInks[i % std::size(kInks)]};
+    Line line{.x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = kGroupInks[i % std::size(kGroupInks)]};
     for (const Combination& c : r.combinations)
       if (c.model == model.name && c.controller == line.label)
         if (const MeanOverSeeds* m = metric(c, "steady_rms_px"))

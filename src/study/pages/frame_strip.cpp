@@ -14,8 +14,8 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kFrames = 6;
-constexpr std::size_t kMost = 16 * kFrames;  // kept while the length is not known
+constexpr std::size_t kStripFrames = 6;
+constexpr std::size_t kMost = 16 * kStripFrames;  // kept while the length is not known
 constexpr int kWidest = 320;                 // px, of a frame on the page
 
 /// A picture with squares of n pixels averaged.
@@ -58,7 +58,7 @@ std::vector<Shot> shots_of(const std::filesystem::path& video) {
   if (kept.empty()) return {};
   if (kept.back().t_s < shot.t_s) kept.push_back({averaged(shot.picture, n), shot.t_s});
   std::vector<Shot> chosen;
-  const std::size_t count = std::min(kFrames, kept.size());
+  const std::size_t count = std::min(kStripFrames, kept.size());
   for (std::size_t i = 0; i < count; ++i) {
     const double t =
         count == 1 ? 0

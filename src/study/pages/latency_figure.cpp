@@ -11,17 +11,17 @@ namespace faba {
 namespace {
 
 constexpr double kShortest = 0.05, kLongest = 2000;  // ms, ends of the axis
-constexpr int kBins = 92;                            // 20 a decade
+constexpr int kLatencyBins = 92;                            // 20 a decade
 
 // Frames whose latency lies in each bin, as a staircase; the ends take what lies beyond.
 Line histogram(std::span<const double> ms, std::string label) {
-  Line line{.x = {}, .y = std::vector<double>(kBins + 1, 0.0), .label = std::move(label), .held = true};
-  const double step = std::log(kLongest / kShortest) / kBins;
-  for (int i = 0; i <= kBins; ++i) line.x.push_back(kShortest * std::exp(step * i));
+  Line line{.x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .held = true};
+  const double step = std::log(kLongest / kShortest) / kLatencyBins;
+  for (int i = 0; i <= kLatencyBins; ++i) line.x.push_back(kShortest * std::exp(step * i));
   for (const double v : ms)
     if (std::isfinite(v)) {
       const double at = std::floor(std::log(std::max(v, kShortest) / kShortest) / step);
-      line.y[std::size_t(std::clamp(at, 0.0, double(kBins - 1)))] += 1;
+      line.y[std::size_t(std::clamp(at, 0.0, double(kLatencyBins - 1)))] += 1;
     }
   return line;
 }

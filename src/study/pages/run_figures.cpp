@@ -61,7 +61,7 @@ Setpoints setpoints_of(const Series& series) {
 }
 
 // A camera shows no cell by itself: what a series then has is the estimator's.
-bool is_seen(const Series& series) { return !has_number(series.find("responding_count")); }
+bool is_seen(const Series& series) { return swarm_columns(series).source != "true"; }
 const char* centroid_of(const Series& series) {
   return is_seen(series) ? "centroid that the estimator finds" : "centroid of all cells";
 }
@@ -133,8 +133,8 @@ void frame_path(Plot& plot, const Series& series, const RunInfo& info, const Set
     if (!std::isfinite(x) || !std::isfinite(y)) return;
     x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
   };
-  const auto cx = series.column("centroid_x_px"), cy = series.column("centroid_y_px");
-  for (std::size_t k = 0; k < cx.size(); ++k) take(cx[k], cy[k]);
+  const SwarmColumns swarm = swarm_columns(series);
+  for (std::size_t k = 0; k < swarm.x.size(); ++k) take(swarm.x[k], swarm.y[k]);
   for (std::size_t i = 0; i < setpoints.x.size(); ++i) take(setpoints.x[i], setpoints.y[i]);
   if (info.view_px) take(-0.5, -0.5), take(info.view_px->x - 0.5, info.view_px->y - 0.5);
   if (x0 > x1) return;
@@ -166,7 +166,8 @@ void add_outlines(Plot& plot, const RunInfo& info) {
 }
 
 Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) {
-  const auto x = series.column("centroid_x_px"), y = series.column("centroid_y_px");
+  const SwarmColumns swarm = swarm_columns(series);
+  const auto x = swarm.x, y = swarm.y;
   Figure figure{"Path in the picture",
                 fmt::format("Path of the {}, in picture pixels: y points down.", centroid_of(series)),
                 {}};
@@ -202,9 +203,10 @@ Figure dispersion_figure(const Series& series, const RunInfo& info) {
       "Standard deviations of the cells' positions along x and y, and their root-mean-square distance from "
       "the centroid.",
       lengths_over_time("spread", "Spread of the swarm over time", info)};
-  figure.plot.add(Line{t, values(series.column("rms_radius_px")), "rms radius", Ink::text});
-  figure.plot.add(Line{t, values(series.column("sigma_x_px")), "\u03C3x", Ink::blue});
-  figure.plot.add(Line{t, values(series.column("sigma_y_px")), "\u03C3y", Ink::vermillion, true});
+  const SwarmColumns swarm = swarm_columns(series);
+  figure.plot.add(Line{t, swarm.rms_radius, "rms radius", Ink::text});
+  figure.plot.add(Line{t, values(swarm.sigma_x), "\u03C3x", Ink::blue});
+  figure.plot.add(Line{t, values(swarm.sigma_y), "\u03C3y", Ink::vermillion, true});
   return figure;
 }
 

@@ -77,64 +77,13 @@ std::string arrival_in_words(const Metrics& m, const RunInfo& info) {
   return words + ".";
 }
 
-/// One row of the table of metrics. `um_power` says how often the scale multiplies the value in the second
-/// column.
-struct Row {
-  const char* name;
-  const char* meaning;
-  std::optional<double> value;
-  const char* unit;
-  int um_power = 0;
-  const char* um_unit = "µm";
-};
-
-std::string table_row(const Row& row, const RunInfo& info) {
-  if (!row.value) return {};
-  const std::string value = fmt::format("{}\u00A0{}", three_digits(*row.value), row.unit);
-  std::string cells = fmt::format("<td>{}</td>", value);
-  if (info.um_per_px) {
-    cells += row.um_power == 0 ? "<td></td>"
-                               : fmt::format("<td>{}\u00A0{}</td>",
-                                             three_digits(*row.value * *info.um_per_px), row.um_unit);
-  }
-  return fmt::format("<tr><th scope=\"row\">{}<small>{}</small></th>{}</tr>\n", row.name, row.meaning, cells);
-}
-
-std::optional<double> percent(std::optional<double> share) {
-  return share ? std::optional<double>(100 * *share) : std::nullopt;
-}
-
-using Group = std::pair<const char*, std::vector<Row>>;
-
-std::vector<Group> metric_groups(const Metrics& m) {
-  std::optional<double> settled = m.settling_time_s;
-  return {
-      {"Reaching the setpoint",
-       {{"Initial error", "distance when the first target was given", m.initial_error_px, "px", 1},
-        {"Settling time", "until the last entry into the settling band", settled, "s"},
-        {"Settling band", "the larger of 5 % of the initial error and 10 px", m.settling_band_px, "px", 1},
-        {"Rise time", "from 90 % to 10 % of the initial error, first setpoint", m.rise_time_s, "s"},
-        {"Overshoot", "past the first setpoint, of the initial error", m.overshoot_percent, "%"}}},
-      {"Staying there",
-       {{"Steady error", "rms distance over the last third of the frames", m.steady_rms_px, "px", 1},
-        {"Final distance", "at the last frame", m.final_distance_px, "px", 1},
-        {"IAE", "integral of the distance over time", m.iae_px_s, "px s", 1, "µm s"},
-        {"ITAE", "the same weighted by time", m.itae_px_s2, "px s²", 1, "µm s²"}}},
-      {"Path",
-       {{"Path length", "of the centroid, its jitter included", m.path_length_px, "px", 1},
-        {"Tracking error", "rms distance to the route, from the second setpoint on", m.path_tracking_rms_px,
-         "px", 1},
-        {"Cross-track error, 95 %", "19 of 20 frames are nearer to the route", m.cross_track_95_px, "px",
-         1}}},
-      {"Spread at the last frame",
-       {{"σx", "standard deviation of the cells' x", m.sigma_x_px, "px", 1},
-        {"σy", "standard deviation of the cells' y", m.sigma_y_px, "px", 1},
-        {"RMS radius", "root-mean-square distance from the centroid", m.rms_radius_px, "px", 1}}},
-      {"Command",
-       {{"Control effort", "sum over the coils of the integral of I²", m.control_effort_a2_s, "A² s"},
-        {"Variation of the currents", "sum of all changes from frame to frame", m.total_variation_a, "A"},
-        {"Variation of the field", "sum of all changes from frame to frame", m.total_variation_ut, "µT"},
-        {"Limited", "share of the frames whose command was clipped", percent(m.limited_fraction), "%"}}}};
+std::string metric_row(const MetricInfo& one, double value, const RunInfo& info) {
+  const double shown = one.shown * value;
+  std::string cells = fmt::format("<td>{}\u00A0{}</td>", three_digits(shown), one.unit);
+  if (info.um_per_px)
+    cells += one.in_um ? fmt::format("<td>{}\u00A0{}</td>", three_digits(shown * *info.um_per_px), one.in_um)
+                       : "<td></td>";
+  return fmt::format("<tr><th scope=\"row\">{}<small>{}</small></th>{}</tr>\n", one.name, one.meaning, cells);
 }
 
 std::string metrics_table(const Metrics& m, const RunInfo& info) {
@@ -142,13 +91,15 @@ std::string metrics_table(const Metrics& m, const RunInfo& info) {
   out += info.um_per_px ? "<th scope=\"col\">in pixels</th><th scope=\"col\">in µm</th>"
                         : "<th scope=\"col\">Value</th>";
   out += "</tr></thead>\n<tbody>\n";
-  for (const auto& [name, rows] : metric_groups(m)) {
-    std::string group;
-    for (const Row& row : rows) group += table_row(row, info);
-    if (group.empty()) continue;
-    out += fmt::format("<tr><th colspan=\"{}\" scope=\"colgroup\">{}</th></tr>\n", info.um_per_px ? 3 : 2,
-                       name) +
-           group;
+  std::string_view group;
+  for (const MetricInfo& one : metric_list()) {
+    const std::optional<double>& value = m.*one.value;
+    if (!value) continue;
+    if (one.group != group)
+      out += fmt::format("<tr><th colspan=\"{}\" scope=\"colgroup\">{}</th></tr>\n", info.um_per_px ? 3 : 2,
+                         one.group);
+    group = one.group;
+    out += metric_row(one, *value, info);
   }
   return out + "</tbody></table>\n";
 }
@@ -316,9 +267,7 @@ RunInWords run_in_words(const Metrics& m, const RunInfo& info) {
   return words;
 }
 
-void write_run_report(const std::filesystem::path& run_dir) {
-  const RunInfo info = read_run_info(run_dir / "manifest.json");
-  const Series series = read_series(run_dir / "series.csv");
+void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series) {
   const std::string title = info.title.empty() ? "Run report" : info.title;
   write_file(run_dir / "report.html", html_page(title, body_of(run_dir, title, series, info)));
 }

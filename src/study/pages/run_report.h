@@ -3,7 +3,8 @@
 #include <string>
 
 #include "study/data/run_info.h"
-#include "study/steering/metrics.h"
+#include "study/data/series.h"
+#include "study/steering/metric_list.h"
 
 namespace faba {
 
@@ -16,12 +17,11 @@ struct RunInWords {
 };
 RunInWords run_in_words(const Metrics& metrics, const RunInfo& info);
 
-/// Reads `series.csv` and `manifest.json` of a run, and `scenario.toml` when it is there, and writes
-/// `report.html` beside them (temporary name, then renamed; an older report is replaced): these sentences,
-/// the metrics in px and um, the figures, the video when `video.mp4` exists, and what is needed to repeat the
-/// run. The page is one file that needs no network and no script; only the video stays outside. Throws
-/// Error(Errc::input) for a file that is missing or unsuitable, Error(Errc::internal) when the report cannot
-/// be written.
-void write_run_report(const std::filesystem::path& run_dir);
+/// Writes `report.html` of a run into its directory (temporary name, then renamed; an older report is
+/// replaced): these sentences, the metrics in px and um, the figures, the video when `video.mp4` exists, and
+/// what is needed to repeat the run, with `scenario.toml` when it is there. The page is one file that needs
+/// no network and no script; only the video stays outside. Throws Error(Errc::input) for a series without the
+/// columns that it needs, Error(Errc::internal) when the report cannot be written.
+void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series);
 
 }  // namespace faba

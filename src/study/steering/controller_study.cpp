@@ -13,7 +13,7 @@
 #include "app/scenario/read_scenario.h"
 #include "core/hash.h"
 #include "study/stats/statistics.h"
-#include "study/steering/metrics.h"
+#include "study/steering/metric_list.h"
 #include "study/steering/trial.h"
 
 namespace faba {
@@ -21,26 +21,14 @@ namespace {
 
 constexpr std::size_t kMostPoints = 600;  // of the curves over time that are kept of a trial
 
-struct Named {
-  const char* name;
-  std::optional<double> Metrics::*value;
-};
-constexpr Named kMetrics[] = {{"settling_time_s", &Metrics::settling_time_s},
-                              {"rise_time_s", &Metrics::rise_time_s},
-                              {"overshoot_percent", &Metrics::overshoot_percent},
-                              {"steady_rms_px", &Metrics::steady_rms_px},
-                              {"iae_px_s", &Metrics::iae_px_s},
-                              {"itae_px_s2", &Metrics::itae_px_s2},
-                              {"path_tracking_rms_px", &Metrics::path_tracking_rms_px},
-                              {"cross_track_95_px", &Metrics::cross_track_95_px},
-                              {"path_length_px", &Metrics::path_length_px},
-                              {"sigma_x_px", &Metrics::sigma_x_px},
-                              {"sigma_y_px", &Metrics::sigma_y_px},
-                              {"rms_radius_px", &Metrics::rms_radius_px},
-                              {"control_effort_a2_s", &Metrics::control_effort_a2_s},
-                              {"total_variation_ut", &Metrics::total_variation_ut},
-                              {"limited_fraction", &Metrics::limited_fraction}};
-constexpr std::size_t kSteady = 3;  // steady_rms_px
+/// What trials are compared by.
+std::vector<const MetricInfo*> compared() {
+  std::vector<const MetricInfo*> all;
+  for (const MetricInfo& m : metric_list())
+    if (m.compared) all.push_back(&m);
+  return all;
+}
+constexpr const char* kRankedBy = "steady_rms_px";
 
 struct StudyFile {
   std::string title, scene;
@@ -98,10 +86,12 @@ std::vector<double> trial_values(const Scenario& s, std::uint64_t seed, const st
   const Series series = trial(s, seed, stop);
   const Metrics m = control_metrics(series);
   std::vector<double> values;
-  for (const Named& one : kMetrics) values.push_back((m.*one.value).value_or(kNaN));
+  for (const MetricInfo* one : compared()) values.push_back((m.*one->value).value_or(kNaN));
   const std::size_t stride = (series.size() + kMostPoints - 1) / kMostPoints;
-  for (const char* column : {"t_s", "distance_px", "rms_radius_px"})
-    for (std::size_t k = 0; k < series.size(); k += stride) values.push_back(series.column(column)[k]);
+  const SwarmColumns swarm = swarm_columns(series);
+  for (const std::span<const double> column :
+       {series.column("t_s"), series.column("distance_px"), std::span<const double>(swarm.rms_radius)})
+    for (std::size_t k = 0; k < series.size(); k += stride) values.push_back(column[k]);
   return values;
 }
 
@@ -129,7 +119,7 @@ std::array<double, 2> share_ci95(int k, int n) {
 
 // Mean and standard deviation over the trials, point by point.
 void curves(const std::vector<const std::vector<double>*>& trials, Combination& c) {
-  const std::size_t first = std::size(kMetrics), points = (trials.front()->size() - first) / 3;
+  const std::size_t first = compared().size(), points = (trials.front()->size() - first) / 3;
   const auto value = [&](const std::vector<double>& t, std::size_t what, std::size_t k) {
     return t[first + what * points + k];
   };
@@ -152,12 +142,13 @@ Combination conclude(const ControllerStudy& study, const Setting& s, const Trial
   Combination c;
   c.controller = study.controllers[s.controller].name, c.model = study.models[s.model].name;
   c.delay = s.delay, c.trials = int(trials.size());
-  for (std::size_t i = 0; i < std::size(kMetrics); ++i) {
+  const std::vector<const MetricInfo*> metrics = compared();
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
     std::vector<double> values;
     for (const auto* t : trials) values.push_back((*t)[i]);
     const MeanOverSeeds m = mean_of(values);
-    if (i == 0) c.settled = m.n;
-    if (m.n > 0) c.metrics[kMetrics[i].name] = m;
+    if (metrics[i]->value == &Metrics::settling_time_s) c.settled = m.n;
+    if (m.n > 0) c.metrics[metrics[i]->key] = m;
   }
   c.settled_ci95 = share_ci95(c.settled, c.trials);
   curves(trials, c);
@@ -168,17 +159,20 @@ Combination conclude(const ControllerStudy& study, const Setting& s, const Trial
 void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>& trials, std::size_t begin,
                        std::size_t end) {
   const auto steady = [&](std::size_t i) {
-    const auto it = all[i].metrics.find(kMetrics[kSteady].name);
+    const auto it = all[i].metrics.find(kRankedBy);
     return it == all[i].metrics.end() ? std::numeric_limits<double>::infinity() : it->second.mean;
   };
   std::size_t best = begin;
   for (std::size_t i = begin; i < end; ++i)
     if (steady(i) < steady(best)) best = i;
+  const std::vector<const MetricInfo*> metrics = compared();
+  const auto ranked =
+      std::size_t(std::find(metrics.begin(), metrics.end(), &metric(kRankedBy)) - metrics.begin());
   for (std::size_t i = begin; i < end; ++i) {
     if (i == best) continue;
     std::vector<double> difference;
     for (std::size_t k = 0; k < trials[i].size(); ++k)
-      difference.push_back((*trials[i][k])[kSteady] - (*trials[best][k])[kSteady]);
+      difference.push_back((*trials[i][k])[ranked] - (*trials[best][k])[ranked]);
     const MeanOverSeeds m = mean_of(difference);
     if (m.n > 1) all[i].behind_best = m;
   }
@@ -229,8 +223,9 @@ std::optional<ControllerComparison> compare_controllers(const ControllerStudy& s
   for (const Setting& s : all)
     for (int k = 0; k < study.seeds; ++k) {
       const std::uint64_t seed = study.first_seed + std::uint64_t(k);
-      tasks.push_back({task_key(fmt::format("controller trial {} {}", s.scenario.hash(), seed)),
-                       [&s, seed, &options] { return trial_values(s.scenario, seed, options.stop); }});
+      tasks.push_back(
+          {task_key(fmt::format("controller trial, metrics of version 0.2, {} {}", s.scenario.hash(), seed)),
+           [&s, seed, &options] { return trial_values(s.scenario, seed, options.stop); }});
     }
   if (!sweep(results, tasks, options)) return {};
   ControllerComparison c{study, {}, std::move(notes)};

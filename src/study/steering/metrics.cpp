@@ -33,8 +33,7 @@ struct Timed {
   double t, d;
 };
 
-std::vector<Vec2> points(const Series& s, const char* x, const char* y) {
-  const Values xs = s.find(x), ys = s.find(y);
+std::vector<Vec2> points(Values xs, Values ys) {
   std::vector<Vec2> out(std::min(xs.size(), ys.size()));
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = {xs[k], ys[k]};
   return out;
@@ -235,7 +234,7 @@ void measure_command(Metrics& m, const Series& series, Values t) {
     m.control_effort_a2_s = effort;
     m.total_variation_a = variation;
   }
-  m.total_variation_ut = way_length(points(series, "field_x_ut", "field_y_ut"));
+  m.total_variation_ut = way_length(points(series.find("field_x_ut"), series.find("field_y_ut")));
 
   std::size_t known = 0, limited = 0;
   for (const double value : series.find("limited")) {
@@ -249,18 +248,16 @@ void measure_command(Metrics& m, const Series& series, Values t) {
 
 Metrics control_metrics(const Series& series) {
   const Values t = series.column("t_s"), d = series.column("distance_px");
-  const Values sigma_x = series.column("sigma_x_px"), sigma_y = series.column("sigma_y_px");
-  const Values radius = series.column("rms_radius_px");
-  static_cast<void>(series.column("centroid_x_px"));
-  static_cast<void>(series.column("centroid_y_px"));
+  const SwarmColumns swarm = swarm_columns(series);
   check_times(series, t);
 
   Metrics m;
+  m.source = swarm.source;
   m.frames = series.size();
   if (m.frames == 0) return m;
   m.duration_s = t.back() - t.front();
-  const std::vector<Vec2> centroid = points(series, "centroid_x_px", "centroid_y_px");
-  const Route route = route_of(points(series, "setpoint_x_px", "setpoint_y_px"));
+  const std::vector<Vec2> centroid = points(swarm.x, swarm.y);
+  const Route route = route_of(points(series.find("setpoint_x_px"), series.find("setpoint_y_px")));
   const std::size_t first_leg_end = route.since.size() > 1 ? route.since[1] : m.frames;
 
   measure_error(m, t, d, first_leg_end);
@@ -269,40 +266,11 @@ Metrics control_metrics(const Series& series) {
   if (!route.vertex.empty()) m.overshoot_percent = overshoot_percent(centroid, route, first_leg_end);
   m.path_length_px = way_length(centroid);
   measure_route(m, centroid, route);
-  m.sigma_x_px = finite(sigma_x.back());
-  m.sigma_y_px = finite(sigma_y.back());
-  m.rms_radius_px = finite(radius.back());
+  m.sigma_x_px = finite(swarm.sigma_x.back());
+  m.sigma_y_px = finite(swarm.sigma_y.back());
+  m.rms_radius_px = finite(swarm.rms_radius.back());
   measure_command(m, series, t);
   return m;
-}
-
-nlohmann::ordered_json metrics_json(const Metrics& m) {
-  const auto value = [](const std::optional<double>& v) {
-    return v && std::isfinite(*v) ? Json(*v) : Json();
-  };
-  Json j;
-  j["frames"] = m.frames;
-  j["duration_s"] = m.duration_s;
-  j["setpoints"] = m.setpoints;
-  j["settling_time_s"] = value(m.settling_time_s);
-  j["settling_band_px"] = value(m.settling_band_px);
-  j["rise_time_s"] = value(m.rise_time_s);
-  j["overshoot_percent"] = value(m.overshoot_percent);
-  j["initial_error_px"] = value(m.initial_error_px);
-  j["final_distance_px"] = value(m.final_distance_px);
-  j["steady_rms_px"] = value(m.steady_rms_px);
-  j["iae_px_s"] = value(m.iae_px_s);
-  j["itae_px_s2"] = value(m.itae_px_s2);
-  j["path_length_px"] = value(m.path_length_px);
-  j["path_tracking_rms_px"] = value(m.path_tracking_rms_px);
-  j["cross_track_95_px"] = value(m.cross_track_95_px);
-  j["dispersion_px"] = Json::array({value(m.sigma_x_px), value(m.sigma_y_px)});
-  j["rms_radius_px"] = value(m.rms_radius_px);
-  j["control_effort_a2_s"] = value(m.control_effort_a2_s);
-  j["total_variation_a"] = value(m.total_variation_a);
-  j["total_variation_ut"] = value(m.total_variation_ut);
-  j["limited_fraction"] = value(m.limited_fraction);
-  return j;
 }
 
 }  // namespace faba

@@ -1,8 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
-
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "study/data/series.h"
 
@@ -10,11 +9,13 @@ namespace faba {
 
 /// How well a closed-loop run was controlled: one number per question (theory F5).
 ///
-/// Terms used below. d_k is `distance_px` of frame k: from the centroid of all cells to the setpoint. A frame
+/// Terms used below. d_k is `distance_px` of frame k: from the swarm's centroid to the setpoint, the true
+/// one in a simulation and the estimated one on a bench. A frame
 /// is *targeted* when d_k is a number; the others are left out. t0 and d0 belong to the first targeted frame.
 /// A quantity is empty when the run does not define it: no target, a column that is not there, or a condition
 /// named with it. Lengths are picture pixels. Times resolve to one frame unless it says "between frames".
 struct Metrics {
+  std::string source;         ///< of centroid, spread and distance: "true" or "estimated"
   std::size_t frames = 0;     ///< rows of the series
   double duration_s = 0;      ///< from the first to the last frame
   std::size_t setpoints = 0;  ///< different successive setpoints: 0 no target, 1 hold, more on a route
@@ -69,13 +70,9 @@ struct Metrics {
   std::optional<double> limited_fraction;
 };
 
-/// Computes what the columns allow. Needs `t_s`, `centroid_x_px`, `centroid_y_px`, `sigma_x_px`,
-/// `sigma_y_px`, `rms_radius_px` and `distance_px`, and times that increase; else throws Error(Errc::input)
-/// with file and line. A series without rows gives frames = 0 and nothing else.
+/// Computes what the columns allow. Needs `t_s`, `distance_px` and the centroid and sigmas of
+/// swarm_columns(), and times that increase; else throws Error(Errc::input) with file and line. A series
+/// without rows gives frames = 0 and nothing else.
 Metrics control_metrics(const Series& series);
-
-/// The members under their own names, the unit being part of the name, null for what is empty, except that
-/// `dispersion_px` = [sigma_x, sigma_y] stands for the two standard deviations.
-nlohmann::ordered_json metrics_json(const Metrics& metrics);
 
 }  // namespace faba

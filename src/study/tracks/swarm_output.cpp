@@ -6,14 +6,8 @@
 #include <system_error>
 
 namespace faba {
-namespace {
-
-std::filesystem::path temporary(const std::filesystem::path& path) { return path.string() + ".tmp"; }
-
-}  // namespace
-
 SwarmOutput::SwarmOutput(std::filesystem::path path, const TrackSurvey& survey, int bits)
-    : path_(std::move(path)), file_(temporary(path_), 0, path_), view_(survey, bits) {
+    : path_(std::move(path)), file_(temporary_name(path_), 0, path_), view_(survey, bits) {
   file_.append("frame,t_s,signal,x_px,y_px,var_xx_px2,var_xy_px2,var_yy_px2\n");
 }
 
@@ -21,7 +15,7 @@ SwarmOutput::~SwarmOutput() {
   if (whole_) return;
   file_.close();
   std::error_code ignored;
-  std::filesystem::remove(temporary(path_), ignored);
+  std::filesystem::remove(temporary_name(path_), ignored);
 }
 
 void SwarmOutput::write(std::uint64_t index, double t_s, const GrayF& frame) {
@@ -37,7 +31,7 @@ void SwarmOutput::write(std::uint64_t index, double t_s, const GrayF& frame) {
 void SwarmOutput::complete() {
   file_.sync();
   file_.close();
-  rename_complete(temporary(path_), path_);
+  rename_complete(temporary_name(path_), path_);
   whole_ = true;
 }
 

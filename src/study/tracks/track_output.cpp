@@ -13,8 +13,6 @@
 namespace faba {
 namespace {
 
-std::filesystem::path temporary(const std::filesystem::path& path) { return path.string() + ".tmp"; }
-
 void remove_quietly(const std::filesystem::path& path) {
   std::error_code ignored;
   std::filesystem::remove(path, ignored);
@@ -22,11 +20,11 @@ void remove_quietly(const std::filesystem::path& path) {
 
 class CsvTracks final : public TrackOutput {
  public:
-  explicit CsvTracks(std::filesystem::path path) : path_(std::move(path)), file_(temporary(path_), 0, path_) {
+  explicit CsvTracks(std::filesystem::path path) : path_(std::move(path)), file_(temporary_name(path_), 0, path_) {
     file_.append("track,frame,t_s,x_px,y_px,mass,snr\n");
   }
   ~CsvTracks() override {
-    if (!whole_) file_.close(), remove_quietly(temporary(path_));
+    if (!whole_) file_.close(), remove_quietly(temporary_name(path_));
   }
   void write(const Track& track) override {
     std::string lines;
@@ -38,7 +36,7 @@ class CsvTracks final : public TrackOutput {
   void complete() override {
     file_.sync();
     file_.close();
-    rename_complete(temporary(path_), path_);
+    rename_complete(temporary_name(path_), path_);
     whole_ = true;
   }
 
@@ -51,7 +49,7 @@ class CsvTracks final : public TrackOutput {
 class H5Tracks final : public TrackOutput {
  public:
   H5Tracks(std::filesystem::path path, const TrackedVideo& video)
-      : path_(std::move(path)), file_(H5File::create(temporary(path_))) {
+      : path_(std::move(path)), file_(H5File::create(temporary_name(path_))) {
     constexpr std::uint64_t kRows = 4096;
     for (const char* name : {"track", "frame"})
       whole_numbers_.push_back(file_.table<std::uint64_t>(name, {}, kRows, 1, true));
@@ -64,7 +62,7 @@ class H5Tracks final : public TrackOutput {
     file_.begin_writing();
   }
   ~H5Tracks() override {
-    if (!whole_) remove_quietly(temporary(path_));
+    if (!whole_) remove_quietly(temporary_name(path_));
   }
   void write(const Track& track) override {
     for (const TrackPoint& p : track.points) {
@@ -78,7 +76,7 @@ class H5Tracks final : public TrackOutput {
     file_.sync();
     whole_numbers_.clear(), numbers_.clear();
     file_.close();
-    rename_complete(temporary(path_), path_);
+    rename_complete(temporary_name(path_), path_);
     whole_ = true;
   }
 

@@ -36,7 +36,7 @@ RunOptions options(const std::filesystem::path& out, unsigned threads = 1) {
   return o;
 }
 
-std::string state_hash(const Session& s) { return s.manifest()["state_hash"]; }
+std::string state_hash(const Session& s) { return s.manifest().simulated->state_hash; }
 
 }  // namespace
 
@@ -135,7 +135,7 @@ count = 60
   CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "whole/series.csv"));
   // PNG has no memory between frames, so where checkpoints were made does not show
   CHECK(read_file(f.path / "cut/video.avi") == read_file(f.path / "whole/video.avi"));
-  CHECK(whole.manifest()["video_shows"] == "camera");
+  CHECK(whole.manifest().video_shows == "camera");
 
   VideoReader avi(f.path / "cut/video.avi"), mp4(f.path / "cut/video.mp4");
   CHECK(avi.bits() == 16);

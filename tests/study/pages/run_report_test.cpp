@@ -10,10 +10,15 @@
 
 #include "core/error.h"
 #include "study/pages/run_figures.h"
-#include "tests/temporary_folder.h"
 #include "tests/study/well_formed.h"
+#include "tests/temporary_folder.h"
 
 namespace {
+
+void report(const std::filesystem::path& run) {
+  faba::write_run_report(run, faba::read_run_info(run / "manifest.json"),
+                         faba::read_series(run / "series.csv"));
+}
 
 using faba::Metrics;
 using faba::RunInfo;
@@ -33,8 +38,10 @@ constexpr const char* kManifest = R"json({
 /// can have.
 std::string full_series() {
   std::string csv =
-      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px,visible_count,"
-      "responding_count,estimate_x_px,estimate_y_px,setpoint_x_px,setpoint_y_px,field_x_ut,field_y_ut,"
+      "frame,t_s,true_centroid_x_px,true_centroid_y_px,true_sigma_x_px,true_sigma_y_px,true_rms_radius_px,"
+      "distance_px,visible_count,"
+      "responding_count,estimated_centroid_x_px,estimated_centroid_y_px,setpoint_x_px,setpoint_y_px,field_x_"
+      "ut,field_y_ut,"
       "current_0_a,"
       "current_1_a,limited\n";
   for (int k = 0; k < 60; ++k) {
@@ -58,7 +65,7 @@ std::string get(const std::filesystem::path& file) {
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string report_of(const TemporaryFolder& run) {
-  faba::write_run_report(run.path());
+  report(run.path());
   const std::string html = get(run.path() / "report.html");
   CHECK(faba::test::XmlCheck::complaint(html) == "");
   for (const char* outside :
@@ -72,7 +79,7 @@ std::string report_of(const TemporaryFolder& run) {
 
 faba::Errc code_of(const TemporaryFolder& run, const std::string& where, const std::string& part) {
   try {
-    faba::write_run_report(run.path());
+    report(run.path());
   } catch (const faba::Error& e) {
     CHECK(has(e.where(), where));
     CHECK_MESSAGE(has(e.what(), part), e.what());
@@ -121,7 +128,8 @@ TEST_CASE("run report: a full run has every figure, both units, its video and ho
 TEST_CASE("run report: works with the least a run can have") {
   const TemporaryFolder run("report");
   put(run.path() / "series.csv",
-      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px\n"
+      "frame,t_s,true_centroid_x_px,true_centroid_y_px,true_sigma_x_px,true_sigma_y_px,true_rms_radius_px,"
+      "distance_px\n"
       "0,0,10,20,3,4,5,\n1,1,11,20,3,4,5,\n");
   put(run.path() / "manifest.json", R"({"version": "0.1.0", "um_per_px": null, "arena": null})");
   const std::string html = report_of(run);
@@ -139,7 +147,8 @@ TEST_CASE("run report: works with the least a run can have") {
 TEST_CASE("run report: no frames, and a recording cut off in the middle of a line") {
   const TemporaryFolder run("report");
   const std::string head =
-      "frame,t_s,centroid_x_px,centroid_y_px,sigma_x_px,sigma_y_px,rms_radius_px,distance_px\n";
+      "frame,t_s,true_centroid_x_px,true_centroid_y_px,true_sigma_x_px,true_sigma_y_px,true_rms_radius_px,"
+      "distance_px\n";
   put(run.path() / "manifest.json", R"({"version": "0.1.0", "complete": false})");
   put(run.path() / "series.csv", head);
   CHECK(has(report_of(run), "No frame was recorded."));
@@ -262,10 +271,10 @@ TEST_CASE("run report: a short approach is shown by itself, and only then") {
   const auto headings = [](int frames) {
     std::vector<double> t, d, zero(std::size_t(frames), 0.0);
     for (int k = 0; k < frames; ++k) t.push_back(k / 15.0), d.push_back(k < 30 ? 300 - 10 * k : 1);
-    const faba::Series series(
-        "series.csv",
-        {"t_s", "distance_px", "centroid_x_px", "centroid_y_px", "sigma_x_px", "sigma_y_px", "rms_radius_px"},
-        {t, d, zero, zero, zero, zero, zero});
+    const faba::Series series("series.csv",
+                              {"t_s", "distance_px", "true_centroid_x_px", "true_centroid_y_px",
+                               "true_sigma_x_px", "true_sigma_y_px", "true_rms_radius_px"},
+                              {t, d, zero, zero, zero, zero, zero});
     std::string all;
     for (const faba::Figure& f : run_figures(series, control_metrics(series), {})) all += f.heading + ";";
     return all;
@@ -279,8 +288,8 @@ TEST_CASE("run report: a command that switches too often to be read is shown by 
     std::vector<double> t, current, zero(600, 0.0);
     for (int k = 0; k < 600; ++k) t.push_back(k / 60.0), current.push_back(k / half_period % 2 ? 1 : -1);
     const faba::Series series("series.csv",
-                              {"t_s", "distance_px", "centroid_x_px", "centroid_y_px", "sigma_x_px",
-                               "sigma_y_px", "rms_radius_px", "current_0_a"},
+                              {"t_s", "distance_px", "true_centroid_x_px", "true_centroid_y_px",
+                               "true_sigma_x_px", "true_sigma_y_px", "true_rms_radius_px", "current_0_a"},
                               {t, zero, zero, zero, zero, zero, zero, current});
     for (const faba::Figure& f : run_figures(series, control_metrics(series), {}))
       if (f.heading == "Coil currents") return f;

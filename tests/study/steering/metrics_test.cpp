@@ -1,4 +1,4 @@
-#include "study/steering/metrics.h"
+#include "study/steering/metric_list.h"
 
 #include <doctest/doctest.h>
 
@@ -34,8 +34,8 @@ struct Recording {
   faba::Series series() const {
     const std::vector<double> sx(t.size(), 3), sy(t.size(), 4), r(t.size(), 5);
     return {"series.csv",
-            {"t_s", "centroid_x_px", "centroid_y_px", "sigma_x_px", "sigma_y_px", "rms_radius_px",
-             "distance_px", "setpoint_x_px", "setpoint_y_px"},
+            {"t_s", "true_centroid_x_px", "true_centroid_y_px", "true_sigma_x_px", "true_sigma_y_px",
+             "true_rms_radius_px", "distance_px", "setpoint_x_px", "setpoint_y_px"},
             {t, x, y, sx, sy, r, d, setpoint_x, setpoint_y}};
   }
   /// The same and further columns.
@@ -294,8 +294,8 @@ TEST_CASE("metrics: effort and variation of the command") {
 TEST_CASE("metrics: the columns after distance_px may be absent") {
   const faba::Series s(
       "series.csv",
-      {"frame", "t_s", "centroid_x_px", "centroid_y_px", "sigma_x_px", "sigma_y_px", "rms_radius_px",
-       "distance_px"},
+      {"frame", "t_s", "true_centroid_x_px", "true_centroid_y_px", "true_sigma_x_px", "true_sigma_y_px",
+       "true_rms_radius_px", "distance_px"},
       {{0, 1, 2}, {0, 1, 2}, {0, 50, 99}, {7, 7, 7}, {1, 2, 3}, {4, 5, 6}, {5, 6, 7}, {100, 50, 1}});
   const faba::Metrics m = control_metrics(s);
   CHECK(m.setpoints == 1);

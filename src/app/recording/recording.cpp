@@ -1,0 +1,45 @@
+#include "app/recording/recording.h"
+
+#include "app/recording/checkpoint.h"
+#include "core/file.h"
+
+namespace faba {
+
+using namespace run_files;
+
+Recording::Recording(RunDirectory directory, const Scenario& scenario, bool resumed)
+    : directory_(std::move(directory)), scenario_hash_(scenario.hash()) {
+  if (!resumed) write_file(dir() / kScenario, to_toml(scenario.resolved()));
+}
+
+void Recording::open_sinks(const SinkContext& c, Archive* resume) {
+  auto series = series_sink(c, resume);
+  series_ = series.get();
+  sinks_.push_back(std::move(series));
+  if (c.record.tracks && c.truth) sinks_.push_back(tracks_sink(c, resume));
+  if (c.record.video) sinks_.push_back(video_sink(c, false, resume));
+  if (c.record.lossless) sinks_.push_back(video_sink(c, true, resume));
+  if (c.record.flow) sinks_.push_back(flow_sink(c, resume));
+}
+
+std::vector<Sink*> Recording::sinks() const {
+  std::vector<Sink*> all;
+  for (const auto& s : sinks_) all.push_back(s.get());
+  return all;
+}
+
+void Recording::checkpoint(Archive& a) {
+  for (const auto& s : sinks_) s->checkpoint(a);
+  write_checkpoint(dir() / kCheckpoint, scenario_hash_, a);
+}
+
+void Recording::finish(const Manifest& m, bool keep) {
+  for (const auto& s : sinks_) s->finish(keep);
+  write_file(dir() / kManifest, manifest_json(m).dump(2) + "\n");
+}
+
+double Recording::wall_time() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+}
+
+}  // namespace faba

@@ -1,0 +1,187 @@
+#include "study/steering/metric_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/toml.h"
+
+namespace faba {
+namespace {
+
+constexpr const char *kReaching = "Reaching the setpoint", *kStaying = "Staying there", *kPath = "Path",
+                     *kSpread = "Spread at the last frame", *kCommand = "Command";
+
+using M = Metrics;
+
+// To add a metric: its member and its definition in metrics.h, what computes it in metrics.cpp, its line
+// here.
+constexpr MetricInfo kMetrics[] = {{.key = "initial_error_px",
+                                    .group = kReaching,
+                                    .name = "Initial error",
+                                    .meaning = "distance when the first target was given",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .value = &M::initial_error_px},
+                                   {.key = "settling_time_s",
+                                    .group = kReaching,
+                                    .name = "Settling time",
+                                    .meaning = "until the last entry into the settling band",
+                                    .unit = "s",
+                                    .compared = true,
+                                    .value = &M::settling_time_s},
+                                   {.key = "settling_band_px",
+                                    .group = kReaching,
+                                    .name = "Settling band",
+                                    .meaning = "the larger of 5 % of the initial error and 10 px",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .value = &M::settling_band_px},
+                                   {.key = "rise_time_s",
+                                    .group = kReaching,
+                                    .name = "Rise time",
+                                    .meaning = "from 90 % to 10 % of the initial error, first setpoint",
+                                    .unit = "s",
+                                    .compared = true,
+                                    .value = &M::rise_time_s},
+                                   {.key = "overshoot_percent",
+                                    .group = kReaching,
+                                    .name = "Overshoot",
+                                    .meaning = "past the first setpoint, of the initial error",
+                                    .unit = "%",
+                                    .compared = true,
+                                    .value = &M::overshoot_percent},
+                                   {.key = "steady_rms_px",
+                                    .group = kStaying,
+                                    .name = "Steady error",
+                                    .meaning = "rms distance over the last third of the frames",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .compared = true,
+                                    .value = &M::steady_rms_px},
+                                   {.key = "final_distance_px",
+                                    .group = kStaying,
+                                    .name = "Final distance",
+                                    .meaning = "at the last frame",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .value = &M::final_distance_px},
+                                   {.key = "iae_px_s",
+                                    .group = kStaying,
+                                    .name = "IAE",
+                                    .meaning = "integral of the distance over time",
+                                    .unit = "px s",
+                                    .in_um = "µm s",
+                                    .compared = true,
+                                    .value = &M::iae_px_s},
+                                   {.key = "itae_px_s2",
+                                    .group = kStaying,
+                                    .name = "ITAE",
+                                    .meaning = "the same weighted by time",
+                                    .unit = "px s²",
+                                    .in_um = "µm s²",
+                                    .compared = true,
+                                    .value = &M::itae_px_s2},
+                                   {.key = "path_length_px",
+                                    .group = kPath,
+                                    .name = "Path length",
+                                    .meaning = "of the centroid, its jitter included",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .compared = true,
+                                    .value = &M::path_length_px},
+                                   {.key = "path_tracking_rms_px",
+                                    .group = kPath,
+                                    .name = "Tracking error",
+                                    .meaning = "rms distance to the route, from the second setpoint on",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .compared = true,
+                                    .value = &M::path_tracking_rms_px},
+                                   {.key = "cross_track_95_px",
+                                    .group = kPath,
+                                    .name = "Cross-track error, 95 %",
+                                    .meaning = "19 of 20 frames are nearer to the route",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .compared = true,
+                                    .value = &M::cross_track_95_px},
+                                   {.key = "sigma_x_px",
+                                    .group = kSpread,
+                                    .name = "σx",
+                                    .meaning = "standard deviation of the cells' x",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .compared = true,
+                                    .value = &M::sigma_x_px},
+                                   {.key = "sigma_y_px",
+                                    .group = kSpread,
+                                    .name = "σy",
+                                    .meaning = "standard deviation of the cells' y",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .compared = true,
+                                    .value = &M::sigma_y_px},
+                                   {.key = "rms_radius_px",
+                                    .group = kSpread,
+                                    .name = "RMS radius",
+                                    .meaning = "root-mean-square distance from the centroid",
+                                    .unit = "px",
+                                    .in_um = "µm",
+                                    .compared = true,
+                                    .value = &M::rms_radius_px},
+                                   {.key = "control_effort_a2_s",
+                                    .group = kCommand,
+                                    .name = "Control effort",
+                                    .meaning = "sum over the coils of the integral of I²",
+                                    .unit = "A² s",
+                                    .compared = true,
+                                    .value = &M::control_effort_a2_s},
+                                   {.key = "total_variation_a",
+                                    .group = kCommand,
+                                    .name = "Variation of the currents",
+                                    .meaning = "sum of all changes from frame to frame",
+                                    .unit = "A",
+                                    .value = &M::total_variation_a},
+                                   {.key = "total_variation_ut",
+                                    .group = kCommand,
+                                    .name = "Variation of the field",
+                                    .meaning = "sum of all changes from frame to frame",
+                                    .unit = "µT",
+                                    .compared = true,
+                                    .value = &M::total_variation_ut},
+                                   {.key = "limited_fraction",
+                                    .group = kCommand,
+                                    .name = "Limited",
+                                    .meaning = "fraction of the frames whose command was clipped",
+                                    .unit = "%",
+                                    .shown = 100,
+                                    .compared = true,
+                                    .value = &M::limited_fraction}};
+
+}  // namespace
+
+std::span<const MetricInfo> metric_list() { return kMetrics; }
+
+const MetricInfo& metric(std::string_view key) {
+  const auto at = std::find_if(std::begin(kMetrics), std::end(kMetrics),
+                               [&](const MetricInfo& m) { return m.key == key; });
+  if (at == std::end(kMetrics)) throw Error(Errc::internal, std::string(key), "is not a metric");
+  return *at;
+}
+
+nlohmann::ordered_json metrics_json(const Metrics& m) {
+  const auto number = [](const std::optional<double>& v) {
+    return v && std::isfinite(*v) ? Json(*v) : Json();
+  };
+  Json j = {{"frames", m.frames},
+            {"duration_s", m.duration_s},
+            {"setpoints", m.setpoints},
+            {"metrics_source", m.source},
+            {"dispersion_px", {number(m.sigma_x_px), number(m.sigma_y_px)}}};
+  for (const MetricInfo& one : kMetrics)
+    if (one.value != &M::sigma_x_px && one.value != &M::sigma_y_px) j[one.key] = number(m.*one.value);
+  return j;
+}
+
+}  // namespace faba
