@@ -3,6 +3,11 @@
 const kMostLive = 30000; // rows of a live run
 const kFirstCapacity = 1024; // rows
 
+/** The first of `true_...`, `estimated_...` and the bare name of version 0.1 for which `has` holds. */
+export function swarmColumn(quantity: string, has: (name: string) => boolean): string {
+  return [`true_${quantity}`, `estimated_${quantity}`].find(has) ?? quantity;
+}
+
 export class Series {
   names: string[] = [];
   columns: Float64Array[] = [];
@@ -39,6 +44,13 @@ export class Series {
   newest(name: string): number {
     const i = this.names.indexOf(name);
     return i < 0 || !this.length ? NaN : this.columns[i][this.length - 1];
+  }
+  /**
+   * The column of a quantity of the swarm such as `centroid_x_px`: the simulated truth where the run has it, else the
+   * estimate; a run of version 0.1 has it without a prefix.
+   */
+  swarmColumn(quantity: string): string {
+    return swarmColumn(quantity, (name) => this.names.includes(name));
   }
   /** The last row that is not after `t` s; -1 before the first. */
   rowAt(t: number): number {

@@ -59,7 +59,7 @@ describe('marks of a recorded row', () => {
   const of = (row: Record<string, number>) => (name: string) => row[name] ?? NaN;
 
   test('pairs of columns', () => {
-    const row = { centroid_x_px: 1, centroid_y_px: 2, sigma_x_px: 3, sigma_y_px: 4, setpoint_x_px: 5, setpoint_y_px: 6 };
+    const row = { true_centroid_x_px: 1, true_centroid_y_px: 2, true_sigma_x_px: 3, true_sigma_y_px: 4, estimated_centroid_x_px: 9, setpoint_x_px: 5, setpoint_y_px: 6 };
     expect(recordedMarks(of(row))).toEqual({ centroid: [1, 2], sigma: [3, 4], setpoint: [5, 6] });
   });
   test('a pair with a missing value is no mark', () => {

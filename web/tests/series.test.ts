@@ -148,3 +148,14 @@ describe('CSV', () => {
     expect(await recordedSeries('x')).toBeNull();
   });
 });
+
+test('a quantity of the swarm is the truth where there is one, else the estimate, else the column of version 0.1', () => {
+  const named = (...names: string[]) => {
+    const s = new Series();
+    s.begin(names);
+    return s.swarmColumn('sigma_x_px');
+  };
+  expect(named('frame', 'estimated_sigma_x_px', 'true_sigma_x_px')).toBe('true_sigma_x_px');
+  expect(named('frame', 'estimated_sigma_x_px')).toBe('estimated_sigma_x_px');
+  expect(named('frame', 'sigma_x_px')).toBe('sigma_x_px');
+});

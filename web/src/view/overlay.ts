@@ -1,5 +1,6 @@
 // Everything that is drawn over the cells: edge, field, crosses, route, scale bar, clock.
 
+import { swarmColumn } from '../series';
 import type { Frame } from '../frame';
 import type { Box, Camera } from './camera';
 
@@ -30,7 +31,8 @@ export interface Marks {
 /** The marks of one row of a run's series; `of` gives a column's value there. */
 export function recordedMarks(of: (name: string) => number): Pick<Marks, 'centroid' | 'sigma' | 'setpoint'> {
   const pair = (x: string, y: string): [number, number] | null => (Number.isFinite(of(x)) && Number.isFinite(of(y)) ? [of(x), of(y)] : null);
-  return { centroid: pair('centroid_x_px', 'centroid_y_px'), sigma: pair('sigma_x_px', 'sigma_y_px'), setpoint: pair('setpoint_x_px', 'setpoint_y_px') };
+  const swarm = (quantity: string) => swarmColumn(quantity, (name) => Number.isFinite(of(name)));
+  return { centroid: pair(swarm('centroid_x_px'), swarm('centroid_y_px')), sigma: pair(swarm('sigma_x_px'), swarm('sigma_y_px')), setpoint: pair('setpoint_x_px', 'setpoint_y_px') };
 }
 export interface Palette {
   edge: string;
