@@ -235,22 +235,49 @@ def check_types(tree):
                 yield f"{file}:{number}: {defined[1]} is the name of another type in {types[defined[1]]}"
 
 
+def own_names(text):
+    """Names that a .cpp file has to itself, in its anonymous namespace: of types and constants "Name", of functions
+    "name(types of parameters)"."""
+    for body in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", text, re.S | re.M):
+        for line in body.splitlines():
+            named = re.match(r"(?:struct|class|enum class) (\w+)", line) or re.match(
+                r"(?:constexpr|const) [^=(]*?\b(k[A-Z]\w*)\b", line
+            )
+            if named:
+                yield named[1]
+            elif function := FUNCTION.match(line):
+                yield function_key(function)
+
+
+FUNCTION = re.compile(r"(?!return|else|if|for|using|typedef)(?:[\w:<>,*&]+ )+[*&]?(\w+)\(([^()]*)(?:\)|$)")
+
+
+def function_key(match):
+    """"quantile(std::vector<double>,double)" of "double quantile(std::vector<double> v, double p)"."""
+    kinds = [re.sub(r"\s*\b\w+$", "", one.split("=")[0].strip()) for one in match[2].split(",") if one.strip()]
+    return f"{match[1]}({','.join(kinds)})"
+
+
 def check_unity(tree):
-    """Where several files are compiled at a time, names of one file's own must not be those of another one's in the same
-    folder of src."""
+    """Where several files are compiled at a time, a name of one file's own would be that of another one's in the same
+    folder of src, and a function of its own could take the place of one that a header declares, without a warning."""
+    declared = {}
+    for file in tree.files:
+        if file.suffix == ".h":
+            for line in file.read_text().splitlines():
+                if (function := FUNCTION.match(line)) and line.rstrip().endswith((";", ",")):
+                    declared[function_key(function)] = file
     own = {}
     for file in tree.files:
-        if file.suffix != ".cpp" or tree.name(file).split("/")[0] not in UNITY:
+        folder = tree.name(file).split("/")[0]
+        if file.suffix != ".cpp" or folder not in UNITY:
             continue
-        for body in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", file.read_text(), re.S | re.M):
-            for line in body.splitlines():
-                named = re.match(r"(?:struct|class|enum class) (\w+)", line) or re.match(
-                    r"(?:constexpr|const) [^=(]*?\b(k[A-Z]\w*)\b", line
-                )
-                if named:
-                    key = (tree.name(file).split("/")[0], named[1])
-                    if own.setdefault(key, file) != file:
-                        yield f"{file}: {named[1]} is also a name of {own[key]}'s own; give one of them another"
+        for name in own_names(file.read_text()):
+            other = own.setdefault((folder, name), file)
+            if other != file:
+                yield f"{file}: {name} is also a name of {other}'s own; give one of them another"
+            if name in declared:
+                yield f"{file}: {name} is also declared in {declared[name]}; give this one another name"
 
 
 def violations(root):

@@ -46,6 +46,13 @@ PLANTED = {
         {f"study/plot/{n}.cpp": "namespace {\nstruct Mine {\n};\n}  // namespace\n" for n in "ab"},
         "give one of them another",
     ),
+    "a function that a header declares": (
+        {
+            "study/stats/a.h": "double quantile(std::vector<double> values, double p);\n",
+            "study/plot/b.cpp": "namespace {\ndouble quantile(std::vector<double> v, double q) {\n}\n}  // namespace\n",
+        },
+        "is also declared in",
+    ),
     "an unknown folder": ({"utils/a.cpp": ""}, "is not in the table"),
     "an unknown subfolder": ({"vision/misc/a.cpp": ""}, "is not in the table"),
     "a folder with too many files": ({f"core/f{i}.cpp": "" for i in range(41)}, "files directly in one folder"),
