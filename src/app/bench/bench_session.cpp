@@ -10,6 +10,7 @@
 #include "app/recording/manifest.h"
 #include "app/recording/session.h"
 #include "core/file.h"
+#include "core/statistics.h"
 #include "core/urgent.h"
 
 namespace faba {
@@ -17,16 +18,9 @@ namespace {
 
 constexpr double kDelaySteps = 1e4;  // of a second, to which a measured delay is written down
 
-// Share q of the numbers is not above it; not a number when there are none.
-double quantile(std::vector<double> v, double q) {
-  std::erase_if(v, [](double x) { return std::isnan(x); });
-  if (v.empty()) return std::nan("");
-  const auto at = std::min(v.size() - 1, std::size_t(q * double(v.size())));
-  std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(at), v.end());
-  return v[at];
-}
-
-Json in_ms(const std::vector<double>& s) {
+// Of the values that are known; null when there are none.
+Json in_ms(std::vector<double> s) {
+  std::erase_if(s, [](double x) { return std::isnan(x); });
   const auto ms = [&](double q) {
     const double v = 1e3 * quantile(s, q);
     return std::isnan(v) ? Json() : Json(v);
