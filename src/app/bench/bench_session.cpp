@@ -9,6 +9,7 @@
 #include "app/bench/bench_controls.h"
 #include "app/recording/session.h"
 #include "core/file.h"
+#include "core/statistics.h"
 #include "core/urgent.h"
 
 namespace faba {
@@ -16,16 +17,9 @@ namespace {
 
 constexpr double kDelaySteps = 1e4;  // of a second, to which a measured delay is written down
 
-// Share q of the numbers is not above it; not a number when there are none.
-double quantile(std::vector<double> v, double q) {
-  std::erase_if(v, [](double x) { return std::isnan(x); });
-  if (v.empty()) return std::nan("");
-  const auto at = std::min(v.size() - 1, std::size_t(q * double(v.size())));
-  std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(at), v.end());
-  return v[at];
-}
-
-Latency in_ms(const std::vector<double>& s) {
+// Of the delays that are known, s.
+Latency in_ms(std::vector<double> s) {
+  std::erase_if(s, [](double x) { return std::isnan(x); });
   return {1e3 * quantile(s, 0.5), 1e3 * quantile(s, 0.99), 1e3 * quantile(s, 0.999), 1e3 * quantile(s, 1)};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/monotonic.h"
+#include "core/statistics.h"
 
 namespace faba {
 
@@ -55,9 +56,7 @@ double OpenBench::delay(const Scenario& s) {
     took.push_back(seen.age + monotonic_now() - came);
   }
   if (took.empty()) return 0;
-  const auto middle = took.begin() + std::ptrdiff_t(took.size() / 2);
-  std::nth_element(took.begin(), middle, took.end());
-  return *middle;
+  return median(took);
 }
 
 Json check_bench(Scenario s, std::uint64_t seed, double seconds) {

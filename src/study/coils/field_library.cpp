@@ -8,6 +8,7 @@
 #include "app/scenario/rig_file.h"
 #include "core/file_lock.h"
 #include "core/parallel.h"
+#include "core/statistics.h"
 #include "field/null.h"
 #include "study/coils/field_report.h"
 
@@ -132,11 +133,8 @@ void compare_with_solver(const Field& field, const FieldLibrary& library, Vec2 h
       if (solved.reachable && !solved.saddle && e.gradient[1] < 0)
         strength.push_back(e.gradient[1] / solved.gradient[1]);
     }
-  const auto median = [](std::vector<double>& v) {
-    std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(v.size() / 2), v.end());
-    return v[v.size() / 2];
-  };
-  j["off_m"] = nullptr, j["strength"] = nullptr;
+  j["off_m"] = nullptr;
+  j["strength"] = nullptr;
   if (!off.empty())
     j["off_m"] = {{"median", median(off)}, {"largest", *std::max_element(off.begin(), off.end())}};
   if (!strength.empty()) j["strength"] = median(strength);

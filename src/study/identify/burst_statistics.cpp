@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "study/identify/episode.h"
+#include "core/statistics.h"
 #include "study/stats/statistics.h"
 #include "vision/cells/detector.h"
 #include "vision/cells/tracker.h"
@@ -92,7 +93,7 @@ class BurstStatistics final : public EpisodeStatistics {
       if (along.empty()) along = across = steps = {0};
       for (const double p : {0.1, 0.5, 0.9}) out.push_back(quantile(along, p));
       out.push_back(quantile(across, 0.9) - quantile(across, 0.1));
-      out.push_back(std::log(kStill + quantile(steps, 0.5)));
+      out.push_back(std::log(kStill + median(steps)));
       out.push_back(std::log1p(cells));
     }
     return out;

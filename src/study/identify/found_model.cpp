@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "study/identify/experiment_bootstrap.h"
 #include "study/identify/profile.h"
 #include "study/stats/statistics.h"
@@ -51,7 +52,7 @@ FoundParameter found(const FreeParameter& p, const VectorXd& u, const VectorXd& 
   for (const double x : u) f.draws.push_back(p.value(x));
   const double low = (1 - kLevel) / 2, high = 1 - low;
   const std::vector<double> shares(u.begin(), u.end());
-  f.median = p.value(quantile(shares, 0.5));
+  f.median = p.value(median(shares));
   f.ci90 = {p.value(quantile(shares, low)), p.value(quantile(shares, high))};
   f.share_of_range = quantile(shares, high) - quantile(shares, low);
   f.abc_median = p.value(weighed_quantile(abc_u, abc_weight, 0.5));
@@ -164,7 +165,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
   for (Index j = 0; j < draws.cols(); ++j) {
     const FreeParameter& p = candidate.free[std::size_t(j)];
     m.parameters.push_back(found(p, draws.col(j), abc.u.col(j), abc.weight));
-    middle[j] = quantile({draws.col(j).begin(), draws.col(j).end()}, 0.5);
+    middle[j] = median(std::vector<double>(draws.col(j).begin(), draws.col(j).end()));
     m.best[p.path] = p.json(middle[j]);
   }
   VectorXd sd(draws.cols());

@@ -5,6 +5,7 @@
 
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
+#include "core/statistics.h"
 #include "study/identify/episode_simulation.h"
 #include "study/stats/statistics.h"
 
@@ -34,9 +35,9 @@ CellLook look_of(const std::vector<Spot>& spots, double apart) {
     mass.push_back(s.mass), size.push_back(s.size_px);
     if (nearest >= apart) lone_mass.push_back(s.mass), lone_size.push_back(s.size_px);
   }
-  if (lone_mass.size() >= kEnough) return {quantile(lone_mass, 0.5), quantile(lone_size, 0.5)};
+  if (lone_mass.size() >= kEnough) return {median(lone_mass), median(lone_size)};
   if (mass.empty()) return {};
-  return {quantile(mass, 0.5), quantile(size, 0.5)};
+  return {median(mass), median(size)};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "study/stats/statistics.h"
 #include "study/stats/study_random.h"
 
@@ -49,10 +50,9 @@ struct Standard {
   VectorXd middle, scale;
   explicit Standard(const MatrixXd& s) : middle(s.cols()), scale(s.cols()) {
     for (Index j = 0; j < s.cols(); ++j) {
-      std::vector<double> v(s.col(j).begin(), s.col(j).end());
-      middle[j] = quantile(v, 0.5);
-      for (double& x : v) x = std::fabs(x - middle[j]);
-      double spread = 1.4826 * quantile(v, 0.5);
+      const RobustSpread<double> robust = robust_spread(std::vector<double>(s.col(j).begin(), s.col(j).end()));
+      middle[j] = robust.median;
+      double spread = robust.sd;
       if (!(spread > 0)) spread = std::sqrt((s.col(j).array() - s.col(j).mean()).square().mean());
       scale[j] = spread > 1e-12 ? 1 / spread : 0;
     }
@@ -155,7 +155,7 @@ std::vector<Index> ParameterSearch::nearest(Index count) const {
   normal.diagonal().array() += 0.02 * double(all_.size());
   const MatrixXd guess = normal.ldlt().solve(z.transpose() * u);
   const VectorXd by_guess = ((z.rowwise() - seen.transpose()) * guess).rowwise().squaredNorm();
-  const auto unit = [](const VectorXd& v) { return std::max(1e-12, quantile({v.begin(), v.end()}, 0.5)); };
+  const auto unit = [](const VectorXd& v) { return std::max(1e-12, median(std::vector<double>(v.begin(), v.end()))); };
   return smallest(plain / unit(plain) + by_guess / unit(by_guess), count);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/scenario/parts.h"
+#include "core/statistics.h"
 #include "core/toml.h"
 #include "core/units.h"
 #include "study/tracks/swarm_view.h"
@@ -112,8 +113,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   std::vector<double> gaps;
   for (std::size_t k = 0; k < a.signature.size(); ++k)
     gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
-  std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
-  a.frame_s = gaps[gaps.size() / 2];
+  a.frame_s = median_high(gaps);
   if (job.cells)
     a.visible_cells =
         visible_cells(a.input.file, {a.input.from_s, a.input.to_s, job.fps}, [&] { return !job.stop(); });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/statistics.h"
 #include "core/units.h"
 
 namespace faba {
@@ -16,12 +17,6 @@ constexpr double kRayleigh = 6.9;  // n R^2 that chance exceeds once in a thousa
 double angle(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
 double between(double a, double b) { return std::fabs(std::remainder(a - b, 360)); }
 Vec2 unit(double deg) { return {std::cos(deg * kDegree), std::sin(deg * kDegree)}; }
-
-double median(std::vector<double> v) {
-  const auto at = v.begin() + std::ptrdiff_t(v.size() / 2);
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
 
 /// What counts of each pair: the flow, and how much there is.
 struct Pairs {

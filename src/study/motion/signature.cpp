@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/statistics.h"
 #include "core/units.h"
 
 namespace faba {
@@ -14,12 +15,6 @@ constexpr std::uint64_t kSamples = 48;
 
 int wrapped(int sector) {
   return ((sector % DirectionSums::kSectors) + DirectionSums::kSectors) % DirectionSums::kSectors;
-}
-
-float quantile(std::vector<float>& values, double share) {
-  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 }  // namespace
@@ -108,7 +103,7 @@ NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptio
       speeds[i] = std::hypot(pair.flow.u.px[i], pair.flow.v.px[i]);
       sum += double(speeds[i]);
     }
-    samples.emplace_back(sum / double(speeds.size()), double(quantile(speeds, 0.99)));
+    samples.emplace_back(sum / double(speeds.size()), double(quantile_low(speeds, 0.99)));
     progress(++done * sampled.every, source.pairs());
   }
   if (samples.empty()) return {};
@@ -116,9 +111,8 @@ NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptio
   const std::size_t quiet = std::max<std::size_t>(1, samples.size() / 10);
   std::vector<double> thresholds;
   for (std::size_t i = 0; i < quiet; ++i) thresholds.push_back(samples[i].second);
-  std::nth_element(thresholds.begin(), thresholds.begin() + std::ptrdiff_t(quiet / 2), thresholds.end());
   const double busiest = samples[samples.size() - 1 - samples.size() / 20].first;
-  return {thresholds[quiet / 2], samples[quiet / 2].first < 0.5 * busiest};
+  return {median_high(thresholds), samples[quiet / 2].first < 0.5 * busiest};
 }
 
 }  // namespace faba

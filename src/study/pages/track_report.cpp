@@ -11,6 +11,7 @@
 #include "core/counted.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/statistics.h"
 #include "core/toml.h"
 #include "study/data/run_video.h"
 #include "study/pages/track_figures.h"
@@ -186,7 +187,7 @@ Json found_json(const TrackSurvey& s, const Pass& pass, const TrackOptions& o) {
          {"polarity", word_of(s.polarity)},
          {"background", s.temporal ? "median" : "spatial"},
          {"background_frames", s.background.frames},
-         {"noise_grey", robust_spread(noise).median},
+         {"noise_grey", robust_spread_low(noise).median},
          {"threshold_snr", pass.threshold},
          {"spots_per_frame", pass.spots_found / std::max(1.0, pass.frames)},
          {"still_spots", s.still_spots},

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -36,12 +38,6 @@ struct Peak : Eigen::DenseFunctor<double> {
   }
 };
 
-double quantile(std::vector<double> v, double share) {
-  const auto at = v.begin() + std::ptrdiff_t(share * double(v.size() - 1));
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
-
 // Mean over five values: the start must not be a single spike.
 std::vector<double> smoothed(const std::vector<double>& y) {
   std::vector<double> out(y.size());
@@ -55,7 +51,8 @@ std::vector<double> smoothed(const std::vector<double>& y) {
 Eigen::VectorXd start(const std::vector<double>& t, const std::vector<double>& y) {
   const std::vector<double> s = smoothed(y);
   const auto top = std::size_t(std::max_element(s.begin(), s.end()) - s.begin());
-  const double floor = quantile(s, 0.1), half = (s[top] + floor) / 2;
+  std::vector<double> work = s;
+  const double floor = quantile_low(work, 0.1), half = (s[top] + floor) / 2;
   std::size_t left = top, right = top;
   while (left > 0 && s[left] > half) --left;
   while (right + 1 < s.size() && s[right] > half) ++right;

@@ -153,14 +153,6 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
-double quantile(std::vector<double> values, double p) {
-  std::sort(values.begin(), values.end());
-  const double at = p * double(values.size() - 1);
-  const auto below = std::size_t(at);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (at - double(below)) * (values[above] - values[below]);
-}
-
 double sample_sd(std::span<const double> values) {
   if (values.size() < 2) return 0;
   const double n = double(values.size()), mean = std::accumulate(values.begin(), values.end(), 0.0) / n;

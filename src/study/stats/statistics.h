@@ -1,13 +1,10 @@
 #pragma once
-#include <limits>
 #include <array>
 #include <span>
-#include <vector>
+
+#include "core/statistics.h"
 
 namespace faba {
-
-/// Stands for a figure that does not exist, such as the standard error of one value.
-inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Regularised incomplete beta function I_x(a, b), 0 <= x <= 1, a, b > 0, to some 1e-14: the continued
 /// fraction of DLMF 8.17.22 (https://dlmf.nist.gov/8.17), on the side where it converges fast.
@@ -45,9 +42,6 @@ double spearman_p(std::span<const double> x, std::span<const double> y);
 
 /// Arithmetic mean of one value or more.
 double mean(std::span<const double> values);
-
-/// The value below which a share p, 0 to 1, of one value or more lies: linear between order statistics.
-double quantile(std::vector<double> values, double p);
 
 /// Standard deviation with n - 1; 0 for fewer than two values.
 double sample_sd(std::span<const double> values);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "study/data/run_video.h"
 #include "study/data/series.h"
 #include "vision/files/video_reader.h"
@@ -42,7 +43,7 @@ SwarmView::SwarmView(const TrackSurvey& survey, int bits) : foreground_(options_
   // Light is to stay in proportion, so that its share that is lost does.
   if (bits > 8 && survey.white > 0) scale_ = 255 / survey.white;
   std::vector<float> noise = survey.background.noise_sd.px;
-  noise_ = double(scale_ * robust_spread(noise).median);
+  noise_ = double(scale_ * robust_spread_low(noise).median);
   if (!survey.temporal) return;
   Background b = survey.background;
   multiply(b.level, scale_);

@@ -7,6 +7,7 @@
 
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/statistics.h"
 #include "vision/files/video_reader.h"
 #include "vision/image/kernels/grey_scale.h"
 #include "vision/image/kernels/smoothing.h"
@@ -76,7 +77,7 @@ void make_finite(GrayF& frame) {
   std::vector<float> finite;
   for (const float v : frame.px)
     if (std::isfinite(v)) finite.push_back(v);
-  const float fill = finite.empty() ? 0 : robust_spread(finite).median;
+  const float fill = finite.empty() ? 0 : robust_spread_low(finite).median;
   for (float& v : frame.px)
     if (!std::isfinite(v)) v = fill;
 }
@@ -101,17 +102,10 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   }
   if (s.frames == 0) throw Error(Errc::input, video.string(), "no frame could be read");
   s.duration_s = last;
-  if (!gaps.empty()) {
-    std::nth_element(gaps.begin(), gaps.begin() + std::ptrdiff_t(gaps.size() / 2), gaps.end());
-    s.frame_s = gaps[gaps.size() / 2];
-  }
+  if (!gaps.empty()) s.frame_s = median_high(gaps);
   std::vector<float> levels = s.first.px;
-  const auto at = [&](double share) {
-    const auto i = std::ptrdiff_t(share * double(levels.size() - 1));
-    std::nth_element(levels.begin(), levels.begin() + i, levels.end());
-    return levels[std::size_t(i)];
-  };
-  s.black = at(0.001), s.white = at(0.999);
+  s.black = quantile_low(levels, 0.001);
+  s.white = quantile_low(levels, 0.999);
   if (reader.truncated() || reader.damaged_frames() > 0)
     s.notes.push_back(fmt::format("{}: {} could be read; {}", video.string(),
                                   counted(std::uint64_t(s.frames), "frame"), reader.damage()));

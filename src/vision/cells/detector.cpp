@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "vision/cells/spot_fit.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -84,7 +85,7 @@ float spread_of(const GrayF& g) {
   std::vector<float> work;
   const std::size_t step = std::max<std::size_t>(1, g.px.size() / 100000);
   for (std::size_t i = 0; i < g.px.size(); i += step) work.push_back(g.px[i]);
-  return work.empty() ? 0 : robust_spread(work).sd;
+  return work.empty() ? 0 : robust_spread_low(work).sd;
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ Detector::Detector(Background background, DetectorOptions options)
   noise_gain_ = noise_law(sd_px_).gain;
   relative_noise_ = background_.noise_sd;
   std::vector<float> work = relative_noise_.px;
-  const float typical = robust_spread(work).median;
+  const float typical = robust_spread_low(work).median;
   for (float& v : relative_noise_.px) v /= typical;
 }
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -70,10 +72,7 @@ class Window {
         const double r2 = (col - x) * (col - x) + (row - y) * (row - y);
         if (r2 >= in * in && r2 <= out * out) ring.push_back(px_[i]);
       }
-    if (ring.empty()) return 0;
-    const auto middle = ring.begin() + std::ptrdiff_t(ring.size() / 2);
-    std::nth_element(ring.begin(), middle, ring.end());
-    return *middle;
+    return ring.empty() ? 0 : median_high(ring);
   }
   Moments moments(double x, double y, double offset) {
     Moments m;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "vision/cells/assignment.h"
 
 namespace faba {
@@ -18,12 +19,6 @@ constexpr double kBetter = 0.8;         // ratio of squared errors that changes 
 constexpr double kFewLinks = 20;
 
 double place_variance(const Spot& s) { return kPlaceNoise * kPlaceNoise + s.sd_px * s.sd_px; }
-
-double median_of(std::vector<double>& v) {
-  const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 // Spots sorted by y: those within `reach` of a place in y.
 template <class Visit>
@@ -58,7 +53,7 @@ void Tracker::begin() {
   const std::vector<Waiting> first = std::exchange(waiting_, {});
   std::vector<double> gaps;
   for (std::size_t i = 1; i < first.size(); ++i) gaps.push_back(first[i].t_s - first[i - 1].t_s);
-  frame_s_ = gaps.empty() ? 1 : median_of(gaps);
+  frame_s_ = gaps.empty() ? 1 : median_high(gaps);
   if (!(options_.reach_px > 0)) {
     std::vector<std::vector<Spot>> frames;
     frames.reserve(first.size());
@@ -216,7 +211,7 @@ void Tracker::learn_common_velocity() {
   for (const Live& l : live_)
     if (l.points >= 3) x.push_back(l.velocity.x), y.push_back(l.velocity.y);
   if (double(x.size()) < kFewLinks) return;
-  common_velocity_ = {median_of(x), median_of(y)};
+  common_velocity_ = {median_high(x), median_high(y)};
 }
 
 double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cut) {
@@ -241,7 +236,7 @@ double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cu
       if (density > 0) spacing.push_back(1 / std::sqrt(density));
     }
   if (pairs.empty()) return 10;
-  double far = spacing.empty() ? 0 : kSpacings * median_of(spacing);
+  double far = spacing.empty() ? 0 : kSpacings * median_high(spacing);
   if (spacing.empty())
     for (const Pair& p : pairs) far = std::max(far, p.nearest);
   const int steps = 60;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "vision/files/grey_video.h"
 #include "vision/foreground/background.h"
 
@@ -60,11 +61,10 @@ double normal_quantile(double share) {
 GrayF quantile_over_time(const std::vector<GrayF>& frames, double share) {
   GrayF out(frames.front().width, frames.front().height);
   std::vector<float> values(frames.size());
-  const auto at = values.begin() + std::lround(share * double(frames.size() - 1));
+  const auto rank = std::size_t(std::lround(share * double(frames.size() - 1)));
   for (std::size_t i = 0; i < out.px.size(); ++i) {
     for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
-    std::nth_element(values.begin(), at, values.end());
-    out.px[i] = *at;
+    out.px[i] = order_statistic(values, rank);
   }
   return out;
 }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -131,9 +133,7 @@ double full_speed(const Flow& flow) {
   for (std::size_t i = 0; i < flow.u.px.size(); ++i)
     if (const float s = std::hypot(flow.u.px[i], flow.v.px[i]); std::isfinite(s)) speed.push_back(s);
   if (speed.empty()) return 0;
-  const auto at = speed.begin() + std::ptrdiff_t(double(speed.size() - 1) * 0.995);
-  std::nth_element(speed.begin(), at, speed.end());
-  return double(*at);
+  return double(quantile_low(speed, 0.995));
 }
 
 RgbImage draw_flow(const Flow& flow, const FlowDrawing& how) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -135,14 +137,12 @@ std::vector<std::size_t> steady_pieces(const ArcStrip& strip, const Run& run) {
     const std::size_t from = std::min(i > 2 ? i - 2 : 0, length > 5 ? length - 5 : 0);
     std::vector<double> five;
     for (std::size_t k = from; k < std::min(from + 5, length); ++k) five.push_back(shift(k));
-    std::nth_element(five.begin(), five.begin() + std::ptrdiff_t(five.size() / 2), five.end());
-    off[i] = std::fabs(shift(i) - five[five.size() / 2]);
+    off[i] = std::fabs(shift(i) - median_high(five));
     if (off[i] > 0) sizes.push_back(off[i]);
   }
   std::vector<std::size_t> steady;
   if (sizes.empty()) sizes.push_back(0);
-  std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(sizes.size() / 2), sizes.end());
-  const double limit = std::max(3 * 1.4826 * sizes[sizes.size() / 2], 0.25);
+  const double limit = std::max(3 * kMadToSd * median_high(sizes), 0.25);
   for (std::size_t i = 0; i < length; ++i)
     if (off[i] <= limit && 2 * std::fabs(shift(i)) < strip.half - strip.half % 2)
       steady.push_back((run.first + i) % n);

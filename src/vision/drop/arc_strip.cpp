@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -189,9 +191,7 @@ void align_by_profile(ArcStrip& strip) {
     for (std::size_t i = 0; i < length; ++i) sum[i] += p.grey[first + i];
     energies.push_back(window_energy(p.grey, length)[first]);
   }
-  const auto middle = energies.begin() + std::ptrdiff_t(energies.size() / 2);
-  std::nth_element(energies.begin(), middle, energies.end());
-  const double usual = std::max(*middle, 1e-12);
+  const double usual = std::max(median_high(energies), 1e-12);
   for (ArcPiece& p : strip.pieces) {
     for (std::size_t i = 0; i < length; ++i) others[i] = sum[i] - p.grey[first + i];
     remove_line(others);
@@ -209,9 +209,7 @@ void align_by_change(ArcStrip& strip) {
       sum += (p.grey[i] - p.grey[i - 1]) * (p.grey[i] - p.grey[i - 1]);
     noise.push_back(sum / 2 / (n - 1));
   }
-  const auto middle = noise.begin() + std::ptrdiff_t(noise.size() / 2);
-  std::nth_element(noise.begin(), middle, noise.end());
-  const double floor = std::max(0.25 * *middle, 1e-9);
+  const double floor = std::max(0.25 * median_high(noise), 1e-9);
   for (ArcPiece& p : strip.pieces) {
     std::vector<double> sum{0}, squares{0};
     for (double g : p.grey) {

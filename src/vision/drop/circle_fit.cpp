@@ -7,12 +7,12 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/statistics.h"
 
 namespace faba {
 namespace {
 
 constexpr double kTukey = 4.685;     // 95 % efficiency on Gaussian residuals
-constexpr double kMadToSd = 1.4826;  // sd of a Gaussian / its median absolute deviation
 
 /// SplitMix64: the n-th number is a mix of seed + n * golden ratio, so it is a counter and nothing else.
 class Picker {
@@ -28,12 +28,6 @@ class Picker {
  private:
   std::uint64_t state_;
 };
-
-double median_in_place(std::vector<double>& v) {
-  const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 /// Normal equations of the weighted geometric fit at one circle: J = d(distance - R)/d(x, y, R).
 struct Normal {
@@ -129,7 +123,7 @@ double robust_sd(std::span<const double> r) {
   std::transform(r.begin(), r.end(), a.begin(), [](double x) { return std::fabs(x); });
   // The factor for the three fitted parameters, exact for least squares.
   const double n = double(r.size());
-  return kMadToSd * median_in_place(a) * std::sqrt(n / (n - 3));
+  return kMadToSd * median_high(a) * std::sqrt(n / (n - 3));
 }
 
 void fill_covariance(CircleFit& fit, std::span<const Vec2> points, double variance) {

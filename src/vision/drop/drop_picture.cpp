@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "vision/drop/drop_edge_options.h"
 
 namespace faba {
@@ -31,19 +32,13 @@ std::vector<float> sample(const float* values, int width, int height) {
 
 std::vector<float> sample(const GrayF& g) { return sample(g.px.data(), g.width, g.height); }
 
-double quantile(std::vector<float>& v, double share) {
-  const auto at = v.begin() + std::ptrdiff_t(share * double(v.size() - 1));
-  std::nth_element(v.begin(), at, v.end());
-  return double(*at);
-}
-
 void replace_hot_pixels(GrayF& grey, double limit_sd) {
   cv::Mat1f view = view_of(grey), median, off;
   cv::medianBlur(view, median, 3);
   cv::absdiff(view, median, off);
   std::vector<float> some = sample(off.ptr<float>(), grey.width, grey.height);
   // A flat picture has sd 0; then any pixel off its neighbours' median is a defect.
-  const double limit = std::max(limit_sd * 1.4826 * quantile(some, 0.5), 1e-6);
+  const double limit = std::max(limit_sd * kMadToSd * double(quantile_low(some, 0.5)), 1e-6);
   const float *distance = off.ptr<float>(), *better = median.ptr<float>();
   for (std::size_t i = 0; i < grey.px.size(); ++i)
     if (double(distance[i]) > limit) grey.px[i] = better[i];
@@ -115,7 +110,8 @@ DropPicture prepare_drop_picture(const GrayF& picture, const DropEdgeOptions& o)
   GrayF grey = picture;
   if (o.hot_pixel_sd > 0) replace_hot_pixels(grey, o.hot_pixel_sd);
   std::vector<float> some = sample(grey);
-  const double low = quantile(some, o.stretch_low), high = quantile(some, o.stretch_high);
+  const auto low = double(quantile_low(some, o.stretch_low));
+  const auto high = double(quantile_low(some, o.stretch_high));
   if (!(high > low))
     throw Error(Errc::input, o.name,
                 fmt::format("the picture is uniform (grey {:.6g}); check light, exposure and shutter", low));

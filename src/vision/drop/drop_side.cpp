@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -12,10 +14,7 @@ constexpr double kSpotSd = 7;  // a spot's height: noise alone gives none in a p
 constexpr int kBorder = 8;     // px, where the filters see the replicated border
 
 double spread(std::vector<float>& v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return 1.4826 * double(*middle);
+  return v.empty() ? 0 : kMadToSd * double(median_high(v));
 }
 
 /// A picture position by the side of the circle it is on: 1 inside, 0 outside, -1 within the margin.

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -60,9 +62,7 @@ double noise_power(const cv::Mat1f& power) {
   const std::size_t stride = 1 + power.total() / 30000;
   for (std::size_t i = 0; i < power.total(); i += stride)
     sample.push_back(*(power.begin() + std::ptrdiff_t(i)));
-  const auto middle = sample.begin() + std::ptrdiff_t(sample.size() / 2);
-  std::nth_element(sample.begin(), middle, sample.end());
-  return 4 * double(*middle) / std::numbers::ln2;
+  return 4 * double(median_high(sample)) / std::numbers::ln2;
 }
 
 double threshold_power(const cv::Mat1f& power, const EdgeSegmentOptions& o) {

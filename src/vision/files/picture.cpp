@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/statistics.h"
 #include "vision/files/av_stream.h"
 #include "vision/files/frame_encoder.h"
 #include "vision/files/input_file.h"
@@ -19,13 +20,6 @@ namespace {
 
 std::string_view as_text(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-// The value with `fraction` of `values` below it; reorders them.
-float quantile(std::vector<float>& values, double fraction) {
-  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
 }
 
 }  // namespace
@@ -56,7 +50,8 @@ Gray8 stretched(const GrayF& picture, double low_fraction, double high_fraction)
   std::copy_if(picture.px.begin(), picture.px.end(), std::back_inserter(finite),
                [](float v) { return std::isfinite(v); });
   if (finite.empty()) return out;
-  float low = quantile(finite, low_fraction), high = quantile(finite, high_fraction);
+  float low = quantile_low(finite, low_fraction);
+  float high = quantile_low(finite, high_fraction);
   if (low == high) {
     const auto [least, most] = std::minmax_element(finite.begin(), finite.end());
     low = *least;

@@ -5,27 +5,21 @@
 #include <cstddef>
 
 #include "core/error.h"
+#include "core/statistics.h"
 #include "vision/image/kernels/smoothing.h"
 
 namespace faba {
 namespace {
 
-constexpr float kMadToSd = 1.4826F;   // of a Gaussian
 constexpr float kLeastNoise = 0.25F;  // grey steps: quantisation alone makes 1 / sqrt(12)
 constexpr int kFewestFrames = 5;
 constexpr double kNoiseSmoothing = 3;  // px
-
-float middle(std::vector<float>& v) {
-  const auto at = v.begin() + std::ptrdiff_t((v.size() - 1) / 2);
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
 
 // Standard deviation of what lies within three robust ones: whole grey steps make the robust one coarse.
 float fine_spread(const std::vector<float>& values) {
   constexpr double kOfNormal = 0.98658;  // sd of a normal distribution cut off at three sd
   std::vector<float> work = values;
-  const RobustSpread rough = robust_spread(work);
+  const RobustSpread<float> rough = robust_spread_low(work);
   double n = 0, sum = 0, squares = 0;
   for (const float v : values) {
     const double d = double(v) - double(rough.median);
@@ -36,12 +30,6 @@ float fine_spread(const std::vector<float>& values) {
 }
 
 }  // namespace
-
-RobustSpread robust_spread(std::vector<float>& values) {
-  const float median = middle(values);
-  for (float& v : values) v = std::fabs(v - median);
-  return {median, kMadToSd * middle(values)};
-}
 
 BackgroundSampler::BackgroundSampler(int most_frames, std::size_t most_bytes)
     : most_frames_(std::max(1, most_frames)), most_bytes_(most_bytes) {}
@@ -74,7 +62,7 @@ Background BackgroundSampler::background() const {
   std::vector<float> values(kept_.size());
   for (std::size_t i = 0; i < b.level.px.size(); ++i) {
     for (std::size_t k = 0; k < kept_.size(); ++k) values[k] = kept_[k].px[i];
-    const RobustSpread s = robust_spread(values);
+    const RobustSpread<float> s = robust_spread_low(values);
     b.level.px[i] = s.median;
     b.noise_sd.px[i] = s.sd;
   }
@@ -99,7 +87,7 @@ Background spatial_background(const GrayF& frame, double sd_px) {
 Polarity polarity_of(const std::vector<float>& differences) {
   if (differences.empty()) return Polarity::dark;
   std::vector<float> work = differences;
-  const RobustSpread s = robust_spread(work);
+  const RobustSpread<float> s = robust_spread_low(work);
   double third = 0;
   for (const float d : differences) {
     const double z = double(d) - double(s.median);

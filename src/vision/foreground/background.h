@@ -56,11 +56,4 @@ Background spatial_background(const GrayF& frame, double sd_px);
 /// robust standard deviations only: the noise itself has no say. Dark when there is no such difference.
 Polarity polarity_of(const std::vector<float>& differences);
 
-/// Median of the values (the lower of the two middle ones for an even number), and 1.4826 times their median
-/// absolute deviation from it. Values are reordered; not empty.
-struct RobustSpread {
-  float median = 0, sd = 0;
-};
-RobustSpread robust_spread(std::vector<float>& values);
-
 }  // namespace faba

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/portable_math.h"
+#include "core/statistics.h"
 #include "vision/foreground/kernels/foreground_pixels.h"
 #include "vision/foreground/kernels/line_closing.h"
 #include "vision/image/kernels/smoothing.h"
@@ -121,9 +122,7 @@ void Foreground::begin(const GrayF& picture, double noise) {
   // What the noise lifts, where no cells are: most of the picture.
   std::vector<float> lifted;
   for (std::size_t i = 0; i < closed.px.size(); i += 7) lifted.push_back(closed.px[i] - turned.px[i]);
-  const auto middle = lifted.begin() + std::ptrdiff_t(lifted.size() / 2);
-  if (!lifted.empty()) std::nth_element(lifted.begin(), middle, lifted.end());
-  const float lift = lifted.empty() ? 0 : *middle;
+  const float lift = lifted.empty() ? 0 : median_high(lifted);
   const auto threshold = float(std::max(kLeastThreshold, kFirstSd * noise * smoothing_gain()));
   covered_.assign(picture.px.size(), 0);
   for (std::size_t i = 0; i < closed.px.size(); ++i) {
@@ -292,9 +291,7 @@ double Foreground::noise_below_background() const {
   for (std::size_t i = 0; i < smooth_.px.size(); i += 7)
     if (smooth_.px[i] < 0) below.push_back(-smooth_.px[i]);
   if (below.empty()) return 0;
-  const auto middle = below.begin() + std::ptrdiff_t(below.size() / 2);
-  std::nth_element(below.begin(), middle, below.end());
-  return double(*middle) / 0.6744897502;
+  return double(median_high(below)) / 0.6744897502;
 }
 
 // A cell's signal from the lower quartile of the maxima of the smoothed difference: the others are several
@@ -309,10 +306,9 @@ double Foreground::guess_cell_signal() const {
     each_set(peak.data(), w - 2, [&](int i) { peaks.push_back(smooth_.px[second + std::size_t(i)]); });
   }
   if (peaks.size() < (known_ || !options_.learn ? 1 : 5)) return 0;
-  const auto quartile = peaks.begin() + std::ptrdiff_t(peaks.size() / 4);
-  std::nth_element(peaks.begin(), quartile, peaks.end());
+  const float quartile = order_statistic(peaks, peaks.size() / 4);
   const double s = std::max(sd_px_, 0.6);
-  return double(*quartile) * 2 * portable::kPi * (sd_px_ * sd_px_ + s * s);
+  return double(quartile) * 2 * portable::kPi * (sd_px_ * sd_px_ + s * s);
 }
 
 bool Foreground::proves_background(std::size_t i, float least_change, float dt_s) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/statistics.h"
+
 namespace faba {
 namespace {
 
@@ -60,13 +62,6 @@ bool inside(const MarkProfile& y, double at, double pitch) {
 }
 
 }  // namespace
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 double mean_gap(const MarkChain& chain) {
   double k = 0, s = 0, kk = 0, ks = 0;
@@ -134,7 +129,7 @@ void follow_marks(const TurnedPicture& turned, const MarkChain& chain, double pi
     const bool good = possible >= kLeastMarks && 2 * int(seen.size()) > possible;
     missed = good ? 0 : missed + 1;
     if (!good) continue;
-    offset += median(shifts);
+    offset += median_high(shifts);
     out.list.insert(out.list.end(), seen.begin(), seen.end());
     // Marks that the row itself went across count as missing.
     out.possible += possible;

@@ -25,9 +25,6 @@ struct StripReadings {
   int possible = 0;  ///< marks of the chain that lie in the picture, summed over the strips
 };
 
-/// The value in the middle; 0 of nothing.
-double median(std::vector<double> values);
-
 /// Slope of a straight line through a chain's places: the pitch, px. Needs two marks.
 double mean_gap(const MarkChain& chain);
 

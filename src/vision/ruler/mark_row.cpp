@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/statistics.h"
 #include "vision/ruler/mark_chain.h"
 #include "vision/ruler/mark_shape.h"
 #include "vision/ruler/turned_picture.h"
@@ -48,7 +49,7 @@ std::optional<Plane> fit_plane(std::vector<StripReading>& readings) {
     std::vector<double> sizes;
     sizes.reserve(readings.size());
     for (const StripReading& r : readings) sizes.push_back(std::fabs(plane.off(r)));
-    plane.sd = 1.4826 * median(sizes);
+    plane.sd = kMadToSd * median_high(sizes);
     bool same = true;
     for (StripReading& r : readings) {
       const bool use = std::fabs(plane.off(r)) <= 4 * plane.sd + 1e-6;
@@ -183,7 +184,7 @@ void fit_line(MarkRow& row) {
     bool same = true;
     std::vector<double> sizes;
     for (const RowMark& m : row.marks) sizes.push_back(std::fabs(m.residual_px));
-    const double most = std::max(4 * 1.4826 * median(sizes), 0.02);
+    const double most = std::max(4 * kMadToSd * median_high(sizes), 0.02);
     for (RowMark& m : row.marks) {
       const bool use = std::fabs(m.residual_px) <= most;
       same = same && use == m.used;

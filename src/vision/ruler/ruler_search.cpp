@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "core/statistics.h"
 #include "vision/ruler/turned_picture.h"
 
 namespace faba {
@@ -39,13 +40,8 @@ std::vector<double> direction_histogram(const cv::Mat1f& m, double smoothing) {
   for (int r = 0; r < m.rows; ++r)
     for (int c = 0; c < m.cols; ++c) sizes.push_back(gx(r, c) * gx(r, c) + gy(r, c) * gy(r, c));
   std::vector<float> sorted = sizes;
-  const auto at = [&](double share) {
-    const auto nth = sorted.begin() + std::ptrdiff_t(share * double(sorted.size() - 1));
-    std::nth_element(sorted.begin(), nth, sorted.end());
-    return *nth;
-  };
   // The edge of a scale bar must not outweigh a hundred faint marks, nor noise the edges.
-  const float most = at(0.95), least = at(0.5);
+  const float most = quantile_low(sorted, 0.95), least = quantile_low(sorted, 0.5);
   std::vector<double> bins(kBins, 0.0);
   std::size_t i = 0;
   for (int r = 0; r < m.rows; ++r)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/statistics.h"
 #include "core/vectorised.h"
 
 namespace faba {
@@ -15,13 +16,9 @@ GreyScale::GreyScale(int bits, const GrayF& first_frame) {
   std::vector<float> greys;
   for (const float g : first_frame.px)
     if (std::isfinite(g)) greys.push_back(g);
-  const auto percentile = [&](double share) {
-    const auto at = greys.begin() + std::ptrdiff_t(share * double(greys.size() - 1));
-    std::nth_element(greys.begin(), at, greys.end());
-    return *at;
-  };
   if (greys.empty()) return;
-  black_ = percentile(0.001), white_ = percentile(0.999);
+  black_ = quantile_low(greys, 0.001);
+  white_ = quantile_low(greys, 0.999);
   if (!(white_ > black_)) white_ = black_ + 255;  // an even frame has no scale of its own
 }
 
