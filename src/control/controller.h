@@ -55,6 +55,9 @@ using EstimatorRegistry = Registry<Estimator, ControlContext>;
 using ReferenceRegistry = Registry<Reference, ControlContext>;
 using ControllerRegistry = Registry<Controller, ControlContext>;
 
+/// From the estimated centroid to the target, px, world directions (x right, y up). Not a number without a target.
+Vec2 error_px(const ControlContext& c, const Estimate& e, const Target& target);
+
 /// Currents that make the cells want to swim along `drive` (field units, world frame) at `at` (m, world): the
 /// physical field is drive times the unit times polarity (theory A8), the Earth's field not counted.
 Command drive_command(const ControlContext& c, Vec2 at_world, Vec2 drive);

@@ -16,8 +16,8 @@
 namespace {
 
 void report(const std::filesystem::path& run) {
-  faba::write_run_report(run, faba::read_run_info(run / "manifest.json"),
-                         faba::read_series(run / "series.csv"));
+  const faba::RunInfo info = faba::read_run_info(run / "manifest.json");
+  faba::write_run_report(run, info, faba::read_series(run / "series.csv"));
 }
 
 using faba::Metrics;
