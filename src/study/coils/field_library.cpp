@@ -136,8 +136,8 @@ void compare_with_solver(const Field& field, const FieldLibrary& library, Vec2 h
   j["off_m"] = nullptr;
   j["strength"] = nullptr;
   if (!off.empty())
-    j["off_m"] = {{"median", median(off)}, {"largest", *std::max_element(off.begin(), off.end())}};
-  if (!strength.empty()) j["strength"] = median(strength);
+    j["off_m"] = {{"median", median_high(off)}, {"largest", *std::max_element(off.begin(), off.end())}};
+  if (!strength.empty()) j["strength"] = median_high(strength);
 }
 
 struct Unlock {

@@ -80,8 +80,8 @@ MotionSegment trimmed(const Signature& s, const Pairs& p, const Run& r, std::siz
   const Vec2 d = unit(direction);
   std::vector<double> along(s.size());
   for (std::size_t k = from; k < to; ++k) along[k] = dot(p.flow[k], d);
-  const double level =
-      median({along.begin() + std::ptrdiff_t(r.begin), along.begin() + std::ptrdiff_t(r.end)}) / 2;
+  std::vector<double> of_run(along.begin() + std::ptrdiff_t(r.begin), along.begin() + std::ptrdiff_t(r.end));
+  const double level = median_high(of_run) / 2;
   const std::size_t middle = (r.begin + r.end) / 2;
   // Two pairs in a row: a single one may be noise.
   const auto moves = [&](std::size_t k) {
