@@ -2,11 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
-#include <ctime>
 #include <new>
 
 #include "cli/command_line.h"
@@ -14,9 +11,6 @@
 
 namespace faba::cli {
 namespace {
-
-std::atomic<bool> stop{false};
-std::string called_as = "faba";
 
 void complain(const std::string& text) { tell("faba: error: " + text); }
 
@@ -28,8 +22,21 @@ void check_verb(const CLI::App& app, const std::string& word) {
     throw Error(Errc::usage, word, "is no verb" + suggestion(word, known));
 }
 
+// The program and the verb that the words begin with, checked: "faba field map".
+std::string called_verb(const CLI::App& app, const std::vector<std::string>& words) {
+  std::string called = program();
+  const CLI::App* at = &app;
+  for (const std::string& word : words) {
+    if (word.rfind('-', 0) == 0 || at->get_subcommands({}).empty()) break;
+    check_verb(*at, word);
+    called += " " + word;
+    at = at->get_subcommand(word);
+  }
+  return called;
+}
+
 int dispatch(int argc, char** argv) {
-  if (argc > 0) called_as = argv[0];
+  if (argc > 0) set_program(argv[0]);
   CLI::App app{
       "Faba, a laboratory for magnetotactic bacteria: simulate a swarm under coils, steer it, record it"};
   app.name("faba");
@@ -37,94 +44,24 @@ int dispatch(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Each verb in full: faba VERB --help\nFirst steps: faba run scenes/steer.toml");
   CommandLine line;
-
-  add_run_verbs(app, line);
-  add_lab_verb(app, line);
-  add_video_verbs(app, line);
-  add_field_verbs(app, line);
-  add_rig_verbs(app, line);
-  add_study_verbs(app, line);
-  add_help_verbs(app, line);
+  add_verbs(app, line);
 
   std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words[0] == "help") {  // as others have it: faba help run
     words.erase(words.begin());
     words.emplace_back("--help");
   }
-  if (!words.empty() && words[0].rfind('-', 0) != 0) check_verb(app, words[0]);
-  std::string help = program();
-  if (!words.empty() && words[0].rfind('-', 0) != 0) help += " " + words[0];
-  if (words.size() > 1 && (words[0] == "field" || words[0] == "rig") && words[1].rfind('-', 0) != 0) {
-    check_verb(*app.get_subcommand(words[0]), words[1]);
-    help += " " + words[1];
-  }
+  const std::string called = called_verb(app, words);
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), help));
+    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), called));
   }
   return line.code;
 }
 
 }  // namespace
-
-CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* does,
-               const char* examples) {
-  CLI::App* v = parent.add_subcommand(name, does);
-  v->add_flag("--json", line.common.json, "One JSON object on standard output and nothing else there");
-  v->add_flag("-q,--quiet", line.common.quiet, "No progress bar, no notes and no summary");
-  v->footer(fmt::format(
-      "Examples:\n{}\n\nExit codes: 0 done, 2 usage or scenario error, 3 unreadable or unsuitable input, "
-      "4 camera or coil driver, 130 interrupted, 1 anything else",
-      examples));
-  return v;
-}
-
-std::string not_empty(const std::string& word) { return word.empty() ? "must not be empty" : ""; }
-
-std::function<std::string(const std::string&)> between(double least, double most) {
-  return [least, most](const std::string& word) -> std::string {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0') return fmt::format("\"{}\" is not a number", word);
-    if (value >= least && value <= most) return "";
-    return fmt::format("{} is out of range; it must be {:g} to {:g}", word, least, most);
-  };
-}
-
-const std::atomic<bool>& stop_requested() {
-  // Some senders signal a process and its group: a repeat within half a second is the same wish.
-  static std::atomic<long> first_ms{0};
-  const auto on_signal = [](int) {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const long ms = now.tv_sec * 1000 + now.tv_nsec / 1000000;
-    if (!stop.exchange(true))
-      first_ms = ms;
-    else if (ms - first_ms > 500)
-      _Exit(int(Errc::interrupted));
-  };
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_signal);
-  return stop;
-}
-const std::string& program() { return called_as; }
-
-void tell(const std::string& line) {
-  std::fputs((line + '\n').c_str(), stderr);
-  std::fflush(stderr);
-}
-
-std::string shell_word(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) || std::strchr("_-./=:,+@%", c);
-  });
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 }  // namespace faba::cli
 
 int main(int argc, char** argv) {

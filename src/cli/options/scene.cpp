@@ -1,0 +1,43 @@
+#include "cli/options/scene.h"
+
+#include <random>
+
+#include "app/files/from_picture.h"
+#include "core/error.h"
+
+namespace faba::cli {
+
+Document read_scene(const SceneOptions& v) {
+  Document d = read_toml(v.scene);
+  if (!v.from_video.empty()) fit_to_picture(d, v.from_video);
+  for (const std::string& s : v.set) {
+    const auto equals = s.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(Errc::usage, "--set " + s, "write --set path=value, such as --set swarm[0].count=200");
+    d.set(s.substr(0, equals), s.substr(equals + 1), "--set");
+  }
+  if (v.duration) d.set("duration", *v.duration, "--duration");
+  if (v.seed) d.set("seed", *v.seed, "--seed");
+  if (v.as_seen) d.set("record.as_seen", Json(true), "--as-seen");
+  if (!d.root.contains("title"))
+    d.set("title", Json(std::filesystem::path(v.scene).stem().string()), v.scene);
+  return d;
+}
+
+std::uint64_t drawn_seed() {
+  std::random_device device;
+  return (std::uint64_t{device()} << 32 | device()) & 0xFFFFFFFFFFFFull;  // 48 bits
+}
+
+void refuse_own_input(const SceneOptions& v) {
+  std::error_code ec;
+  for (const std::filesystem::path& input : {std::filesystem::path(v.scene), v.from_video}) {
+    if (input.empty() || v.out.empty()) continue;
+    const auto folder = std::filesystem::weakly_canonical(input, ec).parent_path();
+    if (folder == std::filesystem::weakly_canonical(v.out, ec))
+      throw Error(Errc::usage, input.string(),
+                  "lies in the directory that the run would replace; choose another --out");
+  }
+}
+
+}  // namespace faba::cli

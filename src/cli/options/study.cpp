@@ -1,0 +1,105 @@
+#include "cli/options/study.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+#include "core/error.h"
+#include "core/file.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+Shard shard_of(const std::string& words) {
+  if (words.empty()) return {};
+  Shard s;
+  const auto slash = words.find('/');
+  const auto number = [&](std::size_t from, std::size_t to, std::uint64_t& out) {
+    const auto [end, error] = std::from_chars(words.data() + from, words.data() + to, out);
+    return error == std::errc() && end == words.data() + to;
+  };
+  if (slash == std::string::npos || !number(0, slash, s.index) || !number(slash + 1, words.size(), s.count) ||
+      s.index < 1 || s.index > s.count || s.count > 1000000)
+    throw Error(Errc::usage, "--shard",
+                fmt::format("\"{}\" is not like 3/16: which part of how many", words));
+  return s;
+}
+
+std::filesystem::path out_of(const StudyOptions& v) {
+  return v.out.empty() ? std::filesystem::path("runs") / v.study.stem() : v.out;
+}
+
+void print_json(const std::filesystem::path& out, const nlohmann::ordered_json& j) {
+  nlohmann::ordered_json all{{"out", out.string()}, {"complete", true}};
+  all.update(j);
+  fmt::print("{}\n", all.dump());
+}
+
+}  // namespace
+
+void add_study_options(CLI::App* v, StudyOptions& o) {
+  v->add_option("study", o.study, "Study file (TOML)")->required();
+  v->add_option("-o,--out", o.out,
+                "Directory of the study; runs/NAME when absent. One that is not complete goes on")
+      ->check(not_empty);
+  v->add_option("--shard", o.shard,
+                "Do only this part of the simulations, such as 3/16, for one of several machines")
+      ->check(not_empty);
+  v->add_option("--merge", o.merge,
+                "Take over the results in these directories of the same study, then go on");
+  v->add_option("--threads", o.threads, "Threads; all of the machine's when absent. Never changes the result")
+      ->check(CLI::Range(1, 1024));
+  v->add_flag("--force", o.force,
+              "Replace another study in the directory, or write a complete one's pages again");
+}
+
+StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& fingerprint) {
+  const std::filesystem::path out = out_of(v);
+  const std::string again = fmt::format("{} {} {} --out {}", shell_word(program()), verb,
+                                        shell_word(v.study.string()), shell_word(out.string()));
+  StudyDirectory dir(out, fingerprint, again, v.force);
+  dir.merge(v.merge);
+  return dir;
+}
+
+bool told_complete(const StudyOptions& v, const std::string& name, const std::string& fingerprint,
+                   const Common& c) {
+  const std::filesystem::path out = out_of(v);
+  if (v.force || !holds_complete_study(out, fingerprint)) return false;
+  if (c.json)
+    print_json(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
+  else if (!c.quiet)
+    fmt::print("{} holds this study already, complete; --force writes its pages again\n", out.string());
+  return true;
+}
+
+SweepOptions sweep_options(const StudyOptions& v, Progress& bar) {
+  SweepOptions o;
+  o.threads = v.threads, o.shard = shard_of(v.shard);
+  o.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  o.stop = [&stop = stop_requested()] { return stop.load(); };
+  return o;
+}
+
+void finish(StudyDirectory& dir, const std::string& name, const nlohmann::ordered_json& j, const Common& c) {
+  write_file(dir.path() / (name + ".json"), j.dump(2) + "\n");
+  dir.complete();
+  if (c.json) print_json(dir.path(), j);
+}
+
+int tell_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir) {
+  if (c.json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"out", dir.path().string()}, {"complete", false}}.dump());
+  else if (!c.quiet)
+    fmt::print(
+        "part {} of this round is done; its results are in {}. When the other parts are, call again: each "
+        "call "
+        "takes in what the others found with --merge, until one says that the study is complete\n",
+        v.shard, dir.path().string());
+  return 0;
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,63 @@
+#include "cli/recorded_run.h"
+
+#include <fmt/format.h>
+
+#include "app/recording/session.h"
+#include "cli/command_line.h"
+#include "cli/progress.h"
+#include "core/error.h"
+#include "study/pages/run_report.h"
+#include "study/plot/markup.h"
+
+namespace faba::cli {
+namespace {
+
+void summary(const Session& session, const Manifest& manifest, const Metrics& m, const std::string& next) {
+  const auto& dir = session.dir();
+  fmt::print("{}\n", run_in_words(m, run_info(manifest)).outcome);
+  const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
+  if (m.setpoints > 0)
+    fmt::print("settling time {}, steady error {} px rms, ",
+               m.settling_time_s ? three_digits(*m.settling_time_s) + " s" : "never", px(m.steady_rms_px));
+  if (m.cross_track_95_px) fmt::print("off the route {} px (95 %), ", px(m.cross_track_95_px));
+  fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));
+  const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
+                                                       {"exact", "video.avi"},
+                                                       {"tracks", "tracks.h5"},
+                                                       {"series", "series.csv"},
+                                                       {"report", "report.html"}};
+  for (const auto& [what, name] : files)
+    if (std::filesystem::exists(dir / name)) fmt::print("  {:<7}{}\n", what, (dir / name).string());
+  fmt::print("seed {}, state_hash {}\n", manifest.seed, manifest.simulated->state_hash);
+  if (!next.empty()) fmt::print("now try: {}\n", next);
+}
+
+}  // namespace
+
+int carry_out(Session& session, Progress& bar, const Common& c, const std::string& next) {
+  const bool whole = session.run();
+  bar.clear();
+  if (!whole) {
+    if (!c.quiet)
+      tell(fmt::format("faba: interrupted; what was recorded is kept. Go on with: {} resume {}",
+                       shell_word(program()), shell_word(session.dir().string())));
+    return int(Errc::interrupted);
+  }
+  const Manifest manifest = session.manifest();
+  const Series series = session.series();
+  write_run_report(session.dir(), run_info(manifest), series);
+  session.complete();
+  const Metrics metrics = control_metrics(series);
+  if (c.json) {
+    Json j = {{"out", session.dir().string()}};
+    for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})
+      for (const auto& [k, v] : source.items())
+        if (!j.contains(k)) j[k] = v;  // what both name is what the manifest says
+    fmt::print("{}\n", j.dump());
+  } else if (!c.quiet) {
+    summary(session, manifest, metrics, next);
+  }
+  return 0;
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/options/flow.h"
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "core/file.h"
+#include "study/motion/segments.h"
+#include "study/pages/compare_report.h"
+#include "study/pages/flow_report.h"
+
+namespace faba::cli {
+namespace {
+
+struct CompareVerb {
+  std::filesystem::path reference, out, report;
+  std::vector<std::filesystem::path> runs;
+  ResponseOptions response;
+  std::optional<double> reference_t0, t0, duration;
+  double m = 0.9, threshold = 3;
+  bool no_align = false, no_floor = false;
+  FlowOptions flow;
+  bool force = false;
+};
+
+void tell_runs(const nlohmann::ordered_json& j) {
+  fmt::print("compared {}; direction {} degrees, flow above {:.3g} px\n", j["alignment"].get<std::string>(),
+             whole_degrees(j["direction_deg"].get<double>()), j["flow_threshold_px"].get<double>());
+  fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
+  for (const auto& r : j["runs"])
+    fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r["mean"].get<double>(), r["sd"].get<double>(),
+               r["slope"].get<double>(),
+               r["score"].is_null() ? "-" : fmt::format("{:.3f}", r["score"].get<double>()),
+               r["run"].get<std::string>());
+  if (!j["floor"].is_null())
+    fmt::print("{:10.4f} {:43}floor: {}\n", j["floor"].get<double>(), "", j["floor_from"].get<std::string>());
+  else
+    fmt::print("{:>10} {:43}floor: {}\n", "-", "", j["floor_from"].get<std::string>());
+  fmt::print("{:10.4f} {:43}naive: nothing moves\n", j["naive"].get<double>(), "");
+}
+
+int compare(const CompareVerb& v, const Common& c) {
+  std::vector<std::filesystem::path> inputs = v.runs;
+  inputs.push_back(v.reference);
+  check_distinct({v.out, v.report});
+  check_output(v.out, ".csv", v.force, inputs);
+  check_output(v.report, ".html", v.force, inputs);
+  CompareJob job;
+  job.reference = v.reference, job.runs = v.runs;
+  job.direction_deg = v.response.direction, job.flow_threshold_px = v.response.flow_threshold;
+  job.reference_t0_s = v.reference_t0, job.t0_s = v.t0, job.align = !v.no_align;
+  if (v.duration) job.duration_s = *v.duration;
+  job.m = v.m, job.threshold = v.threshold;
+  job.method = flow_part({v.flow.method, v.flow.values}, published_flow());
+  job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
+  job.shrink = v.flow.shrink, job.fps = v.flow.fps, job.threads = v.flow.threads,
+  job.simulate_floor = !v.no_floor;
+  std::string doing;
+  std::optional<Progress> bar;
+  job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
+    if (what != doing || done <= 1) bar.reset(), bar.emplace(doing = what, !c.quiet && !c.json);
+    if (total > 0) bar->update(std::min(done, total), total);
+  };
+  job.stop = [&stop = stop_requested()] { return stop.load(); };
+  const Comparison result = compare_videos(job);
+  bar.reset();
+  if (!v.out.empty()) write_file(v.out, compare_csv(result));
+  if (!v.report.empty()) write_file(v.report, compare_page(result, job));
+  const auto j = compare_json(result, job);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+  for (const auto& r : j["runs"])
+    for (const auto& note : r["notes"])
+      tell(fmt::format("faba: note: {}: {}", r["run"].get<std::string>(), note.get<std::string>()));
+  tell_runs(j);
+  for (const auto& file : {v.out, v.report})
+    if (!file.empty()) fmt::print("wrote {}\n", file.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<CompareVerb>();
+  CLI::App* v =
+      verb(app, line, "compare",
+           "How far the motion in videos or runs is from that in a reference, frame by frame",
+           "  faba compare experiment.mp4 runs/basic-1 runs/basic-2 --report compare.html\n"
+           "  faba compare experiment.mp4 simulation.avi --direction 0 --reference-t0 1.2 --t0 0.5");
+  v->add_option("reference", o->reference, "Video, run directory or file of flows")->required();
+  v->add_option("runs", o->runs, "Videos, run directories or files of flows to compare with it")->required();
+  add_response_options(v, o->response);
+  v->add_option("--reference-t0", o->reference_t0,
+                "First moment after the reversal in the reference, s; found when absent")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
+  v->add_option("--t0", o->t0, "The same in the runs")->check(between(0, 1e9))->transform(in_seconds);
+  v->add_flag("--no-align", o->no_align, "Compare from the first frames on")
+      ->excludes("--t0")
+      ->excludes("--reference-t0");
+  v->add_option("--duration", o->duration, "Compare so many seconds from there on")
+      ->check(between(1e-9, 1e9))
+      ->transform(in_seconds);
+  v->add_option("--m", o->m, "Exponent of the distance's normalisation, 0 or more and below 1");
+  v->add_option("--threshold", o->threshold,
+                "Columns or rows as far apart as this have nothing in common, px");
+  v->add_flag("--no-floor", o->no_floor, "Do not run a scenario again to find the noise floor");
+  v->add_option("-o,--out", o->out, "Distances to write, CSV")->check(not_empty);
+  v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
+  v->add_flag("--force", o->force, "Replace existing files");
+  add_flow_options(v, o->flow);
+  v->callback([o, &line] { line.code = compare(*o, line.common); });
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/options/study.h"
+#include "core/counted.h"
+#include "core/file.h"
+#include "study/pages/controller_report.h"
+#include "study/plot/markup.h"
+
+namespace faba::cli {
+namespace {
+
+void summary(const ControllerComparison& r) {
+  fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", "controller", "model", "delay", "settled",
+             "settling time s", "steady error px", "dispersion px");
+  const auto words = [](const Combination& one, const char* name) {
+    const auto it = one.metrics.find(name);
+    return it == one.metrics.end()
+               ? std::string("-")
+               : fmt::format("{:.3g} +- {:.2g}", it->second.mean, it->second.mean - it->second.ci95[0]);
+  };
+  for (const Combination& one : r.combinations)
+    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", one.controller, one.model, one.delay,
+               fmt::format("{}/{}", one.settled, one.trials), words(one, "settling_time_s"),
+               words(one, "steady_rms_px"), words(one, "rms_radius_px"));
+  fmt::print("means over {} +- half of a 95 % interval; settling times of the trials that settled\n",
+             counted(std::uint64_t(r.study.seeds), "seed"));
+}
+
+int compare_controllers(const StudyOptions& v, const Common& c) {
+  const ControllerStudy study = read_controller_study(v.study);
+  Progress bar("trials", !c.quiet && !c.json);
+  const SweepOptions options = sweep_options(v, bar);
+  const std::string mark = fingerprint(study);
+  if (told_complete(v, "controllers", mark, c)) return 0;
+  StudyDirectory dir = open_study(v, "compare-controllers", mark);
+  const auto result = compare_controllers(study, dir.results(), options);
+  bar.clear();
+  if (!result) return tell_partial(v, c, dir);
+  const auto j = controllers_json(*result);
+  write_file(dir.path() / "controllers.csv", controllers_csv(*result));
+  write_file(dir.path() / "report.html", controllers_page(*result));
+  finish(dir, "controllers", j, c);
+  if (!c.quiet)
+    for (const std::string& note : result->notes) tell("faba: note: " + note);
+  if (!c.json && !c.quiet) {
+    summary(*result);
+    fmt::print("wrote {}\n", (dir.path() / "report.html").string());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_compare_controllers(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<StudyOptions>();
+  CLI::App* v = verb(app, line, "compare-controllers",
+                     "Controllers with several models and delays, each over many seeds",
+                     "  faba compare-controllers studies/controllers.toml\n"
+                     "  faba compare-controllers study.toml --out runs/mine --threads 1");
+  add_study_options(v, *o);
+  v->callback([o, &line] { line.code = compare_controllers(*o, line.common); });
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "study/pages/distance_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+struct DistanceVerb {
+  std::filesystem::path p, similarity;
+  std::vector<std::filesystem::path> q;
+  double m = 0.9, threshold = 3;
+  bool normalise = false;
+};
+
+int distance(const DistanceVerb& v, const Common& c) {
+  DistanceOptions o;
+  o.m = v.m, o.threshold = v.threshold, o.similarity = v.similarity, o.normalise = v.normalise;
+  const auto d = histogram_distances(v.p, v.q, o);
+  if (c.json) {
+    fmt::print("{}\n",
+               nlohmann::ordered_json{{"distance", d}, {"m", v.m}, {"threshold", v.threshold}}.dump());
+    return 0;
+  }
+  for (const double one : d) fmt::print("{:.17g}\n", one);
+  return 0;
+}
+
+}  // namespace
+
+void add_distance(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<DistanceVerb>();
+  CLI::App* v =
+      verb(app, line, "distance", "Quadratic-Chi distance of histograms, one number per line in each file",
+           "  faba distance p.csv q.csv\n  faba distance p.csv q1.csv q2.csv --m 0.5 --threshold 20");
+  v->add_option("p", o->p, "Histogram")->required();
+  v->add_option("q", o->q, "Histograms to compare it with; a line of output for each")->required();
+  v->add_option("--m", o->m, "Exponent of the normalisation, 0 or more and below 1");
+  v->add_option("--threshold", o->threshold, "Bins that are as far apart as this have nothing in common");
+  v->add_option("--similarity", o->similarity, "Similarity of the bins instead: a CSV matrix")
+      ->check(not_empty)
+      ->excludes("--threshold");
+  v->add_flag("--normalise", o->normalise, "Compare shapes only: both histograms to a sum of 1 first");
+  v->callback([o, &line] { line.code = distance(*o, line.common); });
+}
+
+}  // namespace faba::cli

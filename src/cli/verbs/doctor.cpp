@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "cli/command_line.h"
+#include "core/toml.h"
+
+namespace faba::cli {
+namespace {
+
+// "key : value" of a file in /proc; empty when it is not there.
+std::string value_of(const char* file, const char* key) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const auto begin = line.find_first_not_of(" \t", line.find(':') + 1);
+    return begin == std::string::npos ? std::string() : line.substr(begin);
+  }
+  return {};
+}
+
+Json free_memory_gb() {
+  const std::string kib = value_of("/proc/meminfo", "MemAvailable");
+  return kib.empty() ? Json() : Json(std::round(std::strtod(kib.c_str(), nullptr) * 1.024e-3) / 1e3);
+}
+
+const char* vector_unit() {
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "AVX-512";
+  if (__builtin_cpu_supports("avx2")) return "AVX2";
+  return "SSE2";
+}
+
+int doctor(const Common& c) {
+  std::error_code ec;
+  const auto space = std::filesystem::space(".", ec);
+  const Json j = {{"version", FABA_VERSION},
+                  {"processor", value_of("/proc/cpuinfo", "model name")},
+                  {"threads", std::thread::hardware_concurrency()},
+                  {"vector_unit", vector_unit()},
+                  {"memory_free_gb", free_memory_gb()},
+                  {"disk_free_gb", ec ? Json() : Json(std::round(double(space.available) * 1e-6) / 1e3)}};
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  for (const auto& [k, v] : j.items())
+    fmt::print("{:<16}{}\n", k, v.is_string() ? v.get<std::string>() : v.dump());
+  return 0;
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, CommandLine& line) {
+  CLI::App* v = verb(app, line, "doctor", "What this machine has", "  faba doctor");
+  v->callback([&line] { line.code = doctor(line.common); });
+}
+
+}  // namespace faba::cli

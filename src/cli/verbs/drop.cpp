@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/output_file.h"
+#include "core/error.h"
+#include "study/pages/drop_report.h"
+
+namespace faba::cli {
+namespace {
+
+struct DropVerb {
+  std::filesystem::path picture, overlay, stages;
+  bool force = false;
+};
+
+int drop(const DropVerb& v, const Common& c) {
+  check_output(v.overlay, ".png", v.force, {v.picture});
+  if (!v.stages.empty() && std::filesystem::exists(v.stages)) {
+    if (!std::filesystem::is_directory(v.stages))
+      throw Error(Errc::usage, v.stages.string(), "is a file; --stages names a folder");
+    for (const char* stage : kDropStages) check_output(v.stages / stage, ".png", v.force, {v.picture});
+  }
+  const auto j = report_drop(v.picture, v.overlay, v.stages);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+  } else if (!c.quiet) {
+    const auto number = [&](const char* a, const char* b) { return j[a][b].get<double>(); };
+    fmt::print(
+        "centre  ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}) px\nradius  {:.1f} +- {:.1f} px\narc     {:.0f} "
+        "degrees in view\n",
+        j["center_px"][0].get<double>(), number("sd_px", "x"), j["center_px"][1].get<double>(),
+        number("sd_px", "y"), j["radius_px"].get<double>(), number("sd_px", "radius"),
+        j["arc_deg"].get<double>());
+    if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
+    if (!v.stages.empty()) fmt::print("stages  {}\n", v.stages.string());
+    if (std::filesystem::exists("scenes/drop.toml"))
+      fmt::print("now try: {} run scenes/drop.toml --from-video {}\n", shell_word(program()),
+                 shell_word(v.picture.string()));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_drop(CLI::App& app, CommandLine& line) {
+  const auto d = std::make_shared<DropVerb>();
+  CLI::App* v =
+      verb(app, line, "drop", "Find the edge of a drop in a picture or in the first frame of a video",
+           "  faba drop drop.tif --overlay edge.png\n  faba drop film.avi --json");
+  v->add_option("picture", d->picture, "TIFF, PNG, JPEG, PGM (8 or 16 bit) or any video")->required();
+  v->add_option("--overlay", d->overlay, "Write the picture with the edge drawn in, as PNG")
+      ->check(not_empty);
+  v->add_option("--stages", d->stages, "Write a picture of each stage of the search into this folder, as PNG")
+      ->check(not_empty);
+  v->add_flag("--force", d->force, "Replace existing pictures");
+  v->callback([d, &line] { line.code = drop(*d, line.common); });
+}
+
+}  // namespace faba::cli

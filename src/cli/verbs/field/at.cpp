@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "cli/command_line.h"
+#include "cli/options/field.h"
+#include "study/coils/field_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+struct FieldAtVerb {
+  std::filesystem::path rig, points;
+};
+
+int field_at(const FieldAtVerb& v, const Common& c) {
+  const FieldAtPoints f = field_at_points(v.rig, v.points);
+  const auto unknown =
+      std::count_if(f.b.begin(), f.b.end(), [](const Vec3& b) { return !std::isfinite(b.x + b.y + b.z); });
+  if (unknown > 0 && !c.quiet)
+    tell(fmt::format(
+        "faba: note: {} of {} points lie outside of what was measured, where the field is not a number",
+        unknown, f.b.size()));
+  if (c.json) {
+    nlohmann::ordered_json j{{"currents_a", f.current}, {"b_t", nlohmann::ordered_json::array()}};
+    for (const Vec3& b : f.b) j["b_t"].push_back({b.x, b.y, b.z});
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  std::string out = "x_m,y_m,z_m,bx_t,by_t,bz_t\n";
+  for (std::size_t i = 0; i < f.at.size(); ++i)
+    out += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", f.at[i].x, f.at[i].y, f.at[i].z,
+                       f.b[i].x, f.b[i].y, f.b[i].z);
+  fmt::print("{}", out);
+  return 0;
+}
+
+}  // namespace
+
+void add_field_at(CLI::App& field, CommandLine& line) {
+  const auto o = std::make_shared<FieldAtVerb>();
+  CLI::App* v = verb(field, line, "at", "B at points: CSV in, CSV out, SI units",
+                     "  faba field at rigs/thesis-four-coils.toml --points points.csv > b.csv");
+  add_rig_file(v, o->rig);
+  v->add_option("--points", o->points, "CSV with the columns x_m,y_m,z_m")->required();
+  v->callback([o, &line] { line.code = field_at(*o, line.common); });
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/options/field.h"
+#include "cli/output_file.h"
+#include "study/coils/field_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+struct FieldFitVerb {
+  std::filesystem::path rig, measured, out, picture;
+  bool force = false;
+};
+
+int field_fit(const FieldFitVerb& v, const Common& c) {
+  check_output(v.out, "", v.force, {v.rig, v.measured});
+  check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
+  const auto j = faba::field_fit(v.rig, v.measured, v.out, v.picture);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  fmt::print("{:<12}{:>9.4f} +- {:.4f}\n", "gain", j["gain"].get<double>(), j["gain_se"].get<double>());
+  const auto vector = [&](const char* what, const char* key, const char* error, double per_unit,
+                          const char* unit) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!j[error][k].is_null())
+        fmt::print("{:<12}{:>9.4g} +- {:.2g} {}\n", fmt::format("{} {}", what, "xyz"[k]),
+                   j[key][k].get<double>() / per_unit, j[error][k].get<double>() / per_unit, unit);
+  };
+  vector("shift", "shift_m", "shift_se_m", 1e-3, "mm");
+  vector("offset", "offset_t", "offset_se_t", 1e-6, "uT");
+  fmt::print("left over   {:>9.3g} uT rms of {:.4g} uT, {} values\n", j["rms_t"].get<double>() * 1e6,
+             j["rms_field_t"].get<double>() * 1e6, j["values"].get<int>());
+  for (const auto& file : {v.out, v.picture})
+    if (!file.empty()) fmt::print("  {}\n", file.string());
+  if (const auto note = j["note"].get<std::string>(); !note.empty())
+    tell(fmt::format("faba: note: {}: {}", v.measured.string(), note));
+  return 0;
+}
+
+}  // namespace
+
+void add_field_fit(CLI::App& field, CommandLine& line) {
+  const auto o = std::make_shared<FieldFitVerb>();
+  CLI::App* v =
+      verb(field, line, "fit", "Bring a rig to a measured field: strength, place, and what no coil makes",
+           "  faba field fit rigs/flat-coil.toml --map measured.csv\n"
+           "  faba field fit rig.toml --map measured.h5 --out fitted.toml --picture left-over.svg");
+  v->add_option("rig", o->rig, "Rig file (TOML), with the currents of the measurement")->required();
+  v->add_option("--map", o->measured, "Measured field: CSV or HDF5, see `faba parts field map`")->required();
+  v->add_option("-o,--out", o->out, "Rig file to write, with what was found")->check(not_empty);
+  v->add_option("--picture", o->picture, "Plot of what is left over, SVG")->check(not_empty);
+  v->add_flag("--force", o->force, "Replace existing files");
+  v->callback([o, &line] { line.code = field_fit(*o, line.common); });
+}
+
+}  // namespace faba::cli

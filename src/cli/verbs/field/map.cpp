@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "cli/command_line.h"
+#include "cli/options/field.h"
+#include "cli/output_file.h"
+#include "core/error.h"
+#include "study/coils/field_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+struct FieldMapVerb {
+  std::filesystem::path rig;
+  std::string size = "6 mm, 4.5 mm", current, view, drop;
+  std::filesystem::path picture = "field.png", out;
+  bool check = false, force = false;
+};
+
+std::vector<double> amperes(const std::string& words) {
+  std::vector<double> out;
+  std::istringstream in(words);
+  for (std::string one; std::getline(in, one, ',');) {
+    char* end = nullptr;
+    out.push_back(std::strtod(one.c_str(), &end));
+    if (end == one.c_str() || *end != '\0' || !std::isfinite(out.back()))
+      throw Error(Errc::usage, "--current", fmt::format("\"{}\" is not a number of amperes", one));
+  }
+  return out;
+}
+
+// To four decimals, without a sign before zero.
+double millimetres(const nlohmann::ordered_json& metres) {
+  return std::round(metres.get<double>() * 1e7) / 1e4 + 0.0;
+}
+
+int field_map(const FieldMapVerb& v, const Common& c) {
+  FieldMapOptions o;
+  const Vec2 size = rectangle(v.size);
+  o.width = size.x, o.height = size.y;
+  o.current = amperes(v.current);
+  if (!v.view.empty()) o.view = place("--view", v.view);
+  if (!v.drop.empty()) o.drop_radius = metres("--drop", v.drop);
+  if (o.drop_radius < 0) throw Error(Errc::usage, "--drop", "must not be negative");
+  if (!v.check) {
+    o.picture = v.picture, o.hdf5 = v.out;
+    check_output(o.picture, "", v.force, {v.rig});
+    check_output(o.hdf5, "", v.force, {v.rig});
+    if (!o.picture.empty() && o.picture.extension() != ".png")
+      throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
+  }
+  const auto j = faba::field_map(v.rig, o);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  for (const auto& z : j["zeros"])
+    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", millimetres(z["at_m"][0]),
+               millimetres(z["at_m"][1]), z["kind"].get<std::string>(),
+               z["eigenvalues_t_per_m"][0].get<double>(), z["eigenvalues_t_per_m"][1].get<double>());
+  if (const auto note = j["note"].get<std::string>(); !note.empty() && !v.check) tell("faba: note: " + note);
+  if (!v.check) fmt::print("strongest {:.4g} mT\n", j["strongest_t"].get<double>() * 1e3);
+  if (const auto& t = j["table"]; !t.is_null())
+    fmt::print("table {} x {} nodes, {:.3g} um apart; largest error {:.1e} of a coil's largest field\n",
+               t["columns"].get<int>(), t["rows"].get<int>(), t["spacing_m"].get<double>() * 1e6,
+               t["error"].get<double>());
+  for (const auto& file : {o.picture, o.hdf5})
+    if (!file.empty()) fmt::print("  {}\n", file.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_field_map(CLI::App& field, CommandLine& line) {
+  const auto o = std::make_shared<FieldMapVerb>();
+  CLI::App* v =
+      verb(field, line, "map", "The field in the plane of the sample, as a picture and as HDF5",
+           "  faba field map rigs/thesis-four-coils.toml --current 0.5,0.5,0.5,0.5\n"
+           "  faba field map rigs/helmholtz.toml --current 1,0 --size \"20 mm, 20 mm\" --picture h.png --out "
+           "h.h5");
+  add_rig_file(v, o->rig);
+  v->add_option("--current", o->current, "Currents in A, one per coil: 0.5,0.5,0,0");
+  v->add_option("--size", o->size, "Width and height of the rectangle about the centre");
+  v->add_option("--view", o->view, "Width and height of the camera's view, to be drawn in")->check(not_empty);
+  v->add_option("--drop", o->drop, "Radius of the drop, to be drawn in")->check(not_empty);
+  v->add_option("--picture", o->picture, "Picture to write, PNG")->check(not_empty);
+  v->add_option("-o,--out", o->out, "HDF5 file to write")->check(not_empty);
+  v->add_flag("--check", o->check, "Only say how far the table that a swarm swims in is from the field");
+  v->add_flag("--force", o->force, "Replace existing files");
+  v->callback([o, &line] { line.code = field_map(*o, line.common); });
+}
+
+}  // namespace faba::cli

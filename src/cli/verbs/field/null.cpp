@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/options/field.h"
+#include "study/coils/field_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+struct FieldNullVerb {
+  std::filesystem::path rig;
+  std::string at = "0 mm, 0 mm", polarity = "north";
+};
+
+int field_null(const FieldNullVerb& v, const Common& c) {
+  const auto j = null_report(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  for (std::size_t k = 0; k < j["coils"].size(); ++k)
+    fmt::print("{:<12}{:>12.6g} A\n", j["coils"][k].get<std::string>(), j["currents_a"][k].get<double>());
+  fmt::print("gradient    {:.4g} and {:.4g} T/m in the plane, {:.4g} T/m along z\n",
+             j["eigenvalues_t_per_m"][0].get<double>(), j["eigenvalues_t_per_m"][1].get<double>(),
+             j["dbz_dz_t_per_m"].get<double>());
+  if (const auto note = j["note"].get<std::string>(); !note.empty())
+    tell(fmt::format("faba: note: {}: {}", v.rig.string(), note));
+  return 0;
+}
+
+}  // namespace
+
+void add_field_null(CLI::App& field, CommandLine& line) {
+  const auto o = std::make_shared<FieldNullVerb>();
+  CLI::App* v =
+      verb(field, line, "null", "Currents that put a zero of the field at a place and trap cells there",
+           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
+           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
+  add_rig_file(v, o->rig);
+  v->add_option("--at", o->at, "Place in the plane of the sample, x and y");
+  v->add_option("--polarity", o->polarity, "Cells to trap: north or south seeking")
+      ->check(CLI::IsMember({"north", "south"}));
+  v->callback([o, &line] { line.code = field_null(*o, line.common); });
+}
+
+}  // namespace faba::cli

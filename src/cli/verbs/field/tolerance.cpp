@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/options/field.h"
+#include "cli/output_file.h"
+#include "study/coils/field_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace faba::cli {
+namespace {
+
+struct FieldToleranceVerb {
+  std::filesystem::path rig;
+  std::string at = "0 mm, 0 mm";
+  std::filesystem::path picture;
+  bool force = false;
+};
+
+int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
+  check_output(v.picture, ".svg", v.force, {v.rig});
+  const auto j = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  std::string before;
+  for (const auto& row : j["rows"]) {
+    if (!before.empty() && before != row["cause"]) fmt::print("\n");
+    before = row["cause"].get<std::string>();
+    fmt::print("{:<42}{}\n", row["words"].get<std::string>(),
+               row["lost"] == true ? "the zero is gone"
+                                   : fmt::format("{:>8.4f} mm", row["shift_m"].get<double>() * 1e3));
+  }
+  if (!v.picture.empty()) fmt::print("  {}\n", v.picture.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_field_tolerance(CLI::App& field, CommandLine& line) {
+  const auto o = std::make_shared<FieldToleranceVerb>();
+  CLI::App* v =
+      verb(field, line, "tolerance", "How far a zero of the field moves when the rig is not as its file says",
+           "  faba field tolerance rigs/thesis-two-coils.toml\n"
+           "  faba field tolerance rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --picture tolerance.svg");
+  add_rig_file(v, o->rig);
+  v->add_option("--at", o->at, "Place of the zero in the plane of the sample, x and y");
+  v->add_option("--picture", o->picture, "Plot to write, SVG")->check(not_empty);
+  v->add_flag("--force", o->force, "Replace an existing plot");
+  v->callback([o, &line] { line.code = field_tolerance(*o, line.common); });
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/options/flow.h"
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "core/counted.h"
+#include "core/error.h"
+#include "study/pages/flow_report.h"
+
+namespace faba::cli {
+namespace {
+
+struct FlowVerb {
+  std::filesystem::path a, b, out, picture, truth, overlay;
+  FlowOptions flow;
+  bool force = false;
+};
+
+void tell_notes(const nlohmann::ordered_json& j, const std::filesystem::path& of, const Common& c) {
+  if (c.quiet) return;
+  for (const auto& note : j["notes"])
+    tell(fmt::format("faba: note: {}: {}", of.string(), note.get<std::string>()));
+}
+
+FlowJob job_of(const FlowVerb& v) {
+  FlowJob job;
+  job.method = flow_part({v.flow.method, v.flow.values});
+  job.out = v.out, job.picture = v.picture, job.truth = v.truth, job.overlay = v.overlay;
+  job.shrink = v.flow.shrink, job.fps = v.flow.fps;
+  job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
+  job.threads = v.flow.threads;
+  return job;
+}
+
+int flow_pair(const FlowVerb& v, const Common& c) {
+  check_output(v.out, ".flo", v.force, {v.a, v.b, v.truth});
+  check_output(v.picture, ".png", v.force, {v.a, v.b, v.truth});
+  if (!v.overlay.empty())
+    throw Error(Errc::usage, "--overlay", "is for a video; take --picture for two pictures");
+  for (const auto& [option, given] :
+       {std::pair{"--shrink", v.flow.shrink > 1}, std::pair{"--fps", v.flow.fps > 0}})
+    if (given) throw Error(Errc::usage, option, "is for a video");
+  const auto j = flow_of_pair(v.a, v.b, job_of(v));
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  tell_notes(j, v.a, c);
+  if (c.quiet) return 0;
+  fmt::print("flow     mean ({:.4g}, {:.4g}) px, mean speed {:.4g} px, largest {:.4g} px\n",
+             j["mean_px"][0].get<double>(), j["mean_px"][1].get<double>(), j["mean_speed_px"].get<double>(),
+             j["largest_px"].get<double>());
+  if (j.contains("iterations"))
+    fmt::print("solver   {}, {}\n", counted(j["iterations"].get<std::uint64_t>(), "iteration"),
+               j["converged"].get<bool>() ? "converged" : "not converged");
+  if (j.contains("truth"))
+    fmt::print(
+        "truth    endpoint error {:.4f} px, angular error {:.3f} degrees, over {:.1f} % of the pixels\n",
+        j["truth"]["endpoint_px"].get<double>(), j["truth"]["angular_deg"].get<double>(),
+        100 * j["truth"]["known"].get<double>());
+  for (const auto& file : {v.out, v.picture})
+    if (!file.empty()) fmt::print("wrote    {}\n", file.string());
+  return 0;
+}
+
+int flow_video(const FlowVerb& v, const Common& c) {
+  check_output(v.out, ".h5", v.force, {v.a});
+  check_output(v.overlay, ".mp4", v.force, {v.a});
+  for (const auto& [option, file] : {std::pair{"--picture", v.picture}, std::pair{"--truth", v.truth}})
+    if (!file.empty()) throw Error(Errc::usage, option, "is for two pictures; this is one video");
+  Progress bar("flow", !c.quiet && !c.json);
+  FlowJob job = job_of(v);
+  job.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+  job.stop = [&stop = stop_requested()] { return stop.load(); };
+  const auto j = flow_of_video(v.a, job);
+  bar.clear();
+  if (c.json) {
+    fmt::print("{}\n", j.dump());
+    return 0;
+  }
+  tell_notes(j, v.a, c);
+  if (c.quiet) return 0;
+  fmt::print("{} of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
+             counted(j["pairs"].get<std::uint64_t>(), "pair"), j["seconds"].get<double>(),
+             j["image_size"][0].get<int>(), j["image_size"][1].get<int>(), j["mean_speed_px"].get<double>());
+  for (const auto& file : {v.out, v.overlay})
+    if (!file.empty()) fmt::print("wrote {}\n", file.string());
+  return 0;
+}
+
+int flow(const FlowVerb& v, const Common& c) { return v.b.empty() ? flow_video(v, c) : flow_pair(v, c); }
+
+}  // namespace
+
+void add_flow(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<FlowVerb>();
+  CLI::App* v =
+      verb(app, line, "flow", "Optical flow between two pictures, or from frame to frame of a video",
+           "  faba flow a.png b.png --out ab.flo --picture ab.png\n"
+           "  faba flow a.png b.png --pyramid --truth true.flo\n"
+           "  faba flow film.mp4 --solver jacobi --iterations 100 --out film.h5 --overlay arrows.mp4");
+  v->add_option("a", o->a, "First picture; or a video, a folder of frames, a run directory")->required();
+  v->add_option("b", o->b, "Second picture");
+  v->add_option("-o,--out", o->out, "File to write: .flo (Middlebury) for two pictures, .h5 for a video")
+      ->check(not_empty);
+  v->add_option("--picture", o->picture, "Two pictures: the flow in colours, PNG")->check(not_empty);
+  v->add_option("--truth", o->truth, "Two pictures: the true flow (.flo), to say how far off this one is")
+      ->check(not_empty);
+  v->add_option("--overlay", o->overlay, "Video: arrows on its frames, MP4")->check(not_empty);
+  v->add_flag("--force", o->force, "Replace existing files");
+  add_flow_options(v, o->flow);
+  v->callback([o, &line] { line.code = flow(*o, line.common); });
+}
+
+}  // namespace faba::cli

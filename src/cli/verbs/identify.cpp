@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command_line.h"
+#include "cli/options/study.h"
+#include "core/file.h"
+#include "study/identify/best_scene.h"
+#include "study/pages/identify_report.h"
+
+namespace faba::cli {
+namespace {
+
+void say(const FoundParameter& p) {
+  const FreeParameter& q = p.parameter;
+  fmt::print("  {:<28} {:.4g} {}  90 % {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n", q.path,
+             q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), q.shown(p.abc_median),
+             q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
+  if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
+}
+
+void summary(const Identification& r) {
+  for (const FoundModel& m : r.models) {
+    if (!m.failed.empty()) {
+      fmt::print("{}: {}\n", m.name, m.failed);
+      continue;
+    }
+    fmt::print("{}: score {:.3f}, fit p {:.2g}, {} simulations\n", m.name, m.score, m.fit_p, m.simulations);
+    for (const FoundParameter& p : m.parameters) say(p);
+  }
+  for (const LegacyModel& m : r.legacy)
+    fmt::print("legacy rule, not to be trusted: {}: slope is zero at {:.4g} {}{}\n", m.name,
+               m.parameter.shown(m.zero), m.parameter.shown_unit(),
+               m.meaningless.empty() ? "" : "; means nothing: " + m.meaningless);
+  fmt::print("{}\n", r.words);
+}
+
+int identify(const StudyOptions& v, const Common& c) {
+  const IdentifyStudy study = read_identify_study(v.study);
+  Progress bar("simulating", !c.quiet && !c.json);
+  SweepOptions options = sweep_options(v, bar);
+  const std::string mark = fingerprint(study);
+  if (told_complete(v, "identify", mark, c)) return 0;
+  StudyDirectory dir = open_study(v, "identify", mark);
+  Progress reader("reading, frames", !c.quiet && !c.json);
+  std::uint64_t frames = 0;
+  const auto simulating = options.progress;
+  options.progress = [&](std::uint64_t done, std::uint64_t total) {
+    reader.clear();
+    simulating(done, total);
+  };
+  const auto result = identify(study, dir.results(), options, [&] { reader.update(++frames, 0); });
+  reader.clear(), bar.clear();
+  if (!result) return tell_partial(v, c, dir);
+  const auto j = identify_json(*result);
+  write_best_scene(*result, dir.path());
+  write_file(dir.path() / "identify.html", identify_page(*result));
+  finish(dir, "identify", j, c);
+  if (!c.json && !c.quiet) {
+    for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+    summary(*result);
+    fmt::print("wrote {}, and best.toml, the scene of the best model\n",
+               (dir.path() / "identify.html").string());
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<StudyOptions>();
+  CLI::App* v =
+      verb(app, line, "identify",
+           "Which model and which parameters explain videos of step responses, and how sure that is",
+           "  faba identify studies/step-response.toml\n"
+           "  faba identify study.toml --out runs/part3 --shard 3/16\n"
+           "  faba identify study.toml --out runs/all --merge runs/part1 --merge runs/part2");
+  add_study_options(v, *o);
+  v->callback([o, &line] { line.code = identify(*o, line.common); });
+}
+
+}  // namespace faba::cli

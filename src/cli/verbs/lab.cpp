@@ -1,0 +1,78 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "cli/command_line.h"
+#include "core/error.h"
+#include "core/toml.h"
+#include "server/lab.h"
+
+namespace faba::cli {
+namespace {
+
+struct LabVerb {
+  std::filesystem::path scene, pages;
+  int port = 0;
+  unsigned threads = 0;
+  bool no_browser = false;
+};
+
+// Whether there is a screen to show a browser on.
+bool has_screen() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
+
+void open_browser(const std::filesystem::path& door) {
+  std::string opener = "xdg-open", file = door.string();
+  char* argv[] = {opener.data(), file.data(), nullptr};
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, fd, "/dev/null", O_RDWR, 0);
+  pid_t pid = 0;
+  posix_spawnp(&pid, opener.c_str(), &files, nullptr, argv, environ);  // without one the address is printed
+  posix_spawn_file_actions_destroy(&files);
+}
+
+int lab(const LabVerb& v, const Common& c) {
+  LabOptions o;
+  o.program = std::filesystem::read_symlink("/proc/self/exe");
+  o.scenes = o.program.parent_path().parent_path() / "scenes";
+  o.scene = v.scene, o.pages = v.pages;
+  o.port = static_cast<unsigned short>(v.port);
+  o.threads = v.threads;
+  o.stop = &stop_requested();
+  o.ready = [&](const std::string& address, const std::filesystem::path& door) {
+    if (c.json)
+      fmt::print("{}\n", Json{{"address", address}}.dump());
+    else
+      fmt::print("{}\n", address);
+    if (!c.json && !c.quiet) fmt::print("The live lab, for this machine only; Ctrl-C ends it.\n");
+    if (std::fflush(stdout) != 0) throw Error(Errc::internal, "standard output", "cannot be written");
+    if (!v.no_browser && has_screen()) open_browser(door);
+  };
+  serve_lab(o);
+  return 0;
+}
+
+}  // namespace
+
+void add_lab(CLI::App& app, CommandLine& line) {
+  const auto o = std::make_shared<LabVerb>();
+  CLI::App* v = verb(app, line, "lab", "The live lab: watch, steer and record a swarm in a browser",
+                     "  faba lab\n  faba lab scenes/steer.toml\n  faba lab --no-browser --port 8765");
+  v->add_option("scene", o->scene, "Scenario file to begin with");
+  v->add_option("--port", o->port, "Port on 127.0.0.1; any that is free when absent")
+      ->check(CLI::Range(0, 65535));
+  v->add_flag("--no-browser", o->no_browser, "Only print the address");
+  v->add_option("--threads", o->threads, "Threads; all of the machine's when absent")
+      ->check(CLI::Range(1, 1024));
+  v->add_option("--www", o->pages, "Take the page from this folder, while it is worked on")
+      ->check(CLI::ExistingDirectory);
+  v->callback([o, &line] { line.code = lab(*o, line.common); });
+}
+
+}  // namespace faba::cli

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "app/bench/replay.h"
+#include "cli/command_line.h"
+#include "cli/progress.h"
+#include "core/error.h"
+#include "core/toml.h"
+
+namespace faba::cli {
+namespace {
+
+int rig_replay(const std::string& dir, const Common& c) {
+  Progress bar("replaying", !c.quiet && !c.json);
+  const Replayed r = replay_run(dir, [&](std::uint64_t done, std::uint64_t of) {
+    bar.update(done, of);
+    return !stop_requested().load();
+  });
+  bar.clear();
+  const bool same = r.equal == r.recorded;
+  if (c.json)
+    fmt::print("{}\n", Json{{"recorded", r.recorded},
+                            {"equal", r.equal},
+                            {"same", same},
+                            {"first_other", r.first_other ? Json(*r.first_other) : Json()}}
+                           .dump());
+  else if (!c.quiet)
+    fmt::print("{} of {} commands are the same, bit for bit{}\n", r.equal, r.recorded,
+               r.first_other ? fmt::format("; the first other one is that of frame {}", *r.first_other) : "");
+  return same ? 0 : int(Errc::internal);
+}
+
+}  // namespace
+
+void add_rig_replay(CLI::App& rig, CommandLine& line) {
+  const auto o = std::make_shared<std::string>();
+  CLI::App* v = verb(rig, line, "replay",
+                     "Do the decisions of a recorded run again, and compare its commands bit for bit",
+                     "  faba rig replay runs/bench-bench");
+  v->add_option("dir", *o, "Run directory, with video.avi")->required();
+  v->callback([o, &line] { line.code = rig_replay(*o, line.common); });
+}
+
+}  // namespace faba::cli
