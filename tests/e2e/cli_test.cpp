@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/h5/h5.h"
@@ -23,6 +24,30 @@ TEST_CASE("help, version, parts, schema and doctor answer with exit 0") {
   CHECK(faba_in(f.path, "parts model dipole --json").json()["properties"]["speed"]["x-unit"] == "m/s");
   CHECK(faba_in(f.path, "schema").json()["properties"]["swarm"]["type"] == "array");
   CHECK(faba_in(f.path, "doctor --json").json().contains("threads"));
+}
+
+TEST_CASE("schema series lists the columns that a run writes") {
+  const TestFolder f;
+  write_file(f.path / "scene.toml", kSmallScene);
+  REQUIRE(faba_in(f.path, "run scene.toml --seed 1 --duration '0 s' --out run").exit == 0);
+  const std::string csv = read_file(f.path / "run/series.csv");
+  const auto columns = faba_in(f.path, "schema series --json").json()["columns"];
+  std::string header;
+  for (const auto& one : columns) {
+    const auto name = one["name"].get<std::string>();
+    CHECK(!one["meaning"].get<std::string>().empty());
+    if (name == "current_K_a") continue;  // a column for each coil
+    header += (header.empty() ? "" : ",") + name;
+  }
+  std::string written = csv.substr(0, csv.find('\n'));
+  for (std::size_t at; (at = written.find("current_")) != std::string::npos;)
+    written.erase(at, written.find(',', at) + 1 - at);
+  CHECK(header == written);
+
+  const Called words = faba_in(f.path, "schema series");
+  CHECK(words.exit == 0);
+  CHECK(std::count(words.out.begin(), words.out.end(), '\n') == std::ptrdiff_t(columns.size()));
+  CHECK(words.out.find("current_K_a") != std::string::npos);
 }
 
 TEST_CASE("help is a verb too, and the summary names a next command that works") {

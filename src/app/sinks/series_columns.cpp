@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace faba {
 namespace {
@@ -30,17 +33,21 @@ Vec3 field_ut(const Moment& m) {
 
 constexpr bool kTruth = true, kAlways = false;
 
-}  // namespace
+SeriesColumn current_column(const std::string& coil, std::function<double(const Moment&)> value) {
+  return {fmt::format("current_{}_a", coil), "A",
+          fmt::format("commanded current of coil {}, after [limits]", coil), kAlways, std::move(value)};
+}
 
-// To add a column: add its line here, where it is to stand, and write docs/reference anew with `make docs`.
-std::vector<SeriesColumn> series_columns(std::size_t coils) {
+// To add a column: add its line here, where it is to stand, and write docs/ anew with `make docs`.
+std::vector<SeriesColumn> columns_around(std::vector<SeriesColumn> currents) {
   std::vector<SeriesColumn> all{
       {"frame", "", "number of the turn of the control loop, from 0", kAlways,
        [](const Moment& m) { return double(m.tick.index); }},
-      {"t_s", "s", "time of the frame that was taken in this turn", kAlways,
-       [](const Moment& m) { return m.run.frames->time_of(m.tick); }},
-      {"true_centroid_x_px", "px", "mean position of all cells, in view or not", kTruth,
-       [](const Moment& m) { return in_picture(m, m.truth.centroid).x; }},
+      {"t_s", "s",
+       "time of the frame that was taken in this turn: frame / rate, or its true time with camera.jitter",
+       kAlways, [](const Moment& m) { return m.run.frames->time_of(m.tick); }},
+      {"true_centroid_x_px", "px", "mean position of all cells, in view or not, without the camera's delay",
+       kTruth, [](const Moment& m) { return in_picture(m, m.truth.centroid).x; }},
       {"true_centroid_y_px", "px", "likewise, y down", kTruth,
        [](const Moment& m) { return in_picture(m, m.truth.centroid).y; }},
       {"true_sigma_x_px", "px", "standard deviation of the positions of all cells (divisor n - 1)", kTruth,
@@ -73,12 +80,22 @@ std::vector<SeriesColumn> series_columns(std::size_t coils) {
       {"field_x_ut", "uT", "field at the swarm's centroid, world frame", kAlways,
        [](const Moment& m) { return field_ut(m).x; }},
       {"field_y_ut", "uT", "likewise, y up", kAlways, [](const Moment& m) { return field_ut(m).y; }}};
-  for (std::size_t k = 0; k < coils; ++k)
-    all.push_back({fmt::format("current_{}_a", k), "A", fmt::format("commanded current of coil {}", k),
-                   kAlways, [k](const Moment& m) { return m.tick.command.current[k]; }});
+  std::ranges::move(currents, std::back_inserter(all));
   all.push_back({"limited", "", "1 when [limits] changed the command, else 0", kAlways,
                  [](const Moment& m) { return m.tick.limited ? 1.0 : 0.0; }});
   return all;
 }
+
+}  // namespace
+
+std::vector<SeriesColumn> series_columns(std::size_t coils) {
+  std::vector<SeriesColumn> currents;
+  for (std::size_t k = 0; k < coils; ++k)
+    currents.push_back(
+        current_column(std::to_string(k), [k](const Moment& m) { return m.tick.command.current[k]; }));
+  return columns_around(std::move(currents));
+}
+
+std::vector<SeriesColumn> described_series_columns() { return columns_around({current_column("K", {})}); }
 
 }  // namespace faba

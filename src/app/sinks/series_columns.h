@@ -39,4 +39,7 @@ struct SeriesColumn {
 /// marked.
 std::vector<SeriesColumn> series_columns(std::size_t coils);
 
+/// The same list to be read: K stands for the number of a coil. The column of the currents has no value.
+std::vector<SeriesColumn> described_series_columns();
+
 }  // namespace faba

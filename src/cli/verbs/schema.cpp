@@ -4,6 +4,7 @@
 
 #include "app/scenario/rig_file.h"
 #include "app/scenario/scenario_schema.h"
+#include "app/sinks/series_columns.h"
 #include "cli/command_line.h"
 #include "study/identify/identify.h"
 #include "study/motion/activity.h"
@@ -12,7 +13,24 @@
 namespace faba::cli {
 namespace {
 
-int schema(const std::string& file, const Common&) {
+// What a run records in series.csv: not a file that a user writes, and so without a JSON Schema.
+int schema_of_series(const Common& c) {
+  Json columns = Json::array();
+  for (const SeriesColumn& one : described_series_columns()) {
+    columns.push_back({{"name", one.name},
+                       {"unit", one.unit},
+                       {"meaning", one.meaning},
+                       {"simulated_only", one.simulated_only}});
+    if (!c.json)
+      fmt::print("{:<24} {:<3} {}{}\n", one.name, one.unit, one.meaning,
+                 one.simulated_only ? "; simulations only" : "");
+  }
+  if (c.json) fmt::print("{}\n", Json{{"columns", columns}}.dump());
+  return 0;
+}
+
+int schema(const std::string& file, const Common& c) {
+  if (file == "series") return schema_of_series(c);
   const Parts parts = builtin_parts();
   const Json j = file == "rig"                   ? rig_file_json_schema(parts)
                  : file == "identify"            ? identify_study_schema()
@@ -28,10 +46,12 @@ int schema(const std::string& file, const Common&) {
 void add_schema(CLI::App& app, CommandLine& line) {
   CLI::App* v =
       verb(app, line, "schema", "JSON Schema of a scenario, rig or study file, for editors and forms",
-           "  faba schema > scenario.json\n  faba schema rig > rig.json");
+           "  faba schema > scenario.json\n  faba schema rig > rig.json\n  faba schema series");
   const auto of = std::make_shared<std::string>("scenario");
-  v->add_option("file", *of, "scenario (unless given) or rig; or the verb that takes the study file")
-      ->check(CLI::IsMember({"scenario", "rig", "identify", "compare-controllers", "activity"}));
+  v->add_option("file", *of,
+                "scenario (unless given) or rig; the verb that takes the study file; or series, which lists "
+                "the columns of a run's series.csv")
+      ->check(CLI::IsMember({"scenario", "rig", "identify", "compare-controllers", "activity", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 
