@@ -4,7 +4,8 @@
     tools/check_docs.py --program build/faba --root .
 
 Checks, each named in the message when it fails:
-- docs/reference/ is what tools/make_docs.py would write now;
+- docs/reference/ and the table of columns in docs/formats/run-directory.md are what tools/make_docs.py would write now;
+- docs/formats/cli.md has a row for every verb of `faba --help`;
 - every relative link of every .md file leads to a file of this tree, and to a heading of it where it names one;
 - every fenced block marked `toml scenario` is accepted by the program, and so is every one marked `toml part`, which is
   an excerpt, once a swarm is added where it has none;
@@ -51,6 +52,17 @@ class Checks:
             page = folder / name
             if not page.exists() or wanted.get(name) != page.read_text():
                 self.fail(page, "differs from what the program says; run: tools/make_docs.py")
+        page = self.root / make_docs.COLUMNS_PAGE
+        if page in self.text and make_docs.with_columns(self.program, self.text[page]) != self.text[page]:
+            self.fail(page, "the table of columns differs from what the program says; run: tools/make_docs.py")
+
+    def verbs(self, folder):
+        page = self.root / "docs/formats/cli.md"
+        table = re.search(r"^\| verb \|.*?\n\n", self.text.get(page, ""), re.M | re.S)
+        said = re.findall(r"^\| \[`([\w-]+)`\]", table[0] if table else "", re.M)
+        there = re.findall(r"^  ([a-z][\w-]*)", self.faba("--help", cwd=folder).stdout.split("\nSubcommands:\n")[1], re.M)
+        if said != there:
+            self.fail(page, f"the program has the verbs {', '.join(there)}; the page lists {', '.join(said)}")
 
     # --- links -----------------------------------------------------------------------------------------------------
 
@@ -223,6 +235,7 @@ def main():
         checks.outputs(folder)
         checks.commands(folder)
         checks.columns(folder)
+        checks.verbs(folder)
         checks.sources()
     for failure in checks.failures:
         print(failure)
