@@ -47,11 +47,11 @@ class SimulatedCamera final : public Camera {
   int width() const override { return next_.width; }
   int height() const override { return next_.height; }
   double rate() const override { return next_.rate; }
-  std::vector<CameraControl> controls() override { return {{"gain", gain_, {}}}; }
+  std::vector<CameraControl> controls() override { return {{ControlKind::gain, gain_, {}}}; }
   void set(const CameraControl& c) override {
-    if (c.name != "gain") return Camera::set(c);
+    if (c.kind != ControlKind::gain) return Camera::set(c);
     if (!(c.value >= kLeastGain && c.value <= kMostGain))
-      throw Error(Errc::usage, "gain", "of a simulated camera is from 0.1 to 10");
+      throw Error(Errc::usage, control_name(c.kind), "of a simulated camera is from 0.1 to 10");
     gain_ = c.value;
   }
 
