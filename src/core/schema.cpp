@@ -146,6 +146,7 @@ Json type_json(const char* type, const FieldInfo& f, const Json& fallback) {
   if (numeric && f.max < kOpen) j["maximum"] = f.max;
   if (!fallback.is_null()) j["default"] = fallback;
   if (!f.source.empty()) j["x-source"] = f.source;
+  if (f.couples_to_field) j["x-couples-to-field"] = true;
   return j;
 }
 

@@ -23,6 +23,8 @@ struct FieldInfo {
   std::string doc = {};                   ///< one sentence
   std::string source = {};                ///< where the default comes from; "assumed" when nobody measured it
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
+  /// The parameter acts only as a factor of the field, so that it shows in how fast cells turn.
+  bool couples_to_field = false;
   /// For a type whose description needs something, such as the registry of the parts that a table may name:
   /// handed to its schema(context).
   std::shared_ptr<const void> context = {};
