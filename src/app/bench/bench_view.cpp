@@ -59,7 +59,8 @@ void BenchView::View::fetch(const std::stop_token& stop) {
         const double share = std::min(1.0, dt / kRateTime);
         rate = rate == 0 ? 1 / dt : 1 / (1 / rate + share * (dt - 1 / rate));
       }
-      newest = std::move(f), came = monotonic_now();
+      newest = std::move(f);
+      came = monotonic_now();
     }
   } catch (const Error& e) {
     const std::lock_guard lock(mutex);

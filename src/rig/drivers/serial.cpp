@@ -188,7 +188,10 @@ class Serial final : public CoilDriver {
           continue;
         }
         if (const auto a = parse_answer(line_); a && a->number <= number_) {
-          answered_ = true, answered_number_ = a->number, state_ = a->state, sensed_ = a->volts;
+          answered_ = true;
+          answered_number_ = a->number;
+          state_ = a->state;
+          sensed_ = a->volts;
           asked_.reset();
         }
         line_.clear();

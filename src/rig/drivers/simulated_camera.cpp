@@ -40,7 +40,9 @@ class SimulatedCamera final : public Camera {
     if (socket_.read(image->px.data(), image->px.size(), kFirst) != BenchSocket::Got::all) return gone();
     if (const double gain = gain_; gain != 1)
       for (std::uint8_t& g : image->px) g = std::uint8_t(std::min(255.0, gain * g + 0.5));
-    out.number = next_.number, out.t = next_.t, out.image = std::move(image);
+    out.number = next_.number;
+    out.t = next_.t;
+    out.image = std::move(image);
     return true;
   }
   void interrupt() noexcept override { over_ = true; }

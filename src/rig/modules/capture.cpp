@@ -48,8 +48,9 @@ class Capture final : public Camera {
     if (!opened)
       throw Error(Errc::device, fmt::format("camera \"{}\"", p.device),
                   "no camera can be opened there; see `faba rig list`");
-    ask(cv::CAP_PROP_FRAME_WIDTH, p.width), ask(cv::CAP_PROP_FRAME_HEIGHT, p.height),
-        ask(cv::CAP_PROP_FPS, p.rate);
+    ask(cv::CAP_PROP_FRAME_WIDTH, p.width);
+    ask(cv::CAP_PROP_FRAME_HEIGHT, p.height);
+    ask(cv::CAP_PROP_FPS, p.rate);
     ask(cv::CAP_PROP_BUFFERSIZE, 1);
     for (const auto& [kind, value] :
          {std::pair{ControlKind::exposure, p.exposure}, std::pair{ControlKind::gain, p.gain},
@@ -64,7 +65,8 @@ class Capture final : public Camera {
       if (over_ || !take()) return false;
     }
     pending_ = false;
-    out.number = number_, out.t = t_;
+    out.number = number_;
+    out.t = t_;
     auto image = std::make_shared<Gray8>(grey_.cols, grey_.rows);
     for (int row = 0; row < grey_.rows; ++row)
       std::copy_n(grey_.ptr<std::uint8_t>(row), grey_.cols, &image->at(0, row));
@@ -122,7 +124,8 @@ class Capture final : public Camera {
     if (!capture_.grab()) return false;
     const double now = monotonic_now(), stamp = 1e-3 * capture_.get(cv::CAP_PROP_POS_MSEC);
     if (!capture_.retrieve(colour_) || colour_.empty() || colour_.depth() != CV_8U) {
-      ++corrupt_, ++number_;
+      ++corrupt_;
+      ++number_;
       return !over_;
     }
     if (colour_.channels() == 1)
@@ -130,7 +133,8 @@ class Capture final : public Camera {
     else
       cv::cvtColor(colour_, grey_, cv::COLOR_BGR2GRAY);
     t_ = stamp > now - kPlausible && stamp <= now ? stamp : now;
-    ++number_, pending_ = true;
+    ++number_;
+    pending_ = true;
     return true;
   }
 
