@@ -145,7 +145,7 @@ Schema<Dipole::Params> Dipole::schema() {
             .max = 1e-12,
             .doc = "Median magnetic moment of a cell",
             .source = "IT-1: about ten 75 nm magnetite crystals, estimate (B2), assumed",
-            .couples_to_field = true})
+            .role = Role::coupling})
       .add("moment_spread", &Params::moment_spread,
            {.min = 0,
             .max = 2,

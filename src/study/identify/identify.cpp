@@ -188,7 +188,7 @@ void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
                  const std::vector<ResponseVideo>& videos) {
   const ResponseVideo& v = videos.front();
   for (FoundParameter& p : m.parameters) {
-    if (!p.parameter.couples_to_field || p.doubt.empty()) continue;
+    if (p.parameter.role != Role::coupling || p.doubt.empty()) continue;
     const Document d =
         scenario_of(study, c, v, v.episodes.front(), VectorXd::Constant(Index(c.free.size()), 0.5),
                     exact_timing(v.episodes.front()));
