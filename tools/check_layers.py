@@ -49,7 +49,7 @@ WITHIN = {
         "simulated": ".",
         "guard": ". setup",
         "bench": ". setup guard",
-        "drivers": ". bench modules",
+        "drivers": ". bench",
         "modules": ".",
     },
     "app": {

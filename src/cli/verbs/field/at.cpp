@@ -6,9 +6,7 @@
 
 #include "cli/command_line.h"
 #include "cli/options/field.h"
-#include "study/coils/field_report.h"
-
-#include <nlohmann/json.hpp>
+#include "study/pages/field_report.h"
 
 namespace faba::cli {
 namespace {
@@ -26,9 +24,7 @@ int field_at(const FieldAtVerb& v, const Common& c) {
         "faba: note: {} of {} points lie outside of what was measured, where the field is not a number",
         unknown, f.b.size()));
   if (c.json) {
-    nlohmann::ordered_json j{{"currents_a", f.current}, {"b_t", nlohmann::ordered_json::array()}};
-    for (const Vec3& b : f.b) j["b_t"].push_back({b.x, b.y, b.z});
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", field_json(f).dump());
     return 0;
   }
   std::string out = "x_m,y_m,z_m,bx_t,by_t,bz_t\n";

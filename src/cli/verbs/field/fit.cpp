@@ -5,9 +5,7 @@
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
-#include "study/coils/field_report.h"
-
-#include <nlohmann/json.hpp>
+#include "study/pages/field_report.h"
 
 namespace faba::cli {
 namespace {
@@ -20,7 +18,7 @@ struct FieldFitVerb {
 int field_fit(const FieldFitVerb& v, const Common& c) {
   check_output(v.out, "", v.force, {v.rig, v.measured});
   check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
-  const auto j = faba::field_fit(v.rig, v.measured, v.out, v.picture);
+  const auto j = field_json(faba::field_fit(v.rig, v.measured, v.out, v.picture));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;

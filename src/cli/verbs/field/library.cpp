@@ -7,9 +7,7 @@
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "core/error.h"
-#include "study/coils/field_report.h"
-
-#include <nlohmann/json.hpp>
+#include "study/pages/field_report.h"
 
 namespace faba::cli {
 namespace {
@@ -33,7 +31,7 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
   Progress bar("library", !c.json && !c.quiet);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };
-  const auto j = build_field_library(v.rig, v.out, o);
+  const auto j = field_json(build_field_library(v.rig, v.out, o));
   bar.clear();
   if (c.json) {
     fmt::print("{}\n", j.dump());

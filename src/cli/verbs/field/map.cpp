@@ -9,9 +9,7 @@
 #include "cli/options/field.h"
 #include "cli/output_file.h"
 #include "core/error.h"
-#include "study/coils/field_report.h"
-
-#include <nlohmann/json.hpp>
+#include "study/pages/field_report.h"
 
 namespace faba::cli {
 namespace {
@@ -55,7 +53,7 @@ int field_map(const FieldMapVerb& v, const Common& c) {
     if (!o.picture.empty() && o.picture.extension() != ".png")
       throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
   }
-  const auto j = faba::field_map(v.rig, o);
+  const auto j = field_json(faba::field_map(v.rig, o));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;

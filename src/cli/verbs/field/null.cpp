@@ -4,9 +4,7 @@
 
 #include "cli/command_line.h"
 #include "cli/options/field.h"
-#include "study/coils/field_report.h"
-
-#include <nlohmann/json.hpp>
+#include "study/pages/field_report.h"
 
 namespace faba::cli {
 namespace {
@@ -17,7 +15,7 @@ struct FieldNullVerb {
 };
 
 int field_null(const FieldNullVerb& v, const Common& c) {
-  const auto j = null_report(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1);
+  const auto j = field_json(null_of_rig(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;

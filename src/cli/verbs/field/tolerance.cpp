@@ -5,9 +5,7 @@
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
-#include "study/coils/field_report.h"
-
-#include <nlohmann/json.hpp>
+#include "study/pages/field_report.h"
 
 namespace faba::cli {
 namespace {
@@ -21,7 +19,7 @@ struct FieldToleranceVerb {
 
 int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
   check_output(v.picture, ".svg", v.force, {v.rig});
-  const auto j = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
+  const auto j = field_json(faba::field_tolerance(v.rig, place("--at", v.at), v.picture));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
