@@ -61,10 +61,15 @@ void Progress::clear() {
 
 void Progress::update(std::uint64_t done, std::uint64_t total) {
   const auto now = Clock::now();
-  if (told_to_ >= 0 && (done == total || std::chrono::duration<double>(now - told_).count() > kTellEvery))
-    told_ = now, tell(done, total);
+  if (told_to_ >= 0 && (done == total || std::chrono::duration<double>(now - told_).count() > kTellEvery)) {
+    told_ = now;
+    tell(done, total);
+  }
   if (!enabled_) return;
-  if (!started_) started_ = true, first_ = done > 0 ? done - 1 : 0;
+  if (!started_) {
+    started_ = true;
+    first_ = done > 0 ? done - 1 : 0;
+  }
   const double elapsed = std::chrono::duration<double>(now - began_).count();
   if (elapsed < 1 || std::chrono::duration<double>(now - drawn_).count() < 0.1) return;
   drawn_ = now;

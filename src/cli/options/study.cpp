@@ -78,7 +78,8 @@ bool told_complete(const StudyOptions& v, const std::string& name, const std::st
 
 SweepOptions sweep_options(const StudyOptions& v, Progress& bar) {
   SweepOptions o;
-  o.threads = v.threads, o.shard = shard_of(v.shard);
+  o.threads = v.threads;
+  o.shard = shard_of(v.shard);
   o.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };
   return o;

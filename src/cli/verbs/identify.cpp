@@ -50,7 +50,8 @@ int identify(const StudyOptions& v, const Common& c) {
     simulating(done, total);
   };
   const auto result = identify(study, dir.results(), options, [&] { reader.update(++frames, 0); });
-  reader.clear(), bar.clear();
+  reader.clear();
+  bar.clear();
   if (!result) return tell_partial(v, c, dir);
   const auto j = identify_json(*result);
   write_best_scene(*result, dir.path());

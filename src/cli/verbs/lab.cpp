@@ -41,7 +41,8 @@ int lab(const LabVerb& v, const Common& c) {
   LabOptions o;
   o.program = std::filesystem::read_symlink("/proc/self/exe");
   o.scenes = o.program.parent_path().parent_path() / "scenes";
-  o.scene = v.scene, o.pages = v.pages;
+  o.scene = v.scene;
+  o.pages = v.pages;
   o.port = static_cast<unsigned short>(v.port);
   o.threads = v.threads;
   o.stop = &stop_requested();

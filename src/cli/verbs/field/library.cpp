@@ -24,10 +24,13 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
   check_output(v.out, "", v.force, {v.rig});
   FieldLibraryOptions o;
   const Vec2 size = rectangle(v.size);
-  o.width = size.x, o.height = size.y;
+  o.width = size.x;
+  o.height = size.y;
   if (!v.spacing.empty()) o.spacing = metres("--spacing", v.spacing);
   if (!(o.spacing >= 0)) throw Error(Errc::usage, "--spacing", "must not be negative");
-  o.levels = v.levels, o.threads = v.threads, o.force = v.force;
+  o.levels = v.levels;
+  o.threads = v.threads;
+  o.force = v.force;
   Progress bar("library", !c.json && !c.quiet);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };

@@ -41,13 +41,15 @@ double millimetres(const nlohmann::ordered_json& metres) {
 int field_map(const FieldMapVerb& v, const Common& c) {
   FieldMapOptions o;
   const Vec2 size = rectangle(v.size);
-  o.width = size.x, o.height = size.y;
+  o.width = size.x;
+  o.height = size.y;
   o.current = amperes(v.current);
   if (!v.view.empty()) o.view = place("--view", v.view);
   if (!v.drop.empty()) o.drop_radius = metres("--drop", v.drop);
   if (o.drop_radius < 0) throw Error(Errc::usage, "--drop", "must not be negative");
   if (!v.check) {
-    o.picture = v.picture, o.hdf5 = v.out;
+    o.picture = v.picture;
+    o.hdf5 = v.out;
     check_output(o.picture, "", v.force, {v.rig});
     check_output(o.hdf5, "", v.force, {v.rig});
     if (!o.picture.empty() && o.picture.extension() != ".png")

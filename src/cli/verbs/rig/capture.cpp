@@ -24,8 +24,11 @@ struct CaptureVerb {
 int rig_capture(const CaptureVerb& v, const Common& c) {
   Scenario s = read_bench_scene(v.run);
   CaptureJob job;
-  job.out = v.run.out, job.force = v.run.force;
-  job.frames = v.frames, job.one_of = v.one_of, job.buffered = v.buffered;
+  job.out = v.run.out;
+  job.force = v.run.force;
+  job.frames = v.frames;
+  job.one_of = v.one_of;
+  job.buffered = v.buffered;
   const auto span = [](const std::string& words, const char* option) {
     const double value = quantity_of(words, "s", option, "500 ms");
     if (!(value > 0)) throw Error(Errc::usage, option, "must be above zero");

@@ -45,7 +45,8 @@ class Keyboard {
     tcgetattr(STDIN_FILENO, &before_);
     termios raw = before_;
     raw.c_lflag &= ~tcflag_t(ICANON | ECHO);  // Ctrl-C stays what it is
-    raw.c_cc[VMIN] = 0, raw.c_cc[VTIME] = 0;
+    raw.c_cc[VMIN] = 0;
+    raw.c_cc[VTIME] = 0;
     tcsetattr(STDIN_FILENO, TCSANOW, &raw);
   }
   ~Keyboard() {
@@ -58,7 +59,10 @@ class Keyboard {
   /// 'q' when there will be no more.
   char next() {
     pollfd ready{STDIN_FILENO, POLLIN, 0};
-    if (!terminal_ && monotonic_now() < not_before_) return wait_a_turn(), char(0);
+    if (!terminal_ && monotonic_now() < not_before_) {
+      wait_a_turn();
+      return 0;
+    }
     if (poll(&ready, 1, int(1e3 * kTurn)) <= 0) return 0;
     const char key = get();
     not_before_ = monotonic_now() + kPipedKey;
