@@ -219,11 +219,13 @@ def pages(program, root):
 
 def with_columns(program, text):
     """The page of the run directory, its table of the columns of series.csv written from the program."""
-    rows = "".join(f"| `{c['name']}` | {c['unit'].replace('u', 'µ')} | {cell(c['meaning'])}{'; simulations only' * c['simulated_only']} |\n"
-                   for c in ask(program, "schema", "series", "--json")["columns"])
-    table_text = f"\n| column | unit | meaning |\n|---|---|---|\n{rows}\n"
+    written = "\n| column | unit | meaning |\n|---|---|---|\n"
+    for column in ask(program, "schema", "series", "--json")["columns"]:
+        only = "; simulations only" if column["simulated_only"] else ""
+        unit = column["unit"].replace("u", "µ")
+        written += f"| `{column['name']}` | {unit} | {cell(column['meaning'] + only)} |\n"
     begin, rest = text.split(COLUMNS_BEGIN)
-    return begin + COLUMNS_BEGIN + table_text + COLUMNS_END + rest.split(COLUMNS_END)[1]
+    return begin + COLUMNS_BEGIN + written + "\n" + COLUMNS_END + rest.split(COLUMNS_END)[1]
 
 
 def render_picture(program, root):
