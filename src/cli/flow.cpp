@@ -5,7 +5,7 @@
 #include "cli/verbs.h"
 #include "core/counted.h"
 #include "core/error.h"
-#include "study/pages/distance_report.h"
+#include "study/motion/histogram_files.h"
 #include "study/pages/flow_report.h"
 
 namespace faba::cli {
