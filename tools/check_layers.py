@@ -68,12 +68,13 @@ WITHIN = {
         "sweep": "",
         "plot": "",
         "scale": "stats",
+        "drop": "",
         "tracks": "data stats",
         "motion": "data stats tracks",
         "steering": "data stats sweep",
         "coils": "plot",
         "identify": "data stats sweep tracks motion",
-        "pages": "data stats sweep plot scale tracks motion steering coils identify",
+        "pages": "data stats sweep plot scale drop tracks motion steering coils identify",
     },
 }
 # What the engine is made of includes nothing else, whatever the tables above allow (CMakeLists.txt: faba_engine).

@@ -272,7 +272,7 @@ Json Api::take_upload(const WebRequest& r) {
   const std::string name = named == r.query.end() ? "picture" : fs::path(named->second).filename().string();
   const std::string shown = fmt::format("upload-{}.png", ++number);
   try {
-    Json j = propose_drop(r.upload, name, pictures_ / shown);
+    Json j = drop_json(report_proposed_drop(r.upload, name, pictures_ / shown));
     j["picture"] = name, j["url"] = "/api/uploads/" + shown;
     return j;
   } catch (const Error& e) {
