@@ -69,12 +69,13 @@ WITHIN = {
         "plot": "",
         "scale": "stats",
         "drop": "",
+        "flow": "data",
         "tracks": "data stats",
         "motion": "data stats tracks",
         "steering": "data stats sweep",
         "coils": "plot",
         "identify": "data stats sweep tracks motion",
-        "pages": "data stats sweep plot scale drop tracks motion steering coils identify",
+        "pages": "data stats sweep plot scale drop flow tracks motion steering coils identify",
     },
 }
 # What the engine is made of includes nothing else, whatever the tables above allow (CMakeLists.txt: faba_engine).
