@@ -2,9 +2,7 @@
 #include <cstdint>
 #include <functional>
 
-#include <nlohmann/json_fwd.hpp>
-
-#include "study/tracks/track_options.h"
+#include "study/tracks/track_measurement.h"
 
 namespace faba {
 
@@ -13,10 +11,8 @@ namespace faba {
 using TrackProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
 /// Detects and tracks what moves in a video and measures how it moves: two passes over the frames, the first
-/// for background, size and times. Writes the files that are named, each when it is whole. Returns what
-/// docs/formats/cli.md lists: how spots were found and joined, mean-square displacement, diffusion and
-/// persistent walk, speeds, turns, all with units in their names and, where a scale is known, in um too.
-/// Throws Error(Errc::input) for what cannot be read, and for a run directory whose video is a drawing.
-nlohmann::ordered_json track_video(const TrackOptions& options, const TrackProgress& progress = {});
+/// for background, size and times. Writes the files that the options name, each when it is complete. Throws
+/// Error(Errc::input) for what cannot be read, and for a run directory whose video is a drawing.
+TrackMeasurement track_video(const TrackOptions& options, const TrackProgress& progress = {});
 
 }  // namespace faba
