@@ -114,6 +114,9 @@ RunInfo run_info(const Json& json, const std::string& source) {
     for (const Json& swarm : *swarms) {
       if (!swarm.is_object()) keys.fail("swarms", "a list of objects");
       info.swarms.push_back(one_line(swarm));
+      const double cells = Keys(swarm, source, "swarms[].").number("count").value_or(0);
+      if (!(cells >= 0 && cells < 1e15)) keys.fail("swarms[].count", "a number of cells");
+      info.swarm_cells.push_back(std::uint64_t(cells));
     }
   }
   return info;
