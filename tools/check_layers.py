@@ -2,6 +2,7 @@
 """Checks the structure of src/ (ARCHITECTURE.md has the same tables in words). Fails when
 
 - a file includes a folder that its layer may not see, or a subfolder that its own subfolder may not see,
+- a folder of study that measures makes JSON of its results itself,
 - files include each other in a circle (a file is the .h and .cpp of one name),
 - a third-party library is included outside its home, or a header that shows a library's types leaves its folder,
 - two headers give different types one name, which no compiler notices and the linker makes one of,
@@ -78,6 +79,10 @@ WITHIN = {
         "pages": "data stats sweep plot scale drop flow tracks motion steering coils identify",
     },
 }
+# Folders whose results are structs: JSON is made of them in study/pages, cli and server. What may name it all the same:
+# activity_study reads a study file and gives its JSON Schema.
+NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion".split()]
+MAY_JSON = ["study/motion/activity_study"]
 # What the engine is made of includes nothing else, whatever the tables above allow (CMakeLists.txt: faba_engine).
 ENGINE = (
     "core core/kernels field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "
@@ -166,6 +171,16 @@ def check_engine(tree):
     for file, number, path, own in tree.includes:
         if own and in_engine(tree.name(file)) and not in_engine(path) and path not in ENGINE_INTERFACES:
             yield f"{file}:{number}: is part of the engine and must not include {path}"
+
+
+def check_json(tree):
+    for file in tree.files:
+        name = tree.name(file)
+        if name.rsplit("/", 1)[0] not in NO_JSON or name.rsplit(".", 1)[0] in MAY_JSON:
+            continue
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            if re.search(r"\bJson\b|\bnlohmann\b", line.split("//")[0]):
+                yield f"{file}:{number}: a measurement gives a struct; JSON is made of it in study/pages, cli or server"
 
 
 def check_circles(tree):
@@ -289,6 +304,7 @@ def violations(root):
         check_folders,
         check_includes,
         check_engine,
+        check_json,
         check_circles,
         check_libraries,
         check_types,

@@ -8,6 +8,7 @@
 #include "cli/verbs.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "study/motion/activity_study.h"
 #include "study/pages/activity_report.h"
 #include "study/pages/flow_report.h"
 

@@ -5,7 +5,7 @@
 #include "app/scenario/scenario_schema.h"
 #include "cli/verbs.h"
 #include "study/identify/identify.h"
-#include "study/motion/activity.h"
+#include "study/motion/activity_study.h"
 #include "study/steering/controller_study.h"
 
 namespace faba::cli {
