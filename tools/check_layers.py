@@ -50,7 +50,7 @@ WITHIN = {
         "simulated": ".",
         "guard": ". setup",
         "bench": ". setup guard",
-        "drivers": ". bench modules",
+        "drivers": ". bench",
         "modules": ".",
     },
     "app": {

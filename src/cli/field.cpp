@@ -10,7 +10,7 @@
 #include "cli/quantity.h"
 #include "cli/verbs.h"
 #include "core/error.h"
-#include "study/coils/field_report.h"
+#include "study/pages/field_report.h"
 
 namespace faba::cli {
 namespace {
@@ -64,9 +64,7 @@ int field_at(const FieldVerb& v, const Common& c) {
         "faba: note: {} of {} points lie outside of what was measured, where the field is not a number",
         unknown, f.b.size()));
   if (c.json) {
-    nlohmann::ordered_json j{{"currents_a", f.current}, {"b_t", nlohmann::ordered_json::array()}};
-    for (const Vec3& b : f.b) j["b_t"].push_back({b.x, b.y, b.z});
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", field_json(f).dump());
     return 0;
   }
   std::string out = "x_m,y_m,z_m,bx_t,by_t,bz_t\n";
@@ -92,7 +90,7 @@ int field_map(const FieldVerb& v, const Common& c) {
     if (!o.picture.empty() && o.picture.extension() != ".png")
       throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
   }
-  const auto j = faba::field_map(v.rig, o);
+  const auto j = field_json(faba::field_map(v.rig, o));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
@@ -115,7 +113,7 @@ int field_map(const FieldVerb& v, const Common& c) {
 
 int field_tolerance(const FieldVerb& v, const Common& c) {
   check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
-  const auto j = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
+  const auto j = field_json(faba::field_tolerance(v.rig, place("--at", v.at), v.picture));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
@@ -144,7 +142,7 @@ int field_library(const LibraryVerb& v, const Common& c) {
   Progress bar("library", !c.json && !c.quiet);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };
-  const auto j = build_field_library(v.rig, v.out, o);
+  const auto j = field_json(build_field_library(v.rig, v.out, o));
   bar.clear();
   if (c.json) {
     fmt::print("{}\n", j.dump());
@@ -172,7 +170,7 @@ int field_library(const LibraryVerb& v, const Common& c) {
 int field_fit(const FieldVerb& v, const Common& c) {
   check_output(v.out, "", v.force, {v.rig, v.measured});
   check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
-  const auto j = faba::field_fit(v.rig, v.measured, v.out, v.picture);
+  const auto j = field_json(faba::field_fit(v.rig, v.measured, v.out, v.picture));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
@@ -198,7 +196,7 @@ int field_fit(const FieldVerb& v, const Common& c) {
 }
 
 int field_null(const FieldVerb& v, const Common& c) {
-  const auto j = null_report(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1);
+  const auto j = field_json(null_of_rig(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1));
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;

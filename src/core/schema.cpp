@@ -40,6 +40,11 @@ constexpr double kOpen = std::numeric_limits<double>::max();
 
 }  // namespace
 
+Role role_of(const Json& described) {
+  const std::string word = described.value("x-role", "");
+  return Role(std::find(kRoleWords.begin(), kRoleWords.end(), word) - kRoleWords.begin());
+}
+
 double in_si(const Json& written) {
   return written.is_string() ? parse_quantity(written.get<std::string>()).value : written.get<double>();
 }
@@ -146,6 +151,7 @@ Json type_json(const char* type, const FieldInfo& f, const Json& fallback) {
   if (numeric && f.max < kOpen) j["maximum"] = f.max;
   if (!fallback.is_null()) j["default"] = fallback;
   if (!f.source.empty()) j["x-source"] = f.source;
+  if (f.role != Role::none) j["x-role"] = kRoleWords.at(std::size_t(f.role));
   return j;
 }
 

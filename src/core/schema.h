@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -14,6 +15,21 @@
 
 namespace faba {
 
+/// What a parameter is to code that changes it without knowing the part: the key may have any name. It stands
+/// in JSON Schema as `x-role`, by the word of kRoleWords.
+enum class Role : std::size_t {
+  none,
+  position,  ///< coil: its middle, m, world frame
+  axis,      ///< coil: direction of its field, of any length
+  turn,      ///< coil: angle about z by which it is turned, rad
+  strength,  ///< coil: factor on its field
+  ambient,   ///< coil system: the field that no coil makes, T, world frame
+  coupling   ///< agent model: acts only as a factor of the field, so that it shows in how fast cells turn
+};
+/// Of a parameter's JSON Schema.
+Role role_of(const Json& described);
+inline constexpr std::array kRoleWords = {"", "position", "axis", "turn", "strength", "ambient", "coupling"};
+
 /// What is said about one parameter. Numbers with a unit may be given as "186 um/s"; a bare number is in
 /// `unit`.
 struct FieldInfo {
@@ -23,6 +39,7 @@ struct FieldInfo {
   std::string doc = {};                   ///< one sentence
   std::string source = {};                ///< where the default comes from; "assumed" when nobody measured it
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
+  Role role = Role::none;
   /// For a type whose description needs something, such as the registry of the parts that a table may name:
   /// handed to its schema(context).
   std::shared_ptr<const void> context = {};

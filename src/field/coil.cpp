@@ -9,7 +9,8 @@ Schema<CircuitParams> CircuitParams::schema() {
       .add("gain", &CircuitParams::gain,
            {.min = -1e3,
             .max = 1e3,
-            .doc = "Measured field over that of the formula, as `faba field fit` finds it"})
+            .doc = "Measured field over that of the formula, as `faba field fit` finds it",
+            .role = Role::strength})
       .add("current", &CircuitParams::current,
            {.unit = "A",
             .min = -1e4,
@@ -48,11 +49,13 @@ Schema<PoseParams> PoseParams::schema() {
            {.unit = "m",
             .min = -10,
             .max = 10,
-            .doc = "Its middle, world frame: x right, y up, z to the camera"})
+            .doc = "Its middle, world frame: x right, y up, z to the camera",
+            .role = Role::position})
       .add("axis", &PoseParams::axis,
            {.min = -1e6,
             .max = 1e6,
-            .doc = "Direction of its field inside for a positive current, of any length"})
+            .doc = "Direction of its field inside for a positive current, of any length",
+            .role = Role::axis})
       .check([](const PoseParams& p) -> std::string {
         return p.axis == Vec3{} ? "axis must not be [0, 0, 0]" : "";
       });

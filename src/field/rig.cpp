@@ -24,7 +24,11 @@ struct Earth {
   static Schema<Earth> schema() {
     return Schema<Earth>("earth", "The field that no coil makes")
         .add("field", &Earth::field,
-             {.unit = "T", .min = -1e-2, .max = 1e-2, .doc = "Of the Earth and the room, world frame"});
+             {.unit = "T",
+              .min = -1e-2,
+              .max = 1e-2,
+              .doc = "Of the Earth and the room, world frame",
+              .role = Role::ambient});
   }
 };
 

@@ -15,7 +15,8 @@ constexpr std::size_t kLongestSetup = 200'000;  // bytes
 
 void refuse(const std::string& why) {
   faba::GuardReport r;
-  r.state = faba::CoilGuard::State::faulted, r.fault = faba::CoilGuard::Fault::device;
+  r.state = faba::CoilGuard::State::faulted;
+  r.fault = faba::CoilGuard::Fault::device;
   why.copy(r.reason.data(), r.reason.size() - 1);
   (void)send(faba::kGuardDescriptor, &r, sizeof r, MSG_NOSIGNAL);
 }

@@ -291,10 +291,10 @@ Json Api::bench(const Json& asked, Rest what) {
   } else if (what == "close") {
     bench_.close();
   } else if (what == "control") {
-    CameraControl c{text_of(asked, "name"), asked.value("value", 0.0), {}};
+    std::optional<bool> automatically;
     if (asked.contains("automatically") && asked["automatically"].is_boolean())
-      c.automatically = asked["automatically"].get<bool>();
-    bench_.set(c);
+      automatically = asked["automatically"].get<bool>();
+    bench_.set(text_of(asked, "name"), asked.value("value", 0.0), automatically);
   } else if (what == "ruler") {
     return measure_ruler(asked);
   } else {

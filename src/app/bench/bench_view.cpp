@@ -59,7 +59,8 @@ void BenchView::View::fetch(const std::stop_token& stop) {
         const double share = std::min(1.0, dt / kRateTime);
         rate = rate == 0 ? 1 / dt : 1 / (1 / rate + share * (dt - 1 / rate));
       }
-      newest = std::move(f), came = monotonic_now();
+      newest = std::move(f);
+      came = monotonic_now();
     }
   } catch (const Error& e) {
     const std::lock_guard lock(mutex);
@@ -110,7 +111,7 @@ Json BenchView::state() {
   v->looked();
   Json controls = Json::array();
   for (const CameraControl& c : v->bench.camera()->controls())
-    controls.push_back({{"name", c.name},
+    controls.push_back({{"name", control_name(c.kind)},
                         {"value", c.value},
                         {"automatically", c.automatically ? Json(*c.automatically) : Json()}});
   Json j = {{"open", v->name},
@@ -153,6 +154,11 @@ std::string BenchView::picture() {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void BenchView::set(const CameraControl& c) { view(true)->bench.camera()->set(c); }
+void BenchView::set(const std::string& control, double value, std::optional<bool> automatically) {
+  const auto v = view(true);
+  const auto kind = control_kind(control);
+  if (!kind) refuse_control(control);
+  v->bench.camera()->set({*kind, value, automatically});
+}
 
 }  // namespace faba

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -25,7 +26,7 @@ class BenchView {
   /// The newest picture as PNG; empty when there is none.
   std::string picture();
   /// Throws Error(usage) for what the camera will not take, Error(input) when none is open.
-  void set(const CameraControl& c);
+  void set(const std::string& control, double value, std::optional<bool> automatically);
 
  private:
   struct View;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBacklog = 64;       // frames that may wait for a disk before some are lost
 constexpr double kShortOfMemory = 0.05;    // of all memory, below which a buffered capture ends
-constexpr double kLookAtClock = 0.1;              // s between looks at whether to stop
+constexpr double kLookAtClock = 0.1;       // s between looks at whether to stop
 constexpr std::uint64_t kMemoryEvery = 8;  // frames between looks at the memory
 
 // Where pictures go, with the table of their times.
@@ -134,6 +134,32 @@ bool short_of_memory() {
   return available < kShortOfMemory * total;
 }
 
+/// Which of a camera's frames are kept.
+class FrameChoice {
+ public:
+  explicit FrameChoice(const CaptureJob& job) : job_(job) {}
+  /// Of frame number `taken`, counted from 1, which came `t` seconds after the first.
+  bool wants(std::uint64_t taken, double t) {
+    if (!(job_.every > 0)) return (taken - 1) % job_.one_of == 0;
+    // A millionth of a second: due times are sums.
+    if (!(t >= due_ - 1e-6)) return false;
+    while (due_ <= t + 1e-6) due_ += job_.every;
+    return true;
+  }
+
+ private:
+  const CaptureJob& job_;
+  double due_ = 0;  // s
+};
+
+void report_progress(const CaptureJob& job, const Captured& done) {
+  if (!job.progress) return;
+  if (job.frames > 0)
+    job.progress(done.taken, job.frames);
+  else
+    job.progress(std::uint64_t(1e3 * done.duration), std::uint64_t(1e3 * job.time));
+}
+
 }  // namespace
 
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
@@ -142,7 +168,8 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
                   job.buffered ? SIZE_MAX : kBacklog);
   Captured done;
   std::vector<CameraFrame> waiting;
-  double began = 0, due = 0, heard = monotonic_now();
+  FrameChoice choice(job);
+  double began = 0, heard = monotonic_now();
   const auto stopped = [&] { return job.stop && job.stop->load(); };
   const auto keep = [&](CameraFrame&& f) {
     ++done.kept;
@@ -166,17 +193,10 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
       if (done.taken == 0) began = f.t;
       const double t = f.t - began;
       if (job.time > 0 && t >= job.time) break;
-      ++done.taken, done.duration = t;
-      // A millionth of a second: due times are sums.
-      const bool wanted = job.every > 0 ? t >= due - 1e-6 : (done.taken - 1) % job.one_of == 0;
-      while (wanted && job.every > 0 && due <= t + 1e-6) due += job.every;
-      if (wanted) keep(std::move(f));
-      if (job.progress) {
-        if (job.frames > 0)
-          job.progress(done.taken, job.frames);
-        else
-          job.progress(std::uint64_t(1e3 * t), std::uint64_t(1e3 * job.time));
-      }
+      ++done.taken;
+      done.duration = t;
+      if (choice.wants(done.taken, t)) keep(std::move(f));
+      report_progress(job, done);
       if (job.frames > 0 && done.taken >= job.frames) break;
       if (job.buffered && done.taken % kMemoryEvery == 0 && short_of_memory()) {
         done.memory_full = true;
@@ -186,7 +206,8 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   } catch (const Error& e) {
     failure = e;
   }
-  done.dropped = feed.dropped(), done.corrupt = camera->corrupt();
+  done.dropped = feed.dropped();
+  done.corrupt = camera->corrupt();
   for (CameraFrame& f : waiting) {
     store->put(f, f.t - began);
     f.image.reset();

@@ -107,7 +107,8 @@ class Coils {
     for (std::size_t k = 0; k < outputs_ && !changed; ++k)
       changed = std::fabs(i[k] - logged_[k]) > kNoticeable || volts_[k] != logged_[outputs_ + k];
     if (!changed) return;
-    relay_ = amplifier_.enabled(), logged_enable_ = enable_;
+    relay_ = amplifier_.enabled();
+    logged_enable_ = enable_;
     logged_ = i;
     logged_.insert(logged_.end(), volts_.begin(), volts_.end());
     log_->append(fmt::format("{:.6f},{},{},{:.6g},{:.6g}\n", now, int(enable_), int(relay_),
@@ -143,7 +144,9 @@ class Sender {
   void offer(std::uint64_t number, double t, ImageRef image) {
     const std::lock_guard lock(mutex_);
     if (image_ && connected_) ++unfetched_;
-    number_ = number, t_ = t, image_ = std::move(image);
+    number_ = number;
+    t_ = t;
+    image_ = std::move(image);
     came_.notify_all();
   }
   std::uint64_t unfetched() const { return unfetched_; }
@@ -158,7 +161,10 @@ class Sender {
         socket.close();
         connected_ = bool(fresh_);
       }
-      if (fresh_) socket = std::move(fresh_), fresh_ = BenchSocket();
+      if (fresh_) {
+        socket = std::move(fresh_);
+        fresh_ = BenchSocket();
+      }
       if (!image_) continue;
       const ImageRef image = std::exchange(image_, nullptr);
       const BenchFrame head{number_, t_, image->width, image->height, rate_};
@@ -184,16 +190,33 @@ class Sender {
   std::jthread thread_;
 };
 
-}  // namespace
-
-SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool& pool, const Options& o) {
-  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench to be simulated");
-  const BenchParams bench = s.rig->bench;
+/// The scenario as the bench's camera shows it, in steps that a machine can compute in real time.
+Scenario in_real_time(Scenario s) {
   s.camera.sensor = CameraParams::Sensor::frames;
   s.camera.delay_frames = 0;
   double cells = 0;
   for (const Swarm& swarm : s.swarms) cells += double(swarm.params.count);
   s.simulation.longest = std::max(kStep, cells / kAffordable);
+  return s;
+}
+
+void welcome(BenchSocket come, Coils& coils, Sender& sender) {
+  BenchHello hello;
+  if (come.read(&hello, sizeof hello, kSending) != BenchSocket::Got::all || hello.version != kBenchVersion)
+    return;
+  // One at a time: who comes second is turned away, and finds the connection closed.
+  if (hello.role == BenchHello::Role::coils && !coils.connected())
+    coils.connect(std::move(come));
+  else if (hello.role == BenchHello::Role::camera && !sender.connected())
+    sender.connect(std::move(come));
+}
+
+}  // namespace
+
+SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool& pool, const Options& o) {
+  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench to be simulated");
+  const BenchParams bench = s.rig->bench;
+  s = in_real_time(std::move(s));
   Simulation simulation(s, seed, pool);
   World& world = simulation.world();
   const std::size_t outputs = world.parts().field->coils();
@@ -214,17 +237,7 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
     double until = monotonic_now() + kNobody;
     while (!stop.stop_requested()) {
       coils.work();  // first, so that one that has just gone is not in the next one's way
-      if (BenchSocket come = listener.accept(0)) {
-        BenchHello hello;
-        if (come.read(&hello, sizeof hello, kSending) == BenchSocket::Got::all &&
-            hello.version == kBenchVersion) {
-          // One at a time: who comes second is turned away, and finds the connection closed.
-          if (hello.role == BenchHello::Role::coils && !coils.connected())
-            coils.connect(std::move(come));
-          else if (hello.role == BenchHello::Role::camera && !sender.connected())
-            sender.connect(std::move(come));
-        }
-      }
+      if (BenchSocket come = listener.accept(0)) welcome(std::move(come), coils, sender);
       if (coils.connected() || sender.connected()) until = monotonic_now() + kAlone;
       if (o.once && monotonic_now() > until) left_alone = true;
       std::this_thread::sleep_for(std::chrono::duration<double>(kSlice));

@@ -85,7 +85,8 @@ class StudyFile {
       std::sort(names.begin(), names.end());
       experiment_ = std::to_string(std::unique(names.begin(), names.end()) - names.begin() + 1);
     }
-    direction_ = std::fmod(p.direction + 180, 360), from_ = p.before;
+    direction_ = std::fmod(p.direction + 180, 360);
+    from_ = p.before;
   }
   const std::string& experiment() const { return experiment_; }
   void add(const RecordedResponse& r) {

@@ -61,10 +61,12 @@ std::filesystem::path make_numbered(const std::filesystem::path& base) {
 
 RunDirectory RunDirectory::make(const Wish& w) {
   RunDirectory d;
-  if (w.numbered)
+  if (w.numbered) {
     d.path_ = make_numbered(w.out);
-  else
-    make_directory(d.path_ = w.out, w.force);
+  } else {
+    d.path_ = w.out;
+    make_directory(d.path_, w.force);
+  }
   d.lock_ = RunLock(d.path_, w.program);
   std::error_code ec;
   if (!w.force && std::filesystem::exists(d.path_ / kManifest, ec)) {  // somebody was quicker, and is done

@@ -196,7 +196,8 @@ void Simulation::apply(const Event& e) {
   if (made.reference) reference_ = std::move(made.reference);
   if (made.controller) controller_ = std::move(made.controller);
   if (made.model) world_->exchange_model(e.swarm, std::move(made.model));
-  loop_->estimator = estimator_.get(), loop_->reference = reference_.get();
+  loop_->estimator = estimator_.get();
+  loop_->reference = reference_.get();
   loop_->controller = controller_.get();
 }
 

@@ -16,7 +16,8 @@ RgbImage DrawnSwarm::draw(double t, Vec2 target) {
   double sx = 0, sy = 0;
   for (std::size_t k = 0; k < populations.size(); ++k)
     for (std::size_t i = populations[k].begin; i < populations[k].end; ++i) {
-      sx += double(x[i]), sy += double(y[i]);
+      sx += double(x[i]);
+      sy += double(y[i]);
       const Vec2 p = frame.image_from_world({double(x[i]), double(y[i])});
       cells_.push_back({float(p.x), float(p.y), std::uint8_t(k), response[i] != 0.0f});
     }
@@ -24,11 +25,13 @@ RgbImage DrawnSwarm::draw(double t, Vec2 target) {
   const Vec3 b = world_.parts().field->at({mean.x, mean.y, 0}, s.current);
   const Outline edge = world_.parts().arena->outline();
   SwarmScene scene;
-  scene.width = frame.width, scene.height = frame.height;
+  scene.width = frame.width;
+  scene.height = frame.height;
   scene.um_per_px = um_per_px_;
   scene.t = t;
   scene.cells = cells_;
-  scene.edge_centre = edge.centre_image, scene.edge_radius_px = edge.radius_px;
+  scene.edge_centre = edge.centre_image;
+  scene.edge_radius_px = edge.radius_px;
   scene.centroid = frame.image_from_world(mean);
   if (std::isfinite(target.x)) scene.setpoint = frame.image_from_world(target);
   route_.clear();

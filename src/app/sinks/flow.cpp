@@ -13,14 +13,16 @@ class FlowSink final : public RunSink {
     if (resume) *resume& keep& before_.px& t_before_;
     const FlowInfo info{c.frame.width,          c.frame.height,         c.frame_rate,
                         c.scale.m_per_px * 1e6, c.flow.resolved.dump(), "rendered frames of the run"};
-    before_.width = info.width, before_.height = info.height;
+    before_.width = info.width;
+    before_.height = info.height;
     writer_.emplace(keep ? path_.string() + ".new" : path_.string(), info, c.record.compress);
     if (keep) take_over(keep);
   }
 
   void take(const Tick& t) override {
     const ImageRef picture = c_.frames->picture(t);
-    after_.width = picture->width, after_.height = picture->height;
+    after_.width = picture->width;
+    after_.height = picture->height;
     after_.px.assign(picture->px.begin(), picture->px.end());
     const double now = c_.frames->time_of(t);
     if (t.index > 0) {

@@ -39,7 +39,8 @@ class Tracks final : public RunSink {
     row_.resize(2 * x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Vec2 p = c_.frame.image_from_world({double(x[i]), double(y[i])});
-      row_[2 * i] = float(p.x), row_[2 * i + 1] = float(p.y);
+      row_[2 * i] = float(p.x);
+      row_[2 * i + 1] = float(p.y);
     }
     append(t.index, c_.frames->time_of(t));
     if (!responding_) return;
@@ -54,7 +55,10 @@ class Tracks final : public RunSink {
     a& rows;
   }
   void finish(bool) override {
-    frame_.reset(), t_.reset(), position_.reset(), responding_.reset();
+    frame_.reset();
+    t_.reset();
+    position_.reset();
+    responding_.reset();
     file_.close();
   }
 

@@ -72,12 +72,17 @@ class Map final : public Field {
               .max = 10,
               .doc = "Only points nearer than this to the map's origin are used; all when absent"})
         .add("position", &Params::position,
-             {.unit = "m", .min = -10, .max = 10, .doc = "Where the map's origin is, world frame"})
+             {.unit = "m",
+              .min = -10,
+              .max = 10,
+              .doc = "Where the map's origin is, world frame",
+              .role = Role::position})
         .add("turn", &Params::turn,
              {.unit = "rad",
               .min = -100,
               .max = 100,
-              .doc = "The map is turned by this about z, counterclockwise"})
+              .doc = "The map is turned by this about z, counterclockwise",
+              .role = Role::turn})
         .include(&Params::circuit, CircuitParams::schema())
         .add("expansion", &Params::expansion, {.doc = "Filled in from the file when absent"})
         .check([](const Params& p) -> std::string {

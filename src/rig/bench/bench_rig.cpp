@@ -24,7 +24,8 @@ void BenchRig::begin() {
   safe();
   began_.reset();
   if (!feed_.camera().waits()) feed_.forget();
-  asked_.clear(), delays_.clear();
+  asked_.clear();
+  delays_.clear();
   dropped_before_ = feed_.dropped();
 }
 
@@ -78,8 +79,12 @@ bool BenchRig::read(Observation& out) {
                                   behind, and_the_coils())
                     : fmt::format("has given no frame for {:g} s{}", p_.camera_timeout, and_the_coils()));
   }
-  arrived_ = monotonic_now(), frame_t_ = frame.t;
-  if (!began_) began_ = frame.t, first_ = frame.number;
+  arrived_ = monotonic_now();
+  frame_t_ = frame.t;
+  if (!began_) {
+    began_ = frame.t;
+    first_ = frame.number;
+  }
   out.frame = frame.number - first_;
   out.t = frame.t - *began_;
   out.age = feed_.camera().waits() ? 0 : std::max(0.0, arrived_ - frame.t);  // a file has no age

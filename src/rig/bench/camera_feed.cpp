@@ -66,7 +66,8 @@ void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_p
     failure = std::current_exception();
   }
   const std::lock_guard lock(s->mutex);
-  s->failure = failure, s->end = s->left = true;
+  s->failure = failure;
+  s->end = s->left = true;
   s->came.notify_all();
 }
 
@@ -89,7 +90,8 @@ CameraFeed::Got CameraFeed::next(CameraFrame& out, double until) {
 void CameraFeed::forget() {
   const std::lock_guard lock(shared_->mutex);
   shared_->waiting.clear();
-  shared_->since = monotonic_now(), shared_->behind = 0;
+  shared_->since = monotonic_now();
+  shared_->behind = 0;
 }
 
 std::uint64_t CameraFeed::taken() const {

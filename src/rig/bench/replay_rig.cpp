@@ -34,7 +34,9 @@ bool ReplayRig::read(Observation& out) {
   if (next_ >= rows_.size() || !video_.read(grey_, video_t)) return false;
   const Row& row = rows_[next_];
   out.frame = next_++;
-  out.t = row.t, out.age = row.age, out.rested = row.rested;
+  out.t = row.t;
+  out.age = row.age;
+  out.rested = row.rested;
   out.seen.clear();
   out.image = std::make_shared<Gray8>(rounded(grey_));
   return true;

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "rig/modules/capture.h"
+#include "rig/capture.h"
 
 namespace faba {
 namespace {

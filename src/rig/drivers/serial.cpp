@@ -71,6 +71,7 @@ speed_t baud(int rate) {
 /// A microcontroller behind a serial line that understands docs/formats/coil-serial.md, such as one with the
 /// firmware in firmware/. It takes the current away by itself when commands stay away, so that nothing else
 /// is needed.
+// termios: libserialport opens no pseudo-terminals, which the tests and the simulated board use.
 class Serial final : public CoilDriver {
  public:
   struct Params {
@@ -188,7 +189,10 @@ class Serial final : public CoilDriver {
           continue;
         }
         if (const auto a = parse_answer(line_); a && a->number <= number_) {
-          answered_ = true, answered_number_ = a->number, state_ = a->state, sensed_ = a->volts;
+          answered_ = true;
+          answered_number_ = a->number;
+          state_ = a->state;
+          sensed_ = a->volts;
           asked_.reset();
         }
         line_.clear();

@@ -40,18 +40,20 @@ class SimulatedCamera final : public Camera {
     if (socket_.read(image->px.data(), image->px.size(), kFirst) != BenchSocket::Got::all) return gone();
     if (const double gain = gain_; gain != 1)
       for (std::uint8_t& g : image->px) g = std::uint8_t(std::min(255.0, gain * g + 0.5));
-    out.number = next_.number, out.t = next_.t, out.image = std::move(image);
+    out.number = next_.number;
+    out.t = next_.t;
+    out.image = std::move(image);
     return true;
   }
   void interrupt() noexcept override { over_ = true; }
   int width() const override { return next_.width; }
   int height() const override { return next_.height; }
   double rate() const override { return next_.rate; }
-  std::vector<CameraControl> controls() override { return {{"gain", gain_, {}}}; }
+  std::vector<CameraControl> controls() override { return {{ControlKind::gain, gain_, {}}}; }
   void set(const CameraControl& c) override {
-    if (c.name != "gain") return Camera::set(c);
+    if (c.kind != ControlKind::gain) return Camera::set(c);
     if (!(c.value >= kLeastGain && c.value <= kMostGain))
-      throw Error(Errc::usage, "gain", "of a simulated camera is from 0.1 to 10");
+      throw Error(Errc::usage, control_name(c.kind), "of a simulated camera is from 0.1 to 10");
     gain_ = c.value;
   }
 

@@ -86,7 +86,8 @@ void GuardLink::live(const std::stop_token& stop, double pause) {
       const std::lock_guard lock(mutex_);
       if (patient_ && flows_ && monotonic_now() - asked_ > patience_) {
         tell({.kind = ToGuard::Kind::request, .number = ++number_, .frame_t = std::nan("")});
-        flows_ = false, resting_ = true;
+        flows_ = false;
+        resting_ = true;
         ++rests_;
       } else {
         tell({.kind = ToGuard::Kind::beat});
@@ -122,7 +123,8 @@ bool GuardLink::drain() {
   while (!gone_) {
     const ssize_t n = recv(link_, &r, sizeof r, MSG_DONTWAIT);
     if (n == ssize_t(sizeof r)) {
-      last_ = r, heard_ = monotonic_now();
+      last_ = r;
+      heard_ = monotonic_now();
       if (r.number > 0 && on_answer) on_answer(r);
     } else if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
       if (monotonic_now() - heard_ < kSilent) return true;
@@ -148,7 +150,8 @@ GuardReport GuardLink::wait_for(const std::function<bool(const GuardReport&)>& e
     (void)poll(&ready, 1, 50);
     GuardReport r;
     while (recv(link_, &r, sizeof r, MSG_DONTWAIT) == ssize_t(sizeof r)) {
-      last_ = r, heard_ = monotonic_now();
+      last_ = r;
+      heard_ = monotonic_now();
       if (enough(r)) return r;
     }
     if (ready.revents & (POLLHUP | POLLERR)) fail("its process ended; the coils are at rest");

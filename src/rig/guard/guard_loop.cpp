@@ -47,9 +47,15 @@ void GuardLoop::note(const std::string& what) {
 void GuardLoop::report(std::uint64_t number, double sent) {
   reported_ = monotonic_now();
   GuardReport r;
-  r.state = guard_.state(), r.fault = guard_.fault(), r.obeyed = obeyed_;
-  r.number = number, r.sent = sent, r.done = done_;
-  r.heat = guard_.heat(), r.passed = guard_.passed(), r.refused = guard_.refused();
+  r.state = guard_.state();
+  r.fault = guard_.fault();
+  r.obeyed = obeyed_;
+  r.number = number;
+  r.sent = sent;
+  r.done = done_;
+  r.heat = guard_.heat();
+  r.passed = guard_.passed();
+  r.refused = guard_.refused();
   r.sensed = sensed_;
   const std::string why = guard_.state() == CoilGuard::State::disarmed ? driver_->unsafe() : guard_.reason();
   why.copy(r.reason.data(), r.reason.size() - 1);

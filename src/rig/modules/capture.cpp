@@ -1,5 +1,5 @@
 // faba-capture.so: see rig/drivers/opencv.cpp.
-#include "rig/modules/capture.h"
+#include "rig/capture.h"
 
 #include <fmt/format.h>
 
@@ -48,12 +48,14 @@ class Capture final : public Camera {
     if (!opened)
       throw Error(Errc::device, fmt::format("camera \"{}\"", p.device),
                   "no camera can be opened there; see `faba rig list`");
-    ask(cv::CAP_PROP_FRAME_WIDTH, p.width), ask(cv::CAP_PROP_FRAME_HEIGHT, p.height),
-        ask(cv::CAP_PROP_FPS, p.rate);
+    ask(cv::CAP_PROP_FRAME_WIDTH, p.width);
+    ask(cv::CAP_PROP_FRAME_HEIGHT, p.height);
+    ask(cv::CAP_PROP_FPS, p.rate);
     ask(cv::CAP_PROP_BUFFERSIZE, 1);
-    for (const auto& [what, value] : {std::pair{"exposure", p.exposure}, std::pair{"gain", p.gain},
-                                      std::pair{"white_balance", p.white_balance}})
-      if (value) set({what, *value, false});
+    for (const auto& [kind, value] :
+         {std::pair{ControlKind::exposure, p.exposure}, std::pair{ControlKind::gain, p.gain},
+          std::pair{ControlKind::white_balance, p.white_balance}})
+      if (value) set({kind, *value, false});
     while (!pending_)
       if (!take()) throw Error(Errc::device, p.device, "gives no picture");
   }
@@ -63,7 +65,8 @@ class Capture final : public Camera {
       if (over_ || !take()) return false;
     }
     pending_ = false;
-    out.number = number_, out.t = t_;
+    out.number = number_;
+    out.t = t_;
     auto image = std::make_shared<Gray8>(grey_.cols, grey_.rows);
     for (int row = 0; row < grey_.rows; ++row)
       std::copy_n(grey_.ptr<std::uint8_t>(row), grey_.cols, &image->at(0, row));
@@ -82,29 +85,38 @@ class Capture final : public Camera {
       if (v <= 0 && property != cv::CAP_PROP_AUTO_WB) return {};
       return property == cv::CAP_PROP_AUTO_EXPOSURE ? std::fabs(v - kAutomaticExposure) < 0.5 : v > 0;
     };
-    return {{"exposure", capture_.get(cv::CAP_PROP_EXPOSURE), automatic(cv::CAP_PROP_AUTO_EXPOSURE)},
-            {"gain", capture_.get(cv::CAP_PROP_GAIN), {}},
-            {"white_balance", capture_.get(cv::CAP_PROP_WB_TEMPERATURE), automatic(cv::CAP_PROP_AUTO_WB)}};
+    return {
+        {ControlKind::exposure, capture_.get(cv::CAP_PROP_EXPOSURE), automatic(cv::CAP_PROP_AUTO_EXPOSURE)},
+        {ControlKind::gain, capture_.get(cv::CAP_PROP_GAIN), {}},
+        {ControlKind::white_balance, capture_.get(cv::CAP_PROP_WB_TEMPERATURE),
+         automatic(cv::CAP_PROP_AUTO_WB)}};
   }
   void set(const CameraControl& c) override {
-    const bool automatic = c.automatically.value_or(false);
-    bool taken = false;
-    if (c.name == "exposure") {
-      taken = capture_.set(cv::CAP_PROP_AUTO_EXPOSURE, automatic ? kAutomaticExposure : kManualExposure);
-      if (!automatic) taken = capture_.set(cv::CAP_PROP_EXPOSURE, c.value);
-    } else if (c.name == "gain") {
-      taken = capture_.set(cv::CAP_PROP_GAIN, c.value);
-    } else if (c.name == "white_balance") {
-      taken = capture_.set(cv::CAP_PROP_AUTO_WB, automatic);
-      if (!automatic) taken = capture_.set(cv::CAP_PROP_WB_TEMPERATURE, c.value);
-    }
-    if (!taken)
-      throw Error(Errc::usage, c.name, fmt::format("cannot be set to {:g} at camera {}", c.value, name_));
+    if (!accepts(c))
+      throw Error(Errc::usage, control_name(c.kind),
+                  fmt::format("cannot be set to {:g} at camera {}", c.value, name_));
   }
 
  private:
   static constexpr double kAutomaticExposure = 3, kManualExposure = 1;  // as V4L2 numbers them
 
+  bool accepts(const CameraControl& c) {
+    const bool automatic = c.automatically.value_or(false);
+    switch (c.kind) {
+      case ControlKind::exposure: {
+        const double mode = automatic ? kAutomaticExposure : kManualExposure;
+        const bool switched = capture_.set(cv::CAP_PROP_AUTO_EXPOSURE, mode);
+        return automatic ? switched : capture_.set(cv::CAP_PROP_EXPOSURE, c.value);
+      }
+      case ControlKind::gain:
+        return capture_.set(cv::CAP_PROP_GAIN, c.value);
+      case ControlKind::white_balance: {
+        const bool switched = capture_.set(cv::CAP_PROP_AUTO_WB, automatic);
+        return automatic ? switched : capture_.set(cv::CAP_PROP_WB_TEMPERATURE, c.value);
+      }
+    }
+    return false;
+  }
   void ask(int property, double value) {
     if (value > 0) capture_.set(property, value);
   }
@@ -112,7 +124,8 @@ class Capture final : public Camera {
     if (!capture_.grab()) return false;
     const double now = monotonic_now(), stamp = 1e-3 * capture_.get(cv::CAP_PROP_POS_MSEC);
     if (!capture_.retrieve(colour_) || colour_.empty() || colour_.depth() != CV_8U) {
-      ++corrupt_, ++number_;
+      ++corrupt_;
+      ++number_;
       return !over_;
     }
     if (colour_.channels() == 1)
@@ -120,7 +133,8 @@ class Capture final : public Camera {
     else
       cv::cvtColor(colour_, grey_, cv::COLOR_BGR2GRAY);
     t_ = stamp > now - kPlausible && stamp <= now ? stamp : now;
-    ++number_, pending_ = true;
+    ++number_;
+    pending_ = true;
     return true;
   }
 

@@ -4,6 +4,17 @@
 #include <cmath>
 
 namespace faba {
+namespace {
+
+std::string wrong_volts(const Amplifier::Params& p) {
+  if (p.least_volts >= p.most_volts) return "least_volts must be below most_volts";
+  if (p.gain == 0) return "gain must not be 0: no voltage would give a current";
+  if (p.reference < p.least_volts || p.reference > p.most_volts)
+    return "reference must be between least_volts and most_volts: no current flows there";
+  return "";
+}
+
+}  // namespace
 
 Schema<Amplifier::Params> Amplifier::schema() {
   return Schema<Params>("amplifier", "Electronics of the simulated bench")
@@ -61,13 +72,7 @@ Schema<Amplifier::Params> Amplifier::schema() {
            {.doc = "What is broken, to try the guard out", .choices = {"none", "stuck", "open", "weak"}})
       .add("fault_after", &Params::fault_after,
            {.unit = "s", .min = 0, .max = 1e6, .doc = "Time after the first command when it breaks"})
-      .check([](const Params& p) -> std::string {
-        if (p.least_volts >= p.most_volts) return "least_volts must be below most_volts";
-        if (p.gain == 0) return "gain must not be 0: no voltage would give a current";
-        if (p.reference < p.least_volts || p.reference > p.most_volts)
-          return "reference must be between least_volts and most_volts: no current flows there";
-        return "";
-      });
+      .check(wrong_volts);
 }
 
 Amplifier::Amplifier(const Params& p, std::size_t coils) : p_(p), current_(coils, 0.0), target_(coils, 0.0) {}
@@ -85,7 +90,10 @@ double Amplifier::target(std::size_t k, double volts) const {
 
 void Amplifier::take(std::span<const double> volts, bool enable, double t) {
   at(t);
-  if (!begun_) began_ = t, begun_ = true;
+  if (!begun_) {
+    began_ = t;
+    begun_ = true;
+  }
   enabled_ = enable || !p_.enable_line;
   alive_ = t;
   for (std::size_t k = 0; k < target_.size() && k < volts.size(); ++k)
@@ -103,7 +111,8 @@ void Amplifier::advance(double t) {
         i = to + (i - to) * std::exp(-left / p_.fall_time);
         continue;
       }
-      i = 0, left -= falling;
+      i = 0;
+      left -= falling;
     }
     const double tau = std::fabs(to) >= std::fabs(i) ? p_.rise_time : p_.fall_time;
     i = to + (i - to) * std::exp(-left / tau);

@@ -111,7 +111,10 @@ void CoilGuard::disarm(double now) {
 
 void CoilGuard::reset() {
   if (state_ != State::faulted) return;
-  state_ = State::disarmed, fault_ = Fault::none, reason_.clear(), off_ = 0;
+  state_ = State::disarmed;
+  fault_ = Fault::none;
+  reason_.clear();
+  off_ = 0;
 }
 
 CoilGuard::Fault CoilGuard::objection(const Request& r, double now, std::string& detail) const {
@@ -164,7 +167,8 @@ void CoilGuard::take(const Request& r, double now) {
     return;
   }
   ++passed_;
-  last_number_ = r.number, fresh_ = now;
+  last_number_ = r.number;
+  fresh_ = now;
   if (std::isfinite(r.frame_t)) last_frame_t_ = r.frame_t;
   put({r.current.begin(), r.current.end()}, now);
 }
@@ -184,10 +188,13 @@ void CoilGuard::sensed(std::span<const double> current, double now) {
     if (std::isnan(current[k])) continue;
     double low = current_[k], high = current_[k];
     for (const Passed& p : lately_)
-      if (p.t >= now - p_.sense_settling)
-        low = std::min(low, p.current[k]), high = std::max(high, p.current[k]);
+      if (p.t >= now - p_.sense_settling) {
+        low = std::min(low, p.current[k]);
+        high = std::max(high, p.current[k]);
+      }
     if (current[k] >= low - p_.sense_tolerance && current[k] <= high + p_.sense_tolerance) continue;
-    off = true, worst = k;
+    off = true;
+    worst = k;
   }
   off_ = off ? off_ + 1 : 0;
   if (off_ >= p_.sense_samples)
@@ -238,7 +245,8 @@ double CoilGuard::due() const {
 void CoilGuard::fail(Fault f, const std::string& detail, double now) {
   put(std::vector<double>(coils_.size(), 0.0), now);
   if (state_ == State::faulted) return;
-  state_ = State::faulted, fault_ = f;
+  state_ = State::faulted;
+  fault_ = f;
   reason_ = detail.empty() ? sentence(f) : fmt::format("{} ({})", sentence(f), detail);
 }
 

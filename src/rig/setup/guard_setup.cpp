@@ -14,7 +14,8 @@ DriverContext GuardSetup::context() const {
   for (const std::string& channel : c.channels)
     for (const WiredCoil& coil : coils)
       if (coil.channel == channel) {
-        c.least_volts.push_back(coil.least_volts), c.most_volts.push_back(coil.most_volts);
+        c.least_volts.push_back(coil.least_volts);
+        c.most_volts.push_back(coil.most_volts);
         break;
       }
   return c;

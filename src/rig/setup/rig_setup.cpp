@@ -21,8 +21,10 @@ std::vector<WiredCoil> wired_alike(std::size_t coils, const Amplifier::Params& a
   for (std::size_t k = 0; k < coils; ++k) {
     WiredCoil& c = all[k];
     c.channel = c.sense = std::to_string(k);
-    c.gain = c.sense_gain = a.gain, c.neutral = c.sense_neutral = a.reference;
-    c.least_volts = a.least_volts, c.most_volts = a.most_volts;
+    c.gain = c.sense_gain = a.gain;
+    c.neutral = c.sense_neutral = a.reference;
+    c.least_volts = a.least_volts;
+    c.most_volts = a.most_volts;
     c.max_current = c.max_rms = a.saturation;
   }
   return all;

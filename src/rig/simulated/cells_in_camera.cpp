@@ -27,7 +27,10 @@ const std::vector<CameraCell>& CellsInCamera::look(const State& s, double exposu
   }
   if (rods) {
     const auto ux = s.agents["ux"], uy = s.agents["uy"];
-    for (std::size_t i = 0; i < x.size(); ++i) cells_[i].ux = ux[i], cells_[i].uy = -uy[i];
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      cells_[i].ux = ux[i];
+      cells_[i].uy = -uy[i];
+    }
   }
   return cells_;
 }

@@ -144,7 +144,8 @@ Schema<Dipole::Params> Dipole::schema() {
             .min = 0,
             .max = 1e-12,
             .doc = "Median magnetic moment of a cell",
-            .source = "IT-1: about ten 75 nm magnetite crystals, estimate (B2), assumed"})
+            .source = "IT-1: about ten 75 nm magnetite crystals, estimate (B2), assumed",
+            .role = Role::coupling})
       .add("moment_spread", &Params::moment_spread,
            {.min = 0,
             .max = 2,

@@ -1,16 +1,20 @@
+#include "study/coils/field_fit.h"
+
 #include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <unsupported/Eigen/NumericalDiff>
 
 #include "app/files/field_points.h"
+#include "app/scenario/rig_editor.h"
 #include "app/scenario/rig_file.h"
 #include "core/file.h"
 #include "core/units.h"
 #include "field/field_data.h"
-#include "study/coils/field_report.h"
 #include "study/plot/plot_svg.h"
 
 namespace faba {
@@ -40,18 +44,14 @@ class Model {
   const std::vector<double>& values() const { return values_; }
   double strength() const { return strength_; }
 
-  struct Meaning {
-    double gain = 1;
-    std::array<double, 3> shift{}, offset{};  // m, T; NaN is "not asked for" in standard errors
-  };
   // All parameters are 1 where the rig is as its file says: forward differences take a share of a parameter
   // as their step.
-  Meaning meaning(const Eigen::VectorXd& x) const { return in_units(x, 1, 0); }
-  Meaning errors(const Eigen::VectorXd& se) const {
+  FieldFit::Values meaning(const Eigen::VectorXd& x) const { return in_units(x, 1, 0); }
+  FieldFit::Values errors(const Eigen::VectorXd& se) const {
     return in_units(se, 0, std::numeric_limits<double>::quiet_NaN());
   }
   std::vector<double> predicted(const Eigen::VectorXd& x) const {
-    const Meaning m = meaning(x);
+    const FieldFit::Values m = meaning(x);
     std::vector<Vec3> at = data_.at, b(at.size());
     for (Vec3& p : at) p = p - Vec3{m.shift[0], m.shift[1], m.shift[2]};
     field_.at(at, current_, b);
@@ -64,9 +64,10 @@ class Model {
   }
 
  private:
-  Meaning in_units(const Eigen::VectorXd& x, double zero, double absent) const {
-    Meaning m;
-    m.shift.fill(absent), m.offset.fill(absent);
+  FieldFit::Values in_units(const Eigen::VectorXd& x, double zero, double absent) const {
+    FieldFit::Values m;
+    m.shift.fill(absent);
+    m.offset.fill(absent);
     m.gain = x[0];
     Eigen::Index at = 1;
     for (const std::size_t axis : moves_) m.shift[axis] = (x[at++] - zero) * size_;
@@ -94,17 +95,16 @@ struct Residuals : Eigen::DenseFunctor<double> {
 
 // The rig with its coils as strong and where the measurement has them, and what no coil made as Earth's
 // field.
-void write_rig(const std::filesystem::path& file, Json rig, const Model::Meaning& m,
+void write_rig(const std::filesystem::path& file, RigEditor rig, const FieldFit::Values& m,
                const std::string& data) {
-  for (Json& coil : rig["coil"]) {
-    coil["gain"] = in_si(coil["gain"]) * m.gain;
-    for (std::size_t k = 0; k < 3; ++k)
-      coil["position"][k] = format_quantity(in_si(coil["position"][k]) + m.shift[k], "m");
+  for (std::size_t k = 0; k < rig.coils(); ++k) {
+    rig.strengthen(k, m.gain);
+    rig.move(k, {m.shift[0], m.shift[1], m.shift[2]});
   }
-  for (std::size_t k = 0; k < 3; ++k)
-    rig["earth"]["field"][k] = format_quantity(in_si(rig["earth"]["field"][k]) + m.offset[k], "T");
-  rig.erase("type");
-  write_file(file, "# Fitted to " + data + " with `faba field fit`.\n" + to_toml(rig));
+  rig.add_ambient({m.offset[0], m.offset[1], m.offset[2]});
+  Json table = rig.resolved().resolved;
+  table.erase("type");
+  write_file(file, "# Fitted to " + data + " with `faba field fit`.\n" + to_toml(table));
 }
 
 void draw(const std::filesystem::path& file, const Model& model, const std::vector<double>& predicted) {
@@ -121,21 +121,15 @@ void draw(const std::filesystem::path& file, const Model& model, const std::vect
   write_file(file, svg(p));
 }
 
-}  // namespace
+struct Solution {
+  Eigen::VectorXd x, standard_error;
+  double rms = 0;  ///< of what is left over, as a fraction of the field
+};
 
-nlohmann::ordered_json field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
-                                 const std::filesystem::path& out, const std::filesystem::path& picture) {
-  const auto part = read_rig(rig, builtin_parts());
-  const auto field = part.make({});
-  const std::vector<double> current = field->own_currents();
-  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
-    throw Error(Errc::usage, rig.string(),
-                "no current flows in it; give its coils the `current` with which the field was measured");
-  const FieldData data = field_data(read_field_points(measured));
-  const Model model(*field, data);
-  const auto n = Eigen::Index(model.values().size()), p = model.parameters();
-  if (n <= p) throw Error(Errc::input, measured.string(), fmt::format("has {} values for {} unknowns", n, p));
-
+// Throws Error(input) naming `data` when they do not tell.
+Solution solved(const Model& model, const std::string& data) {
+  const auto n = Eigen::Index(model.values().size());
+  const Eigen::Index p = model.parameters();
   Residuals residuals(model);
   Eigen::NumericalDiff<Residuals> slope(residuals);
   Eigen::LevenbergMarquardt<Eigen::NumericalDiff<Residuals>> lm(slope);
@@ -144,46 +138,62 @@ nlohmann::ordered_json field_fit(const std::filesystem::path& rig, const std::fi
   Eigen::VectorXd left(n);
   residuals(x, left);
   if (!left.allFinite())
-    throw Error(Errc::input, measured.string(),
-                "has points where the rig has no field: in a coil, or beyond a map");
+    throw Error(Errc::input, data, "has points where the rig has no field: in a coil, or beyond a map");
   Eigen::MatrixXd j(n, p);
   slope.df(x, j);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(j);
   qr.setThreshold(1e-6);  // what a forward difference leaves of a column that says nothing
   if (qr.rank() < p)
     throw Error(
-        Errc::input, measured.string(),
+        Errc::input, data,
         "does not say where the coils are: another place and strength fit as well; more points, off the "
         "axis, would tell");
   const double variance = left.squaredNorm() / double(n - p);
   const Eigen::VectorXd se = (variance * (j.transpose() * j).inverse().diagonal()).cwiseSqrt();
+  return {x, se, std::sqrt(left.squaredNorm() / double(n))};
+}
 
-  const Model::Meaning m = model.meaning(x), e = model.errors(se);
-  const auto known = [](const std::array<double, 3>& v) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const double s : v)
-      list.push_back(std::isnan(s) ? nlohmann::ordered_json() : nlohmann::ordered_json(s));
-    return list;
-  };
-  nlohmann::ordered_json report;
-  report["values"] = n;
-  report["gain"] = m.gain, report["gain_se"] = e.gain;
-  report["shift_m"] = m.shift, report["shift_se_m"] = known(e.shift);
-  report["offset_t"] = m.offset, report["offset_se_t"] = known(e.offset);
-  report["rms_t"] = model.strength() * std::sqrt(left.squaredNorm() / double(n));
-  report["rms_field_t"] = model.strength();
-  const double left_share = std::sqrt(left.squaredNorm() / double(n));
-  report["note"] =
-      left_share > kMuch ? fmt::format(
-                               "the fit leaves {:.0f} % of the field over: columns, units or a value may be "
-                               "wrong, or the rig is another one",
-                               100 * left_share)
-      : m.gain < 0                 ? "the gain is negative: the sense of a current or of an axis is reversed"
-      : m.gain < 0.5 || m.gain > 2 ? "the gain is far from 1: turns, current or units may be wrong"
-                                   : "";
-  if (!out.empty()) write_rig(out, part.resolved, m, measured.filename().string());
-  if (!picture.empty()) draw(picture, model, model.predicted(x));
-  return report;
+std::string note_on(double gain, double left) {
+  if (left > kMuch)
+    return fmt::format(
+        "the fit leaves {:.0f} % of the field over: columns, units or a value may be "
+        "wrong, or the rig is another one",
+        100 * left);
+  if (gain < 0) return "the gain is negative: the sense of a current or of an axis is reversed";
+  if (gain < 0.5 || gain > 2) return "the gain is far from 1: turns, current or units may be wrong";
+  return "";
+}
+
+}  // namespace
+
+FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
+                   const std::filesystem::path& out, const std::filesystem::path& picture) {
+  const Parts parts = builtin_parts();
+  const auto part = read_rig(rig, parts);
+  const auto field = part.make({});
+  const std::vector<double> current = field->own_currents();
+  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
+    throw Error(Errc::usage, rig.string(),
+                "no current flows in it; give its coils the `current` with which the field was measured");
+  const FieldData data = field_data(read_field_points(measured));
+  const Model model(*field, data);
+  const auto n = Eigen::Index(model.values().size());
+  const Eigen::Index p = model.parameters();
+  if (n <= p) throw Error(Errc::input, measured.string(), fmt::format("has {} values for {} unknowns", n, p));
+
+  const Solution solution = solved(model, measured.string());
+
+  FieldFit fit;
+  fit.values = model.values().size();
+  fit.best = model.meaning(solution.x);
+  fit.standard_error = model.errors(solution.standard_error);
+  fit.rms = model.strength() * solution.rms;
+  fit.rms_field = model.strength();
+  fit.note = note_on(fit.best.gain, solution.rms);
+  if (!out.empty())
+    write_rig(out, RigEditor(parts.field, part.resolved), fit.best, measured.filename().string());
+  if (!picture.empty()) draw(picture, model, model.predicted(solution.x));
+  return fit;
 }
 
 }  // namespace faba

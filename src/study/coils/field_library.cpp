@@ -1,3 +1,5 @@
+#include "study/coils/field_library.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "core/parallel.h"
 #include "core/statistics.h"
 #include "field/null.h"
-#include "study/coils/field_report.h"
 
 namespace faba {
 namespace {
@@ -118,7 +119,7 @@ class Search {
 
 // What the library costs against solving for the currents: places all over the rectangle, one by one.
 void compare_with_solver(const Field& field, const FieldLibrary& library, Vec2 half,
-                         nlohmann::ordered_json& j) {
+                         FieldLibrarySummary& summary) {
   constexpr int kSide = 15;
   std::vector<double> off, strength;
   const std::vector<double> most = current_limits(field);
@@ -133,11 +134,9 @@ void compare_with_solver(const Field& field, const FieldLibrary& library, Vec2 h
       if (solved.reachable && !solved.saddle && e.gradient[1] < 0)
         strength.push_back(e.gradient[1] / solved.gradient[1]);
     }
-  j["off_m"] = nullptr;
-  j["strength"] = nullptr;
   if (!off.empty())
-    j["off_m"] = {{"median", median_high(off)}, {"largest", *std::max_element(off.begin(), off.end())}};
-  if (!strength.empty()) j["strength"] = median_high(strength);
+    summary.off = {.median = median_high(off), .largest = *std::max_element(off.begin(), off.end())};
+  if (!strength.empty()) summary.strength = median_high(strength);
 }
 
 struct Unlock {
@@ -156,8 +155,8 @@ struct Unlock {
 
 }  // namespace
 
-nlohmann::ordered_json build_field_library(const std::filesystem::path& rig, const std::filesystem::path& out,
-                                           const FieldLibraryOptions& o) {
+FieldLibrarySummary build_field_library(const std::filesystem::path& rig, const std::filesystem::path& out,
+                                        const FieldLibraryOptions& o) {
   const auto part = read_rig(rig, builtin_parts());
   const auto field = part.make({});
   const Vec2 half{0.5 * o.width, 0.5 * o.height};
@@ -210,13 +209,17 @@ nlohmann::ordered_json build_field_library(const std::filesystem::path& rig, con
   writer.finish();
 
   const std::shared_ptr<const FieldLibrary> library = open_library(out);
-  nlohmann::ordered_json j{
-      {"out", out.string()}, {"combinations", lattice.size()}, {"entries", library->entries().size()},
-      {"levels", levels},    {"columns", grid.columns},        {"rows", grid.rows}};
-  j["traps"] = std::count_if(library->entries().begin(), library->entries().end(),
-                             [](const LibraryEntry& e) { return e.gradient[1] < 0 || e.gradient[0] > 0; });
-  compare_with_solver(*field, *library, half, j);
-  return j;
+  FieldLibrarySummary summary;
+  summary.out = out;
+  summary.combinations = lattice.size();
+  summary.entries = library->entries().size();
+  summary.traps = std::count_if(library->entries().begin(), library->entries().end(),
+                                [](const LibraryEntry& e) { return e.gradient[1] < 0 || e.gradient[0] > 0; });
+  summary.levels = levels;
+  summary.columns = grid.columns;
+  summary.rows = grid.rows;
+  compare_with_solver(*field, *library, half, summary);
+  return summary;
 }
 
 }  // namespace faba

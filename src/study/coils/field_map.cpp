@@ -6,8 +6,7 @@
 #include "app/scenario/rig_file.h"
 #include "core/h5/h5.h"
 #include "field/kernels/field_table.h"
-#include "field/null.h"
-#include "study/coils/field_report.h"
+#include "study/coils/field_map.h"
 #include "vision/draw/field_picture.h"
 #include "vision/files/picture.h"
 
@@ -89,7 +88,9 @@ void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vect
   for (int r = 0; r < m.height; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
       const Vec3 v = m.b[std::size_t(r) * columns + c];
-      row[3 * c] = v.x, row[3 * c + 1] = v.y, row[3 * c + 2] = v.z;
+      row[3 * c] = v.x;
+      row[3 * c + 1] = v.y;
+      row[3 * c + 2] = v.z;
     }
     b.append<double>(row);
     y.append<double>({&m.at[std::size_t(r) * columns].y, 1});
@@ -100,9 +101,11 @@ void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vect
   unfinished.file.clear();
 }
 
-void draw(const FieldMapOptions& o, const Field& field, const Map& m, const nlohmann::ordered_json& zeros) {
+void draw(const FieldMapOptions& o, const Field& field, const Map& m,
+          const std::vector<FieldMap::Zero>& zeros) {
   FieldScene s;
-  s.width = m.width, s.height = m.height;
+  s.width = m.width;
+  s.height = m.height;
   s.um_per_px = m.m_per_px * 1e6;
   if (o.view) s.view_px = (1 / m.m_per_px) * *o.view;
   s.drop_radius_px = o.drop_radius / m.m_per_px;
@@ -111,29 +114,25 @@ void draw(const FieldMapOptions& o, const Field& field, const Map& m, const nloh
     s.coils.emplace_back();
     for (const Vec3& p : stroke) s.coils.back().push_back(m.px({p.x, p.y}));
   }
-  for (const auto& z : zeros)
-    s.zeros.push_back(
-        {m.px({z["at_m"][0].get<double>(), z["at_m"][1].get<double>()}), z["kind"].get<std::string>()});
+  for (const FieldMap::Zero& z : zeros) s.zeros.push_back({m.px(z.at), z.kind});
   write_png(o.picture, draw_field(s));
 }
 
 // A map may show the coils themselves, a table of the field may not hold them.
-nlohmann::ordered_json table_report(const Field& field, const FieldMapOptions& o) {
+std::optional<FieldMap::Table> table_of(const Field& field, const FieldMapOptions& o) {
   try {
     const FieldTable table(field, {-o.width / 2, -o.height / 2}, {o.width / 2, o.height / 2});
-    return {{"spacing_m", table.grid().spacing},
-            {"columns", table.grid().columns},
-            {"rows", table.grid().rows},
-            {"error", table.error()}};
+    const TableGrid& grid = table.grid();
+    return FieldMap::Table{grid.spacing, grid.columns, grid.rows, table.error()};
   } catch (const Error&) {
     if (o.picture.empty() && o.hdf5.empty()) throw;
-    return nullptr;
+    return std::nullopt;
   }
 }
 
 }  // namespace
 
-nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
+FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
   const auto field = read_rig(rig, builtin_parts()).make({});
   const std::vector<double> current = o.current.empty() ? field->own_currents() : o.current;
   if (current.size() != field->coils())
@@ -149,21 +148,16 @@ nlohmann::ordered_json field_map(const std::filesystem::path& rig, const FieldMa
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
     note = "no current flows; say which, such as --current 0.5,0.5";
   const Map m = computed(*field, current, o);
-  nlohmann::ordered_json j;
-  j["currents_a"] = current;
-  j["note"] = note;
-  j["zeros"] = nlohmann::ordered_json::array();
+  FieldMap map{current, note, {}, 0, {}};
   for (const Vec2 at : zeros_in(*field, current, o)) {
     const NullGradient g = null_gradient(*field, current, at);
-    j["zeros"].push_back({{"at_m", {at.x, at.y}}, {"eigenvalues_t_per_m", g}, {"kind", kind_of(g)}});
+    map.zeros.push_back({at, g, kind_of(g)});
   }
-  double strongest = 0;
-  for (const Vec3& v : m.b) strongest = std::max(strongest, norm(Vec2{v.x, v.y}));
-  j["strongest_t"] = strongest;
-  j["table"] = table_report(*field, o);
-  if (!o.picture.empty()) draw(o, *field, m, j["zeros"]);
+  for (const Vec3& v : m.b) map.strongest = std::max(map.strongest, norm(Vec2{v.x, v.y}));
+  map.table = table_of(*field, o);
+  if (!o.picture.empty()) draw(o, *field, m, map.zeros);
   if (!o.hdf5.empty()) write_hdf5(o.hdf5, m, current);
-  return j;
+  return map;
 }
 
 }  // namespace faba

@@ -109,7 +109,8 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   const Json& s = *d.schema;
   if (!s.contains("minimum") || !s.contains("maximum"))
     throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not a number that could be found");
-  FreeParameter p{.path = path, .unit = s.value("x-unit", ""), .whole = s["type"] == "integer"};
+  FreeParameter p{
+      .path = path, .unit = s.value("x-unit", ""), .whole = s["type"] == "integer", .role = role_of(s)};
   const double least = s["minimum"].get<double>(), most = s["maximum"].get<double>();
   p.low = least, p.high = most;
   if (given && *given == false)

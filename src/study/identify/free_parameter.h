@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/toml.h"
+#include "core/schema.h"
 
 namespace faba {
 
@@ -12,6 +12,7 @@ struct FreeParameter {
   std::string path;  ///< "swarm[0].model.max_speed"
   std::string unit;  ///< of the numbers below, as units.h knows it; "" for a pure number
   bool whole = false;
+  Role role = Role::none;
   bool low_is_least = false, high_is_most = false;  ///< nothing lies beyond that end of the range
   double low = 0, high = 1;
   /// Of the scale on which all values are taken for equally likely: 0 a linear one; else it is stretched, so

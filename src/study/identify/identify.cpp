@@ -183,12 +183,12 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
   return s;
 }
 
-// A moment shows in how long a U-turn takes, and not at all where that is shorter than a frame.
+// A magnetic moment shows in how long a U-turn takes, and not at all where that is shorter than a frame.
 void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
                  const std::vector<ResponseVideo>& videos) {
   const ResponseVideo& v = videos.front();
   for (FoundParameter& p : m.parameters) {
-    if (p.parameter.name() != "moment" || p.doubt.empty()) continue;
+    if (p.parameter.role != Role::coupling || p.doubt.empty()) continue;
     const Document d =
         scenario_of(study, c, v, v.episodes.front(), VectorXd::Constant(Index(c.free.size()), 0.5),
                     exact_timing(v.episodes.front()));

@@ -62,7 +62,10 @@ std::vector<int> best_assignment(int rows, int columns, const std::vector<Possib
   std::vector<int> part_of(std::size_t(rows + columns), -1);
   for (const PossiblePair& c : candidates) {
     int& part = part_of[std::size_t(parts.root(c.row))];
-    if (part < 0) part = int(by_part.size()), by_part.emplace_back();
+    if (part < 0) {
+      part = int(by_part.size());
+      by_part.emplace_back();
+    }
     by_part[std::size_t(part)].push_back(c);
   }
   for (const auto& part : by_part) {

@@ -174,7 +174,10 @@ double spot_size(const GrayF& frame, const Background& background, Polarity pola
     if (count == 0 && !snr.empty()) count = std::max<std::size_t>(1, snr.size() / 5);
     double sum = 0;
     for (std::size_t i = 0; i < std::min(count, snr.size()); ++i) sum += snr[i];
-    if (sum > best) best = sum, size_of_best = size;
+    if (sum > best) {
+      best = sum;
+      size_of_best = size;
+    }
   }
   return size_of_best;
 }

@@ -58,7 +58,9 @@ class Window {
       const double slope = xx * dx + xy * dy;
       double value = middle, step = std::exp(-slope - 0.5 * xx);
       for (int col = from; col <= right_; ++col, value *= step, step *= bend) px[col - left_] -= value;
-      value = middle * (step = std::exp(slope - 0.5 * xx)), step *= bend;
+      step = std::exp(slope - 0.5 * xx);
+      value = middle * step;
+      step *= bend;
       for (int col = from - 1; col >= left_; --col, value *= step, step *= bend) px[col - left_] -= value;
     }
   }
@@ -87,12 +89,17 @@ class Window {
         const double v =
             px_[std::size_t(row - top_) * std::size_t(right_ - left_ + 1) + std::size_t(col - left_)];
         const double w = down * across_[std::size_t(col - first)] * (v - offset);
-        m.mass += w, m.x += w * dx, m.y += w * dy;
-        m.cov.xx += w * dx * dx, m.cov.xy += w * dx * dy, m.cov.yy += w * dy * dy;
+        m.mass += w;
+        m.x += w * dx;
+        m.y += w * dy;
+        m.cov.xx += w * dx * dx;
+        m.cov.xy += w * dx * dy;
+        m.cov.yy += w * dy * dy;
       }
     }
     if (m.mass <= 0) return m;
-    m.x /= m.mass, m.y /= m.mass;
+    m.x /= m.mass;
+    m.y /= m.mass;
     m.cov = {m.cov.xx / m.mass - m.x * m.x, m.cov.xy / m.mass - m.x * m.y, m.cov.yy / m.mass - m.y * m.y};
     return m;
   }
@@ -135,7 +142,8 @@ Shape settle(Window& window, const SpotSeed& seed, Shape from, double sd) {
     m = window.moments(to.x, to.y, to.offset);
     if (!(m.mass > 0)) return to;
     // Under a window of its own width a Gaussian's centre of mass is half as far from the window's.
-    to.x += std::clamp(2 * m.x, -sd, sd), to.y += std::clamp(2 * m.y, -sd, sd);
+    to.x += std::clamp(2 * m.x, -sd, sd);
+    to.y += std::clamp(2 * m.y, -sd, sd);
     if (std::hypot(to.x - seed.col, to.y - seed.row) > std::max(1.5, 1.5 * sd)) return to;
     if (std::hypot(m.x, m.y) < 5e-4) break;
   }
@@ -150,7 +158,8 @@ Shape settle(Window& window, const SpotSeed& seed, Shape from, double sd) {
 Spot spot_of(const Shape& s, const SpotSeed& seed) {
   const Axes a = axes_of(s.cov);
   Spot spot;
-  spot.x_px = s.x, spot.y_px = s.y;
+  spot.x_px = s.x;
+  spot.y_px = s.y;
   spot.snr = seed.snr;
   spot.mass = 2 * std::numbers::pi * std::sqrt(a.large * a.small) * s.amplitude;
   spot.size_px = kFwhmPerSd * std::sqrt(std::sqrt(a.large * a.small));
@@ -201,7 +210,10 @@ std::vector<Spot> fit_spots(const GrayF& difference, const std::vector<SpotSeed>
       Window window(difference, seeds[i], sd_px);
       bool alone = true;
       near.each(seeds[i], i, [&](std::size_t k) {
-        if (shapes[k].good) window.take_off(shapes[k]), alone = false;
+        if (shapes[k].good) {
+          window.take_off(shapes[k]);
+          alone = false;
+        }
       });
       if (pass > 0 && alone) continue;
       next[i] = settle(window, seeds[i], {double(seeds[i].col), double(seeds[i].row), 0, 0, {}}, sd_px);

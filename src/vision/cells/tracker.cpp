@@ -65,7 +65,8 @@ void Tracker::begin() {
   acceleration_ = reach * reach / 4 / (frame_s_ * frame_s_ * frame_s_);
   motion_ = options_.motion == Motion::velocity ? Motion::velocity : Motion::nearest;
   for (const Waiting& w : first) step(w.frame, w.t_s, w.spots);
-  live_.clear(), finished_.clear();
+  live_.clear();
+  finished_.clear();
   numbered_ = dropped_ = 0;
   for (const Waiting& w : first) step(w.frame, w.t_s, w.spots);
 }
@@ -106,7 +107,8 @@ void Tracker::assign(double t_s, const std::vector<Spot>& spots, bool second, st
     Forecast f = forecast(live_[i], t_s);
     if (second) {
       f.gate = options_.reach_px * std::max(1.0, (t_s - live_[i].t_s) / frame_s_);
-      f.at = live_[i].at, f.var = f.gate * f.gate / (kGate * kGate);
+      f.at = live_[i].at;
+      f.var = f.gate * f.gate / (kGate * kGate);
     }
     each_near(spots, f.at, f.gate, [&](std::size_t k) {
       const Vec2 d = Vec2{spots[k].x_px, spots[k].y_px} - f.at;
@@ -117,7 +119,10 @@ void Tracker::assign(double t_s, const std::vector<Spot>& spots, bool second, st
   }
   const std::vector<int> best = best_assignment(int(live_.size()), int(spots.size()), candidates);
   for (std::size_t i = 0; i < best.size(); ++i)
-    if (best[i] >= 0) of_track[i] = best[i], taken[std::size_t(best[i])] = true;
+    if (best[i] >= 0) {
+      of_track[i] = best[i];
+      taken[std::size_t(best[i])] = true;
+    }
 }
 
 void Tracker::step(std::uint64_t frame, double t_s, const std::vector<Spot>& spots) {
@@ -125,7 +130,9 @@ void Tracker::step(std::uint64_t frame, double t_s, const std::vector<Spot>& spo
   std::vector<bool> taken(spots.size(), false);
   assign(t_s, spots, false, of_track, taken);
   if (motion_ == Motion::velocity) assign(t_s, spots, true, of_track, taken);
-  error_nearest_ *= kForget, error_velocity_ *= kForget, weighed_ *= kForget;
+  error_nearest_ *= kForget;
+  error_velocity_ *= kForget;
+  weighed_ *= kForget;
   std::vector<Live> kept;
   for (std::size_t i = 0; i < live_.size(); ++i) {
     Live& l = live_[i];
@@ -150,7 +157,9 @@ void Tracker::step(std::uint64_t frame, double t_s, const std::vector<Spot>& spo
 
 void Tracker::weigh_motion(const Live& l, double dt, Vec2 seen) {
   const Vec2 still = seen - l.at, ahead = seen - (l.at + dt * l.velocity);
-  error_nearest_ += dot(still, still), error_velocity_ += dot(ahead, ahead), weighed_ += 1;
+  error_nearest_ += dot(still, still);
+  error_velocity_ += dot(ahead, ahead);
+  weighed_ += 1;
 }
 
 void Tracker::follow(Live& l, std::uint64_t frame, double t_s, const Spot& spot) {
@@ -162,7 +171,9 @@ void Tracker::follow(Live& l, std::uint64_t frame, double t_s, const Spot& spot)
   if (l.points < 2) {
     l.velocity = (1 / dt) * moved;
     l.at = seen;
-    l.var_at = r, l.cov = r / dt, l.var_velocity = 2 * r / (dt * dt) + acceleration_ * dt / 3;
+    l.var_at = r;
+    l.cov = r / dt;
+    l.var_velocity = 2 * r / (dt * dt) + acceleration_ * dt / 3;
   } else {
     // Kalman filter of one axis; both axes have the same variances.
     const double q = acceleration_ * dt;
@@ -172,14 +183,18 @@ void Tracker::follow(Live& l, std::uint64_t frame, double t_s, const Spot& spot)
     const double s = paa + r, ka = paa / s, kv = pav / s;
     l.at = l.at + dt * l.velocity + ka * innovation;
     l.velocity = l.velocity + kv * innovation;
-    l.var_at = (1 - ka) * paa, l.cov = (1 - ka) * pav, l.var_velocity = pvv - kv * pav;
+    l.var_at = (1 - ka) * paa;
+    l.cov = (1 - ka) * pav;
+    l.var_velocity = pvv - kv * pav;
     // How restless things are follows from how far the forecasts were off: 2 s is expected of |innovation|^2.
     const double off = std::min(dot(innovation, innovation) / (2 * s), kGate * kGate);
     acceleration_ *= 1 + 0.002 * (off - 1);
   }
   // Filtered places lag behind; what is foretold from them is better, what is known of the last place is not.
   if (motion_ == Motion::nearest) l.at = seen;
-  l.t_s = t_s, l.missed = 0, ++l.points;
+  l.t_s = t_s;
+  l.missed = 0;
+  ++l.points;
   l.track.points.push_back({frame, t_s, spot.x_px, spot.y_px, spot.mass, spot.snr});
   if (l.points == std::size_t(options_.least_points)) l.track.number = ++numbered_;
   if (l.track.points.size() >= std::size_t(options_.most_points) && l.track.number > 0) {
@@ -193,7 +208,8 @@ void Tracker::follow(Live& l, std::uint64_t frame, double t_s, const Spot& spot)
 void Tracker::give_birth(std::uint64_t frame, double t_s, const Spot& spot) {
   Live l;
   l.at = {spot.x_px, spot.y_px};
-  l.t_s = t_s, l.points = 1;
+  l.t_s = t_s;
+  l.points = 1;
   l.track.points.push_back({frame, t_s, spot.x_px, spot.y_px, spot.mass, spot.snr});
   if (options_.least_points == 1) l.track.number = ++numbered_;
   live_.push_back(std::move(l));
@@ -209,7 +225,10 @@ void Tracker::retire(Live& l) {
 void Tracker::learn_common_velocity() {
   std::vector<double> x, y;
   for (const Live& l : live_)
-    if (l.points >= 3) x.push_back(l.velocity.x), y.push_back(l.velocity.y);
+    if (l.points >= 3) {
+      x.push_back(l.velocity.x);
+      y.push_back(l.velocity.y);
+    }
   if (double(x.size()) < kFewLinks) return;
   common_velocity_ = {median_high(x), median_high(y)};
 }

@@ -68,10 +68,19 @@ void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, dou
       for (int y = r - step / 2; y < std::min(r - step / 2 + step, flow.height()); ++y)
         for (int x = c - step / 2; x < std::min(c - step / 2 + step, flow.width()); ++x) {
           const double a = double(flow.u.at(x, y)), b = double(flow.v.at(x, y)), w = std::hypot(a, b);
-          if (std::isfinite(w)) u += w * a, v += w * b, x0 += w * x, y0 += w * y, sum += w;
+          if (std::isfinite(w)) {
+            u += w * a;
+            v += w * b;
+            x0 += w * x;
+            y0 += w * y;
+            sum += w;
+          }
         }
       if (!(sum > 0)) continue;
-      u /= sum, v /= sum, x0 /= sum, y0 /= sum;
+      u /= sum;
+      v /= sum;
+      x0 /= sum;
+      y0 /= sum;
       const double speed = std::hypot(u, v);
       if (speed < kLeast * full) continue;
       const double scale = 0.9 * step / std::max(full, speed);

@@ -44,12 +44,18 @@ Run best_run(const std::vector<bool>& hit, bool closed, double p) {
   Run now;
   const std::size_t n = hit.size(), reach = closed ? 2 * n : n;
   for (std::size_t i = 0; i < reach; ++i) {
-    if (score <= 0) now = {i, 0, 0}, score = 0;
+    if (score <= 0) {
+      now = {i, 0, 0};
+      score = 0;
+    }
     if (now.length == n) break;
     score += hit[i % n] ? gain : loss;
     now.length += 1;
     now.hits += hit[i % n];
-    if (score > best_score) best_score = score, best = now;
+    if (score > best_score) {
+      best_score = score;
+      best = now;
+    }
   }
   return best;
 }

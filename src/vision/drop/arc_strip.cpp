@@ -35,7 +35,8 @@ AngleRange angles_of_view(const GrayF& im, Vec2 centre) {
   for (const Vec2 corner : {Vec2{0, 0}, Vec2{w, 0}, Vec2{0, h}, Vec2{w, h}}) {
     const double d =
         std::remainder(std::atan2(corner.y - centre.y, corner.x - centre.x) - middle, 2 * std::numbers::pi);
-    low = std::min(low, d), high = std::max(high, d);
+    low = std::min(low, d);
+    high = std::max(high, d);
   }
   return {middle + low, middle + high};
 }
@@ -88,11 +89,13 @@ std::vector<double> window_energy(const std::vector<double>& grey, std::size_t l
   const double n = double(length), base = grey.front();
   for (std::size_t i = 0; i < grey.size(); ++i) {
     const double in = grey[i] - base;
-    sum += in, squares += in * in;
+    sum += in;
+    squares += in * in;
     if (i + 1 < length) continue;
     energy.push_back(std::max(squares - sum * sum / n, 0.0));
     const double out = grey[i + 1 - length] - base;
-    sum -= out, squares -= out * out;
+    sum -= out;
+    squares -= out * out;
   }
   return energy;
 }
@@ -214,7 +217,8 @@ void align_by_change(ArcStrip& strip) {
     std::vector<double> sum{0}, squares{0};
     for (double g : p.grey) {
       const double x = g - p.grey[0];
-      sum.push_back(sum.back() + x), squares.push_back(squares.back() + x * x);
+      sum.push_back(sum.back() + x);
+      squares.push_back(squares.back() + x * x);
     }
     auto spread_cost = [&](std::size_t from, std::size_t to) {
       const double count = double(to - from), s = sum[to] - sum[from];
@@ -224,7 +228,10 @@ void align_by_change(ArcStrip& strip) {
     for (int s = -strip.reach(); s <= strip.reach(); ++s) {
       const auto split = static_cast<std::size_t>(std::ptrdiff_t{strip.half} + s);
       const double cost = spread_cost(0, split) + spread_cost(split, std::size_t(n));
-      if (cost < best) best = cost, p.shift = s - 0.5;
+      if (cost < best) {
+        best = cost;
+        p.shift = s - 0.5;
+      }
     }
   }
 }

@@ -12,7 +12,7 @@
 namespace faba {
 namespace {
 
-constexpr double kTukey = 4.685;     // 95 % efficiency on Gaussian residuals
+constexpr double kTukey = 4.685;  // 95 % efficiency on Gaussian residuals
 
 /// SplitMix64: the n-th number is a mix of seed + n * golden ratio, so it is a counter and nothing else.
 class Picker {
@@ -251,8 +251,12 @@ std::optional<Circle> fit_circle_pratt(std::span<const Vec2> points, std::span<c
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2 p = (1 / spread) * (points[i] - mean);
     const double z = dot(p, p), w = weight(i) / total;
-    xx += w * p.x * p.x, xy += w * p.x * p.y, yy += w * p.y * p.y;
-    xz += w * p.x * z, yz += w * p.y * z, zz += w * z * z;
+    xx += w * p.x * p.x;
+    xy += w * p.x * p.y;
+    yy += w * p.y * p.y;
+    xz += w * p.x * z;
+    yz += w * p.y * z;
+    zz += w * z * z;
   }
   // With A = 1 the rows of (M - eta K) a = 0 give B, C and D, and the remaining row is the quartic q(eta) =
   // 0. Its smallest root >= 0 is the minimum; Newton's steps from 0 cannot pass it.

@@ -65,8 +65,10 @@ double crookedness(const DropCandidate& d) {
         std::clamp(std::remainder(std::atan2(r.y, r.x) - axis, 2 * std::numbers::pi) / half, -1.0, 1.0);
     const double u2 = u * u, p3 = u * (5 * u2 - 3) / 2, p4 = (u2 * (35 * u2 - 30) + 3) / 8,
                  off = norm(r) - d.fit.radius;
-    sum3 += off * p3, norm3 += p3 * p3;
-    sum4 += off * p4, norm4 += p4 * p4;
+    sum3 += off * p3;
+    norm3 += p3 * p3;
+    sum4 += off * p4;
+    norm4 += p4 * p4;
     power += off * off;
   }
   const double c3 = sum3 / norm3, c4 = sum4 / norm4, size = std::sqrt(c3 * c3 + c4 * c4);
@@ -196,7 +198,10 @@ class Search {
   void try_pixels(const std::vector<EdgePixel>& pixels, const std::vector<EdgeSegment>& segments,
                   std::size_t k) {
     std::vector<Vec2> positions, normals;
-    for (const EdgePixel& p : pixels) positions.push_back(p.pos), normals.push_back(p.normal);
+    for (const EdgePixel& p : pixels) {
+      positions.push_back(p.pos);
+      normals.push_back(p.normal);
+    }
     const DropLevel& level = picture_.levels[k];
     CircleSearchOptions o;
     o.trials = options_.trials;

@@ -13,16 +13,15 @@ namespace {
 constexpr double kSpotSd = 7;  // a spot's height: noise alone gives none in a picture of 1e6 pixels
 constexpr int kBorder = 8;     // px, where the filters see the replicated border
 
-double spread(std::vector<float>& v) {
-  return v.empty() ? 0 : kMadToSd * double(median_high(v));
-}
+double spread(std::vector<float>& v) { return v.empty() ? 0 : kMadToSd * double(median_high(v)); }
 
 /// A picture position by the side of the circle it is on: 1 inside, 0 outside, -1 within the margin.
 class Sides {
  public:
   Sides(const Circle& c, double margin) : centre_(c.centre) {
     const double inner = std::max(c.radius - margin, 0.0), outer = c.radius + margin;
-    inner2_ = inner * inner, outer2_ = outer * outer;
+    inner2_ = inner * inner;
+    outer2_ = outer * outer;
   }
   int operator()(int r, int c) const {
     const Vec2 d = Vec2{double(c), double(r)} - centre_;
@@ -87,8 +86,14 @@ Vec2 point_on_side(int width, int height, const Circle& circle, bool inside) {
     for (int c = 0; c < width; c += pitch) {
       const Vec2 p{double(c), double(r)};
       const double depth = (circle.radius - norm(p - circle.centre)) * (inside ? 1 : -1);
-      if (depth > depth_there) depth_there = depth, deepest = p;
-      if (depth > 0) sum = sum + p, count += 1;
+      if (depth > depth_there) {
+        depth_there = depth;
+        deepest = p;
+      }
+      if (depth > 0) {
+        sum = sum + p;
+        count += 1;
+      }
     }
   // Disk and picture are convex, so the centroid of what they share lies in both.
   return inside && count > 0 ? (1 / count) * sum : deepest;

@@ -27,7 +27,9 @@ cv::Mat1f smooth(const GrayF& picture, double sigma) {
 Gradient roberts(const cv::Mat1f& s) {
   Gradient g;
   const int rows = s.rows - 1, cols = s.cols - 1;
-  g.dx.create(rows, cols), g.dy.create(rows, cols), g.power.create(rows, cols);
+  g.dx.create(rows, cols);
+  g.dy.create(rows, cols);
+  g.power.create(rows, cols);
   for (int r = 0; r < rows; ++r) {
     const float *top = s[r], *low = s[r + 1];
     float *dx = g.dx[r], *dy = g.dy[r], *power = g.power[r];

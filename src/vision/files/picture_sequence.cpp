@@ -148,10 +148,12 @@ bool natural_less(const std::string& a, const std::string& b) {
       const int order =
           compare_numbers(std::string_view(a).substr(i, i_end - i), std::string_view(b).substr(j, j_end - j));
       if (order != 0) return order < 0;
-      i = i_end, j = j_end;
+      i = i_end;
+      j = j_end;
     } else {
       if (a[i] != b[j]) return a[i] < b[j];
-      ++i, ++j;
+      ++i;
+      ++j;
     }
   }
   if ((i < a.size()) != (j < b.size())) return j < b.size();

@@ -126,7 +126,8 @@ bool VideoReader::read_colours(RgbImage& frame, double& t_s) {
   GrayF grey;
   if (!read(grey, t_s)) return false;
   const float to_8_bits = bits() > 8 ? 255.0F / 65535.0F : 1.0F;
-  frame.width = grey.width, frame.height = grey.height;
+  frame.width = grey.width;
+  frame.height = grey.height;
   frame.px.resize(grey.px.size());
   std::transform(grey.px.begin(), grey.px.end(), frame.px.begin(), [&](float g) {
     const auto level = static_cast<std::uint8_t>(std::clamp(g * to_8_bits + 0.5F, 0.0F, 255.0F));

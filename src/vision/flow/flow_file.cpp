@@ -98,7 +98,10 @@ void FlowFileWriter::write(std::uint64_t frame, double t0_s, double t1_s, const 
 std::uint64_t FlowFileWriter::size() const { return impl_->frame->rows(); }
 void FlowFileWriter::sync() { impl_->file.sync(); }
 void FlowFileWriter::close() {
-  impl_->frame.reset(), impl_->t.reset(), impl_->u.reset(), impl_->v.reset();
+  impl_->frame.reset();
+  impl_->t.reset();
+  impl_->u.reset();
+  impl_->v.reset();
   impl_->file.close();
 }
 
@@ -116,7 +119,8 @@ FlowFileReader::FlowFileReader(const std::filesystem::path& path) {
   if (f.text_attribute("/", "format") != kFormat) refuse("is a file of flows of another version");
   FlowInfo info;
   const auto number = [&](const char* name) { return f.number_attribute("/", name); };
-  info.width = int(number("width_px")), info.height = int(number("height_px"));
+  info.width = int(number("width_px"));
+  info.height = int(number("height_px"));
   info.fps = number("fps");
   if (const double scale = number("um_per_px"); std::isfinite(scale)) info.um_per_px = scale;
   info.method = f.text_attribute("/", "method");
@@ -147,7 +151,8 @@ void FlowFileReader::read(std::uint64_t index, std::uint64_t& frame, double& t0_
   impl_->t.read<double>(index, t);
   impl_->u.read<float>(index, flow.u.px);
   impl_->v.read<float>(index, flow.v.px);
-  t0_s = t[0], t1_s = t[1];
+  t0_s = t[0];
+  t1_s = t[1];
 }
 
 }  // namespace faba

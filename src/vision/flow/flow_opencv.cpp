@@ -15,7 +15,10 @@ void split(const cv::Mat& flow, Flow& out) {
   if (out.width() != flow.cols || out.height() != flow.rows) out.u = out.v = GrayF(flow.cols, flow.rows);
   for (int r = 0; r < flow.rows; ++r) {
     const auto* row = flow.ptr<cv::Vec2f>(r);
-    for (int c = 0; c < flow.cols; ++c) out.u.at(c, r) = row[c][0], out.v.at(c, r) = row[c][1];
+    for (int c = 0; c < flow.cols; ++c) {
+      out.u.at(c, r) = row[c][0];
+      out.v.at(c, r) = row[c][1];
+    }
   }
 }
 
@@ -50,7 +53,8 @@ class Dis final : public FlowMethod {
     if (a.width < 16 || a.height < 16)
       throw Error(Errc::input, "dis", "needs frames of 16 x 16 px or more; use horn_schunck");
     const OneThread alone;
-    rounded(a, a_), rounded(b, b_);
+    rounded(a, a_);
+    rounded(b, b_);
     dis_->calc(a_, b_, flow_);
     split(flow_, out);
   }
@@ -92,7 +96,8 @@ class Farneback final : public FlowMethod {
 
   void between(const GrayF& a, const GrayF& b, Flow& out) override {
     const OneThread alone;
-    rounded(a, a_), rounded(b, b_);
+    rounded(a, a_);
+    rounded(b, b_);
     cv::calcOpticalFlowFarneback(a_, b_, flow_, p_.scale, p_.levels, p_.window, p_.iterations,
                                  p_.neighbourhood, p_.sigma, 0);
     split(flow_, out);

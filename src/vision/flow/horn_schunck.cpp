@@ -46,7 +46,8 @@ void forget_unknown(FlowDerivatives<T>& d) {
 Schema<HornSchunckParams> HornSchunckParams::schema() {
   using P = HornSchunckParams;
   P published;
-  published.solver = FlowSolver::jacobi, published.tolerance = 0;
+  published.solver = FlowSolver::jacobi;
+  published.tolerance = 0;
   return Schema<P>("horn_schunck",
                    "Optical flow after Horn and Schunck: brightness stays, and neighbours move alike")
       .add("alpha2", &P::alpha2,
@@ -124,7 +125,8 @@ void HornSchunck<T>::coarse_to_fine() {
   for (std::size_t i = 1; std::min(levels_.back().a.width(), levels_.back().a.height()) >= 2 * kSmallest;
        ++i) {
     levels_.emplace_back();
-    halved(levels_[i - 1].a, levels_[i].a), halved(levels_[i - 1].b, levels_[i].b);
+    halved(levels_[i - 1].a, levels_[i].a);
+    halved(levels_[i - 1].b, levels_[i].b);
   }
   for (std::size_t i = levels_.size(); i-- > 0;) {
     Level& level = levels_[i];
@@ -132,7 +134,8 @@ void HornSchunck<T>::coarse_to_fine() {
     finer.resize(level.a.width(), level.a.height());
     if (i + 1 < levels_.size()) {
       // Twice as many pixels are twice as long a way.
-      prolong_and_add(w_, finer, pool_), prolong_and_add(w_, finer, pool_);
+      prolong_and_add(w_, finer, pool_);
+      prolong_and_add(w_, finer, pool_);
     }
     w_ = std::move(finer);
     done_ = 0;
@@ -146,8 +149,10 @@ void HornSchunck<T>::coarse_to_fine() {
 template <class T>
 const FlowPlanes<T>& HornSchunck<T>::between(const Plane<T>& a, const Plane<T>& b) {
   levels_.resize(1);
-  levels_[0].a = a, levels_[0].b = b;
-  smooth(levels_[0].a, p_.smooth), smooth(levels_[0].b, p_.smooth);
+  levels_[0].a = a;
+  levels_[0].b = b;
+  smooth(levels_[0].a, p_.smooth);
+  smooth(levels_[0].b, p_.smooth);
   done_ = 0;
   if (p_.pyramid) {
     coarse_to_fine();
@@ -171,9 +176,11 @@ class HornSchunckFlow final : public FlowMethod {
   HornSchunckFlow(const Params& p, const FlowContext& c) : solver_(p, *c.pool) {}
 
   void between(const GrayF& a, const GrayF& b, Flow& out) override {
-    take(a, a_), take(b, b_);
+    take(a, a_);
+    take(b, b_);
     const FlowPlanes<float>& w = solver_.between(a_, b_);
-    give(w.u, out.u), give(w.v, out.v);
+    give(w.u, out.u);
+    give(w.v, out.v);
   }
   std::optional<FlowEffort> effort() const override {
     return FlowEffort{solver_.iterations(), solver_.converged()};

@@ -24,7 +24,9 @@ float fine_spread(const std::vector<float>& values) {
   for (const float v : values) {
     const double d = double(v) - double(rough.median);
     if (std::fabs(d) > 3 * double(rough.sd)) continue;
-    n += 1, sum += d, squares += d * d;
+    n += 1;
+    sum += d;
+    squares += d * d;
   }
   return n > 1 ? float(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) / kOfNormal) : 0.0F;
 }

@@ -9,6 +9,7 @@
 #include "core/statistics.h"
 #include "vision/foreground/kernels/foreground_pixels.h"
 #include "vision/foreground/kernels/line_closing.h"
+#include "vision/foreground/spot_polarity.h"
 #include "vision/image/kernels/smoothing.h"
 #include "vision/image/mask.h"
 
@@ -19,10 +20,6 @@ constexpr double kFwhmToSd = 1 / 2.354820045;
 constexpr double kFollow_s = 2;  // in which uncovered background follows the picture
 constexpr float kStillAfterChange_s = 1, kStillFromStart_s = 10;
 constexpr double kUncover = 0.6;  // share by which background that proves too dark (or bright) is corrected
-constexpr double kCurvatureSd =
-    3.5;  // of the noise of a curvature, from which on a spot is one: a false one is harmless
-constexpr float kSpotShape =
-    0.15F;  // smaller over larger curvature of a spot; a rod twice as long as wide has 0.25
 constexpr double kCellsPerLine = 9;  // length of the pieces that fill cells and leave lines, in cells
 constexpr float kOfLine = 0.3F;      // of a line's depth, below which a darker place on it is no cell
 constexpr double kTail = 0.7;   // of a cell's width, that it reaches beyond where it is above the threshold
@@ -54,21 +51,6 @@ void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w
   }
 }
 
-// The two curvatures of a surface, in the direction of `sign` (+1: of bright spots), the smaller first.
-struct Curvatures {
-  float small, large;
-};
-Curvatures curvatures(const GrayF& g, int col, int row, float sign) {
-  const float v = g.at(col, row), l = g.at(col - 1, row), r = g.at(col + 1, row), u = g.at(col, row - 1),
-              d = g.at(col, row + 1);
-  const float xx = sign * (2 * v - l - r), yy = sign * (2 * v - u - d);
-  const float xy =
-      sign * 0.25F *
-      (g.at(col + 1, row - 1) + g.at(col - 1, row + 1) - g.at(col + 1, row + 1) - g.at(col - 1, row - 1));
-  const float half = 0.5F * (xx - yy), mean = 0.5F * (xx + yy), apart = std::sqrt(half * half + xy * xy);
-  return {mean - apart, mean + apart};
-}
-
 // Brightness of the picture over that of the background: median of the quotients, where no cells are.
 double common_gain(const GrayF& picture, const GrayF& background,
                    const std::vector<std::uint8_t>& leave_out) {
@@ -78,7 +60,8 @@ double common_gain(const GrayF& picture, const GrayF& background,
   int total = 0;
   for (std::size_t i = 0; i < picture.px.size(); i += 7) {
     if (leave_out[i] || !(background.px[i] > 1)) continue;
-    ++count[std::size_t(std::min(int(picture.px[i] / background.px[i] * kPerUnit), kBins - 1))], ++total;
+    ++count[std::size_t(std::min(int(picture.px[i] / background.px[i] * kPerUnit), kBins - 1))];
+    ++total;
   }
   if (total < 100) return 1;
   int sum = 0, bin = 0;
@@ -93,8 +76,10 @@ double picture_noise(const Gray8& picture) {
   std::array<int, 256> count{};
   int total = 0;
   for (int row = 0; row < picture.height; row += 2)
-    for (int col = 0; col + 1 < picture.width; col += 2)
-      ++count[std::size_t(std::abs(int(picture.at(col + 1, row)) - int(picture.at(col, row))))], ++total;
+    for (int col = 0; col + 1 < picture.width; col += 2) {
+      ++count[std::size_t(std::abs(int(picture.at(col + 1, row)) - int(picture.at(col, row))))];
+      ++total;
+    }
   if (total == 0) return 0.3;
   int sum = 0, bin = 0;
   while (2 * (sum + count[std::size_t(bin)]) < total) sum += count[std::size_t(bin++)];
@@ -113,7 +98,7 @@ Foreground::Foreground(ForegroundOptions options) : options_(options) {
 void Foreground::begin(const GrayF& picture, double noise) {
   const double s = std::max(sd_px_, 0.8);
   const GrayF fine = smoothed(picture, s);
-  if (sign_ == 0) sign_ = told_polarity(fine, s, noise);
+  if (sign_ == 0) sign_ = spot_polarity(fine, s, noise);
   GrayF turned = fine;  // cells dark
   if (sign_ > 0)
     for (float& v : turned.px) v = -v;
@@ -132,25 +117,13 @@ void Foreground::begin(const GrayF& picture, double noise) {
   dilate(covered_, work_, picture.width, picture.height, std::max(1, int(std::ceil(0.7 * options_.cell_px))));
   background_ = picture;
   guess_.assign(picture.px.size(), seen);
-  still_grey_.assign(picture.px.size(), 0), still_s_.assign(picture.px.size(), 0);
+  still_grey_.assign(picture.px.size(), 0);
+  still_s_.assign(picture.px.size(), 0);
   for (std::size_t i = 0; i < closed.px.size(); ++i)
-    if (covered_[i]) background_.px[i] = float(-sign_) * (closed.px[i] - lift), guess_[i] = guessed;
-}
-
-// By the curvatures of spots: what is bent alike in all directions.
-int Foreground::told_polarity(const GrayF& fine, double sd, double noise) const {
-  // Noise of a second difference of the smoothed picture; its variance is 3 / (16 pi s^6) of the noise's.
-  const auto least = float(kCurvatureSd * noise * std::sqrt(3 / (16 * portable::kPi)) / (sd * sd * sd));
-  // Mirrored at the border, a line that meets it looks bent.
-  const int border = 1 + int(std::ceil(4 * sd));
-  std::array<double, 2> evidence{};
-  for (int row = border; row + border < fine.height; ++row)
-    for (int col = border; col + border < fine.width; ++col)
-      for (std::size_t k = 0; k < 2; ++k) {
-        const Curvatures c = curvatures(fine, col, row, k == 0 ? -1.0F : 1.0F);
-        if (c.small > least && c.small > kSpotShape * c.large) evidence[k] += double(c.small);
-      }
-  return evidence[1] > evidence[0] ? 1 : -1;
+    if (covered_[i]) {
+      background_.px[i] = float(-sign_) * (closed.px[i] - lift);
+      guess_[i] = guessed;
+    }
 }
 
 // What the smoothing leaves of white noise.
@@ -170,7 +143,8 @@ void Foreground::know(const Background& background) {
 }
 
 void Foreground::take(const Gray8& picture, double dt_s) {
-  picture_.width = picture.width, picture_.height = picture.height;
+  picture_.width = picture.width;
+  picture_.height = picture.height;
   picture_.px.resize(picture.px.size());
   for (std::size_t i = 0; i < picture.px.size(); ++i) picture_.px[i] = float(picture.px[i]);
   look(picture_noise(picture), dt_s);
@@ -191,8 +165,9 @@ void Foreground::look(double noise, double dt_s) {
   noisiest_ = std::max(noise, anew ? 0 : noisiest_ * (1 - std::clamp(dt_s / kWholePicture_s, 0.0, 1.0)));
   if (noisiest_ > kSmoothedAway * noise) noise = noisiest_;
   if (anew) begin(grey, noise);
-  if (sign_ == 0) sign_ = told_polarity(smoothed(grey, std::max(sd_px_, 0.8)), std::max(sd_px_, 0.8), noise);
-  weights_.width = grey.width, weights_.height = grey.height;
+  if (sign_ == 0) sign_ = spot_polarity(smoothed(grey, std::max(sd_px_, 0.8)), std::max(sd_px_, 0.8), noise);
+  weights_.width = grey.width;
+  weights_.height = grey.height;
   weights_.px.resize(grey.px.size());
   const double common = anew ? 1 : common_gain(grey, background_, covered_);
   const auto gain = float(common);
@@ -225,7 +200,10 @@ double Foreground::signal_of_one(std::vector<double> patches) const {
     if (!(patches[first] > 0)) continue;
     end = std::max(end, first);
     while (end < patches.size() && patches[end] < kAlike * patches[first]) ++end;
-    if (end - first > most) most = end - first, at = first;
+    if (end - first > most) {
+      most = end - first;
+      at = first;
+    }
   }
   return most < kEnough ? 0 : patches[at + most / 2];
 }
@@ -256,7 +234,10 @@ void Foreground::count_cells() {
 
 float Foreground::middle_brightness() const {
   double sum = 0, n = 0;
-  for (std::size_t i = 0; i < background_.px.size(); i += 13) sum += double(background_.px[i]), n += 1;
+  for (std::size_t i = 0; i < background_.px.size(); i += 13) {
+    sum += double(background_.px[i]);
+    n += 1;
+  }
   return float(sum / n);
 }
 
@@ -317,7 +298,8 @@ bool Foreground::proves_background(std::size_t i, float least_change, float dt_s
   if (change > least_change) {
     // The first picture is no change.
     if (guess_[i] == guessed && (still_grey_[i] != 0)) guess_[i] = changed;
-    still_grey_[i] = grey, still_s_[i] = 0;
+    still_grey_[i] = grey;
+    still_s_[i] = 0;
     return false;
   }
   still_s_[i] += dt_s;
@@ -366,14 +348,21 @@ SwarmMoments Foreground::moments() const {
     double one = 0, first = 0, second = 0;
     for (int i = r.first; i < r.end; ++i) {
       const double value = double(v[i]), dx = i - x0, moment = value * dx;
-      one += value, first += moment, second += moment * dx;
+      one += value;
+      first += moment;
+      second += moment * dx;
     }
     const double dy = r.row - y0;
-    m.signal += one, x += first, y += one * dy;
-    square.xx += second, square.xy += first * dy, square.yy += one * dy * dy;
+    m.signal += one;
+    x += first;
+    y += one * dy;
+    square.xx += second;
+    square.xy += first * dy;
+    square.yy += one * dy * dy;
   }
   if (!(m.signal > 0.5 * cell_signal_) || cell_signal_ == 0) return {};
-  x /= m.signal, y /= m.signal;
+  x /= m.signal;
+  y /= m.signal;
   m.centroid_image = {x0 + x, y0 + y};
   const double own = sd_px_ * sd_px_;
   m.cov_px2 = {std::max(0.0, square.xx / m.signal - x * x - own), square.xy / m.signal - x * y,

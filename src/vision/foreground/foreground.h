@@ -73,7 +73,6 @@ class Foreground {
   void begin(const GrayF& picture, double noise);
   bool proves_background(std::size_t i, float least_change, float dt_s);
   void look(double noise, double dt_s);
-  int told_polarity(const GrayF& fine, double sd, double noise) const;
   void find_covered(float gain, double noise);
   float middle_brightness() const;
   void take_logarithms(const LightLoss& loss, int first, int end);

@@ -16,8 +16,12 @@ double squared(Vec2 v) { return dot(v, v); }
 struct Sums {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
   void add(Vec2 p, double w) {
-    n += w, x += w * p.x, y += w * p.y;
-    xx += w * p.x * p.x, xy += w * p.x * p.y, yy += w * p.y * p.y;
+    n += w;
+    x += w * p.x;
+    y += w * p.y;
+    xx += w * p.x * p.x;
+    xy += w * p.x * p.y;
+    yy += w * p.y * p.y;
   }
   Vec2 mean() const { return {x / n, y / n}; }
   Mat2 cov() const {
@@ -54,8 +58,10 @@ void settle(const std::vector<WeightedPlace>& places, std::vector<FuzzyGroup>& g
     for (const auto& p : places) {
       weigh(groups, p.at, u);
       total += p.weight;
-      for (std::size_t k = 0; k < groups.size(); ++k)
-        sums[k].add(p.at, p.weight * u[k] * u[k]), share[k] += p.weight * u[k];
+      for (std::size_t k = 0; k < groups.size(); ++k) {
+        sums[k].add(p.at, p.weight * u[k] * u[k]);
+        share[k] += p.weight * u[k];
+      }
     }
     double moved = 0;
     for (std::size_t k = 0; k < groups.size(); ++k) {
@@ -150,7 +156,10 @@ std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPlace>& places, c
       continue;
     }
     const Validity v = validity_of(places, groups, o);
-    if (v.separated && v.xie_beni < best_index) best_index = v.xie_beni, best = groups;
+    if (v.separated && v.xie_beni < best_index) {
+      best_index = v.xie_beni;
+      best = groups;
+    }
   }
   std::stable_sort(best.begin(), best.end(),
                    [](const FuzzyGroup& a, const FuzzyGroup& b) { return a.share > b.share; });

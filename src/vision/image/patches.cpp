@@ -33,7 +33,8 @@ int find_patches(const std::vector<std::uint8_t>& mask, int width, int height, s
           runs[std::size_t(a)].patch = b;
       }
     });
-    above = row_begin, above_end = int(runs.size());
+    above = row_begin;
+    above_end = int(runs.size());
   }
   // A root comes before all of its patch, so that it has its number by then.
   int patches = 0;

@@ -22,7 +22,8 @@ class Plane {
   /// Makes it that size; all zero, unless it has the size already: then everything stays.
   void resize(int width, int height) {
     if (width == width_ && height == height_) return;
-    width_ = width, height_ = height;
+    width_ = width;
+    height_ = height;
     stride_ = std::size_t((width + kMargin - 1) / kMargin + 2) * std::size_t(kMargin);
     data_.assign(stride_ * std::size_t(height), T{});
   }
@@ -36,7 +37,8 @@ class Plane {
   /// The pixels beside both ends of a row become copies of the ends.
   void extend(int r) {
     T* p = row(r);
-    p[-1] = p[0], p[width_] = p[width_ - 1];
+    p[-1] = p[0];
+    p[width_] = p[width_ - 1];
   }
 
  private:

@@ -87,7 +87,10 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
     ground_ = std::move(video.light);
     constant_ = video.noise_sd * video.noise_sd;
   }
-  if (p.noise) shot_ = 0, constant_ = *p.noise * *p.noise;
+  if (p.noise) {
+    shot_ = 0;
+    constant_ = *p.noise * *p.noise;
+  }
 }
 
 double Microscope::noise_sd(double light) const { return std::sqrt(shot_ * light + constant_); }
@@ -102,7 +105,8 @@ void Microscope::render_as(const Exposure& e, Pool& pool, Image<T>& out) {
   const auto word = draw(seed_, Stream::camera, 0, s.frame, kLampDraws);
   s.lamp = (1 + params_.drift * e.t) * (1 + params_.flicker * double(normals(word[0], word[1])[0]));
   s.lamp = std::max(s.lamp, 0.0);
-  s.shot = shot_, s.constant = constant_;
+  s.shot = shot_;
+  s.constant = constant_;
   s.absorbing = params_.contrast < 0;
   expose(s, ground_, sum_, pool, out);
 }

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "field/null.h"
-#include "study/coils/field_report.h"
+#include "study/coils/field_library.h"
 #include "tests/temporary_folder.h"
 
 using namespace faba;
@@ -19,7 +19,9 @@ const std::filesystem::path kRig = FABA_SCENES "/../rigs/thesis-four-coils.toml"
 
 FieldLibraryOptions small() {
   FieldLibraryOptions o;
-  o.levels = 12, o.spacing = 2e-4, o.threads = 2;
+  o.levels = 12;
+  o.spacing = 2e-4;
+  o.threads = 2;
   return o;
 }
 
@@ -37,13 +39,13 @@ void check_equal(const FieldLibrary& a, const FieldLibrary& b) {
 
 TEST_CASE("field library: every entry is a zero that traps, and its field is the rig's") {
   const test::TemporaryFolder f("library");
-  const auto j = build_field_library(kRig, f.path() / "l.h5", small());
+  const FieldLibrarySummary made = build_field_library(kRig, f.path() / "l.h5", small());
   const auto kept_l = open_library(f.path() / "l.h5");
   const FieldLibrary& l = *kept_l;
   const auto rig = read_rig(kRig, builtin_parts());
   const auto field = rig.make({});
   CHECK_NOTHROW(l.table(*field, rig_fingerprint(rig.resolved)));
-  REQUIRE(l.entries().size() == j["entries"].get<std::size_t>());
+  REQUIRE(l.entries().size() == made.entries);
   REQUIRE(l.entries().size() > 20);
   const double best = -null_at(*field, {}, 1, current_limits(*field)).gradient[1];
   for (std::size_t i = 0; i < l.entries().size(); ++i) {

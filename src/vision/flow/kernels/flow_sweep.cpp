@@ -59,18 +59,26 @@ template <int bytes, bool finest, int rows, class T>
       if constexpr (finest) {
         const V hx = FABA_LANES(here.c[0]), hy = FABA_LANES(here.c[1]);
         const V along = (hx * u + FABA_LANES(here.c[2])) + hy * v;
-        u_out = (u - hx * along) * sixth, v_out = (v - hy * along) * sixth;
+        u_out = (u - hx * along) * sixth;
+        v_out = (v - hy * along) * sixth;
       } else {
         const V mxy = FABA_LANES(here.c[1]);
         u_out = FABA_LANES(here.c[0]) * u + (mxy * v + FABA_LANES(here.c[3]));
         v_out = FABA_LANES(here.c[2]) * v + (mxy * u + FABA_LANES(here.c[4]));
       }
-      u_beside = u_beside_down, u_row_up = u_row, u_row = u_row_down;
-      v_beside = v_beside_down, v_row_up = v_row, v_row = v_row_down;
+      u_beside = u_beside_down;
+      u_row_up = u_row;
+      u_row = u_row_down;
+      v_beside = v_beside_down;
+      v_row_up = v_row;
+      v_row = v_row_down;
     }
   }
   for (int i = 1; i <= rows; ++i)
-    for (T* out : {s.row[i].u_out, s.row[i].v_out}) out[-1] = out[0], out[s.width] = out[s.width - 1];
+    for (T* out : {s.row[i].u_out, s.row[i].v_out}) {
+      out[-1] = out[0];
+      out[s.width] = out[s.width - 1];
+    }
 }
 template <int bytes, int most = kStrip, class T>
 [[gnu::always_inline]] inline void update_strip_in(const Strip<T>& s) {
@@ -140,16 +148,25 @@ class Wavefront {
   }
   void strip(int n, int low, int high) {
     Strip<T> s;
-    s.rows = high - low, s.width = s_.width(), s.finest = s_.finest();
+    s.rows = high - low;
+    s.width = s_.width();
+    s.finest = s_.finest();
     for (int i = 0; i < s.rows + 2; ++i) {
       const int row = std::clamp(low - 1 + i, 0, s_.height() - 1);
       auto& r = s.row[i];
-      r.u = u(n - 1, row), r.v = v(n - 1, row);
-      if (s.finest)
-        r.c[0] = s_.hx.row(row), r.c[1] = s_.hy.row(row), r.c[2] = s_.ht6.row(row);
-      else
-        r.c[0] = s_.mxx.row(row), r.c[1] = s_.mxy.row(row), r.c[2] = s_.myy.row(row), r.c[3] = s_.cx.row(row),
+      r.u = u(n - 1, row);
+      r.v = v(n - 1, row);
+      if (s.finest) {
+        r.c[0] = s_.hx.row(row);
+        r.c[1] = s_.hy.row(row);
+        r.c[2] = s_.ht6.row(row);
+      } else {
+        r.c[0] = s_.mxx.row(row);
+        r.c[1] = s_.mxy.row(row);
+        r.c[2] = s_.myy.row(row);
+        r.c[3] = s_.cx.row(row);
         r.c[4] = s_.cy.row(row);
+      }
       r.u_out = n == sweeps_ ? to_.u.row(row) : rings_.u.row(kRing * (n - 1) + row % kRing);
       r.v_out = n == sweeps_ ? to_.v.row(row) : rings_.v.row(kRing * (n - 1) + row % kRing);
     }

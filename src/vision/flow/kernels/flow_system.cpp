@@ -49,7 +49,9 @@ template <class T>
   for (int x = 0; x < r.width; ++x) {
     const T gx = ix[x], gy = iy[x], gt = it[x] - (gx * u[x] + gy * v[x]);
     const T scale = 1 / std::sqrt(lambda + (gx * gx + gy * gy));
-    hx[x] = gx * scale, hy[x] = gy * scale, ht6[x] = 6 * gt * scale;
+    hx[x] = gx * scale;
+    hy[x] = gy * scale;
+    ht6[x] = 6 * gt * scale;
   }
 }
 
@@ -67,8 +69,11 @@ template <class T>
   FABA_ELEMENTWISE
   for (int x = 0; x < r.width; ++x) {
     const T gx = ix[x], gy = iy[x], gt = it[x] - (gx * u[x] + gy * v[x]);
-    jxx[x] = gx * gx, jxy[x] = gx * gy, jyy[x] = gy * gy;
-    fx[x] = -(gx * gt), fy[x] = -(gy * gt);
+    jxx[x] = gx * gx;
+    jxy[x] = gx * gy;
+    jyy[x] = gy * gy;
+    fx[x] = -(gx * gt);
+    fy[x] = -(gy * gt);
   }
 }
 
@@ -88,7 +93,9 @@ template <class T>
   for (int x = 0; x < r.width; ++x) {
     const T xx = lambda + jxx[x], yy = lambda + jyy[x], xy = jxy[x];
     const T scale = lambda / ((xx * yy - xy * xy) * 6);
-    mxx[x] = scale * yy, mxy[x] = -scale * xy, myy[x] = scale * xx;
+    mxx[x] = scale * yy;
+    mxy[x] = -scale * xy;
+    myy[x] = scale * xx;
   }
 }
 
@@ -177,7 +184,8 @@ template <class T>
   for (std::ptrdiff_t x = 0; x < r.width / 2; ++x) {
     const T left = mixed[x] * T(0.75) + mixed[x - 1] * T(0.25);
     const T right = mixed[x] * T(0.75) + mixed[x + 1] * T(0.25);
-    out[2 * x] += left, out[2 * x + 1] += right;
+    out[2 * x] += left;
+    out[2 * x + 1] += right;
     const T a = std::fabs(left), b = std::fabs(right), larger = a > b ? a : b;
     most = larger > most ? larger : most;
   }
@@ -218,7 +226,9 @@ T add_doubled(Plane<T>& coarse, Plane<T>& fine, Pool& pool) {
     DoubledRow<T> job{nullptr, nullptr, mixed.row(0), nullptr, fine.width(), 0};
     for (int r = begin; r < end; ++r) {
       const int near = r / 2, far = std::clamp(r % 2 ? near + 1 : near - 1, 0, coarse.height() - 1);
-      job.near = coarse.row(near), job.far = coarse.row(far), job.out = fine.row(r);
+      job.near = coarse.row(near);
+      job.far = coarse.row(far);
+      job.out = fine.row(r);
       do_row(job);
     }
     const std::lock_guard lock(one);
@@ -232,7 +242,10 @@ T add_doubled(Plane<T>& coarse, Plane<T>& fine, Pool& pool) {
 template <class T>
 void differentiate(Plane<T>& a, Plane<T>& b, FlowDerivatives<T>& out, Pool& pool) {
   out.resize(a.width(), a.height());
-  for (int r = 0; r < a.height(); ++r) a.extend(r), b.extend(r);
+  for (int r = 0; r < a.height(); ++r) {
+    a.extend(r);
+    b.extend(r);
+  }
   for_rows(a.height(), pool, [&](int begin, int end) {
     for (int r = begin; r < end; ++r) {
       const int down = std::min(r + 1, a.height() - 1);
@@ -271,7 +284,9 @@ void FlowSystem<T>::set_up_coarser_than(const FlowSystem& fine, Pool& pool) {
   for (Plane<T>* p : {&mxx, &mxy, &myy, &cx, &cy}) p->resize(w, h);
   resize_data_term(w, h);
   lambda = fine.lambda / 4;
-  halve(fine.jxx, jxx, pool), halve(fine.jxy, jxy, pool), halve(fine.jyy, jyy, pool);
+  halve(fine.jxx, jxx, pool);
+  halve(fine.jxy, jxy, pool);
+  halve(fine.jyy, jyy, pool);
   for_rows(height(), pool, [&](int begin, int end) {
     for (int r = begin; r < end; ++r)
       do_row(UpdateRow<T>{jxx.row(r), jxy.row(r), jyy.row(r), mxx.row(r), mxy.row(r), myy.row(r), lambda,
@@ -297,7 +312,8 @@ void restrict_residual(const FlowSystem<T>& s, FlowPlanes<T>& w, FlowSystem<T>& 
       for (int i = 0; i < 2; ++i) {
         const int r = 2 * half + i;
         if (r == s.height()) {
-          rx.clear_row(i), ry.clear_row(i);
+          rx.clear_row(i);
+          ry.clear_row(i);
           continue;
         }
         const int up = std::max(r - 1, 0), down = std::min(r + 1, s.height() - 1);
@@ -313,7 +329,8 @@ void restrict_residual(const FlowSystem<T>& s, FlowPlanes<T>& w, FlowSystem<T>& 
 
 template <class T>
 void restrict_right_side(const FlowSystem<T>& s, FlowSystem<T>& coarse, Pool& pool) {
-  halve(s.fx, coarse.fx, pool), halve(s.fy, coarse.fy, pool);
+  halve(s.fx, coarse.fx, pool);
+  halve(s.fy, coarse.fy, pool);
 }
 
 template <class T>

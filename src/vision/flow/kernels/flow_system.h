@@ -8,9 +8,18 @@ namespace faba {
 template <class T>
 struct FlowPlanes {
   Plane<T> u, v;
-  void resize(int width, int height) { u.resize(width, height), v.resize(width, height); }
-  void clear() { u.clear(), v.clear(); }
-  void extend(int row) { u.extend(row), v.extend(row); }
+  void resize(int width, int height) {
+    u.resize(width, height);
+    v.resize(width, height);
+  }
+  void clear() {
+    u.clear();
+    v.clear();
+  }
+  void extend(int row) {
+    u.extend(row);
+    v.extend(row);
+  }
 };
 
 /// First differences of a pair of frames, each the mean of four over a cube of two by two pixels and both
@@ -19,7 +28,9 @@ template <class T>
 struct FlowDerivatives {
   Plane<T> ix, iy, it;
   void resize(int width, int height) {
-    ix.resize(width, height), iy.resize(width, height), it.resize(width, height);
+    ix.resize(width, height);
+    iy.resize(width, height);
+    it.resize(width, height);
   }
 };
 /// The frames have the same size; beyond the border they repeat it (their margins are written to).

@@ -32,14 +32,24 @@ template <int bytes>
         reinterpret_cast<Lanes>(((above >> 52) ^ 0x800) + 0x4338000000000000ull) - (kShift + 2048);
     const Lanes s = (f - 1) / (f + 1), q = s * s;
     Lanes sum = q * (1.0 / 17) + 1.0 / 15;
-    sum = sum * q + 1.0 / 13, sum = sum * q + 1.0 / 11, sum = sum * q + 1.0 / 9, sum = sum * q + 1.0 / 7;
-    sum = sum * q + 1.0 / 5, sum = sum * q + 1.0 / 3;
+    sum = sum * q + 1.0 / 13;
+    sum = sum * q + 1.0 / 11;
+    sum = sum * q + 1.0 / 9;
+    sum = sum * q + 1.0 / 7;
+    sum = sum * q + 1.0 / 5;
+    sum = sum * q + 1.0 / 3;
     const Lanes log2 = e + (s + s * q * sum) * 2.8853900817779268147;  // 2 / ln 2
     const Lanes x = log2 * -m, whole = (x + kShift) - kShift, r = (x - whole) * (0.69314718055994530942 / 4);
     Lanes y = r * (1.0 / 40320) + 1.0 / 5040;
-    y = y * r + 1.0 / 720, y = y * r + 1.0 / 120, y = y * r + 1.0 / 24, y = y * r + 1.0 / 6;
-    y = y * r + 0.5, y = y * r + 1, y = y * r + 1;
-    y = y * y, y = y * y;
+    y = y * r + 1.0 / 720;
+    y = y * r + 1.0 / 120;
+    y = y * r + 1.0 / 24;
+    y = y * r + 1.0 / 6;
+    y = y * r + 0.5;
+    y = y * r + 1;
+    y = y * r + 1;
+    y = y * y;
+    y = y * y;
     const Bits power = (reinterpret_cast<Bits>(whole + (kShift + 1023)) & 0x7ff) << 52;
     *reinterpret_cast<Lanes*>(out + i) = y * reinterpret_cast<Lanes>(power);
   }
@@ -61,11 +71,16 @@ template <int bytes>
     Lanes a = middle[0] * taps[0], b = middle[1] * taps[0], c = middle[2] * taps[0], d = middle[3] * taps[0];
     for (std::size_t k = 1; k < count; ++k) {
       const Lanes *left = at(here - k), *right = at(here + k);
-      a += (left[0] + right[0]) * taps[k], b += (left[1] + right[1]) * taps[k];
-      c += (left[2] + right[2]) * taps[k], d += (left[3] + right[3]) * taps[k];
+      a += (left[0] + right[0]) * taps[k];
+      b += (left[1] + right[1]) * taps[k];
+      c += (left[2] + right[2]) * taps[k];
+      d += (left[3] + right[3]) * taps[k];
     }
     Lanes* to = reinterpret_cast<Lanes*>(out + i);
-    to[0] = a, to[1] = b, to[2] = c, to[3] = d;
+    to[0] = a;
+    to[1] = b;
+    to[2] = c;
+    to[3] = d;
   }
 }
 FABA_WIDE(add_taps, (const double* in, double* out, std::size_t n, const double* taps, std::size_t count),
@@ -173,7 +188,8 @@ double HistogramDistance::operator()(std::span<const double> p, std::span<const 
   const std::size_t margin = similarity_.reach(n);
   if (n != bins_) {
     bins_ = n;
-    sum_.assign(n + 2 * margin + kBlock, 0.0), d_.assign(n + 2 * margin + kBlock, 0.0);
+    sum_.assign(n + 2 * margin + kBlock, 0.0);
+    d_.assign(n + 2 * margin + kBlock, 0.0);
     weight_.assign(n + kBlock, 1.0);
   }
   double *sum = &sum_[margin], *d = &d_[margin], *weight = weight_.data();

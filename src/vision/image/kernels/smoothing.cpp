@@ -62,13 +62,16 @@ FABA_WIDE(add_taps, (const Taps& t, float* out, int n), (t, out, n))
 void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& weights, GrayF& out,
               GrayF& work) {
   const int reach = int(weights.size()) - 1;
-  work.width = w, work.height = std::min(h, 2 * reach + 1);
+  work.width = w;
+  work.height = std::min(h, 2 * reach + 1);
   work.px.resize(std::size_t(w) * std::size_t(work.height));
   const auto kept = [&](int row) { return &work.px[std::size_t(row % work.height) * std::size_t(w)]; };
   std::vector<float> line(std::size_t(w + 2 * reach));
   std::vector<const float*> left, right, above(weights.size()), below(weights.size());
-  for (int k = 0; k <= reach; ++k)
-    left.push_back(line.data() + reach - k), right.push_back(line.data() + reach + k);
+  for (int k = 0; k <= reach; ++k) {
+    left.push_back(line.data() + reach - k);
+    right.push_back(line.data() + reach + k);
+  }
   int next = 0;
   for (int row = 0; row < h; ++row) {
     for (; next < std::min(h, row + reach + 1); ++next) {
@@ -80,8 +83,10 @@ void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& w
       }
       add_taps({weights, left.data(), right.data()}, kept(next), w);
     }
-    for (int k = 0; k <= reach; ++k)
-      above[std::size_t(k)] = kept(mirrored(row - k, h)), below[std::size_t(k)] = kept(mirrored(row + k, h));
+    for (int k = 0; k <= reach; ++k) {
+      above[std::size_t(k)] = kept(mirrored(row - k, h));
+      below[std::size_t(k)] = kept(mirrored(row + k, h));
+    }
     add_taps({weights, above.data(), below.data()}, &out.px[std::size_t(row) * std::size_t(w)], w);
   }
 }
@@ -145,7 +150,8 @@ GrayF smoothed(const GrayF& picture, double sd_px) {
 }
 
 void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& out, GrayF& work) {
-  out.width = width, out.height = height;
+  out.width = width;
+  out.height = height;
   out.px.resize(std::size_t(width) * std::size_t(height));
   if (out.empty()) return;
   if (sd_px <= kWidestSampled) {
@@ -159,7 +165,10 @@ void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& ou
     const float* in = row(r);
     std::copy(in, in + width, &out.px[std::size_t(r) * std::size_t(width)]);
   }
-  for (int i = 0; i < kMeans; ++i) mean_rows(out, half), mean_columns(out, half);
+  for (int i = 0; i < kMeans; ++i) {
+    mean_rows(out, half);
+    mean_columns(out, half);
+  }
 }
 
 }  // namespace faba

@@ -22,7 +22,10 @@ struct Numbers {
 FABA_VECTORISED void make_normals(const PhiloxRow& row, float* z) {
   for (std::size_t i = 0; i < kRow; ++i) {
     const auto a = normals(row.w0[i], row.w1[i]), b = normals(row.w2[i], row.w3[i]);
-    z[i] = a[0], z[i + kRow] = a[1], z[i + 2 * kRow] = b[0], z[i + 3 * kRow] = b[1];
+    z[i] = a[0];
+    z[i + kRow] = a[1];
+    z[i + 2 * kRow] = b[0];
+    z[i + 3 * kRow] = b[1];
   }
 }
 
@@ -60,7 +63,8 @@ template <class T>
 void expose_as(const CameraSensor& s, const GrayF& ground, const GrayF& cells, Pool& pool, Image<T>& out) {
   const std::size_t n = ground.px.size();
   if (cells.px.size() != n) throw Error(Errc::internal, "microscope", "light and cells differ in size");
-  out.width = ground.width, out.height = ground.height;
+  out.width = ground.width;
+  out.height = ground.height;
   out.px.resize(n);
   const Numbers k{float(s.lamp), float(s.shot), float(s.constant), float(std::numeric_limits<T>::max()),
                   s.absorbing};

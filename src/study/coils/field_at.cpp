@@ -1,10 +1,9 @@
-#include "study/coils/field_report.h"
+#include "study/coils/field_at.h"
 
 #include <cmath>
 
 #include "app/scenario/rig_file.h"
 #include "core/table.h"
-#include "field/null.h"
 
 namespace faba {
 namespace {
@@ -31,31 +30,26 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
   return out;
 }
 
-nlohmann::ordered_json null_report(const std::filesystem::path& rig, Vec2 at, int polarity) {
+RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity) {
   const auto field = rig_of(rig);
   if (!(field->clearance({at.x, at.y, 0}) > 0))
     throw Error(Errc::usage, rig.string(),
                 "there is a winding at that place, or it lies outside of a measured map");
-  const FieldNull n = null_at(*field, at, polarity, current_limits(*field));
+  RigNull out;
+  out.at = at;
+  out.null = null_at(*field, at, polarity, current_limits(*field));
+  const FieldNull& n = out.null;
   if (!std::isfinite(n.gradient[0] + n.gradient[1]))
     throw Error(Errc::usage, rig.string(), "has no field that can be computed there");
-  nlohmann::ordered_json j;
-  j["at_m"] = {at.x, at.y};
-  j["coils"] = nlohmann::ordered_json::array();
-  for (std::size_t k = 0; k < field->coils(); ++k) j["coils"].push_back(field->circuit(k).name);
-  j["currents_a"] = n.current;
-  j["eigenvalues_t_per_m"] = n.gradient;
-  j["dbz_dz_t_per_m"] = n.out_of_plane;
-  j["reachable"] = n.reachable;
-  j["saddle"] = n.saddle;
-  j["note"] =
+  for (std::size_t k = 0; k < field->coils(); ++k) out.coils.push_back(field->circuit(k).name);
+  out.note =
       !n.reachable ? "these coils cannot put a zero of the field there within their current limits"
       : n.saddle && (polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0
           ? "the zero drives cells away along every direction: no currents within the limits trap there"
       : n.saddle ? "the zero is a saddle: it draws cells together along one direction and drives them "
                    "away along the other"
                  : "";
-  return j;
+  return out;
 }
 
 }  // namespace faba

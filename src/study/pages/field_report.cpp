@@ -1,0 +1,100 @@
+#include "study/pages/field_report.h"
+
+#include <cmath>
+
+namespace faba {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json pair_json(Vec2 v) { return {v.x, v.y}; }
+
+Json known(const std::array<double, 3>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(std::isnan(v) ? Json() : Json(v));
+  return list;
+}
+
+}  // namespace
+
+Json field_json(const FieldAtPoints& f) {
+  Json j{{"currents_a", f.current}, {"b_t", Json::array()}};
+  for (const Vec3& b : f.b) j["b_t"].push_back({b.x, b.y, b.z});
+  return j;
+}
+
+Json field_json(const RigNull& n) {
+  Json j;
+  j["at_m"] = pair_json(n.at);
+  j["coils"] = n.coils;
+  j["currents_a"] = n.null.current;
+  j["eigenvalues_t_per_m"] = n.null.gradient;
+  j["dbz_dz_t_per_m"] = n.null.out_of_plane;
+  j["reachable"] = n.null.reachable;
+  j["saddle"] = n.null.saddle;
+  j["note"] = n.note;
+  return j;
+}
+
+Json field_json(const FieldMap& m) {
+  Json j;
+  j["currents_a"] = m.current;
+  j["note"] = m.note;
+  j["zeros"] = Json::array();
+  for (const FieldMap::Zero& z : m.zeros)
+    j["zeros"].push_back({{"at_m", pair_json(z.at)}, {"eigenvalues_t_per_m", z.gradient}, {"kind", z.kind}});
+  j["strongest_t"] = m.strongest;
+  j["table"] = nullptr;
+  if (m.table)
+    j["table"] = {{"spacing_m", m.table->spacing},
+                  {"columns", m.table->columns},
+                  {"rows", m.table->rows},
+                  {"error", m.table->error}};
+  return j;
+}
+
+Json field_json(const FieldLibrarySummary& s) {
+  Json j{{"out", s.out.string()}, {"combinations", s.combinations}, {"entries", s.entries},
+         {"levels", s.levels},    {"columns", s.columns},           {"rows", s.rows},
+         {"traps", s.traps}};
+  j["off_m"] = nullptr;
+  if (s.off) j["off_m"] = {{"median", s.off->median}, {"largest", s.off->largest}};
+  j["strength"] = s.strength ? Json(*s.strength) : Json();
+  return j;
+}
+
+Json field_json(const FieldTolerance& t) {
+  Json j;
+  j["at_m"] = pair_json(t.at);
+  j["currents_a"] = t.current;
+  j["saddle"] = t.saddle;
+  j["rows"] = Json::array();
+  for (const FieldTolerance::Row& r : t.rows) {
+    Json row;
+    row["cause"] = r.cause;
+    row["words"] = r.words;
+    row["amount"] = r.amount;
+    row["unit"] = r.unit;
+    row["lost"] = !r.shift.has_value();
+    row["shift_m"] = r.shift ? Json(*r.shift) : Json();
+    j["rows"].push_back(std::move(row));
+  }
+  return j;
+}
+
+Json field_json(const FieldFit& f) {
+  Json j;
+  j["values"] = f.values;
+  j["gain"] = f.best.gain;
+  j["gain_se"] = f.standard_error.gain;
+  j["shift_m"] = f.best.shift;
+  j["shift_se_m"] = known(f.standard_error.shift);
+  j["offset_t"] = f.best.offset;
+  j["offset_se_t"] = known(f.standard_error.offset);
+  j["rms_t"] = f.rms;
+  j["rms_field_t"] = f.rms_field;
+  j["note"] = f.note;
+  return j;
+}
+
+}  // namespace faba

@@ -1,0 +1,20 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "study/coils/field_at.h"
+#include "study/coils/field_fit.h"
+#include "study/coils/field_library.h"
+#include "study/coils/field_map.h"
+#include "study/coils/field_tolerance.h"
+
+namespace faba {
+
+/// What `faba field ... --json` prints.
+nlohmann::ordered_json field_json(const FieldAtPoints& f);
+nlohmann::ordered_json field_json(const RigNull& n);
+nlohmann::ordered_json field_json(const FieldMap& m);
+nlohmann::ordered_json field_json(const FieldLibrarySummary& s);
+nlohmann::ordered_json field_json(const FieldTolerance& t);
+nlohmann::ordered_json field_json(const FieldFit& f);
+
+}  // namespace faba
