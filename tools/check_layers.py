@@ -79,10 +79,11 @@ WITHIN = {
         "pages": "data stats sweep plot scale drop flow tracks motion steering coils identify",
     },
 }
-# Folders whose results are structs: JSON is made of them in study/pages, cli and server. What may name it all the same:
-# activity_study reads a study file and gives its JSON Schema.
-NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion".split()]
-MAY_JSON = ["study/motion/activity_study"]
+# Folders whose results are structs: JSON is made of them in study/pages, cli and server. Files that name it for
+# another reason: activity_study reads a study file and gives its JSON Schema, field_fit writes the table of a scenario's
+# part, field_library makes the keys of its file.
+NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion coils".split()]
+MAY_JSON = ["study/motion/activity_study", "study/coils/field_fit", "study/coils/field_library"]
 # What the engine is made of includes nothing else, whatever the tables above allow (CMakeLists.txt: faba_engine).
 ENGINE = (
     "core core/kernels field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "

@@ -11,8 +11,8 @@
 #include "cli/verbs.h"
 #include "core/counted.h"
 #include "core/error.h"
-#include "study/pages/track_json.h"
-#include "study/pages/track_report.h"
+#include "study/pages/tracks/track_json.h"
+#include "study/pages/tracks/track_report.h"
 
 namespace faba::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "study/pages/track_json.h"
-#include "study/pages/track_report.h"
+#include "study/pages/tracks/track_json.h"
+#include "study/pages/tracks/track_report.h"
 
 using namespace faba;
 

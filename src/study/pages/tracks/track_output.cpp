@@ -1,4 +1,4 @@
-#include "study/pages/track_output.h"
+#include "study/pages/tracks/track_output.h"
 
 #include <fmt/format.h>
 

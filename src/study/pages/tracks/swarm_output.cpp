@@ -1,4 +1,4 @@
-#include "study/pages/swarm_output.h"
+#include "study/pages/tracks/swarm_output.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "study/pages/track_json.h"
+#include "study/pages/tracks/track_json.h"
 
 #include <cmath>
 #include <string>

@@ -1,4 +1,4 @@
-#include "study/pages/track_report.h"
+#include "study/pages/tracks/track_report.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 #include "core/file.h"
 #include "core/h5/h5.h"
 #include "core/table.h"
-#include "study/pages/track_json.h"
+#include "study/pages/tracks/track_json.h"
 #include "tests/vision/media.h"
 #include "tests/vision/rendered_cells.h"
 

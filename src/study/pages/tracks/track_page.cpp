@@ -1,4 +1,4 @@
-#include "study/pages/track_page.h"
+#include "study/pages/tracks/track_page.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "core/counted.h"
 #include "core/file.h"
-#include "study/pages/track_json.h"
+#include "study/pages/tracks/track_json.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
 #include "study/plot/plot_svg.h"

@@ -1,4 +1,4 @@
-#include "study/pages/track_report.h"
+#include "study/pages/tracks/track_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "study/pages/swarm_output.h"
-#include "study/pages/track_figures.h"
-#include "study/pages/track_output.h"
-#include "study/pages/track_page.h"
+#include "study/pages/tracks/swarm_output.h"
+#include "study/pages/tracks/track_figures.h"
+#include "study/pages/tracks/track_output.h"
+#include "study/pages/tracks/track_page.h"
 #include "vision/draw/track_picture.h"
 #include "vision/files/picture.h"
 #include "vision/files/video_writer.h"
