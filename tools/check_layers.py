@@ -2,6 +2,7 @@
 """Checks the structure of src/ (ARCHITECTURE.md has the same tables in words). Fails when
 
 - a file includes a folder that its layer may not see, or a subfolder that its own subfolder may not see,
+- a folder of study that measures makes JSON of its results itself,
 - files include each other in a circle (a file is the .h and .cpp of one name),
 - a third-party library is included outside its home, or a header that shows a library's types leaves its folder,
 - two headers give different types one name, which no compiler notices and the linker makes one of,
@@ -67,14 +68,22 @@ WITHIN = {
         "stats": "",
         "sweep": "",
         "plot": "",
+        "scale": "stats",
+        "drop": "",
+        "flow": "data",
         "tracks": "data stats",
         "motion": "data stats tracks",
         "steering": "data stats sweep",
         "coils": "plot",
         "identify": "data stats sweep tracks motion",
-        "pages": "data stats sweep plot tracks motion steering coils identify",
+        "pages": "data stats sweep plot scale drop flow tracks motion steering coils identify",
     },
 }
+# Folders whose results are structs: JSON is made of them in study/pages, cli and server. Files that name it for
+# another reason: activity_study reads a study file and gives its JSON Schema, field_fit writes the table of a scenario's
+# part, field_library makes the keys of its file.
+NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion coils".split()]
+MAY_JSON = ["study/motion/activity_study", "study/coils/field_fit", "study/coils/field_library"]
 # What the engine is made of includes nothing else, whatever the tables above allow (CMakeLists.txt: faba_engine).
 ENGINE = (
     "core core/kernels field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "
@@ -163,6 +172,16 @@ def check_engine(tree):
     for file, number, path, own in tree.includes:
         if own and in_engine(tree.name(file)) and not in_engine(path) and path not in ENGINE_INTERFACES:
             yield f"{file}:{number}: is part of the engine and must not include {path}"
+
+
+def check_json(tree):
+    for file in tree.files:
+        name = tree.name(file)
+        if name.rsplit("/", 1)[0] not in NO_JSON or name.rsplit(".", 1)[0] in MAY_JSON:
+            continue
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            if re.search(r"\bJson\b|\bnlohmann\b", line.split("//")[0]):
+                yield f"{file}:{number}: a measurement gives a struct; JSON is made of it in study/pages, cli or server"
 
 
 def check_circles(tree):
@@ -286,6 +305,7 @@ def violations(root):
         check_folders,
         check_includes,
         check_engine,
+        check_json,
         check_circles,
         check_libraries,
         check_types,
@@ -295,6 +315,6 @@ def violations(root):
 
 
 if __name__ == "__main__":
-    found = list(violations(pathlib.Path(sys.argv[1])))
+    found = list(violations(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "src")))
     print("\n".join(found) if found else "no violation")
     sys.exit(1 if found else 0)

@@ -15,7 +15,7 @@
 #include "server/embedded_page.h"
 #include "server/recorded_run.h"
 #include "study/pages/drop_report.h"
-#include "study/pages/scale.h"
+#include "study/pages/scale_report.h"
 #include "study/pages/thumbnail.h"
 
 namespace faba {
@@ -272,7 +272,7 @@ Json Api::take_upload(const WebRequest& r) {
   const std::string name = named == r.query.end() ? "picture" : fs::path(named->second).filename().string();
   const std::string shown = fmt::format("upload-{}.png", ++number);
   try {
-    Json j = propose_drop(r.upload, name, pictures_ / shown);
+    Json j = drop_json(report_proposed_drop(r.upload, name, pictures_ / shown));
     j["picture"] = name, j["url"] = "/api/uploads/" + shown;
     return j;
   } catch (const Error& e) {
@@ -322,11 +322,12 @@ Json Api::measure_ruler(const Json& asked) {
   const std::string now = bench_.picture();
   if (now.empty()) throw Error(Errc::input, "bench", "no camera gives a picture");
   write_file(taken, now);
-  Json j = report_scale_picture(taken, 1e-6 * tick_um, pictures_ / shown);
+  const PictureScale scale = report_scale_picture(taken, 1e-6 * tick_um, pictures_ / shown);
+  Json j = scale_json(scale);
   j["url"] = "/api/uploads/" + shown;
-  if (j["quality"] == "poor") return j;  // shown, and not kept
+  if (scale.quality == MarkQuality::poor) return j;  // shown, and not kept
   fs::copy_file(taken, picture, fs::copy_options::overwrite_existing);
-  Calibration c = calibration_of(j);
+  Calibration c = calibration_of(scale);
   c.source = picture.filename().string();
   write_calibration(file, c);
   j["file"] = name + ".toml";

@@ -6,14 +6,24 @@
 #include "core/file.h"
 #include "core/h5/h5.h"
 #include "server/frame_message.h"
+#include "study/data/run_info.h"
 
 namespace faba {
 namespace {
 
-Json manifest_of(const std::filesystem::path& dir) {
-  Json j = Json::parse(read_file(dir / run_files::kManifest), nullptr, false);
-  if (!j.is_object()) throw Error(Errc::input, (dir / run_files::kManifest).string(), "is damaged");
-  return j;
+// What the page cannot do without.
+struct RecordedScene {
+  RunInfo run;
+  Vec2 view_px;
+  ArenaOutline arena;
+};
+
+RecordedScene scene_of(const std::filesystem::path& dir) {
+  const auto file = dir / run_files::kManifest;
+  RunInfo run = read_run_info(file);
+  if (!run.view_px || !run.arena)
+    throw Error(Errc::input, file.string(), "must have view_px and arena with centre_px");
+  return {run, *run.view_px, *run.arena};
 }
 
 H5File tracks_of(const std::filesystem::path& dir) {
@@ -23,42 +33,42 @@ H5File tracks_of(const std::filesystem::path& dir) {
 }
 
 // Where its cells can be, px.
-PictureBox box_of(const Json& manifest) {
-  const double w = manifest["view_px"][0], h = manifest["view_px"][1];
-  const Json& arena = manifest["arena"];
-  if (!arena.contains("radius_px")) return {-0.5, -0.5, w - 0.5, h - 0.5};
-  const double x = arena["centre_px"][0], y = arena["centre_px"][1], r = arena["radius_px"];
+PictureBox box_of(const RecordedScene& s) {
+  if (!s.arena.radius_px) return {-0.5, -0.5, s.view_px.x - 0.5, s.view_px.y - 0.5};
+  const double x = s.arena.centre_px.x, y = s.arena.centre_px.y, r = *s.arena.radius_px;
   return {x - r - 1, y - r - 1, x + r + 1, y + r + 1};
 }
 
 }  // namespace
 
 Json describe_run(const std::filesystem::path& dir) {
-  const Json m = manifest_of(dir);
+  const RecordedScene scene = scene_of(dir);
   const H5File f = tracks_of(dir);
-  const PictureBox box = box_of(m);
+  const PictureBox box = box_of(scene);
   Json populations = Json::array();
   std::uint64_t at = 0;
-  for (const Json& s : m["swarms"]) {
-    const std::uint64_t n = s["count"];
+  for (const std::uint64_t n : scene.run.swarm_cells) {
     populations.push_back({{"begin", at}, {"end", at + n}});
     at += n;
   }
   const double every = f.number_attribute("/", "every_frames"), fps = f.number_attribute("/", "fps");
-  return {
-      {"scene",
-       {{"view", {{"width", m["view_px"][0]}, {"height", m["view_px"][1]}, {"um_per_px", m["um_per_px"]}}},
-        {"outline",
-         {{"centre_px", m["arena"]["centre_px"]}, {"radius_px", m["arena"].value("radius_px", Json(0))}}},
-        {"box", {{"left", box.left}, {"top", box.top}, {"right", box.right}, {"bottom", box.bottom}}},
-        {"setpoints", Json::array()}}},
-      {"populations", populations},
-      {"frames", f.table("position_px").rows()},
-      {"rate", fps / every}};
+  return {{"scene",
+           {{"view",
+             {{"width", int(scene.view_px.x)},
+              {"height", int(scene.view_px.y)},
+              {"um_per_px", scene.run.um_per_px ? Json(*scene.run.um_per_px) : Json()}}},
+            {"outline",
+             {{"centre_px", {scene.arena.centre_px.x, scene.arena.centre_px.y}},
+              {"radius_px", scene.arena.radius_px ? Json(*scene.arena.radius_px) : Json(0)}}},
+            {"box", {{"left", box.left}, {"top", box.top}, {"right", box.right}, {"bottom", box.bottom}}},
+            {"setpoints", Json::array()}}},
+          {"populations", populations},
+          {"frames", f.table("position_px").rows()},
+          {"rate", fps / every}};
 }
 
 std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std::uint64_t count) {
-  const Json m = manifest_of(dir);
+  const RecordedScene scene = scene_of(dir);
   const H5File f = tracks_of(dir);
   const H5Table places = f.table("position_px"), times = f.table("t_s"), numbers = f.table("frame");
   const bool silent = f.has("responding");
@@ -73,13 +83,16 @@ std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std
     times.read(k, std::span<double>(&frame.t, 1));
     numbers.read(k, std::span<std::uint64_t>(&frame.frame, 1));
     // The message takes positions in the world: here a world of one metre per pixel about the corner.
-    frame.view = {1, m["view_px"][0], m["view_px"][1], {0, 0}};
-    for (std::size_t i = 0; i < n; ++i) x[i] = xy[2 * i], y[i] = -xy[2 * i + 1];
+    frame.view = {1, int(scene.view_px.x), int(scene.view_px.y), {0, 0}};
+    for (std::size_t i = 0; i < n; ++i) {
+      x[i] = xy[2 * i];
+      y[i] = -xy[2 * i + 1];
+    }
     if (silent) {
       f.table("responding").read(k, std::span<std::uint8_t>(responding));
       for (std::size_t i = 0; i < n; ++i) response[i] = float(responding[i]);
     }
-    frame.box = box_of(m), frame.x = x, frame.y = y, frame.response = response;
+    frame.box = box_of(scene), frame.x = x, frame.y = y, frame.response = response;
     const std::string one = encode_frame(frame);
     const auto length = std::uint32_t(one.size());
     out.append(reinterpret_cast<const char*>(&length), sizeof length);

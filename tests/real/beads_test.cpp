@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "study/pages/track_report.h"
+#include "study/pages/tracks/track_json.h"
+#include "study/pages/tracks/track_report.h"
 
 using namespace faba;
 
@@ -19,7 +20,7 @@ TEST_CASE("beads of 1 um in water diffuse as Stokes and Einstein say, and do not
   TrackOptions o;
   o.video = kVideo;
   o.um_per_px = 100.0 / 285;  // as trackpy's walkthrough has it for these beads
-  const auto j = track_video(o);
+  const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 480);
   CHECK(j["supported"] == "diffusion");
   // kT / (6 pi eta a), a = 0.5 um: 0.40 um^2/s at 17 C, 0.49 at 25 C; the scale is good to some per cent,

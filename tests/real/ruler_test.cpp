@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "app/scenario/calibration_file.h"
-#include "study/pages/scale.h"
+#include "study/pages/scale_report.h"
 #include "tests/app/run_directory.h"
 
 using namespace faba;
@@ -15,12 +15,12 @@ TEST_CASE("a stage micrometer through a 10x objective") {
     return;
   }
   const TestFolder folder;
-  const auto j = report_scale_picture(picture, 10e-6, folder.path / "marks.png");
+  const PictureScale s = report_scale_picture(picture, 10e-6, folder.path / "marks.png");
   // Burnt into the picture: 688.33 px for 89 ticks of 10 um, 1.293 um/px.
-  CHECK(j["um_per_px"].get<double>() == doctest::Approx(1.293).epsilon(0.01));
-  CHECK(j["ratio_mean"].get<double>() == doctest::Approx(1.293).epsilon(0.01));
-  CHECK(j["ci95"][0].get<double>() < j["um_per_px"].get<double>());
-  CHECK(j["ci95"][1].get<double>() > j["um_per_px"].get<double>());
-  CHECK(j["marks"].get<int>() > 80);
+  CHECK(s.um_per_px == doctest::Approx(1.293).epsilon(0.01));
+  CHECK(s.ratios.mean == doctest::Approx(1.293).epsilon(0.01));
+  CHECK(s.ci95[0] < s.um_per_px);
+  CHECK(s.ci95[1] > s.um_per_px);
+  CHECK(s.marks > 80);
   CHECK(std::filesystem::exists(folder.path / "marks.png"));
 }

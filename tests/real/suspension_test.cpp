@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "study/pages/track_report.h"
+#include "study/pages/tracks/track_json.h"
+#include "study/pages/tracks/track_report.h"
 
 using namespace faba;
 
@@ -19,7 +20,7 @@ TEST_CASE("rods in a suspension swim, straight and each its own way") {
   TrackOptions o;
   o.video = kFolder / "frame_*.tif";
   o.fps = 26.87, o.um_per_px = 1 / 2.2;
-  const auto j = track_video(o);
+  const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 25);
   CHECK(j["supported"] == "persistent_walk");
   // Swimming rods of this size are known for 10 to 40 um/s; most of the things that stand still are dirt and

@@ -28,6 +28,10 @@ PLANTED = {
         {"control/a.cpp": '#include "vision/cells/tracker.h"\n'},
         "part of the engine and must not include",
     ),
+    "a measurement that gives JSON": (
+        {"study/drop/a.h": "nlohmann::ordered_json measure();\n"},
+        "a measurement gives a struct",
+    ),
     "a circle of two": (
         {"core/a.h": "", "core/a.cpp": '#include "core/b.h"\n', "core/b.h": '#include "core/a.h"\n'},
         "an include circle: core/a, core/b",

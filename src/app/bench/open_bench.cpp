@@ -59,7 +59,7 @@ double OpenBench::delay(const Scenario& s) {
   return median(took);
 }
 
-Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
+BenchCheck check_bench(Scenario s, std::uint64_t seed, double seconds) {
   OpenBench bench(s, seed);
   const double delay = bench.delay(s);
   BenchRig& rig = bench.rig({});
@@ -75,27 +75,23 @@ Json check_bench(Scenario s, std::uint64_t seed, double seconds) {
   }
   if (frames == 0) throw Error(Errc::device, "camera", "has no more pictures to look at");
   const GuardReport guard = rig.coils()->report();
-  Json sensed = Json::array();
-  for (std::size_t k = 0; k < rig.coils()->coils(); ++k)
-    sensed.push_back(std::isnan(guard.sensed[k]) ? Json() : Json(guard.sensed[k]));
-  Json j = {{"camera", s.rig->camera.type},
-            {"size_px", {bench.camera()->width(), bench.camera()->height()}},
-            {"rate_hz", frames > 1 ? Json(double(frames - 1) / (seen.t - first)) : Json()},
-            {"frames", frames},
-            {"dropped", rig.dropped()},
-            {"corrupt", bench.camera()->corrupt()},
-            {"age_ms", 1e3 * seen.age},
-            {"delay_ms", 1e3 * delay},
-            {"driver", s.rig->driver.type},
-            {"guard", word(guard.state)},
-            {"cannot_arm", guard.reason[0] ? Json(guard.reason.data()) : Json()},
-            {"sensed_a", sensed},
-            {"swarm", nullptr}};
-  if (estimate.visible > 0) {
-    const Vec2 at = controls.frame.image_from_world(estimate.centroid);
-    j["swarm"] = {{"cells", estimate.visible}, {"centroid_px", {at.x, at.y}}};
-  }
-  return j;
+  BenchCheck c;
+  c.camera = s.rig->camera.type;
+  c.driver = s.rig->driver.type;
+  c.width_px = bench.camera()->width();
+  c.height_px = bench.camera()->height();
+  if (frames > 1) c.rate_hz = double(frames - 1) / (seen.t - first);
+  c.frames = frames;
+  c.dropped = rig.dropped();
+  c.corrupt = bench.camera()->corrupt();
+  c.age_s = seen.age;
+  c.delay_s = delay;
+  c.guard = word(guard.state);
+  c.cannot_arm = guard.reason.data();
+  for (std::size_t k = 0; k < rig.coils()->coils(); ++k) c.sensed_a.push_back(guard.sensed[k]);
+  if (estimate.visible > 0)
+    c.swarm = {.cells = estimate.visible, .centroid_px = controls.frame.image_from_world(estimate.centroid)};
+  return c;
 }
 
 }  // namespace faba

@@ -1,5 +1,8 @@
 #pragma once
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "app/bench/bench_controls.h"
 #include "app/bench/bench_process.h"
@@ -41,8 +44,27 @@ class OpenBench {
   std::unique_ptr<BenchRig> rig_;
 };
 
-/// What a bench is like, found without letting current flow: pictures for a while, what the guard says, and
+/// What a bench is like.
+struct BenchCheck {
+  std::string camera, driver;  ///< the parts' names
+  int width_px = 0, height_px = 0;
+  std::optional<double> rate_hz;  ///< of the frames that came; empty for a single one
+  std::uint64_t frames = 0, dropped = 0, corrupt = 0;
+  double age_s = 0;              ///< of the last frame: from mid-exposure until it is in the program
+  double delay_s = 0;            ///< see OpenBench::delay
+  std::string guard;             ///< its state in a word
+  std::string cannot_arm;        ///< why the coils cannot be armed; empty when they can
+  std::vector<double> sensed_a;  ///< current of each coil, A; NaN where it is not measured
+  /// Where the estimator sees a swarm; empty when it sees none.
+  struct Swarm {
+    double cells = 0;
+    Vec2 centroid_px;
+  };
+  std::optional<Swarm> swarm;
+};
+
+/// Looks at a bench without letting current flow: pictures for so many seconds, what the guard says, and
 /// where the estimator sees a swarm. For `faba rig check`.
-Json check_bench(Scenario s, std::uint64_t seed, double seconds);
+BenchCheck check_bench(Scenario s, std::uint64_t seed, double seconds);
 
 }  // namespace faba

@@ -22,12 +22,7 @@ Json arena_json(const Manifest& m) {
 
 Json swarms_json(const std::vector<Manifest::Swarm>& swarms) {
   Json all = Json::array();
-  for (const Manifest::Swarm& s : swarms) {
-    Json one = Swarm::schema().to_json(s.params);
-    one["model"] = s.model;
-    one["start"] = s.start;
-    all.push_back(one);
-  }
+  for (const Manifest::Swarm& s : swarms) all.push_back(swarm_json(s));
   return all;
 }
 
@@ -86,6 +81,13 @@ Manifest manifest_of(const Scenario& s, std::uint64_t seed, const Frame& frame, 
   m.arena_radius_px = outline.radius_px;
   m.polarity = s.polarity() > 0 ? "north" : "south";
   return m;
+}
+
+Json swarm_json(const Manifest::Swarm& s) {
+  Json j = Swarm::schema().to_json(s.params);
+  j["model"] = s.model;
+  j["start"] = s.start;
+  return j;
 }
 
 Json manifest_json(const Manifest& m) {

@@ -63,7 +63,8 @@ struct Manifest {
 /// What any run of a scenario says about it. `frame` and `outline` are of the scenario's arena.
 Manifest manifest_of(const Scenario& s, std::uint64_t seed, const Frame& frame, const Outline& outline);
 
-/// As manifest.json has it.
+/// As manifest.json has them.
+Json swarm_json(const Manifest::Swarm& s);
 Json manifest_json(const Manifest& m);
 
 }  // namespace faba

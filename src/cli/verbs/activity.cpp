@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "study/motion/activity_study.h"
 #include "study/pages/activity_report.h"
 #include "study/pages/flow_report.h"
 
@@ -53,46 +54,44 @@ ActivityJob job_of(const ActivityVerb& v) {
   return job;
 }
 
-std::string line_words(const nlohmann::ordered_json& line) {
-  const auto slope = line["slope"].get<double>();
-  return fmt::format("{:.4g} {} {:.4g} x exposure", line["intercept"].get<double>(), slope < 0 ? '-' : '+',
-                     std::fabs(slope));
+std::string line_words(double intercept, double slope) {
+  return fmt::format("{:.4g} {} {:.4g} x exposure", intercept, slope < 0 ? '-' : '+', std::fabs(slope));
 }
 
-void summary(const nlohmann::ordered_json& j) {
-  for (const auto& a : j["videos"]) {
-    fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {} degrees{}\n",
-               a["video"].get<std::string>(), a["mean_activity"].get<double>(),
-               a["threshold_px"].get<double>(), whole_degrees(a["direction_deg"].get<double>()),
-               a["signal_to_noise"].is_null()
-                   ? ""
-                   : fmt::format(", signal to noise {:.3g}", a["signal_to_noise"].get<double>()));
-    if (!a["mean_activity_per_cell"].is_null())
-      fmt::print("  {:.3g} per visible cell, of which there are {:.3g}\n",
-                 a["mean_activity_per_cell"].get<double>(), a["visible_cells"].get<double>());
-    if (a["gaussian"]["good"].get<bool>())
-      fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a["gaussian"]["peak_s"].get<double>(),
-                 a["gaussian"]["se_peak_s"].get<double>(), a["gaussian"]["sigma_s"].get<double>());
-    else
-      fmt::print("  no Gaussian: {}\n", a["gaussian"]["why"].get<std::string>());
-    for (const auto& s : a["segments"])
-      fmt::print("  {:7.2f} to {:7.2f} s  towards {:3} degrees\n", s["t0_s"].get<double>(),
-                 s["t1_s"].get<double>(), whole_degrees(s["direction_deg"].get<double>()));
-    if (a["segments"].empty()) fmt::print("  at no time half of all that moves goes one way\n");
-  }
-  for (const auto& [name, words] :
-       {std::pair{"peak_line", "time of the maximum"}, std::pair{"mean_line", "mean activity"},
-        std::pair{"per_cell_line", "mean activity per visible cell"}})
-    if (!j[name].is_null()) {
-      fmt::print("{} = {}; 95 % of the slope {:.4g} to {:.4g}\n", words, line_words(j[name]),
-                 j[name]["ci95"][0].get<double>(), j[name]["ci95"][1].get<double>());
-      if (j[name].contains("frames"))
-        fmt::print("  in frames, at {:.3g} per second: {}\n", j[name]["frames"]["rate_hz"].get<double>(),
-                   line_words(j[name]["frames"]));
-    }
-  if (!j["cutoff_s"].is_null())
-    fmt::print("cut-off at {:.4g} s in air; videos that do not fit it: {}\n", j["cutoff_s"].get<double>(),
-               j["cutoff_wrong"].get<int>());
+void tell_video(const VideoActivity& a) {
+  fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {} degrees{}\n",
+             a.input.file.string(), a.mean_amount, a.threshold_px, whole_degrees(a.direction_deg),
+             a.signal_to_noise ? fmt::format(", signal to noise {:.3g}", *a.signal_to_noise) : "");
+  if (const auto per_cell = activity_per_cell(a))
+    fmt::print("  {:.3g} per visible cell, of which there are {:.3g}\n", *per_cell, *a.visible_cells);
+  if (a.fit.good)
+    fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a.fit.peak_s, a.fit.se_peak_s,
+               a.fit.sigma_s);
+  else
+    fmt::print("  no Gaussian: {}\n", a.fit.why);
+  for (const MotionSegment& s : a.segments)
+    fmt::print("  {:7.2f} to {:7.2f} s  towards {:3} degrees\n", s.t0_s, s.t1_s,
+               whole_degrees(s.direction_deg));
+  if (a.segments.empty()) fmt::print("  at no time half of all that moves goes one way\n");
+}
+
+void tell_line(const char* words, const std::optional<ExposureLine>& line) {
+  if (!line) return;
+  fmt::print("{} = {}; 95 % of the slope {:.4g} to {:.4g}\n", words, line_words(line->intercept, line->slope),
+             line->slope_ci95[0], line->slope_ci95[1]);
+}
+
+void summary(const ActivityResult& r) {
+  for (const VideoActivity& a : r.videos) tell_video(a);
+  tell_line("time of the maximum", r.peak_line);
+  if (r.peak_line && r.frame_s)
+    fmt::print("  in frames, at {:.3g} per second: {}\n", 1 / *r.frame_s,
+               line_words(r.peak_line->intercept / *r.frame_s, r.peak_line->slope / *r.frame_s));
+  tell_line("mean activity", r.mean_line);
+  tell_line("mean activity per visible cell", r.per_cell_line);
+  if (r.cutoff)
+    fmt::print("cut-off at {:.4g} s in air; videos that do not fit it: {}\n", r.cutoff->cutoff_s,
+               r.cutoff->wrong);
 }
 
 int activity(const ActivityVerb& v, const Common& c) {
@@ -114,16 +113,15 @@ int activity(const ActivityVerb& v, const Common& c) {
   if (!v.out.empty()) write_file(v.out, activity_csv(result));
   if (!v.report.empty()) write_file(v.report, activity_page(result));
   if (!v.picture.empty()) write_activity_picture(v.picture, result.videos.front());
-  const auto j = activity_json(result);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", activity_json(result).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  for (const auto& a : j["videos"])
-    for (const auto& note : a["notes"])
-      tell(fmt::format("faba: note: {}: {}", a["video"].get<std::string>(), note.get<std::string>()));
-  summary(j);
+  for (const VideoActivity& a : result.videos)
+    for (const std::string& note : a.notes)
+      tell(fmt::format("faba: note: {}: {}", a.input.file.string(), note));
+  summary(result);
   for (const auto& file : {v.out, v.report, v.picture})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

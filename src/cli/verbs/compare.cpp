@@ -25,20 +25,20 @@ struct CompareVerb {
   bool force = false;
 };
 
-void tell_runs(const nlohmann::ordered_json& j) {
-  fmt::print("compared {}; direction {} degrees, flow above {:.3g} px\n", j["alignment"].get<std::string>(),
-             whole_degrees(j["direction_deg"].get<double>()), j["flow_threshold_px"].get<double>());
+void tell_runs(const Comparison& result) {
+  fmt::print("compared {}; direction {} degrees, flow above {:.3g} px\n", result.alignment,
+             whole_degrees(result.filter.direction_deg), result.filter.threshold_px);
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
-  for (const auto& r : j["runs"])
-    fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r["mean"].get<double>(), r["sd"].get<double>(),
-               r["slope"].get<double>(),
-               r["score"].is_null() ? "-" : fmt::format("{:.3f}", r["score"].get<double>()),
-               r["run"].get<std::string>());
-  if (!j["floor"].is_null())
-    fmt::print("{:10.4f} {:43}floor: {}\n", j["floor"].get<double>(), "", j["floor_from"].get<std::string>());
+  for (const ComparedRun& r : result.runs) {
+    const auto score = score_of(result, r);
+    fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r.distance.mean, r.distance.sd,
+               r.distance.line.slope, score ? fmt::format("{:.3f}", *score) : "-", r.file.string());
+  }
+  if (result.floor)
+    fmt::print("{:10.4f} {:43}floor: {}\n", *result.floor, "", result.floor_from);
   else
-    fmt::print("{:>10} {:43}floor: {}\n", "-", "", j["floor_from"].get<std::string>());
-  fmt::print("{:10.4f} {:43}naive: nothing moves\n", j["naive"].get<double>(), "");
+    fmt::print("{:>10} {:43}floor: {}\n", "-", "", result.floor_from);
+  fmt::print("{:10.4f} {:43}naive: nothing moves\n", result.naive.mean, "");
 }
 
 int compare(const CompareVerb& v, const Common& c) {
@@ -68,17 +68,15 @@ int compare(const CompareVerb& v, const Common& c) {
   bar.reset();
   if (!v.out.empty()) write_file(v.out, compare_csv(result));
   if (!v.report.empty()) write_file(v.report, compare_page(result, job));
-  const auto j = compare_json(result, job);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", compare_json(result, job).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
-  for (const auto& r : j["runs"])
-    for (const auto& note : r["notes"])
-      tell(fmt::format("faba: note: {}: {}", r["run"].get<std::string>(), note.get<std::string>()));
-  tell_runs(j);
+  for (const std::string& note : result.notes) tell("faba: note: " + note);
+  for (const ComparedRun& r : result.runs)
+    for (const std::string& note : r.notes) tell(fmt::format("faba: note: {}: {}", r.file.string(), note));
+  tell_runs(result);
   for (const auto& file : {v.out, v.report})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command_line.h"
-#include "study/pages/distance_report.h"
+#include "study/motion/histogram_files.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli/command_line.h"
 #include "cli/output_file.h"
@@ -22,17 +23,15 @@ int drop(const DropVerb& v, const Common& c) {
       throw Error(Errc::usage, v.stages.string(), "is a file; --stages names a folder");
     for (const char* stage : kDropStages) check_output(v.stages / stage, ".png", v.force, {v.picture});
   }
-  const auto j = report_drop(v.picture, v.overlay, v.stages);
+  const DropEdge edge = report_drop(v.picture, v.overlay, v.stages);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", drop_json(edge).dump());
   } else if (!c.quiet) {
-    const auto number = [&](const char* a, const char* b) { return j[a][b].get<double>(); };
     fmt::print(
         "centre  ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}) px\nradius  {:.1f} +- {:.1f} px\narc     {:.0f} "
         "degrees in view\n",
-        j["center_px"][0].get<double>(), number("sd_px", "x"), j["center_px"][1].get<double>(),
-        number("sd_px", "y"), j["radius_px"].get<double>(), number("sd_px", "radius"),
-        j["arc_deg"].get<double>());
+        edge.centre_image.x, edge.sd_centre_px.x, edge.centre_image.y, edge.sd_centre_px.y, edge.radius_px,
+        edge.sd_radius_px, edge.arc_deg);
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
     if (!v.stages.empty()) fmt::print("stages  {}\n", v.stages.string());
     if (std::filesystem::exists("scenes/drop.toml"))

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli/command_line.h"
 #include "cli/options/flow.h"
@@ -8,6 +9,7 @@
 #include "cli/progress.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "study/motion/histogram_files.h"
 #include "study/pages/flow_report.h"
 
 namespace faba::cli {
@@ -19,10 +21,9 @@ struct FlowVerb {
   bool force = false;
 };
 
-void tell_notes(const nlohmann::ordered_json& j, const std::filesystem::path& of, const Common& c) {
+void tell_notes(const std::vector<std::string>& notes, const std::filesystem::path& of, const Common& c) {
   if (c.quiet) return;
-  for (const auto& note : j["notes"])
-    tell(fmt::format("faba: note: {}: {}", of.string(), note.get<std::string>()));
+  for (const std::string& note : notes) tell(fmt::format("faba: note: {}: {}", of.string(), note));
 }
 
 FlowJob job_of(const FlowVerb& v) {
@@ -43,24 +44,22 @@ int flow_pair(const FlowVerb& v, const Common& c) {
   for (const auto& [option, given] :
        {std::pair{"--shrink", v.flow.shrink > 1}, std::pair{"--fps", v.flow.fps > 0}})
     if (given) throw Error(Errc::usage, option, "is for a video");
-  const auto j = flow_of_pair(v.a, v.b, job_of(v));
+  const PairFlow flow = flow_of_pair(v.a, v.b, job_of(v));
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", flow_json(flow).dump());
     return 0;
   }
-  tell_notes(j, v.a, c);
+  tell_notes(flow.notes, v.a, c);
   if (c.quiet) return 0;
-  fmt::print("flow     mean ({:.4g}, {:.4g}) px, mean speed {:.4g} px, largest {:.4g} px\n",
-             j["mean_px"][0].get<double>(), j["mean_px"][1].get<double>(), j["mean_speed_px"].get<double>(),
-             j["largest_px"].get<double>());
-  if (j.contains("iterations"))
-    fmt::print("solver   {}, {}\n", counted(j["iterations"].get<std::uint64_t>(), "iteration"),
-               j["converged"].get<bool>() ? "converged" : "not converged");
-  if (j.contains("truth"))
+  fmt::print("flow     mean ({:.4g}, {:.4g}) px, mean speed {:.4g} px, largest {:.4g} px\n", flow.mean_px.x,
+             flow.mean_px.y, flow.mean_speed_px, flow.largest_px);
+  if (flow.effort)
+    fmt::print("solver   {}, {}\n", counted(std::uint64_t(flow.effort->iterations), "iteration"),
+               flow.effort->converged ? "converged" : "not converged");
+  if (flow.error)
     fmt::print(
         "truth    endpoint error {:.4f} px, angular error {:.3f} degrees, over {:.1f} % of the pixels\n",
-        j["truth"]["endpoint_px"].get<double>(), j["truth"]["angular_deg"].get<double>(),
-        100 * j["truth"]["known"].get<double>());
+        flow.error->endpoint_px, flow.error->angular_deg, 100 * flow.error->known);
   for (const auto& file : {v.out, v.picture})
     if (!file.empty()) fmt::print("wrote    {}\n", file.string());
   return 0;
@@ -75,17 +74,16 @@ int flow_video(const FlowVerb& v, const Common& c) {
   FlowJob job = job_of(v);
   job.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   job.stop = [&stop = stop_requested()] { return stop.load(); };
-  const auto j = flow_of_video(v.a, job);
+  const VideoFlow flow = flow_of_video(v.a, job);
   bar.clear();
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", flow_json(flow).dump());
     return 0;
   }
-  tell_notes(j, v.a, c);
+  tell_notes(flow.notes, v.a, c);
   if (c.quiet) return 0;
   fmt::print("{} of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
-             counted(j["pairs"].get<std::uint64_t>(), "pair"), j["seconds"].get<double>(),
-             j["image_size"][0].get<int>(), j["image_size"][1].get<int>(), j["mean_speed_px"].get<double>());
+             counted(flow.pairs, "pair"), flow.seconds, flow.width, flow.height, flow.mean_speed_px);
   for (const auto& file : {v.out, v.overlay})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

@@ -53,12 +53,11 @@ int identify(const StudyOptions& v, const Common& c) {
   reader.clear();
   bar.clear();
   if (!result) return tell_partial(v, c, dir);
-  const auto j = identify_json(*result);
   write_best_scene(*result, dir.path());
   write_file(dir.path() / "identify.html", identify_page(*result));
-  finish(dir, "identify", j, c);
+  finish(dir, "identify", identify_json(*result), c);
   if (!c.json && !c.quiet) {
-    for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+    for (const std::string& note : notes_of(*result)) tell("faba: note: " + note);
     summary(*result);
     fmt::print("wrote {}, and best.toml, the scene of the best model\n",
                (dir.path() / "identify.html").string());

@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "cli/command_line.h"
 #include "cli/output_file.h"
 #include "cli/quantity.h"
 #include "core/error.h"
-#include "study/pages/scale.h"
+#include "study/pages/scale_report.h"
 
 namespace faba::cli {
 namespace {
@@ -29,35 +30,59 @@ double tick_of(const std::string& words) {
   return tick;
 }
 
-void print_table(const nlohmann::ordered_json& j) {
-  const auto number = [&](const char* key) { return j[key].get<double>(); };
-  const auto end = [&](const char* key, int i) { return j[key][std::size_t(i)].get<double>(); };
+void print_table(const TableScale& s) {
   fmt::print("  width um   um per px\n");
-  for (std::size_t i = 0; i < j["ratios"].size(); ++i)
-    fmt::print("{:10g}   {:9.6f}\n", end("widths_um", int(i)), end("ratios", int(i)));
+  for (std::size_t i = 0; i < s.ratios.each.size(); ++i)
+    fmt::print("{:10g}   {:9.6f}\n", s.widths_um[i], s.ratios.each[i]);
   fmt::print(
       "ratio-mean   {:.6f} um/px, s.d. {:.6f}, s.e.m. {:.4f}; trend with width (Spearman) {:.2f}, p {:.3f}\n",
-      number("ratio_mean"), number("ratio_sd"), number("ratio_sem"), number("spearman"),
-      number("spearman_p"));
-  fmt::print("regression   {:.4f} um/px, 95 % {:.3f} to {:.3f}\n", number("um_per_px"), end("ci95", 0),
-             end("ci95", 1));
+      s.ratios.mean, s.ratios.sd, s.ratios.sem, s.spearman, s.spearman_p);
+  fmt::print("regression   {:.4f} um/px, 95 % {:.3f} to {:.3f}\n", s.um_per_px, s.ci95[0], s.ci95[1]);
   fmt::print("             reading = {:.2f} px + {:.4f} px/um x width; edges {:.1f} to {:.1f} px",
-             number("intercept_px"), number("slope_px_per_um"), end("intercept_ci95_px", 0),
-             end("intercept_ci95_px", 1));
-  if (!j["repeatability_px"].is_null()) fmt::print("; repeatability {:.2f} px", number("repeatability_px"));
+             s.intercept_px, s.slope_px_per_um, s.intercept_ci95_px[0], s.intercept_ci95_px[1]);
+  if (s.repeatability_px) fmt::print("; repeatability {:.2f} px", *s.repeatability_px);
   fmt::print("\n");
 }
 
-void print_picture(const nlohmann::ordered_json& j) {
-  const auto number = [&](const char* key) { return j[key].get<double>(); };
+void print_picture(const PictureScale& s) {
   fmt::print(
       "marks        {} {} ones, {:.4f} px apart (s.e. {:.4f}), {:.2f} degrees, scatter {:.2f} px: {}\n",
-      j["marks"].get<int>(), j["marks_are"].get<std::string>(), number("pitch_px"), number("pitch_se_px"),
-      number("angle_deg"), number("residual_px"), j["quality"].get<std::string>());
-  fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", number("ratio_mean"),
-             number("ratio_sd"), number("ratio_sem"));
-  fmt::print("regression   {:.5f} um/px, 95 % {:.5f} to {:.5f}\n", number("um_per_px"),
-             j["ci95"][0].get<double>(), j["ci95"][1].get<double>());
+      s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px,
+      word_of(s.quality));
+  fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
+             s.ratios.sem);
+  fmt::print("regression   {:.5f} um/px, 95 % {:.5f} to {:.5f}\n", s.um_per_px, s.ci95[0], s.ci95[1]);
+}
+
+template <class Scale, class Print>
+void tell_scale(const Scale& s, const ScaleVerb& v, const Common& c, Print&& print) {
+  if (!v.out.empty()) write_calibration(v.out, calibration_of(s));
+  if (c.json) {
+    fmt::print("{}\n", scale_json(s).dump());
+    return;
+  }
+  if (c.quiet) return;
+  print(s);
+  fmt::print("note         {}\n", scale_note(s));
+  if (!v.overlay.empty()) fmt::print("overlay      {}\n", v.overlay.string());
+  if (!v.out.empty())
+    fmt::print("calibration  {}; in a scenario: [scale] file = \"{}\"\n", v.out.string(), v.out.string());
+}
+
+void scale_of_picture(const ScaleVerb& v, const Common& c) {
+  const PictureScale s = report_scale_picture(v.ruler, tick_of(v.tick), v.overlay);
+  if (!v.out.empty() && !v.force && s.quality == MarkQuality::poor)
+    throw Error(
+        Errc::input, v.ruler.string(),
+        fmt::format("the marks found in it are too few or too uneven for a calibration ({} of them, scatter "
+                    "{:.2f} px): look at them with --overlay; --force writes {} all the same",
+                    s.marks, s.residual_px, v.out.string()));
+  if (!c.quiet && !c.json && s.quality != MarkQuality::good)
+    tell(fmt::format(
+        "faba: note: the marks are few or uneven ({}); look at them with --overlay before you use the "
+        "scale",
+        word_of(s.quality)));
+  tell_scale(s, v, c, print_picture);
 }
 
 int scale(const ScaleVerb& v, const Common& c) {
@@ -67,29 +92,10 @@ int scale(const ScaleVerb& v, const Common& c) {
   if (table && !v.tick.empty())
     throw Error(Errc::usage, "--tick", "is for pictures; a table says how wide everything is");
   if (table && !v.overlay.empty()) throw Error(Errc::usage, "--overlay", "is for pictures");
-  const auto j =
-      table ? report_scale_table(v.ruler) : report_scale_picture(v.ruler, tick_of(v.tick), v.overlay);
-  if (!v.out.empty() && !table && !v.force && j["quality"] == "poor")
-    throw Error(
-        Errc::input, v.ruler.string(),
-        fmt::format("the marks found in it are too few or too uneven for a calibration ({} of them, scatter "
-                    "{:.2f} px): look at them with --overlay; --force writes {} all the same",
-                    j["marks"].get<int>(), j["residual_px"].get<double>(), v.out.string()));
-  if (!v.out.empty()) write_calibration(v.out, calibration_of(j));
-  if (!c.quiet && !c.json && !table && j["quality"] != "good")
-    tell(fmt::format(
-        "faba: note: the marks are few or uneven ({}); look at them with --overlay before you use the "
-        "scale",
-        j["quality"].get<std::string>()));
-  if (c.json) {
-    fmt::print("{}\n", j.dump());
-  } else if (!c.quiet) {
-    table ? print_table(j) : print_picture(j);
-    fmt::print("note         {}\n", j["note"].get<std::string>());
-    if (!v.overlay.empty()) fmt::print("overlay      {}\n", v.overlay.string());
-    if (!v.out.empty())
-      fmt::print("calibration  {}; in a scenario: [scale] file = \"{}\"\n", v.out.string(), v.out.string());
-  }
+  if (table)
+    tell_scale(measure_scale(read_ruler_table(v.ruler), v.ruler.string()), v, c, print_table);
+  else
+    scale_of_picture(v, c);
   return 0;
 }
 

@@ -7,7 +7,7 @@
 #include "app/sinks/series_columns.h"
 #include "cli/command_line.h"
 #include "study/identify/identify.h"
-#include "study/motion/activity.h"
+#include "study/motion/activity_study.h"
 #include "study/steering/controller_study.h"
 
 namespace faba::cli {

@@ -2,6 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
 
 #include "app/scenario/calibration_file.h"
 #include "cli/command_line.h"
@@ -9,9 +12,8 @@
 #include "cli/progress.h"
 #include "core/counted.h"
 #include "core/error.h"
-#include "study/pages/track_report.h"
-
-#include <nlohmann/json.hpp>
+#include "study/pages/tracks/track_json.h"
+#include "study/pages/tracks/track_report.h"
 
 namespace faba::cli {
 namespace {
@@ -66,73 +68,75 @@ void check_outputs(const TrackVerb& v) {
       check_output(v.figures / name, ".svg", v.force, {v.video});
 }
 
-// "12.3 +- 0.4 um/s", in um where there is a scale.
-std::string value_words(const nlohmann::ordered_json& from, const std::string& name, const char* px,
-                        const char* um, const char* px_words, const char* um_words) {
-  const bool scaled = from.contains(name + "_" + um);
-  const std::string key = name + "_" + (scaled ? um : px);
-  if (from[key].is_null()) return "-";
-  std::string words = fmt::format("{:.3g}", from[key].get<double>());
-  if (!from[key + "_se"].is_null()) words += fmt::format(" +- {:.2g}", from[key + "_se"].get<double>());
-  return words + " " + (scaled ? um_words : px_words);
-}
+// Numbers with their standard errors in words: in um where there is a scale, per frame where times are counts
+// of frames.
+class TrackWords {
+ public:
+  explicit TrackWords(const TrackMeasurement& m) : um_per_px_(m.um_per_px.value_or(0)), timed_(m.timed) {}
+  std::string velocity(const Estimated& e) const { return estimate(e, scale(), length() + per_time()); }
+  std::string diffusion(const Estimated& e) const {
+    return estimate(e, scale() * scale(), length() + "^2" + per_time());
+  }
+  std::string time(const Estimated& e) const { return estimate(e, 1, time_unit()); }
+  const char* time_unit() const { return timed_ ? "s" : "frames"; }
 
-void print_summary(const nlohmann::ordered_json& j) {
-  const auto& d = j["detection"];
+ private:
+  double scale() const { return um_per_px_ > 0 ? um_per_px_ : 1; }
+  std::string length() const { return um_per_px_ > 0 ? "um" : "px"; }
+  const char* per_time() const { return timed_ ? "/s" : "/frame"; }
+  static std::string estimate(const Estimated& e, double scale, const std::string& unit) {
+    if (!std::isfinite(scale * e.value)) return "-";
+    std::string words = fmt::format("{:.3g}", scale * e.value);
+    if (std::isfinite(scale * e.se)) words += fmt::format(" +- {:.2g}", scale * e.se);
+    return words + " " + unit;
+  }
+  double um_per_px_;
+  bool timed_;
+};
+
+void print_summary(const TrackMeasurement& m) {
+  const TrackSummary& s = m.summary;
+  const TrackWords words(m);
   fmt::print("spots    {:.4g} in a frame, {} and {:.2g} px wide, against the {} background\n",
-             d["spots_per_frame"].get<double>(), d["polarity"].get<std::string>(), d["size_px"].get<double>(),
-             d["background"].get<std::string>());
-  fmt::print("tracks   {} in {}, {:.3g} places each\n", j["tracks"].get<std::uint64_t>(),
-             counted(j["frames"].get<std::uint64_t>(), "frame"), j["mean_points"].get<double>());
-  const auto above_half = [&](const char* order) {
-    return j[order].is_number() && j[order].get<double>() > 0.5;
-  };
-  const bool drifts = above_half("order") && j["drift"].is_object();
-  const bool together = drifts || above_half("order_at_a_time");
+             m.detection.spots_per_frame, word_of(m.detection.polarity), m.detection.size_px,
+             background_word(m.detection));
+  fmt::print("tracks   {} in {}, {:.3g} places each\n", s.tracks, counted(std::uint64_t(m.frames), "frame"),
+             s.mean_points);
+  const bool drifts = s.speed_count > 0 && s.order > 0.5 && s.msd.size() > 0;
+  const bool together = drifts || order_at_a_time(s) > 0.5;
   const char* about = !together ? "" : drifts ? "about the drift " : "about the common motion ";
-  const bool timed = j["timed"].get<bool>();
-  const auto value_of = [&](const nlohmann::ordered_json& from, const std::string& name, const char* px,
-                            const char* um, const char* px_words, const char* um_words) {
-    std::string words = value_words(from, name, px, um, px_words, um_words);
-    if (const auto at = words.rfind("/s"); !timed && at != std::string::npos) words.replace(at, 2, "/frame");
-    if (!timed && words.ends_with(" s")) words.replace(words.size() - 1, 1, "frames");
-    return words;
-  };
-  if (j["speed"].is_object() && (together || j["supported"] != "diffusion"))
-    fmt::print("speed    {} on average, over {:.3g} {}\n",
-               value_of(j["speed"], "mean", "px_s", "um_s", "px/s", "um/s"),
-               j["speed"]["interval_s"].get<double>(), timed ? "s" : "frames");
+  const SupportedWalk walk = supported_walk(s);
+  if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))
+    fmt::print("speed    {} on average, over {:.3g} {}\n", words.velocity(s.mean_speed_px_s), s.interval_s,
+               words.time_unit());
   if (drifts)
-    fmt::print("drift    {} right, {} down\n", value_of(j["drift"], "x", "px_s", "um_s", "px/s", "um/s"),
-               value_of(j["drift"], "y", "px_s", "um_s", "px/s", "um/s"));
-  if (j["supported"] == "diffusion" && j["diffusion"].is_object())
-    fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", about,
-               value_of(j["diffusion"], "d", "px2_s", "um2_s", "px^2/s", "um^2/s"));
-  if (j["supported"] == "persistent_walk" && j["persistent_walk"].is_object())
+    fmt::print("drift    {} right, {} down\n", words.velocity(s.drift_x_px_s),
+               words.velocity(s.drift_y_px_s));
+  if (walk == SupportedWalk::diffusion && s.diffusion.good)
+    fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", about, words.diffusion(s.d_px2_s));
+  if (walk == SupportedWalk::persistent && s.persistent.good)
     fmt::print("motion   {}direction is kept: walk at {} (rms), for {}\n", about,
-               value_of(j["persistent_walk"], "speed_rms", "px_s", "um_s", "px/s", "um/s"),
-               j["persistent_walk"]["tau_longer_than_seen"].get<bool>()
-                   ? "longer than was seen"
-                   : value_of(j["persistent_walk"], "tau", "s", "-", "s", ""));
+               words.velocity(s.speed_rms_px_s),
+               s.persistent.tau_open ? "longer than was seen" : words.time(s.tau_s));
 }
 
 int track(const TrackVerb& v, const Common& c) {
   check_outputs(v);
   const auto& stop = stop_requested();
   Progress bar("tracking", !c.quiet);
-  const auto j = track_video(options_of(v), [&](std::int64_t done, std::int64_t total) {
+  const TrackMeasurement tracks = track_video(options_of(v), [&](std::int64_t done, std::int64_t total) {
     bar.update(std::uint64_t(done), std::uint64_t(total));
     return !stop;
   });
   bar.clear();
   if (!c.quiet && !c.json)
-    for (const auto& note : j["notes"]) tell("faba: note: " + note.get<std::string>());
+    for (const std::string& note : tracks.notes) tell("faba: note: " + note);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", track_json(tracks).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  print_summary(j);
+  print_summary(tracks);
   for (const auto& path : v.out) fmt::print("written  {}\n", path.string());
   for (const auto* path : {&v.swarm, &v.overlay, &v.report, &v.picture, &v.figures})
     if (!path->empty()) fmt::print("written  {}\n", path->string());

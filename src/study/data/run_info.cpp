@@ -114,6 +114,9 @@ RunInfo run_info(const Json& json, const std::string& source) {
     for (const Json& swarm : *swarms) {
       if (!swarm.is_object()) keys.fail("swarms", "a list of objects");
       info.swarms.push_back(one_line(swarm));
+      const double cells = Keys(swarm, source, "swarms[].").number("count").value_or(0);
+      if (!(cells >= 0 && cells < 1e15)) keys.fail("swarms[].count", "a number of cells");
+      info.swarm_cells.push_back(std::uint64_t(cells));
     }
   }
   return info;
@@ -121,7 +124,38 @@ RunInfo run_info(const Json& json, const std::string& source) {
 
 }  // namespace
 
-RunInfo run_info(const Manifest& m) { return run_info(manifest_json(m), "the manifest"); }
+RunInfo run_info(const Manifest& m) {
+  RunInfo info;
+  info.version = FABA_VERSION;
+  info.title = m.title;
+  info.polarity = m.polarity;
+  info.seed = std::to_string(m.seed);
+  info.scenario_hash = m.scenario_hash;
+  info.complete = m.complete;
+  if (m.um_per_px > 0) info.um_per_px = m.um_per_px;
+  info.view_px = m.view_px;
+  info.arena = {m.arena_type, m.arena_centre_px, {}, {}};
+  if (m.arena_radius_px > 0)
+    info.arena->radius_px = m.arena_radius_px;
+  else
+    info.arena->size_px = m.view_px;
+  if (m.simulated || m.bench) {
+    info.video_shows = m.video_shows;
+    info.duration_s = m.duration_s;
+    info.wall_time_s = m.wall_time_s;
+    info.setpoints = double(m.setpoints);
+    info.notes = m.notes;
+  }
+  if (m.simulated) {
+    info.threads = std::to_string(m.simulated->threads);
+    info.state_hash = m.simulated->state_hash;
+    for (const Manifest::Swarm& s : m.simulated->swarms) {
+      info.swarms.push_back(one_line(swarm_json(s)));
+      info.swarm_cells.push_back(s.params.count);
+    }
+  }
+  return info;
+}
 
 RunInfo read_run_info(const std::filesystem::path& path) { return run_info(parsed(path), path.string()); }
 

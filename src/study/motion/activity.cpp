@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scenario/parts.h"
 #include "core/statistics.h"
-#include "core/toml.h"
 #include "core/units.h"
 #include "study/tracks/swarm_view.h"
 
@@ -163,53 +161,6 @@ void conclude(ActivityResult& r) {
     r.frame_s = frame_s;
 }
 
-struct StudyVideo {
-  std::string file, experiment;
-  std::optional<double> exposure, direction, from, to;
-  static Schema<StudyVideo> schema() {
-    return Schema<StudyVideo>("video", "One video of the study")
-        .add("file", &StudyVideo::file,
-             {.doc = "Video, run directory or file of flows; beside the study file"})
-        .add("exposure", &StudyVideo::exposure,
-             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time of the sample in air before the video"})
-        .add("experiment", &StudyVideo::experiment,
-             {.doc = "Which experiment, that is which drop, it belongs to"})
-        .add("direction", &StudyVideo::direction,
-             {.unit = "deg",
-              .min = -360,
-              .max = 360,
-              .doc = "Direction of the response: 0 right, 90 down in the picture"})
-        .add("from", &StudyVideo::from,
-             {.unit = "s",
-              .min = 0,
-              .max = 1e9,
-              .doc = "Leave out what comes before, and count time from here"})
-        .add("to", &StudyVideo::to, {.unit = "s", .min = 0, .max = 1e9, .doc = "Leave out what comes after"})
-        .check([](const StudyVideo& v) -> std::string {
-          return v.file.empty() ? "needs file = \"a video\"" : "";
-        });
-  }
-};
-
-struct Study {
-  std::optional<double> direction, threshold, from, to;
-  std::string noise;
-  static Schema<Study> schema() {
-    return Schema<Study>("study", "Videos of samples after different times in air")
-        .add("direction", &Study::direction,
-             {.unit = "deg", .min = -360, .max = 360, .doc = "For all videos that give none"})
-        .add("from", &Study::from,
-             {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
-        .add("to", &Study::to, {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
-        .add("threshold", &Study::threshold,
-             {.unit = "px", .min = 0, .max = 1e3, .doc = "Flows of less are noise"})
-        .add("noise", &Study::noise, {.doc = "A video of a dead sample, to find the threshold from"})
-        .check([](const Study& s) -> std::string {
-          return s.threshold && !s.noise.empty() ? "give threshold or noise, not both" : "";
-        });
-  }
-};
-
 }  // namespace
 
 std::optional<double> activity_per_cell(const VideoActivity& a) {
@@ -248,33 +199,6 @@ ActivityResult measure_activity(const ActivityJob& job) {
   }
   conclude(r);
   return r;
-}
-
-Json activity_study_schema() {
-  Json j = Study::schema().json_schema();
-  j["properties"]["video"] = {{"type", "array"},
-                              {"description", "[[video]], once for each"},
-                              {"items", StudyVideo::schema().json_schema()}};
-  return j;
-}
-
-void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
-  const Document d = read_toml(file);
-  const Node root(d);
-  const Study study = Study::schema().parse(root, {"video", "flow"});
-  if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
-  if (study.threshold) job.threshold_px = study.threshold;
-  if (!study.noise.empty()) job.noise = root.file(study.noise);
-  if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
-    root.fail("needs [[video]], once for each video");
-  const Node list = root.child("video");
-  for (std::size_t i = 0; i < list.json->size(); ++i) {
-    const Node n = list.item(i);
-    const StudyVideo v = StudyVideo::schema().parse(n);
-    job.videos.push_back({n.file(v.file), v.exposure, v.experiment,
-                          v.direction ? v.direction : study.direction,
-                          v.from.value_or(study.from.value_or(0)), v.to ? v.to : study.to});
-  }
 }
 
 }  // namespace faba

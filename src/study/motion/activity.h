@@ -91,10 +91,4 @@ struct ActivityResult {
 /// Error(interrupted).
 ActivityResult measure_activity(const ActivityJob& job);
 
-/// Reads a study file: `[[video]]` with file, exposure, experiment, direction; and direction, threshold,
-/// noise, [flow] for all. Throws Error(usage).
-void read_activity_study(const std::filesystem::path& file, ActivityJob& job);
-/// JSON Schema of a study file.
-Json activity_study_schema();
-
 }  // namespace faba

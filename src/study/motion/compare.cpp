@@ -289,6 +289,11 @@ void find_floor(const CompareJob& job, Comparison& c) {
 
 }  // namespace
 
+std::optional<double> score_of(const Comparison& c, const ComparedRun& run) {
+  if (!c.floor || !(c.naive.mean > *c.floor)) return {};
+  return (run.distance.mean - *c.floor) / (c.naive.mean - *c.floor);
+}
+
 Comparison compare_videos(const CompareJob& job) {
   Comparer comparer(job);
   Comparison c;

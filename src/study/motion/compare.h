@@ -71,6 +71,10 @@ struct Comparison {
   std::vector<std::string> notes;
 };
 
+/// The mean distance of a run on a scale from 0, as good as the same scenario with another seed, to 1, no
+/// better than a video in which nothing moves. Empty where the floor is not known or not below that.
+std::optional<double> score_of(const Comparison& c, const ComparedRun& run);
+
 /// Compares every run with the reference, pair of frames by pair. Throws Error(input) when sizes differ or
 /// nothing overlaps, and what FlowSource throws.
 Comparison compare_videos(const CompareJob& job);

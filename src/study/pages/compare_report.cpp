@@ -15,11 +15,6 @@
 namespace faba {
 namespace {
 
-Json score_of(const Comparison& c, double mean) {
-  if (!c.floor || !(c.naive.mean > *c.floor)) return {};
-  return (mean - *c.floor) / (c.naive.mean - *c.floor);
-}
-
 std::string name_of(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   return name.empty() ? file.parent_path().filename().string() : name;
@@ -87,17 +82,17 @@ std::string table(const Comparison& c) {
       "<table class=\"numbers\">\n<thead><tr><th>run</th><th>mean</th><th>s.d.</th><th>slope per "
       "frame</th><th>score</th>"
       "<th>legacy mean</th></tr></thead>\n<tbody>\n";
-  const auto line = [&](const std::string& name, const DistanceSeries& d, const Json& score) {
+  const auto line = [&](const std::string& name, const DistanceSeries& d, std::optional<double> score) {
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
         escape_markup(name), three_digits(d.mean), three_digits(d.sd), three_digits(d.line.slope),
-        score.is_null() ? "–" : three_digits(score.get<double>()), three_digits(d.legacy_mean));
+        score ? three_digits(*score) : "–", three_digits(d.legacy_mean));
   };
-  for (const ComparedRun& r : c.runs) line(name_of(r.file), r.distance, score_of(c, r.distance.mean));
-  line("nothing moves", c.naive, Json());
+  for (const ComparedRun& r : c.runs) line(name_of(r.file), r.distance, score_of(c, r));
+  line("nothing moves", c.naive, {});
   out += "</tbody></table>\n<p>Mean, s.d. and slope are those of the distance from frame to frame.";
   if (std::any_of(c.runs.begin(), c.runs.end(),
-                  [&](const ComparedRun& r) { return !score_of(c, r.distance.mean).is_null(); }))
+                  [&](const ComparedRun& r) { return score_of(c, r).has_value(); }))
     out +=
         " The score puts the mean on a scale of its own: 0 is the distance of two runs of one scenario with "
         "different seeds, so that less than 0 is chance (or the same run), and 1 that of a video in which "
@@ -120,6 +115,7 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
   j["runs"] = Json::array();
   for (const ComparedRun& r : c.runs) {
     const DistanceSeries& d = r.distance;
+    const std::optional<double> score = score_of(c, r);
     j["runs"].push_back({{"run", r.file.string()},
                          {"t0_s", r.t0_s},
                          {"pairs", d.t_s.size()},
@@ -128,7 +124,7 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
                          {"slope", d.line.slope},
                          {"slope_ci95", d.line.slope_ci95()},
                          {"intercept", d.line.intercept},
-                         {"score", score_of(c, d.mean)},
+                         {"score", score ? Json(*score) : Json()},
                          {"legacy",
                           {{"mean", d.legacy_mean},
                            {"sd", d.legacy_sd},

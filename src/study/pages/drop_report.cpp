@@ -1,12 +1,10 @@
 #include "study/pages/drop_report.h"
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "core/error.h"
+#include "core/toml.h"
 #include "vision/draw/overlay.h"
 #include "vision/files/picture.h"
-
-#include <nlohmann/json.hpp>
 
 namespace faba {
 
@@ -23,8 +21,21 @@ nlohmann::ordered_json drop_json(const DropEdge& edge) {
   return json;
 }
 
-nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
-                                   const std::filesystem::path& stages) {
+nlohmann::ordered_json drop_json(const ProposedDrop& drop) {
+  if (!drop.edge)
+    return {{"found", false},
+            {"why", drop.why},
+            {"center_px", {drop.centre_image.x, drop.centre_image.y}},
+            {"radius_px", drop.radius_px},
+            {"image_size", {drop.image_width, drop.image_height}}};
+  Json json = drop_json(*drop.edge);
+  json["found"] = drop.found;
+  if (!drop.found) json["why"] = drop.why;
+  return json;
+}
+
+DropEdge report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
+                     const std::filesystem::path& stages) {
   const GrayF grey = read_picture(picture).grey;
   DropEdgeOptions options;
   options.name = picture.string();
@@ -40,32 +51,14 @@ nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const s
     write_png(stages / kDropStages[3], drop_overlay(grey, edge));
   }
   if (!overlay.empty()) write_png(overlay, drop_overlay(grey, edge));
-  return drop_json(edge);
+  return edge;
 }
 
-nlohmann::ordered_json propose_drop(const std::filesystem::path& picture, const std::string& name,
-                                    const std::filesystem::path& shown) {
+ProposedDrop report_proposed_drop(const std::filesystem::path& picture, const std::string& name,
+                                  const std::filesystem::path& shown) {
   const GrayF grey = read_picture(picture).grey;
   write_png(shown, stretched(grey));
-  DropEdgeOptions options;
-  options.name = name;
-  nlohmann::ordered_json json;
-  try {
-    const DropEdge edge = find_drop_edge(grey, options);
-    json = drop_json(edge);
-    json["found"] = edge.centre_side_inside;
-    if (!edge.centre_side_inside) json["why"] = "shows an air bubble in the liquid, not a drop";
-  } catch (const Error& e) {
-    if (e.code() != Errc::input) throw;
-    constexpr double kRadius = 0.4;  // of the smaller side
-    const double w = grey.width, h = grey.height;
-    json = {{"found", false},
-            {"why", e.reason()},
-            {"center_px", {(w - 1) / 2, (h - 1) / 2}},
-            {"radius_px", kRadius * std::min(w, h)},
-            {"image_size", {grey.width, grey.height}}};
-  }
-  return json;
+  return propose_drop(grey, name);
 }
 
 }  // namespace faba

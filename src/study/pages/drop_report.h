@@ -2,9 +2,9 @@
 #include <array>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include "vision/drop/drop_edge.h"
+#include "study/drop/proposed_drop.h"
 
 namespace faba {
 
@@ -13,20 +13,22 @@ namespace faba {
 /// positions in picture px, y down as in the image file, `inside` a point of the picture inside the drop.
 nlohmann::ordered_json drop_json(const DropEdge& edge);
 
+/// A drop to begin with as the lab's page takes it: drop_json() and `"found"`, and `"why"` when what was
+/// found is a bubble; or, when there is no edge, `"found": false, "why", "center_px", "radius_px",
+/// "image_size"`.
+nlohmann::ordered_json drop_json(const ProposedDrop& drop);
+
 /// Finds the edge in a picture or in the first frame of a video and, unless `overlay` is empty, writes the
 /// picture with the edge drawn in; unless `stages` is empty, pictures of each stage of the search into that
 /// folder (those before an edge was found also when none is). Throws Error(input) when there is no usable
 /// picture or no edge in it.
-nlohmann::ordered_json report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
-                                   const std::filesystem::path& stages);
+DropEdge report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
+                     const std::filesystem::path& stages);
 
-/// A drop to begin with, for a page where it can be put right by hand: writes the picture as PNG for the eye
-/// to `shown`, and says where the edge is: drop_json() and `"found": true`; or, when there is none or it is a
-/// bubble's,
-/// `"found": false, "why"` and a circle in the middle. `name` stands for the picture in messages. Throws
-/// Error(input) when there is no usable picture.
-nlohmann::ordered_json propose_drop(const std::filesystem::path& picture, const std::string& name,
-                                    const std::filesystem::path& shown);
+/// propose_drop for a page: writes the picture as PNG for the eye to `shown`. `name` stands for the picture
+/// in messages. Throws Error(input) when there is no usable picture.
+ProposedDrop report_proposed_drop(const std::filesystem::path& picture, const std::string& name,
+                                  const std::filesystem::path& shown);
 
 /// The pictures in a folder of stages, in their order.
 inline constexpr std::array kDropStages{"1-grey.png", "2-edges.png", "3-lines.png", "4-circle.png"};

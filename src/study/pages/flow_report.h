@@ -2,11 +2,11 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "study/data/flow_choice.h"
+#include "study/flow/flow_measurement.h"
 
 namespace faba {
 
@@ -26,17 +26,19 @@ struct FlowJob {
   std::function<bool()> stop = [] { return false; };
 };
 
-/// The flow from one picture to another of the same size:
-/// `{"image_size":[w,h],"method":{..},"iterations":n,"converged":b,"mean_px":[u,v],"mean_speed_px":..,"largest_px":..,
-/// "truth":{"endpoint_px":..,"angular_deg":..,"known":share},"notes":[..]}`; `iterations` and `converged`
-/// where the method has them, `truth` when it was given: mean distance to the true flow, and mean angle
-/// between (u, v, 1) of both (Barron et al. 1994), over the pixels where it is known. Throws Error(input).
-nlohmann::ordered_json flow_of_pair(const std::filesystem::path& a, const std::filesystem::path& b,
-                                    const FlowJob& job);
+/// Measures the flow from one picture to another and writes the files that are named. Throws Error(input).
+PairFlow flow_of_pair(const std::filesystem::path& a, const std::filesystem::path& b, const FlowJob& job);
 
-/// The flows of a video (or of a run's):
-/// `{"image_size":[w,h],"method":{..},"pairs":n,"seconds":..,"mean_speed_px":.., "notes":[..]}`. Throws
-/// Error(input), and Error(interrupted) when stopped.
-nlohmann::ordered_json flow_of_video(const std::filesystem::path& video, const FlowJob& job);
+/// Measures the flows of a video (or of a run's) and writes the files that are named, each when it is
+/// complete. Throws Error(input), and Error(interrupted) when stopped.
+VideoFlow flow_of_video(const std::filesystem::path& video, const FlowJob& job);
+
+/// `{"image_size":[w,h],"method":{..},"iterations":n,"converged":b,"mean_px":[u,v],"mean_speed_px":..,"largest_px":..,
+/// "truth":{"endpoint_px":..,"angular_deg":..,"known":fraction},"notes":[..]}`; `iterations` and `converged`
+/// where the method has them, `truth` when it was given.
+nlohmann::ordered_json flow_json(const PairFlow& flow);
+
+/// `{"image_size":[w,h],"method":{..},"pairs":n,"seconds":..,"mean_speed_px":.., "notes":[..]}`.
+nlohmann::ordered_json flow_json(const VideoFlow& flow);
 
 }  // namespace faba

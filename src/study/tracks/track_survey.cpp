@@ -87,6 +87,7 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   TrackSurvey s;
   VideoReader reader(video, o.fps);
   s.timed = reader.fps() > 0;
+  s.bits = reader.bits();
   BackgroundSampler sampler;
   std::vector<double> gaps;
   GrayF frame;

@@ -14,6 +14,7 @@ struct TrackSurvey {
   double duration_s = 0;       ///< from the first to the last
   double frame_s = 1;          ///< median time between frames
   bool timed = true;           ///< false: the video states no frame rate, and times are counts of frames
+  int bits = 8;                ///< of the grey scale, see VideoReader
   GrayF first;                 ///< the first frame
   float black = 0, white = 1;  ///< grey values of its 0.1 and 99.9 % quantiles
   Background background;

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "core/parallel.h"
 #include "core/registry.h"
@@ -15,6 +16,12 @@ struct Flow {
   int height() const { return u.height; }
 };
 
+/// What an iterative method took for a pair of frames.
+struct FlowEffort {
+  int iterations = 0;
+  bool converged = false;  ///< false: the limit of iterations came first
+};
+
 /// A way to get the flow between two frames. Keeps memory from pair to pair: not to be shared between
 /// threads.
 class FlowMethod {
@@ -23,9 +30,8 @@ class FlowMethod {
   /// `a` and `b` have the same size, greys on a scale of 0 to 255; `out` is resized as needed. Same frames,
   /// same result.
   virtual void between(const GrayF& a, const GrayF& b, Flow& out) = 0;
-  /// What the last pair took, such as {"iterations": 8, "converged": true}; empty when there is nothing to
-  /// say.
-  virtual Json effort() const { return Json::object(); }
+  /// What the last pair took; empty for a method that does not iterate.
+  virtual std::optional<FlowEffort> effort() const { return {}; }
 };
 
 /// What every flow part may use. Outlives the part.

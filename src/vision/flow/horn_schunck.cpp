@@ -182,8 +182,8 @@ class HornSchunckFlow final : public FlowMethod {
     give(w.u, out.u);
     give(w.v, out.v);
   }
-  Json effort() const override {
-    return {{"iterations", solver_.iterations()}, {"converged", solver_.converged()}};
+  std::optional<FlowEffort> effort() const override {
+    return FlowEffort{solver_.iterations(), solver_.converged()};
   }
 
  private:

@@ -20,3 +20,13 @@ TEST_CASE("the drop's report has exactly the documented fields, in order") {
         R"({"center_px":[258.5,-12.25],"radius_px":161.0,"sd_px":{"x":0.5,"y":0.75,"radius":0.25},)"
         R"("arc_deg":90.0,"inside":[3.0,4.0],"image_size":[518,488]})");
 }
+
+TEST_CASE("a picture without a drop gives a circle to begin with, and why") {
+  const ProposedDrop drop = propose_drop(GrayF(200, 100), "grey.png");
+  CHECK_FALSE(drop.found);
+  CHECK_FALSE(drop.why.empty());
+  nlohmann::ordered_json j = drop_json(drop);
+  j["why"] = "";
+  CHECK(j.dump() ==
+        R"({"found":false,"why":"","center_px":[99.5,49.5],"radius_px":40.0,"image_size":[200,100]})");
+}

@@ -11,38 +11,55 @@
 namespace faba::cli {
 namespace {
 
-int rig_check(const SceneOptions& v, const Common& c) {
-  constexpr double kLook = 2;  // s
-  Scenario s = read_bench_scene(v);
-  const Json j = check_bench(s, s.params.seed.value_or(1), kLook);
-  const int code = j.at("cannot_arm").is_null() ? 0 : int(Errc::device);
-  if (c.json) {
-    fmt::print("{}\n", j.dump());
-    return code;
-  }
-  const auto said = [&](const char* key, const char* unit) {
-    return j.at(key).is_null() ? std::string("-") : three_digits(j.at(key).get<double>()) + unit;
-  };
+Json check_json(const BenchCheck& b) {
+  Json sensed = Json::array();
+  for (const double a : b.sensed_a) sensed.push_back(std::isnan(a) ? Json() : Json(a));
+  Json j = {{"camera", b.camera},
+            {"size_px", {b.width_px, b.height_px}},
+            {"rate_hz", b.rate_hz ? Json(*b.rate_hz) : Json()},
+            {"frames", b.frames},
+            {"dropped", b.dropped},
+            {"corrupt", b.corrupt},
+            {"age_ms", 1e3 * b.age_s},
+            {"delay_ms", 1e3 * b.delay_s},
+            {"driver", b.driver},
+            {"guard", b.guard},
+            {"cannot_arm", b.cannot_arm.empty() ? Json() : Json(b.cannot_arm)},
+            {"sensed_a", sensed},
+            {"swarm", nullptr}};
+  if (b.swarm)
+    j["swarm"] = {{"cells", b.swarm->cells},
+                  {"centroid_px", {b.swarm->centroid_px.x, b.swarm->centroid_px.y}}};
+  return j;
+}
+
+void print_check(const BenchCheck& b) {
   fmt::print(
       "camera   {}: {} x {} px, {}, {} after mid-exposure, decided on after {}; {} frames, {} dropped, {} "
       "corrupt\n",
-      j["camera"].get<std::string>(), j["size_px"][0].dump(), j["size_px"][1].dump(), said("rate_hz", " Hz"),
-      said("age_ms", " ms"), said("delay_ms", " ms"), j["frames"].dump(), j["dropped"].dump(),
-      j["corrupt"].dump());
-  if (j["swarm"].is_null())
-    fmt::print("swarm    none is seen\n");
+      b.camera, b.width_px, b.height_px, b.rate_hz ? three_digits(*b.rate_hz) + " Hz" : "-",
+      three_digits(1e3 * b.age_s) + " ms", three_digits(1e3 * b.delay_s) + " ms", b.frames, b.dropped,
+      b.corrupt);
+  if (b.swarm)
+    fmt::print("swarm    some {} cells about ({}, {}) px\n", three_digits(b.swarm->cells),
+               three_digits(b.swarm->centroid_px.x), three_digits(b.swarm->centroid_px.y));
   else
-    fmt::print("swarm    some {} cells about ({}, {}) px\n", three_digits(j["swarm"]["cells"].get<double>()),
-               three_digits(j["swarm"]["centroid_px"][0].get<double>()),
-               three_digits(j["swarm"]["centroid_px"][1].get<double>()));
+    fmt::print("swarm    none is seen\n");
   std::string sensed;
-  for (const Json& a : j["sensed_a"])
-    sensed += " " + (a.is_null() ? "-" : fmt::format("{:.3f} A", a.get<double>()));
-  fmt::print("coils    {}: {}; sensed{}\n", j["driver"].get<std::string>(), j["guard"].get<std::string>(),
-             sensed);
-  if (!j["cannot_arm"].is_null())
-    fmt::print("         cannot be armed: {}\n", j["cannot_arm"].get<std::string>());
-  return code;
+  for (const double a : b.sensed_a) sensed += " " + (std::isnan(a) ? "-" : fmt::format("{:.3f} A", a));
+  fmt::print("coils    {}: {}; sensed{}\n", b.driver, b.guard, sensed);
+  if (!b.cannot_arm.empty()) fmt::print("         cannot be armed: {}\n", b.cannot_arm);
+}
+
+int rig_check(const SceneOptions& v, const Common& c) {
+  constexpr double kLook = 2;  // s
+  Scenario s = read_bench_scene(v);
+  const BenchCheck check = check_bench(s, s.params.seed.value_or(1), kLook);
+  if (c.json)
+    fmt::print("{}\n", check_json(check).dump());
+  else
+    print_check(check);
+  return check.cannot_arm.empty() ? 0 : int(Errc::device);
 }
 
 }  // namespace

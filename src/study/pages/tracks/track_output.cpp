@@ -1,4 +1,4 @@
-#include "study/tracks/track_output.h"
+#include "study/pages/tracks/track_output.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,8 @@ void remove_quietly(const std::filesystem::path& path) {
 
 class CsvTracks final : public TrackOutput {
  public:
-  explicit CsvTracks(std::filesystem::path path) : path_(std::move(path)), file_(temporary_name(path_), 0, path_) {
+  explicit CsvTracks(std::filesystem::path path)
+      : path_(std::move(path)), file_(temporary_name(path_), 0, path_) {
     file_.append("track,frame,t_s,x_px,y_px,mass,snr\n");
   }
   ~CsvTracks() override {

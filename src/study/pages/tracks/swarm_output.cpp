@@ -1,4 +1,4 @@
-#include "study/tracks/swarm_output.h"
+#include "study/pages/tracks/swarm_output.h"
 
 #include <fmt/format.h>
 

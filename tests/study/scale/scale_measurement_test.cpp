@@ -1,4 +1,4 @@
-#include "study/pages/scale.h"
+#include "study/scale/scale_measurement.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -10,6 +10,8 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/toml.h"
+#include "study/pages/scale_report.h"
 #include "study/stats/statistics.h"
 #include "tests/app/run_directory.h"
 #include "tests/vision/drop_pictures.h"
@@ -23,12 +25,14 @@ const char* const kTable41 =
     "width_um,px_1,px_2\n30,41.42,40.31\n50,63.25,64.19\n70,87.52,90.10\n100,121.44,122.40\n"
     "200,228.55,225.66\n";
 
-nlohmann::ordered_json report(const std::string& csv) {
+TableScale measured(const std::string& csv) {
   const TestFolder folder;
   const auto file = folder.path / "ruler.csv";
   write_file(file, csv);
-  return report_scale_table(file);
+  return measure_scale(read_ruler_table(file), file.string());
 }
+
+Json report(const std::string& csv) { return scale_json(measured(csv)); }
 
 std::string refused(const std::string& csv) {
   try {
@@ -113,20 +117,20 @@ TEST_CASE("the interval holds the truth as often as it says") {
         r.width_m.push_back(w * 1e-6);
         r.reading_px.push_back(7 + w / 1.2 + 1.5 * noise.gauss());
       }
-    const auto j = scale_json(r, "made");
-    hits += j["ci95"][0].get<double>() < 1.2 && 1.2 < j["ci95"][1].get<double>();
-    const double reach = student_t_quantile(0.975, 5) * j["ratio_sem"].get<double>();
-    ratio_hits += std::fabs(j["ratio_mean"].get<double>() - 1.2) < reach;
+    const TableScale s = measure_scale(r, "made");
+    hits += s.ci95[0] < 1.2 && 1.2 < s.ci95[1];
+    const double reach = student_t_quantile(0.975, 5) * s.ratios.sem;
+    ratio_hits += std::fabs(s.ratios.mean - 1.2) < reach;
   }
   CHECK(hits > 358);
   CHECK(ratio_hits < 200);  // what edges do to the mean of the ratios
 }
 
 TEST_CASE("without an excess both estimators agree and the note says so") {
-  const auto j = report("width_um,px_1,px_2\n10,20.1,19.9\n20,40.2,39.9\n50,99.8,100.3\n");
-  CHECK(j["edge_excess_significant"] == false);
-  CHECK(j["ratio_mean"].get<double>() == doctest::Approx(j["um_per_px"].get<double>()).epsilon(0.01));
-  CHECK(says(j["note"].get<std::string>(), "may be 0"));
+  const TableScale s = measured("width_um,px_1,px_2\n10,20.1,19.9\n20,40.2,39.9\n50,99.8,100.3\n");
+  CHECK_FALSE(s.edge_excess_significant());
+  CHECK(s.ratios.mean == doctest::Approx(s.um_per_px).epsilon(0.01));
+  CHECK(says(scale_note(s), "may be 0"));
 }
 
 TEST_CASE("tables that are none") {
@@ -150,13 +154,13 @@ TEST_CASE("tables that are none") {
 TEST_CASE("the calibration file of a report reads back") {
   const TestFolder folder;
   const auto file = folder.path / "calibration.toml";
-  const auto j = report(kTable41);
-  write_calibration(file, calibration_of(j));
+  const TableScale s = measured(kTable41);
+  write_calibration(file, calibration_of(s));
   const Calibration c = read_calibration(file);
-  CHECK(c.um_per_px == j["um_per_px"].get<double>());
+  CHECK(c.um_per_px == s.um_per_px);
   REQUIRE(c.ci95);
-  CHECK(c.ci95->x == j["ci95"][0].get<double>());
-  CHECK(c.ci95->y == j["ci95"][1].get<double>());
+  CHECK(c.ci95->x == s.ci95[0]);
+  CHECK(c.ci95->y == s.ci95[1]);
   CHECK(says(c.source, "ruler.csv"));
   CHECK(parse_calibration(file.string(), "--scale").um_per_px == c.um_per_px);
 }

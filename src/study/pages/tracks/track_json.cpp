@@ -1,4 +1,4 @@
-#include "study/tracks/track_json.h"
+#include "study/pages/tracks/track_json.h"
 
 #include <cmath>
 #include <string>
@@ -33,7 +33,10 @@ struct Writer {
   }
   void list(const std::string& px, const std::string& um, const std::vector<double>& v) {
     Json a = Json::array(), b = Json::array();
-    for (const double x : v) a.push_back(number(x)), b.push_back(number(um_per_px * x));
+    for (const double x : v) {
+      a.push_back(number(x));
+      b.push_back(number(um_per_px * x));
+    }
     json[px] = a;
     if (um_per_px > 0) json[um] = b;
   }
@@ -94,10 +97,49 @@ Json turn_of(const TrackSummary& s) {
   return w.json;
 }
 
-}  // namespace
+Json detection_of(const TrackDetection& d) {
+  const auto or_null = [](std::optional<double> v) { return v ? Json(*v) : Json(nullptr); };
+  Json j{{"size_px", d.size_px},
+         {"polarity", word_of(d.polarity)},
+         {"background", background_word(d)},
+         {"background_frames", d.background_frames},
+         {"noise_grey", d.noise_grey},
+         {"threshold_snr", d.threshold_snr},
+         {"spots_per_frame", d.spots_per_frame},
+         {"still_spots", d.still_spots},
+         {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
+         {"mean_elongation", or_null(d.mean_elongation)}};
+  if (d.drop) {
+    j["drop_center_px"] = {d.drop->centre_image.x, d.drop->centre_image.y};
+    j["drop_radius_px"] = d.drop->radius_px;
+  }
+  return j;
+}
 
-nlohmann::ordered_json track_json(const TrackSummary& s, double um) {
-  Json j;
+Json joining_of(const TrackJoining& t) {
+  return {{"reach_px", t.reach_px},
+          {"motion", word_of(t.motion)},
+          {"memory_frames", t.memory_frames},
+          {"least_points", t.least_points},
+          {"unsure_tracks", t.unsure_tracks}};
+}
+
+Json supported_of(const TrackSummary& s) {
+  switch (supported_walk(s)) {
+    case SupportedWalk::diffusion:
+      return "diffusion";
+    case SupportedWalk::persistent:
+      return "persistent_walk";
+    case SupportedWalk::none:
+      break;
+  }
+  return nullptr;
+}
+
+void add_summary(Json& j, const TrackSummary& s, double um) {
+  j["tracks"] = s.tracks;
+  j["points"] = s.points;
+  j["mean_points"] = s.mean_points;
   j["msd"] = msd_of(s.msd);
   Writer drift{Json::object(), um};
   drift.put("x", "px_s", "um_s", 1, s.drift_x_px_s);
@@ -105,7 +147,7 @@ nlohmann::ordered_json track_json(const TrackSummary& s, double um) {
   j["drift"] = s.msd.size() > 0 ? drift.json : Json(nullptr);
   j["diffusion"] = diffusion_of(s, um);
   j["persistent_walk"] = walk_of(s, um);
-  j["supported"] = s.msd.size() < 2 ? Json(nullptr) : Json(s.persists ? "persistent_walk" : "diffusion");
+  j["supported"] = supported_of(s);
   Writer alpha{Json::object(), 0};
   alpha.one("persistence", 1, s.persistence);
   alpha.json["persistence_scale_s"] = number(s.persistence_scale_s);
@@ -116,11 +158,31 @@ nlohmann::ordered_json track_json(const TrackSummary& s, double um) {
   j["speed"] = s.speed_count > 0 ? speed_of(s, um) : Json(nullptr);
   j["turn"] = s.turn_count > 0 ? turn_of(s) : Json(nullptr);
   j["order"] = number(s.speed_count > 0 ? s.order : std::nan(""));
-  double order = 0, n = 0;
-  for (std::size_t i = 0; i < s.order_in_time.size(); ++i)
-    if (std::isfinite(s.order_in_time[i]))
-      order += s.order_in_time[i] * s.count_in_time[i], n += s.count_in_time[i];
-  j["order_at_a_time"] = number(n > 0 ? order / n : std::nan(""));
+  j["order_at_a_time"] = number(order_at_a_time(s));
+}
+
+}  // namespace
+
+const char* word_of(Polarity p) {
+  return p == Polarity::bright ? "bright" : p == Polarity::both ? "both" : "dark";
+}
+
+const char* background_word(const TrackDetection& d) { return d.temporal ? "median" : "spatial"; }
+
+const char* word_of(Motion m) { return m == Motion::velocity ? "velocity" : "nearest"; }
+
+nlohmann::ordered_json track_json(const TrackMeasurement& m) {
+  Json j{{"video", m.video.string()},
+         {"frames", m.frames},
+         {"duration_s", m.duration_s},
+         {"frame_s", m.frame_s},
+         {"timed", m.timed},
+         {"image_size", {m.width, m.height}},
+         {"um_per_px", m.um_per_px ? Json(*m.um_per_px) : Json(nullptr)}};
+  j["detection"] = detection_of(m.detection);
+  j["tracking"] = joining_of(m.joining);
+  add_summary(j, m.summary, m.um_per_px.value_or(0));
+  j["notes"] = m.notes;
   return j;
 }
 

@@ -3,16 +3,15 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "study/pages/run_figures.h"
+#include "study/tracks/track_measurement.h"
 #include "vision/image/image.h"
 
 namespace faba {
 
-/// The page of `faba track --report`: what was measured in words and numbers (`report` is what track_video()
-/// returns), the tracks on the first frame, the figures. Self-contained.
-std::string track_page(const nlohmann::ordered_json& report, const std::vector<Figure>& figures,
+/// The page of `faba track --report`: what was measured in words and numbers (what track_video() returns),
+/// the tracks on the first frame, the figures. Self-contained.
+std::string track_page(const TrackMeasurement& measured, const std::vector<Figure>& figures,
                        const RgbImage& tracks);
 
 /// tracks.svg (`paths`), speeds.svg, msd.svg and heading.svg in the folder `where`, made when it is not

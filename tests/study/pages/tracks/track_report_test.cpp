@@ -1,4 +1,4 @@
-#include "study/pages/track_report.h"
+#include "study/pages/tracks/track_report.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "core/h5/h5.h"
 #include "core/table.h"
+#include "study/pages/tracks/track_json.h"
 #include "tests/vision/media.h"
 #include "tests/vision/rendered_cells.h"
 
@@ -52,7 +53,7 @@ double tracked_speed(int n, double noise) {
   swimmers(folder.path(), l, n, step, 14);
   TrackOptions o;
   o.video = folder.path(), o.fps = 15, o.size_px = 3;
-  return track_video(o)["speed"]["mean_px_s"].get<double>() / (15 * step);
+  return track_video(o).summary.mean_speed_px_s.value / (15 * step);
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ TEST_CASE("tables, overlay, picture, page and figures are written, whole and ali
   o.out = {folder / "t.csv", folder / "t.h5"};
   o.overlay = folder / "o.mp4", o.report = folder / "r.html", o.picture = folder / "p.png",
   o.figures = folder / "fig", o.swarm = folder / "s.csv";
-  const auto j = track_video(o);
+  const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 12);
   CHECK(j["duration_s"].get<double>() == doctest::Approx(1.1));
   CHECK(j["supported"] == "persistent_walk");
@@ -103,7 +104,7 @@ TEST_CASE("tables, overlay, picture, page and figures are written, whole and ali
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     CHECK(entry.path().extension() != ".tmp");
   const std::string csv = read_file(folder / "t.csv");
-  const auto again = track_video(o);  // the same video gives the same bytes
+  const auto again = track_json(track_video(o));  // the same video gives the same bytes
   CHECK(read_file(folder / "t.csv") == csv);
   CHECK(again.dump() == j.dump());
 }
@@ -114,7 +115,7 @@ TEST_CASE("hostile videos give a result or one clear line") {
     TrackOptions o;
     o.video = folder / name;
     o.out = {folder / "t.csv"};
-    return track_video(o);
+    return track_json(track_video(o));
   };
   std::filesystem::create_directories(folder / "black");
   for (int k = 0; k < 12; ++k) write_pgm(folder / fmt::format("black/f{}.pgm", k), GrayF(90, 70));

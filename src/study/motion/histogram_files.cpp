@@ -1,4 +1,4 @@
-#include "study/pages/distance_report.h"
+#include "study/motion/histogram_files.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ void each_line(const std::filesystem::path& file, Take&& take) {
   for (std::string line; std::getline(in, line);) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF"))
-      line.erase(0, 3);  // what some spreadsheets begin with
+      line.erase(0, 3);  // the byte order mark that some spreadsheets write
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
     const std::size_t begin = line.find_first_not_of(" \t");
     if (begin != std::string::npos && line[begin] != '#') take(line.substr(begin), number);

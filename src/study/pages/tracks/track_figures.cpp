@@ -1,4 +1,4 @@
-#include "study/pages/track_figures.h"
+#include "study/pages/tracks/track_figures.h"
 
 #include <algorithm>
 #include <cmath>

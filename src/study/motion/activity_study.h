@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "study/motion/activity.h"
+
+namespace faba {
+
+/// Reads a study file: `[[video]]` with file, exposure, experiment, direction; and direction, threshold,
+/// noise, [flow] for all. Throws Error(usage).
+void read_activity_study(const std::filesystem::path& file, ActivityJob& job);
+/// JSON Schema of a study file.
+nlohmann::ordered_json activity_study_schema();
+
+}  // namespace faba

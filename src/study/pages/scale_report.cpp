@@ -1,0 +1,104 @@
+#include "study/pages/scale_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/toml.h"
+#include "vision/draw/ruler_overlay.h"
+#include "vision/files/picture.h"
+
+namespace faba {
+namespace {
+
+void add_ratios(Json& j, const ScaleRatios& r) {
+  j["ratios"] = r.each;
+  j["ratio_mean"] = r.mean;
+  j["ratio_sd"] = r.sd;
+  j["ratio_sd_population"] = r.sd_population;
+  j["ratio_sem"] = r.sem;
+}
+
+// What every scale ends with.
+template <class Scale>
+void add_advice(Json& j, const Scale& s) {
+  j["take"] = "regression";
+  j["note"] = scale_note(s);
+  j["method"] = calibration_of(s).method;
+  j["source"] = s.source;
+}
+
+}  // namespace
+
+std::string scale_note(const TableScale& s) {
+  const std::string range = fmt::format("{:.1f} px (95 % {:.1f} to {:.1f})", s.intercept_px,
+                                        s.intercept_ci95_px[0], s.intercept_ci95_px[1]);
+  if (s.edge_excess_significant())
+    return fmt::format(
+        "every reading is {} too {}, whatever the width: edges, not scale. Take the regression; the mean of "
+        "the ratios is off by {:+.1f} %",
+        range, s.intercept_px > 0 ? "wide" : "narrow", 100 * s.ratio_bias);
+  return fmt::format(
+      "the constant part of the readings, {}, may be 0: both estimators are free of bias as far as "
+      "this table tells. Take the regression unless you know that edges do not matter",
+      range);
+}
+
+std::string scale_note(const PictureScale&) {
+  return "measured from mark to mark, so how wide the marks look plays no part; the interval is that of the "
+         "scatter alone: lens distortion and the ruler's own error come on top";
+}
+
+nlohmann::ordered_json scale_json(const TableScale& s) {
+  Json j;
+  j["um_per_px"] = s.um_per_px;
+  j["ci95"] = s.ci95;
+  j["intercept_px"] = s.intercept_px;
+  j["intercept_ci95_px"] = s.intercept_ci95_px;
+  j["slope_px_per_um"] = s.slope_px_per_um;
+  j["slope_ci95_px_per_um"] = s.slope_ci95_px_per_um;
+  j["residual_px"] = s.residual_px;
+  j["readings"] = s.readings;
+  j["widths_um"] = s.widths_um;
+  add_ratios(j, s.ratios);
+  j["repeatability_px"] = s.repeatability_px ? Json(*s.repeatability_px) : Json();
+  j["edge_excess_px"] = s.intercept_px;
+  j["edge_excess_significant"] = s.edge_excess_significant();
+  j["ratio_bias"] = s.ratio_bias;
+  j["spearman"] = s.spearman;
+  j["spearman_p"] = s.spearman_p;
+  add_advice(j, s);
+  return j;
+}
+
+nlohmann::ordered_json scale_json(const PictureScale& s) {
+  Json j;
+  j["um_per_px"] = s.um_per_px;
+  j["ci95"] = s.ci95;
+  j["tick_um"] = s.tick_um;
+  j["pitch_px"] = s.pitch_px;
+  j["pitch_se_px"] = s.pitch_se_px;
+  j["residual_px"] = s.residual_px;
+  j["marks"] = s.marks;
+  j["left_out"] = s.left_out;
+  j["angle_deg"] = s.angle_deg;
+  j["mark_width_px"] = s.mark_width_px;
+  j["mark_length_px"] = s.mark_length_px;
+  j["marks_are"] = s.dark ? "dark" : "bright";
+  add_ratios(j, s.ratios);
+  j["image_size"] = {s.image_width, s.image_height};
+  j["quality"] = word_of(s.quality);
+  add_advice(j, s);
+  return j;
+}
+
+PictureScale report_scale_picture(const std::filesystem::path& picture, double tick_m,
+                                  const std::filesystem::path& overlay) {
+  const GrayF grey = read_picture(picture).grey;
+  RulerOptions options;
+  options.name = picture.string();
+  const Ruler ruler = find_ruler(grey, options);
+  if (!overlay.empty()) write_png(overlay, ruler_overlay(grey, ruler));
+  return measure_scale(ruler, tick_m, picture.string());
+}
+
+}  // namespace faba

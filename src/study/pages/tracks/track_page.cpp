@@ -1,0 +1,170 @@
+#include "study/pages/tracks/track_page.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/counted.h"
+#include "core/file.h"
+#include "study/pages/tracks/track_json.h"
+#include "study/plot/inline_picture.h"
+#include "study/plot/markup.h"
+#include "study/plot/plot_svg.h"
+#include "study/plot/report_page.h"
+
+namespace faba {
+namespace {
+
+// What lengths are given in.
+struct LengthUnit {
+  double per_px = 1;
+  const char* name = "px";
+};
+
+LengthUnit unit_of(const TrackMeasurement& m) {
+  return m.um_per_px ? LengthUnit{*m.um_per_px, "µm"} : LengthUnit{};
+}
+
+std::string number(double v, const char* unit) {
+  return std::isfinite(v) ? three_digits(v) + unit : std::string("–");
+}
+
+// "12.3 ± 0.4", `scale` times the value.
+std::string with_error(const Estimated& e, double scale) {
+  std::string words = three_digits(scale * e.value);
+  if (std::isfinite(scale * e.se)) words += " ± " + three_digits(scale * e.se);
+  return words;
+}
+
+std::string estimate(const Estimated& e, double scale, const std::string& unit) {
+  return std::isfinite(scale * e.value) ? with_error(e, scale) + "\u00A0" + unit : std::string("–");
+}
+
+std::string velocity(const Estimated& e, const TrackMeasurement& m) {
+  const LengthUnit unit = unit_of(m);
+  return estimate(e, unit.per_px, std::string(unit.name) + "/s");
+}
+
+std::string mean_speed(const TrackMeasurement& m) {
+  return m.summary.speed_count > 0 ? velocity(m.summary.mean_speed_px_s, m) : "–";
+}
+
+std::string diffusion(const TrackMeasurement& m) {
+  const LengthUnit unit = unit_of(m);
+  if (!m.summary.diffusion.good) return "–";
+  return estimate(m.summary.d_px2_s, unit.per_px * unit.per_px, std::string(unit.name) + "²/s");
+}
+
+std::string walk_speed(const TrackMeasurement& m) {
+  return m.summary.persistent.good ? velocity(m.summary.speed_rms_px_s, m) : "–";
+}
+
+std::string walk_time(const TrackMeasurement& m) {
+  return m.summary.persistent.good ? estimate(m.summary.tau_s, 1, "s") : "–";
+}
+
+std::string drift(const TrackMeasurement& m) {
+  const TrackSummary& s = m.summary;
+  if (s.msd.size() == 0) return "– right, – down";
+  return velocity(s.drift_x_px_s, m) + " right, " + velocity(s.drift_y_px_s, m) + " down";
+}
+
+std::string card(const std::string& name, const std::string& value, const std::string& detail) {
+  return fmt::format("<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n", escape_markup(name),
+                     escape_markup(value), escape_markup(detail));
+}
+std::string row(const std::string& name, const std::string& value) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escape_markup(name),
+                     escape_markup(value));
+}
+
+std::string localisation_card(const TrackSummary& s) {
+  if (s.msd.size() < 2) return card("Localisation", "–", "sd of an axis");
+  if (s.localisation_px == 0) return card("Localisation", "–", "too small to be told");
+  return card("Localisation", number(s.localisation_px, "\u00A0px"), "sd of an axis");
+}
+
+std::string cards(const TrackMeasurement& m) {
+  const TrackSummary& s = m.summary;
+  const SupportedWalk walk = supported_walk(s);
+  std::string out = "<dl class=\"cards\">\n";
+  out += card("Tracks", std::to_string(s.tracks),
+              fmt::format("{} in {}", counted(s.points, "place"), counted(std::uint64_t(m.frames), "frame")));
+  if (walk == SupportedWalk::diffusion) out += card("Diffusion", diffusion(m), "± standard error");
+  if (walk == SupportedWalk::persistent) out += card("Speed of the walk", walk_speed(m), "root mean square");
+  out += card("Mean speed", mean_speed(m), s.speed_count > 0 ? "over " + number(s.interval_s, " s") : "");
+  return out + localisation_card(s) + "</dl>\n";
+}
+
+std::string table(const TrackMeasurement& m) {
+  const TrackDetection& d = m.detection;
+  const TrackJoining& t = m.joining;
+  const TrackSummary& s = m.summary;
+  std::string out = "<h2>Numbers</h2>\n<table class=\"facts\"><tbody>\n";
+  out += row("Video", fmt::format("{}, {}, {} s", m.video.string(), counted(std::uint64_t(m.frames), "frame"),
+                                  number(m.duration_s, "")));
+  out += row("Scale", m.um_per_px ? number(*m.um_per_px, " µm per px") : "not given");
+  out += row("Spots", fmt::format("{}, {} wide, signal-to-noise from {}; {} in a frame", word_of(d.polarity),
+                                  number(d.size_px, " px"), number(d.threshold_snr, ""),
+                                  number(d.spots_per_frame, "")));
+  out += row("Background", d.temporal ? fmt::format("median of {} frames; {} still spots in it",
+                                                    d.background_frames, d.still_spots)
+                                      : "each frame, smoothed");
+  out += row("Joined", fmt::format("reach {}, by {}, {} frames of memory; {} tracks shorter than {} left out",
+                                   number(t.reach_px, " px"), word_of(t.motion), t.memory_frames,
+                                   t.unsure_tracks, t.least_points));
+  out += row("Drift", drift(m));
+  out += row("Diffusion", diffusion(m));
+  out += row("Persistent walk", walk_speed(m) + ", direction kept for " + walk_time(m));
+  out += row("Exponent α", std::isfinite(s.alpha.value) ? with_error(s.alpha, 1) : "–");
+  if (s.turn_count > 0)
+    out += row("Turning", fmt::format("{} on average; localisation error alone makes {}",
+                                      number(s.turn_deg_s.value, "°/s"), number(s.turn_noise_deg_s, "°/s")));
+  return out + "</tbody></table>\n";
+}
+
+std::string lead(const TrackMeasurement& m) {
+  const TrackSummary& s = m.summary;
+  if (s.tracks == 0) return "Nothing was tracked.";
+  const std::string tracks = counted(s.tracks, "track");
+  if (s.speed_count > 0 && s.order > 0.5)
+    return fmt::format("{}: they move together, at {} on average.", tracks, mean_speed(m));
+  if (supported_walk(s) == SupportedWalk::persistent)
+    return fmt::format("{}: they swim, at {} on average.", tracks, mean_speed(m));
+  if (supported_walk(s) == SupportedWalk::diffusion)
+    return fmt::format("{}: no direction is kept from one frame to the next; D = {}.", tracks, diffusion(m));
+  return tracks + ".";
+}
+
+}  // namespace
+
+std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& figures,
+                       const RgbImage& tracks) {
+  std::string out = fmt::format("<h1>Tracks</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(m)));
+  for (const std::string& note : m.notes)
+    out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note));
+  out += cards(m);
+  out += "<h2>Figures</h2>\n<figure class=\"wide\">\n<h3>Tracks</h3>\n" +
+         inline_picture(tracks, "Tracks on the first frame") +
+         "<figcaption>All tracks on the first frame.</figcaption>\n</figure>\n";
+  out += "<div class=\"figures\">\n";
+  int number_of_figure = 0;
+  for (const Figure& f : figures) out += figure_markup(f, ++number_of_figure);
+  out += "</div>\n" + table(m);
+  return html_page("Tracks", out);
+}
+
+void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures,
+                         const Plot& paths) {
+  std::filesystem::create_directories(where);
+  write_file(where / "tracks.svg", svg(paths));
+  for (Figure f : figures) {
+    f.plot.inlined = false;
+    const char* name = f.heading == "Speeds"  ? "speeds.svg"
+                       : f.plot.x.logarithmic ? "msd.svg"
+                                              : "heading.svg";
+    write_file(where / name, svg(f.plot));
+  }
+}
+
+}  // namespace faba

@@ -1,0 +1,150 @@
+#include "study/scale/scale_measurement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "study/stats/statistics.h"
+
+namespace faba {
+namespace {
+
+ScaleRatios ratios_of(std::vector<double> values) {
+  const double n = double(values.size());
+  ScaleRatios r;
+  r.mean = mean(values);
+  r.sd = sample_sd(values);
+  r.sd_population = r.sd * std::sqrt((n - 1) / n);
+  r.sem = r.sd / std::sqrt(n);
+  r.each = std::move(values);
+  return r;
+}
+
+std::optional<double> repeatability(const std::map<double, std::vector<double>>& by_width) {
+  double squares = 0, freedom = 0;
+  for (const auto& [width, list] : by_width) {
+    const double sd = sample_sd(list);
+    squares += sd * sd * double(list.size() - 1);
+    freedom += double(list.size() - 1);
+  }
+  if (freedom == 0) return std::nullopt;
+  return std::sqrt(squares / freedom);
+}
+
+MarkQuality quality_of(const MarkRow& row) {
+  const double share = row.residual_px / row.pitch_px;
+  const int used = row.used();
+  if (share < 0.02 && used >= 20) return MarkQuality::good;
+  return share < 0.05 && used >= 8 ? MarkQuality::fair : MarkQuality::poor;
+}
+
+// Of the gaps between neighbouring marks, um/px.
+std::vector<double> gap_ratios(const MarkRow& row, double tick_um) {
+  std::vector<double> ratios;
+  const RowMark* before = nullptr;
+  for (const RowMark& m : row.marks) {
+    if (!m.used) continue;
+    if (before) ratios.push_back(tick_um * (m.index - before->index) / (m.s - before->s));
+    before = &m;
+  }
+  return ratios;
+}
+
+void require_line(std::size_t readings, std::size_t widths, const std::string& name) {
+  if (widths >= 2 && readings >= 3) return;
+  throw Error(Errc::input, name,
+              fmt::format("has {} of {}; a line through them takes two widths and three readings",
+                          readings == 1 ? "one reading" : fmt::format("{} readings", readings),
+                          widths == 1 ? "one width" : fmt::format("{} widths", widths)));
+}
+
+Calibration calibration_with(const ScaleMeasurement& scale, std::string method) {
+  return {scale.um_per_px, Vec2{scale.ci95[0], scale.ci95[1]}, std::move(method), scale.source};
+}
+
+}  // namespace
+
+bool TableScale::edge_excess_significant() const {
+  return intercept_ci95_px[0] > 0 || intercept_ci95_px[1] < 0;
+}
+
+const char* word_of(MarkQuality quality) {
+  return quality == MarkQuality::good ? "good" : quality == MarkQuality::fair ? "fair" : "poor";
+}
+
+TableScale measure_scale(const RulerReadings& readings, const std::string& name) {
+  std::map<double, std::vector<double>> by_width;
+  std::vector<double> width_um;
+  for (std::size_t i = 0; i < readings.width_m.size(); ++i) {
+    // Units are factors that need not be exact in binary: 30 um is 30, not 29.999999999999996.
+    width_um.push_back(std::round(readings.width_m[i] * 1e18) / 1e12);
+    by_width[width_um.back()].push_back(readings.reading_px[i]);
+  }
+  require_line(width_um.size(), by_width.size(), name);
+  const LineFit line = fit_line(width_um, readings.reading_px);
+  TableScale s;
+  s.slope_px_per_um = line.slope;
+  s.slope_ci95_px_per_um = line.slope_ci95();
+  if (!(s.slope_ci95_px_per_um[0] > 0))
+    throw Error(Errc::input, name,
+                fmt::format("the readings do not grow with the width beyond doubt (slope {:.3g} px/um, 95 % "
+                            "{:.3g} to {:.3g})",
+                            line.slope, s.slope_ci95_px_per_um[0], s.slope_ci95_px_per_um[1]));
+  s.um_per_px = 1 / line.slope;
+  s.ci95 = {1 / s.slope_ci95_px_per_um[1], 1 / s.slope_ci95_px_per_um[0]};
+  s.intercept_px = line.intercept;
+  s.intercept_ci95_px = line.intercept_ci95();
+  s.residual_px = line.sd;
+  s.readings = width_um.size();
+  std::vector<double> ratios;
+  for (const auto& [width, list] : by_width) {
+    s.widths_um.push_back(width);
+    ratios.push_back(width / mean(list));
+  }
+  s.repeatability_px = repeatability(by_width);
+  s.spearman = spearman(s.widths_um, ratios);
+  s.spearman_p = spearman_p(s.widths_um, ratios);
+  s.ratios = ratios_of(std::move(ratios));
+  s.ratio_bias = s.ratios.mean * line.slope - 1;
+  s.source = name;
+  return s;
+}
+
+PictureScale measure_scale(const Ruler& ruler, double tick_m, const std::string& name) {
+  const MarkRow& row = ruler.row;
+  const int used = row.used();
+  const double reach = student_t_quantile(0.975, std::max(1, used - 2)) * row.se_pitch_px;
+  PictureScale s;
+  s.tick_um = tick_m * 1e6;
+  s.um_per_px = s.tick_um / row.pitch_px;
+  s.ci95 = {s.tick_um / (row.pitch_px + reach), s.tick_um / (row.pitch_px - reach)};
+  s.pitch_px = row.pitch_px;
+  s.pitch_se_px = row.se_pitch_px;
+  s.residual_px = row.residual_px;
+  s.marks = used;
+  s.left_out = int(row.marks.size()) - used;
+  s.angle_deg = ruler.angle_deg;
+  s.mark_width_px = row.width_px;
+  s.mark_length_px = row.height_px;
+  s.dark = row.dark;
+  s.ratios = ratios_of(gap_ratios(row, s.tick_um));
+  s.image_width = ruler.image_width;
+  s.image_height = ruler.image_height;
+  s.quality = quality_of(row);
+  s.source = name;
+  return s;
+}
+
+Calibration calibration_of(const TableScale& scale) {
+  return calibration_with(scale, "regression of readings on widths");
+}
+
+Calibration calibration_of(const PictureScale& scale) {
+  return calibration_with(scale, fmt::format("{} marks of a ruler in a picture, {:g} um apart; quality {}",
+                                             scale.marks, scale.tick_um, word_of(scale.quality)));
+}
+
+}  // namespace faba

@@ -1,0 +1,178 @@
+#include "study/tracks/track_measurement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/counted.h"
+#include "core/statistics.h"
+#include "vision/drop/drop_edge.h"
+#include "vision/files/video_reader.h"
+
+namespace faba {
+namespace {
+
+std::optional<DropMask> drop_of(const TrackOptions& o, const TrackSurvey& s) {
+  if (!o.inside_drop) return {};
+  DropEdgeOptions edge_options;
+  edge_options.name = o.video.string();
+  const DropEdge edge = find_drop_edge(s.first, edge_options);
+  return DropMask{edge.centre_image, edge.radius_px, edge.centre_side_inside, s.size_px};
+}
+
+// The second pass over the frames.
+class TrackPass {
+ public:
+  TrackPass(const TrackOptions& o, const TrackSurvey& s, TrackListener& listener)
+      : options_(o),
+        survey_(s),
+        listener_(listener),
+        tracker_(o.tracker),
+        statistics_(s.frame_s, o.interval_frames),
+        drop_(drop_of(o, s)) {}
+
+  void run(const std::filesystem::path& video, const std::function<void(std::int64_t)>& tick) {
+    VideoReader reader(video, options_.fps);
+    Detector detector(survey_.background, detector_options(options_, survey_, drop_));
+    threshold_ = detector.threshold_sd();
+    GrayF frame;
+    double t_s = 0, last = -1;
+    for (std::uint64_t index = 0; reader.read(frame, t_s); ++index) {
+      make_finite(frame);
+      if (!survey_.temporal)
+        detector = Detector(spatial_background(frame, survey_.smoothing_px),
+                            detector_options(options_, survey_, drop_));
+      const std::vector<Spot> spots = detector.find(frame);
+      count_spots(spots);
+      if (t_s > last) {
+        tracker_.take(index, t_s, spots);
+        last = t_s;
+      } else {
+        ++repeated_times_;
+      }
+      listener_.frame(index, t_s, frame, tracker_);
+      hand_out();
+      tick(std::int64_t(index) + 1);
+    }
+    tracker_.finish();
+    hand_out();
+  }
+
+  TrackDetection detection() const {
+    const double n = std::max(1.0, spots_found_);
+    std::vector<float> noise = survey_.background.noise_sd.px;
+    TrackDetection d;
+    d.size_px = survey_.size_px;
+    d.polarity = survey_.polarity;
+    d.temporal = survey_.temporal;
+    d.background_frames = survey_.background.frames;
+    d.noise_grey = robust_spread_low(noise).median;
+    d.threshold_snr = threshold_;
+    d.spots_per_frame = spots_found_ / std::max(1.0, frames_);
+    d.still_spots = survey_.still_spots;
+    if (spots_found_ > 0) {
+      d.mean_place_sd_px = place_sd_ / n;
+      d.mean_elongation = elongation_ / n;
+    }
+    d.drop = drop_;
+    return d;
+  }
+  TrackJoining joining() const {
+    return {tracker_.reach_px(), tracker_.motion(), options_.tracker.memory, options_.tracker.least_points,
+            tracker_.unsure_tracks()};
+  }
+  TrackSummary summary() { return statistics_.summary(); }
+  std::int64_t repeated_times() const { return repeated_times_; }
+  bool crowded() const { return tracker_.crowded(); }
+  // Mean per frame, at least 1.
+  double spots_in_view() const { return std::max(1.0, spots_found_ / frames_); }
+
+ private:
+  void count_spots(const std::vector<Spot>& found) {
+    ++frames_;
+    spots_found_ += double(found.size());
+    for (const Spot& s : found) {
+      elongation_ += s.elongation;
+      place_sd_ += s.sd_px;
+    }
+  }
+  void hand_out() {
+    for (const Track& t : tracker_.finished()) {
+      listener_.track(t);
+      statistics_.take(t);
+    }
+  }
+
+  const TrackOptions& options_;
+  const TrackSurvey& survey_;
+  TrackListener& listener_;
+  Tracker tracker_;
+  TrackStatistics statistics_;
+  std::optional<DropMask> drop_;
+  double threshold_ = 0, spots_found_ = 0, frames_ = 0, elongation_ = 0, place_sd_ = 0;
+  std::int64_t repeated_times_ = 0;
+};
+
+// What throws doubt on the speeds; empty when nothing does.
+std::string doubt_of_speeds(const TrackSurvey& survey, const TrackPass& pass, const TrackSummary& s) {
+  // Cells that are joined over a quarter of the mean spacing and more are often the wrong ones.
+  const double spacing = std::sqrt(double(survey.first.width) * survey.first.height / pass.spots_in_view());
+  const double step = s.speed_count > 0 ? s.mean_speed_px_s.value * survey.frame_s : 0;
+  if (pass.crowded() || step > 0.3 * spacing)
+    return "cells move about as far between frames as they are apart: many tracks join different cells, and "
+           "speeds are too small; record more frames per second, or fewer cells";
+  // Steps that agree in direction for less than two frames are steps to the wrong cells.
+  if (supported_walk(s) == SupportedWalk::persistent && !s.persistent.tau_open &&
+      (!s.persistent.good || s.tau_s.value < 1.5 * survey.frame_s))
+    return "directions last for less than two frames: cells turn faster than the camera looks, or tracks "
+           "join different cells; speeds are too small";
+  return "";
+}
+
+}  // namespace
+
+SupportedWalk supported_walk(const TrackSummary& s) {
+  if (s.msd.size() < 2) return SupportedWalk::none;
+  return s.persists ? SupportedWalk::persistent : SupportedWalk::diffusion;
+}
+
+double order_at_a_time(const TrackSummary& s) {
+  double order = 0, n = 0;
+  for (std::size_t i = 0; i < s.order_in_time.size(); ++i) {
+    if (!std::isfinite(s.order_in_time[i])) continue;
+    order += s.order_in_time[i] * s.count_in_time[i];
+    n += s.count_in_time[i];
+  }
+  return n > 0 ? order / n : std::nan("");
+}
+
+TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, const TrackSurvey& survey,
+                                TrackListener& listener, const std::function<void(std::int64_t)>& tick) {
+  TrackPass pass(o, survey, listener);
+  pass.run(source.file, tick);
+  TrackMeasurement m;
+  m.video = source.file;
+  m.frames = survey.frames;
+  m.duration_s = survey.duration_s;
+  m.frame_s = survey.frame_s;
+  m.timed = survey.timed;
+  m.width = survey.first.width;
+  m.height = survey.first.height;
+  if (source.um_per_px && *source.um_per_px > 0) m.um_per_px = source.um_per_px;
+  m.detection = pass.detection();
+  m.joining = pass.joining();
+  m.summary = pass.summary();
+  m.notes = survey.notes;
+  if (is_run(o.video) && !is_whole(o.video))
+    m.notes.emplace_back("the run was interrupted; this is what was recorded");
+  if (pass.repeated_times() > 0)
+    m.notes.push_back(fmt::format("{} at the time of the one before: not tracked",
+                                  counted(std::uint64_t(pass.repeated_times()), "frame")));
+  if (const std::string doubt = doubt_of_speeds(survey, pass, m.summary); !doubt.empty())
+    m.notes.push_back(doubt);
+  if (survey.frames > 1 && m.summary.tracks == 0) m.notes.emplace_back("nothing was tracked");
+  return m;
+}
+
+}  // namespace faba
