@@ -96,6 +96,7 @@ HOME = {
     "nanoflann": {"field"},
     "nlopt": {"study"},
     "zlib": {"app"},
+    "boost/math": {"core"},
     "boost/asio": {"server"},
     "boost/beast": {"server"},
 }

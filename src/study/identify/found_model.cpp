@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/distributions.h"
 #include "core/error.h"
 #include "core/statistics.h"
 #include "study/identify/experiment_bootstrap.h"

@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/distributions.h"
 #include "core/table.h"
 #include "core/units.h"
 #include "study/stats/statistics.h"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/distributions.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "study/stats/statistics.h"
 #include "tests/app/run_directory.h"
 #include "tests/vision/drop_pictures.h"
 
