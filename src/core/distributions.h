@@ -2,6 +2,10 @@
 
 namespace faba {
 
+/// The value below which a standard normal variable lies with probability p, 0 < p < 1. Throws
+/// Error(Errc::internal) for other p.
+double normal_quantile(double p);
+
 /// Student's t distribution with `freedom` > 0 degrees of freedom: the probability of a value below t.
 double student_t_cdf(double t, double freedom);
 

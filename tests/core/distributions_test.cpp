@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 
@@ -43,6 +44,20 @@ TEST_CASE("Student's t, values of high precision") {
         Entry{0.975, 19, 2.0930240544083098}, Entry{0.95, 30, 1.6972608865939578},
         Entry{0.975, 100, 1.9839715185235523}, Entry{0.975, 1000, 1.9623390808264085}})
     CHECK(std::fabs(student_t_quantile(p, n) / t - 1) < 1e-12);
+}
+
+// By mpmath as above: sqrt(2) erfinv(2 p - 1).
+TEST_CASE("quantiles of the normal distribution") {
+  for (const auto& [p, z] : {std::pair{0.0001, -3.7190164854556806},
+                             {0.025, -1.9599639845400542},
+                             {0.2, -0.84162123357291421},
+                             {0.75, 0.67448975019608174},
+                             {0.9, 1.2815515655446005},
+                             {0.999, 3.0902323061678135}})
+    CHECK(std::fabs(normal_quantile(p) / z - 1) < 1e-12);
+  CHECK(normal_quantile(0.5) == 0);
+  CHECK_THROWS_AS(normal_quantile(0), Error);
+  CHECK_THROWS_AS(normal_quantile(1), Error);
 }
 
 TEST_CASE("quantiles as tables have them, and back") {
