@@ -97,6 +97,7 @@ HOME = {
     "nlopt": {"study"},
     "zlib": {"app"},
     "boost/math": {"core"},
+    "boost/geometry": {"study"},
     "boost/asio": {"server"},
     "boost/beast": {"server"},
 }
