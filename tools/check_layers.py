@@ -105,6 +105,8 @@ HOME = {
     "nanoflann": {"field"},
     "nlopt": {"study"},
     "zlib": {"app"},
+    "boost/math": {"core"},
+    "boost/geometry": {"study"},
     "boost/asio": {"server"},
     "boost/beast": {"server"},
 }

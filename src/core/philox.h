@@ -37,7 +37,8 @@ inline constexpr std::uint32_t kPhiloxW0 = 0x9E3779B9u, kPhiloxW1 = 0xBB67AE85u;
   }
 }
 
-/// The same for one draw: key = seed, counter = (agent, step, stream, block).
+/// The same for one draw: key = seed, counter = (agent, step, stream, block). core/draw_blocks.h lists what
+/// each stream and block is for.
 inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, Stream stream, std::uint32_t agent,
                                          std::uint32_t step, std::uint32_t block = 0) {
   std::array<std::uint32_t, 4> c{agent, step, std::uint32_t(stream), block};

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/philox.h"
+#include "core/draw_blocks.h"
 
 namespace faba {
 namespace {
@@ -106,7 +106,7 @@ void Exclusion::resolve(State& s, std::span<float> to_x, std::span<float> to_y, 
       to_y[i] = float(p.y);
     }
   if (p_.order == Order::published) return published(s, to_x, to_y);
-  const auto key = draw(seed_, Stream::exclusion, 0, std::uint32_t(s.step));
+  const auto key = draw(seed_, kContestDraws, 0, std::uint32_t(s.step));
   const auto x = s.agents["x"], y = s.agents["y"];
   two_phase_.resolve(x, y, to_x, to_y, taken_, std::uint64_t{key[0]} << 32 | key[1], p_.follow, pool);
   pool.for_blocks(x.size(), kCopyBlock, [&](std::size_t begin, std::size_t end) {

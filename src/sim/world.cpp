@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/draw_blocks.h"
 
 namespace faba {
 namespace {
@@ -61,7 +61,7 @@ void World::place_all() {
                                    "crowded; fewer cells, another start, or exclusion.order = \"none\"",
                                    i - p.begin + 1, p.end - p.begin)
                      : "the region lies outside of the arena; move it, or use another start");
-        const auto w = draw(parts_.seed, Stream::start, id, attempt);
+        const auto w = draw(parts_.seed, kPlaceDraws, id, attempt);
         const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
         const auto candidate = p.start->place({{u(0), u(1), u(2)}, i - p.begin, attempt});
         if (!candidate) continue;
@@ -74,7 +74,7 @@ void World::place_all() {
         break;
       }
       const bool responds =
-          (double(draw(parts_.seed, Stream::motility, id, 0, 2)[0]) + 0.5) * 0x1p-32 < p.responding;
+          (double(draw(parts_.seed, kResponseDraws, id, 0)[0]) + 0.5) * 0x1p-32 < p.responding;
       response[i] = responds ? float(p.polarity) : 0.0f;
     }
     p.model->start(state_, p.begin, p.end, parts_.seed);

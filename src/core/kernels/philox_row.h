@@ -12,8 +12,9 @@ struct PhiloxRow {
   alignas(64) std::array<std::uint32_t, kLength> w0, w1, w2, w3;
 };
 
-/// draw() for agents [first, first + n), n <= PhiloxRow::kLength, with the processor's widest multiplier:
-/// compilers do not find it for a product of two words on their own. What stands beyond n is undefined.
+/// draw() with block 0 for agents [first, first + n), n <= PhiloxRow::kLength, with the processor's widest
+/// multiplier: compilers do not find it for a product of two words on their own. What stands beyond n is
+/// undefined.
 void draw_row(std::uint64_t seed, Stream stream, std::uint32_t first, std::uint32_t step, std::size_t n,
               PhiloxRow& row);
 

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/draw_blocks.h"
 
 namespace faba {
 namespace {
 
-constexpr double kMostJitter = 0.4;      // frames: times stay in order
-constexpr std::uint32_t kTimeDraws = 1;  // block of Stream::camera, agent 1
-constexpr std::uint32_t kTimeAgent = 1;
+constexpr double kMostJitter = 0.4;  // frames: times stay in order
 
 }  // namespace
 
@@ -23,7 +21,8 @@ SimRig::SimRig(World& world, const Params& p)
 std::uint64_t SimRig::step_of(std::uint64_t frame) const {
   const auto n = std::uint64_t(p_.steps_per_frame);
   if (p_.jitter <= 0 || frame == 0) return frame * n;
-  const auto word = draw(world_.parts().seed, Stream::camera, kTimeAgent, std::uint32_t(frame), kTimeDraws);
+  const auto word =
+      draw(world_.parts().seed, kFrameDraws, std::uint32_t(FrameDraw::time), std::uint32_t(frame));
   const double late = p_.jitter / p_.frame_period * double(normals(word[0], word[1])[0]);
   const double share = std::clamp(late, -kMostJitter, kMostJitter) * double(n);
   return std::uint64_t(std::int64_t(frame * n) + std::int64_t(std::floor(share + 0.5)));

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/draw_blocks.h"
 #include "core/kernels/philox_row.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
@@ -102,7 +103,7 @@ void Adapted::start(State& s, std::size_t begin, std::size_t end, std::uint64_t 
   const auto n = std::uint32_t(std::lround(p_.max_speed));
   auto speed = s.agents["speed"];
   for (std::size_t i = begin; i < end; ++i) {
-    const auto w = draw(seed, Stream::start, std::uint32_t(i), 0, 0xFFFF)[0];
+    const auto w = draw(seed, kBirthDraws, std::uint32_t(i), 0)[0];
     speed[i] = p_.continuous_speed ? float(p_.max_speed) * uniform(w) : float(below(w, n + 1));
   }
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/draw_blocks.h"
 #include "core/kernels/philox_row.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
@@ -62,7 +63,6 @@ class Dipole final : public AgentModel {
 };
 
 constexpr double kBoltzmann = 1.380649e-23;  // J/K, exact in the SI
-constexpr std::uint32_t kBirth = 0xFFFF;     // block of the start stream that placing cells never reaches
 
 struct Block {
   const float *bx, *by, *response, *turning, *speed, *x, *y;
@@ -252,7 +252,7 @@ void Dipole::start(State& s, std::size_t begin, std::size_t end, std::uint64_t s
   auto ux = s.agents["ux"], uy = s.agents["uy"], speed = s.agents["speed"], turning = s.agents["turning"];
   for (std::size_t i = begin; i < end; ++i) {
     const auto id = std::uint32_t(i);
-    const auto w = draw(seed, Stream::start, id, 0, kBirth);
+    const auto w = draw(seed, kBirthDraws, id, 0);
     const auto heading = portable::sincos(float(std::int32_t(w[0]) >> 8) * (portable::kPiF * 0x1p-23f));
     ux[i] = heading.cos, uy[i] = heading.sin;
     turning[i] = float(turning_ * portable::exp(p_.moment_spread * double(normals(w[1], w[2])[0])));
@@ -260,7 +260,7 @@ void Dipole::start(State& s, std::size_t begin, std::size_t end, std::uint64_t s
     if (p_.speed_sd > 0) {
       std::uint32_t attempt = 0;
       do {
-        const auto u = draw(seed, Stream::start, id, ++attempt, kBirth);
+        const auto u = draw(seed, kBirthDraws, id, ++attempt);
         v = p_.speed + p_.speed_sd * double(normals(u[0], u[1])[0]);
       } while ((v < 0 || v > p_.speed_max) && attempt < 1000);
       v = std::clamp(v, 0.0, p_.speed_max);
@@ -295,7 +295,7 @@ void Dipole::reorient(State& s, const StepContext& c) const {
   const auto p_reverse = float(0.5 * (1 - portable::exp(-2 * p_.reversal_rate * c.dt)));
   const auto p_tumble = float(1 - portable::exp(-p_.tumble_rate * c.dt));
   for (std::size_t i = c.begin; i < c.end; ++i) {
-    const auto w = draw(c.seed, Stream::motility, std::uint32_t(i), std::uint32_t(s.step));
+    const auto w = draw(c.seed, kReorientDraws, std::uint32_t(i), std::uint32_t(s.step));
     if (uniform(w[0]) < p_reverse) speed[i] = -speed[i];
     if (uniform(w[1]) >= p_tumble) continue;
     const float angle = p_.tumble_sd ? float(*p_.tumble_sd) * normals(w[2], w[3])[0]

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/draw_blocks.h"
 #include "sim/motility.h"
 #include "sim/motility/oxygen.h"
 
@@ -95,7 +95,7 @@ void MotilityThesis::start(State& s, std::size_t begin, std::size_t end, std::ui
     // stands in.
     const double before = oxygen_ ? oxygen_->dose(r, exposure_) : exposure_;
     dose[i] = float(before * (1 - p_.tolerated));
-    const auto w = draw(seed, Stream::motility, std::uint32_t(i), 0, 1);
+    const auto w = draw(seed, kToleranceDraws, std::uint32_t(i), 0);
     tolerance[i] = float(p_.tolerance * portable::exp(p_.tolerance_sigma * double(normals(w[0], w[1])[0])));
     if (dose[i] > tolerance[i]) response[i] = 0;
   }

@@ -87,7 +87,7 @@ DriveTiming exact_timing(const Episode& e) {
 }
 
 DriveTiming drawn_timing(const Episode& e, double sd_s, std::uint64_t seed) {
-  StudyRandom random(seed, 9);
+  StudyRandom random(seed, StudyDraws::timing);
   DriveTiming t;
   for (const Drive& d : e.drives) t.turns_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
   t.lead_s = std::max(0.0, -t.turns_s.front());

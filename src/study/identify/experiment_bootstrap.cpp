@@ -56,7 +56,7 @@ std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& se
   each.reserve(experiments.size());
   for (const auto& columns : experiments)
     each.push_back(parabola_of(search.likelihood(columns), centre, kStep * sd));
-  StudyRandom random(seed, 3);
+  StudyRandom random(seed, StudyDraws::bootstrap);
   std::vector<std::vector<double>> estimates(static_cast<std::size_t>(d));
   for (int k = 0; k < kResamples; ++k) {
     VectorXd slope = VectorXd::Zero(d);

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/distributions.h"
 #include "core/error.h"
 #include "core/statistics.h"
+#include "study/identify/derived_seed.h"
 #include "study/identify/experiment_bootstrap.h"
 #include "study/identify/profile.h"
 #include "study/stats/statistics.h"
@@ -198,7 +200,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
   m.fit_p = fit_p(s, middle, s.observed());
   const VectorXd mean = s.emulator().mean(middle), noise = noise_of(s);
   m.foretold.assign(mean.begin(), mean.end()), m.foretold_sd.assign(noise.begin(), noise.end());
-  StudyRandom random(seed, 2);
+  StudyRandom random(seed, StudyDraws::prediction);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     MatrixXd u = draws.topRows(kForetold);
     if (experiments.size() > 1) {
@@ -206,7 +208,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
       for (std::size_t k = 0; k < experiments.size(); ++k)
         if (k != e) others.insert(others.end(), experiments[k].begin(), experiments[k].end());
       std::sort(others.begin(), others.end());
-      u = s.posterior(others, kForetold, seed + 1 + e);
+      u = s.posterior(others, kForetold, derived_seed(seed, SeedUse::left_out, e));
     }
     const auto& columns = experiments[e];
     m.scores.push_back(energy_score(foretell(s, u, columns, random), s.observed()(columns), scale(columns)));

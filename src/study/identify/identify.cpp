@@ -10,6 +10,7 @@
 #include "app/scenario/read_scenario.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "study/identify/derived_seed.h"
 #include "study/identify/found_model.h"
 #include "study/identify/legacy_selection.h"
 #include "study/identify/parameter_search.h"
@@ -146,7 +147,7 @@ class Round {
                           std::vector<double> numbers = study_.look == Look::video
                                                             ? part.statistics->of_frames(seen.frames)
                                                             : part.statistics->of_positions(seen.positions);
-                          StudyRandom random(seed, 10);
+                          StudyRandom random(seed, StudyDraws::measurement);
                           part.statistics->blur(numbers, random);
                           return numbers;
                         } catch (const Error& e) {
@@ -204,7 +205,7 @@ bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSear
               const Parts& parts, ResultStore& results, const SweepOptions& options) {
   constexpr int kAgain = 40;
   constexpr std::size_t kNumber = 1000000;  // of a round that the search never has
-  const MatrixXd u = search.posterior({}, kAgain, study.seed + 5);
+  const MatrixXd u = search.posterior({}, kAgain, derived_seed(study.seed, SeedUse::best_model));
   Round round(study, r.videos, o, parts);
   round.add(study.candidates[r.best], u, r.best, kNumber);
   if (!sweep(results, round.tasks(), options)) return false;
@@ -284,7 +285,8 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
     const Candidate& candidate = study.candidates[c];
     searches.push_back(
         {std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
-                                           SearchRounds::of(study.simulations), study.seed + 1000 * (c + 1)),
+                                           SearchRounds::of(study.simulations),
+                                           derived_seed(study.seed, SeedUse::search, c)),
          {}});
   }
   for (std::size_t number = 0;; ++number) {
@@ -313,7 +315,8 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   for (std::size_t c = 0; c < searches.size(); ++c) {
     FoundModel m;
     if (searches[c].failed.empty())
-      m = found_model(study.candidates[c], *searches[c].search, o.columns, scale, study.seed + 77 * (c + 1));
+      m = found_model(study.candidates[c], *searches[c].search, o.columns, scale,
+                      derived_seed(study.seed, SeedUse::found_model, c));
     m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
     tell_u_turn(m, study, study.candidates[c], r.videos);
     r.models.push_back(std::move(m));

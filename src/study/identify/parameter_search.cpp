@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "study/identify/derived_seed.h"
 #include "study/stats/statistics.h"
 #include "study/stats/study_random.h"
 
@@ -50,7 +51,8 @@ struct Standard {
   VectorXd middle, scale;
   explicit Standard(const MatrixXd& s) : middle(s.cols()), scale(s.cols()) {
     for (Index j = 0; j < s.cols(); ++j) {
-      const RobustSpread<double> robust = robust_spread(std::vector<double>(s.col(j).begin(), s.col(j).end()));
+      const RobustSpread<double> robust =
+          robust_spread(std::vector<double>(s.col(j).begin(), s.col(j).end()));
       middle[j] = robust.median;
       double spread = robust.sd;
       if (!(spread > 0)) spread = std::sqrt((s.col(j).array() - s.col(j).mean()).square().mean());
@@ -115,7 +117,8 @@ ParameterSearch::ParameterSearch(int d, VectorXd observed, LogPrior log_prior, S
 void ParameterSearch::propose(Proposal p, int count) {
   MatrixXd u = even_points(count, d_);
   if (p.centres.rows() > 0) {
-    StudyRandom random(seed_, 100 + std::uint32_t(proposals_.size()));
+    StudyRandom random(
+        seed_, StudyDraws(std::uint32_t(StudyDraws::first_proposal) + std::uint32_t(proposals_.size())));
     p.covariance.diagonal().array() += 1e-8;
     const MatrixXd root = p.covariance.llt().matrixL();
     for (Index i = 0; i < count; ++i) {
@@ -155,7 +158,9 @@ std::vector<Index> ParameterSearch::nearest(Index count) const {
   normal.diagonal().array() += 0.02 * double(all_.size());
   const MatrixXd guess = normal.ldlt().solve(z.transpose() * u);
   const VectorXd by_guess = ((z.rowwise() - seen.transpose()) * guess).rowwise().squaredNorm();
-  const auto unit = [](const VectorXd& v) { return std::max(1e-12, median(std::vector<double>(v.begin(), v.end()))); };
+  const auto unit = [](const VectorXd& v) {
+    return std::max(1e-12, median(std::vector<double>(v.begin(), v.end())));
+  };
   return smallest(plain / unit(plain) + by_guess / unit(by_guess), count);
 }
 
@@ -188,13 +193,13 @@ void ParameterSearch::take(const MatrixXd& statistics) {
   }
   conclude();
   if (done > 3 && (done == kMostRounds || !cut_off())) return;
-  const MatrixXd draws = posterior({}, kGuide, seed_ + 1);
+  const MatrixXd draws = posterior({}, kGuide, derived_seed(seed_, SeedUse::guide));
   propose({draws.colwise().mean(), kWider * kWider * covariance_of(draws), 0}, rounds_.last);
 }
 
 // Whether the posterior reaches beyond where the last round was.
 bool ParameterSearch::cut_off() const {
-  const MatrixXd draws = posterior({}, kGuide, seed_ + 2);
+  const MatrixXd draws = posterior({}, kGuide, derived_seed(seed_, SeedUse::cut_off));
   for (Index j = 0; j < d_; ++j) {
     const double near = 0.03 * (box_.high[j] - box_.low[j]);
     double below = 0, above = 0;

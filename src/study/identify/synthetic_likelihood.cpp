@@ -54,7 +54,7 @@ Eigen::MatrixXd sample(const std::function<double(const Eigen::VectorXd&)>& log_
                        const ParameterBox& box, const Eigen::VectorXd& start, const Eigen::MatrixXd& spread,
                        int count, std::uint64_t seed) {
   const Eigen::Index d = start.size();
-  StudyRandom random(seed, 1);
+  StudyRandom random(seed, StudyDraws::posterior);
   Eigen::VectorXd at = start.cwiseMax(box.low).cwiseMin(box.high), mean = at;
   double density = log_density(at);
   Eigen::MatrixXd covariance = spread, draws(count, d);

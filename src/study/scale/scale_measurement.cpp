@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/distributions.h"
 #include "core/error.h"
 #include "study/stats/statistics.h"
 

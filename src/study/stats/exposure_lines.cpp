@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "core/distributions.h"
 #include "study/stats/statistics.h"
 
 namespace faba {

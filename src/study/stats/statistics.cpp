@@ -5,29 +5,11 @@
 #include <numeric>
 #include <vector>
 
+#include "core/distributions.h"
 #include "core/error.h"
 
 namespace faba {
 namespace {
-
-/// The continued fraction of the incomplete beta function by Lentz's method.
-double beta_fraction(double x, double a, double b) {
-  constexpr double kTiny = 1e-300;
-  const auto away = [](double v) { return std::fabs(v) < kTiny ? kTiny : v; };
-  double c = 1, d = 1 / away(1 - (a + b) * x / (a + 1)), f = d;
-  for (int m = 1; m < 10000; ++m) {
-    const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
-    d = 1 / away(1 + even * d);
-    c = away(1 + even / c);
-    f *= c * d;
-    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
-    d = 1 / away(1 + odd * d);
-    c = away(1 + odd / c);
-    f *= c * d;
-    if (std::fabs(c * d - 1) < 1e-16) break;
-  }
-  return f;
-}
 
 std::vector<double> ranks(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
@@ -63,36 +45,6 @@ std::array<double, 2> interval(double value, double se, int freedom) {
 }
 
 }  // namespace
-
-double incomplete_beta(double x, double a, double b) {
-  if (x <= 0) return 0;
-  if (x >= 1) return 1;
-  const double front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
-  if (x < (a + 1) / (a + b + 2)) return front * beta_fraction(x, a, b) / a;
-  return 1 - front * beta_fraction(1 - x, b, a) / b;
-}
-
-double student_t_cdf(double t, double freedom) {
-  // The tail itself, so that it stays exact where it is small.
-  const double tail = 0.5 * incomplete_beta(freedom / (freedom + t * t), freedom / 2, 0.5);
-  return t > 0 ? 1 - tail : tail;
-}
-
-double student_t_quantile(double p, double freedom) {
-  if (!(p > 0 && p < 1 && freedom > 0))
-    throw Error(Errc::internal, "student_t_quantile", "needs 0 < p < 1 and degrees of freedom");
-  if (p > 0.5) return -student_t_quantile(1 - p, freedom);
-  if (p == 0.5) return 0;
-  double low = -1, high = 0;
-  while (student_t_cdf(low, freedom) > p) low *= 2;
-  for (int k = 0; k < 200; ++k) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (student_t_cdf(middle, freedom) < p ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
 
 std::array<double, 2> LineFit::intercept_ci95() const { return interval(intercept, se_intercept, freedom); }
 std::array<double, 2> LineFit::slope_ci95() const { return interval(slope, se_slope, freedom); }

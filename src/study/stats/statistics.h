@@ -6,17 +6,6 @@
 
 namespace faba {
 
-/// Regularised incomplete beta function I_x(a, b), 0 <= x <= 1, a, b > 0, to some 1e-14: the continued
-/// fraction of DLMF 8.17.22 (https://dlmf.nist.gov/8.17), on the side where it converges fast.
-double incomplete_beta(double x, double a, double b);
-
-/// Probability that a value of Student's t distribution with `freedom` > 0 degrees of freedom is below t.
-double student_t_cdf(double t, double freedom);
-
-/// The t below which a share p of Student's distribution lies, 0 < p < 1: the inverse of student_t_cdf, by
-/// bisection to the last bits. student_t_quantile(0.975, freedom) makes 95 % intervals.
-double student_t_quantile(double p, double freedom);
-
 /// A straight line y = intercept + slope * x by least squares.
 struct LineFit {
   double intercept = 0, slope = 0;

@@ -7,11 +7,22 @@
 
 namespace faba {
 
+/// What the random numbers of a study are for: blocks of Stream::study, so that two purposes never share a
+/// number, whatever their seeds. Append only; never renumber.
+enum class StudyDraws : std::uint32_t {
+  posterior = 1,        ///< Markov chain
+  prediction = 2,       ///< noise of predicted statistics
+  bootstrap = 3,        ///< experiments resampled
+  timing = 9,           ///< when field segments begin
+  measurement = 10,     ///< noise that statistics add to what a simulation shows
+  first_proposal = 100  ///< parameters of search round 0; round n has first_proposal + n
+};
+
 /// Random numbers of a study, one after the other: the same for the same seed and purpose, whatever ran
 /// before.
 class StudyRandom {
  public:
-  StudyRandom(std::uint64_t seed, std::uint32_t purpose) : seed_(seed), purpose_(purpose) {}
+  StudyRandom(std::uint64_t seed, StudyDraws purpose) : seed_(seed), purpose_(std::uint32_t(purpose)) {}
 
   /// In (0, 1), 53 bits.
   double uniform() {

@@ -11,6 +11,7 @@
 #include "app/run/simulation.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
+#include "core/distributions.h"
 #include "core/hash.h"
 #include "study/stats/statistics.h"
 #include "study/steering/metric_list.h"

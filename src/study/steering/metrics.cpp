@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "core/toml.h"
 #include "core/vec.h"
 #include "study/stats/statistics.h"
+#include "study/steering/polyline.h"
 
 namespace faba {
 namespace {
@@ -63,73 +63,6 @@ Route route_of(const std::vector<Vec2>& setpoint) {
   }
   return route;
 }
-
-double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 ab = b - a;
-  const double square = dot(ab, ab);
-  const double along = square > 0 ? std::clamp(dot(p - a, ab) / square, 0.0, 1.0) : 0;
-  return norm(p - (a + along * ab));
-}
-
-/// A rectangle around a part of a polyline, and how far a point is from it at least.
-struct Bounds {
-  Vec2 lo, hi;
-  void take(const Bounds& b) {
-    lo = {std::min(lo.x, b.lo.x), std::min(lo.y, b.lo.y)};
-    hi = {std::max(hi.x, b.hi.x), std::max(hi.y, b.hi.y)};
-  }
-  double distance(Vec2 p) const {
-    return norm(p - Vec2{std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y)});
-  }
-};
-
-/// Nearest distance to a polyline of two or more vertices. A target that moves every frame has as many
-/// segments as the run has frames, so they are kept in a tree of bounds: what is further off than the best so
-/// far is not looked into.
-class Polyline {
- public:
-  explicit Polyline(const std::vector<Vec2>& vertex) : vertex_(vertex) {
-    std::vector<Bounds> segments;
-    for (std::size_t i = 0; i + 1 < vertex.size(); ++i) {
-      segments.push_back({vertex[i], vertex[i]});
-      segments.back().take({vertex[i + 1], vertex[i + 1]});
-    }
-    levels_.push_back(std::move(segments));
-    while (levels_.back().size() > 1) {
-      std::vector<Bounds> above;
-      for (std::size_t i = 0; i < levels_.back().size(); ++i) {
-        if (i % kChildren == 0) above.push_back(levels_.back()[i]);
-        above.back().take(levels_.back()[i]);
-      }
-      levels_.push_back(std::move(above));
-    }
-  }
-
-  /// Points that follow each other are near each other: the segment found last gives a good first bound.
-  double distance(Vec2 p) {
-    double best = segment_distance(p, vertex_[nearest_], vertex_[nearest_ + 1]);
-    descend(levels_.size() - 1, 0, p, best);
-    return best;
-  }
-
- private:
-  static constexpr std::size_t kChildren = 8;
-
-  void descend(std::size_t level, std::size_t index, Vec2 p, double& best) {
-    if (levels_[level][index].distance(p) >= best) return;
-    if (level == 0) {
-      const double d = segment_distance(p, vertex_[index], vertex_[index + 1]);
-      if (d < best) best = d, nearest_ = index;
-      return;
-    }
-    const std::size_t end = std::min(kChildren * (index + 1), levels_[level - 1].size());
-    for (std::size_t child = kChildren * index; child < end; ++child) descend(level - 1, child, p, best);
-  }
-
-  const std::vector<Vec2>& vertex_;
-  std::vector<std::vector<Bounds>> levels_;  // of single segments, of kChildren of those, and so on up to one
-  std::size_t nearest_ = 0;
-};
 
 std::optional<double> settling_time(const std::vector<Timed>& targeted, double band) {
   if (targeted.back().d > band) return std::nullopt;
@@ -199,7 +132,7 @@ std::optional<double> overshoot_percent(const std::vector<Vec2>& centroid, const
 
 void measure_route(Metrics& m, const std::vector<Vec2>& centroid, const Route& route) {
   if (route.vertex.size() < 2) return;
-  Polyline polyline(route.vertex);
+  const Polyline polyline(route.vertex);
   std::vector<double> error;
   double square = 0;
   for (std::size_t k = route.since[1]; k < centroid.size(); ++k) {

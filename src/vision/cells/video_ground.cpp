@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/distributions.h"
 #include "core/error.h"
 #include "core/statistics.h"
 #include "vision/files/grey_video.h"
@@ -49,14 +50,6 @@ class Changes {
   double step_;
   std::vector<std::uint64_t> count_ = std::vector<std::uint64_t>(kFinest);
 };
-
-/// The value below which a share of a normal law lies, to 4.5e-4 (Abramowitz and Stegun 26.2.23).
-double normal_quantile(double share) {
-  const double t = std::sqrt(-2 * std::log(std::min(share, 1 - share)));
-  const double z =
-      t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
-  return share < 0.5 ? -z : z;
-}
 
 GrayF quantile_over_time(const std::vector<GrayF>& frames, double share) {
   GrayF out(frames.front().width, frames.front().height);

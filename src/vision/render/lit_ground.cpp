@@ -4,15 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "core/philox.h"
+#include "core/draw_blocks.h"
 #include "core/portable_math.h"
 
 namespace faba {
 namespace {
 
 constexpr int kWaves = 6;
-constexpr std::uint32_t kWaveDraws = 3;  // block of Stream::camera
-constexpr double kEdgeReach = 7;         // widths, beyond which the edge is nothing to 1e-10
+constexpr double kEdgeReach = 7;  // widths, beyond which the edge is nothing to 1e-10
 
 struct Wave {
   double x, y, phase;  // rad per px, rad
@@ -23,7 +22,7 @@ std::vector<Wave> waves_of(const Frame& frame, std::uint64_t seed) {
   std::vector<Wave> waves;
   const double side = std::max(frame.width, frame.height);
   for (std::uint32_t i = 0; i < kWaves; ++i) {
-    const auto word = draw(seed, Stream::camera, i, 0, kWaveDraws);
+    const auto word = draw(seed, kWaveDraws, i, 0);
     const double number = 2 * portable::kPi / (side * (1 + double(uniform(word[0]))));
     const auto way = portable::sincos(2 * portable::kPi * double(uniform(word[1])));
     waves.push_back({number * way.cos, number * way.sin, 2 * portable::kPi * double(uniform(word[2]))});

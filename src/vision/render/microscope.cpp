@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/draw_blocks.h"
 #include "core/error.h"
-#include "core/philox.h"
 #include "core/portable_math.h"
 #include "vision/render/kernels/camera_noise.h"
 #include "vision/render/lit_ground.h"
@@ -17,7 +17,6 @@ namespace {
 constexpr double kWidestSpot = 200;  // px, sd: tables of wider ones would fill the memory
 constexpr double kMostPixels = 1 << 28;
 constexpr double kUsualExposure = 0.01;  // s
-constexpr std::uint32_t kLampDraws = 1;  // block of Stream::camera
 
 // Sum over the pixels of what one cell adds: an optical density, or light scattered in.
 double weight_of(const MicroscopeParams& p, double m_per_px) {
@@ -102,7 +101,7 @@ void Microscope::render_as(const Exposure& e, Pool& pool, Image<T>& out) {
   CameraSensor s;
   s.seed = seed_;
   s.frame = std::uint32_t(e.frame);
-  const auto word = draw(seed_, Stream::camera, 0, s.frame, kLampDraws);
+  const auto word = draw(seed_, kFrameDraws, std::uint32_t(FrameDraw::lamp), s.frame);
   s.lamp = (1 + params_.drift * e.t) * (1 + params_.flicker * double(normals(word[0], word[1])[0]));
   s.lamp = std::max(s.lamp, 0.0);
   s.shot = shot_;

@@ -23,7 +23,7 @@ double width(double differ) {
   for (Index e = 0; e < kExperiments; ++e) experiments.push_back({e});
   double sum = 0;
   for (int k = 0; k < kSets; ++k) {
-    StudyRandom random(std::uint64_t(k), 4);
+    StudyRandom random(std::uint64_t(k), StudyDraws{4});
     VectorXd seen(kExperiments);
     for (double& s : seen) s = 0.5 + differ * random.normal() + kNoise * random.normal();
     const ParameterSearch s = searched(1, seen, std::uint64_t(k), [&](const VectorXd& u) {
@@ -52,7 +52,7 @@ TEST_CASE("experiments that agree give as much as chance does, those that differ
 
 TEST_CASE("two experiments are too few") {
   const VectorXd seen = VectorXd::Constant(2, 0.5);
-  StudyRandom random(1, 4);
+  StudyRandom random(1, StudyDraws{4});
   const ParameterSearch s = searched(1, seen, 1, [&](const VectorXd& u) {
     return VectorXd{{u[0] + kNoise * random.normal(), u[0] + kNoise * random.normal()}};
   });

@@ -28,7 +28,7 @@ struct Way {
 };
 Way way(double noise_px) {
   Way w;
-  StudyRandom random(1, 1);
+  StudyRandom random(1, StudyDraws{1});
   for (int k = 0; k <= 150; ++k) {
     const double t = k * kFrame, s = place_at(t);
     w.t.push_back(t);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/distributions.h"
+
 using namespace faba;
 
 TEST_CASE("at the ends of the interval the line is two standard errors of its own from zero") {

@@ -25,7 +25,7 @@ struct LinearModel {
   MatrixXd a{kStatistics, kParameters};
   MatrixXd root{kStatistics, kStatistics};  ///< of the noise's covariance
   LinearModel() {
-    StudyRandom random(5, 1);
+    StudyRandom random(5, StudyDraws{1});
     for (Index i = 0; i < kStatistics; ++i) {
       for (Index j = 0; j < kParameters; ++j) a(i, j) = 3 * random.normal();
       for (Index j = 0; j < kStatistics; ++j) root(i, j) = i == j ? 0.3 : 0.1 * random.normal();
@@ -56,7 +56,7 @@ TEST_CASE("the posterior of a linear model: its mean, its spread, and how often 
   constexpr int kSets = 40;
   double off = 0, ratio = 0, held = 0, abc_held = 0;
   for (int k = 0; k < kSets; ++k) {
-    StudyRandom random(100 + std::uint64_t(k), 2);
+    StudyRandom random(100 + std::uint64_t(k), StudyDraws{2});
     VectorXd truth(kParameters);
     for (double& x : truth) x = 0.4 + 0.2 * random.uniform();
     const VectorXd seen = model.simulate(truth, random), exact = model.best(seen);
@@ -91,7 +91,7 @@ TEST_CASE("the posterior of a linear model: its mean, its spread, and how often 
 
 TEST_CASE("a parameter that does not show keeps its range") {
   const LinearModel model;
-  StudyRandom random(9, 2);
+  StudyRandom random(9, StudyDraws{2});
   const VectorXd truth = VectorXd::Constant(kParameters, 0.5), seen = model.simulate(truth, random);
   const ParameterSearch s = searched(kParameters + 1, seen, 1, [&](const VectorXd& u) {
     return model.simulate(u.head(kParameters), random);
@@ -104,10 +104,10 @@ TEST_CASE("a parameter that does not show keeps its range") {
 
 TEST_CASE("the same seed gives the same bits; failed simulations are left out, too many of them refused") {
   const LinearModel model;
-  StudyRandom truth(9, 2);
+  StudyRandom truth(9, StudyDraws{2});
   const VectorXd seen = model.simulate(VectorXd::Constant(kParameters, 0.5), truth);
   const auto run = [&](double failing) {
-    StudyRandom random(3, 2);
+    StudyRandom random(3, StudyDraws{2});
     return searched(kParameters, seen, 1,
                     [&](const VectorXd& u) {
                       VectorXd s = model.simulate(u, random);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/distributions.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/toml.h"

@@ -5,37 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "core/distributions.h"
 #include "core/error.h"
 
 using namespace faba;
-
-TEST_CASE("Student's t where it has a closed form") {
-  // One degree of freedom is Cauchy's distribution; two and four have algebraic ones.
-  for (const double t : {-30.0, -2.5, -0.3, 0.0, 0.7, 4.0, 100.0}) {
-    CHECK(student_t_cdf(t, 1) == doctest::Approx(0.5 + std::atan(t) / std::acos(-1.0)).epsilon(1e-13));
-    CHECK(student_t_cdf(t, 2) == doctest::Approx(0.5 + t / (2 * std::sqrt(2 + t * t))).epsilon(1e-12));
-    const double u = t / std::sqrt(4 + t * t);
-    CHECK(student_t_cdf(t, 4) == doctest::Approx(0.5 + 0.75 * u * (1 - u * u / 3)).epsilon(1e-12));
-  }
-  for (const double p : {0.001, 0.025, 0.3, 0.5, 0.975, 0.9999}) {
-    const double q = student_t_quantile(p, 2);
-    CHECK(q == doctest::Approx((2 * p - 1) * std::sqrt(2 / (4 * p * (1 - p)))).epsilon(1e-11));
-  }
-}
-
-TEST_CASE("quantiles as tables have them, and back") {
-  // NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.2.
-  CHECK(student_t_quantile(0.975, 1) == doctest::Approx(12.706).epsilon(5e-5));
-  CHECK(student_t_quantile(0.975, 8) == doctest::Approx(2.306).epsilon(5e-4));
-  CHECK(student_t_quantile(0.975, 100) == doctest::Approx(1.984).epsilon(5e-4));
-  CHECK(student_t_quantile(0.95, 30) == doctest::Approx(1.697).epsilon(5e-4));
-  CHECK(student_t_quantile(0.975, 1e7) == doctest::Approx(1.959964).epsilon(1e-6));  // the normal one
-  for (const double freedom : {1.0, 3.0, 8.0, 33.5, 400.0})
-    for (const double p : {1e-6, 0.02, 0.4, 0.7, 0.995})
-      CHECK(student_t_cdf(student_t_quantile(p, freedom), freedom) == doctest::Approx(p).epsilon(1e-11));
-  CHECK_THROWS_AS(student_t_quantile(0, 3), Error);
-  CHECK_THROWS_AS(student_t_quantile(0.5, 0), Error);
-}
 
 TEST_CASE("a line with residuals that can be done by hand") {
   // y = 1 + 2 x with +1, -1, -1, +1 on top, which no line can take up.

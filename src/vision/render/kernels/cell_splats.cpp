@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/draw_blocks.h"
 #include "core/portable_math.h"
 #include "core/vectorised.h"
 
@@ -18,7 +18,6 @@ constexpr int kBand = 32;                    // rows that one thread adds to at 
 constexpr int kSharpnesses = 9;              // each 2^(1/4) wider than the one before
 constexpr double kStep = 1.189207115002721;  // 2^(1/4)
 constexpr std::size_t kLane = 16;            // rows of a table are padded to whole vectors
-constexpr std::uint32_t kDepthDraws = 2;     // block of Stream::camera
 
 // Adds down[r] * across to `rows` rows of a picture that lie `stride` apart.
 FABA_VECTORISED void add_product(float* to, std::ptrdiff_t stride, const float* across, std::size_t columns,
@@ -37,7 +36,7 @@ FABA_VECTORISED void between(const float* a, const float* b, float f, float by, 
 
 // Distance from focus in sd, of a cell that keeps it.
 double depth_of(std::uint64_t seed, std::uint32_t cell) {
-  const auto word = draw(seed, Stream::camera, cell, 0, kDepthDraws);
+  const auto word = draw(seed, kDepthDraws, cell, 0);
   return double(normals(word[0], word[1])[0]);
 }
 

@@ -1,0 +1,59 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "core/philox.h"
+
+namespace faba {
+
+/// What draws are for. Philox's counter is (agent, step, stream, block): draws for two purposes are
+/// independent, whatever agent and step are, because their pairs of stream and block differ.
+struct DrawBlock {
+  Stream stream;
+  std::uint32_t block;
+};
+
+// All purposes of a run. Append only; never renumber. Rows (core/kernels/philox_row.h) have block 0. Purposes
+// of studies, in Stream::study, are StudyDraws (study/stats/study_random.h).
+inline constexpr DrawBlock kPlaceDraws{Stream::start, 0};       ///< where a cell begins; step: attempt
+inline constexpr DrawBlock kBirthDraws{Stream::start, 0xFFFF};  ///< heading, speed and turning rate of a cell
+inline constexpr DrawBlock kMotionDraws{Stream::motion, 0};     ///< of one step, in rows
+inline constexpr DrawBlock kReorientDraws{Stream::motility, 0};   ///< reversals and tumbles
+inline constexpr DrawBlock kToleranceDraws{Stream::motility, 1};  ///< tolerated dose of oxygen of a cell
+inline constexpr DrawBlock kResponseDraws{Stream::motility, 2};   ///< whether a cell responds to the field
+inline constexpr DrawBlock kPixelDraws{Stream::camera, 0};        ///< noise of pixels, in rows; step: frame
+inline constexpr DrawBlock kFrameDraws{Stream::camera, 1};        ///< agent: one of FrameDraw; step: frame
+inline constexpr DrawBlock kDepthDraws{Stream::camera, 2};        ///< distance of a cell from focus
+inline constexpr DrawBlock kWaveDraws{Stream::camera, 3};         ///< unevenness of the light; agent: wave
+inline constexpr DrawBlock kContestDraws{Stream::exclusion, 0};   ///< key of one step's contests
+
+/// What stands for the agent in kFrameDraws.
+enum class FrameDraw : std::uint32_t {
+  lamp = 0,  ///< flicker
+  time = 1   ///< jitter of the time at which the frame is taken
+};
+
+namespace draw_blocks {
+
+inline constexpr std::array kAll{kPlaceDraws,     kBirthDraws,    kMotionDraws, kReorientDraws,
+                                 kToleranceDraws, kResponseDraws, kPixelDraws,  kFrameDraws,
+                                 kDepthDraws,     kWaveDraws,     kContestDraws};
+
+constexpr bool all_differ() {
+  for (std::size_t i = 0; i < kAll.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (kAll[i].stream == kAll[j].stream && kAll[i].block == kAll[j].block) return false;
+  return true;
+}
+
+static_assert(all_differ());
+
+}  // namespace draw_blocks
+
+/// One draw for a purpose.
+inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, DrawBlock purpose, std::uint32_t agent,
+                                         std::uint32_t step) {
+  return draw(seed, purpose.stream, agent, step, purpose.block);
+}
+
+}  // namespace faba
