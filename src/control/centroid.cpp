@@ -9,7 +9,11 @@ Estimate Centroid::update(const Observation& o, bool only_visible) {
   e.centroid = at_;
   double n = 0, sx = 0, sy = 0;
   for (const Detection& d : o.seen)
-    if (counts(d)) ++n, sx += double(d.x), sy += double(d.y);
+    if (counts(d)) {
+      ++n;
+      sx += double(d.x);
+      sy += double(d.y);
+    }
   e.visible = n;
   if (n > 0) {
     e.centroid = {sx / n, sy / n};
@@ -22,7 +26,9 @@ Estimate Centroid::update(const Observation& o, bool only_visible) {
     for (const Detection& d : o.seen)
       if (counts(d)) {
         const double dx = double(d.x) - e.centroid.x, dy = double(d.y) - e.centroid.y;
-        e.cov.xx += dx * dx, e.cov.xy += dx * dy, e.cov.yy += dy * dy;
+        e.cov.xx += dx * dx;
+        e.cov.xy += dx * dy;
+        e.cov.yy += dy * dy;
       }
     e.cov = {e.cov.xx / (n - 1), e.cov.xy / (n - 1), e.cov.yy / (n - 1)};
   }

@@ -58,15 +58,22 @@ class EstimatorGroups final : public Estimator {
     const std::vector<WeightedPlace> places =
         o.seen.empty() && o.image ? from_picture(o, cells) : from_cells(o, cells);
     FuzzyGroupOptions options;
-    options.count = p_.count, options.most = p_.most, options.separation = p_.separation;
+    options.count = p_.count;
+    options.most = p_.most;
+    options.separation = p_.separation;
     const std::vector<FuzzyGroup> groups = fuzzy_groups(places, options);
     Estimate e;
-    e.t = o.t, e.centroid = at_;
+    e.t = o.t;
+    e.centroid = at_;
     if (groups.empty()) return e;
     const FuzzyGroup& mine = groups[chosen(groups)];
-    e.centroid = mine.centroid, e.cov = mine.cov, e.visible = cells * mine.share;
+    e.centroid = mine.centroid;
+    e.cov = mine.cov;
+    e.visible = cells * mine.share;
     if (has_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
-    at_ = e.centroid, t_ = o.t, has_ = true;
+    at_ = e.centroid;
+    t_ = o.t;
+    has_ = true;
     for (const FuzzyGroup& g : groups) e.groups.push_back({g.centroid, g.share, g.cov});
     return e;
   }
@@ -83,7 +90,8 @@ class EstimatorGroups final : public Estimator {
   }
   std::vector<WeightedPlace> from_picture(const Observation& o, double& cells) {
     foreground_.take(camera_picture(o, frame_), looked_ ? o.t - frame_t_ : 0);
-    frame_t_ = o.t, looked_ = true;
+    frame_t_ = o.t;
+    looked_ = true;
     cells = foreground_.moments().cells;
     places_.clear();
     if (cells == 0) return {};
@@ -94,7 +102,10 @@ class EstimatorGroups final : public Estimator {
   // beside what a bin loses.
   void add_pieces(const GrayF& weights, const std::vector<PatchRun>& runs) {
     int low = weights.width, high = 0;
-    for (const PatchRun& r : runs) low = std::min(low, r.first), high = std::max(high, r.end);
+    for (const PatchRun& r : runs) {
+      low = std::min(low, r.first);
+      high = std::max(high, r.end);
+    }
     if (!runs.empty()) high = low + std::max(high - low, runs.back().row - runs.front().row);
     const int piece = std::max(1, (high - low) / (4 * kBins));
     for (const PatchRun& r : runs) {
@@ -103,7 +114,10 @@ class EstimatorGroups final : public Estimator {
         const int stop = std::min(r.end, i + piece);
         double sum = 0, x = 0;
         for (; i < stop; ++i)
-          if (weight[i] > 0) sum += double(weight[i]), x += double(weight[i]) * i;
+          if (weight[i] > 0) {
+            sum += double(weight[i]);
+            x += double(weight[i]) * i;
+          }
         if (sum > 0) places_.push_back({frame_.world_from_image({x / sum, double(r.row)}), sum});
       }
     }

@@ -29,17 +29,22 @@ class EstimatorImage final : public Estimator {
     foreground_.take(picture, seen_ ? o.t - t_ : 0);
     const SwarmMoments m = foreground_.moments();
     Estimate e;
-    e.t = o.t, e.centroid = at_, e.visible = m.cells;
+    e.t = o.t;
+    e.centroid = at_;
+    e.visible = m.cells;
     if (m.signal > 0) {
       const double area = frame_.m_per_px * frame_.m_per_px;
       e.centroid = frame_.world_from_image(m.centroid_image);
       e.cov = {area * m.cov_px2.xx, -area * m.cov_px2.xy, area * m.cov_px2.yy};
       if (has_place_ && o.t > place_t_) e.velocity = (1 / (o.t - place_t_)) * (e.centroid - at_);
-      at_ = e.centroid, place_t_ = o.t, has_place_ = true;
+      at_ = e.centroid;
+      place_t_ = o.t;
+      has_place_ = true;
       most_ = std::max(most_, m.signal);
       e.groups.push_back({e.centroid, m.signal / most_, e.cov});
     }
-    t_ = o.t, seen_ = true;
+    t_ = o.t;
+    seen_ = true;
     return e;
   }
   void archive(Archive& a) override { a& foreground_& at_& t_& place_t_& most_& seen_& has_place_; }

@@ -101,7 +101,8 @@ Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_
 
 Command Proportional::update(const Estimate& e, const Target& target, double dt) {
   const Vec2 moved = seen_ && dt > 0 ? (horizon_ / dt) * (e.centroid - last_) : Vec2{};
-  seen_ = e.visible > 0, last_ = e.centroid;
+  seen_ = e.visible > 0;
+  last_ = e.centroid;
   const Vec2 error_px = (1 / c_.scale.m_per_px) * (target.position - e.centroid - moved);
   if (!seen_ || norm(error_px) <= p_.dead_zone_px) return drive_command(c_, e.centroid, {});
 

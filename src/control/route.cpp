@@ -64,15 +64,21 @@ ReferenceRoute::ReferenceRoute(const Params& p, const ControlContext& c)
 }
 
 Target ReferenceRoute::update(const Estimate& e) {
-  if (!started_) started_ = true, since_ = e.t;
+  if (!started_) {
+    started_ = true;
+    since_ = e.t;
+  }
   const bool near = e.visible > 0 && norm(e.centroid - points_[index_]) < tolerance_;
   inside_ = near ? inside_ + 1 : 0;
   const bool late = p_.timeout && e.t - since_ >= *p_.timeout;
   if (inside_ >= p_.hold_frames || late) {
-    if (index_ + 1 < points_.size())
-      ++index_, inside_ = 0, since_ = e.t;
-    else
+    if (index_ + 1 < points_.size()) {
+      ++index_;
+      inside_ = 0;
+      since_ = e.t;
+    } else {
       finished_ = true;
+    }
   }
   return {points_[index_], std::size_t(index_), finished_};
 }

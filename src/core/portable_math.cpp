@@ -25,7 +25,10 @@ double log(double x) {
     return x == 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
   int e = 0;
   double m = std::frexp(x, &e);  // exact
-  if (m < 0.7071067811865476) m *= 2, --e;
+  if (m < 0.7071067811865476) {
+    m *= 2;
+    --e;
+  }
   const double s = (m - 1) / (m + 1), z = s * s;  // ln m = 2 atanh s, |s| <= 0.1716
   double sum = 0;
   for (int k = 25; k >= 3; k -= 2) sum = (sum + 1.0 / k) * z;  // next term 0.1716^27 / 27 < 1e-22
@@ -61,7 +64,10 @@ double atan2(double y, double x) {
   double t = steep ? ax / ay : ay / ax;
   // two halvings of the angle bring t from [0,1] to [0, 0.2]; then the series converges quickly
   double scale = 1;
-  for (int i = 0; i < 2; ++i) t = t / (1 + std::sqrt(1 + t * t)), scale *= 2;
+  for (int i = 0; i < 2; ++i) {
+    t = t / (1 + std::sqrt(1 + t * t));
+    scale *= 2;
+  }
   const double z = t * t;
   double sum = 0;
   for (int k = 25; k >= 3; k -= 2) sum = (sum + 1.0 / k) * -z;  // 0.2^27 / 27 < 1e-20

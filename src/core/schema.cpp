@@ -54,7 +54,10 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   // More than a third of the letters wrong is another word, not a slip.
   std::size_t d_best = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto& k : known)
-    if (const std::size_t d = edit_distance(word, k); d < d_best) d_best = d, best = &k;
+    if (const std::size_t d = edit_distance(word, k); d < d_best) {
+      d_best = d;
+      best = &k;
+    }
   if (best) return fmt::format("; did you mean \"{}\"?", *best);
   return known.empty() ? "" : fmt::format("; known: {}", fmt::join(known, ", "));
 }

@@ -7,7 +7,11 @@ std::vector<double> allocate(const Field& field, Vec3 at, Vec2 wanted) {
   std::vector<Vec3> b(field.coils());
   field.basis(at, b, {});
   double xx = 0, xy = 0, yy = 0;
-  for (const Vec3& v : b) xx += v.x * v.x, xy += v.x * v.y, yy += v.y * v.y;
+  for (const Vec3& v : b) {
+    xx += v.x * v.x;
+    xy += v.x * v.y;
+    yy += v.y * v.y;
+  }
   std::vector<double> current(b.size(), 0.0);
   const double det = xx * yy - xy * xy, trace = xx + yy;
   if (trace == 0) return current;

@@ -47,7 +47,9 @@ void Field::basis(Vec3 at, std::span<Vec3> b, std::span<Mat3> gradient) const {
       Vec3 sum;
       for (std::size_t j = 0; j < 3; ++j)
         sum = sum + (kWeight[j] / step) * (values[6 * axis + 2 * j] - values[6 * axis + 2 * j + 1]);
-      gradient[k][0][axis] = sum.x, gradient[k][1][axis] = sum.y, gradient[k][2][axis] = sum.z;
+      gradient[k][0][axis] = sum.x;
+      gradient[k][1][axis] = sum.y;
+      gradient[k][2][axis] = sum.z;
     }
   }
 }
@@ -57,7 +59,10 @@ void Field::eval(const Points& at_points, std::span<const double> current, Vecto
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] = {double(at_points.x[i]), double(at_points.y[i]), double(at_points.z)};
   at(points, current, sum);
-  for (std::size_t i = 0; i < points.size(); ++i) b.x[i] = float(sum[i].x), b.y[i] = float(sum[i].y);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    b.x[i] = float(sum[i].x);
+    b.y[i] = float(sum[i].y);
+  }
 }
 
 }  // namespace faba

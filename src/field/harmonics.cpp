@@ -78,10 +78,14 @@ struct Normal {
   void add(const Eigen::MatrixXd& rows, const Eigen::VectorXd& values) {
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
     right += rows.transpose() * values;
-    square += values.squaredNorm(), count += double(values.size());
+    square += values.squaredNorm();
+    count += double(values.size());
   }
   Normal& operator+=(const Normal& o) {
-    matrix += o.matrix, right += o.right, square += o.square, count += o.count;
+    matrix += o.matrix;
+    right += o.right;
+    square += o.square;
+    count += o.count;
     return *this;
   }
   /// Least squares up to `degree`; directions that the data say nothing about stay 0.
@@ -203,7 +207,10 @@ HarmonicFit fit_harmonics(const FieldData& data) {
   double least = std::numeric_limits<double>::infinity();
   for (int degree = 1; degree <= most; ++degree) {
     const double off = test.rms(all.solve(degree));
-    if (off < 0.95 * least) least = off, best = degree;  // a further degree must be worth its terms
+    if (off < 0.95 * least) {  // a further degree must be worth its terms
+      least = off;
+      best = degree;
+    }
   }
   all += test;
   const Eigen::VectorXd c = all.solve(best);

@@ -45,7 +45,8 @@ struct FieldLibrary::Tree {
     Zeros z;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (!((traps ? worst(all[i]) : sum(all[i])) < 0)) continue;
-      z.entry.push_back(i), z.at.push_back(all[i].zero);
+      z.entry.push_back(i);
+      z.at.push_back(all[i].zero);
     }
     return std::make_unique<Tree>(std::move(z));
   }

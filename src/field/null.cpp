@@ -160,7 +160,8 @@ struct Measured {
 Measured measured(const Local& local, std::span<const double> current) {
   double xx = 0, xy = 0, yy = 0, zz = 0;
   for (std::size_t k = 0; k < current.size(); ++k) {
-    xx += current[k] * local.g[k][0][0], yy += current[k] * local.g[k][1][1];
+    xx += current[k] * local.g[k][0][0];
+    yy += current[k] * local.g[k][1][1];
     xy += current[k] * 0.5 * (local.g[k][0][1] + local.g[k][1][0]);
     zz += current[k] * local.g[k][2][2];
   }

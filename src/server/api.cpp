@@ -273,7 +273,8 @@ Json Api::take_upload(const WebRequest& r) {
   const std::string shown = fmt::format("upload-{}.png", ++number);
   try {
     Json j = drop_json(report_proposed_drop(r.upload, name, pictures_ / shown));
-    j["picture"] = name, j["url"] = "/api/uploads/" + shown;
+    j["picture"] = name;
+    j["url"] = "/api/uploads/" + shown;
     return j;
   } catch (const Error& e) {
     if (e.code() != Errc::input) throw;

@@ -31,10 +31,14 @@ struct Pipe {
   Pipe() {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(Errc::internal, "job", std::strerror(errno));
-    read_end = ends[0], write_end = ends[1];
+    read_end = ends[0];
+    write_end = ends[1];
     ::fcntl(read_end, F_SETFL, O_NONBLOCK);
   }
-  ~Pipe() { close_write(), ::close(read_end); }
+  ~Pipe() {
+    close_write();
+    ::close(read_end);
+  }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
   void close_write() {
@@ -102,7 +106,8 @@ struct JobList::Process {
     std::size_t inherited = 0;
     while (environ[inherited]) ++inherited;
     std::vector<char*> env(environ, environ + inherited);
-    env.push_back(say.data()), env.push_back(nullptr);
+    env.push_back(say.data());
+    env.push_back(nullptr);
 
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
@@ -120,7 +125,9 @@ struct JobList::Process {
     posix_spawnattr_destroy(&how);
     posix_spawn_file_actions_destroy(&files);
     if (wrong != 0) throw Error(Errc::internal, program.string(), std::strerror(wrong));
-    out.close_write(), err.close_write(), progress.close_write();
+    out.close_write();
+    err.close_write();
+    progress.close_write();
   }
 };
 
@@ -143,8 +150,11 @@ int JobList::add(std::string title, std::vector<std::string> words, std::filesys
     const std::lock_guard lock(mutex_);
     id = next_++;
     Job j;
-    j.id = id, j.title = std::move(title), j.words = std::move(words);
-    j.page = std::move(page), j.out = std::move(out);
+    j.id = id;
+    j.title = std::move(title);
+    j.words = std::move(words);
+    j.page = std::move(page);
+    j.out = std::move(out);
     jobs_.push_back(std::move(j));
     const auto over = [](const Job& one) { return one.state > Job::State::running; };
     if (jobs_.size() > kKept)
@@ -202,7 +212,8 @@ void JobList::work(const std::stop_token& stop) {
     try {
       carry_out(job, stop);
     } catch (const std::exception& e) {
-      job.state = Job::State::failed, job.error = e.what();
+      job.state = Job::State::failed;
+      job.error = e.what();
     }
     report(job);
   }
@@ -233,8 +244,14 @@ void JobList::carry_out(Job& job, const std::stop_token& stop) {
       asked = Clock::now();
       ::kill(process.pid, SIGINT);
     }
-    if (asked && !killed && since(*asked) > kPatience) killed = true, ::kill(process.pid, SIGKILL);
-    if (since(told) > kTellEvery) told = Clock::now(), report(job);
+    if (asked && !killed && since(*asked) > kPatience) {
+      killed = true;
+      ::kill(process.pid, SIGKILL);
+    }
+    if (since(told) > kTellEvery) {
+      told = Clock::now();
+      report(job);
+    }
     if (!more_out && more_err) ::usleep(kPollMs * 1000 / 10);  // poll() returns at once on a closed pipe
   }
   int status = 0;
@@ -243,14 +260,15 @@ void JobList::carry_out(Job& job, const std::stop_token& stop) {
   cancel_ = 0;
   job.result = Json::parse(out, nullptr, false);
   if (job.result.is_discarded()) job.result = Json();
-  if (asked)
+  if (asked) {
     job.state = Job::State::cancelled;
-  else if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+  } else if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     job.state = Job::State::done;
-  else
-    job.state = Job::State::failed,
+  } else {
+    job.state = Job::State::failed;
     job.error =
         WIFEXITED(status) ? last_line(err) : "was killed by signal " + std::to_string(WTERMSIG(status));
+  }
 }
 
 }  // namespace faba

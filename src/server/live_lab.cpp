@@ -1,22 +1,15 @@
 #include "server/live_lab.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
-#include "app/sinks/series_row.h"
+#include "server/shown_run.h"
 
 namespace faba {
 namespace {
 
-constexpr std::size_t kRows = 32;  // of the series in a message; a page knows most of them already
-constexpr int kFieldColumns = 17, kFieldRows = 13;
-constexpr std::size_t kMostHeadings = 20000;  // more cells are too small to show where they head
-constexpr double kTellEvery = 0.5;            // s: how fast it really goes
-constexpr double kLate = 0.25;                // s: what a run may catch up with; the rest is given up
+constexpr double kTellEvery = 0.5;  // s: how fast it really goes
+constexpr double kLate = 0.25;      // s: what a run may catch up with; the rest is given up
 
 std::uint64_t drawn_seed() {
   std::random_device device;
@@ -26,93 +19,6 @@ std::uint64_t drawn_seed() {
 Json box_json(const PictureBox& b) { return {b.left, b.top, b.right, b.bottom}; }
 
 }  // namespace
-
-struct LiveLab::Shown final : Sink {
-  Shown(const Document& d, std::uint64_t seed, const Parts& parts, Pool& pool)
-      : document(d),
-        live(d, seed, parts, pool),
-        row(sink_context(live.scenario(), live.simulation(), pool, {})),
-        columns(row.names()) {
-    columns.emplace_back("activity_um_s");
-    const Simulation& s = live.simulation();
-    const Grid g = s.world().parts().arena->grid();
-    const Vec2 low{double(g.left), double(g.low)};
-    const Vec2 corner = s.frame().image_from_world(low);
-    const Vec2 opposite =
-        s.frame().image_from_world(low + double(g.cell) * Vec2{double(g.columns), double(g.rows)});
-    box = {corner.x, opposite.y, opposite.x, corner.y};
-    const bool varies = s.world().parts().table.has_value();
-    const int nx = varies ? kFieldColumns : 1, ny = varies ? kFieldRows : 1;
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i) {
-        const Vec2 at =
-            s.frame().world_from_image({(s.frame().width - 1) * (varies ? double(i) / (nx - 1) : 0.5),
-                                        (s.frame().height - 1) * (varies ? double(j) / (ny - 1) : 0.5)});
-        field_x.push_back(float(at.x)), field_y.push_back(float(at.y));
-      }
-    field_columns = nx, field_rows = ny;
-    live.simulation().loop().sinks.push_back(this);
-  }
-
-  void take(const Tick& t) override {
-    std::vector<double> v = row.values(t);
-    const double now = live.simulation().rig().time_of(t.index);
-    v.push_back(mean_speed(now - time) * 1e6);
-    time = now;
-    if (rows.size() == kRows * v.size()) rows.erase(rows.begin(), rows.begin() + std::ptrdiff_t(v.size()));
-    rows.insert(rows.end(), v.begin(), v.end());
-  }
-
-  // Of all cells since the frame before, m/s: what the activity of a video is a measure of.
-  double mean_speed(double dt) {
-    const auto& agents = live.simulation().world().state().agents;
-    const std::span<const float> x = agents["x"], y = agents["y"];
-    double way = 0;
-    const bool first = before_x.empty();
-    if (first) before_x.resize(x.size()), before_y.resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      way += std::hypot(double(x[i]) - double(before_x[i]), double(y[i]) - double(before_y[i]));
-      before_x[i] = x[i], before_y[i] = y[i];
-    }
-    return first || !(dt > 0) ? std::numeric_limits<double>::quiet_NaN() : way / (double(x.size()) * dt);
-  }
-
-  std::shared_ptr<const std::string> message(std::uint32_t run, bool camera) {
-    Simulation& s = live.simulation();
-    const World& w = s.world();
-    const auto& agents = w.state().agents;
-    FrameMessage m;
-    m.run = run, m.frame = live.frame() - 1, m.t = time, m.view = s.frame(), m.box = box;
-    m.x = agents["x"], m.y = agents["y"], m.response = agents["response"];
-    if (agents.has("ux") && m.x.size() <= kMostHeadings) m.ux = agents["ux"], m.uy = agents["uy"];
-    m.rows = rows, m.columns = columns.size();
-    const std::size_t n = field_x.size();
-    std::vector<float> bx(n), by(n), field(2 * n);
-    if (w.parts().table)
-      w.parts().table->eval({field_x, field_y}, {bx, by});
-    else
-      w.parts().field->eval({field_x, field_y}, w.state().current, {bx, by});
-    for (std::size_t i = 0; i < n; ++i) field[2 * i] = bx[i], field[2 * i + 1] = -by[i];
-    m.field_columns = field_columns, m.field_rows = field_rows, m.field = field;
-    ImageRef picture;
-    if (camera) {
-      picture = s.rig().picture();
-      m.picture = picture->px, m.picture_columns = picture->width, m.picture_rows = picture->height;
-    }
-    return std::make_shared<const std::string>(encode_frame(m));
-  }
-
-  Document document;
-  LiveRun live;
-  SeriesRow row;
-  std::vector<std::string> columns;
-  std::vector<double> rows;  ///< the newest kRows
-  double time = 0;
-  std::vector<float> before_x, before_y;  ///< m, in the frame before
-  PictureBox box;
-  std::vector<float> field_x, field_y;  ///< where the field is shown, m, world
-  int field_columns = 1, field_rows = 1;
-};
 
 LiveLab::LiveLab(unsigned threads)
     : parts_(builtin_parts()), pool_(threads), thread_([this](const std::stop_token& s) { work(s); }) {}
@@ -166,7 +72,9 @@ void LiveLab::work(const std::stop_token& stop) {
       shown_ = std::move(next_);
     }
     ++run_;
-    due_ = told_ = Clock::now(), told_frame_ = 0, real_speed_ = 0;
+    due_ = told_ = Clock::now();
+    told_frame_ = 0;
+    real_speed_ = 0;
     tell(run_news());
     tell(state());
     try {
@@ -187,7 +95,8 @@ void LiveLab::keep_pace() {
   if (since < kTellEvery) return;
   const std::uint64_t frames = shown_->live.frame() - told_frame_;
   real_speed_ = double(frames) * shown_->live.scenario().frame_period() / since;
-  told_ = now, told_frame_ = shown_->live.frame();
+  told_ = now;
+  told_frame_ = shown_->live.frame();
   tell(state());
 }
 
@@ -196,7 +105,8 @@ bool LiveLab::between_frames(const std::stop_token& stop) {
   publish(Clock::now());
   std::unique_lock lock(mutex_);
   if (pause_at_ > 0 && shown_->live.frame() >= pause_at_) {
-    pause_at_ = 0, paused_ = true;
+    pause_at_ = 0;
+    paused_ = true;
     const Json news = state();
     lock.unlock();
     tell(news);
@@ -208,7 +118,8 @@ bool LiveLab::between_frames(const std::stop_token& stop) {
     const auto woken = [&] { return stop.stop_requested() || !asked_.empty(); };
     if (paused_) {
       wake_.wait(lock, woken);
-      due_ = told_ = Clock::now(), told_frame_ = shown_->live.frame();
+      due_ = told_ = Clock::now();
+      told_frame_ = shown_->live.frame();
     } else if (!wake_.wait_until(lock, due_, woken)) {
       return true;
     }
@@ -251,7 +162,8 @@ Json LiveLab::run_news() const {
         {{"begin", p.begin}, {"end", p.end}, {"polarity", p.polarity > 0 ? "north" : "south"}});
   Json j = parts_news();
   j["say"] = "run";
-  j["run"] = run_, j["seed"] = live.seed();
+  j["run"] = run_;
+  j["seed"] = live.seed();
   j["frame"] = {{"width", s.frame().width},
                 {"height", s.frame().height},
                 {"um_per_px", s.frame().m_per_px * 1e6},
@@ -310,8 +222,9 @@ void LiveLab::leave(std::uint64_t who) {
 }
 
 Json LiveLab::begin(const Document& d, std::uint64_t seed) {
-  next_ = std::make_unique<Shown>(d, seed, parts_, pool_);
-  paused_ = false, pause_at_ = 0;
+  next_ = std::make_unique<ShownRun>(d, seed, parts_, pool_);
+  paused_ = false;
+  pause_at_ = 0;
   return {{"seed", seed}};
 }
 
@@ -337,7 +250,8 @@ void LiveLab::pause(bool paused, Done done) {
   ask(
       [this, paused] {
         live();
-        paused_ = paused, pause_at_ = 0;
+        paused_ = paused;
+        pause_at_ = 0;
         due_ = Clock::now();
         tell(state());
         return Json{{"frame", live().frame()}};
@@ -348,7 +262,8 @@ void LiveLab::pause(bool paused, Done done) {
 void LiveLab::step(std::uint64_t frames, Done done) {
   ask(
       [this, frames] {
-        pause_at_ = live().frame() + frames, paused_ = false;
+        pause_at_ = live().frame() + frames;
+        paused_ = false;
         due_ = Clock::now();
         tell(state());
         return Json{{"frame", pause_at_}};

@@ -13,6 +13,8 @@
 
 namespace faba {
 
+struct ShownRun;
+
 /// The run that pages watch and steer. It has a thread of its own that keeps pace with the clock; whatever is
 /// asked of it happens there, between two frames. Frames go out through a slot of one: whoever is slow misses
 /// some, and the run waits for nobody.
@@ -51,7 +53,6 @@ class LiveLab {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Shown;  ///< a run, and what is kept of it for those who watch
 
   void work(const std::stop_token& stop);
   void ask(std::function<Json()> what, Done done);
@@ -69,7 +70,7 @@ class LiveLab {
 
   Parts parts_;
   Pool pool_;
-  std::unique_ptr<Shown> shown_, next_;  ///< next_: takes the place of shown_ as soon as that has stopped
+  std::unique_ptr<ShownRun> shown_, next_;  ///< next_: takes the place of shown_ as soon as that has stopped
   std::uint32_t run_ = 0;
   bool paused_ = false;
   std::uint64_t pause_at_ = 0;  ///< frame; 0: none

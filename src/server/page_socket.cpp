@@ -28,7 +28,9 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
 
   void open(const http::request<http::empty_body>& request) {
     websocket::stream_base::timeout t{};
-    t.handshake_timeout = kHandshake, t.idle_timeout = kIdle, t.keep_alive_pings = true;
+    t.handshake_timeout = kHandshake;
+    t.idle_timeout = kIdle;
+    t.keep_alive_pings = true;
     stream_.set_option(t);
     stream_.set_option(websocket::stream_base::decorator([](websocket::response_type& r) {
       r.set(http::field::sec_websocket_protocol, kPageProtocol);

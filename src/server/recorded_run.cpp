@@ -92,7 +92,10 @@ std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std
       f.table("responding").read(k, std::span<std::uint8_t>(responding));
       for (std::size_t i = 0; i < n; ++i) response[i] = float(responding[i]);
     }
-    frame.box = box_of(scene), frame.x = x, frame.y = y, frame.response = response;
+    frame.box = box_of(scene);
+    frame.x = x;
+    frame.y = y;
+    frame.response = response;
     const std::string one = encode_frame(frame);
     const auto length = std::uint32_t(one.size());
     out.append(reinterpret_cast<const char*>(&length), sizeof length);

@@ -54,8 +54,10 @@ std::vector<std::string> values(const Header& h, http::field name) {
 Credentials credentials_of(const Header& h, const std::optional<WebTarget>& target) {
   Credentials c;
   c.method = std::string(h.method_string());
-  c.host = values(h, http::field::host), c.origin = values(h, http::field::origin);
-  c.cookie = values(h, http::field::cookie), c.authorization = values(h, http::field::authorization);
+  c.host = values(h, http::field::host);
+  c.origin = values(h, http::field::origin);
+  c.cookie = values(h, http::field::cookie);
+  c.authorization = values(h, http::field::authorization);
   for (const auto& field : h)
     if (beast::iequals(field.name_string(), "Sec-Fetch-Site")) c.fetch_site.emplace_back(field.value());
   c.content_type = std::string(h[http::field::content_type]);
@@ -196,9 +198,11 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   void answer(std::string body, const std::filesystem::path& upload, const Header& header) {
     auto request = std::make_shared<WebRequest>();
     request->method = std::string(header.method_string());
-    request->path = target_->path, request->query = target_->query;
+    request->path = target_->path;
+    request->query = target_->query;
     request->query.erase("token");
-    request->body = std::move(body), request->upload = upload;
+    request->body = std::move(body);
+    request->upload = upload;
     const std::string range(header[http::field::range]);
     stream_.expires_never();  // work may take as long as it takes
     asio::post(server_.workers, [self = shared_from_this(), request, range] {

@@ -63,8 +63,14 @@ std::int32_t Exclusion::last_free(std::int32_t from, std::int32_t to) const {
   std::int32_t best = from;
   while (cx != tx || cy != ty) {
     const int twice = 2 * error;
-    if (twice >= dy) error += dy, cx += sx;
-    if (twice <= dx) error += dx, cy += sy;
+    if (twice >= dy) {
+      error += dy;
+      cx += sx;
+    }
+    if (twice <= dx) {
+      error += dx;
+      cy += sy;
+    }
     const std::int32_t cell = cy * grid_.columns + cx;
     if (taken_[std::size_t(cell)] != kFree) break;
     best = cell;

@@ -87,7 +87,10 @@ void World::head(const Population& p) {
   auto ux = state_.agents["ux"], uy = state_.agents["uy"], response = state_.agents["response"];
   const auto along = portable::sincos(*p.heading);
   for (std::size_t i = p.begin; i < p.end; ++i)
-    if (response[i] != 0) ux[i] = float(along.cos), uy[i] = float(along.sin);
+    if (response[i] != 0) {
+      ux[i] = float(along.cos);
+      uy[i] = float(along.sin);
+    }
 }
 
 void World::exchange_model(std::size_t population, std::shared_ptr<const AgentModel> model) {
@@ -98,7 +101,10 @@ void World::exchange_model(std::size_t population, std::shared_ptr<const AgentMo
     const auto column = state_.agents[name].subspan(p.begin, p.end - p.begin);
     out.assign(column.begin(), column.end());
   };
-  if (headed) keep("ux", ux), keep("uy", uy);
+  if (headed) {
+    keep("ux", ux);
+    keep("uy", uy);
+  }
   for (const auto& c : model->columns()) state_.agents.add(c.name);
   model->start(state_, p.begin, p.end, parts_.seed);
   for (std::size_t i = 0; i < ux.size(); ++i) {

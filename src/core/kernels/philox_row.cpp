@@ -18,7 +18,10 @@ void plain(std::uint32_t first, std::uint32_t step, std::uint32_t stream, std::u
   for (std::size_t i = 0; i < n; ++i) {
     std::uint32_t c0 = first + std::uint32_t(i), c1 = step, c2 = stream, c3 = 0;
     philox(c0, c1, c2, c3, std::uint32_t(seed), std::uint32_t(seed >> 32));
-    row.w0[i] = c0, row.w1[i] = c1, row.w2[i] = c2, row.w3[i] = c3;
+    row.w0[i] = c0;
+    row.w1[i] = c1;
+    row.w2[i] = c2;
+    row.w3[i] = c3;
   }
 }
 

@@ -32,7 +32,9 @@ class DipoleCoil {
       double rho = at.rho[i], z = at.z[i], r = norm(Vec2{rho, z});
       if (r < p_.radius) {
         const double out = r > 0 ? p_.radius / r : 0;
-        rho *= out, z = r > 0 ? z * out : p_.radius, r = p_.radius;
+        rho *= out;
+        z = r > 0 ? z * out : p_.radius;
+        r = p_.radius;
       }
       const double f = axial::kMu0 * p_.moment / (4 * portable::kPi * r * r * r * r * r);
       b.rho[i] += 3 * f * rho * z;

@@ -135,15 +135,18 @@ class Map final : public Field {
     for (std::size_t i = 0; i < d.at.size(); ++i) {
       const Vec3 p = d.at[i];
       if (norm(p) > distance) continue;
-      d.at[kept] = p, d.b[kept++] = d.b[i];
+      d.at[kept] = p;
+      d.b[kept++] = d.b[i];
     }
-    d.at.resize(kept), d.b.resize(kept);
+    d.at.resize(kept);
+    d.b.resize(kept);
   }
   static Expansion expanded(const FieldData& data, double measured_current) {
     constexpr double kTooFar = 0.05;  // assumed: a Hall probe is good to a hundredth
     const HarmonicFit fit = fit_harmonics(data);
     Expansion e;
-    e.centre = fit.field.centre, e.radius = fit.field.radius;
+    e.centre = fit.field.centre;
+    e.radius = fit.field.radius;
     for (const Vec3& p : data.at) {
       const Vec3 d = p - e.centre;
       e.half_size = {std::max(e.half_size.x, std::fabs(d.x)), std::max(e.half_size.y, std::fabs(d.y)),

@@ -220,8 +220,10 @@ void for_tiles(const Places& at, const Components& b, double factor, Compute&& c
   const std::size_t points = at.rho.size(), whole = points / kTile * kTile;
   tile.size = kTile;
   for (std::size_t i = 0; i < whole; i += kTile) {
-    tile.rho = &at.rho[i], tile.z = &at.z[i];
-    tile.b_rho = &b.rho[i], tile.b_z = &b.z[i];
+    tile.rho = &at.rho[i];
+    tile.z = &at.z[i];
+    tile.b_rho = &b.rho[i];
+    tile.b_z = &b.z[i];
     compute(tile);
   }
   if (whole == points) return;
@@ -229,12 +231,19 @@ void for_tiles(const Places& at, const Components& b, double factor, Compute&& c
   const std::size_t n = points - whole;
   std::array<double, kTile> rho, z, b_rho{}, b_z{};
   tile.size = (n + kVector - 1) / kVector * kVector;
-  for (std::size_t i = 0; i < tile.size; ++i)
-    rho[i] = at.rho[whole + (i < n ? i : 0)], z[i] = at.z[whole + (i < n ? i : 0)];
-  tile.rho = rho.data(), tile.z = z.data();
-  tile.b_rho = b_rho.data(), tile.b_z = b_z.data();
+  for (std::size_t i = 0; i < tile.size; ++i) {
+    rho[i] = at.rho[whole + (i < n ? i : 0)];
+    z[i] = at.z[whole + (i < n ? i : 0)];
+  }
+  tile.rho = rho.data();
+  tile.z = z.data();
+  tile.b_rho = b_rho.data();
+  tile.b_z = b_z.data();
   compute(tile);
-  for (std::size_t i = 0; i < n; ++i) b.rho[whole + i] += b_rho[i], b.z[whole + i] += b_z[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    b.rho[whole + i] += b_rho[i];
+    b.z[whole + i] += b_z[i];
+  }
 }
 
 }  // namespace

@@ -28,8 +28,10 @@ FABA_VECTORISED void interpolate(const Grid& g, const float* x, const float* y, 
   FABA_ELEMENTWISE
   for (std::size_t i = 0; i < n; ++i) {
     float u = (x[i] - left) * scale, v = (y[i] - low) * scale;
-    u = u > 0.0f ? u : 0.0f, v = v > 0.0f ? v : 0.0f;
-    u = u < last_column ? u : last_column, v = v < last_row ? v : last_row;
+    u = u > 0.0f ? u : 0.0f;
+    v = v > 0.0f ? v : 0.0f;
+    u = u < last_column ? u : last_column;
+    v = v < last_row ? v : last_row;
     const int column = int(u), row = int(v);
     const float fu = u - float(column), fv = v - float(row);
     const int a = 2 * (row * columns + column), b = a + 2 * columns;
@@ -122,7 +124,8 @@ void FieldTable::set(std::span<const double> current) {
   for (std::size_t i = 0; i < grid_.nodes(); ++i) {
     Vec2 sum{ambient_.x, ambient_.y};
     for (std::size_t k = 0; k < basis_.size(); ++k) sum = sum + current_[k] * basis_[k][i];
-    nodes_[2 * i] = float(sum.x), nodes_[2 * i + 1] = float(sum.y);
+    nodes_[2 * i] = float(sum.x);
+    nodes_[2 * i + 1] = float(sum.y);
   }
 }
 

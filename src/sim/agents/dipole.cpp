@@ -130,11 +130,20 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
 
 Schema<Dipole::Params> Dipole::schema() {
   Params msr1;
-  msr1.moment = 2.0e-16, msr1.moment_spread = 0.3, msr1.radius = 1.5e-6, msr1.drag_factor = 3.6;
-  msr1.speed = 45e-6, msr1.speed_sd = 8e-6, msr1.speed_max = 80e-6;
+  msr1.moment = 2.0e-16;
+  msr1.moment_spread = 0.3;
+  msr1.radius = 1.5e-6;
+  msr1.drag_factor = 3.6;
+  msr1.speed = 45e-6;
+  msr1.speed_sd = 8e-6;
+  msr1.speed_max = 80e-6;
   Params mc1;
-  mc1.moment = 2e-15, mc1.moment_spread = 0.3, mc1.radius = 0.75e-6;
-  mc1.speed = 300e-6, mc1.speed_sd = 70e-6, mc1.speed_max = 550e-6;
+  mc1.moment = 2e-15;
+  mc1.moment_spread = 0.3;
+  mc1.radius = 0.75e-6;
+  mc1.speed = 300e-6;
+  mc1.speed_sd = 70e-6;
+  mc1.speed_max = 550e-6;
   Params it1;
   it1.moment_spread = 0.3;
   return Schema<Params>("dipole",
@@ -254,7 +263,8 @@ void Dipole::start(State& s, std::size_t begin, std::size_t end, std::uint64_t s
     const auto id = std::uint32_t(i);
     const auto w = draw(seed, kBirthDraws, id, 0);
     const auto heading = portable::sincos(float(std::int32_t(w[0]) >> 8) * (portable::kPiF * 0x1p-23f));
-    ux[i] = heading.cos, uy[i] = heading.sin;
+    ux[i] = heading.cos;
+    uy[i] = heading.sin;
     turning[i] = float(turning_ * portable::exp(p_.moment_spread * double(normals(w[1], w[2])[0])));
     double v = p_.speed;
     if (p_.speed_sd > 0) {

@@ -97,7 +97,8 @@ void Box::confine(State& s, const StepContext& c) const {
         qx = std::clamp(2 * qx - px, -half_x_, half_x_);
         qy = std::clamp(2 * qy - py, -half_y_, half_y_);
       } else if (p_.limits == Limits::reject) {
-        qx = x[i], qy = y[i];
+        qx = x[i];
+        qy = y[i];
       }
       c.to_x[i] = qx;
       c.to_y[i] = qy;
