@@ -14,15 +14,58 @@ import re
 import subprocess
 import sys
 
-# Where the default of a section is chosen.
-DEFAULTS = {
-    "src/app/scenario/scenario.h": {"box", "uniform", "none", "fuzzy", "horn_schunck"},
+# Where the default of a section is chosen, or the program writes a scenario.
+CHOSEN = {
+    "src/app/bench/step_response.cpp": {"image", "manual"},
+    "src/app/files/from_picture.cpp": {"drop", "visible"},
     "src/app/scenario/scenario.cpp": {"mean", "image", "none", "hold"},
+    "src/app/scenario/scenario.h": {"box", "uniform", "none", "fuzzy", "horn_schunck"},
     "src/app/scenario/sections/field.cpp": {"uniform"},
     "src/app/scenario/sections/swarm.cpp": {"dipole", "uniform"},
     "src/rig/setup/rig_setup.cpp": {"simulated"},
+    "src/study/data/flow_choice.h": {"horn_schunck"},
+    "src/study/identify/best_scene.cpp": {"hold"},
+    "src/study/identify/episode_simulation.cpp": {"box", "drop", "dipole", "places", "none", "manual"},
+    "src/study/identify/matched_look.cpp": {"dipole"},
 }
-OTHER_MEANINGS = {}
+# What else the name of a part means, and where: (name, meaning, files).
+OTHER_MEANINGS = (
+    ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp"),
+    ("box", "a word in a sentence", "src/app/run/notes.cpp"),
+    ("box", "a value of boundary", "src/study/identify/identify_study.cpp"),
+    ("drop", "a word in a sentence", "src/app/run/notes.cpp"),
+    ("drop", "a value of boundary", "src/study/identify/identify_study.cpp"),
+    ("drop", "the verb", "src/cli/verbs/drop.cpp"),
+    ("edge", "a layer of the picture", "web/src/App.svelte"),
+    ("hold", "a parameter", "src/sim/agents/adapted.cpp src/sim/agents/basic.cpp"),
+    ("map", "the verb", "src/cli/verbs/field/map.cpp src/server/api.cpp"),
+    ("mean", "the average, as a JSON key, a parameter or a heading",
+     "src/app/bench/bench_view.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
+     "src/study/pages/compare_report.cpp src/study/pages/controller_report.cpp src/study/pages/identify_report.cpp "
+     "src/study/pages/tracks/track_json.cpp"),
+    ("none", "no defect", "src/rig/setup/amplifier.cpp"),
+    ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
+    ("none", "no exclusion", "src/sim/exclusion.cpp"),
+    ("none", "no evidence", "src/study/identify/found_model.cpp"),
+    ("none", "a value of boundary", "src/study/identify/identify_study.cpp"),
+    ("none", "an option of FFmpeg",
+     "src/vision/files/av_stream.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),
+    ("none", "a text or a style of the page", "web/src/i18n.ts web/src/parts/export.ts"),
+    ("rig", "the section [rig]",
+     "src/app/bench/bench_controls.cpp src/app/bench/simulated_bench.cpp src/app/bench/step_response.cpp "
+     "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/cli/verbs/rig/jog.cpp src/rig/bench/bench_rig.cpp"),
+    ("rig", "the verb", "src/app/bench/bench_process.cpp src/cli/verbs/rig/rig.cpp"),
+    ("rig", "the file of a coil system, as an argument or a key",
+     "src/app/files/library_file.cpp src/cli/options/field.cpp src/cli/verbs/field/fit.cpp src/cli/verbs/schema.cpp "
+     "src/server/api.cpp src/study/coils/field_library.cpp"),
+    ("route", "a label or a layer of a picture", "src/study/pages/run_figures.cpp web/src/App.svelte"),
+    ("simulated", "the word of a trait", "src/core/traits.h"),
+    ("visible", "a label, a parameter or a style",
+     "src/sim/starts/edge.cpp src/study/pages/run_figures.cpp web/src/view/Microscope.svelte"),
+)
+COMPARED = re.compile(r'\.(type|name)(\(\))? *[!=]= *"')
+LIST = "src/app/parts.cpp"
+SOURCES = ("src/**/*.cpp", "src/**/*.h", "web/src/**/*.ts", "web/src/**/*.svelte")
 
 
 def part_names(program):
@@ -43,31 +86,36 @@ def strings_in(text):
             yield number, found[1] if found[1] is not None else found[2]
 
 
+def misused(root, names):
+    """Messages about names of parts that stand where they may not, and about entries that nothing needs."""
+    chosen = {(file, name) for file, words in CHOSEN.items() for name in words}
+    other = {(file, name) for name, _, files in OTHER_MEANINGS for file in files.split()}
+    used = set()
+    for file in (f for pattern in SOURCES for f in sorted(root.glob(pattern))):
+        here = file.relative_to(root).as_posix()
+        text = file.read_text()
+        for number, line in enumerate(text.splitlines(), 1):
+            if file.suffix in (".cpp", ".h") and COMPARED.search(line):
+                yield f"{here}:{number}: a type or a name is compared with a string; ask for a trait, a role or an enum"
+        for number, word in strings_in(text):
+            if word not in names or here == LIST or own_file(text, word):
+                continue
+            if (here, word) in chosen | other:
+                used.add((here, word))
+            else:
+                yield f'{here}:{number}: "{word}" is the name of a part; ask for a trait, or state in tools/check_parts.py what it means'
+    for here, word in sorted((chosen | other) - used):
+        yield f'tools/check_parts.py: "{word}" no longer stands in {here}; remove the entry'
+
+
 def main():
     options = argparse.ArgumentParser()
     options.add_argument("--program", required=True)
     options.add_argument("--root", type=pathlib.Path, required=True)
     o = options.parse_args()
     names = part_names(o.program)
-    wrong, used = [], set()
-    files = [f for pattern in ("src/**/*.cpp", "src/**/*.h", "web/src/**/*.ts", "web/src/**/*.svelte") for f in sorted(o.root.glob(pattern))]
-    for file in files:
-        here = str(file.relative_to(o.root))
-        text = file.read_text()
-        for number, word in strings_in(text):
-            if word not in names or here == "src/app/parts.cpp" or own_file(text, word):
-                continue
-            if word in DEFAULTS.get(here, ()):
-                continue
-            if word in OTHER_MEANINGS.get(here, {}):
-                used.add((here, word))
-                continue
-            wrong.append(f'{here}:{number}: "{word}" is the name of a part; ask for a trait, or say in tools/check_parts.py what it means')
-    for here, words in OTHER_MEANINGS.items():
-        for word in words:
-            if (here, word) not in used:
-                wrong.append(f'tools/check_parts.py: "{word}" no longer stands in {here}; take the entry out')
-    print("\n".join(wrong) or f"{len(names)} names of parts stand in {len(files)} files only where they may")
+    wrong = list(misused(o.root, names))
+    print("\n".join(wrong) or f"{len(names)} names of parts stand as strings only where they may")
     return 1 if wrong else 0
 
 

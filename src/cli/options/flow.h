@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "study/data/flow_choice.h"
+
 namespace CLI {
 class App;
 }
@@ -13,7 +15,7 @@ namespace faba::cli {
 /// How flows are made: the flow part, the parameters given for it in words, and what comes before and beside
 /// it.
 struct FlowOptions {
-  std::string method = "horn_schunck";
+  std::string method = FlowChoice{}.method;
   std::vector<std::pair<std::string, std::string>> values;
   int shrink = 0;
   double fps = 0;

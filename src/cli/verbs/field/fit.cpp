@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
 
 #include "cli/command_line.h"
 #include "cli/options/field.h"
@@ -15,31 +17,31 @@ struct FieldFitVerb {
   bool force = false;
 };
 
+void print_fitted(const char* what, const std::array<double, 3>& value, const std::array<double, 3>& error,
+                  double per_unit, const char* unit) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!std::isnan(error[k]))
+      fmt::print("{:<12}{:>9.4g} +- {:.2g} {}\n", fmt::format("{} {}", what, "xyz"[k]), value[k] / per_unit,
+                 error[k] / per_unit, unit);
+}
+
 int field_fit(const FieldFitVerb& v, const Common& c) {
   check_output(v.out, "", v.force, {v.rig, v.measured});
   check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
-  const auto j = field_json(faba::field_fit(v.rig, v.measured, v.out, v.picture));
+  const FieldFit fit = faba::field_fit(v.rig, v.measured, v.out, v.picture);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", field_json(fit).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  fmt::print("{:<12}{:>9.4f} +- {:.4f}\n", "gain", j["gain"].get<double>(), j["gain_se"].get<double>());
-  const auto vector = [&](const char* what, const char* key, const char* error, double per_unit,
-                          const char* unit) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (!j[error][k].is_null())
-        fmt::print("{:<12}{:>9.4g} +- {:.2g} {}\n", fmt::format("{} {}", what, "xyz"[k]),
-                   j[key][k].get<double>() / per_unit, j[error][k].get<double>() / per_unit, unit);
-  };
-  vector("shift", "shift_m", "shift_se_m", 1e-3, "mm");
-  vector("offset", "offset_t", "offset_se_t", 1e-6, "uT");
-  fmt::print("left over   {:>9.3g} uT rms of {:.4g} uT, {} values\n", j["rms_t"].get<double>() * 1e6,
-             j["rms_field_t"].get<double>() * 1e6, j["values"].get<int>());
+  fmt::print("{:<12}{:>9.4f} +- {:.4f}\n", "gain", fit.best.gain, fit.standard_error.gain);
+  print_fitted("shift", fit.best.shift, fit.standard_error.shift, 1e-3, "mm");
+  print_fitted("offset", fit.best.offset, fit.standard_error.offset, 1e-6, "uT");
+  fmt::print("left over   {:>9.3g} uT rms of {:.4g} uT, {} values\n", fit.rms * 1e6, fit.rms_field * 1e6,
+             fit.values);
   for (const auto& file : {v.out, v.picture})
     if (!file.empty()) fmt::print("  {}\n", file.string());
-  if (const auto note = j["note"].get<std::string>(); !note.empty())
-    tell(fmt::format("faba: note: {}: {}", v.measured.string(), note));
+  if (!fit.note.empty()) tell(fmt::format("faba: note: {}: {}", v.measured.string(), fit.note));
   return 0;
 }
 

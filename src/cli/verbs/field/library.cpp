@@ -34,26 +34,26 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
   Progress bar("library", !c.json && !c.quiet);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };
-  const auto j = field_json(build_field_library(v.rig, v.out, o));
+  const FieldLibrarySummary made = build_field_library(v.rig, v.out, o);
   bar.clear();
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", field_json(made).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  fmt::print("{} entries of {} x {} nodes, from {} sets of currents\n", j["entries"].get<std::uint64_t>(),
-             j["columns"].get<int>(), j["rows"].get<int>(), j["combinations"].get<std::uint64_t>());
-  if (const auto& off = j["off_m"]; !off.is_null())
+  fmt::print("{} entries of {} x {} nodes, from {} sets of currents\n", made.entries, made.columns, made.rows,
+             made.combinations);
+  if (made.off)
     fmt::print(
         "nearest zero {:.3g} um away in the median, {:.3g} um at most; the solver's is at the place itself\n",
-        off["median"].get<double>() * 1e6, off["largest"].get<double>() * 1e6);
-  if (const auto& s = j["strength"]; !s.is_null())
-    fmt::print("trap {:.3g} times as strong as the solver's in the median\n", s.get<double>());
-  if (j["entries"] == 0)
+        made.off->median * 1e6, made.off->largest * 1e6);
+  if (made.strength)
+    fmt::print("trap {:.3g} times as strong as the solver's in the median\n", *made.strength);
+  if (made.entries == 0)
     tell(
         "faba: note: no set of currents makes a zero of the field in this rectangle; a library needs two "
         "coils at least");
-  else if (j["traps"] == 0)
+  else if (made.traps == 0)
     tell("faba: note: all zeros are saddles, which drive cells away along one direction");
   fmt::print("  {}\n", v.out.string());
   return 0;

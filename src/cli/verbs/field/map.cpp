@@ -34,8 +34,17 @@ std::vector<double> amperes(const std::string& words) {
 }
 
 // To four decimals, without a sign before zero.
-double millimetres(const nlohmann::ordered_json& metres) {
-  return std::round(metres.get<double>() * 1e7) / 1e4 + 0.0;
+double millimetres(double metres) { return std::round(metres * 1e7) / 1e4 + 0.0; }
+
+void print_map(const FieldMap& map, bool all) {
+  for (const FieldMap::Zero& z : map.zeros)
+    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", millimetres(z.at.x),
+               millimetres(z.at.y), z.kind, z.gradient[0], z.gradient[1]);
+  if (all && !map.note.empty()) tell("faba: note: " + map.note);
+  if (all) fmt::print("strongest {:.4g} mT\n", map.strongest * 1e3);
+  if (map.table)
+    fmt::print("table {} x {} nodes, {:.3g} um apart; largest error {:.1e} of a coil's largest field\n",
+               map.table->columns, map.table->rows, map.table->spacing * 1e6, map.table->error);
 }
 
 int field_map(const FieldMapVerb& v, const Common& c) {
@@ -55,22 +64,13 @@ int field_map(const FieldMapVerb& v, const Common& c) {
     if (!o.picture.empty() && o.picture.extension() != ".png")
       throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
   }
-  const auto j = field_json(faba::field_map(v.rig, o));
+  const FieldMap map = faba::field_map(v.rig, o);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", field_json(map).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  for (const auto& z : j["zeros"])
-    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", millimetres(z["at_m"][0]),
-               millimetres(z["at_m"][1]), z["kind"].get<std::string>(),
-               z["eigenvalues_t_per_m"][0].get<double>(), z["eigenvalues_t_per_m"][1].get<double>());
-  if (const auto note = j["note"].get<std::string>(); !note.empty() && !v.check) tell("faba: note: " + note);
-  if (!v.check) fmt::print("strongest {:.4g} mT\n", j["strongest_t"].get<double>() * 1e3);
-  if (const auto& t = j["table"]; !t.is_null())
-    fmt::print("table {} x {} nodes, {:.3g} um apart; largest error {:.1e} of a coil's largest field\n",
-               t["columns"].get<int>(), t["rows"].get<int>(), t["spacing_m"].get<double>() * 1e6,
-               t["error"].get<double>());
+  print_map(map, !v.check);
   for (const auto& file : {o.picture, o.hdf5})
     if (!file.empty()) fmt::print("  {}\n", file.string());
   return 0;

@@ -15,19 +15,17 @@ struct FieldNullVerb {
 };
 
 int field_null(const FieldNullVerb& v, const Common& c) {
-  const auto j = field_json(null_of_rig(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1));
+  const RigNull found = null_of_rig(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", field_json(found).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  for (std::size_t k = 0; k < j["coils"].size(); ++k)
-    fmt::print("{:<12}{:>12.6g} A\n", j["coils"][k].get<std::string>(), j["currents_a"][k].get<double>());
-  fmt::print("gradient    {:.4g} and {:.4g} T/m in the plane, {:.4g} T/m along z\n",
-             j["eigenvalues_t_per_m"][0].get<double>(), j["eigenvalues_t_per_m"][1].get<double>(),
-             j["dbz_dz_t_per_m"].get<double>());
-  if (const auto note = j["note"].get<std::string>(); !note.empty())
-    tell(fmt::format("faba: note: {}: {}", v.rig.string(), note));
+  for (std::size_t k = 0; k < found.coils.size(); ++k)
+    fmt::print("{:<12}{:>12.6g} A\n", found.coils[k], found.null.current[k]);
+  fmt::print("gradient    {:.4g} and {:.4g} T/m in the plane, {:.4g} T/m along z\n", found.null.gradient[0],
+             found.null.gradient[1], found.null.out_of_plane);
+  if (!found.note.empty()) tell(fmt::format("faba: note: {}: {}", v.rig.string(), found.note));
   return 0;
 }
 

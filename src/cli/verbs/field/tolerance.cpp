@@ -19,19 +19,18 @@ struct FieldToleranceVerb {
 
 int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
   check_output(v.picture, ".svg", v.force, {v.rig});
-  const auto j = field_json(faba::field_tolerance(v.rig, place("--at", v.at), v.picture));
+  const FieldTolerance tolerance = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
   if (c.json) {
-    fmt::print("{}\n", j.dump());
+    fmt::print("{}\n", field_json(tolerance).dump());
     return 0;
   }
   if (c.quiet) return 0;
   std::string before;
-  for (const auto& row : j["rows"]) {
-    if (!before.empty() && before != row["cause"]) fmt::print("\n");
-    before = row["cause"].get<std::string>();
-    fmt::print("{:<42}{}\n", row["words"].get<std::string>(),
-               row["lost"] == true ? "the zero is gone"
-                                   : fmt::format("{:>8.4f} mm", row["shift_m"].get<double>() * 1e3));
+  for (const FieldTolerance::Row& row : tolerance.rows) {
+    if (!before.empty() && before != row.cause) fmt::print("\n");
+    before = row.cause;
+    fmt::print("{:<42}{}\n", row.words,
+               row.shift ? fmt::format("{:>8.4f} mm", *row.shift * 1e3) : "the zero is gone");
   }
   if (!v.picture.empty()) fmt::print("  {}\n", v.picture.string());
   return 0;
