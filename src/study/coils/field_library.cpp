@@ -67,7 +67,8 @@ class Search {
     least_ = best.reachable ? kLeast * strength(best.gradient) : 0;
     for (const Vec2 share : {Vec2{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
       Start s{{0.5 * share.x * half.x, 0.5 * share.y * half.y}, {}, {}};
-      s.b.resize(field.coils()), s.g.resize(field.coils());
+      s.b.resize(field.coils());
+      s.g.resize(field.coils());
       field.basis({s.at.x, s.at.y, 0}, s.b, s.g);
       starts_.push_back(std::move(s));
     }
@@ -102,8 +103,10 @@ class Search {
     double xx = 0, xy = 0, yx = 0, yy = 0;
     for (std::size_t k = 0; k < current.size(); ++k) {
       b = b + current[k] * s.b[k];
-      xx += current[k] * s.g[k][0][0], xy += current[k] * s.g[k][0][1];
-      yx += current[k] * s.g[k][1][0], yy += current[k] * s.g[k][1][1];
+      xx += current[k] * s.g[k][0][0];
+      xy += current[k] * s.g[k][0][1];
+      yx += current[k] * s.g[k][1][0];
+      yy += current[k] * s.g[k][1][1];
     }
     const double d = xx * yy - xy * yx;
     const Vec2 zero = s.at - (1 / d) * Vec2{yy * b.x - xy * b.y, xx * b.y - yx * b.x};

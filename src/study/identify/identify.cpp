@@ -75,7 +75,10 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto at = std::find(o.experiments.begin(), o.experiments.end(), label[k]);
     const auto i = std::size_t(at - o.experiments.begin());
-    if (at == o.experiments.end()) o.experiments.push_back(label[k]), o.columns.emplace_back();
+    if (at == o.experiments.end()) {
+      o.experiments.push_back(label[k]);
+      o.columns.emplace_back();
+    }
     o.columns[i].push_back(Index(k));
   }
   o.numbers = Eigen::Map<VectorXd>(numbers.data(), Index(numbers.size()));
@@ -131,7 +134,11 @@ class Round {
     const ResponseVideo& video = videos_[part.video];
     // A seed of its own for each: what chance does to one simulation says nothing of the next.
     Hash h;
-    h.value(study_.seed), h.value(candidate), h.value(number), h.value(i), h.value(p);
+    h.value(study_.seed);
+    h.value(candidate);
+    h.value(number);
+    h.value(i);
+    h.value(p);
     const std::uint64_t seed = h.result() >> 1;
     const Episode& episode = video.episodes[part.episode];
     const double usual = (video.drives_found ? kTimingFound : kTimingGiven) / video.fps;
@@ -310,18 +317,23 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   VectorXd scale = VectorXd::Zero(o.numbers.size());
   double models = 0;
   for (const CandidateSearch& s : searches)
-    if (s.failed.empty()) scale += noise_of(*s.search), models += 1;
+    if (s.failed.empty()) {
+      scale += noise_of(*s.search);
+      models += 1;
+    }
   scale /= std::max(1.0, models);
   for (std::size_t c = 0; c < searches.size(); ++c) {
     FoundModel m;
     if (searches[c].failed.empty())
       m = found_model(study.candidates[c], *searches[c].search, o.columns, scale,
                       derived_seed(study.seed, SeedUse::found_model, c));
-    m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
+    m.name = study.candidates[c].model.name;
+    m.failed = searches[c].failed;
     tell_u_turn(m, study, study.candidates[c], r.videos);
     r.models.push_back(std::move(m));
   }
-  r.statistics = o.statistics, r.experiments = o.experiments;
+  r.statistics = o.statistics;
+  r.experiments = o.experiments;
   judge(r);
   if (!foretell(study, r, *searches[r.best].search, o, parts, results, options)) return {};
   if (study.legacy) {

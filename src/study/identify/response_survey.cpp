@@ -133,7 +133,8 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
       if (boundary == Boundary::none && drives.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
     }
     Episode& e = episodes.back();
-    d.t0_s -= e.begins_s, d.t1_s -= e.begins_s;
+    d.t0_s -= e.begins_s;
+    d.t1_s -= e.begins_s;
     e.drives.push_back(d);
   }
   return episodes;
@@ -144,10 +145,13 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
 void find_ground(ResponseVideo& v, Measure measure, double from_s, double to_s,
                  const std::function<void()>& tick) {
   VideoGroundOptions o;
-  o.fps = v.input.fps, o.side = v.side, o.tick = tick;
+  o.fps = v.input.fps;
+  o.side = v.side;
+  o.tick = tick;
   if (measure == Measure::density)
     o.share = v.view.cells.polarity == Polarity::bright ? 1 - kUncovered : kUncovered;
-  o.from_s = from_s - 0.5 * v.view.frame_s, o.to_s = to_s + 0.5 * v.view.frame_s;
+  o.from_s = from_s - 0.5 * v.view.frame_s;
+  o.to_s = to_s + 0.5 * v.view.frame_s;
   v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, o));
   Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
   for (float& x : b.level.px) x *= float(kWhite);
@@ -160,7 +164,8 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
                         const std::function<void()>& tick) {
   const std::string name = v.input.file.string();
   TrackOptions options;
-  options.video = v.input.file, options.fps = v.input.fps;
+  options.video = v.input.file;
+  options.fps = v.input.fps;
   const auto survey = [&] {
     return survey_tracks(
         options, v.file, [&](auto, auto) { tick(); }, v.side);
@@ -177,7 +182,9 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   }
   v.um_per_px *= v.side;
   v.fps = 1 / s.frame_s;
-  v.view.width = s.first.width, v.view.height = s.first.height, v.view.frame_s = s.frame_s;
+  v.view.width = s.first.width;
+  v.view.height = s.first.height;
+  v.view.frame_s = s.frame_s;
   v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
   find_ground(v, measure, 0, s.duration_s, tick);
@@ -225,7 +232,10 @@ std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& 
   for (double t = 0; video.read(frame, t) && t <= last + 1;) {
     tick();
     for (std::size_t i = 0; i < times_s.size(); ++i)
-      if (const double d = std::fabs(t - times_s[i]); d < off[i]) frames[i] = frame, off[i] = d;
+      if (const double d = std::fabs(t - times_s[i]); d < off[i]) {
+        frames[i] = frame;
+        off[i] = d;
+      }
   }
   return frames;
 }

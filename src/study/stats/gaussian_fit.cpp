@@ -82,8 +82,10 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   }
   const double begin = t_s.front(), length = t_s.back() - begin, range = *high;
   std::vector<double> t, y;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    t.push_back((t_s[i] - begin) / length), y.push_back(values[i] / range);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    t.push_back((t_s[i] - begin) / length);
+    y.push_back(values[i] / range);
+  }
 
   Peak peak(t, y);
   Eigen::VectorXd x = start(t, y);
@@ -92,14 +94,19 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   x[2] = std::fabs(x[2]);
   Eigen::VectorXd r(Eigen::Index(y.size()));
   Eigen::MatrixXd j(Eigen::Index(y.size()), 4);
-  peak(x, r), peak.df(x, j);
+  peak(x, r);
+  peak.df(x, j);
   const double variance = r.squaredNorm() / double(y.size() - 4);
   const Eigen::MatrixXd covariance =
       (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse() * variance * values_to_one(r);
   const auto se = [&](int i) { return std::sqrt(std::max(covariance(i, i), 0.0)); };
-  fit.amplitude = x[0] * range, fit.peak_s = begin + x[1] * length, fit.sigma_s = x[2] * length;
+  fit.amplitude = x[0] * range;
+  fit.peak_s = begin + x[1] * length;
+  fit.sigma_s = x[2] * length;
   fit.offset = x[3] * x[3] * range;
-  fit.se_amplitude = se(0) * range, fit.se_peak_s = se(1) * length, fit.se_sigma_s = se(2) * length;
+  fit.se_amplitude = se(0) * range;
+  fit.se_peak_s = se(1) * length;
+  fit.se_sigma_s = se(2) * length;
   fit.se_offset = 2 * std::fabs(x[3]) * se(3) * range;
   fit.scatter = std::sqrt(variance) * range;
   double constant = 0, mean = 0;

@@ -33,7 +33,11 @@ std::vector<int> lags_up_to(int most) {
 struct LagSums {
   double n = 0, dt = 0, dx = 0, dy = 0, rr = 0;
   LagSums& operator+=(const LagSums& o) {
-    n += o.n, dt += o.dt, dx += o.dx, dy += o.dy, rr += o.rr;
+    n += o.n;
+    dt += o.dt;
+    dx += o.dx;
+    dy += o.dy;
+    rr += o.rr;
     return *this;
   }
   LagSums without(const LagSums& o) const { return {n - o.n, dt - o.dt, dx - o.dx, dy - o.dy, rr - o.rr}; }
@@ -154,7 +158,8 @@ void TrackStatistics::Impl::add_displacements(const Track& t) {
         const int a = slots[i], b = slots[i + p.over], c = slots[i + p.apart],
                   d = slots[i + p.apart + p.over];
         if (a < 0 || b < 0 || c < 0 || d < 0) continue;
-        p.n += 1, p.dot += dot(place(b) - place(a), place(d) - place(c));
+        p.n += 1;
+        p.dot += dot(place(b) - place(a), place(d) - place(c));
       }
 }
 
@@ -176,18 +181,24 @@ void TrackStatistics::Impl::add_motion(const Track& t) {
     const double dt = q.t_s - p.t_s;
     // Across the direction of motion the error makes displacements longer, along it neither (theory H2).
     const double length = std::sqrt(std::max(0.0, dot(d, d) - 2 * noise2)), v = length / dt;
-    g.speed.n += 1, g.speed.v += v;
+    g.speed.n += 1;
+    g.speed.v += v;
     const double bin = length > kLowSpeed ? kBinsPerDecade * std::log10(length / kLowSpeed) : 0;
     speed_bins[std::min(kSpeedBins - 1, std::size_t(bin))] += 1;
-    sum_x += d.x / dt, sum_y += d.y / dt, sum_length += norm(d) / dt;
+    sum_x += d.x / dt;
+    sum_y += d.y / dt;
+    sum_length += norm(d) / dt;
     const bool clear = dot(d, d) > 9 * 2 * noise2 && dot(d, d) > 0;
     if (clear && has_last) {
       const double turn = std::atan2(last.x * d.y - last.y * d.x, dot(last, d));
-      g.turn.n += 1, g.turn.size += std::fabs(turn) / dt, g.turn.with_sign += turn / dt;
+      g.turn.n += 1;
+      g.turn.size += std::fabs(turn) / dt;
+      g.turn.with_sign += turn / dt;
       turn_bins[std::min(kTurnBins - 1,
                          std::size_t(std::fabs(turn) / std::numbers::pi * double(kTurnBins)))] += 1;
     }
-    last = d, has_last = clear;
+    last = d;
+    has_last = clear;
   }
   for (std::size_t i = 0; i + step < slots.size(); ++i) {  // overlapping: every moment has its say
     if (slots[i] < 0 || slots[i + step] < 0) continue;
@@ -214,8 +225,10 @@ Msd TrackStatistics::Impl::msd_without(const Group* left_out) const {
         return rest.n > 1 ? rest.msd() : sum.msd();
       });
     }
-    m.lag_s.push_back(sum.dt / sum.n), m.msd_px2.push_back(sum.msd());
-    m.se_px2.push_back(se), m.pairs.push_back(sum.n);
+    m.lag_s.push_back(sum.dt / sum.n);
+    m.msd_px2.push_back(sum.msd());
+    m.se_px2.push_back(se);
+    m.pairs.push_back(sum.n);
   }
   return m;
 }
@@ -225,8 +238,11 @@ Estimated TrackStatistics::Impl::product(std::size_t which, std::vector<ProductS
   const auto without = [&](const Group* left_out) {
     double n = 0, sum = 0, over = 0;
     for (const Group& g : groups)
-      if (&g != left_out)
-        n += (g.*list)[which].n, sum += (g.*list)[which].dot, over = double((g.*list)[which].over);
+      if (&g != left_out) {
+        n += (g.*list)[which].n;
+        sum += (g.*list)[which].dot;
+        over = double((g.*list)[which].over);
+      }
     LagSums one = all(0);
     if (left_out) one = one.without(left_out->lags[0]);
     if (n < 1 || one.n < 1) return kNaN;
@@ -246,7 +262,10 @@ void TrackStatistics::Impl::weigh_persistence(TrackSummary& s) const {
     // With too few tracks for a standard error only what is plain counts.
     const bool clear = std::isfinite(se) ? share > kClear * se && share > kKept : share > 2 * kKept;
     if (clear) s.persists = true;
-    if (share > s.persistence.value) s.persistence = {share, se}, s.persistence_scale_s = s.msd.lag_s[lag];
+    if (share > s.persistence.value) {
+      s.persistence = {share, se};
+      s.persistence_scale_s = s.msd.lag_s[lag];
+    }
   }
   for (std::size_t k = 0; k < kMostMemory - 1; ++k) {
     const Estimated p = product(k, &Group::memory);
@@ -263,7 +282,8 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
     return Estimated{value(one),
                      jackknife_se(groups, [&](const Group& g) { return value(one.without(g.lags[0])); })};
   };
-  s.drift_x_px_s = drift(true), s.drift_y_px_s = drift(false);
+  s.drift_x_px_s = drift(true);
+  s.drift_y_px_s = drift(false);
   weigh_persistence(s);
   const auto skipped =
       s.persists ? 0
@@ -316,7 +336,10 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
   s.interval_s = interval * frame_s;
   const auto mean_of = [&](const auto& n_of, const auto& sum_of, double scale) {
     double n = 0, sum = 0;
-    for (const Group& g : groups) n += n_of(g), sum += sum_of(g);
+    for (const Group& g : groups) {
+      n += n_of(g);
+      sum += sum_of(g);
+    }
     if (n < 1) return Estimated{kNaN, kNaN};
     const auto rest = [&](const Group& g) {
       return n - n_of(g) > 0 ? scale * (sum - sum_of(g)) / (n - n_of(g)) : kNaN;
@@ -330,8 +353,10 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
       mean_of([](const Group& g) { return g.turn.n; }, [](const Group& g) { return g.turn.size; }, kDegrees);
   s.signed_turn_deg_s = mean_of([](const Group& g) { return g.turn.n; },
                                 [](const Group& g) { return g.turn.with_sign; }, kDegrees);
-  for (const Group& g : groups)
-    s.speed_count += std::uint64_t(g.speed.n), s.turn_count += std::uint64_t(g.turn.n);
+  for (const Group& g : groups) {
+    s.speed_count += std::uint64_t(g.speed.n);
+    s.turn_count += std::uint64_t(g.turn.n);
+  }
   const auto speed_at = [&](double bin) {
     return bin < 1 ? 0.0 : kLowSpeed * std::pow(10, bin / kBinsPerDecade) / s.interval_s;
   };
@@ -346,8 +371,10 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
     s.turn_noise_deg_s =
         std::sqrt(2 / std::numbers::pi) * kDegrees * std::sqrt(6 * noise2) / typical / s.interval_s;
   for (const TimeBins::Span& span : in_time.spans()) {
-    s.time_s.push_back(span.time_s), s.count_in_time.push_back(span.count);
-    s.velocity_x_px_s.push_back(span.x), s.velocity_y_px_s.push_back(span.y);
+    s.time_s.push_back(span.time_s);
+    s.count_in_time.push_back(span.count);
+    s.velocity_x_px_s.push_back(span.x);
+    s.velocity_y_px_s.push_back(span.y);
     s.order_in_time.push_back(span.order);
   }
   // Bins of equal width out to the 99.5 % quantile; the last one takes the rest.
@@ -373,7 +400,10 @@ void TrackStatistics::take(const Track& track) {
   Impl& me = *impl_;
   if (track.points.empty()) return;
   me.points += track.points.size();
-  if (!track.goes_on) me.track_count += 1, me.groups[track.number % kGroups].tracks += 1;
+  if (!track.goes_on) {
+    me.track_count += 1;
+    me.groups[track.number % kGroups].tracks += 1;
+  }
   me.add_displacements(track);
   if (me.settled) return me.add_motion(track);
   me.pilot.push_back(track);
