@@ -80,13 +80,10 @@ NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std:
                      });
 }
 
-VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {
-  VideoActivity a;
-  a.input = job.videos[index];
-  a.threshold_px = threshold;
-  a.direction_given = a.input.direction_deg.has_value();
+// Fills in the signature, the pair of frames with most motion and the notes of the source.
+void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, Pool& pool) {
   const double zero = a.input.direction_deg.value_or(0);
-  a.signature = Signature(threshold, zero);
+  a.signature = Signature(a.threshold_px, zero);
   FlowSource source(a.input.file, source_options(job, a.input), pool);
   FlowPair pair;
   double most = -1;
@@ -106,8 +103,34 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   if (a.signature.size() == 0)
     throw Error(Errc::input, a.input.file.string(),
                 "has fewer than two frames in the time asked for; motion needs two or more");
+}
+
+void note_motion(VideoActivity& a) {
+  if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
+    a.notes.emplace_back(
+        "there is activity, but not in one direction: cells that move by more than twice their width from "
+        "frame "
+        "to frame are not followed; record more frames per second");
+  if (a.signature.still())
+    a.notes.emplace_back("nothing moves in it");
+  else if (!a.direction_given)
+    a.notes.push_back(
+        a.segments.empty()
+            ? fmt::format("no direction was given and nothing goes one way; {:.0f} degrees is where all "
+                          "flow together points",
+                          a.direction_deg)
+            : fmt::format("no direction was given; {:.0f} degrees is that of the longest motion found",
+                          a.direction_deg));
+}
+
+VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {
+  VideoActivity a;
+  a.input = job.videos[index];
+  a.threshold_px = threshold;
+  a.direction_given = a.input.direction_deg.has_value();
+  read_signature(a, job, index, pool);
   a.segments = motion_segments(a.signature, a.input.direction_deg);
-  a.direction_deg = a.direction_given ? zero : found_direction(a);
+  a.direction_deg = a.direction_given ? *a.input.direction_deg : found_direction(a);
   const double cone = a.signature.nearest_deg(a.direction_deg);
   for (std::size_t k = 0; k < a.signature.size(); ++k) {
     a.t_s.push_back(a.signature.t_s(k));
@@ -129,21 +152,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   mark_points(a);
   if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
   a.responds = has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds : !a.segments.empty());
-  if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
-    a.notes.emplace_back(
-        "there is activity, but not in one direction: cells that move by more than twice their width from "
-        "frame "
-        "to frame are not followed; record more frames per second");
-  if (a.signature.still())
-    a.notes.emplace_back("nothing moves in it");
-  else if (!a.direction_given)
-    a.notes.push_back(
-        a.segments.empty()
-            ? fmt::format("no direction was given and nothing goes one way; {:.0f} degrees is where all "
-                          "flow together points",
-                          a.direction_deg)
-            : fmt::format("no direction was given; {:.0f} degrees is that of the longest motion found",
-                          a.direction_deg));
+  note_motion(a);
   return a;
 }
 
