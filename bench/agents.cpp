@@ -152,8 +152,10 @@ class Group {
     };
     const auto check = [this] {
       double mean = 0, square = 0;
-      for (const auto& b : peer_->bacteria())
-        mean += b.vx / double(agents_), square += b.vx * b.vx / double(agents_);
+      for (const auto& b : peer_->bacteria()) {
+        mean += b.vx / double(agents_);
+        square += b.vx * b.vx / double(agents_);
+      }
       const double variance = kBasicNoise * (kBasicNoise + 1) / 3.0;
       // the fourth moment of a discrete uniform law is at most 1.8 variance^2
       return std::vector<Check>{
@@ -163,8 +165,11 @@ class Group {
     };
     put(
         {{"kind", "sequential"}, {"order", "published"}, {"threads", 1}},
-        [this, go] { peer_->restore(), go(kCycle); }, [this, go] { go(steps_); },
-        double(steps_) * double(agents_), check);
+        [this, go] {
+          peer_->restore();
+          go(kCycle);
+        },
+        [this, go] { go(steps_); }, double(steps_) * double(agents_), check);
   }
 
   void add_limits(Pool& pool) {

@@ -44,7 +44,9 @@ void headings(const Swarm& s, std::vector<Check>& out) {
   double z = 0, c = 0, c2 = 0;
   for (int i = 0; i < 4096; ++i) {
     const double cosine = std::cos(2 * std::numbers::pi * i / 4096), w = std::exp(alignment() * (cosine - 1));
-    z += w, c += w * cosine, c2 += w * cosine * cosine;
+    z += w;
+    c += w * cosine;
+    c2 += w * cosine * cosine;
   }
   const double expected = 1 - c / z, sd = std::sqrt(c2 / z - (c / z) * (c / z));
   double sum = 0;

@@ -100,7 +100,10 @@ nlohmann::ordered_json shown(const ActivityResult& r) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc < 3) return fmt::print(stderr, "bench_exposure SCENE SEEDS [FOLDER]\n"), 2;
+  if (argc < 3) {
+    fmt::print(stderr, "bench_exposure SCENE SEEDS [FOLDER]\n");
+    return 2;
+  }
   const std::string scene = argv[1];
   const int seeds = std::atoi(argv[2]);
   const std::filesystem::path folder =

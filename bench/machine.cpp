@@ -79,7 +79,8 @@ void Machine::run(const std::string& name, int times) {
     each_block([&](std::size_t b, std::size_t e) {
       std::array<float, kBlock> s, c;
       sincos_block(m.angle.data(), s.data(), c.data(), e - b);
-      keep(s.data()), keep(c.data());
+      keep(s.data());
+      keep(c.data());
     });
   else if (name == "log")
     each_block([&](std::size_t b, std::size_t e) {

@@ -92,12 +92,14 @@ class PlainLoop {
     u = v = GrayF(kWidth, kHeight);
     GrayF u0, v0;
     for (int k = 0; k < kSweeps; ++k) {
-      u0 = u, v0 = v;
+      u0 = u;
+      v0 = v;
       for (int r = 0; r < kHeight; ++r)
         for (int c = 0; c < kWidth; ++c) {
           const float um = mean(u0, c, r), vm = mean(v0, c, r), gx = ix_.at(c, r), gy = iy_.at(c, r);
           const float s = (gx * um + gy * vm + it_.at(c, r)) / (100 + gx * gx + gy * gy);
-          u.at(c, r) = um - gx * s, v.at(c, r) = vm - gy * s;
+          u.at(c, r) = um - gx * s;
+          v.at(c, r) = vm - gy * s;
         }
     }
   }
@@ -124,7 +126,9 @@ GrayF grey(const Plane<float>& p) {
 
 HornSchunckParams params(FlowSolver solver, int iterations, double tolerance) {
   HornSchunckParams p;
-  p.solver = solver, p.iterations = iterations, p.tolerance = tolerance;
+  p.solver = solver;
+  p.iterations = iterations;
+  p.tolerance = tolerance;
   return p;
 }
 
@@ -253,10 +257,12 @@ int main() {
   time_in_turns(all, 9, 20);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Spread s = spread(all[i].ns);
-    rows[i].about["ms"] = s.median / 1e6, rows[i].about["low_ms"] = s.low / 1e6,
+    rows[i].about["ms"] = s.median / 1e6;
+    rows[i].about["low_ms"] = s.low / 1e6;
     rows[i].about["high_ms"] = s.high / 1e6;
     const EndpointError e = rows[i].error();
-    rows[i].about["error_px"] = e.all, rows[i].about["inside_px"] = e.inside;
+    rows[i].about["error_px"] = e.all;
+    rows[i].about["inside_px"] = e.inside;
     fmt::print("{}\n", rows[i].about.dump());
   }
   // The plain loop is the answer to the published iteration, to what floats can hold.

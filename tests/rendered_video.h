@@ -30,7 +30,9 @@ struct RenderedVideo {
 template <class Take>
 void render_frames(const RenderedVideo& v, Take&& take) {
   Frame frame;
-  frame.m_per_px = v.m_per_px, frame.width = v.width, frame.height = v.height;
+  frame.m_per_px = v.m_per_px;
+  frame.width = v.width;
+  frame.height = v.height;
   Pool pool(1);
   Microscope microscope(v.microscope, frame, v.edge, 1 / v.fps, v.seed);
   const double half = microscope.exposure_time() / 2;
@@ -39,8 +41,10 @@ void render_frames(const RenderedVideo& v, Take&& take) {
     const double t = v.time_of(k);
     std::vector<CameraCell> cells = v.cells(t);
     const std::vector<CameraCell> open = v.cells(t - half), shut = v.cells(t + half);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      cells[i].dx = shut[i].x - open[i].x, cells[i].dy = shut[i].y - open[i].y;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      cells[i].dx = shut[i].x - open[i].x;
+      cells[i].dy = shut[i].y - open[i].y;
+    }
     microscope.render({std::uint64_t(k), t, cells}, pool, picture);
     take(std::as_const(picture), k);
   }

@@ -18,7 +18,8 @@ Sequential::Sequential(std::size_t agents, int width, int height, int noise, int
       char& cell = grid_[std::size_t(y) * std::size_t(width) + std::size_t(x)];
       if (cell) continue;
       cell = 1;
-      b.x = x, b.y = y;
+      b.x = x;
+      b.y = y;
       break;
     }
   saved_ = bacteria_;

@@ -233,7 +233,12 @@ void LiveLab::start(Document d, std::optional<std::uint64_t> seed, Done done) {
 }
 
 void LiveLab::restart(Done done) {
-  ask([this] { return begin((live(), shown_->document), live().seed()); }, std::move(done));
+  ask(
+      [this] {
+        const std::uint64_t seed = live().seed();
+        return begin(shown_->document, seed);
+      },
+      std::move(done));
 }
 
 void LiveLab::exchange(Json event, Done done) {

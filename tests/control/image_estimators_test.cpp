@@ -14,7 +14,9 @@ namespace {
 
 Frame frame_of(const cells::Look& l) {
   Frame f;
-  f.m_per_px = 0.9e-6, f.width = l.width, f.height = l.height,
+  f.m_per_px = 0.9e-6;
+  f.width = l.width;
+  f.height = l.height;
   f.centre_image = {l.width * 0.4, l.height * 0.6};
   return f;
 }
@@ -52,7 +54,10 @@ TEST_CASE("image: centroid, spread and velocity in the world's frame; the share 
   for (int k = 0; k < 12; ++k) {
     last = e->update(seen(l, swarm, k / 15.0, std::uint64_t(k)), {});
     if (k < 11)
-      for (Vec2& p : swarm) p.x += 4, p.y += 1;
+      for (Vec2& p : swarm) {
+        p.x += 4;
+        p.y += 1;
+      }
   }
   const cells::Spread truth = cells::spread(swarm);
   CHECK(norm(frame.image_from_world(last.centroid) - truth.centroid) < 2);

@@ -36,7 +36,11 @@ TEST_CASE("normals: mean, variance, kurtosis and correlation of a million") {
   for (std::size_t i = 0; i < n; ++i) {
     const auto w = draw(1, Stream::motion, std::uint32_t(i), 0);
     const auto [a, b] = normals(w[0], w[1]);
-    for (const double g : {double(a), double(b)}) s1 += g, s2 += g * g, s4 += g * g * g * g;
+    for (const double g : {double(a), double(b)}) {
+      s1 += g;
+      s2 += g * g;
+      s4 += g * g * g * g;
+    }
     cross += double(a) * double(b);
   }
   const double m = 2 * double(n);

@@ -282,10 +282,14 @@ TEST_CASE("currents that may change but slowly: the loop keeps to it, and so do 
   int rises = 0;
   bool below = true;
   for (const Flowing& one : b.log()) {
-    if (one.most < kZero) none_until = one.t, below = true;
+    if (one.most < kZero) {
+      none_until = one.t;
+      below = true;
+    }
     if (one.most > 0.25 && below) {
       CHECK(one.t - none_until > 0.08);
-      below = false, ++rises;
+      below = false;
+      ++rises;
     }
   }
   CHECK(rises == 2);

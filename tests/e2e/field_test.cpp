@@ -28,7 +28,9 @@ TEST_CASE("field at: CSV in, CSV out, 17 digits, the coils' own currents") {
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   std::istringstream lines(c.out);
   std::string header, first, second;
-  std::getline(lines, header), std::getline(lines, first), std::getline(lines, second);
+  std::getline(lines, header);
+  std::getline(lines, first);
+  std::getline(lines, second);
   CHECK(header == "x_m,y_m,z_m,bx_t,by_t,bz_t");
   double x = 0, y = 0, z = 0, bx = 0, by = 0, bz = 0;
   REQUIRE(std::sscanf(second.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &bx, &by, &bz) == 6);

@@ -277,8 +277,10 @@ TEST_CASE("on the sheet: the mean of both sides, a jump of mu0 K; at its rim and
 
 TEST_CASE("a point's field does not depend on the points beside it") {
   std::vector<double> rho, z;
-  for (int i = 0; i < 1000; ++i)
-    rho.push_back(1e-5 * (i * 37 % 1000)), z.push_back(1e-4 * (i * 91 % 700 - 350));
+  for (int i = 0; i < 1000; ++i) {
+    rho.push_back(1e-5 * (i * 37 % 1000));
+    z.push_back(1e-4 * (i * 91 % 700 - 350));
+  }
   std::vector<double> all_rho(1000), all_z(1000);
   axial::add_sheet(0.005, 0.02, 1e-5, 1, {rho, z}, {all_rho, all_z});
   for (std::size_t i = 0; i < 1000; ++i) {

@@ -60,7 +60,8 @@ Off off(const Field& map, double size, double depth) {
     coil->per_ampere(0, {&p, 1}, {&a, 1});
     map.per_ampere(0, {&p, 1}, {&b, 1});
     const double d = norm(a - b);
-    o.worst = std::max(o.worst, d / norm(a)), o.rms += d * d / kPoints;
+    o.worst = std::max(o.worst, d / norm(a));
+    o.rms += d * d / kPoints;
   }
   o.rms = std::sqrt(o.rms);
   return o;
@@ -166,10 +167,14 @@ TEST_CASE("what is no map is refused, and says why") {
       out << i << "," << (line ? i : i * i % 7) << "," << (i == 5 ? b : "0") << ",0\n";
   };
   const std::string toml = "type = 'map'\nfile = '" + file + "'\n";
-  written("1", true), refused(toml, "on one line");
-  written("0", false), refused(toml, "all values are 0");
-  written("1e300", false), refused(toml, "beyond any laboratory");
-  written("1", false), refused(toml, "is not a magnetic field");
+  written("1", true);
+  refused(toml, "on one line");
+  written("0", false);
+  refused(toml, "all values are 0");
+  written("1e300", false);
+  refused(toml, "beyond any laboratory");
+  written("1", false);
+  refused(toml, "is not a magnetic field");
   CHECK_THROWS_AS(field_of("type = 'map'\n"), Error);
   CHECK_THROWS_AS(field_of("type = 'map'\nexpansion = { coefficients = [1, 2] }\n"), Error);
 }

@@ -139,12 +139,16 @@ TEST_CASE("unlike limits: no currents of a fine lattice do better, and what they
         std::vector<double> c{0, 0, most[2] * p / kSteps, most[3] * q / kSteps};
         const double x = -earth.x - c[2] * b[2].x - c[3] * b[3].x,
                      y = -earth.y - c[2] * b[2].y - c[3] * b[3].y;
-        c[0] = (x * b[1].y - y * b[1].x) / det, c[1] = (b[0].x * y - b[0].y * x) / det;
+        c[0] = (x * b[1].y - y * b[1].x) / det;
+        c[1] = (b[0].x * y - b[0].y * x) / det;
         if (std::fabs(c[0]) > most[0] || std::fabs(c[1]) > most[1]) continue;
         possible = true;
         double xx = 0, xy = 0, yy = 0;
-        for (std::size_t k = 0; k < 4; ++k)
-          xx += c[k] * g[k][0][0], yy += c[k] * g[k][1][1], xy += c[k] * 0.5 * (g[k][0][1] + g[k][1][0]);
+        for (std::size_t k = 0; k < 4; ++k) {
+          xx += c[k] * g[k][0][0];
+          yy += c[k] * g[k][1][1];
+          xy += c[k] * 0.5 * (g[k][0][1] + g[k][1][0]);
+        }
         best = std::max(best, -(0.5 * (xx + yy) + norm(Vec2{0.5 * (xx - yy), xy})));
       }
     const FieldNull n = null_at(*f, at, 1, most);

@@ -48,7 +48,8 @@ inline std::vector<Vec2> gauss(int n) {
       double p0 = 1, p1 = x;
       for (int j = 2; j <= n; ++j) {
         const double p2 = ((2 * j - 1) * x * p1 - (j - 1) * p0) / j;
-        p0 = p1, p1 = p2;
+        p0 = p1;
+        p1 = p2;
       }
       slope = n * (x * p1 - p0) / (x * x - 1);
       x -= p1 / slope;

@@ -112,7 +112,10 @@ TEST_CASE("T5: mean time of a U-turn under noise") {
       t.world().step();
       const auto ux = t.column("ux");
       for (std::size_t k = 0; k < passed.size(); ++k)
-        if (passed[k] == 0 && ux[k] > inside) passed[k] = i * 0.004, --left;
+        if (passed[k] == 0 && ux[k] > inside) {
+          passed[k] = i * 0.004;
+          --left;
+        }
     }
     REQUIRE(left == 0);
     const Sample s = Sample::of(passed.size(), [&](std::size_t i) { return passed[i]; });
@@ -229,7 +232,8 @@ TEST_CASE("cells that feel the field begin along `heading`, the others in any di
   std::size_t n = 0;
   for (std::size_t i = 0; i < ux.size(); ++i) {
     if (response[i] == 0) {
-      rest = rest + Vec2{double(ux[i]), double(uy[i])}, ++n;
+      rest = rest + Vec2{double(ux[i]), double(uy[i])};
+      ++n;
       continue;
     }
     CHECK(ux[i] == doctest::Approx(0.5).epsilon(1e-6));

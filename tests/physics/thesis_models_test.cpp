@@ -38,7 +38,8 @@ Outcome controlled(const Scenario& s, std::uint64_t seed) {
       const Sample mx = Sample::of(x.size(), [&](std::size_t i) { return double(x[i]) / kPx; });
       const Sample my = Sample::of(y.size(), [&](std::size_t i) { return double(y[i]) / kPx; });
       d.push_back(norm(Vec2{mx.mean, my.mean} - (1 / kPx) * t.target.position));
-      sx = std::sqrt(mx.variance), sy = std::sqrt(my.variance);
+      sx = std::sqrt(mx.variance);
+      sy = std::sqrt(my.variance);
     }
   } probe;
   Pool pool(1);
@@ -56,7 +57,8 @@ Outcome controlled(const Scenario& s, std::uint64_t seed) {
   const std::size_t from = 2 * probe.d.size() / 3;
   for (std::size_t k = from; k < probe.d.size(); ++k) sum += probe.d[k] * probe.d[k];
   o.rms = std::sqrt(sum / double(probe.d.size() - from));
-  o.sigma_x = probe.sx, o.sigma_y = probe.sy;
+  o.sigma_x = probe.sx;
+  o.sigma_y = probe.sy;
   return o;
 }
 

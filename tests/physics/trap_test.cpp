@@ -104,7 +104,10 @@ TEST_CASE("the gradient controllers: open loop is off by an unknown B_E / g, fee
     double mean = 0;
     int frames = 0;
     run(t.simulation.loop(), 10000, [&] {
-      if (t.simulation.loop().next > 5000) mean += along(t, "x").mean, ++frames;
+      if (t.simulation.loop().next > 5000) {
+        mean += along(t, "x").mean;
+        ++frames;
+      }
       return true;
     });
     INFO(c.controller, ": ", mean / frames / shift, " of the shift");

@@ -37,8 +37,10 @@ TEST_CASE("every row of the reference to 1e-9" * doctest::skip(!std::filesystem:
   REQUIRE(table.size() == 40);
   for (std::size_t i = 0; i < table.size(); ++i) {
     HornSchunckParams p;
-    p.solver = FlowSolver::jacobi, p.tolerance = 0;
-    p.alpha2 = column("alpha2")[i], p.iterations = int(column("iterations")[i]);
+    p.solver = FlowSolver::jacobi;
+    p.tolerance = 0;
+    p.alpha2 = column("alpha2")[i];
+    p.iterations = int(column("iterations")[i]);
     HornSchunck<double> solver(p, pool);
     auto a = spot(0, 0), b = spot(0.6, -0.3);
     const auto& flow = solver.between(a, b);

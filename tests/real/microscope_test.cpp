@@ -38,7 +38,8 @@ TEST_CASE("the default light and noise are those of a real suspension") {
   writer.finish(folder / "real.avi");
   const VideoGround real = read_video_ground(folder / "real.avi");
   Frame frame;
-  frame.width = 64, frame.height = 48;
+  frame.width = 64;
+  frame.height = 48;
   const Microscope ours(MicroscopeParams{}, frame, {}, 0.1, 1);
   CHECK(std::fabs(double(real.light.at(688, 548)) / MicroscopeParams{}.level - 1) < 0.05);
   CHECK(std::fabs(real.noise_sd / ours.noise_sd(MicroscopeParams{}.level) - 1) < 0.05);

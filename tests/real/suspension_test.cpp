@@ -19,7 +19,8 @@ TEST_CASE("rods in a suspension swim, straight and each its own way") {
   }
   TrackOptions o;
   o.video = kFolder / "frame_*.tif";
-  o.fps = 26.87, o.um_per_px = 1 / 2.2;
+  o.fps = 26.87;
+  o.um_per_px = 1 / 2.2;
   const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 25);
   CHECK(j["supported"] == "persistent_walk");

@@ -16,7 +16,10 @@ Credentials own(const char* method = "GET") {
   c.host = {"127.0.0.1:8123"};
   c.cookie = {"other=1; faba-8123=" + kToken};
   c.fetch_site = {"same-origin"};
-  if (std::string(method) != "GET") c.origin = {"http://127.0.0.1:8123"}, c.content_type = "application/json";
+  if (std::string(method) != "GET") {
+    c.origin = {"http://127.0.0.1:8123"};
+    c.content_type = "application/json";
+  }
   return c;
 }
 int judged(const Credentials& c) { return kAccess.judge(c).status; }
@@ -27,12 +30,15 @@ TEST_CASE("the lab's own page may ask") {
   CHECK(judged(own()) == 200);
   CHECK(judged(own("POST")) == 200);
   Credentials c = own();
-  c.cookie.clear(), c.query_token = kToken;
+  c.cookie.clear();
+  c.query_token = kToken;
   CHECK(judged(c) == 200);
   CHECK(kAccess.judge(c).by_token);
-  c.query_token.clear(), c.authorization = {"Bearer " + kToken};
+  c.query_token.clear();
+  c.authorization = {"Bearer " + kToken};
   CHECK(judged(c) == 200);
-  c = own(), c.host = {"localhost:8123"};
+  c = own();
+  c.host = {"localhost:8123"};
   CHECK(judged(c) == 200);
 }
 
@@ -40,17 +46,22 @@ TEST_CASE("S2: no token, no answer") {
   Credentials c = own();
   c.cookie.clear();
   CHECK(judged(c) == 401);
-  c.upgrade = true, c.origin = {"http://127.0.0.1:8123"};
+  c.upgrade = true;
+  c.origin = {"http://127.0.0.1:8123"};
   CHECK(judged(c) == 401);
   for (const std::string& wrong : {kToken.substr(1), kToken + "0", "f" + kToken.substr(1), std::string()}) {
-    c = own(), c.cookie = {"faba-8123=" + wrong};
+    c = own();
+    c.cookie = {"faba-8123=" + wrong};
     CHECK(judged(c) == 401);
-    c.cookie.clear(), c.query_token = wrong;
+    c.cookie.clear();
+    c.query_token = wrong;
     CHECK(judged(c) == 401);
-    c.query_token.clear(), c.authorization = {"Bearer " + wrong};
+    c.query_token.clear();
+    c.authorization = {"Bearer " + wrong};
     CHECK(judged(c) == 401);
   }
-  c = own(), c.cookie = {"faba-8124=" + kToken};  // of a lab on another port
+  c = own();
+  c.cookie = {"faba-8124=" + kToken};  // of a lab on another port
   CHECK(judged(c) == 401);
 }
 

@@ -24,7 +24,8 @@ struct Swarm {
       x.push_back(float(half_x * (2 * (a - std::floor(a)) - 1)));
       y.push_back(float(half_y * (2 * (b - std::floor(b)) - 1)));
       const double turn = 0.37 * double(i);
-      ux.push_back(float(std::cos(turn))), uy.push_back(float(std::sin(turn)));
+      ux.push_back(float(std::cos(turn)));
+      uy.push_back(float(std::sin(turn)));
       response.push_back(i % 3 ? 1.0F : 0.0F);
     }
   }
@@ -33,12 +34,21 @@ struct Swarm {
 // A view of 200 x 100 px, 2 um each, in an arena that reaches 50 px beyond it on all sides.
 FrameMessage message(const Swarm& s, const std::vector<double>& rows, const std::vector<float>& field) {
   FrameMessage m;
-  m.run = 3, m.frame = 41, m.t = 2.75;
+  m.run = 3;
+  m.frame = 41;
+  m.t = 2.75;
   m.view = {2e-6, 200, 100, {99.5, 49.5}};
   m.box = {-50, -50, 250, 150};
-  m.x = s.x, m.y = s.y, m.ux = s.ux, m.uy = s.uy, m.response = s.response;
-  m.rows = rows, m.columns = 3;
-  m.field_columns = 2, m.field_rows = 1, m.field = field;
+  m.x = s.x;
+  m.y = s.y;
+  m.ux = s.ux;
+  m.uy = s.uy;
+  m.response = s.response;
+  m.rows = rows;
+  m.columns = 3;
+  m.field_columns = 2;
+  m.field_rows = 1;
+  m.field = field;
   return m;
 }
 
@@ -97,7 +107,9 @@ TEST_CASE("a picture comes last") {
   FrameMessage m = message(s, {}, {});
   m.field_columns = m.field_rows = 0;
   const std::vector<std::uint8_t> grey = {1, 2, 3, 4, 5, 6};
-  m.picture = grey, m.picture_columns = 3, m.picture_rows = 2;
+  m.picture = grey;
+  m.picture_columns = 3;
+  m.picture_rows = 2;
   const std::string b = encode_frame(m);
   CHECK((at<std::uint16_t>(b, 6) & 8) == 8);
   CHECK(at<std::uint16_t>(b, 20) == 3);

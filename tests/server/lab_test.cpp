@@ -32,7 +32,10 @@ class Served {
     write_file(folder_.path() / "secret.txt", "nobody may read this");
     std::promise<void> ready;
     LabOptions o;
-    o.workspace = folder_.path(), o.program = FABA_PROGRAM, o.threads = 1, o.stop = &stop_;
+    o.workspace = folder_.path();
+    o.program = FABA_PROGRAM;
+    o.threads = 1;
+    o.stop = &stop_;
     o.ready = [&](const std::string& address, const fs::path& door) {
       const std::string before = "http://127.0.0.1:", between = "/?token=";
       const std::size_t at = address.find(between);
@@ -292,7 +295,8 @@ TEST_CASE("S9: every answer says what a browser may do with it") {
 TEST_CASE("a port that is taken, a scene that is wrong: said before anything is served") {
   const Served lab;
   LabOptions o;
-  o.workspace = lab.folder(), o.port = lab.port,
+  o.workspace = lab.folder();
+  o.port = lab.port;
   o.ready = [](const std::string&, const fs::path&) { FAIL("served"); };
   CHECK_THROWS_WITH_AS(serve_lab(o), doctest::Contains("--port"), const Error&);
   o.port = 0;

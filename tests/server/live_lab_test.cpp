@@ -42,7 +42,10 @@ class Page {
     Json found;
     wait([&] {
       for (const Json& j : news_)
-        if (j["say"] == say && right(j)) return found = j, true;
+        if (j["say"] == say && right(j)) {
+          found = j;
+          return true;
+        }
       return false;
     });
     return found;
@@ -125,7 +128,12 @@ TEST_CASE("a run is begun, watched, steered, paused, stepped, and recorded as it
   std::optional<Scenario> recorded;
   std::string hash;
   answer([&](auto done) {
-    lab.recorded([&](const Scenario& s, const std::string& h) { recorded = s, hash = h; }, done);
+    lab.recorded(
+        [&](const Scenario& s, const std::string& h) {
+          recorded = s;
+          hash = h;
+        },
+        done);
   });
   REQUIRE(recorded);
   CHECK(recorded->frames() == frame + 5);

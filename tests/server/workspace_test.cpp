@@ -42,8 +42,10 @@ TEST_CASE("S6: nothing outside of the workspace can be named") {
 TEST_CASE("S6: a scenario of a page names no file outside either") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path() / "work";
-  fs::create_directories(root / "scenes"), fs::create_directories(root / "rigs");
-  write_file(root / "rigs/r.toml", ""), write_file(folder.path() / "secret.toml", "");
+  fs::create_directories(root / "scenes");
+  fs::create_directories(root / "rigs");
+  write_file(root / "rigs/r.toml", "");
+  write_file(folder.path() / "secret.toml", "");
   const Workspace w(root, {});
   const auto field = [](const std::string& file) {
     return Json{{"field", {{"type", "rig"}, {"file", file}}}};
@@ -67,13 +69,14 @@ TEST_CASE("the gallery, runs and files that the pages offer") {
   for (const char* dir : {"scenes", "studies", "rigs", "videos", "runs/a", "runs/drawn", "runs/broken",
                           "runs/empty", "runs/.b"})
     fs::create_directories(root / dir);
-  write_file(root / "scenes/b.toml", ""), write_file(root / "scenes/a.toml", ""),
-      write_file(root / "scenes/x.txt", "");
+  write_file(root / "scenes/b.toml", "");
+  write_file(root / "scenes/a.toml", "");
+  write_file(root / "scenes/x.txt", "");
   for (const auto& [run, manifest] :
        {std::pair{"a", R"({"version": "1", "video_shows": "camera"})"},
         std::pair{"drawn", R"({"version": "1", "video_shows": "drawing"})"}, std::pair{"broken", "{"}}) {
-    write_file(root / "runs" / run / "manifest.json", manifest),
-        write_file(root / "runs" / run / "scenario.toml", "");
+    write_file(root / "runs" / run / "manifest.json", manifest);
+    write_file(root / "runs" / run / "scenario.toml", "");
     write_file(root / "runs" / run / "video.mp4", "");
   }
   write_file(root / "videos/v.mp4", "");

@@ -61,7 +61,8 @@ TEST_CASE("two-phase: a grid cell occupied at the beginning is closed, with foll
                 " }\n[[swarm]]\ncount = 2\npolarity = 'north'\nmodel = { type = 'basic', max_speed = 0 }\n");
     const double px = 0.9164e-6;
     t.alter([&](State& s) {
-      s.agents["x"][0] = float(-3.5 * px), s.agents["x"][1] = float(-2.5 * px);
+      s.agents["x"][0] = float(-3.5 * px);
+      s.agents["x"][1] = float(-2.5 * px);
       s.agents["y"][0] = s.agents["y"][1] = 0;
     });
     t.world().command({23e-6 / 0.5932e-3, 0});
@@ -84,7 +85,8 @@ TEST_CASE("two-phase: of many that want one grid cell exactly one gets it, and e
         std::uint64_t(seed));
     const double px = 0.9164e-6;
     t.alter([&](State& s) {
-      s.agents["x"][0] = float(-px), s.agents["x"][1] = float(px);
+      s.agents["x"][0] = float(-px);
+      s.agents["x"][1] = float(px);
       s.agents["y"][0] = s.agents["y"][1] = 0;
     });
     t.world().command({23e-6 / 0.5932e-3, 0});
@@ -104,7 +106,8 @@ TEST_CASE("published: a grid cell left in this iteration is free for later agent
   const double px = 0.9164e-6;
   const auto after = [&](double x0, double x1) {
     t.alter([&](State& s) {
-      s.agents["x"][0] = float(x0 * px), s.agents["x"][1] = float(x1 * px);
+      s.agents["x"][0] = float(x0 * px);
+      s.agents["x"][1] = float(x1 * px);
       s.agents["y"][0] = s.agents["y"][1] = 0;
     });
     t.world().command({23e-6 / 0.5932e-3, 0});

@@ -28,7 +28,8 @@ Crowd crowd(const Grid& g, std::size_t agents, float reach, std::uint64_t seed) 
     const auto [x, y] = at(i, 0);
     if (std::exchange(c.taken[std::size_t(g.index(x, y))], kTaken) == kTaken) continue;
     const auto w = draw(seed, Stream::motion, i, 0);
-    c.x.push_back(x), c.y.push_back(y);
+    c.x.push_back(x);
+    c.y.push_back(y);
     c.to_x.push_back(x + reach * (2 * uniform(w[0]) - 1));
     c.to_y.push_back(y + reach * (2 * uniform(w[1]) - 1));
   }
@@ -54,8 +55,10 @@ void by_the_book(const Grid& g, Crowd& c, std::uint64_t key, bool follow) {
     }
   }
   for (std::uint32_t i = 0; i < n; ++i)
-    if (!settled[i] && g.index(c.x[i], c.y[i]) != g.index(c.to_x[i], c.to_y[i]))
-      c.to_x[i] = c.x[i], c.to_y[i] = c.y[i];
+    if (!settled[i] && g.index(c.x[i], c.y[i]) != g.index(c.to_x[i], c.to_y[i])) {
+      c.to_x[i] = c.x[i];
+      c.to_y[i] = c.y[i];
+    }
 }
 
 }  // namespace

@@ -136,7 +136,9 @@ inline Spread spread(const std::vector<Vec2>& p) {
   for (const Vec2 v : p) s.centroid = s.centroid + 1 / n * v;
   for (const Vec2 v : p) {
     const Vec2 d = v - s.centroid;
-    s.cov.xx += d.x * d.x / n, s.cov.xy += d.x * d.y / n, s.cov.yy += d.y * d.y / n;
+    s.cov.xx += d.x * d.x / n;
+    s.cov.xy += d.x * d.y / n;
+    s.cov.yy += d.y * d.y / n;
   }
   return s;
 }

@@ -19,7 +19,12 @@ TEST_CASE(
        {Arc{{{315, 243}, 190}, 360}, Arc{{{560, 240}, 340}, 87}, Arc{{{1180, 240}, 1100}, 24.5}})
     for (const std::uint64_t seed : {1U, 2U}) {
       RenderedVideo v;
-      v.width = 640, v.height = 480, v.m_per_px = 0.9164e-6, v.frames = 1, v.edge = arc.drop, v.seed = seed;
+      v.width = 640;
+      v.height = 480;
+      v.m_per_px = 0.9164e-6;
+      v.frames = 1;
+      v.edge = arc.drop;
+      v.seed = seed;
       v.cells = [&](double) {
         std::vector<CameraCell> cells;
         for (std::uint32_t i = 0; cells.size() < 300; ++i) {

@@ -90,6 +90,22 @@ std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std
   return std::make_unique<SimRig>(world, p);
 }
 
+// Each swarm is a range of the state's rows, in the order of the scenario.
+void add_populations(WorldParts& w, const Scenario& s) {
+  std::size_t at = 0;
+  for (const Swarm& swarm : s.swarms) {
+    Population p;
+    p.begin = at;
+    p.end = at += std::size_t(swarm.params.count);
+    p.polarity = swarm.params.polarity == Swarm::Polarity::north ? 1 : -1;
+    p.responding = swarm.params.responding;
+    p.heading = swarm.params.heading;
+    p.model = swarm.model.make({s.si_scale(), w.dt});
+    p.start = swarm.start.make({w.arena.get()});
+    w.populations.push_back(std::move(p));
+  }
+}
+
 }  // namespace
 
 ControlContext control_context(const Scenario& s, const std::shared_ptr<const Field>& field,
@@ -137,18 +153,7 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
   const int steps = steps_per_frame(s, longest);
   w.dt = s.frame_period() / steps;
 
-  std::size_t at = 0;
-  for (const Swarm& swarm : s.swarms) {
-    Population p;
-    p.begin = at;
-    p.end = at += std::size_t(swarm.params.count);
-    p.polarity = swarm.params.polarity == Swarm::Polarity::north ? 1 : -1;
-    p.responding = swarm.params.responding;
-    p.heading = swarm.params.heading;
-    p.model = swarm.model.make({scale, w.dt});
-    p.start = swarm.start.make({w.arena.get()});
-    w.populations.push_back(std::move(p));
-  }
+  add_populations(w, s);
   if (double(s.frames()) * steps > 4e9)
     throw Error(
         Errc::usage, "duration",

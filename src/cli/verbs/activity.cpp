@@ -30,12 +30,19 @@ ActivityJob job_of(const ActivityVerb& v) {
   ActivityJob job;
   const FlowChoice choice{v.flow.method, v.flow.values};
   job.method = flow_part(choice, published_flow());
-  job.said = options_said(choice, v.flow.shrink, v.flow.fps), job.frames = !v.picture.empty();
-  job.noise = v.noise, job.shrink = v.flow.shrink, job.fps = v.flow.fps, job.threads = v.flow.threads;
+  job.said = options_said(choice, v.flow.shrink, v.flow.fps);
+  job.frames = !v.picture.empty();
+  job.noise = v.noise;
+  job.shrink = v.flow.shrink;
+  job.fps = v.flow.fps;
+  job.threads = v.flow.threads;
   if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
     read_activity_study(v.videos.front(), job);
     if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
-    if (!v.noise.empty()) job.noise = v.noise, job.threshold_px.reset();
+    if (!v.noise.empty()) {
+      job.noise = v.noise;
+      job.threshold_px.reset();
+    }
   } else {
     for (const auto& video : v.videos)
       if (video.extension() == ".toml")

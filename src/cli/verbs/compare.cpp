@@ -48,19 +48,29 @@ int compare(const CompareVerb& v, const Common& c) {
   check_output(v.out, ".csv", v.force, inputs);
   check_output(v.report, ".html", v.force, inputs);
   CompareJob job;
-  job.reference = v.reference, job.runs = v.runs;
-  job.direction_deg = v.response.direction, job.flow_threshold_px = v.response.flow_threshold;
-  job.reference_t0_s = v.reference_t0, job.t0_s = v.t0, job.align = !v.no_align;
+  job.reference = v.reference;
+  job.runs = v.runs;
+  job.direction_deg = v.response.direction;
+  job.flow_threshold_px = v.response.flow_threshold;
+  job.reference_t0_s = v.reference_t0;
+  job.t0_s = v.t0;
+  job.align = !v.no_align;
   if (v.duration) job.duration_s = *v.duration;
-  job.m = v.m, job.threshold = v.threshold;
+  job.m = v.m;
+  job.threshold = v.threshold;
   job.method = flow_part({v.flow.method, v.flow.values}, published_flow());
   job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
-  job.shrink = v.flow.shrink, job.fps = v.flow.fps, job.threads = v.flow.threads,
+  job.shrink = v.flow.shrink;
+  job.fps = v.flow.fps;
+  job.threads = v.flow.threads;
   job.simulate_floor = !v.no_floor;
   std::string doing;
   std::optional<Progress> bar;
   job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
-    if (what != doing || done <= 1) bar.reset(), bar.emplace(doing = what, !c.quiet && !c.json);
+    if (what != doing || done <= 1) {
+      bar.reset();
+      bar.emplace(doing = what, !c.quiet && !c.json);
+    }
     if (total > 0) bar->update(std::min(done, total), total);
   };
   job.stop = [&stop = stop_requested()] { return stop.load(); };

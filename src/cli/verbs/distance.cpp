@@ -19,7 +19,10 @@ struct DistanceVerb {
 
 int distance(const DistanceVerb& v, const Common& c) {
   DistanceOptions o;
-  o.m = v.m, o.threshold = v.threshold, o.similarity = v.similarity, o.normalise = v.normalise;
+  o.m = v.m;
+  o.threshold = v.threshold;
+  o.similarity = v.similarity;
+  o.normalise = v.normalise;
   const auto d = histogram_distances(v.p, v.q, o);
   if (c.json) {
     fmt::print("{}\n",

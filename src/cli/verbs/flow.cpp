@@ -29,8 +29,12 @@ void tell_notes(const std::vector<std::string>& notes, const std::filesystem::pa
 FlowJob job_of(const FlowVerb& v) {
   FlowJob job;
   job.method = flow_part({v.flow.method, v.flow.values});
-  job.out = v.out, job.picture = v.picture, job.truth = v.truth, job.overlay = v.overlay;
-  job.shrink = v.flow.shrink, job.fps = v.flow.fps;
+  job.out = v.out;
+  job.picture = v.picture;
+  job.truth = v.truth;
+  job.overlay = v.overlay;
+  job.shrink = v.flow.shrink;
+  job.fps = v.flow.fps;
   job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
   job.threads = v.flow.threads;
   return job;

@@ -35,14 +35,25 @@ Enum chosen(const std::string& word, const std::vector<const char*>& words) {
 
 TrackOptions options_of(const TrackVerb& v) {
   TrackOptions o;
-  o.video = v.video, o.fps = v.fps, o.out = v.out;
+  o.video = v.video;
+  o.fps = v.fps;
+  o.out = v.out;
   if (!v.scale.empty()) o.um_per_px = parse_calibration(v.scale, "--um-per-px").um_per_px;
-  o.swarm = v.swarm, o.overlay = v.overlay, o.report = v.report, o.picture = v.picture, o.figures = v.figures;
-  o.size_px = v.size_px, o.threshold_sd = v.threshold, o.inside_drop = v.drop, o.interval_frames = v.interval;
+  o.swarm = v.swarm;
+  o.overlay = v.overlay;
+  o.report = v.report;
+  o.picture = v.picture;
+  o.figures = v.figures;
+  o.size_px = v.size_px;
+  o.threshold_sd = v.threshold;
+  o.inside_drop = v.drop;
+  o.interval_frames = v.interval;
   o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
   o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
   o.tracker.motion = chosen<Motion>(v.motion, {"auto", "nearest", "velocity"});
-  o.tracker.reach_px = v.reach_px, o.tracker.memory = v.memory, o.tracker.least_points = v.least;
+  o.tracker.reach_px = v.reach_px;
+  o.tracker.memory = v.memory;
+  o.tracker.least_points = v.least;
   return o;
 }
 

@@ -128,8 +128,84 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
   }
 }
 
-Schema<Dipole::Params> Dipole::schema() {
-  Params msr1;
+using DipoleSchema = Schema<Dipole::Params>;
+using DipoleParams = Dipole::Params;
+
+// What decides how a cell turns with the field, and how it diffuses.
+void describe_body(DipoleSchema& s) {
+  s.add("moment", &DipoleParams::moment,
+        {.unit = "A m^2",
+         .min = 0,
+         .max = 1e-12,
+         .doc = "Median magnetic moment of a cell",
+         .source = "IT-1: about ten 75 nm magnetite crystals, estimate (B2), assumed",
+         .role = Role::coupling})
+      .add("moment_spread", &DipoleParams::moment_spread,
+           {.min = 0,
+            .max = 2,
+            .doc = "Standard deviation of the moment's logarithm between cells",
+            .source = "assumed"})
+      .add("radius", &DipoleParams::radius,
+           {.unit = "m",
+            .min = 1e-8,
+            .max = 1e-4,
+            .doc = "Radius of the sphere with the cell's drag",
+            .source = "thesis: 1.4 um across"})
+      .add("drag_factor", &DipoleParams::drag_factor,
+           {.min = 0.1,
+            .max = 1e4,
+            .doc = "Rotational drag over that of the bare sphere, 8 pi eta R^3; flagella add 1-3",
+            .source = "assumed 1 (B1)"})
+      .add("viscosity", &DipoleParams::viscosity,
+           {.unit = "Pa s",
+            .min = 1e-5,
+            .max = 10,
+            .doc = "Viscosity of the medium",
+            .source = "water at 25 C"})
+      .add("temperature", &DipoleParams::temperature,
+           {.unit = "K", .min = 1, .max = 500, .doc = "Temperature, for the diffusion constants"})
+      .add("rotational_diffusion", &DipoleParams::rotational_diffusion,
+           {.unit = "1/s", .min = 0, .max = 1e4, .doc = "D_r instead of kT / f_r"})
+      .add("translational_diffusion", &DipoleParams::translational_diffusion,
+           {.unit = "m^2/s", .min = 0, .max = 1e-6, .doc = "D_t instead of kT / f_t"});
+}
+
+// The speeds of cells, and what turns them at random.
+void describe_swimming(DipoleSchema& s) {
+  s.add("speed", &DipoleParams::speed,
+        {.unit = "m/s", .min = 0, .max = 1e-2, .doc = "Mean swimming speed", .source = "thesis: 186 um/s"})
+      .add("speed_sd", &DipoleParams::speed_sd,
+           {.unit = "m/s",
+            .min = 0,
+            .max = 1e-2,
+            .doc = "Standard deviation of speed between cells, before the cut-off",
+            .source = "assumed: 300 um/s is then the 99.5 % point (B4)"})
+      .add("speed_max", &DipoleParams::speed_max,
+           {.unit = "m/s",
+            .min = 0,
+            .max = 1e-2,
+            .doc = "Largest speed; the normal law is cut off to [0, speed_max]",
+            .source = "assumed (B4)"})
+      .add("motile", &DipoleParams::motile,
+           {.min = 0,
+            .max = 1,
+            .doc = "Share of the cells that swim; the others turn with the field and diffuse where they are",
+            .source = "assumed"})
+      .add("reversal_rate", &DipoleParams::reversal_rate,
+           {.unit = "1/s",
+            .min = 0,
+            .max = 1e3,
+            .doc = "Rate at which a cell turns its motor round and swims backwards"})
+      .add("tumble_rate", &DipoleParams::tumble_rate,
+           {.unit = "1/s", .min = 0, .max = 1e3, .doc = "Rate of tumbles"})
+      .add("tumble_sd", &DipoleParams::tumble_sd,
+           {.min = 0,
+            .max = 100,
+            .doc = "Standard deviation of a tumble's turn in rad; any direction when absent"});
+}
+
+void add_strains(DipoleSchema& s) {
+  DipoleParams msr1;
   msr1.moment = 2.0e-16;
   msr1.moment_spread = 0.3;
   msr1.radius = 1.5e-6;
@@ -137,100 +213,41 @@ Schema<Dipole::Params> Dipole::schema() {
   msr1.speed = 45e-6;
   msr1.speed_sd = 8e-6;
   msr1.speed_max = 80e-6;
-  Params mc1;
+  DipoleParams mc1;
   mc1.moment = 2e-15;
   mc1.moment_spread = 0.3;
   mc1.radius = 0.75e-6;
   mc1.speed = 300e-6;
   mc1.speed_sd = 70e-6;
   mc1.speed_max = 550e-6;
-  Params it1;
+  DipoleParams it1;
   it1.moment_spread = 0.3;
-  return Schema<Params>("dipole",
-                        "Self-propelled magnetic dipole with rotational and translational diffusion")
-      .add("moment", &Params::moment,
-           {.unit = "A m^2",
-            .min = 0,
-            .max = 1e-12,
-            .doc = "Median magnetic moment of a cell",
-            .source = "IT-1: about ten 75 nm magnetite crystals, estimate (B2), assumed",
-            .role = Role::coupling})
-      .add("moment_spread", &Params::moment_spread,
-           {.min = 0,
-            .max = 2,
-            .doc = "Standard deviation of the moment's logarithm between cells",
-            .source = "assumed"})
-      .add("radius", &Params::radius,
-           {.unit = "m",
-            .min = 1e-8,
-            .max = 1e-4,
-            .doc = "Radius of the sphere with the cell's drag",
-            .source = "thesis: 1.4 um across"})
-      .add("drag_factor", &Params::drag_factor,
-           {.min = 0.1,
-            .max = 1e4,
-            .doc = "Rotational drag over that of the bare sphere, 8 pi eta R^3; flagella add 1-3",
-            .source = "assumed 1 (B1)"})
-      .add("viscosity", &Params::viscosity,
-           {.unit = "Pa s",
-            .min = 1e-5,
-            .max = 10,
-            .doc = "Viscosity of the medium",
-            .source = "water at 25 C"})
-      .add("temperature", &Params::temperature,
-           {.unit = "K", .min = 1, .max = 500, .doc = "Temperature, for the diffusion constants"})
-      .add("rotational_diffusion", &Params::rotational_diffusion,
-           {.unit = "1/s", .min = 0, .max = 1e4, .doc = "D_r instead of kT / f_r"})
-      .add("translational_diffusion", &Params::translational_diffusion,
-           {.unit = "m^2/s", .min = 0, .max = 1e-6, .doc = "D_t instead of kT / f_t"})
-      .add("speed", &Params::speed,
-           {.unit = "m/s", .min = 0, .max = 1e-2, .doc = "Mean swimming speed", .source = "thesis: 186 um/s"})
-      .add("speed_sd", &Params::speed_sd,
-           {.unit = "m/s",
-            .min = 0,
-            .max = 1e-2,
-            .doc = "Standard deviation of speed between cells, before the cut-off",
-            .source = "assumed: 300 um/s is then the 99.5 % point (B4)"})
-      .add("speed_max", &Params::speed_max,
-           {.unit = "m/s",
-            .min = 0,
-            .max = 1e-2,
-            .doc = "Largest speed; the normal law is cut off to [0, speed_max]",
-            .source = "assumed (B4)"})
-      .add("motile", &Params::motile,
-           {.min = 0,
-            .max = 1,
-            .doc = "Share of the cells that swim; the others turn with the field and diffuse where they are",
-            .source = "assumed"})
-      .add("reversal_rate", &Params::reversal_rate,
-           {.unit = "1/s",
-            .min = 0,
-            .max = 1e3,
-            .doc = "Rate at which a cell turns its motor round and swims backwards"})
-      .add("tumble_rate", &Params::tumble_rate,
-           {.unit = "1/s", .min = 0, .max = 1e3, .doc = "Rate of tumbles"})
-      .add("tumble_sd", &Params::tumble_sd,
-           {.min = 0,
-            .max = 100,
-            .doc = "Standard deviation of a tumble's turn in rad; any direction when absent"})
-      .preset("IT-1", it1,
-              "Magnetofaba australis IT-1, the thesis's M. itaipuensis: speed and size from the thesis; "
-              "moment and spreads assumed (B2, B4)")
+  s.preset("IT-1", it1,
+           "Magnetofaba australis IT-1, the thesis's M. itaipuensis: speed and size from the thesis; "
+           "moment and spreads assumed (B2, B4)")
       .preset("MSR-1", msr1,
               "Magnetospirillum gryphiswaldense: moment (2.0 +- 0.6)e-16 A m^2 (Reufer et al., arXiv "
               "1307.2459), drag set so that it turns at 0.74 rad/(mT s) (Pichel et al., arXiv "
               "1710.00405), speed 30-60 um/s from memory; spreads assumed")
-      .preset(
-          "MC-1", mc1,
-          "Magnetococcus marinus: speeds 100-500 um/s (Bente et al. 2020, eLife); moment and spreads assumed")
-      .check([](const Params& p) -> std::string {
-        if (p.speed > p.speed_max) return "speed is above speed_max";
-        return {};
-      })
+      .preset("MC-1", mc1,
+              "Magnetococcus marinus: speeds 100-500 um/s (Bente et al. 2020, eLife); moment and spreads "
+              "assumed");
+}
+
+Schema<Dipole::Params> Dipole::schema() {
+  Schema<Params> s("dipole", "Self-propelled magnetic dipole with rotational and translational diffusion");
+  describe_body(s);
+  describe_swimming(s);
+  add_strains(s);
+  s.check([](const Params& p) -> std::string {
+     if (p.speed > p.speed_max) return "speed is above speed_max";
+     return {};
+   })
       .validity(
           "Planar; no helical paths, no flagellar limit of turning, no hydrodynamic interaction, no "
           "field-gradient "
           "force (0.05 % of the thrust at 1 T/m).");
+  return s;
 }
 
 double Dipole::rotational_drag(const Params& p) {

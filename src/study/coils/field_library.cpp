@@ -67,7 +67,8 @@ class Search {
     least_ = best.reachable ? kLeast * strength(best.gradient) : 0;
     for (const Vec2 share : {Vec2{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
       Start s{{0.5 * share.x * half.x, 0.5 * share.y * half.y}, {}, {}};
-      s.b.resize(field.coils()), s.g.resize(field.coils());
+      s.b.resize(field.coils());
+      s.g.resize(field.coils());
       field.basis({s.at.x, s.at.y, 0}, s.b, s.g);
       starts_.push_back(std::move(s));
     }
@@ -102,8 +103,10 @@ class Search {
     double xx = 0, xy = 0, yx = 0, yy = 0;
     for (std::size_t k = 0; k < current.size(); ++k) {
       b = b + current[k] * s.b[k];
-      xx += current[k] * s.g[k][0][0], xy += current[k] * s.g[k][0][1];
-      yx += current[k] * s.g[k][1][0], yy += current[k] * s.g[k][1][1];
+      xx += current[k] * s.g[k][0][0];
+      xy += current[k] * s.g[k][0][1];
+      yx += current[k] * s.g[k][1][0];
+      yy += current[k] * s.g[k][1][1];
     }
     const double d = xx * yy - xy * yx;
     const Vec2 zero = s.at - (1 / d) * Vec2{yy * b.x - xy * b.y, xx * b.y - yx * b.x};
@@ -153,6 +156,29 @@ struct Unlock {
   }
 };
 
+TableGrid library_grid(const FieldLibraryOptions& o) {
+  const double spacing = o.spacing > 0 ? o.spacing : std::max(o.width, o.height) / 64;
+  const TableGrid grid{{-0.5 * o.width, -0.5 * o.height},
+                       spacing,
+                       std::max(2, int(std::ceil(o.width / spacing - 1e-9)) + 1),
+                       std::max(2, int(std::ceil(o.height / spacing - 1e-9)) + 1)};
+  if (double(grid.columns) * grid.rows > 1 << 22)
+    throw Error(Errc::usage, "--spacing",
+                fmt::format("makes {} x {} nodes; at most 4 million are possible", grid.columns, grid.rows));
+  return grid;
+}
+
+FieldLibrarySummary summary_of(const FieldLibrary& library, const std::filesystem::path& out,
+                               std::uint64_t combinations) {
+  FieldLibrarySummary summary;
+  summary.out = out;
+  summary.combinations = combinations;
+  summary.entries = library.entries().size();
+  summary.traps = std::count_if(library.entries().begin(), library.entries().end(),
+                                [](const LibraryEntry& e) { return e.gradient[1] < 0 || e.gradient[0] > 0; });
+  return summary;
+}
+
 }  // namespace
 
 FieldLibrarySummary build_field_library(const std::filesystem::path& rig, const std::filesystem::path& out,
@@ -160,20 +186,13 @@ FieldLibrarySummary build_field_library(const std::filesystem::path& rig, const 
   const auto part = read_rig(rig, builtin_parts());
   const auto field = part.make({});
   const Vec2 half{0.5 * o.width, 0.5 * o.height};
-  const double spacing = o.spacing > 0 ? o.spacing : std::max(o.width, o.height) / 64;
-  const TableGrid grid{{-half.x, -half.y},
-                       spacing,
-                       std::max(2, int(std::ceil(o.width / spacing - 1e-9)) + 1),
-                       std::max(2, int(std::ceil(o.height / spacing - 1e-9)) + 1)};
-  if (double(grid.columns) * grid.rows > 1 << 22)
-    throw Error(Errc::usage, "--spacing",
-                fmt::format("makes {} x {} nodes; at most 4 million are possible", grid.columns, grid.rows));
+  const TableGrid grid = library_grid(o);
   const int levels = o.levels > 0 ? o.levels : Lattice::usual_levels(field->coils());
   const Lattice lattice(current_limits(*field), levels);
   FieldTable table(*field, grid);
   const std::string fingerprint = rig_fingerprint(part.resolved);
-  const Json task = {{"rig", fingerprint},   {"levels", levels},     {"width_m", o.width},
-                     {"height_m", o.height}, {"spacing_m", spacing}, {"version", FABA_VERSION}};
+  const Json task = {{"rig", fingerprint},   {"levels", levels},          {"width_m", o.width},
+                     {"height_m", o.height}, {"spacing_m", grid.spacing}, {"version", FABA_VERSION}};
 
   FileLock lock(out.string() + ".lock", out, "");
   const Unlock unlock(lock);
@@ -209,12 +228,7 @@ FieldLibrarySummary build_field_library(const std::filesystem::path& rig, const 
   writer.finish();
 
   const std::shared_ptr<const FieldLibrary> library = open_library(out);
-  FieldLibrarySummary summary;
-  summary.out = out;
-  summary.combinations = lattice.size();
-  summary.entries = library->entries().size();
-  summary.traps = std::count_if(library->entries().begin(), library->entries().end(),
-                                [](const LibraryEntry& e) { return e.gradient[1] < 0 || e.gradient[0] > 0; });
+  FieldLibrarySummary summary = summary_of(*library, out, lattice.size());
   summary.levels = levels;
   summary.columns = grid.columns;
   summary.rows = grid.rows;

@@ -57,14 +57,16 @@ struct FlowSource::Impl {
 
 FlowSource::FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options, Pool& pool)
     : impl_(new Impl) {
-  impl_->path = path, impl_->options = options;
+  impl_->path = path;
+  impl_->options = options;
   impl_->input = resolve(path, options.frames);
   if (!impl_->input.flows) {
     impl_->open_video(pool);
     return;
   }
   impl_->flows.emplace(impl_->input.file);
-  impl_->width = impl_->flows->info().width, impl_->height = impl_->flows->info().height;
+  impl_->width = impl_->flows->info().width;
+  impl_->height = impl_->flows->info().height;
   impl_->method = impl_->flows->info().method;
   if (!impl_->input.um_per_px) impl_->input.um_per_px = impl_->flows->info().um_per_px;
   if (impl_->flows->size() == 0) throw Error(Errc::input, path.string(), "holds no flow");
@@ -76,7 +78,8 @@ void FlowSource::Impl::open_video(Pool& pool) {
   const int w = reader.width(), h = reader.height();
   const int side =
       options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);
-  width = w / side, height = h / side;
+  width = w / side;
+  height = h / side;
   if (width < 2 || height < 2)
     throw side > 1
         ? Error(Errc::usage, "shrink", fmt::format("of {} leaves nothing of {} x {} px", side, w, h))
@@ -99,11 +102,14 @@ bool FlowSource::Impl::next_of_video(FlowPair& pair) {
       if (side > 1)
         for (GrayF* c : {&pair.flow.u, &pair.flow.v})
           for (float& x : c->px) x *= float(side);
-      pair.frame = frame, pair.t0_s = t_before, pair.t1_s = t;
+      pair.frame = frame;
+      pair.t0_s = t_before;
+      pair.t1_s = t;
       pair.image = after;
     }
     std::swap(before, after);
-    t_before = t, ++frame;
+    t_before = t;
+    ++frame;
     if (wanted) return true;
   }
   if (frame == 0) throw Error(Errc::input, path.string(), "has one frame only; motion needs two or more");

@@ -67,7 +67,8 @@ class BurstStatistics final : public EpisodeStatistics {
  private:
   std::vector<Track> followed(const std::vector<std::vector<Spot>>& spots, std::size_t first) const {
     TrackerOptions o;
-    o.reach_px = view_.reach_px, o.least_points = kSeenIn;
+    o.reach_px = view_.reach_px;
+    o.least_points = kSeenIn;
     Tracker tracker(o);
     for (std::size_t k = 0; k < kFrames; ++k) tracker.take(k, double(k) * view_.frame_s, spots[first + k]);
     tracker.finish();
@@ -83,7 +84,8 @@ class BurstStatistics final : public EpisodeStatistics {
         for (const Track& t : followed(spots, (d * kBursts + b) * kFrames)) {
           const TrackPoint &p = t.points.front(), &q = t.points.back();
           const Vec2 v = 1 / double(q.frame - p.frame) * Vec2{q.x_px - p.x_px, q.y_px - p.y_px};
-          along.push_back(dot(v, way)), across.push_back(dot(v, {-way.y, way.x}));
+          along.push_back(dot(v, way));
+          across.push_back(dot(v, {-way.y, way.x}));
           for (std::size_t k = 1; k < t.points.size(); ++k) {
             const Vec2 step{t.points[k].x_px - t.points[k - 1].x_px, t.points[k].y_px - t.points[k - 1].y_px};
             steps.push_back(dot(step, step));

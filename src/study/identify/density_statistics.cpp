@@ -26,7 +26,8 @@ class LightProfile {
     for (const Vec2 corner :
          {Vec2{0, 0}, Vec2{double(width), 0}, Vec2{0, double(height)}, Vec2{double(width), double(height)}}) {
       const double p = dot(corner, along);
-      low_ = std::min(low_, p), high_ = std::max(high_, p);
+      low_ = std::min(low_, p);
+      high_ = std::max(high_, p);
     }
     mass_.assign(std::size_t(std::ceil(high_ - low_)) + 1, 0.0);
   }
@@ -133,8 +134,12 @@ std::vector<double> DensityStatistics::summed(const std::vector<std::vector<Mass
   for (std::size_t k = 0; k < seen.size(); ++k) {
     const Vec2 along = unit_vector(episode_.drives[drive_at_[k]].direction_deg), across{-along.y, along.x};
     LightProfile a(along, view_.width, view_.height), b(across, view_.width, view_.height);
-    for (const Mass& m : seen[k]) a.add(m.at, m.weight), b.add(m.at, m.weight);
-    a.add_everywhere(kAnywhere * mean), b.add_everywhere(kAnywhere * mean);
+    for (const Mass& m : seen[k]) {
+      a.add(m.at, m.weight);
+      b.add(m.at, m.weight);
+    }
+    a.add_everywhere(kAnywhere * mean);
+    b.add_everywhere(kAnywhere * mean);
     out.push_back(mean > 0 ? std::log(kFew + mass[k] / mean) : std::numeric_limits<double>::quiet_NaN());
     for (const double p : {0.1, 0.5, 0.9}) out.push_back(a.quantile(p));
     out.push_back(b.quantile(0.9) - b.quantile(0.1));

@@ -54,7 +54,10 @@ class EpisodeStatistics {
   virtual std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const = 0;
   /// Makes numbers of a simulation as uncertain as the same measure of a video is, where rendered cells are
   /// not the real ones.
-  virtual void blur(std::vector<double>& numbers, StudyRandom& random) const { (void)numbers, (void)random; }
+  virtual void blur(std::vector<double>& numbers, StudyRandom& random) const {
+    (void)numbers;
+    (void)random;
+  }
 
  protected:
   std::vector<double> times_s_;

@@ -146,7 +146,8 @@ SeenEpisode simulate_episode(const Scenario& s, std::uint64_t seed, double lead_
                              const std::shared_ptr<const VideoGround>& ground) {
   Pool pool(1);
   Scenario looked_at = s;
-  looked_at.record = {}, looked_at.record.as_seen = look == Look::video;
+  looked_at.record = {};
+  looked_at.record.as_seen = look == Look::video;
   Simulation simulation(looked_at, seed, pool, ground);
   Watch watch(times_s, lead_s, simulation, looked_at, look);
   simulation.loop().sinks.push_back(&watch);

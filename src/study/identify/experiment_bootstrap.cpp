@@ -28,7 +28,8 @@ Parabola parabola_of(const SyntheticLikelihood& l, const VectorXd& centre, const
   const Index d = centre.size();
   const auto at = [&](Index i, double a, Index j, double b) {
     VectorXd u = centre;
-    u[i] += a * step[i], u[j] += b * step[j];
+    u[i] += a * step[i];
+    u[j] += b * step[j];
     return l.log_likelihood(u);
   };
   const double here = l.log_likelihood(centre);
@@ -63,7 +64,8 @@ std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& se
     MatrixXd curvature = MatrixXd::Identity(d, d) / kFlatPrior;
     for (std::size_t e = 0; e < each.size(); ++e) {
       const Parabola& drawn = each[random.below(each.size())];
-      slope += drawn.slope, curvature += drawn.curvature;
+      slope += drawn.slope;
+      curvature += drawn.curvature;
     }
     const VectorXd u = centre + curvature.ldlt().solve(slope);
     for (Index j = 0; j < d; ++j) estimates[std::size_t(j)].push_back(std::clamp(u[j], 0.0, 1.0));

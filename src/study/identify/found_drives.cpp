@@ -24,7 +24,9 @@ double main_axis(const std::vector<Vec2>& p) {
   Mat2 c;
   for (const Vec2 v : p) {
     const Vec2 d = v - mean;
-    c.xx += d.x * d.x, c.xy += d.x * d.y, c.yy += d.y * d.y;
+    c.xx += d.x * d.x;
+    c.xy += d.x * d.y;
+    c.yy += d.y * d.y;
   }
   return 0.5 * std::atan2(2 * c.xy, c.xx - c.yy);
 }
@@ -37,10 +39,15 @@ std::vector<std::size_t> turning_points(const std::vector<double>& q, double lea
   for (std::size_t i = 1; i < q.size(); ++i) {
     if (q[i] < q[lowest]) lowest = i;
     if (q[i] > q[highest]) highest = i;
-    if (way != 1 && q[i] - q[lowest] > least)
-      turns.push_back(lowest), way = 1, highest = i;
-    else if (way != -1 && q[highest] - q[i] > least)
-      turns.push_back(highest), way = -1, lowest = i;
+    if (way != 1 && q[i] - q[lowest] > least) {
+      turns.push_back(lowest);
+      way = 1;
+      highest = i;
+    } else if (way != -1 && q[highest] - q[i] > least) {
+      turns.push_back(highest);
+      way = -1;
+      lowest = i;
+    }
   }
   if (way != 0) turns.push_back(way == 1 ? highest : lowest);
   return turns;
@@ -53,7 +60,10 @@ std::vector<Drive> drives_of_swarm(const std::vector<double>& t_s, const std::ve
   std::vector<double> t;
   std::vector<Vec2> p;
   for (std::size_t i = 0; i < t_s.size(); ++i)
-    if (std::isfinite(centroid[i].x)) t.push_back(t_s[i]), p.push_back(centroid[i]);
+    if (std::isfinite(centroid[i].x)) {
+      t.push_back(t_s[i]);
+      p.push_back(centroid[i]);
+    }
   if (p.size() < 5) return {};
   const double axis = main_axis(p);
   const Vec2 along{std::cos(axis), std::sin(axis)};
@@ -105,7 +115,8 @@ std::vector<Drive> drives_of_field(const Series& record, bool against) {
       const double deg = std::atan2(-way.y, way.x) * 180 / std::numbers::pi;  // y is down in pictures
       drives.push_back({begins, ends, std::fmod(deg + 360, 360), norm(sum) / double(at - from) * 1e-6});
     }
-    sum = {}, from = at;
+    sum = {};
+    from = at;
   };
   for (std::size_t k = 0; k < t.size(); ++k) {
     const Vec2 b{bx[k], by[k]};
@@ -125,7 +136,9 @@ std::vector<Drive> drives_of_motion(const std::filesystem::path& video, double f
   ActivityJob job;
   job.videos.push_back({.file = video});
   job.method = flow_part({}, published_flow());
-  job.fps = fps, job.shrink = side, job.cells = false;
+  job.fps = fps;
+  job.shrink = side;
+  job.cells = false;
   job.progress = [&](auto, auto, auto) { tick(); };
   std::vector<Drive> drives;
   const ActivityResult activity = measure_activity(job);

@@ -199,7 +199,8 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
   m.simulations = std::size_t(s.simulations().size());
   m.fit_p = fit_p(s, middle, s.observed());
   const VectorXd mean = s.emulator().mean(middle), noise = noise_of(s);
-  m.foretold.assign(mean.begin(), mean.end()), m.foretold_sd.assign(noise.begin(), noise.end());
+  m.foretold.assign(mean.begin(), mean.end());
+  m.foretold_sd.assign(noise.begin(), noise.end());
   StudyRandom random(seed, StudyDraws::prediction);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     MatrixXd u = draws.topRows(kForetold);

@@ -112,7 +112,8 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   FreeParameter p{
       .path = path, .unit = s.value("x-unit", ""), .whole = s["type"] == "integer", .role = role_of(s)};
   const double least = s["minimum"].get<double>(), most = s["maximum"].get<double>();
-  p.low = least, p.high = most;
+  p.low = least;
+  p.high = most;
   if (given && *given == false)
     throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not free; leave it out, or set it");
   if ((!given || given->is_boolean()) && p.whole)
@@ -131,7 +132,8 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
     k.mean = number({(*given)["mean"], n.path + "." + path, n.document}, p);
     k.sd = number({(*given)["sd"], n.path + "." + path, n.document}, p);
     if (!(k.sd > 0)) n.fail(path + ": the sd must be above 0");
-    p.low = std::max(least, k.mean - 4 * k.sd), p.high = std::min(most, k.mean + 4 * k.sd);
+    p.low = std::max(least, k.mean - 4 * k.sd);
+    p.high = std::min(most, k.mean + 4 * k.sd);
     p.known = k;
   } else {
     n.fail(path + ": must be true, [lowest, highest] or { mean = ..., sd = ... }");
@@ -143,7 +145,8 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   if (!(p.low >= least) || !(p.high <= most))
     n.fail(fmt::format("{}: {:g} to {:g} must be a range inside of {:g} to {:g}{}", path, p.shown(p.low),
                        p.shown(p.high), p.shown(least), p.shown(most), unit));
-  p.low_is_least = p.low <= least, p.high_is_most = p.high >= most;
+  p.low_is_least = p.low <= least;
+  p.high_is_most = p.high >= most;
   return p;
 }
 

@@ -75,7 +75,10 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto at = std::find(o.experiments.begin(), o.experiments.end(), label[k]);
     const auto i = std::size_t(at - o.experiments.begin());
-    if (at == o.experiments.end()) o.experiments.push_back(label[k]), o.columns.emplace_back();
+    if (at == o.experiments.end()) {
+      o.experiments.push_back(label[k]);
+      o.columns.emplace_back();
+    }
     o.columns[i].push_back(Index(k));
   }
   o.numbers = Eigen::Map<VectorXd>(numbers.data(), Index(numbers.size()));
@@ -131,7 +134,11 @@ class Round {
     const ResponseVideo& video = videos_[part.video];
     // A seed of its own for each: what chance does to one simulation says nothing of the next.
     Hash h;
-    h.value(study_.seed), h.value(candidate), h.value(number), h.value(i), h.value(p);
+    h.value(study_.seed);
+    h.value(candidate);
+    h.value(number);
+    h.value(i);
+    h.value(p);
     const std::uint64_t seed = h.result() >> 1;
     const Episode& episode = video.episodes[part.episode];
     const double usual = (video.drives_found ? kTimingFound : kTimingGiven) / video.fps;
@@ -259,6 +266,67 @@ void note_drive(const IdentifyStudy& study, ResponseVideo& v) {
   }
 }
 
+std::vector<CandidateSearch> searches_of(const IdentifyStudy& study, const Observed& o) {
+  std::vector<CandidateSearch> searches;
+  for (std::size_t c = 0; c < study.candidates.size(); ++c) {
+    const Candidate& candidate = study.candidates[c];
+    searches.push_back(
+        {std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
+                                           SearchRounds::of(study.simulations),
+                                           derived_seed(study.seed, SeedUse::search, c)),
+         {}});
+  }
+  return searches;
+}
+
+// False when the sweep was stopped.
+bool run_searches(std::vector<CandidateSearch>& searches, const IdentifyStudy& study,
+                  const std::vector<ResponseVideo>& videos, const Observed& o, const Parts& parts,
+                  ResultStore& results, const SweepOptions& options) {
+  for (std::size_t number = 0;; ++number) {
+    Round round(study, videos, o, parts);
+    for (std::size_t c = 0; c < searches.size(); ++c)
+      if (searches[c].failed.empty() && searches[c].search->next())
+        round.add(study.candidates[c], *searches[c].search->next(), c, number);
+    if (round.tasks().empty()) return true;
+    if (!sweep(results, round.tasks(), options)) return false;
+    std::size_t at = 0;
+    for (CandidateSearch& s : searches) {
+      if (!s.failed.empty() || !s.search->next()) continue;
+      try {
+        s.search->take(collect(results, round.tasks(), at, s.search->next()->rows(), o));
+      } catch (const Error& e) {
+        if (e.code() != Errc::input) throw;
+        s.failed = e.what();
+      }
+    }
+  }
+}
+
+std::vector<FoundModel> models_of(const std::vector<CandidateSearch>& searches, const IdentifyStudy& study,
+                                  const std::vector<ResponseVideo>& videos, const Observed& o) {
+  VectorXd scale = VectorXd::Zero(o.numbers.size());
+  double models = 0;
+  for (const CandidateSearch& s : searches)
+    if (s.failed.empty()) {
+      scale += noise_of(*s.search);
+      models += 1;
+    }
+  scale /= std::max(1.0, models);
+  std::vector<FoundModel> found;
+  for (std::size_t c = 0; c < searches.size(); ++c) {
+    FoundModel m;
+    if (searches[c].failed.empty())
+      m = found_model(study.candidates[c], *searches[c].search, o.columns, scale,
+                      derived_seed(study.seed, SeedUse::found_model, c));
+    m.name = study.candidates[c].model.name;
+    m.failed = searches[c].failed;
+    tell_u_turn(m, study, study.candidates[c], videos);
+    found.push_back(std::move(m));
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
@@ -280,48 +348,11 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
           Errc::input, study.videos.front().file.string(),
           fmt::format("shows no cells while they should move ({})", o.statistics[std::size_t(k)].name));
   const Parts parts = builtin_parts();
-  std::vector<CandidateSearch> searches;
-  for (std::size_t c = 0; c < study.candidates.size(); ++c) {
-    const Candidate& candidate = study.candidates[c];
-    searches.push_back(
-        {std::make_unique<ParameterSearch>(int(candidate.free.size()), o.numbers, prior_of(candidate),
-                                           SearchRounds::of(study.simulations),
-                                           derived_seed(study.seed, SeedUse::search, c)),
-         {}});
-  }
-  for (std::size_t number = 0;; ++number) {
-    Round round(study, r.videos, o, parts);
-    for (std::size_t c = 0; c < searches.size(); ++c)
-      if (searches[c].failed.empty() && searches[c].search->next())
-        round.add(study.candidates[c], *searches[c].search->next(), c, number);
-    if (round.tasks().empty()) break;
-    if (!sweep(results, round.tasks(), options)) return {};
-    std::size_t at = 0;
-    for (CandidateSearch& s : searches) {
-      if (!s.failed.empty() || !s.search->next()) continue;
-      try {
-        s.search->take(collect(results, round.tasks(), at, s.search->next()->rows(), o));
-      } catch (const Error& e) {
-        if (e.code() != Errc::input) throw;
-        s.failed = e.what();
-      }
-    }
-  }
-  VectorXd scale = VectorXd::Zero(o.numbers.size());
-  double models = 0;
-  for (const CandidateSearch& s : searches)
-    if (s.failed.empty()) scale += noise_of(*s.search), models += 1;
-  scale /= std::max(1.0, models);
-  for (std::size_t c = 0; c < searches.size(); ++c) {
-    FoundModel m;
-    if (searches[c].failed.empty())
-      m = found_model(study.candidates[c], *searches[c].search, o.columns, scale,
-                      derived_seed(study.seed, SeedUse::found_model, c));
-    m.name = study.candidates[c].model.name, m.failed = searches[c].failed;
-    tell_u_turn(m, study, study.candidates[c], r.videos);
-    r.models.push_back(std::move(m));
-  }
-  r.statistics = o.statistics, r.experiments = o.experiments;
+  std::vector<CandidateSearch> searches = searches_of(study, o);
+  if (!run_searches(searches, study, r.videos, o, parts, results, options)) return {};
+  r.models = models_of(searches, study, r.videos, o);
+  r.statistics = o.statistics;
+  r.experiments = o.experiments;
   judge(r);
   if (!foretell(study, r, *searches[r.best].search, o, parts, results, options)) return {};
   if (study.legacy) {

@@ -125,7 +125,10 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
     n.fail("gives drives as well as reversal, direction or duration; give one of both");
   if (!std::filesystem::exists(n.file(v.file)))
     throw Error(Errc::input, n.where("file"), "no such file: " + v.file);
-  r.file = n.file(v.file), r.experiment = v.experiment, r.exposure_s = v.exposure, r.fps = v.fps;
+  r.file = n.file(v.file);
+  r.experiment = v.experiment;
+  r.exposure_s = v.exposure;
+  r.fps = v.fps;
   r.um_per_px = v.um_per_px ? v.um_per_px : um_per_px;
   r.reversal_s = v.reversal ? v.reversal : study.reversal;
   r.direction_deg = v.direction ? v.direction : study.direction;
@@ -142,10 +145,15 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
 // A video that there need not be, to check scenarios with.
 ResponseVideo any_video() {
   ResponseVideo v;
-  v.view.width = 64, v.view.height = 48, v.fps = 15, v.um_per_px = 1;
+  v.view.width = 64;
+  v.view.height = 48;
+  v.fps = 15;
+  v.um_per_px = 1;
   v.edge.emplace();
-  v.edge->centre_image = {32, 24}, v.edge->radius_px = 100;
-  v.cell_px = 3, v.contrast = -0.4;
+  v.edge->centre_image = {32, 24};
+  v.edge->radius_px = 100;
+  v.cell_px = 3;
+  v.contrast = -0.4;
   v.episodes.push_back({"any", 0, {{0, 1, 0}}, {{32, 24}}});
   return v;
 }
@@ -208,9 +216,13 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   const IdentifyFile f = IdentifyFile::schema().parse(root, {"video", "model", "scene"});
   IdentifyStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;
-  study.seed = f.seed, study.boundary = f.boundary, study.look = f.look, study.simulations = f.simulations;
+  study.seed = f.seed;
+  study.boundary = f.boundary;
+  study.look = f.look;
+  study.simulations = f.simulations;
   study.measure = f.measure.value_or(f.boundary == Boundary::none ? Measure::tracks : Measure::density);
-  study.timing_s = f.timing, study.legacy = f.legacy;
+  study.timing_s = f.timing;
+  study.legacy = f.legacy;
   if (root.has("scene")) {
     if (!root.child("scene").json->is_object())
       root.child("scene").fail("must be a table with tables of a scenario");
@@ -278,7 +290,10 @@ void hash_content(const std::filesystem::path& file, Hash& h) {
     for (const fs::path& p : inside) {
       const std::string name = p.filename().string();
       const bool counts = !is_run(file) || name.starts_with("video.") || name == "series.csv";
-      if (fs::is_regular_file(p) && counts) h.text(name), hash_content(p, h);
+      if (fs::is_regular_file(p) && counts) {
+        h.text(name);
+        hash_content(p, h);
+      }
     }
     return;
   }
@@ -295,21 +310,34 @@ void hash_content(const std::filesystem::path& file, Hash& h) {
 std::string fingerprint(const IdentifyStudy& study) {
   Hash h;
   h.text("identify");
-  h.value(study.seed), h.value(int(study.boundary)), h.value(int(study.look)), h.value(int(study.measure)),
-      h.value(study.simulations);
+  h.value(study.seed);
+  h.value(int(study.boundary));
+  h.value(int(study.look));
+  h.value(int(study.measure));
+  h.value(study.simulations);
   h.value(study.timing_s.value_or(-1));
   h.text(study.scene.dump());
   for (const ResponseInput& v : study.videos) {
-    hash_content(v.file, h), h.text(v.experiment);
+    hash_content(v.file, h);
+    h.text(v.experiment);
     for (const double x : {v.exposure_s, v.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
                            v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
       h.value(x);
-    for (const Drive& d : v.drives) h.value(d.t0_s), h.value(d.t1_s), h.value(d.direction_deg);
+    for (const Drive& d : v.drives) {
+      h.value(d.t0_s);
+      h.value(d.t1_s);
+      h.value(d.direction_deg);
+    }
   }
   for (const Candidate& c : study.candidates) {
-    h.text(c.model.name), h.text(c.model.part.dump()), h.value(c.drive_t.value_or(-1));
+    h.text(c.model.name);
+    h.text(c.model.part.dump());
+    h.value(c.drive_t.value_or(-1));
     for (const double v : c.legacy_values) h.value(v);
-    for (const auto& [path, value] : c.model.set) h.text(path), h.text(value.dump());
+    for (const auto& [path, value] : c.model.set) {
+      h.text(path);
+      h.text(value.dump());
+    }
     for (const FreeParameter& p : c.free) {
       h.text(p.path);
       for (const double x :

@@ -52,7 +52,8 @@ LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std
   Pool pool(1);
   FlowSourceOptions options;
   options.method = flow_part({}, published_flow());
-  options.shrink = v.side, options.fps = v.input.fps;
+  options.shrink = v.side;
+  options.fps = v.input.fps;
   r.filter.threshold_px =
       noise_level(v.file, options, pool, [&](auto, auto) { reading(); }).threshold_px / v.side;
   r.filter.direction_deg = drive.direction_deg;
@@ -75,14 +76,18 @@ void conclude(LegacyModel& m) {
   for (LegacySimulation& s : m.simulations) {
     std::vector<double> frame(s.distance.size());
     for (std::size_t i = 0; i < frame.size(); ++i) frame[i] = double(i);
-    s.line = fit_line(frame, s.distance), s.mean = mean(s.distance);
-    value.push_back(s.value), slope.push_back(s.line.slope), level_of.push_back(s.mean);
+    s.line = fit_line(frame, s.distance);
+    s.mean = mean(s.distance);
+    value.push_back(s.value);
+    slope.push_back(s.line.slope);
+    level_of.push_back(s.mean);
     level[s.value].push_back(s.mean);
   }
   m.slopes = fit_line(value, slope);
   m.zero = -m.slopes.intercept / m.slopes.slope;
   m.zero_ci95 = zero_crossing_ci95(m.slopes, mean(value));
-  m.mean = mean(level_of), m.sd = sample_sd(level_of);
+  m.mean = mean(level_of);
+  m.sd = sample_sd(level_of);
   m.least_distance_at = std::min_element(level.begin(), level.end(), [](const auto& a, const auto& b) {
                           return mean(a.second) < mean(b.second);
                         })->first;
@@ -136,7 +141,8 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
   std::vector<Task> tasks;
   for (const Candidate& c : study.candidates) {
     LegacyModel m;
-    m.name = c.model.name, m.parameter = c.free.front();
+    m.name = c.model.name;
+    m.parameter = c.free.front();
     const std::vector<double> shares = shares_tried(c);
     for (std::size_t i = 0; i < shares.size(); ++i)
       for (std::size_t v = 0; v < videos.size(); ++v)
@@ -152,7 +158,12 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
             d.set(c.free.front().path, c.free.front().json(u), "legacy");
             d.root["microscope"]["noise"] = 0;
             Hash h;
-            h.value(study.seed), h.text(c.model.name), h.value(int(i)), h.value(v), h.value(e), h.value(k);
+            h.value(study.seed);
+            h.text(c.model.name);
+            h.value(int(i));
+            h.value(v);
+            h.value(e);
+            h.value(k);
             const std::uint64_t seed = h.result() >> 1;
             m.simulations.push_back({c.free.front().value(u), v, e, std::size_t(k), {}, {}, 0});
             const LegacyReference& r = references[v][e];

@@ -32,8 +32,12 @@ CellLook look_of(const std::vector<Spot>& spots, double apart) {
     double nearest = apart;
     for (const Spot& other : spots)
       if (&other != &s) nearest = std::min(nearest, norm(Vec2{other.x_px - s.x_px, other.y_px - s.y_px}));
-    mass.push_back(s.mass), size.push_back(s.size_px);
-    if (nearest >= apart) lone_mass.push_back(s.mass), lone_size.push_back(s.size_px);
+    mass.push_back(s.mass);
+    size.push_back(s.size_px);
+    if (nearest >= apart) {
+      lone_mass.push_back(s.mass);
+      lone_size.push_back(s.size_px);
+    }
   }
   if (lone_mass.size() >= kEnough) return {median(lone_mass), median(lone_size)};
   if (mass.empty()) return {};
@@ -48,7 +52,8 @@ void match_look(ResponseVideo& v, const GrayF& frame, Boundary boundary) {
   const Detector detector = v.view.detector();
   const std::vector<Spot> spots = detector.find(frame);
   const CellLook wanted = look_of(spots, apart);
-  v.cell_px = v.view.cells.cell_px, v.contrast = bright ? kFirst : -kFirst;
+  v.cell_px = v.view.cells.cell_px;
+  v.contrast = bright ? kFirst : -kFirst;
   if (!(wanted.mass > 0)) return;
   Episode still{"", 0, {{0, v.view.frame_s, 0}}, {}};
   for (const Spot& s : spots) still.places_image.push_back({s.x_px, s.y_px});

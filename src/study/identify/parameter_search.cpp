@@ -203,7 +203,10 @@ bool ParameterSearch::cut_off() const {
   for (Index j = 0; j < d_; ++j) {
     const double near = 0.03 * (box_.high[j] - box_.low[j]);
     double below = 0, above = 0;
-    for (const double u : draws.col(j)) below += u<box_.low[j] + near, above += u> box_.high[j] - near;
+    for (const double u : draws.col(j)) {
+      below += u < box_.low[j] + near;
+      above += u > box_.high[j] - near;
+    }
     const double most = kAtTheEnd * double(draws.rows());
     if ((below > most && box_.low[j] > near) || (above > most && box_.high[j] < 1 - near)) return true;
   }

@@ -18,7 +18,10 @@ struct ProfileSearch {
 
   double operator()(const std::vector<double>& others) {
     Index k = 0;
-    for (const double x : others) u[k + (k >= fixed)] = x, ++k;
+    for (const double x : others) {
+      u[k + (k >= fixed)] = x;
+      ++k;
+    }
     return (*log_likelihood)(u);
   }
 };
@@ -34,7 +37,11 @@ Profile profile_likelihood(const std::function<double(const VectorXd&)>& log_lik
   Profile p{VectorXd::LinSpaced(points, box.low[j], box.high[j]), VectorXd(points)};
   std::vector<double> low, high, begin;
   for (Index k = 0; k < start.size(); ++k)
-    if (k != j) low.push_back(box.low[k]), high.push_back(box.high[k]), begin.push_back(start[k]);
+    if (k != j) {
+      low.push_back(box.low[k]);
+      high.push_back(box.high[k]);
+      begin.push_back(start[k]);
+    }
   for (std::size_t k = 0; k < begin.size(); ++k) begin[k] = std::min(std::max(begin[k], low[k]), high[k]);
   for (Index i = 0; i < points; ++i) {
     ProfileSearch search{&log_likelihood, start, j};
@@ -44,9 +51,11 @@ Profile profile_likelihood(const std::function<double(const VectorXd&)>& log_lik
       continue;
     }
     nlopt::opt seek(nlopt::LN_SBPLX, unsigned(begin.size()));
-    seek.set_lower_bounds(low), seek.set_upper_bounds(high);
+    seek.set_lower_bounds(low);
+    seek.set_upper_bounds(high);
     seek.set_max_objective(value, &search);
-    seek.set_maxeval(kTries), seek.set_xtol_abs(1e-4);
+    seek.set_maxeval(kTries);
+    seek.set_xtol_abs(1e-4);
     std::vector<double> at = begin;
     seek.optimize(at, p.log_likelihood[i]);
   }

@@ -133,7 +133,8 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
       if (boundary == Boundary::none && drives.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
     }
     Episode& e = episodes.back();
-    d.t0_s -= e.begins_s, d.t1_s -= e.begins_s;
+    d.t0_s -= e.begins_s;
+    d.t1_s -= e.begins_s;
     e.drives.push_back(d);
   }
   return episodes;
@@ -144,10 +145,13 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
 void find_ground(ResponseVideo& v, Measure measure, double from_s, double to_s,
                  const std::function<void()>& tick) {
   VideoGroundOptions o;
-  o.fps = v.input.fps, o.side = v.side, o.tick = tick;
+  o.fps = v.input.fps;
+  o.side = v.side;
+  o.tick = tick;
   if (measure == Measure::density)
     o.share = v.view.cells.polarity == Polarity::bright ? 1 - kUncovered : kUncovered;
-  o.from_s = from_s - 0.5 * v.view.frame_s, o.to_s = to_s + 0.5 * v.view.frame_s;
+  o.from_s = from_s - 0.5 * v.view.frame_s;
+  o.to_s = to_s + 0.5 * v.view.frame_s;
   v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, o));
   Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
   for (float& x : b.level.px) x *= float(kWhite);
@@ -160,7 +164,8 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
                         const std::function<void()>& tick) {
   const std::string name = v.input.file.string();
   TrackOptions options;
-  options.video = v.input.file, options.fps = v.input.fps;
+  options.video = v.input.file;
+  options.fps = v.input.fps;
   const auto survey = [&] {
     return survey_tracks(
         options, v.file, [&](auto, auto) { tick(); }, v.side);
@@ -177,7 +182,9 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   }
   v.um_per_px *= v.side;
   v.fps = 1 / s.frame_s;
-  v.view.width = s.first.width, v.view.height = s.first.height, v.view.frame_s = s.frame_s;
+  v.view.width = s.first.width;
+  v.view.height = s.first.height;
+  v.view.frame_s = s.frame_s;
   v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
   find_ground(v, measure, 0, s.duration_s, tick);
@@ -213,6 +220,49 @@ void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
   v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * apart);
 }
 
+void check_drives(const std::vector<Drive>& drives, const ResponseInput& input, Measure measure,
+                  const TrackSurvey& survey) {
+  const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestDrive;
+  for (const Drive& d : drives)
+    if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
+      throw Error(
+          Errc::input, input.file.string(),
+          fmt::format(
+              "a drive from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
+              d.t0_s, d.t1_s, shortest, survey.duration_s));
+}
+
+// One pass for all frames: where cells begin, what is measured, what is shown.
+void take_frames(ResponseVideo& v, Boundary boundary, Measure measure, const std::function<void()>& tick) {
+  std::vector<double> moments;
+  const auto want = [&](const Episode& e, const std::vector<double>& times) {
+    for (const double t : times) moments.push_back(e.begins_s + t);
+  };
+  for (const Episode& e : v.episodes) {
+    want(e, {0});
+    want(e, make_statistics(measure, e, v.view)->times_s());
+    want(e, picture_times(e));
+  }
+  std::vector<GrayF> frames = frames_at(v, moments, tick);
+  if (measure == Measure::tracks) find_followed(v, frames);
+  auto next = frames.begin();
+  for (Episode& e : v.episodes) {
+    const GrayF first = std::move(*next++);
+    e.places_image = evenly_mixed(places_in(first, v.view, measure));
+    if (e.places_image.empty())
+      throw Error(Errc::input, v.input.file.string(),
+                  fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
+    v.statistics.push_back(make_statistics(measure, e, v.view));
+    const auto measured_end = next + std::ptrdiff_t(v.statistics.back()->times_s().size());
+    const std::vector<GrayF> measured(std::make_move_iterator(next), std::make_move_iterator(measured_end));
+    next = measured_end + std::ptrdiff_t(picture_times(e).size());
+    v.pictures.emplace_back(std::make_move_iterator(measured_end), std::make_move_iterator(next));
+    // Where the swarm has spread cells are seen best.
+    if (v.contrast == 0) match_look(v, measured[measured.size() / 2], boundary);
+    v.observed.push_back(v.statistics.back()->of_frames(measured));
+  }
+}
+
 }  // namespace
 
 std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
@@ -225,7 +275,10 @@ std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& 
   for (double t = 0; video.read(frame, t) && t <= last + 1;) {
     tick();
     for (std::size_t i = 0; i < times_s.size(); ++i)
-      if (const double d = std::fabs(t - times_s[i]); d < off[i]) frames[i] = frame, off[i] = d;
+      if (const double d = std::fabs(t - times_s[i]); d < off[i]) {
+        frames[i] = frame;
+        off[i] = d;
+      }
   }
   return frames;
 }
@@ -254,14 +307,7 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   const std::vector<Drive> drives = drives_in(v, recorded, boundary, survey.duration_s, tick);
   for (const Drive& d : recorded) v.field_t = std::max(v.field_t.value_or(0), d.field_t.value_or(0));
   v.drives_found = recorded.empty() && input.drives.empty() && !(input.reversal_s && input.direction_deg);
-  const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestDrive;
-  for (const Drive& d : drives)
-    if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
-      throw Error(
-          Errc::input, input.file.string(),
-          fmt::format(
-              "a drive from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
-              d.t0_s, d.t1_s, shortest, survey.duration_s));
+  check_drives(drives, input, measure, survey);
   if (v.drives_found) {
     std::string all;
     for (const Drive& d : drives)
@@ -275,34 +321,7 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
       (drives.front().t0_s > 0.2 * survey.duration_s || drives.back().t1_s < 0.8 * survey.duration_s))
     find_ground(v, measure, drives.front().t0_s, drives.back().t1_s, tick);
 
-  // One pass for all frames: where cells begin, what is measured, what is shown.
-  std::vector<double> moments;
-  const auto want = [&](const Episode& e, const std::vector<double>& times) {
-    for (const double t : times) moments.push_back(e.begins_s + t);
-  };
-  for (const Episode& e : v.episodes) {
-    want(e, {0});
-    want(e, make_statistics(measure, e, v.view)->times_s());
-    want(e, picture_times(e));
-  }
-  std::vector<GrayF> frames = frames_at(v, moments, tick);
-  if (measure == Measure::tracks) find_followed(v, frames);
-  auto next = frames.begin();
-  for (Episode& e : v.episodes) {
-    const GrayF first = std::move(*next++);
-    e.places_image = evenly_mixed(places_in(first, v.view, measure));
-    if (e.places_image.empty())
-      throw Error(Errc::input, input.file.string(),
-                  fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
-    v.statistics.push_back(make_statistics(measure, e, v.view));
-    const auto measured_end = next + std::ptrdiff_t(v.statistics.back()->times_s().size());
-    const std::vector<GrayF> measured(std::make_move_iterator(next), std::make_move_iterator(measured_end));
-    next = measured_end + std::ptrdiff_t(picture_times(e).size());
-    v.pictures.emplace_back(std::make_move_iterator(measured_end), std::make_move_iterator(next));
-    // Where the swarm has spread cells are seen best.
-    if (v.contrast == 0) match_look(v, measured[measured.size() / 2], boundary);
-    v.observed.push_back(v.statistics.back()->of_frames(measured));
-  }
+  take_frames(v, boundary, measure, tick);
   return v;
 }
 

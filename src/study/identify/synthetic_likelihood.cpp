@@ -73,7 +73,11 @@ Eigen::MatrixXd sample(const std::function<double(const Eigen::VectorXd&)>& log_
     const Eigen::VectorXd to = at + step * (root * z);
     const double there = box.holds(to) ? log_density(to) : -HUGE_VAL;
     const double luck = std::log(random.uniform());
-    if (luck < there - density) at = to, density = there, ++taken;
+    if (luck < there - density) {
+      at = to;
+      density = there;
+      ++taken;
+    }
     ++since;
     if (i < warm_up) {
       // Covariance of what was visited so far, the beginning forgotten.
@@ -83,7 +87,8 @@ Eigen::MatrixXd sample(const std::function<double(const Eigen::VectorXd&)>& log_
       covariance = (1 - share) * covariance + share * off * off.transpose();
       if (since == 100) {
         step *= std::exp((double(taken) / since - 0.25));
-        root = factor(), taken = since = 0;
+        root = factor();
+        taken = since = 0;
       }
     } else if ((i - warm_up) % kThinning == 0) {
       draws.row((i - warm_up) / kThinning) = at.transpose();

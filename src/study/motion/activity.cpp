@@ -26,7 +26,10 @@ double angle_of(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360,
 double found_direction(const VideoActivity& a) {
   double longest = -1, deg = 0;
   for (const MotionSegment& s : a.segments)
-    if (s.t1_s - s.t0_s > longest) longest = s.t1_s - s.t0_s, deg = s.direction_deg;
+    if (s.t1_s - s.t0_s > longest) {
+      longest = s.t1_s - s.t0_s;
+      deg = s.direction_deg;
+    }
   if (longest >= 0) return deg;
   Vec2 all{0, 0};
   for (std::size_t k = 0; k < a.signature.size(); ++k) all = all + a.signature.sum(k);
@@ -77,13 +80,10 @@ NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std:
                      });
 }
 
-VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {
-  VideoActivity a;
-  a.input = job.videos[index];
-  a.threshold_px = threshold;
-  a.direction_given = a.input.direction_deg.has_value();
+// Fills in the signature, the pair of frames with most motion and the notes of the source.
+void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, Pool& pool) {
   const double zero = a.input.direction_deg.value_or(0);
-  a.signature = Signature(threshold, zero);
+  a.signature = Signature(a.threshold_px, zero);
   FlowSource source(a.input.file, source_options(job, a.input), pool);
   FlowPair pair;
   double most = -1;
@@ -91,7 +91,11 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
     a.signature.add(pair, source.shrink());
     const std::size_t k = a.signature.size() - 1;
     const double now = a.direction_given ? a.signature.along(k, zero) : norm(a.signature.sum(k));
-    if (now > most) most = now, a.busiest = pair, a.busiest_deg = angle_of(a.signature.sum(k));
+    if (now > most) {
+      most = now;
+      a.busiest = pair;
+      a.busiest_deg = angle_of(a.signature.sum(k));
+    }
     job.progress(index, k + 1, source.pairs());
     check_stop(job, a.input);
   }
@@ -99,26 +103,9 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   if (a.signature.size() == 0)
     throw Error(Errc::input, a.input.file.string(),
                 "has fewer than two frames in the time asked for; motion needs two or more");
-  a.segments = motion_segments(a.signature, a.input.direction_deg);
-  a.direction_deg = a.direction_given ? zero : found_direction(a);
-  const double cone = a.signature.nearest_deg(a.direction_deg);
-  for (std::size_t k = 0; k < a.signature.size(); ++k) {
-    a.t_s.push_back(a.signature.t_s(k));
-    a.amount.push_back(a.signature.amount(k, cone)), a.along.push_back(a.signature.along(k, cone));
-    a.mean_amount += a.amount.back(), a.mean_along += a.along.back();
-  }
-  a.mean_amount /= double(a.t_s.size()), a.mean_along /= double(a.t_s.size());
-  std::vector<double> gaps;
-  for (std::size_t k = 0; k < a.signature.size(); ++k)
-    gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
-  a.frame_s = median_high(gaps);
-  if (job.cells)
-    a.visible_cells =
-        visible_cells(a.input.file, {a.input.from_s, a.input.to_s, job.fps}, [&] { return !job.stop(); });
-  a.fit = fit_gaussian(a.t_s, a.amount);
-  mark_points(a);
-  if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
-  a.responds = has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds : !a.segments.empty());
+}
+
+void note_motion(VideoActivity& a) {
   if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
     a.notes.emplace_back(
         "there is activity, but not in one direction: cells that move by more than twice their width from "
@@ -134,6 +121,38 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
                           a.direction_deg)
             : fmt::format("no direction was given; {:.0f} degrees is that of the longest motion found",
                           a.direction_deg));
+}
+
+VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {
+  VideoActivity a;
+  a.input = job.videos[index];
+  a.threshold_px = threshold;
+  a.direction_given = a.input.direction_deg.has_value();
+  read_signature(a, job, index, pool);
+  a.segments = motion_segments(a.signature, a.input.direction_deg);
+  a.direction_deg = a.direction_given ? *a.input.direction_deg : found_direction(a);
+  const double cone = a.signature.nearest_deg(a.direction_deg);
+  for (std::size_t k = 0; k < a.signature.size(); ++k) {
+    a.t_s.push_back(a.signature.t_s(k));
+    a.amount.push_back(a.signature.amount(k, cone));
+    a.along.push_back(a.signature.along(k, cone));
+    a.mean_amount += a.amount.back();
+    a.mean_along += a.along.back();
+  }
+  a.mean_amount /= double(a.t_s.size());
+  a.mean_along /= double(a.t_s.size());
+  std::vector<double> gaps;
+  for (std::size_t k = 0; k < a.signature.size(); ++k)
+    gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
+  a.frame_s = median_high(gaps);
+  if (job.cells)
+    a.visible_cells =
+        visible_cells(a.input.file, {a.input.from_s, a.input.to_s, job.fps}, [&] { return !job.stop(); });
+  a.fit = fit_gaussian(a.t_s, a.amount);
+  mark_points(a);
+  if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
+  a.responds = has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds : !a.segments.empty());
+  note_motion(a);
   return a;
 }
 
@@ -152,9 +171,12 @@ void conclude(ActivityResult& r) {
   for (const VideoActivity& a : r.videos)
     if (a.input.exposure_s && has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
       peaks.push_back({*a.input.exposure_s, a.fit.peak_s - a.input.from_s, a.input.experiment});
-  r.peak_line = mixed_line(peaks), r.peak_line_pooled = pooled_line(peaks);
-  r.mean_line = mixed_line(means), r.mean_line_pooled = pooled_line(means);
-  r.per_cell_line = mixed_line(per_cell), r.per_cell_line_pooled = pooled_line(per_cell);
+  r.peak_line = mixed_line(peaks);
+  r.peak_line_pooled = pooled_line(peaks);
+  r.mean_line = mixed_line(means);
+  r.mean_line_pooled = pooled_line(means);
+  r.per_cell_line = mixed_line(per_cell);
+  r.per_cell_line_pooled = pooled_line(per_cell);
   const double frame_s = r.videos.front().frame_s;
   if (std::all_of(r.videos.begin(), r.videos.end(),
                   [&](const VideoActivity& a) { return std::fabs(a.frame_s / frame_s - 1) < kSameRate; }))
@@ -181,7 +203,8 @@ ActivityResult measure_activity(const ActivityJob& job) {
   } else if (!job.threshold_px) {
     for (std::size_t i = 0; i < job.videos.size(); ++i) {
       const NoiseLevel level = threshold_of(job, job.videos[i], i, pool);
-      thresholds[i] = level.threshold_px, quiet[i] = level.quiet;
+      thresholds[i] = level.threshold_px;
+      quiet[i] = level.quiet;
       check_stop(job, job.videos[i]);
     }
     // Measured with one measure, so that what differs is the videos.

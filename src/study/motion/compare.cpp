@@ -48,11 +48,19 @@ Beginning steepest_rise(const Signature& s) {
   for (std::size_t k = 1; k < s.size(); ++k) {
     double before = 0, after = 0;
     int n = 0, m = 0;
-    for (std::size_t i = k; i-- > 0 && s.t0_s(k) - s.t0_s(i) <= kRise;) before += s.speed(i), ++n;
-    for (std::size_t i = k; i < s.size() && s.t1_s(i) - s.t0_s(k) <= kRise; ++i) after += s.speed(i), ++m;
+    for (std::size_t i = k; i-- > 0 && s.t0_s(k) - s.t0_s(i) <= kRise;) {
+      before += s.speed(i);
+      ++n;
+    }
+    for (std::size_t i = k; i < s.size() && s.t1_s(i) - s.t0_s(k) <= kRise; ++i) {
+      after += s.speed(i);
+      ++m;
+    }
     if (n < 2 || m < 2) continue;
-    if (const double rise = after / m - before / n; rise > most)
-      most = rise, b = {s.t0_s(k), 0, Beginning::By::rise};
+    if (const double rise = after / m - before / n; rise > most) {
+      most = rise;
+      b = {s.t0_s(k), 0, Beginning::By::rise};
+    }
   }
   return b;
 }
@@ -104,7 +112,8 @@ class Comparer {
   ComparedRun compare(const std::filesystem::path& run, double reference_t0, double t0,
                       const FlowFilter& filter) {
     ComparedRun result;
-    result.file = run, result.t0_s = t0;
+    result.file = run;
+    result.t0_s = t0;
     furthest_ = -1;
     FlowSource reference(job_.reference, options(), pool_);
     std::optional<FlowSource> other;
@@ -192,8 +201,11 @@ class Comparer {
   static void finish(DistanceSeries& s) {
     std::vector<double> frame(s.t_s.size());
     for (std::size_t i = 0; i < frame.size(); ++i) frame[i] = double(i);
-    s.mean = mean(s.value), s.sd = sample_sd(s.value), s.line = fit_line(frame, s.value);
-    s.legacy_mean = mean(s.legacy), s.legacy_sd = sample_sd(s.legacy),
+    s.mean = mean(s.value);
+    s.sd = sample_sd(s.value);
+    s.line = fit_line(frame, s.value);
+    s.legacy_mean = mean(s.legacy);
+    s.legacy_sd = sample_sd(s.legacy);
     s.legacy_line = fit_line(frame, s.legacy);
   }
 
@@ -219,7 +231,8 @@ class Twin {
       const Scenario s = read_scenario(d, builtin_parts());
       const std::string seed = read_run_info(run / run_files::kManifest).seed;
       RunOptions o;
-      o.out = folder_ / "run", o.threads = job.threads;
+      o.out = folder_ / "run";
+      o.threads = job.threads;
       o.progress = [&](auto done, auto total) {
         job.progress("simulating with another seed", done, total);
         if (job.stop()) throw Error(Errc::interrupted, run.string(), "stopped");

@@ -34,7 +34,8 @@ void flow_histograms(const Flow& flow, const FlowFilter& filter, double scale, F
       (a > 0 ? out.right : out.left)[c] += std::fabs(a);
       (b > 0 ? out.down : out.up)[r] += std::fabs(b);
       if (!gate.this_way(u, v)) continue;
-      out.x[c] += std::fabs(a), out.y[r] += std::fabs(b);
+      out.x[c] += std::fabs(a);
+      out.y[r] += std::fabs(b);
     }
 }
 

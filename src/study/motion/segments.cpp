@@ -48,8 +48,10 @@ std::vector<Run> runs_of(const Signature& s, const Pairs& p) {
   std::vector<Vec2> flow(n);
   std::vector<double> speed(n), size(n);
   for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t i = k < half ? 0 : k - half; i < std::min(n, k + half + 1); ++i)
-      flow[k] = flow[k] + p.flow[i], speed[k] += p.speed[i];
+    for (std::size_t i = k < half ? 0 : k - half; i < std::min(n, k + half + 1); ++i) {
+      flow[k] = flow[k] + p.flow[i];
+      speed[k] += p.speed[i];
+    }
     size[k] = std::sqrt(dot(flow[k], flow[k]));
   }
   const double most = n > 0 ? *std::max_element(size.begin(), size.end()) : 0;

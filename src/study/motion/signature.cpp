@@ -31,12 +31,14 @@ void Signature::add(const FlowPair& pair, int px_side) {
     const float turn = std::atan2(v * c - u * s, u * c + v * s) * per_radian;
     const auto sector = std::size_t(wrapped(int(std::floor(turn))));
     sums.amount[sector] += std::fabs(u) + std::fabs(v);
-    sums.u[sector] += u, sums.v[sector] += v;
+    sums.u[sector] += u;
+    sums.v[sector] += v;
   }
   const auto area = float(px_side * px_side);
   for (auto* list : {&sums.amount, &sums.u, &sums.v})
     for (float& x : *list) x *= area;
-  t0_s_.push_back(pair.t0_s), t1_s_.push_back(pair.t1_s);
+  t0_s_.push_back(pair.t0_s);
+  t1_s_.push_back(pair.t1_s);
   sums_.push_back(sums);
 }
 
@@ -72,8 +74,10 @@ double Signature::along(std::size_t k, double deg) const {
 
 Vec2 Signature::sum(std::size_t k) const {
   Vec2 w{0, 0};
-  for (std::size_t i = 0; i < DirectionSums::kSectors; ++i)
-    w.x += double(sums_[k].u[i]), w.y += double(sums_[k].v[i]);
+  for (std::size_t i = 0; i < DirectionSums::kSectors; ++i) {
+    w.x += double(sums_[k].u[i]);
+    w.y += double(sums_[k].v[i]);
+  }
   return w;
 }
 

@@ -36,7 +36,8 @@ Figure signature_figure(const VideoActivity& a) {
   Plot& p = f.plot;
   p.inlined = true;
   p.description = "Activity of " + f.heading + " over time";
-  p.x.label = "time (s)", p.y.label = "activity (px × px² per pair)";
+  p.x.label = "time (s)";
+  p.y.label = "activity (px × px² per pair)";
   p.width = 620;
   for (const MotionSegment& s : a.segments) p.add(Band{s.t0_s, s.t1_s, {}, true, Ink::muted});
   p.add(Rule{.at = 0, .of_x = false});
@@ -46,10 +47,13 @@ Figure signature_figure(const VideoActivity& a) {
       .x = a.t_s, .y = a.along, .label = "along it, less against it", .ink = Ink::vermillion, .width = 1.2});
   if (a.fit.good) {
     Line curve;
-    curve.label = "Gaussian", curve.ink = Ink::text, curve.dashed = true;
+    curve.label = "Gaussian";
+    curve.ink = Ink::text;
+    curve.dashed = true;
     for (const double t : a.t_s) {
       const double z = (t - a.fit.peak_s) / a.fit.sigma_s;
-      curve.x.push_back(t), curve.y.push_back(a.fit.amplitude * std::exp(-z * z / 2) + a.fit.offset);
+      curve.x.push_back(t);
+      curve.y.push_back(a.fit.amplitude * std::exp(-z * z / 2) + a.fit.offset);
     }
     p.add(std::move(curve));
   }
@@ -94,7 +98,8 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
   p.inlined = true;
   p.x.label = "time in air (s)";
   p.y.label = what.label;
-  p.width = 620, p.height = 300;
+  p.width = 620;
+  p.height = 300;
   double longest = 0;
   std::vector<std::string> experiments;
   for (const VideoActivity& a : r.videos) {
@@ -108,7 +113,10 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
     dots.label = name.empty() ? "" : "experiment " + name;
     for (const VideoActivity& a : r.videos) {
       if (!a.input.exposure_s || a.input.experiment != name) continue;
-      if (const auto value = what.value(a)) dots.x.push_back(*a.input.exposure_s), dots.y.push_back(*value);
+      if (const auto value = what.value(a)) {
+        dots.x.push_back(*a.input.exposure_s);
+        dots.y.push_back(*value);
+      }
     }
     p.add(std::move(dots));
   }
@@ -219,8 +227,10 @@ void write_activity_picture(const std::filesystem::path& file, const VideoActivi
   const RgbImage left = draw_flow(kept, how);
   RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
   for (int y = 0; y < all.height; ++y)
-    for (int x = 0; x < all.width; ++x)
-      out.at(x, y) = all.at(x, y), out.at(all.width + 8 + x, y) = left.at(x, y);
+    for (int x = 0; x < all.width; ++x) {
+      out.at(x, y) = all.at(x, y);
+      out.at(all.width + 8 + x, y) = left.at(x, y);
+    }
   write_png(file, out);
 }
 

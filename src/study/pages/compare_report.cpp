@@ -23,8 +23,11 @@ std::string name_of(const std::filesystem::path& file) {
 Plot distances(const Comparison& c) {
   Plot p;
   p.inlined = true;
-  p.width = 620, p.height = 300;
-  p.x.label = "time after the alignment (s)", p.y.label = "distance", p.y.lo = 0;
+  p.width = 620;
+  p.height = 300;
+  p.x.label = "time after the alignment (s)";
+  p.y.label = "distance";
+  p.y.lo = 0;
   for (const ComparedRun& r : c.runs) {
     p.add(Line{.x = r.distance.t_s, .y = r.distance.value, .label = name_of(r.file), .width = 1.2});
     const LineFit& fit = r.distance.line;
@@ -50,7 +53,8 @@ Plot histogram(const char* axis, const std::vector<double>& reference, const std
   Plot p;
   p.inlined = true;
   p.height = 190;
-  p.x.label = axis, p.y.label = "flow (px × px)";
+  p.x.label = axis;
+  p.y.label = "flow (px × px)";
   p.add(Line{
       .x = bins(reference.size()), .y = reference, .label = "reference", .ink = Ink::blue, .width = 1.2});
   p.add(Line{.x = bins(run.size()), .y = run, .label = "run", .ink = Ink::vermillion, .width = 1.2});

@@ -96,15 +96,19 @@ Figure over_time(const ControllerComparison& r, const std::vector<const Combinat
                           distance ? "Distance from the swarm's centroid to the setpoint"
                                    : "Root-mean-square distance of the cells from their centroid",
                           counted(std::uint64_t(r.study.seeds), "seed"));
-  f.plot.description = f.heading, f.plot.inlined = true;
-  f.plot.x.label = "time (s)", f.plot.y.label = distance ? "distance (px)" : "dispersion (px rms)";
+  f.plot.description = f.heading;
+  f.plot.inlined = true;
+  f.plot.x.label = "time (s)";
+  f.plot.y.label = distance ? "distance (px)" : "dispersion (px rms)";
   f.plot.y.lo = 0;
   for (std::size_t i = 0; i < group.size(); ++i) {
     const auto& mean = distance ? group[i]->distance_px : group[i]->rms_radius_px;
     const auto& sd = distance ? group[i]->distance_sd_px : group[i]->rms_radius_sd_px;
     Ribbon band{group[i]->t_s, {}, {}, {}, kGroupInks[i % std::size(kGroupInks)]};
-    for (std::size_t k = 0; k < mean.size(); ++k)
-      band.lo.push_back(std::max(0.0, mean[k] - sd[k])), band.hi.push_back(mean[k] + sd[k]);
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+      band.lo.push_back(std::max(0.0, mean[k] - sd[k]));
+      band.hi.push_back(mean[k] + sd[k]);
+    }
     f.plot.add(std::move(band));
   }
   for (std::size_t i = 0; i < group.size(); ++i)
@@ -120,15 +124,19 @@ Figure against_delay(const ControllerComparison& r, const Variant& model) {
            "Root mean square of the distance over the last third of the run, mean over the seeds.",
            {}};
   if (r.study.models.size() > 1) f.heading += ": " + model.name;
-  f.plot.description = f.heading, f.plot.inlined = true;
-  f.plot.x.label = "delay (frames)", f.plot.y.label = "steady error (px rms)";
+  f.plot.description = f.heading;
+  f.plot.inlined = true;
+  f.plot.x.label = "delay (frames)";
+  f.plot.y.label = "steady error (px rms)";
   f.plot.y.lo = 0;
   for (std::size_t i = 0; i < r.study.controllers.size(); ++i) {
     Line line{.x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = kGroupInks[i % std::size(kGroupInks)]};
     for (const Combination& c : r.combinations)
       if (c.model == model.name && c.controller == line.label)
-        if (const MeanOverSeeds* m = metric(c, "steady_rms_px"))
-          line.x.push_back(c.delay), line.y.push_back(m->mean);
+        if (const MeanOverSeeds* m = metric(c, "steady_rms_px")) {
+          line.x.push_back(c.delay);
+          line.y.push_back(m->mean);
+        }
     f.plot.add(Scatter{.x = line.x, .y = line.y, .label = {}, .ink = line.ink});
     f.plot.add(std::move(line));
   }

@@ -26,7 +26,9 @@ RgbImage averaged(const RgbImage& picture, int n) {
       int red = 0, green = 0, blue = 0;
       for (int i = 0; i < n * n; ++i) {
         const Rgb p = picture.at(c * n + i % n, r * n + i / n);
-        red += p.r, green += p.g, blue += p.b;
+        red += p.r;
+        green += p.g;
+        blue += p.b;
       }
       const auto mean = [&](int sum) { return std::uint8_t((sum + n * n / 2) / (n * n)); };
       out.at(c, r) = {mean(red), mean(green), mean(blue)};

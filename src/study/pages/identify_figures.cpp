@@ -28,8 +28,10 @@ std::string label_of(const FreeParameter& p) {
 
 Plot plot_of(const std::string& heading, std::string x, std::string y) {
   Plot p;
-  p.description = heading, p.inlined = true;
-  p.x.label = std::move(x), p.y.label = std::move(y);
+  p.description = heading;
+  p.inlined = true;
+  p.x.label = std::move(x);
+  p.y.label = std::move(y);
   return p;
 }
 
@@ -41,19 +43,26 @@ struct Course {
 Course course_of(const Identification& r, std::size_t video, std::size_t episode, const std::string& what,
                  const std::string& label, Ink ink, double (*map)(double)) {
   Course c;
-  c.observed.label = label, c.observed.ink = c.shown.ink = ink;
+  c.observed.label = label;
+  c.observed.ink = c.shown.ink = ink;
   std::size_t drive = 0;
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
     const Statistic& s = r.statistics[k];
     if (s.video != video || s.episode != episode || s.number.what != what) continue;
     if (s.number.drive != drive) {
       drive = s.number.drive;
-      c.observed.x.push_back(s.number.t_s), c.observed.y.push_back(kGap);
-      c.shown.x.push_back(s.number.t_s), c.shown.lo.push_back(kGap), c.shown.hi.push_back(kGap);
+      c.observed.x.push_back(s.number.t_s);
+      c.observed.y.push_back(kGap);
+      c.shown.x.push_back(s.number.t_s);
+      c.shown.lo.push_back(kGap);
+      c.shown.hi.push_back(kGap);
     }
     const auto& band = r.models[r.best].foretold90[k];
-    c.observed.x.push_back(s.number.t_s), c.observed.y.push_back(map(s.observed));
-    c.shown.x.push_back(s.number.t_s), c.shown.lo.push_back(map(band[0])), c.shown.hi.push_back(map(band[1]));
+    c.observed.x.push_back(s.number.t_s);
+    c.observed.y.push_back(map(s.observed));
+    c.shown.x.push_back(s.number.t_s);
+    c.shown.lo.push_back(map(band[0]));
+    c.shown.hi.push_back(map(band[1]));
   }
   return c;
 }
@@ -93,10 +102,15 @@ Figure by_drive(const Identification& r) {
     const double um_s = v.um_per_px * v.fps;  // of a pixel per frame
     const auto& band = r.models[r.best].foretold90[k];
     ++n;
-    dots.x.push_back(n), dots.y.push_back(s.observed * um_s);
-    for (const double x : {band[0] * um_s, band[1] * um_s, kGap}) bars.x.push_back(n), bars.y.push_back(x);
+    dots.x.push_back(n);
+    dots.y.push_back(s.observed * um_s);
+    for (const double x : {band[0] * um_s, band[1] * um_s, kGap}) {
+      bars.x.push_back(n);
+      bars.y.push_back(x);
+    }
   }
-  f.plot.x.lo = 0.5, f.plot.x.hi = n + 0.5;
+  f.plot.x.lo = 0.5;
+  f.plot.x.hi = n + 0.5;
   f.plot.add(std::move(bars)).add(std::move(dots));
   return f;
 }
@@ -114,7 +128,8 @@ std::vector<double> spread_along(const GrayF& frame, const CellView& view, doubl
     for (int c = 0; c < w.width; ++c) {
       const double place = (dot(Vec2{double(c), double(r)} - middle, way) / half + 1) / 2;
       const double mass = double(w.at(c, r));
-      sum[std::size_t(std::clamp(int(place * kBins), 0, kBins - 1))] += mass, all += mass;
+      sum[std::size_t(std::clamp(int(place * kBins), 0, kBins - 1))] += mass;
+      all += mass;
     }
   for (double& x : sum) x /= all > 0 ? all : 1;
   return sum;
@@ -186,8 +201,10 @@ Figure posterior_figure(const FoundParameter& p) {
       count[std::size_t(std::clamp(int((q.shown(x) - from) / step), 0, kBins - 1))] +=
           1 / (double(p.draws.size()) * step);
   Line steps{.x = {}, .y = {}, .label = {}, .ink = Ink::blue, .held = true};
-  for (int i = 0; i <= kBins; ++i)
-    steps.x.push_back(from + i * step), steps.y.push_back(i < kBins ? count[std::size_t(i)] : 0);
+  for (int i = 0; i <= kBins; ++i) {
+    steps.x.push_back(from + i * step);
+    steps.y.push_back(i < kBins ? count[std::size_t(i)] : 0);
+  }
   f.plot.y.lo = 0;
   f.plot.add(Band{q.shown(p.ci90[0]), q.shown(p.ci90[1]), {}, true});
   f.plot.add(std::move(steps));
@@ -215,7 +232,8 @@ Figure profile_figure(const FoundParameter& p) {
            plot_of("Profile of " + q.path, label_of(q), "log-likelihood")};
   std::vector<double> x;
   for (const double v : p.profile_at) x.push_back(q.shown(v));
-  f.plot.y.lo = -8, f.plot.y.hi = 0.5;
+  f.plot.y.lo = -8;
+  f.plot.y.hi = 0.5;
   f.plot.add(Rule{.at = kNinety, .label = "90 %", .of_x = false});
   f.plot.add(Line{.x = x, .y = p.profile, .label = {}, .ink = Ink::blue});
   return f;
@@ -236,7 +254,8 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange};
   std::size_t shown = 0;
   for (const LegacySimulation& s : m.simulations) {
-    dots.x.push_back(q.shown(s.value)), dots.y.push_back(s.line.slope);
+    dots.x.push_back(q.shown(s.value));
+    dots.y.push_back(s.line.slope);
     if (s.repeat > 0 || s.video > 0 || s.episode > 0) continue;
     const Ink ink = kInks[shown++ % std::size(kInks)];
     Line series{.x = {}, .y = s.distance, .label = three_digits(q.shown(s.value)), .ink = ink, .width = 1.2};
@@ -270,7 +289,9 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
                                     exact_timing(episode));
       for (const auto& [path, value] : r.models[r.best].best.items()) d.set(path, value, "best");
       EpisodePictures& one = all.emplace_back();
-      one.name = episode.name, one.t_s = picture_times(episode), one.real = v.pictures[e];
+      one.name = episode.name;
+      one.t_s = picture_times(episode);
+      one.real = v.pictures[e];
       one.simulated =
           simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video, v.ground)
               .frames;

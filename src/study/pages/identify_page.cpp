@@ -83,7 +83,8 @@ RgbImage side_by_side(const GrayF& real, const GrayF& simulated) {
         out.at(at + c, r) = {g, g, g};
       }
   };
-  put(real, 0), put(simulated, real.width + gap);
+  put(real, 0);
+  put(simulated, real.width + gap);
   return out;
 }
 

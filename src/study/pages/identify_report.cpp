@@ -25,7 +25,9 @@ nlohmann::ordered_json identify_json(const Identification& r) {
     if (!m.failed.empty()) {
       one["failed"] = m.failed;
     } else {
-      one["score"] = m.score, one["scores"] = m.scores, one["fit_p"] = m.fit_p,
+      one["score"] = m.score;
+      one["scores"] = m.scores;
+      one["fit_p"] = m.fit_p;
       one["simulations"] = m.simulations;
       for (const FoundParameter& p : m.parameters) one["parameters"][p.parameter.path] = parameter_json(p);
     }

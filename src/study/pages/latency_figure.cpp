@@ -36,7 +36,9 @@ std::optional<Figure> latency_figure(const std::filesystem::path& run_dir, doubl
   if (table.size() == 0) return {};
   Plot plot;
   plot.x.label = "latency (ms)";
-  plot.x.lo = kShortest, plot.x.hi = kLongest, plot.x.logarithmic = true;
+  plot.x.lo = kShortest;
+  plot.x.hi = kLongest;
+  plot.x.logarithmic = true;
   plot.y.label = "frames";
   plot.y.lo = 0;
   plot.description = "Histogram of how late pictures and commands were";

@@ -131,16 +131,24 @@ void frame_path(Plot& plot, const Series& series, const RunInfo& info, const Set
   double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
   const auto take = [&](double x, double y) {
     if (!std::isfinite(x) || !std::isfinite(y)) return;
-    x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+    x0 = std::min(x0, x);
+    x1 = std::max(x1, x);
+    y0 = std::min(y0, y);
+    y1 = std::max(y1, y);
   };
   const SwarmColumns swarm = swarm_columns(series);
   for (std::size_t k = 0; k < swarm.x.size(); ++k) take(swarm.x[k], swarm.y[k]);
   for (std::size_t i = 0; i < setpoints.x.size(); ++i) take(setpoints.x[i], setpoints.y[i]);
-  if (info.view_px) take(-0.5, -0.5), take(info.view_px->x - 0.5, info.view_px->y - 0.5);
+  if (info.view_px) {
+    take(-0.5, -0.5);
+    take(info.view_px->x - 0.5, info.view_px->y - 0.5);
+  }
   if (x0 > x1) return;
   const double margin = info.view_px ? 0.015 * (x1 - x0) : std::max(5.0, 0.08 * std::max(x1 - x0, y1 - y0));
-  plot.x.lo = x0 - margin, plot.x.hi = x1 + margin;
-  plot.y.lo = y0 - margin, plot.y.hi = y1 + margin;
+  plot.x.lo = x0 - margin;
+  plot.x.hi = x1 + margin;
+  plot.y.lo = y0 - margin;
+  plot.y.hi = y1 + margin;
 }
 
 void add_outlines(Plot& plot, const RunInfo& info) {
@@ -174,7 +182,8 @@ Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) 
   Plot& plot = figure.plot;
   plot.description = "Path of the centroid in the picture";
   plot.inlined = plot.equal_aspect = plot.y.reversed = true;
-  plot.x.label = "x (px)", plot.y.label = "y (px)";
+  plot.x.label = "x (px)";
+  plot.y.label = "y (px)";
   const Setpoints setpoints = setpoints_of(series);
   frame_path(plot, series, info, setpoints);
   add_outlines(plot, info);
@@ -218,7 +227,10 @@ constexpr std::size_t kWindows = 60;  // of a plot that cannot
 bool restless(const Values& v) {
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
   for (const double x : v)
-    if (std::isfinite(x)) lo = std::min(lo, x), hi = std::max(hi, x);
+    if (std::isfinite(x)) {
+      lo = std::min(lo, x);
+      hi = std::max(hi, x);
+    }
   int switches = 0, direction = 0;
   double turn = v.empty() ? 0 : v.front();
   for (const double x : v) {
@@ -240,7 +252,10 @@ bool restless(const Values& v) {
 double add_command(Plot& plot, const Values& t, const Values& v, const Line& like) {
   if (t.size() < 2 * kWindows || !restless(v)) {
     Line line = like;
-    line.x = t, line.y = v, line.held = true, line.width = 1.4;
+    line.x = t;
+    line.y = v;
+    line.held = true;
+    line.width = 1.4;
     plot.add(std::move(line));
     return 0;
   }
@@ -251,7 +266,8 @@ double add_command(Plot& plot, const Values& t, const Values& v, const Line& lik
     const std::size_t end = std::min(first + size, t.size());
     const auto [lo, hi] = std::minmax_element(&v[first], &v[first] + (end - first));
     range.x.push_back(0.5 * (t[first] + t[end - 1]));
-    range.lo.push_back(*lo), range.hi.push_back(*hi);
+    range.lo.push_back(*lo);
+    range.hi.push_back(*hi);
     mean.y.push_back(std::accumulate(&v[first], &v[first] + (end - first), 0.0) / double(end - first));
   }
   mean.x = range.x;

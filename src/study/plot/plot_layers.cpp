@@ -87,7 +87,10 @@ void extent(const Ribbon& r, Range& x, Range& y) {
 }
 void extent(const Rule& r, Range& x, Range& y) { (r.of_x ? x : y).take(r.at); }
 void extent(const Ellipse& e, Range& x, Range& y) {
-  for (const double side : {-1.0, 1.0}) x.take(e.x + side * e.radius_x), y.take(e.y + side * e.radius_y);
+  for (const double side : {-1.0, 1.0}) {
+    x.take(e.x + side * e.radius_x);
+    y.take(e.y + side * e.radius_y);
+  }
 }
 void extent(const Box& b, Range& x, Range& y) {
   for (const double v : {b.x0, b.x1}) x.take(v);
@@ -210,7 +213,8 @@ std::string draw(const Ribbon& r, Ink ink, const Map& map) {
   const auto close = [&] {
     if (!there.empty())
       out += fmt::format(R"(<polygon {} fill-opacity="0.25" points="{}{}"/>)", fill(shade(ink)), there, back);
-    there.clear(), back.clear();
+    there.clear();
+    back.clear();
   };
   for (std::size_t i = 0; i < std::min({r.x.size(), r.lo.size(), r.hi.size()}); ++i) {
     if (!std::isfinite(r.x[i] + r.lo[i] + r.hi[i])) {

@@ -62,7 +62,10 @@ Legend legend_of(const Plot& plot, const std::vector<Ink>& inks, double left, do
     const std::string sign = layer_swatch(plot.layers[i], inks[i]);
     if (label.empty() || sign.empty()) continue;
     const double length = kSwatch + 5 + kTextWidth * letters(label);
-    if (x > left && x + length > plot.width) x = left, y += kLegendRow;
+    if (x > left && x + length > plot.width) {
+      x = left;
+      y += kLegendRow;
+    }
     legend.drawing +=
         fmt::format(R"svg(<g transform="translate({:.1f} {:.1f})">{}</g>)svg", x + kSwatch / 2, y, sign);
     legend.drawing += text_at({x + kSwatch + 5, y + 4}, "start", shade(Ink::text), label);
@@ -134,7 +137,8 @@ Plot in_logarithms(Plot plot) {
     if (a.lo) a.lo = logarithm(*a.lo);
     if (a.hi) a.hi = logarithm(*a.hi);
   };
-  axis(plot.x), axis(plot.y);
+  axis(plot.x);
+  axis(plot.y);
   for (Plot::Layer& layer : plot.layers)
     std::visit(
         [&](auto& l) {
@@ -145,13 +149,19 @@ Plot in_logarithms(Plot plot) {
                         }) {
             if (l.of_x ? x : y) l.at = logarithm(l.at);
           } else if constexpr (requires { l.of_x; }) {
-            if (l.of_x ? x : y) l.lo = logarithm(l.lo), l.hi = logarithm(l.hi);
+            if (l.of_x ? x : y) {
+              l.lo = logarithm(l.lo);
+              l.hi = logarithm(l.hi);
+            }
           } else if constexpr (requires { l.y.size(); }) {
             if (x) all(l.x);
             if (y) all(l.y);
           } else if constexpr (requires { l.lo.size(); }) {
             if (x) all(l.x);
-            if (y) all(l.lo), all(l.hi);
+            if (y) {
+              all(l.lo);
+              all(l.hi);
+            }
           }
         },
         layer);

@@ -44,7 +44,10 @@ Eigen::MatrixXd Emulator::slope(const Eigen::VectorXd& u) const {
   for (Eigen::Index i = 0; i < d; ++i) db(1 + i, i) = 1;
   Eigen::Index k = 1 + d;
   for (Eigen::Index i = 0; i < d; ++i)
-    for (Eigen::Index j = i; j < d; ++j, ++k) db(k, i) += z[j], db(k, j) += z[i];
+    for (Eigen::Index j = i; j < d; ++j, ++k) {
+      db(k, i) += z[j];
+      db(k, j) += z[i];
+    }
   return coefficients_.transpose() * db * width_.cwiseInverse().asDiagonal();
 }
 

@@ -60,7 +60,12 @@ std::vector<Sums> groups_of(std::span<const ExposureValue> values, Centre c) {
     Sums& g = by_name[v.experiment];
     const Eigen::Vector2d row(1, v.exposure_s - c.x);
     const double y = v.value - c.y;
-    g.n += 1, g.sx += row, g.xx += row * row.transpose(), g.xy += row * y, g.sy += y, g.yy += y * y;
+    g.n += 1;
+    g.sx += row;
+    g.xx += row * row.transpose();
+    g.xy += row * y;
+    g.sy += y;
+    g.yy += y * y;
   }
   std::vector<Sums> groups;
   groups.reserve(by_name.size());
@@ -92,7 +97,9 @@ Eigen::Matrix2d uneven_covariance(std::span<const ExposureValue> values, Centre 
   std::map<std::string, Sum> sums;
   for (const ExposureValue& v : values) {
     Sum& s = sums[v.experiment];
-    s.n += 1, s.residual += residual_of(v), s.row += row_of(v);
+    s.n += 1;
+    s.residual += residual_of(v);
+    s.row += row_of(v);
   }
   const Eigen::Matrix2d inverse = t.information.inverse();
   Eigen::Matrix2d meat = Eigen::Matrix2d::Zero();
@@ -113,8 +120,11 @@ std::optional<ExposureLine> pooled_line(std::span<const ExposureValue> values) {
   if (values.size() < 3 || one_exposure(values)) return {};
   std::vector<double> x, y;
   std::set<std::string> experiments;
-  for (const ExposureValue& v : values)
-    x.push_back(v.exposure_s), y.push_back(v.value), experiments.insert(v.experiment);
+  for (const ExposureValue& v : values) {
+    x.push_back(v.exposure_s);
+    y.push_back(v.value);
+    experiments.insert(v.experiment);
+  }
   const LineFit fit = fit_line(x, y);
   return ExposureLine{fit.slope, fit.intercept,      fit.slope_ci95(),       fit.intercept_ci95(), fit.sd,
                       0,         int(values.size()), int(experiments.size())};
@@ -125,7 +135,10 @@ std::optional<ExposureLine> mixed_line(std::span<const ExposureValue> values) {
   if (!line || line->experiments < 2) return line;
   if (line->values < line->experiments + 2) return {};
   Centre c;
-  for (const ExposureValue& v : values) c.x += v.exposure_s / line->values, c.y += v.value / line->values;
+  for (const ExposureValue& v : values) {
+    c.x += v.exposure_s / line->values;
+    c.y += v.value / line->values;
+  }
   const std::vector<Sums> groups = groups_of(values, c);
   const double n = line->values;
   // The criterion is smooth in the logarithm of the ratio: a walk over ten decades, then a golden section.
@@ -178,7 +191,10 @@ std::optional<Cutoff> response_cutoff(std::span<const ExposureResponse> samples)
       const bool before = i == exposures.size() || s.exposure_s < exposures[i];
       wrong += before != s.responds;
     }
-    if (wrong < fewest) fewest = wrong, at = i;
+    if (wrong < fewest) {
+      fewest = wrong;
+      at = i;
+    }
   }
   if (at == 0 || at == exposures.size()) return {};
   best = Cutoff{(exposures[at - 1] + exposures[at]) / 2, {exposures[at - 1], exposures[at]}, fewest};

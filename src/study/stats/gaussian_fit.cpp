@@ -70,6 +70,19 @@ double values_to_one(const Eigen::VectorXd& r) {
   return (1 + rho) / (1 - rho);
 }
 
+// Why a fit is not a peak of the video, or nothing. `x` has unit length and height, `sd` is the scatter about
+// it.
+std::string weakness(const GaussianFit& fit, const Eigen::VectorXd& x, double sd, double gain,
+                     std::size_t values) {
+  if (!(x[0] > 3 * sd)) return "the peak is no higher than three times the scatter about it";
+  if (!(fit.amplitude > 2 * fit.se_amplitude)) return "its height cannot be told from its width and offset";
+  if (!(gain > kGain)) return "a constant fits nearly as well";
+  if (!(x[1] > 0 && x[1] < 1)) return "the peak lies outside of the video";
+  if (!(x[2] * double(values - 1) > 1)) return "the peak is narrower than two values";
+  if (!(x[2] < 1)) return "the peak is wider than the video is long";
+  return {};
+}
+
 }  // namespace
 
 GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> values) {
@@ -82,8 +95,10 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   }
   const double begin = t_s.front(), length = t_s.back() - begin, range = *high;
   std::vector<double> t, y;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    t.push_back((t_s[i] - begin) / length), y.push_back(values[i] / range);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    t.push_back((t_s[i] - begin) / length);
+    y.push_back(values[i] / range);
+  }
 
   Peak peak(t, y);
   Eigen::VectorXd x = start(t, y);
@@ -92,14 +107,19 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   x[2] = std::fabs(x[2]);
   Eigen::VectorXd r(Eigen::Index(y.size()));
   Eigen::MatrixXd j(Eigen::Index(y.size()), 4);
-  peak(x, r), peak.df(x, j);
+  peak(x, r);
+  peak.df(x, j);
   const double variance = r.squaredNorm() / double(y.size() - 4);
   const Eigen::MatrixXd covariance =
       (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse() * variance * values_to_one(r);
   const auto se = [&](int i) { return std::sqrt(std::max(covariance(i, i), 0.0)); };
-  fit.amplitude = x[0] * range, fit.peak_s = begin + x[1] * length, fit.sigma_s = x[2] * length;
+  fit.amplitude = x[0] * range;
+  fit.peak_s = begin + x[1] * length;
+  fit.sigma_s = x[2] * length;
   fit.offset = x[3] * x[3] * range;
-  fit.se_amplitude = se(0) * range, fit.se_peak_s = se(1) * length, fit.se_sigma_s = se(2) * length;
+  fit.se_amplitude = se(0) * range;
+  fit.se_peak_s = se(1) * length;
+  fit.se_sigma_s = se(2) * length;
   fit.se_offset = 2 * std::fabs(x[3]) * se(3) * range;
   fit.scatter = std::sqrt(variance) * range;
   double constant = 0, mean = 0;
@@ -108,21 +128,12 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   const double free_values = double(y.size()) / values_to_one(r) - 4;
   const double gain =
       free_values > 1 ? (constant / std::max(r.squaredNorm(), 1e-300) - 1) / 3 * free_values : 0;
-  if (!(std::isfinite(x.sum()))) {
+  if (!std::isfinite(x.sum())) {
     fit = {};
     fit.why = "the fit came to no end";
-  } else if (!(x[0] > 3 * std::sqrt(variance)))
-    fit.why = "the peak is no higher than three times the scatter about it";
-  else if (!(fit.amplitude > 2 * fit.se_amplitude))
-    fit.why = "its height cannot be told from its width and offset";
-  else if (!(gain > kGain))
-    fit.why = "a constant fits nearly as well";
-  else if (!(x[1] > 0 && x[1] < 1))
-    fit.why = "the peak lies outside of the video";
-  else if (!(x[2] * double(y.size() - 1) > 1))
-    fit.why = "the peak is narrower than two values";
-  else if (!(x[2] < 1))
-    fit.why = "the peak is wider than the video is long";
+    return fit;
+  }
+  fit.why = weakness(fit, x, std::sqrt(variance), gain, y.size());
   fit.good = fit.why.empty();
   return fit;
 }

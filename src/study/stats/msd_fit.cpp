@@ -20,8 +20,13 @@ struct StraightLine {
 StraightLine straight_line(const std::vector<double>& x, const std::vector<double>& y,
                            const std::vector<double>& w) {
   double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    s += w[i], sx += w[i] * x[i], sy += w[i] * y[i], sxx += w[i] * x[i] * x[i], sxy += w[i] * x[i] * y[i];
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    s += w[i];
+    sx += w[i] * x[i];
+    sy += w[i] * y[i];
+    sxx += w[i] * x[i] * x[i];
+    sxy += w[i] * x[i] * y[i];
+  }
   const double det = s * sxx - sx * sx;
   if (!(det > 0)) return {0, sy / s};
   return {(s * sxy - sx * sy) / det, (sxx * sy - sx * sxy) / det};
@@ -39,15 +44,22 @@ struct Linear {
 };
 Linear solve_for(const Msd& m, double tau) {
   std::vector<double> g, w;
-  for (std::size_t k = 0; k < m.size(); ++k)
-    g.push_back(persistent_shape(m.lag_s[k], tau)), w.push_back(weight_of(m, k));
+  for (std::size_t k = 0; k < m.size(); ++k) {
+    g.push_back(persistent_shape(m.lag_s[k], tau));
+    w.push_back(weight_of(m, k));
+  }
   Linear out;
   const StraightLine both = straight_line(g, m.msd_px2, w);
-  out.v2 = both.slope, out.offset = both.offset;
+  out.v2 = both.slope;
+  out.offset = both.offset;
   if (out.offset < 0 || out.v2 < 0) {
     double gg = 0, gy = 0;
-    for (std::size_t k = 0; k < g.size(); ++k) gg += w[k] * g[k] * g[k], gy += w[k] * g[k] * m.msd_px2[k];
-    out.v2 = std::max(0.0, gy / gg), out.offset = 0;
+    for (std::size_t k = 0; k < g.size(); ++k) {
+      gg += w[k] * g[k] * g[k];
+      gy += w[k] * g[k] * m.msd_px2[k];
+    }
+    out.v2 = std::max(0.0, gy / gg);
+    out.offset = 0;
   }
   out.chi2 = 0;
   for (std::size_t k = 0; k < g.size(); ++k) {
@@ -68,8 +80,11 @@ DiffusionFit fit_diffusion(const Msd& m, std::size_t first, std::size_t lags) {
   for (int round = 0; round < 10; ++round) {
     use = std::min(std::max(use, least), all);
     std::vector<double> x, y, w;
-    for (std::size_t k = first; k < first + use; ++k)
-      x.push_back(m.lag_s[k]), y.push_back(m.msd_px2[k]), w.push_back(weight_of(m, k));
+    for (std::size_t k = first; k < first + use; ++k) {
+      x.push_back(m.lag_s[k]);
+      y.push_back(m.msd_px2[k]);
+      w.push_back(weight_of(m, k));
+    }
     const StraightLine line = straight_line(x, y, w);
     fit = {true, line.slope / 4, line.offset, first, use};
     if (lags > 0 || !(line.slope > 0)) break;
@@ -92,7 +107,11 @@ PersistentFit fit_persistent(const Msd& m) {
   for (int i = 0; i <= kSteps; ++i) {
     const double tau = least * std::pow(most / least, double(i) / kSteps);
     const Linear l = solve_for(m, tau);
-    if (l.chi2 < best.chi2) best = l, fit.tau_s = tau, at = i;
+    if (l.chi2 < best.chi2) {
+      best = l;
+      fit.tau_s = tau;
+      at = i;
+    }
   }
   fit.good = best.v2 > 0 && at > 0;  // at the shortest time tried nothing is told of it
   fit.speed_px_s = std::sqrt(std::max(0.0, best.v2));
@@ -107,7 +126,8 @@ double fit_exponent(const Msd& m, double offset, std::size_t first) {
   for (std::size_t k = first; k < m.size(); ++k) {
     const double left = m.msd_px2[k] - offset;
     if (!(left > taken_off) || !(left > 0)) continue;
-    x.push_back(std::log(m.lag_s[k])), y.push_back(std::log(left));
+    x.push_back(std::log(m.lag_s[k]));
+    y.push_back(std::log(left));
     w.push_back(weight_of(m, k) * left * left);
   }
   if (x.size() < 3) return std::numeric_limits<double>::quiet_NaN();

@@ -141,8 +141,10 @@ using Trials = std::vector<const std::vector<double>*>;
 
 Combination conclude(const ControllerStudy& study, const Setting& s, const Trials& trials) {
   Combination c;
-  c.controller = study.controllers[s.controller].name, c.model = study.models[s.model].name;
-  c.delay = s.delay, c.trials = int(trials.size());
+  c.controller = study.controllers[s.controller].name;
+  c.model = study.models[s.model].name;
+  c.delay = s.delay;
+  c.trials = int(trials.size());
   const std::vector<const MetricInfo*> metrics = compared();
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     std::vector<double> values;
@@ -193,7 +195,9 @@ ControllerStudy read_controller_study(const std::filesystem::path& file) {
   study.models = read_variants(root, "model");
   if (std::set<int>(f.delays.begin(), f.delays.end()).size() != f.delays.size())
     root.child("delays").fail("names a delay twice");
-  study.delays = f.delays, study.seeds = f.seeds, study.first_seed = f.first_seed;
+  study.delays = f.delays;
+  study.seeds = f.seeds;
+  study.first_seed = f.first_seed;
   return study;
 }
 
@@ -212,7 +216,8 @@ std::string fingerprint(const ControllerStudy& study) {
   Hash h;
   h.text("compare-controllers");
   for (const Setting& s : settings(study)) h.text(s.scenario.hash());
-  h.value(study.seeds), h.value(study.first_seed);
+  h.value(study.seeds);
+  h.value(study.first_seed);
   return h.hex();
 }
 

@@ -102,7 +102,10 @@ void measure_error(Metrics& m, Values t, Values d, std::size_t first_leg_end) {
   double square = 0;
   std::size_t count = 0;
   for (std::size_t k = 2 * d.size() / 3; k < d.size(); ++k) {
-    if (std::isfinite(d[k])) square += d[k] * d[k], ++count;
+    if (std::isfinite(d[k])) {
+      square += d[k] * d[k];
+      ++count;
+    }
   }
   if (count > 0) m.steady_rms_px = std::sqrt(square / double(count));
 

@@ -32,7 +32,10 @@ class StudyDirectory {
   /// Error(input) for those that are none.
   void merge(const std::vector<std::filesystem::path>& dirs);
   /// Everything is written: the study is whole.
-  void complete() { lock_.complete(), whole_ = true; }
+  void complete() {
+    lock_.complete();
+    whole_ = true;
+  }
 
  private:
   std::filesystem::path dir_;

@@ -33,7 +33,10 @@ std::optional<double> counted_by_run(const std::filesystem::path& run, const Vid
   const auto counts = series.find("visible_count"), times = series.column("t_s");
   double sum = 0, n = 0;
   for (std::size_t i = 0; i < counts.size(); ++i)
-    if (std::isfinite(counts[i]) && part.holds(times[i])) sum += counts[i], n += 1;
+    if (std::isfinite(counts[i]) && part.holds(times[i])) {
+      sum += counts[i];
+      n += 1;
+    }
   return n > 0 ? std::optional(sum / n) : std::nullopt;
 }
 
@@ -67,7 +70,8 @@ std::optional<double> visible_cells(const std::filesystem::path& path, const Vid
     if (!go_on()) throw Error(Errc::interrupted, path.string(), "stopped");
   };
   TrackOptions options;
-  options.video = video, options.fps = part.fps;
+  options.video = video;
+  options.fps = part.fps;
   const TrackSurvey survey = survey_tracks(options, video, [&](auto, auto) { check(); });
   VideoReader reader(video, part.fps);
   const Detector detector(survey.background, detector_options(options, survey, {}));

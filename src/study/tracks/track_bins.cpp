@@ -18,7 +18,10 @@ TimeBins::TimeBins(double span_s) : span_s_(span_s), x_(kSpans), y_(kSpans), len
 void TimeBins::add(double t_s, double x, double y) {
   while (t_s / span_s_ >= double(kSpans)) fold();
   const auto i = std::size_t(std::max(0.0, t_s / span_s_));
-  x_[i] += x, y_[i] += y, length_[i] += std::hypot(x, y), n_[i] += 1;
+  x_[i] += x;
+  y_[i] += y;
+  length_[i] += std::hypot(x, y);
+  n_[i] += 1;
 }
 
 std::vector<TimeBins::Span> TimeBins::spans() const {
@@ -27,7 +30,10 @@ std::vector<TimeBins::Span> TimeBins::spans() const {
   std::vector<Span> out;
   for (std::size_t i = 0; i < end; ++i) {
     Span s{(double(i) + 0.5) * span_s_, kNaN, kNaN, kNaN, n_[i]};
-    if (n_[i] > 0) s.x = x_[i] / n_[i], s.y = y_[i] / n_[i];
+    if (n_[i] > 0) {
+      s.x = x_[i] / n_[i];
+      s.y = y_[i] / n_[i];
+    }
     if (n_[i] >= kFewest && length_[i] > 0) s.order = std::hypot(x_[i], y_[i]) / length_[i];
     out.push_back(s);
   }

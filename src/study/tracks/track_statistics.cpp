@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "study/tracks/track_bins.h"
+#include "study/tracks/track_sums.h"
 #include "study/stats/statistics.h"
 
 namespace faba {
@@ -29,40 +30,6 @@ std::vector<int> lags_up_to(int most) {
   return lags;
 }
 
-// Sums over pairs of sightings one lag apart.
-struct LagSums {
-  double n = 0, dt = 0, dx = 0, dy = 0, rr = 0;
-  LagSums& operator+=(const LagSums& o) {
-    n += o.n, dt += o.dt, dx += o.dx, dy += o.dy, rr += o.rr;
-    return *this;
-  }
-  LagSums without(const LagSums& o) const { return {n - o.n, dt - o.dt, dx - o.dx, dy - o.dy, rr - o.rr}; }
-  // Mean-square displacement about the mean one.
-  double msd() const { return (rr - (dx * dx + dy * dy) / n) / n; }
-};
-
-// Sums over pairs of displacements: of `over` frames, the second beginning `apart` frames after the first.
-struct ProductSums {
-  std::size_t over = 1, apart = 2;
-  double n = 0, dot = 0;
-};
-struct SpeedSums {
-  double n = 0, v = 0;
-};
-struct TurnSums {
-  double n = 0, size = 0, with_sign = 0;
-};
-
-struct Group {
-  std::vector<LagSums> lags;
-  std::vector<ProductSums>
-      kept;  ///< one for each of kScales: the pause between is as long as the displacements
-  std::vector<ProductSums> memory;  ///< displacements of one frame, 2 to kMostMemory frames apart
-  SpeedSums speed;
-  TurnSums turn;
-  double tracks = 0;
-};
-
 // Where a track was, by the number of frame times since its first sighting; -1: not seen then.
 std::vector<int> slots_of(const Track& track, double frame_s) {
   std::vector<int> slots;
@@ -75,19 +42,6 @@ std::vector<int> slots_of(const Track& track, double frame_s) {
   return slots;
 }
 
-// delete-one jackknife over the groups that hold tracks: value(left out) for each of them.
-template <class Value>
-double jackknife_se(const std::vector<Group>& groups, const Value& value) {
-  std::vector<double> v;
-  for (const Group& g : groups)
-    if (g.tracks > 0) v.push_back(value(g));
-  if (v.size() < 4) return kNaN;
-  double mean = 0, square = 0;
-  for (const double x : v) mean += x / double(v.size());
-  for (const double x : v) square += (x - mean) * (x - mean);
-  return std::sqrt(square * double(v.size() - 1) / double(v.size()));
-}
-
 }  // namespace
 
 struct TrackStatistics::Impl {
@@ -96,7 +50,7 @@ struct TrackStatistics::Impl {
   bool settled = false;
   double noise2 = 0;  // variance of an axis of a sighting, px^2
   std::vector<int> lags;
-  std::vector<Group> groups = std::vector<Group>(kGroups);
+  std::vector<TrackGroup> groups = std::vector<TrackGroup>(kGroups);
   std::vector<Track> pilot;
   std::size_t pilot_points = 0;
   std::uint64_t points = 0;
@@ -107,7 +61,7 @@ struct TrackStatistics::Impl {
   TimeBins in_time;
 
   Impl(double frame, int frames) : frame_s(frame), interval(frames), lags(lags_up_to(400)), in_time(frame) {
-    for (Group& g : groups) {
+    for (TrackGroup& g : groups) {
       g.lags.resize(lags.size());
       for (const std::size_t m : kScales) g.kept.push_back({m, 2 * m});
       for (std::size_t k = 2; k <= kMostMemory; ++k) g.memory.push_back({1, k});
@@ -118,8 +72,8 @@ struct TrackStatistics::Impl {
   void add_motion(const Track& t);
   void settle();
   LagSums all(std::size_t lag) const;
-  Msd msd_without(const Group* left_out) const;
-  Estimated product(std::size_t which, std::vector<ProductSums> Group::*list) const;
+  Msd msd_without(const TrackGroup* left_out) const;
+  Estimated product(std::size_t which, std::vector<ProductSums> TrackGroup::*list) const;
   void weigh_persistence(TrackSummary& s) const;
   void fit(TrackSummary& s) const;
   void motion(TrackSummary& s) const;
@@ -127,12 +81,12 @@ struct TrackStatistics::Impl {
 
 LagSums TrackStatistics::Impl::all(std::size_t lag) const {
   LagSums sum;
-  for (const Group& g : groups) sum += g.lags[lag];
+  for (const TrackGroup& g : groups) sum += g.lags[lag];
   return sum;
 }
 
 void TrackStatistics::Impl::add_displacements(const Track& t) {
-  Group& g = groups[t.number % kGroups];
+  TrackGroup& g = groups[t.number % kGroups];
   const std::vector<int> slots = slots_of(t, frame_s);
   const auto seen = [&](std::size_t slot) { return slot < slots.size() ? slots[slot] : -1; };
   for (std::size_t k = 0; k < lags.size(); ++k) {
@@ -154,13 +108,14 @@ void TrackStatistics::Impl::add_displacements(const Track& t) {
         const int a = slots[i], b = slots[i + p.over], c = slots[i + p.apart],
                   d = slots[i + p.apart + p.over];
         if (a < 0 || b < 0 || c < 0 || d < 0) continue;
-        p.n += 1, p.dot += dot(place(b) - place(a), place(d) - place(c));
+        p.n += 1;
+        p.dot += dot(place(b) - place(a), place(d) - place(c));
       }
 }
 
 // Speeds and turns over the interval, from displacements that follow one on the other.
 void TrackStatistics::Impl::add_motion(const Track& t) {
-  Group& g = groups[t.number % kGroups];
+  TrackGroup& g = groups[t.number % kGroups];
   const std::vector<int> slots = slots_of(t, frame_s);
   const auto step = std::size_t(interval);
   Vec2 last;
@@ -176,18 +131,24 @@ void TrackStatistics::Impl::add_motion(const Track& t) {
     const double dt = q.t_s - p.t_s;
     // Across the direction of motion the error makes displacements longer, along it neither (theory H2).
     const double length = std::sqrt(std::max(0.0, dot(d, d) - 2 * noise2)), v = length / dt;
-    g.speed.n += 1, g.speed.v += v;
+    g.speed.n += 1;
+    g.speed.v += v;
     const double bin = length > kLowSpeed ? kBinsPerDecade * std::log10(length / kLowSpeed) : 0;
     speed_bins[std::min(kSpeedBins - 1, std::size_t(bin))] += 1;
-    sum_x += d.x / dt, sum_y += d.y / dt, sum_length += norm(d) / dt;
+    sum_x += d.x / dt;
+    sum_y += d.y / dt;
+    sum_length += norm(d) / dt;
     const bool clear = dot(d, d) > 9 * 2 * noise2 && dot(d, d) > 0;
     if (clear && has_last) {
       const double turn = std::atan2(last.x * d.y - last.y * d.x, dot(last, d));
-      g.turn.n += 1, g.turn.size += std::fabs(turn) / dt, g.turn.with_sign += turn / dt;
+      g.turn.n += 1;
+      g.turn.size += std::fabs(turn) / dt;
+      g.turn.with_sign += turn / dt;
       turn_bins[std::min(kTurnBins - 1,
                          std::size_t(std::fabs(turn) / std::numbers::pi * double(kTurnBins)))] += 1;
     }
-    last = d, has_last = clear;
+    last = d;
+    has_last = clear;
   }
   for (std::size_t i = 0; i + step < slots.size(); ++i) {  // overlapping: every moment has its say
     if (slots[i] < 0 || slots[i + step] < 0) continue;
@@ -197,7 +158,7 @@ void TrackStatistics::Impl::add_motion(const Track& t) {
   }
 }
 
-Msd TrackStatistics::Impl::msd_without(const Group* left_out) const {
+Msd TrackStatistics::Impl::msd_without(const TrackGroup* left_out) const {
   Msd m;
   double first = 0;
   for (std::size_t k = 0; k < lags.size(); ++k) {
@@ -209,31 +170,37 @@ Msd TrackStatistics::Impl::msd_without(const Group* left_out) const {
       sum = sum.without(left_out->lags[k]);
       if (sum.n < 2) break;
     } else {
-      se = jackknife_se(groups, [&](const Group& g) {
+      se = jackknife_se(groups, [&](const TrackGroup& g) {
         const LagSums rest = sum.without(g.lags[k]);
         return rest.n > 1 ? rest.msd() : sum.msd();
       });
     }
-    m.lag_s.push_back(sum.dt / sum.n), m.msd_px2.push_back(sum.msd());
-    m.se_px2.push_back(se), m.pairs.push_back(sum.n);
+    m.lag_s.push_back(sum.dt / sum.n);
+    m.msd_px2.push_back(sum.msd());
+    m.se_px2.push_back(se);
+    m.pairs.push_back(sum.n);
   }
   return m;
 }
 
 // Mean product of two displacements, about what the common drift alone would give.
-Estimated TrackStatistics::Impl::product(std::size_t which, std::vector<ProductSums> Group::*list) const {
-  const auto without = [&](const Group* left_out) {
+Estimated TrackStatistics::Impl::product(std::size_t which,
+                                         std::vector<ProductSums> TrackGroup::*list) const {
+  const auto without = [&](const TrackGroup* left_out) {
     double n = 0, sum = 0, over = 0;
-    for (const Group& g : groups)
-      if (&g != left_out)
-        n += (g.*list)[which].n, sum += (g.*list)[which].dot, over = double((g.*list)[which].over);
+    for (const TrackGroup& g : groups)
+      if (&g != left_out) {
+        n += (g.*list)[which].n;
+        sum += (g.*list)[which].dot;
+        over = double((g.*list)[which].over);
+      }
     LagSums one = all(0);
     if (left_out) one = one.without(left_out->lags[0]);
     if (n < 1 || one.n < 1) return kNaN;
     const Vec2 drift{over * one.dx / one.n, over * one.dy / one.n};
     return sum / n - dot(drift, drift);
   };
-  return {without(nullptr), jackknife_se(groups, [&](const Group& g) { return without(&g); })};
+  return {without(nullptr), jackknife_se(groups, [&](const TrackGroup& g) { return without(&g); })};
 }
 
 void TrackStatistics::Impl::weigh_persistence(TrackSummary& s) const {
@@ -241,15 +208,18 @@ void TrackStatistics::Impl::weigh_persistence(TrackSummary& s) const {
   for (std::size_t i = 0; i < std::size(kScales); ++i) {
     const auto lag = std::size_t(std::find(lags.begin(), lags.end(), int(kScales[i])) - lags.begin());
     if (lag >= s.msd.size()) break;
-    const Estimated p = product(i, &Group::kept);
+    const Estimated p = product(i, &TrackGroup::kept);
     const double share = p.value / s.msd.msd_px2[lag], se = p.se / s.msd.msd_px2[lag];
     // With too few tracks for a standard error only what is plain counts.
     const bool clear = std::isfinite(se) ? share > kClear * se && share > kKept : share > 2 * kKept;
     if (clear) s.persists = true;
-    if (share > s.persistence.value) s.persistence = {share, se}, s.persistence_scale_s = s.msd.lag_s[lag];
+    if (share > s.persistence.value) {
+      s.persistence = {share, se};
+      s.persistence_scale_s = s.msd.lag_s[lag];
+    }
   }
   for (std::size_t k = 0; k < kMostMemory - 1; ++k) {
-    const Estimated p = product(k, &Group::memory);
+    const Estimated p = product(k, &TrackGroup::memory);
     if (!(p.value > kClear * p.se)) break;
     s.memory_frames = int(k) + 2;
   }
@@ -260,10 +230,11 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
   const LagSums one = all(0);
   const auto drift = [&](bool x) {
     const auto value = [&](const LagSums& l) { return l.dt > 0 ? (x ? l.dx : l.dy) / l.dt : kNaN; };
-    return Estimated{value(one),
-                     jackknife_se(groups, [&](const Group& g) { return value(one.without(g.lags[0])); })};
+    return Estimated{
+        value(one), jackknife_se(groups, [&](const TrackGroup& g) { return value(one.without(g.lags[0])); })};
   };
-  s.drift_x_px_s = drift(true), s.drift_y_px_s = drift(false);
+  s.drift_x_px_s = drift(true);
+  s.drift_y_px_s = drift(false);
   weigh_persistence(s);
   const auto skipped =
       s.persists ? 0
@@ -273,21 +244,21 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
   const double offset = s.persists && s.persistent.good ? s.persistent.offset_px2 : s.diffusion.offset_px2;
   s.localisation_px = std::sqrt(std::max(0.0, offset / 4));
   // The same lags and weights with each group left out.
-  const auto left_out = [&](const Group& g) {
+  const auto left_out = [&](const TrackGroup& g) {
     Msd m = msd_without(&g);
     for (std::size_t k = 0; k < m.size(); ++k) m.se_px2[k] = s.msd.se_px2[k];
     return m;
   };
-  s.d_px2_s = {s.diffusion.d_px2_s, jackknife_se(groups, [&](const Group& g) {
+  s.d_px2_s = {s.diffusion.d_px2_s, jackknife_se(groups, [&](const TrackGroup& g) {
                  return fit_diffusion(left_out(g), s.diffusion.first, s.diffusion.lags).d_px2_s;
                })};
-  s.speed_rms_px_s = {s.persistent.speed_px_s, jackknife_se(groups, [&](const Group& g) {
+  s.speed_rms_px_s = {s.persistent.speed_px_s, jackknife_se(groups, [&](const TrackGroup& g) {
                         return fit_persistent(left_out(g)).speed_px_s;
                       })};
   s.tau_s = {s.persistent.tau_s,
-             jackknife_se(groups, [&](const Group& g) { return fit_persistent(left_out(g)).tau_s; })};
+             jackknife_se(groups, [&](const TrackGroup& g) { return fit_persistent(left_out(g)).tau_s; })};
   if (s.persistent.tau_open) s.tau_s.se = kNaN;
-  s.alpha = {fit_exponent(s.msd, offset, skipped), jackknife_se(groups, [&](const Group& g) {
+  s.alpha = {fit_exponent(s.msd, offset, skipped), jackknife_se(groups, [&](const TrackGroup& g) {
                return fit_exponent(left_out(g), offset, skipped);
              })};
 }
@@ -316,22 +287,27 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
   s.interval_s = interval * frame_s;
   const auto mean_of = [&](const auto& n_of, const auto& sum_of, double scale) {
     double n = 0, sum = 0;
-    for (const Group& g : groups) n += n_of(g), sum += sum_of(g);
+    for (const TrackGroup& g : groups) {
+      n += n_of(g);
+      sum += sum_of(g);
+    }
     if (n < 1) return Estimated{kNaN, kNaN};
-    const auto rest = [&](const Group& g) {
+    const auto rest = [&](const TrackGroup& g) {
       return n - n_of(g) > 0 ? scale * (sum - sum_of(g)) / (n - n_of(g)) : kNaN;
     };
     return Estimated{scale * sum / n, jackknife_se(groups, rest)};
   };
   constexpr double kDegrees = 180 / std::numbers::pi;
-  s.mean_speed_px_s =
-      mean_of([](const Group& g) { return g.speed.n; }, [](const Group& g) { return g.speed.v; }, 1);
-  s.turn_deg_s =
-      mean_of([](const Group& g) { return g.turn.n; }, [](const Group& g) { return g.turn.size; }, kDegrees);
-  s.signed_turn_deg_s = mean_of([](const Group& g) { return g.turn.n; },
-                                [](const Group& g) { return g.turn.with_sign; }, kDegrees);
-  for (const Group& g : groups)
-    s.speed_count += std::uint64_t(g.speed.n), s.turn_count += std::uint64_t(g.turn.n);
+  s.mean_speed_px_s = mean_of([](const TrackGroup& g) { return g.speed.n; },
+                              [](const TrackGroup& g) { return g.speed.v; }, 1);
+  s.turn_deg_s = mean_of([](const TrackGroup& g) { return g.turn.n; },
+                         [](const TrackGroup& g) { return g.turn.size; }, kDegrees);
+  s.signed_turn_deg_s = mean_of([](const TrackGroup& g) { return g.turn.n; },
+                                [](const TrackGroup& g) { return g.turn.with_sign; }, kDegrees);
+  for (const TrackGroup& g : groups) {
+    s.speed_count += std::uint64_t(g.speed.n);
+    s.turn_count += std::uint64_t(g.turn.n);
+  }
   const auto speed_at = [&](double bin) {
     return bin < 1 ? 0.0 : kLowSpeed * std::pow(10, bin / kBinsPerDecade) / s.interval_s;
   };
@@ -346,8 +322,10 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
     s.turn_noise_deg_s =
         std::sqrt(2 / std::numbers::pi) * kDegrees * std::sqrt(6 * noise2) / typical / s.interval_s;
   for (const TimeBins::Span& span : in_time.spans()) {
-    s.time_s.push_back(span.time_s), s.count_in_time.push_back(span.count);
-    s.velocity_x_px_s.push_back(span.x), s.velocity_y_px_s.push_back(span.y);
+    s.time_s.push_back(span.time_s);
+    s.count_in_time.push_back(span.count);
+    s.velocity_x_px_s.push_back(span.x);
+    s.velocity_y_px_s.push_back(span.y);
     s.order_in_time.push_back(span.order);
   }
   // Bins of equal width out to the 99.5 % quantile; the last one takes the rest.
@@ -373,7 +351,10 @@ void TrackStatistics::take(const Track& track) {
   Impl& me = *impl_;
   if (track.points.empty()) return;
   me.points += track.points.size();
-  if (!track.goes_on) me.track_count += 1, me.groups[track.number % kGroups].tracks += 1;
+  if (!track.goes_on) {
+    me.track_count += 1;
+    me.groups[track.number % kGroups].tracks += 1;
+  }
   me.add_displacements(track);
   if (me.settled) return me.add_motion(track);
   me.pilot.push_back(track);

@@ -44,7 +44,10 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   s.polarity = o.polarity == Polarity::automatic ? found_polarity(middle, first_guess) : o.polarity;
   s.size_px = o.size_px > 0 ? o.size_px : spot_size(middle, first_guess, s.polarity);
   if (!(s.size_px > 0) && many) s.size_px = spot_size(middle, fine, s.polarity);
-  if (!(s.size_px > 0)) s.size_px = kSizeIfNone, s.size_found = false;
+  if (!(s.size_px > 0)) {
+    s.size_px = kSizeIfNone;
+    s.size_found = false;
+  }
   s.smoothing_px = std::max(8.0, 4 * s.size_px);
   Background smooth = spatial_background(middle, s.smoothing_px);
   const std::int64_t by_space = count_spots(o, s, smooth, middle);

@@ -105,7 +105,10 @@ void check(const GrayF& picture, const DropEdgeOptions& o) {
 
 DropPicture prepare_drop_picture(const GrayF& picture, const DropEdgeOptions& o) {
   // OpenCV would start threads of its own beside our pool.
-  [[maybe_unused]] static const bool one_thread = (cv::setNumThreads(1), true);
+  [[maybe_unused]] static const bool one_thread = [] {
+    cv::setNumThreads(1);
+    return true;
+  }();
   check(picture, o);
   GrayF grey = picture;
   if (o.hot_pixel_sd > 0) replace_hot_pixels(grey, o.hot_pixel_sd);

@@ -24,7 +24,8 @@ class Film final : public Camera {
       if (breaks_) throw Error(Errc::device, "film", "broke");
       return false;
     }
-    out.number = std::uint64_t(next_), out.t = 100 + 0.1 * (next_ - 1);
+    out.number = std::uint64_t(next_);
+    out.t = 100 + 0.1 * (next_ - 1);
     out.image = std::make_shared<Gray8>(20, 14, std::uint8_t(5 * next_));
     next_ = next_ == 6 ? 9 : next_ + 1;
     return true;
@@ -50,7 +51,8 @@ std::vector<double> numbers(const std::filesystem::path& times) {
 
 CaptureJob into(const std::filesystem::path& out, const std::string& format) {
   CaptureJob job;
-  job.out = out, job.format = format;
+  job.out = out;
+  job.format = format;
   return job;
 }
 
@@ -77,7 +79,10 @@ TEST_CASE("one of N, once every T, a run of N frames, a run of T: what is kept, 
   CHECK(kept([](CaptureJob& j) { j.one_of = 4; }) ==
         std::vector<double>{1, 5, 11, 15, 19});  // of those that came
   CHECK(kept([](CaptureJob& j) { j.frames = 7; }) == std::vector<double>{1, 2, 3, 4, 5, 6, 9});
-  CHECK(kept([](CaptureJob& j) { j.frames = 7, j.one_of = 3; }) == std::vector<double>{1, 4, 9});
+  CHECK(kept([](CaptureJob& j) {
+          j.frames = 7;
+          j.one_of = 3;
+        }) == std::vector<double>{1, 4, 9});
   CHECK(kept([](CaptureJob& j) { j.time = 0.45; }) == std::vector<double>{1, 2, 3, 4, 5});
   // Due at 0, 0.3, 0.6 (lost, the next one stands for it), 0.9 ...
   CHECK(kept([](CaptureJob& j) { j.every = 0.3; }) == std::vector<double>{1, 4, 9, 10, 13, 16, 19});

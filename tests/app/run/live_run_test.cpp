@@ -27,7 +27,10 @@ void play(LiveRun& live, const std::vector<std::pair<std::uint64_t, Json>>& scri
       live.exchange(script[next].second);
   };
   due();
-  live.run([&] { return due(), live.frame() < end; });
+  live.run([&] {
+    due();
+    return live.frame() < end;
+  });
 }
 
 Json field(const char* x, const char* y) { return {{"controller", {{"type", "manual"}, {"field", {x, y}}}}}; }
@@ -129,7 +132,8 @@ TEST_CASE("a run with events that was broken off goes on to the same bits") {
       Session first = Session::begin(s, 1, o);
       REQUIRE_FALSE(first.run());
     }
-    o.progress = {}, stop = false;
+    o.progress = {};
+    stop = false;
     Session second = Session::resume(parts, o);
     REQUIRE(second.run());
     CHECK(second.manifest().simulated->state_hash == whole);

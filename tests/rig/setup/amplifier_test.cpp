@@ -74,7 +74,8 @@ TEST_CASE("volts and amperes of a coil are each other's inverse, by gain and by 
 
 TEST_CASE("coils of one channel get the mean of what they ask, each counted with its polarity") {
   WiredCoil a{.channel = "Dev1/ao0", .gain = 0.2, .neutral = 2.5}, b = a, c = a;
-  b.polarity = -1, c.channel = "Dev1/ao1";
+  b.polarity = -1;
+  c.channel = "Dev1/ao1";
   const CoilWiring w({a, b, c});
   CHECK(w.channels() == std::vector<std::string>{"Dev1/ao0", "Dev1/ao1"});
   const double asked[] = {0.3, -0.1, 0.2};

@@ -121,11 +121,13 @@ TEST_CASE("cells are smeared along their way during the exposure, about where th
   s.agents = Columns(2);
   CellsInCamera camera(frame);
   s.t = 1;
-  s.agents["x"][0] = 10e-6F, s.agents["y"][0] = 20e-6F;
+  s.agents["x"][0] = 10e-6F;
+  s.agents["y"][0] = 20e-6F;
   CHECK(camera.look(s, 0.01)[0].dx == 0);
   camera.remember(s);
   s.t = 1.005;
-  s.agents["x"][0] = 11e-6F, s.agents["y"][0] = 18e-6F;
+  s.agents["x"][0] = 11e-6F;
+  s.agents["y"][0] = 18e-6F;
   const CameraCell c = camera.look(s, 0.02)[0];  // (200, -400) um/s, 1 um per px, y down
   CHECK(double(c.x) == doctest::Approx(frame.centre_image.x + 11));
   CHECK(double(c.y) == doctest::Approx(frame.centre_image.y - 18));

@@ -94,7 +94,8 @@ TEST_CASE("field library: stopped or crashed, it goes on to the same library, wi
   for (const double share : {0.1, 0.5, 0.9}) {
     const auto cut = f.path() / "cut.h5";
     write_file(cut.string() + ".part", left.substr(0, std::size_t(share * double(left.size()))));
-    o.force = true, o.progress = [](auto, auto) {};
+    o.force = true;
+    o.progress = [](auto, auto) {};
     build_field_library(kRig, cut, o);
     check_equal(*open_library(f.path() / "whole.h5"), *open_library(cut));
   }
@@ -109,6 +110,7 @@ TEST_CASE("field library: limits are said") {
   o.spacing = 1e-9;
   CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", o), Error);
   o = small();
-  o.width = o.height = 0.05, o.spacing = 1e-3;  // the coils stand in it
+  o.width = o.height = 0.05;
+  o.spacing = 1e-3;  // the coils stand in it
   CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", o), Error);
 }

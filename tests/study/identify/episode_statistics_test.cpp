@@ -14,7 +14,10 @@ const Episode kEpisode{"e", 0, {{0, 3, 0}, {3, 6, 180}}, {}};
 
 CellView view() {
   CellView v;
-  v.width = 320, v.height = 240, v.frame_s = 0.1, v.reach_px = 8;
+  v.width = 320;
+  v.height = 240;
+  v.frame_s = 0.1;
+  v.reach_px = 8;
   return v;
 }
 

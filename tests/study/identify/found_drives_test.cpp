@@ -65,8 +65,9 @@ TEST_CASE("a run's record of its field has its drives, to the frame") {
                                               : late < 3   ? 60
                                               : late < 3.2 ? 0
                                                            : -60;
-    columns[0].push_back(t), columns[1].push_back(b * std::cos(kTilt)),
-        columns[2].push_back(b * std::sin(kTilt));
+    columns[0].push_back(t);
+    columns[1].push_back(b * std::cos(kTilt));
+    columns[2].push_back(b * std::sin(kTilt));
   }
   const Series record("series.csv", {"t_s", "field_x_ut", "field_y_ut"}, columns);
   for (const bool against : {false, true}) {

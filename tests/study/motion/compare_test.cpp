@@ -39,7 +39,8 @@ void write_step(const std::filesystem::path& file, int pairs, int first, int sec
 
 CompareJob job_of(const std::filesystem::path& reference, const std::vector<std::filesystem::path>& runs) {
   CompareJob job;
-  job.reference = reference, job.runs = runs;
+  job.reference = reference;
+  job.runs = runs;
   job.method = flow_part({}, published_flow());
   job.threads = 1;
   job.flow_threshold_px = 0.5;  // five standard deviations of the noise: what is compared is the motion
@@ -102,7 +103,10 @@ TEST_CASE("both begin at the reversal, wherever it is") {
   job.align = false;
   const Comparison unaligned = compare_videos(job);
   CHECK(unaligned.runs[0].distance.mean > 1.5 * found.runs[0].distance.mean);
-  job.reference_t0_s = 5, job.t0_s = 6.3, job.align = true, job.duration_s = 2;
+  job.reference_t0_s = 5;
+  job.t0_s = 6.3;
+  job.align = true;
+  job.duration_s = 2;
   const Comparison given = compare_videos(job);
   CHECK(given.reference_t0_s == 5);
   CHECK(given.runs[0].distance.t_s.size() == 20);
@@ -119,6 +123,7 @@ TEST_CASE("a slower run is farther, and a run of another size or without anythin
   CHECK(c.runs[1].distance.mean > 2 * c.runs[0].distance.mean);
   CHECK_THROWS_AS(compare_videos(job_of(f.path() / "a.h5", {f.path() / "small.h5"})), Error);
   CompareJob late = job_of(f.path() / "a.h5", {f.path() / "same.h5"});
-  late.reference_t0_s = 9.9, late.t0_s = 0;
+  late.reference_t0_s = 9.9;
+  late.t0_s = 0;
   CHECK_THROWS_AS(compare_videos(late), Error);
 }

@@ -25,11 +25,14 @@ Signature made(int pairs, const std::vector<Motion>& motions, double noise, unsi
     for (const Motion& m : motions)
       if (k >= m.from && k < m.to) {
         const double a = m.deg * 3.14159265358979323846 / 180;
-        u += m.speed * std::cos(a), v += m.speed * std::sin(a);
+        u += m.speed * std::cos(a);
+        v += m.speed * std::sin(a);
       }
     FlowPair p = test::moving_quarter(std::uint64_t(k), u, v);
-    for (std::size_t i = 0; i < p.flow.u.px.size(); ++i)
-      p.flow.u.px[i] += float(gauss(g)), p.flow.v.px[i] += float(gauss(g));
+    for (std::size_t i = 0; i < p.flow.u.px.size(); ++i) {
+      p.flow.u.px[i] += float(gauss(g));
+      p.flow.v.px[i] += float(gauss(g));
+    }
     s.add(p, 1);
   }
   return s;

@@ -51,7 +51,8 @@ TEST_CASE("noise without a direction adds to the activity and nothing to the flo
     for (float& x : p.flow.u.px) x = noise(g);
     for (float& x : p.flow.v.px) x = noise(g);
     s.add(p, 1);
-    amount += s.amount(std::size_t(k), 90), along += s.along(std::size_t(k), 90);
+    amount += s.amount(std::size_t(k), 90);
+    along += s.along(std::size_t(k), 90);
     squares += s.along(std::size_t(k), 90) * s.along(std::size_t(k), 90);
   }
   CHECK(amount / pairs > 100);                       // a quarter of 640 pixels, each about 1

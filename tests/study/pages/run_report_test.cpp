@@ -212,9 +212,13 @@ TEST_CASE("run report: the outcome in words fits what happened") {
   RunInfo info;
   info.um_per_px = 0.5;
   Metrics m;
-  m.frames = 100, m.duration_s = 30, m.setpoints = 1;
-  m.initial_error_px = 300, m.final_distance_px = 80;
-  m.sigma_x_px = 12, m.sigma_y_px = 34.5;
+  m.frames = 100;
+  m.duration_s = 30;
+  m.setpoints = 1;
+  m.initial_error_px = 300;
+  m.final_distance_px = 80;
+  m.sigma_x_px = 12;
+  m.sigma_y_px = 34.5;
 
   SUBCASE("never settled") {
     const faba::RunInWords words = run_in_words(m, info);
@@ -227,7 +231,8 @@ TEST_CASE("run report: the outcome in words fits what happened") {
           "(6.00\u00A0×\u00A017.2\u00A0µm), standard deviations in x and y.");
   }
   SUBCASE("settled") {
-    m.settling_time_s = 4.25, m.steady_rms_px = 2;
+    m.settling_time_s = 4.25;
+    m.steady_rms_px = 2;
     CHECK(run_in_words(m, info).outcome ==
           "The swarm reached its setpoint after 4.25\u00A0s and stayed within 2.00\u00A0px (1.00\u00A0µm) "
           "rms of it over "
@@ -236,33 +241,44 @@ TEST_CASE("run report: the outcome in words fits what happened") {
     CHECK(has(run_in_words(m, info).outcome, "within 2.00\u00A0px rms"));
   }
   SUBCASE("settled so late that the last third was the approach") {
-    m.settling_time_s = 29, m.steady_rms_px = 120;
+    m.settling_time_s = 29;
+    m.steady_rms_px = 120;
     const std::string outcome = run_in_words(m, info).outcome;
     CHECK(has(outcome, "only after 29.0\u00A0s"));
     CHECK_FALSE(has(outcome, "120"));
   }
   SUBCASE("there from the start") {
-    m.settling_time_s = 0, m.steady_rms_px = 2;
+    m.settling_time_s = 0;
+    m.steady_rms_px = 2;
     CHECK(has(run_in_words(m, info).outcome, "was at its setpoint from the start and stayed"));
   }
   SUBCASE("a route") {
-    m.setpoints = 4, m.settling_time_s = 12, m.steady_rms_px = 2, m.cross_track_95_px = 6;
+    m.setpoints = 4;
+    m.settling_time_s = 12;
+    m.steady_rms_px = 2;
+    m.cross_track_95_px = 6;
     const faba::RunInWords words = run_in_words(m, info);
     CHECK(has(words.outcome, "reached the last of 4 setpoints after 12.0\u00A0s"));
     CHECK(has(words.details, "within 6.00\u00A0px (3.00\u00A0µm) of the route in 19 of 20 frames"));
   }
   SUBCASE("a route that was not finished") {
     info.setpoints = 6;
-    m.setpoints = 4, m.settling_time_s = 12, m.steady_rms_px = 2, m.cross_track_95_px = 6;
+    m.setpoints = 4;
+    m.settling_time_s = 12;
+    m.steady_rms_px = 2;
+    m.cross_track_95_px = 6;
     m.settling_band_px = 15;
     CHECK(has(run_in_words(m, info).outcome, "was still on its way to setpoint 4 of 6, 80.0"));
     m.final_distance_px = 3;
     CHECK(has(run_in_words(m, info).outcome, "had come to setpoint 4 of 6, 3.00"));
-    m.setpoints = 6, m.settling_time_s.reset();
+    m.setpoints = 6;
+    m.settling_time_s.reset();
     CHECK(has(run_in_words(m, info).outcome, "did not settle at the last of 6 setpoints: it was 3.00"));
   }
   SUBCASE("a target that moves all the time") {
-    m.setpoints = 900, m.settling_time_s = 3, m.steady_rms_px = 9;
+    m.setpoints = 900;
+    m.settling_time_s = 3;
+    m.steady_rms_px = 9;
     CHECK(has(run_in_words(m, info).outcome, "its moving setpoint"));
   }
 }
@@ -270,7 +286,10 @@ TEST_CASE("run report: the outcome in words fits what happened") {
 TEST_CASE("run report: a short approach is shown by itself, and only then") {
   const auto headings = [](int frames) {
     std::vector<double> t, d, zero(std::size_t(frames), 0.0);
-    for (int k = 0; k < frames; ++k) t.push_back(k / 15.0), d.push_back(k < 30 ? 300 - 10 * k : 1);
+    for (int k = 0; k < frames; ++k) {
+      t.push_back(k / 15.0);
+      d.push_back(k < 30 ? 300 - 10 * k : 1);
+    }
     const faba::Series series("series.csv",
                               {"t_s", "distance_px", "true_centroid_x_px", "true_centroid_y_px",
                                "true_sigma_x_px", "true_sigma_y_px", "true_rms_radius_px"},
@@ -286,7 +305,10 @@ TEST_CASE("run report: a short approach is shown by itself, and only then") {
 TEST_CASE("run report: a command that switches too often to be read is shown by its mean and range") {
   const auto drawn = [](int half_period) {
     std::vector<double> t, current, zero(600, 0.0);
-    for (int k = 0; k < 600; ++k) t.push_back(k / 60.0), current.push_back(k / half_period % 2 ? 1 : -1);
+    for (int k = 0; k < 600; ++k) {
+      t.push_back(k / 60.0);
+      current.push_back(k / half_period % 2 ? 1 : -1);
+    }
     const faba::Series series("series.csv",
                               {"t_s", "distance_px", "true_centroid_x_px", "true_centroid_y_px",
                                "true_sigma_x_px", "true_sigma_y_px", "true_rms_radius_px", "current_0_a"},

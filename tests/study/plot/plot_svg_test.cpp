@@ -75,7 +75,8 @@ void check_sound(const std::string& svg) {
 Plot everything() {
   Plot plot;
   plot.title = "All of it";
-  plot.x.label = "time (s)", plot.y.label = "distance (px)";
+  plot.x.label = "time (s)";
+  plot.y.label = "distance (px)";
   plot.right = SecondScale{0.8, "distance (µm)"};
   plot.add(Band{0, 16, "band"});
   plot.add(Line{{0, 1, 2, 3}, {5, kNan, 40, 30}, "distance"});
@@ -162,9 +163,11 @@ TEST_CASE("plot: no data, one point, a constant, absurd numbers: still a sound d
 TEST_CASE("plot: ranges asked for are kept, even when they make no sense") {
   Plot plot;
   plot.add(Line{{0, 10}, {0, 5}});
-  plot.y.lo = 8, plot.y.hi = 2;
+  plot.y.lo = 8;
+  plot.y.hi = 2;
   check_sound(svg(plot));
-  plot.y.lo = 0, plot.y.hi = 100;
+  plot.y.lo = 0;
+  plot.y.hi = 100;
   const std::string drawing = svg(plot);
   CHECK(drawing.find(">100<") != std::string::npos);
 }
@@ -182,11 +185,15 @@ TEST_CASE("plot: a long series keeps the minimum and maximum of every pixel colu
   // 200 000 points of a slow wave with one spike up and one down, each a single sample.
   const std::size_t n = 200000;
   std::vector<double> x(n), y(n);
-  for (std::size_t i = 0; i < n; ++i)
-    x[i] = double(i), y[i] = std::sin(1e-4 * double(i)) + 0.2 * std::sin(double(i));
-  y[70001] = 9, y[130003] = -7;
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] = double(i);
+    y[i] = std::sin(1e-4 * double(i)) + 0.2 * std::sin(double(i));
+  }
+  y[70001] = 9;
+  y[130003] = -7;
   Plot plot;
-  plot.y.lo = -10, plot.y.hi = 10;
+  plot.y.lo = -10;
+  plot.y.hi = 10;
   plot.add(Line{x, y, "", Ink::blue});
   const std::string drawing = svg(plot);
   check_sound(drawing);
@@ -212,8 +219,10 @@ TEST_CASE("plot: a long series keeps the minimum and maximum of every pixel colu
 TEST_CASE("plot: a curve that turns back is thinned by distance, and its ends stay") {
   const std::size_t n = 100000;
   std::vector<double> x(n), y(n);
-  for (std::size_t i = 0; i < n; ++i)
-    x[i] = 300 * std::cos(1e-3 * double(i)), y[i] = 200 * std::sin(1e-3 * double(i));
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] = 300 * std::cos(1e-3 * double(i));
+    y[i] = 200 * std::sin(1e-3 * double(i));
+  }
   Plot plot;
   plot.equal_aspect = true;
   plot.add(Line{x, y, "", Ink::blue});
@@ -228,9 +237,13 @@ TEST_CASE("plot: a curve that turns back is thinned by distance, and its ends st
 TEST_CASE("plot: looking closely at a part of a long series draws that part and its neighbours only") {
   const std::size_t n = 100000;
   std::vector<double> x(n), y(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] = double(i), y[i] = double(i % 7);
+  for (std::size_t i = 0; i < n; ++i) {
+    x[i] = double(i);
+    y[i] = double(i % 7);
+  }
   Plot plot;
-  plot.x.lo = 500, plot.x.hi = 510;
+  plot.x.lo = 500;
+  plot.x.hi = 510;
   plot.add(Line{x, y, "", Ink::blue});
   const std::string drawing = svg(plot);
   const std::vector<Corner> part = corners(path_of(drawing, "blue"));
@@ -290,7 +303,8 @@ TEST_CASE("plot: ticks are round numbers inside the range") {
 
 TEST_CASE("plot: ticks of a scale share one number of decimals; large and small numbers a power of ten") {
   Plot plot;
-  plot.x.label = "time (s)", plot.y.label = "field (T)";
+  plot.x.label = "time (s)";
+  plot.y.label = "field (T)";
   plot.add(Line{{0, 1}, {-4e-5, 4e-5}});
   const std::string drawing = svg(plot);
   CHECK(drawing.find("field (T) ×10⁻⁵") != std::string::npos);

@@ -44,7 +44,9 @@ TEST_CASE("standard errors are the scatter of the answers over many series") {
     const Series s = peak(100, 3, 0.7, 40, 12, seed);
     const GaussianFit f = fit_gaussian(s.t, s.y);
     REQUIRE(f.good);
-    sum += f.peak_s - 3, squares += (f.peak_s - 3) * (f.peak_s - 3), stated += f.se_peak_s / n;
+    sum += f.peak_s - 3;
+    squares += (f.peak_s - 3) * (f.peak_s - 3);
+    stated += f.se_peak_s / n;
   }
   const double sd = std::sqrt(squares / n);
   CHECK(std::fabs(sum / n) < 4 * sd / std::sqrt(n));

@@ -27,8 +27,10 @@ struct Recording {
 
   void frame(double t_s, Vec2 centroid, Vec2 setpoint) {
     t.push_back(t_s);
-    x.push_back(centroid.x), y.push_back(centroid.y);
-    setpoint_x.push_back(setpoint.x), setpoint_y.push_back(setpoint.y);
+    x.push_back(centroid.x);
+    y.push_back(centroid.y);
+    setpoint_x.push_back(setpoint.x);
+    setpoint_y.push_back(setpoint.y);
     d.push_back(faba::norm(centroid - setpoint));
   }
   faba::Series series() const {

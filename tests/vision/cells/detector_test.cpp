@@ -30,14 +30,20 @@ Found compare(const std::vector<Vec2>& truth, const std::vector<Spot>& spots, do
     std::size_t best = truth.size();
     double least = within;
     for (std::size_t i = 0; i < truth.size(); ++i)
-      if (const double d = norm(truth[i] - Vec2{s.x_px, s.y_px}); !used[i] && d < least) least = d, best = i;
+      if (const double d = norm(truth[i] - Vec2{s.x_px, s.y_px}); !used[i] && d < least) {
+        least = d;
+        best = i;
+      }
     if (best == truth.size()) {
       ++f.extra;
       continue;
     }
     used[best] = true;
     ++f.hit;
-    for (const double e : {s.x_px - truth[best].x, s.y_px - truth[best].y}) f.sum += e, f.sum2 += e * e;
+    for (const double e : {s.x_px - truth[best].x, s.y_px - truth[best].y}) {
+      f.sum += e;
+      f.sum2 += e * e;
+    }
     f.stated2 += 2 * s.sd_px * s.sd_px;
   }
   return f;
@@ -57,7 +63,10 @@ TEST_CASE("places are unbiased and as sure as is stated") {
       const Found f = compare(truth, detector_for(l, frame).find(frame), 2);
       CHECK(f.hit == int(truth.size()));
       CHECK(f.extra <= 2);  // 0.1 expected of each frame
-      all.sum += f.sum, all.sum2 += f.sum2, all.stated2 += f.stated2, all.hit += f.hit;
+      all.sum += f.sum;
+      all.sum2 += f.sum2;
+      all.stated2 += f.stated2;
+      all.hit += f.hit;
     }
     const double n = 2.0 * all.hit, sd = std::sqrt(all.sum2 / n), stated = std::sqrt(all.stated2 / n);
     CHECK(std::fabs(all.sum / n) < 4 * sd / std::sqrt(n));
@@ -70,7 +79,10 @@ TEST_CASE("places are unbiased and as sure as is stated") {
 
 TEST_CASE("noise alone gives about as many spots as was asked for") {
   cells::Look l;
-  l.width = 640, l.height = 480, l.noise = 6, l.uneven = false;
+  l.width = 640;
+  l.height = 480;
+  l.noise = 6;
+  l.uneven = false;
   int found = 0;
   constexpr int kFrames = 6;
   for (std::uint64_t k = 0; k < kFrames; ++k) {
@@ -86,16 +98,22 @@ TEST_CASE("mass, size and shape are those of the spots") {
   for (const double sd : {0.8, 1.27, 3.0, 6.0}) {
     CAPTURE(sd);
     cells::Look l;
-    l.cell_sd_px = sd, l.noise = 1, l.amplitude = 70, l.level = 60;
+    l.cell_sd_px = sd;
+    l.noise = 1;
+    l.amplitude = 70;
+    l.level = 60;
     const auto truth = cells::scattered(l, 20, 14 * sd, 6 * sd, 3);
     const GrayF frame = cells::picture(l, truth, 5);
     DetectorOptions o;
-    o.size_px = sd * kFwhmPerSd, o.polarity = Polarity::bright;
+    o.size_px = sd * kFwhmPerSd;
+    o.polarity = Polarity::bright;
     const auto spots = Detector(spatial_background(frame, 12 * sd), o).find(frame);
     REQUIRE(spots.size() == truth.size());
     double mass = 0, size = 0;
-    for (const Spot& s : spots)
-      mass += s.mass / double(spots.size()), size += s.size_px / double(spots.size());
+    for (const Spot& s : spots) {
+      mass += s.mass / double(spots.size());
+      size += s.size_px / double(spots.size());
+    }
     const double pixels = sd * sd;
     // The wide smoothing that stands for the background takes some of the spot's foot with it.
     CHECK(mass == doctest::Approx(2 * 3.14159 * pixels * 70).epsilon(0.08));
@@ -125,7 +143,8 @@ TEST_CASE("a rod shows its direction") {
 
 TEST_CASE("two cells close together are two, and do not pull each other") {
   cells::Look l;
-  l.noise = 1, l.uneven = false;
+  l.noise = 1;
+  l.uneven = false;
   for (const double apart : {4.5, 6.0, 8.0}) {
     CAPTURE(apart);
     const std::vector<Vec2> truth{{100.2, 80.4}, {100.2 + apart, 80.4}};
@@ -139,7 +158,8 @@ TEST_CASE("two cells close together are two, and do not pull each other") {
 
 TEST_CASE("nothing is looked for outside of the drop, nor at the border") {
   cells::Look l;
-  l.noise = 1, l.uneven = false;
+  l.noise = 1;
+  l.uneven = false;
   const std::vector<Vec2> truth{{100, 100}, {200, 100}, {0.4, 50}, {319, 200}};
   const GrayF frame = cells::picture(l, truth, 6);
   DetectorOptions o;
@@ -156,7 +176,8 @@ TEST_CASE("the size is found") {
   for (const double sd : {1.0, 2.0, 4.0}) {
     CAPTURE(sd);
     cells::Look l;
-    l.cell_sd_px = sd, l.noise = 3;
+    l.cell_sd_px = sd;
+    l.noise = 3;
     const GrayF frame = cells::picture(l, cells::scattered(l, 40, 9 * sd, 4 * sd, 2), 3);
     const double size = spot_size(frame, spatial_background(frame, 30), Polarity::dark);
     // Sizes are tried in steps of 20 %; the band pass stands out most for sizes up to another 15 % off.

@@ -15,7 +15,11 @@ namespace {
 
 Spot spot(Vec2 p, double mass = 100) {
   Spot s;
-  s.x_px = p.x, s.y_px = p.y, s.sd_px = 0.05, s.mass = mass, s.snr = 20;
+  s.x_px = p.x;
+  s.y_px = p.y;
+  s.sd_px = 0.05;
+  s.mass = mass;
+  s.snr = 20;
   return s;
 }
 
@@ -53,7 +57,10 @@ TEST_CASE("the assignment is the best there is") {
     std::vector<int> taken(std::size_t(columns), 0);
     for (int r = 0; r < rows; ++r)
       for (const PossiblePair& c : all)
-        if (c.row == r && of_row[std::size_t(r)] == c.column) sum += c.gain, ++taken[std::size_t(c.column)];
+        if (c.row == r && of_row[std::size_t(r)] == c.column) {
+          sum += c.gain;
+          ++taken[std::size_t(c.column)];
+        }
     for (const int n : taken) CHECK(n <= 1);
     std::vector<bool> used(std::size_t(columns), false);
     CHECK(sum ==
@@ -71,7 +78,8 @@ TEST_CASE("cells that cross keep their tracks") {
     frames.push_back({noisy(20 + 3.0 * k, 40 + 2.0 * k), noisy(137 - 3.0 * k, 41 + 2.0 * k)});
   }
   TrackerOptions o;
-  o.motion = Motion::velocity, o.reach_px = 8;
+  o.motion = Motion::velocity;
+  o.reach_px = 8;
   Tracker t(o);
   const auto tracks = track_all(t, frames);
   REQUIRE(tracks.size() == 2);
@@ -126,7 +134,8 @@ TEST_CASE("births, deaths and noise: tracks begin and end where cells do, single
 TEST_CASE("a thousand swimmers: nearly every link is right, reach and motion are found") {
   // Density 0.0033 per px^2: mean distance to the nearest is 8.7 px; half of it is 4.4 px per frame.
   cells::Look l;
-  l.width = 640, l.height = 480;
+  l.width = 640;
+  l.height = 480;
   cells::Dice dice(9);
   std::vector<Vec2> at, v;
   for (int i = 0; i < 1000; ++i) {
@@ -188,7 +197,8 @@ TEST_CASE("what diffuses is followed by its place") {
 
 TEST_CASE("uneven times: velocities are per second, not per frame") {
   TrackerOptions o;
-  o.motion = Motion::velocity, o.reach_px = 6;
+  o.motion = Motion::velocity;
+  o.reach_px = 6;
   Tracker t(o);
   double time = 0;
   for (std::uint64_t k = 0; k < 40; ++k) {
@@ -209,7 +219,8 @@ TEST_CASE("long tracks are handed out in pieces; time must go on") {
     for (const Track& piece : t.finished()) {
       CHECK(piece.number == 1);
       CHECK(piece.goes_on);
-      points += piece.points.size(), ++pieces;
+      points += piece.points.size();
+      ++pieces;
     }
   }
   t.finish();

@@ -36,8 +36,12 @@ double kasa_radius(const std::vector<Vec2>& points) {
   for (Vec2 p : points) {
     const Vec2 d = p - mean;
     const double w = 1.0 / double(points.size()), q = dot(d, d);
-    xx += w * d.x * d.x, xy += w * d.x * d.y, yy += w * d.y * d.y, xz += w * d.x * q, yz += w * d.y * q,
-        z += w * q;
+    xx += w * d.x * d.x;
+    xy += w * d.x * d.y;
+    yy += w * d.y * d.y;
+    xz += w * d.x * q;
+    yz += w * d.y * q;
+    z += w * q;
   }
   const double det = xx * yy - xy * xy;
   const Vec2 c{(xz * yy - yz * xy) / det / 2, (yz * xx - xz * xy) / det / 2};

@@ -90,7 +90,8 @@ TEST_CASE("short arcs of every kind are found") {
 
 TEST_CASE("whole drops, wide arcs and dim 16-bit pictures are found") {
   DropScene s;
-  s.width = 518, s.height = 488;
+  s.width = 518;
+  s.height = 488;
   s.centre = {258.3, 228.8};
   s.radius = 161;
   s.ground = 70;

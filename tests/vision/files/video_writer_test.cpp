@@ -377,11 +377,12 @@ TEST_CASE("grey frames of 8 and 16 bits come back exactly from the lossless form
   const media::ScratchFolder folder;
   Gray8 low(33, 21);
   Image<std::uint16_t> high(33, 21);
-  for (std::size_t i = 0; i < low.px.size(); ++i)
-    low.px[i] = std::uint8_t(i * 7), high.px[i] = std::uint16_t(i * 977);
+  for (std::size_t i = 0; i < low.px.size(); ++i) low.px[i] = std::uint8_t(i * 7);
+  for (std::size_t i = 0; i < high.px.size(); ++i) high.px[i] = std::uint16_t(i * 977);
   VideoWriter a(folder / "a.part", VideoFormat::lossless_avi, 33, 21, 15, 0, VideoPixels::grey8);
   VideoWriter b(folder / "b.part", VideoFormat::lossless_avi, 33, 21, 15, 0, VideoPixels::grey16);
-  for (int k = 0; k < 3; ++k) a.write(low), b.write(high);
+  for (int k = 0; k < 3; ++k) a.write(low);
+  for (int k = 0; k < 3; ++k) b.write(high);
   a.finish(folder / "a.avi");
   b.finish(folder / "b.avi");
   VideoReader ra(folder / "a.avi"), rb(folder / "b.avi");

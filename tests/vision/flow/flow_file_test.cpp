@@ -16,7 +16,10 @@ namespace {
 Flow some_flow(int width, int height, float seed) {
   Flow f{GrayF(width, height), GrayF(width, height)};
   for (int r = 0; r < height; ++r)
-    for (int c = 0; c < width; ++c) f.u.at(c, r) = seed + float(c) / 7, f.v.at(c, r) = seed - float(r) / 3;
+    for (int c = 0; c < width; ++c) {
+      f.u.at(c, r) = seed + float(c) / 7;
+      f.v.at(c, r) = seed - float(r) / 3;
+    }
   return f;
 }
 

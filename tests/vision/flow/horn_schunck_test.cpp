@@ -52,7 +52,8 @@ struct Slow {
           const std::size_t i = index(c, r);
           const double um = mean(u0, c, r), vm = mean(v0, c, r);
           const double s = (ix[i] * um + iy[i] * vm + it[i]) / (alpha2 + ix[i] * ix[i] + iy[i] * iy[i]);
-          u[i] = um - ix[i] * s, v[i] = vm - iy[i] * s;
+          u[i] = um - ix[i] * s;
+          v[i] = vm - iy[i] * s;
         }
     }
   }
@@ -76,7 +77,9 @@ double largest_difference(const FlowPlanes<double>& w, const Slow& s) {
 
 HornSchunckParams jacobi(int sweeps) {
   HornSchunckParams p;
-  p.solver = FlowSolver::jacobi, p.iterations = sweeps, p.tolerance = 0;
+  p.solver = FlowSolver::jacobi;
+  p.iterations = sweeps;
+  p.tolerance = 0;
   return p;
 }
 
@@ -179,7 +182,10 @@ TEST_CASE("warping takes a picture back to where it came from") {
   FlowPlanes<double> flow;
   flow.resize(w, h);
   for (int r = 0; r < h; ++r)
-    for (int c = 0; c < w; ++c) flow.u.row(r)[c] = 2.3, flow.v.row(r)[c] = -1.6;
+    for (int c = 0; c < w; ++c) {
+      flow.u.row(r)[c] = 2.3;
+      flow.v.row(r)[c] = -1.6;
+    }
   Plane<double> back;
   warp(b, flow, back, pool);
   // Cubic convolution is of third order: (k h)^3 of each wave's amplitude, k <= 0.64 over both directions,

@@ -10,7 +10,8 @@ using namespace faba;
 
 TEST_CASE("the background of a video is what it shows without its cells") {
   cells::Look l;
-  l.drop = true, l.noise = 3;
+  l.drop = true;
+  l.noise = 3;
   BackgroundSampler sampler;
   for (std::uint64_t k = 0; k < 50; ++k)
     sampler.take(cells::picture(l, cells::scattered(l, 60, 4, 4, 50 + k), 100 + k));
@@ -51,7 +52,9 @@ TEST_CASE("however long the video, a bounded number of frames spread over it is 
 TEST_CASE("dark or bright is told from the differences, whatever the noise") {
   for (const double amplitude : {-40.0, 40.0}) {
     cells::Look l;
-    l.noise = 5, l.amplitude = amplitude, l.uneven = false;
+    l.noise = 5;
+    l.amplitude = amplitude;
+    l.uneven = false;
     const GrayF p = cells::picture(l, cells::scattered(l, 30, 10, 6, 1), 2);
     std::vector<float> d;
     for (const float v : p.px) d.push_back(v - 150);

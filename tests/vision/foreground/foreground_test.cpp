@@ -13,7 +13,10 @@ namespace {
 
 cells::Look edge_look(double noise) {
   cells::Look l;
-  l.width = 640, l.height = 480, l.drop = true, l.noise = noise;
+  l.width = 640;
+  l.height = 480;
+  l.drop = true;
+  l.noise = noise;
   return l;
 }
 
@@ -97,7 +100,9 @@ TEST_CASE("where cells on the edge were at first, nothing is left of them once t
 TEST_CASE("with the background of a whole video the first picture is as good as any, and cells are counted") {
   const cells::Look l = edge_look(2);
   Background b;
-  b.level = cells::picture(edge_look(0), {}, 0), b.noise_sd = GrayF(l.width, l.height), b.frames = 50;
+  b.level = cells::picture(edge_look(0), {}, 0);
+  b.noise_sd = GrayF(l.width, l.height);
+  b.frames = 50;
   const std::vector<Vec2> swarm = cells::at_the_edge(l, 200, 120, 30, 0, 8);
   Foreground f({.polarity = Polarity::dark});
   f.know(b);
@@ -156,7 +161,8 @@ TEST_CASE("a swarm that leaves where it was first seen leaves no ghost") {
 TEST_CASE("bright cells are told from dark ones, and the number of cells is about right") {
   for (const double amplitude : {-60.0, 60.0}) {
     cells::Look l;
-    l.amplitude = amplitude, l.level = 110;
+    l.amplitude = amplitude;
+    l.level = 110;
     const std::vector<Vec2> swarm = cells::scattered(l, 150, 6, 10, 3);
     Foreground f;
     f.take(cells::bytes(cells::picture(l, swarm, 3)), 0);
@@ -185,7 +191,8 @@ TEST_CASE("what is archived goes on with the same bits") {
   Foreground b;
   b.archive(in);
   const Gray8 next = cells::bytes(cells::picture(l, swarm, 9));
-  a.take(next, 0.1), b.take(next, 0.1);
+  a.take(next, 0.1);
+  b.take(next, 0.1);
   CHECK(a.weights().px == b.weights().px);
   CHECK(a.moments().centroid_image.x == b.moments().centroid_image.x);
 }

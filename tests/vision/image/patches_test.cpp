@@ -23,7 +23,10 @@ std::vector<int> walked(const std::vector<std::uint8_t>& mask, int w, int h, int
         for (int col = at % w - 1; col <= at % w + 1; ++col) {
           if (row < 0 || row >= h || col < 0 || col >= w) continue;
           const auto i = std::size_t(row * w + col);
-          if (mask[i] && of[i] < 0) of[i] = patches, open.push_back(int(i));
+          if (mask[i] && of[i] < 0) {
+            of[i] = patches;
+            open.push_back(int(i));
+          }
         }
     }
     ++patches;

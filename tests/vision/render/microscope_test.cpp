@@ -24,15 +24,20 @@ double off(double value, double expected) { return std::fabs(value / expected - 
 
 Frame view(int width = 96, int height = 64) {
   Frame f;
-  f.m_per_px = 1e-6, f.width = width, f.height = height;
+  f.m_per_px = 1e-6;
+  f.width = width;
+  f.height = height;
   return f;
 }
 
 // Even light, no noise: what is left is cells and quantisation.
 MicroscopeParams still() {
   MicroscopeParams p;
-  p.vignetting = 0, p.unevenness = 0, p.noise = 0.0;
-  p.level = 0.8, p.contrast = -0.3;
+  p.vignetting = 0;
+  p.unevenness = 0;
+  p.noise = 0.0;
+  p.level = 0.8;
+  p.contrast = -0.3;
   return p;
 }
 
@@ -58,11 +63,17 @@ Moments moments(const Image<std::uint16_t>& im, double ground) {
         if (const double grey = im.at(c, r); std::fabs(grey - ground) > 0.51)
           use(c, r, -std::log(grey / ground), ground - grey);
   };
-  each(
-      [&](int c, int r, double d, double a) { m.density += d, m.absorbed += a, m.x += d * c, m.y += d * r; });
-  m.x /= m.density, m.y /= m.density;
+  each([&](int c, int r, double d, double a) {
+    m.density += d;
+    m.absorbed += a;
+    m.x += d * c;
+    m.y += d * r;
+  });
+  m.x /= m.density;
+  m.y /= m.density;
   each([&](int c, int r, double d, double) {
-    m.xx += d * (c - m.x) * (c - m.x) / m.density, m.yy += d * (r - m.y) * (r - m.y) / m.density;
+    m.xx += d * (c - m.x) * (c - m.x) / m.density;
+    m.yy += d * (r - m.y) * (r - m.y) / m.density;
   });
   return m;
 }
@@ -94,7 +105,8 @@ TEST_CASE("a cell absorbs the same light and has its centroid where it is, where
       CHECK(std::fabs(m.y - double(y)) < 0.02);
       // 0.29 sqrt(60) = 2.2 levels rms from rounding, and the rim that is rounded away
       CHECK(off(m.density, area_px(p) * -std::log(0.7)) < 2e-3);
-      least = std::min(least, m.absorbed), most = std::max(most, m.absorbed);
+      least = std::min(least, m.absorbed);
+      most = std::max(most, m.absorbed);
     }
   // exp() makes the sum depend on the place, by exp(-2 pi^2 s^2) of the square's width s = 0.5 px: under 1 %
   CHECK((most - least) / most < 0.01);
@@ -104,7 +116,8 @@ TEST_CASE(
     "width: the point-spread function and the disc add up; a rod and a moving cell are longer along one "
     "axis") {
   MicroscopeParams p = still();
-  p.psf_sd = 0.9e-6, p.cell_diameter = 2e-6;
+  p.psf_sd = 0.9e-6;
+  p.cell_diameter = 2e-6;
   const double ground = std::floor(0.8 * kWhite16 + 0.5), round = spot_variance(p);
   const double pixel = 1.0 / 12;  // light is summed over each pixel
   const Moments disc = moments(shot(p, {{40.3F, 30.1F}}), ground);
@@ -151,7 +164,8 @@ TEST_CASE("cells out of focus are wider and absorb as much") {
 
 TEST_CASE("bright cells add light") {
   MicroscopeParams p = still();
-  p.level = 0.3, p.contrast = 0.5;
+  p.level = 0.3;
+  p.contrast = 0.5;
   const auto im = shot(p, {{40.2F, 30.4F}});
   double sum = 0;
   for (const auto g : im.px) sum += double(g) - std::floor(0.3 * kWhite16 + 0.5);
@@ -163,7 +177,8 @@ TEST_CASE("noise: zero mean, variance = shot noise in proportion to the light + 
   const double n = 640.0 * 480.0;
   for (const double level : {0.05, 0.2, 0.58, 0.9}) {
     MicroscopeParams p = still();
-    p.level = level, p.noise.reset();
+    p.level = level;
+    p.noise.reset();
     Pool pool(1);
     Microscope m(p, frame, {}, 1.0 / 15, 3);
     Gray8 im, next;
@@ -210,7 +225,8 @@ TEST_CASE("noise given as one number; lamp drift and flicker") {
   double sum = 0, square = 0;
   for (std::uint64_t k = 0; k < 200; ++k) {
     const double lamp = mean_of(shot(p, {}, view(16, 8), k)) / 0.8 - 1;
-    sum += lamp, square += lamp * lamp;
+    sum += lamp;
+    square += lamp * lamp;
   }
   CHECK(std::fabs(sum / 200) < 5 * 0.02 / std::sqrt(200.0));
   CHECK(off(std::sqrt(square / 200), 0.02) < 5 / std::sqrt(400.0));
@@ -227,7 +243,10 @@ TEST_CASE("light: vignetting and the drop's edge follow their formulas, uneven l
   CHECK(off(double(even.at(48, 0)), 0.8 * (1 - 0.3 * 32 * 32 / (48.0 * 48 + 32 * 32))) < 1e-6);
 
   p = still();
-  p.edge_contrast = -0.5, p.outside_level = 0.9, p.edge_width = 3e-6, p.psf_sd = 4e-6;  // 5 px in all
+  p.edge_contrast = -0.5;
+  p.outside_level = 0.9;
+  p.edge_width = 3e-6;
+  p.psf_sd = 4e-6;  // 5 px in all
   const GrayF edge = Microscope(p, view(200, 64), {{-100, 32}, 200}, 0.1, 1).ground();
   CHECK(off(double(edge.at(20, 32)), 0.8) < 1e-4);
   CHECK(off(double(edge.at(199, 32)), 0.8 * 0.9) < 1e-4);
@@ -240,7 +259,10 @@ TEST_CASE("light: vignetting and the drop's edge follow their formulas, uneven l
   int count = 0;  // over many light fields: over one picture a wave longer than it is no sample
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const GrayF ground = Microscope(p, frame, {}, 0.1, seed).ground();
-    for (const float g : ground.px) square += std::pow(double(g) / 0.8 - 1, 2), ++count;
+    for (const float g : ground.px) {
+      square += std::pow(double(g) / 0.8 - 1, 2);
+      ++count;
+    }
     for (int c = 1; c < frame.width; ++c)  // slow: six waves of at least 97 px
       REQUIRE(std::fabs(double(ground.at(c, 9) - ground.at(c - 1, 9))) <
               0.8 * 0.05 * std::sqrt(2.0 * 6) * 2 * std::numbers::pi / 97);
@@ -250,7 +272,9 @@ TEST_CASE("light: vignetting and the drop's edge follow their formulas, uneven l
 
 TEST_CASE("same bytes for 1, 2, 3 and 7 threads, others for another frame or seed") {
   MicroscopeParams p;
-  p.depth_spread = 5e-6, p.cell_length = 4e-6, p.flicker = 0.01;
+  p.depth_spread = 5e-6;
+  p.cell_length = 4e-6;
+  p.flicker = 0.01;
   std::vector<CameraCell> cells;
   for (std::uint32_t i = 0; i < 3000; ++i) {
     const auto w = draw(5, Stream::start, i, 0);
@@ -278,7 +302,8 @@ TEST_CASE("cells on the border and far outside: only their part in view is drawn
 
 TEST_CASE("quantisation: white is clipped, 8 and 16 bits show the same") {
   MicroscopeParams p = still();
-  p.level = 1, p.contrast = 3;
+  p.level = 1;
+  p.contrast = 3;
   Pool pool(1);
   Microscope m(p, view(), {}, 0.1, 1);
   Gray8 low;
@@ -288,7 +313,8 @@ TEST_CASE("quantisation: white is clipped, 8 and 16 bits show the same") {
   m.render({0, 0, cells}, pool, high);
   CHECK(low.at(40, 30) == 255);
   CHECK(high.at(40, 30) == 65535);
-  p.level = 0.5, p.contrast = -0.5;
+  p.level = 0.5;
+  p.contrast = -0.5;
   Microscope dim(p, view(), {}, 0.1, 1);
   dim.render({0, 0, cells}, pool, low);
   dim.render({0, 0, cells}, pool, high);
@@ -299,8 +325,12 @@ TEST_CASE("quantisation: white is clipped, 8 and 16 bits show the same") {
 TEST_CASE("background and noise out of a video") {
   const media::ScratchFolder folder;
   RenderedVideo v;
-  v.width = 160, v.height = 90, v.frames = 60;
-  v.microscope.vignetting = 0.4, v.microscope.unevenness = 0.05, v.microscope.contrast = -0.8;
+  v.width = 160;
+  v.height = 90;
+  v.frames = 60;
+  v.microscope.vignetting = 0.4;
+  v.microscope.unevenness = 0.05;
+  v.microscope.contrast = -0.8;
   v.cells = [](double t) {  // one cell that crosses the view
     return std::vector<CameraCell>{{float(10 + 30 * t), 40}};
   };
@@ -354,7 +384,9 @@ TEST_CASE("an exposure longer than a frame is refused, and a cell that fills the
 TEST_CASE("times of a rendered video: mp4 carries them, as VideoReader reads them") {
   const media::ScratchFolder folder;
   RenderedVideo v;
-  v.width = 121, v.height = 83, v.frames = 12;
+  v.width = 121;
+  v.height = 83;
+  v.frames = 12;
   v.time_s = [](long long k) { return double(k) / 15 + (k % 3 == 1 ? 0.011 : 0); };
   write_rendered(v, folder / "v.mp4");
   VideoReader reader(folder / "v.mp4");

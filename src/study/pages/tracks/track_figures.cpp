@@ -27,7 +27,8 @@ Figure speed_figure(const TrackSummary& s, const Unit& unit) {
   f.plot.inlined = true;
   f.plot.x.label = fmt::format("speed ({}/s)", unit.name);
   f.plot.y.label = "share of displacements (%)";
-  f.plot.y.lo = 0, f.plot.x.lo = 0;
+  f.plot.y.lo = 0;
+  f.plot.x.lo = 0;
   Ribbon bars{{}, {}, {}, {}, Ink::blue};
   Line outline{{}, {}, {}, Ink::blue};
   outline.width = 1.2;
@@ -37,7 +38,8 @@ Figure speed_figure(const TrackSummary& s, const Unit& unit) {
       bars.lo.push_back(0);
       bars.hi.push_back(100 * s.speeds_px_s.counts[i] / double(s.speed_count));
     }
-  outline.x = bars.x, outline.y = bars.hi;
+  outline.x = bars.x;
+  outline.y = bars.hi;
   f.plot.add(bars).add(outline);
   const double mean = unit.length * s.mean_speed_px_s.value;
   f.plot.add(Rule{mean, "mean " + three_digits(mean), true, Ink::text});
@@ -59,9 +61,11 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
   Scatter points{{}, {}, "measured", Ink::blue};
   for (std::size_t k = 0; k < s.msd.size(); ++k) {
     const double m = s.msd.msd_px2[k], two = 2 * s.msd.se_px2[k];
-    points.x.push_back(s.msd.lag_s[k]), points.y.push_back(area * m);
+    points.x.push_back(s.msd.lag_s[k]);
+    points.y.push_back(area * m);
     band.x.push_back(s.msd.lag_s[k]);
-    band.lo.push_back(area * std::max(m - two, 0.02 * m)), band.hi.push_back(area * (m + two));
+    band.lo.push_back(area * std::max(m - two, 0.02 * m));
+    band.hi.push_back(area * (m + two));
   }
   f.plot.add(band);
   const auto curve = [&](const char* label, Ink ink, bool dashed, double first, const auto& msd) {
@@ -95,14 +99,17 @@ Figure heading_figure(const TrackSummary& s) {
       {}};
   f.plot.description = "Mean heading over time";
   f.plot.inlined = true;
-  f.plot.x.label = "time (s)", f.plot.y.label = "heading (degrees)";
-  f.plot.y.lo = -180, f.plot.y.hi = 180;
+  f.plot.x.label = "time (s)";
+  f.plot.y.label = "heading (degrees)";
+  f.plot.y.lo = -180;
+  f.plot.y.hi = 180;
   Scatter heading{{}, {}, "heading", Ink::blue};
   heading.size = 4;
   Line order{{}, {}, "in common (bottom: nothing, top: all)", Ink::orange};
   order.width = 1.2;
   for (std::size_t i = 0; i < s.time_s.size(); ++i) {
-    order.x.push_back(s.time_s[i]), order.y.push_back(360 * s.order_in_time[i] - 180);
+    order.x.push_back(s.time_s[i]);
+    order.y.push_back(360 * s.order_in_time[i] - 180);
     // Directions at random leave 1 / sqrt(n) in common.
     if (!(s.order_in_time[i] > std::max(0.2, 2.5 / std::sqrt(s.count_in_time[i])))) continue;
     heading.x.push_back(s.time_s[i]);
@@ -126,16 +133,24 @@ std::vector<Figure> track_figures(const TrackSummary& s, double um_per_px) {
 Plot path_plot(const std::vector<TrackLine>& tracks, int width, int height) {
   Plot p;
   p.description = "Paths of the tracks";
-  p.x.label = "x (px)", p.y.label = "y (px)";
-  p.x.lo = 0, p.x.hi = width, p.y.lo = 0, p.y.hi = height;
+  p.x.label = "x (px)";
+  p.y.label = "y (px)";
+  p.x.lo = 0;
+  p.x.hi = width;
+  p.y.lo = 0;
+  p.y.hi = height;
   p.y.reversed = true;
   p.equal_aspect = true;
   p.width = 620;
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange, Ink::sky};
   for (const TrackLine& track : tracks) {
     Line line;
-    line.ink = kInks[track.number % std::size(kInks)], line.width = 1;
-    for (const Vec2 at : track.path) line.x.push_back(at.x), line.y.push_back(at.y);
+    line.ink = kInks[track.number % std::size(kInks)];
+    line.width = 1;
+    for (const Vec2 at : track.path) {
+      line.x.push_back(at.x);
+      line.y.push_back(at.y);
+    }
     p.add(std::move(line));
   }
   return p;

@@ -25,7 +25,10 @@ class CsvTracks final : public TrackOutput {
     file_.append("track,frame,t_s,x_px,y_px,mass,snr\n");
   }
   ~CsvTracks() override {
-    if (!whole_) file_.close(), remove_quietly(temporary_name(path_));
+    if (!whole_) {
+      file_.close();
+      remove_quietly(temporary_name(path_));
+    }
   }
   void write(const Track& track) override {
     std::string lines;
@@ -75,7 +78,8 @@ class H5Tracks final : public TrackOutput {
   }
   void complete() override {
     file_.sync();
-    whole_numbers_.clear(), numbers_.clear();
+    whole_numbers_.clear();
+    numbers_.clear();
     file_.close();
     rename_complete(temporary_name(path_), path_);
     whole_ = true;

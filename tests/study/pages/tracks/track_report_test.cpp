@@ -48,11 +48,15 @@ double half_spacing(const cells::Look& l, int n) {
 double tracked_speed(int n, double noise) {
   const media::ScratchFolder folder;
   cells::Look l;
-  l.width = 640, l.height = 480, l.noise = noise;
+  l.width = 640;
+  l.height = 480;
+  l.noise = noise;
   const double step = 0.9 * half_spacing(l, n);
   swimmers(folder.path(), l, n, step, 14);
   TrackOptions o;
-  o.video = folder.path(), o.fps = 15, o.size_px = 3;
+  o.video = folder.path();
+  o.fps = 15;
+  o.size_px = 3;
   return track_video(o).summary.mean_speed_px_s.value / (15 * step);
 }
 
@@ -74,10 +78,15 @@ TEST_CASE("tables, overlay, picture, page and figures are written, whole and ali
   cells::Look l;
   swimmers(folder / "frames", l, 60, 4, 12);
   TrackOptions o;
-  o.video = folder / "frames", o.fps = 10, o.um_per_px = 0.5;
+  o.video = folder / "frames";
+  o.fps = 10;
+  o.um_per_px = 0.5;
   o.out = {folder / "t.csv", folder / "t.h5"};
-  o.overlay = folder / "o.mp4", o.report = folder / "r.html", o.picture = folder / "p.png",
-  o.figures = folder / "fig", o.swarm = folder / "s.csv";
+  o.overlay = folder / "o.mp4";
+  o.report = folder / "r.html";
+  o.picture = folder / "p.png";
+  o.figures = folder / "fig";
+  o.swarm = folder / "s.csv";
   const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 12);
   CHECK(j["duration_s"].get<double>() == doctest::Approx(1.1));
@@ -156,7 +165,9 @@ TEST_CASE("work that is broken off leaves nothing") {
   std::filesystem::create_directories(folder / "frames");
   swimmers(folder / "frames", {}, 20, 3, 8);
   TrackOptions o;
-  o.video = folder / "frames", o.out = {folder / "t.csv", folder / "t.h5"}, o.overlay = folder / "o.mp4";
+  o.video = folder / "frames";
+  o.out = {folder / "t.csv", folder / "t.h5"};
+  o.overlay = folder / "o.mp4";
   try {
     track_video(o, [](std::int64_t done, std::int64_t) { return done < 12; });
     FAIL("not broken off");

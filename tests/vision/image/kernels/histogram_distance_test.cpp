@@ -86,7 +86,8 @@ TEST_CASE("identities and the definition, over random histograms of many magnitu
     CHECK(half * half == doctest::Approx(chi2).epsilon(1e-12));
     // Bins that hold nothing on either side change nothing, beyond the reach of the similarity.
     auto longer_p = p, longer_q = q;
-    longer_p.resize(n + 50, 0.0), longer_q.resize(n + 50, 0.0);
+    longer_p.resize(n + 50, 0.0);
+    longer_q.resize(n + 50, 0.0);
     CHECK(qc(longer_p, longer_q, m, threshold) == doctest::Approx(d).epsilon(1e-12));
   }
 }
