@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "app/scenario/read_scenario.h"
 #include "app/run/simulation.h"
+#include "app/scenario/read_scenario.h"
 
 namespace faba {
 

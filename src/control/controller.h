@@ -55,7 +55,8 @@ using EstimatorRegistry = Registry<Estimator, ControlContext>;
 using ReferenceRegistry = Registry<Reference, ControlContext>;
 using ControllerRegistry = Registry<Controller, ControlContext>;
 
-/// From the estimated centroid to the target, px, world directions (x right, y up). Not a number without a target.
+/// From the estimated centroid to the target, px, world directions (x right, y up). Not a number without a
+/// target.
 Vec2 error_px(const ControlContext& c, const Estimate& e, const Target& target);
 
 /// Currents that make the cells want to swim along `drive` (field units, world frame) at `at` (m, world): the

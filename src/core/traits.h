@@ -27,9 +27,9 @@ enum class Trait : std::size_t {
 
 namespace traits {
 /// The words that stand for traits in JSON, in the order of the enum.
-inline constexpr std::array kWords = {"feedback",       "open_loop",   "seeks_null", "needs_positions",
-                                      "needs_pictures", "no_estimate", "no_target", "in_view", "inert",
-                                      "coil",           "coil_system", "simulated",  "no_current"};
+inline constexpr std::array kWords = {
+    "feedback", "open_loop", "seeks_null", "needs_positions", "needs_pictures", "no_estimate", "no_target",
+    "in_view",  "inert",     "coil",       "coil_system",     "simulated",      "no_current"};
 
 /// The traits that a part's class declares; none when it declares none.
 template <class T>

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "app/scenario/read_scenario.h"
 #include "app/recording/session.h"
+#include "app/scenario/read_scenario.h"
 #include "core/file.h"
 
 namespace faba {

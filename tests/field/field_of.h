@@ -2,8 +2,8 @@
 #include <memory>
 #include <string>
 
-#include "core/toml.h"
 #include "app/scenario/parts.h"
+#include "core/toml.h"
 
 namespace faba {
 

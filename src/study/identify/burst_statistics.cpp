@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/identify/episode.h"
 #include "core/statistics.h"
+#include "study/identify/episode.h"
 #include "study/stats/statistics.h"
 #include "vision/cells/detector.h"
 #include "vision/cells/tracker.h"
@@ -23,8 +23,8 @@ struct What {
   double blur;
 };
 constexpr What kBurstNumbers[] = {{"10 % of speeds along", 0.1}, {"median speed along", 0.05},
-                          {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
-                          {"median step", 0.3},          {"cells followed", 0.3}};
+                                  {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
+                                  {"median step", 0.3},          {"cells followed", 0.3}};
 
 /// Short pieces of tracks: how fast cells move along the drive and across it, and how far in one frame, which
 /// with diffusion is more than their speed says. Speeds are px per frame.

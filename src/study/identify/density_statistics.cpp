@@ -10,7 +10,8 @@ namespace {
 constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is spread over the view: where
                                     // none is seen quantiles are then those of the view
 constexpr double kFew = 0.02;       // share in view that is as good as none
-constexpr const char* kDensityNumbers[] = {"cells in view", "10 % along", "median along", "90 % along", "width across"};
+constexpr const char* kDensityNumbers[] = {"cells in view", "10 % along", "median along", "90 % along",
+                                           "width across"};
 constexpr int kMoments = 6;  // of each drive
 // How many cells a crowd is taken for depends on how each of them looks. At the true parameters simulations
 // of experiments 0 and 1 of bench/recovery.py were counted 6 % above the videos, though as wide and as

@@ -51,7 +51,8 @@ struct IdentifyFile {
         .add("legacy", &IdentifyFile::legacy,
              {.doc = "Also what the selection rule of the 2016 thesis says, which is not to be trusted"})
         .add("um_per_px", &IdentifyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
-        .add("scale", &IdentifyFile::scale, {.doc = "Calibration file of `faba scale`, in place of um_per_px"})
+        .add("scale", &IdentifyFile::scale,
+             {.doc = "Calibration file of `faba scale`, in place of um_per_px"})
         .add("reversal", &IdentifyFile::reversal,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
         .add("direction", &IdentifyFile::direction,
@@ -158,8 +159,8 @@ ResponseVideo any_video() {
   return v;
 }
 
-Candidate candidate_of(const Variant& model, const IdentifyFile& f, const IdentifyStudy& study, const Node& root,
-                       std::size_t index) {
+Candidate candidate_of(const Variant& model, const IdentifyFile& f, const IdentifyStudy& study,
+                       const Node& root, std::size_t index) {
   Candidate c{model, f.drive, {}, {}};
   const Node here = root.has("model") ? root.child("model").item(index) : root;
   if (c.model.extra.contains("drive")) {

@@ -140,9 +140,9 @@ std::string text_row(std::vector<std::string> cells, const char* tag) {
 
 std::string table(const ActivityResult& r) {
   std::string out = "<h2>Numbers</h2>\n<table class=\"numbers\">\n";
-  out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell", "signal to noise",
-              "maximum (s)", "width (s)"},
-             "th");
+  out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell",
+                   "signal to noise", "maximum (s)", "width (s)"},
+                  "th");
   for (const VideoActivity& a : r.videos)
     out += text_row(
         {title_of(a), fmt::format("{}°", whole_degrees(a.direction_deg)), three_digits(a.threshold_px),
@@ -161,8 +161,8 @@ std::string table(const ActivityResult& r) {
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
       out += text_row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
-                  fmt::format("{}° ({})", whole_degrees(s.direction_deg), compass(s.direction_deg))},
-                 "td");
+                       fmt::format("{}° ({})", whole_degrees(s.direction_deg), compass(s.direction_deg))},
+                      "td");
   return out + "</table>\n";
 }
 

@@ -130,7 +130,8 @@ Figure against_delay(const ControllerComparison& r, const Variant& model) {
   f.plot.y.label = "steady error (px rms)";
   f.plot.y.lo = 0;
   for (std::size_t i = 0; i < r.study.controllers.size(); ++i) {
-    Line line{.x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = kGroupInks[i % std::size(kGroupInks)]};
+    Line line{
+        .x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = kGroupInks[i % std::size(kGroupInks)]};
     for (const Combination& c : r.combinations)
       if (c.model == model.name && c.controller == line.label)
         if (const MeanOverSeeds* m = metric(c, "steady_rms_px")) {
@@ -158,9 +159,9 @@ std::string verdict(const ControllerComparison& r) {
                                        sure ? "" : "; the seeds do not tell it from all others");
     sentence = fmt::format("<p class=\"lead\">{} keeps nearest to the setpoint, at {}.</p>\n",
                            escape_markup(best->controller), at);
-    rows +=
-        table_row({escape_markup(place(r, *best)), fmt::format("{}, at {}", escape_markup(best->controller), at)},
-            "td");
+    rows += table_row(
+        {escape_markup(place(r, *best)), fmt::format("{}, at {}", escape_markup(best->controller), at)},
+        "td");
   }
   if (groups(r).size() < 2 || rows.empty()) return sentence;
   return "<p class=\"lead\">Which controller keeps nearest to the setpoint</p>\n<table "

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kStripFrames = 6;
 constexpr std::size_t kMost = 16 * kStripFrames;  // kept while the length is not known
-constexpr int kWidest = 320;                 // px, of a frame on the page
+constexpr int kWidest = 320;                      // px, of a frame on the page
 
 /// A picture with squares of n pixels averaged.
 RgbImage averaged(const RgbImage& picture, int n) {

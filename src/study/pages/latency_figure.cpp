@@ -11,11 +11,12 @@ namespace faba {
 namespace {
 
 constexpr double kShortest = 0.05, kLongest = 2000;  // ms, ends of the axis
-constexpr int kLatencyBins = 92;                            // 20 a decade
+constexpr int kLatencyBins = 92;                     // 20 a decade
 
 // Frames whose latency lies in each bin, as a staircase; the ends take what lies beyond.
 Line histogram(std::span<const double> ms, std::string label) {
-  Line line{.x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .held = true};
+  Line line{
+      .x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .held = true};
   const double step = std::log(kLongest / kShortest) / kLatencyBins;
   for (int i = 0; i <= kLatencyBins; ++i) line.x.push_back(kShortest * std::exp(step * i));
   for (const double v : ms)

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "app/sinks/drawn_swarm.h"
 #include "app/recording/session.h"
 #include "app/scenario/read_scenario.h"
+#include "app/sinks/drawn_swarm.h"
 #include "vision/files/picture.h"
 #include "vision/files/video_reader.h"
 

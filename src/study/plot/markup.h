@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
-#include <vector>
 #include <string_view>
+#include <vector>
 
 namespace faba {
 
@@ -16,8 +16,8 @@ std::string three_digits(double value);
 /// A power of ten for humans: "10³", "10⁻⁶".
 std::string power_of_ten(int exponent);
 
-/// A row of an HTML table: the first cell is its heading, the others are elements of `tag` ("td" or "th"). Cells are
-/// markup already.
+/// A row of an HTML table: the first cell is its heading, the others are elements of `tag` ("td" or "th").
+/// Cells are markup already.
 std::string table_row(const std::vector<std::string>& cells, const char* tag);
 
 }  // namespace faba

@@ -24,7 +24,8 @@ constexpr std::array<Shade, 8> kShades{{{"blue", "#0072b2", "#56b4e9"},
                                         {"sky", "#56b4e9", "#0072b2"},
                                         {"text", "#1d2329", "#e6e9ec"},
                                         {"muted", "#5c6670", "#a4adb6"}}};
-constexpr double kFarOut = 1e5;  // coordinates beyond this are as good as infinite, and renderers lose precision
+constexpr double kFarOut =
+    1e5;  // coordinates beyond this are as good as infinite, and renderers lose precision
 
 double place(double share, bool flip, double size) {
   return std::clamp((flip ? 1 - share : share) * size, -kFarOut, kFarOut);
@@ -250,7 +251,8 @@ std::string draw(const Ellipse& e, Ink ink, const Map& map) {
   const double rx = std::abs(e.radius_x) * map.w / map.x.length(),
                ry = std::abs(e.radius_y) * map.h / map.y.length();
   return fmt::format(R"(<ellipse {} stroke-width="1.5"{} cx="{:.1f}" cy="{:.1f}" rx="{:.1f}" ry="{:.1f}"/>)",
-                     stroke(shade(ink)), dashes(e.dashed), c.x, c.y, std::min(rx, kFarOut), std::min(ry, kFarOut));
+                     stroke(shade(ink)), dashes(e.dashed), c.x, c.y, std::min(rx, kFarOut),
+                     std::min(ry, kFarOut));
 }
 
 std::string draw(const Box& b, Ink ink, const Map& map) {

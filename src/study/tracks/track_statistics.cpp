@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include "study/stats/statistics.h"
 #include "study/tracks/track_bins.h"
 #include "study/tracks/track_sums.h"
-#include "study/stats/statistics.h"
 
 namespace faba {
 namespace {
