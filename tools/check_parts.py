@@ -75,7 +75,7 @@ def part_names(program):
 
 def own_file(text, name):
     """Whether a file describes the part: its schema has the name, whatever the type of its parameters."""
-    return re.search(r'(?:Schema<[\w:]+>\(|_schema\(|return \{)\s*"' + re.escape(name) + '"', text) is not None
+    return re.search(r'(?:Schema<[\w:]+>(?: \w+)?\(|_schema\(|return \{)\s*"' + re.escape(name) + '"', text) is not None
 
 
 def strings_in(text):

@@ -263,7 +263,7 @@ def dispersion(lab, found):
     )
     for n, model, low, high in (("basic", "Basic", 115, 150), ("adapted", "Adapted", 170, 205)):
         found.within(f"{model}: σx at the end", last[n][0], low, high, WHY, "px")
-        found.within(f"{model}: σy at the end", float(np.mean([s["sigma_y_px"][-1] for s in runs[n]])), 125, 155, WHY, "px")
+        found.within(f"{model}: σy at the end", float(np.mean([s["true_sigma_y_px"][-1] for s in runs[n]])), 125, 155, WHY, "px")
     found.within(
         "Adapted without its noise over Adapted, σx after 50 iterations",
         at50["bare"][0] / at50["adapted"][0],
