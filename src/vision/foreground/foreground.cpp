@@ -30,27 +30,6 @@ constexpr double kSmoothedAway = 1.5;   // times less noise than lately: a codec
 constexpr double kLeastThreshold = 1;   // grey: rounding does not look like noise when the light changes
 constexpr double kCellMemory = 0.2;     // share of a new picture in what a cell is thought to weigh
 
-// Marks every pixel within `reach` of a marked one, in a square.
-void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w, int h, int reach) {
-  work.assign(m.size(), 0);
-  for (int row = 0; row < h; ++row) {
-    const std::uint8_t* in = &m[std::size_t(row) * std::size_t(w)];
-    std::uint8_t* out = &work[std::size_t(row) * std::size_t(w)];
-    for (int k = -reach; k <= reach; ++k) {
-      const int first = std::max(0, -k), end = std::min(w, w - k);
-      for (int i = first; i < end; ++i) out[i] |= in[i + k];
-    }
-  }
-  m.assign(m.size(), 0);
-  for (int row = 0; row < h; ++row) {
-    std::uint8_t* out = &m[std::size_t(row) * std::size_t(w)];
-    for (int r = std::max(0, row - reach); r <= std::min(h - 1, row + reach); ++r) {
-      const std::uint8_t* in = &work[std::size_t(r) * std::size_t(w)];
-      for (int i = 0; i < w; ++i) out[i] |= in[i];
-    }
-  }
-}
-
 // Brightness of the picture over that of the background: median of the quotients, where no cells are.
 double common_gain(const GrayF& picture, const GrayF& background,
                    const std::vector<std::uint8_t>& leave_out) {
@@ -146,7 +125,7 @@ void Foreground::take(const Gray8& picture, double dt_s) {
   picture_.width = picture.width;
   picture_.height = picture.height;
   picture_.px.resize(picture.px.size());
-  for (std::size_t i = 0; i < picture.px.size(); ++i) picture_.px[i] = float(picture.px[i]);
+  to_float(picture.px.data(), picture_.px.data(), int(picture.px.size()));
   look(picture_noise(picture), dt_s);
 }
 

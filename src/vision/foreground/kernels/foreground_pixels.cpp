@@ -1,5 +1,7 @@
 #include "vision/foreground/kernels/foreground_pixels.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "core/portable_math.h"
@@ -11,6 +13,30 @@ namespace {
 inline float larger(float a, float b) { return a > b ? a : b; }
 
 }  // namespace
+
+FABA_VECTORISED void to_float(const std::uint8_t* picture, float* out, int n) {
+  for (int i = 0; i < n; ++i) out[i] = float(picture[i]);
+}
+
+void dilate(std::vector<std::uint8_t>& m, std::vector<std::uint8_t>& work, int w, int h, int reach) {
+  work.assign(m.size(), 0);
+  for (int row = 0; row < h; ++row) {
+    const std::uint8_t* in = &m[std::size_t(row) * std::size_t(w)];
+    std::uint8_t* out = &work[std::size_t(row) * std::size_t(w)];
+    for (int k = -reach; k <= reach; ++k) {
+      const int first = std::max(0, -k), end = std::min(w, w - k);
+      for (int i = first; i < end; ++i) out[i] |= in[i + k];
+    }
+  }
+  m.assign(m.size(), 0);
+  for (int row = 0; row < h; ++row) {
+    std::uint8_t* out = &m[std::size_t(row) * std::size_t(w)];
+    for (int r = std::max(0, row - reach); r <= std::min(h - 1, row + reach); ++r) {
+      const std::uint8_t* in = &work[std::size_t(r) * std::size_t(w)];
+      for (int i = 0; i < w; ++i) out[i] |= in[i];
+    }
+  }
+}
 
 FABA_VECTORISED void difference(const float* picture, const float* background, float gain, float sign,
                                 float* out, int n) {

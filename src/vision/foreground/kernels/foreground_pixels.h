@@ -1,10 +1,17 @@
 #pragma once
 #include <cstdint>
+#include <vector>
 
 namespace faba {
 
 // What Foreground does to every pixel, in loops that the compiler makes vectors of. Same bits on every
 // machine.
+
+void to_float(const std::uint8_t* picture, float* out, int n);
+
+/// Marks every pixel within `reach` of a marked one, in a square. `work` is memory that is used again.
+void dilate(std::vector<std::uint8_t>& mask, std::vector<std::uint8_t>& work, int width, int height,
+            int reach);
 
 /// out = sign (picture - gain background)
 void difference(const float* picture, const float* background, float gain, float sign, float* out, int n);
