@@ -1,4 +1,4 @@
-// T7: swarms at zeros of the field of real coils against closed forms (theory C6).
+// T7: swarms at zeros of the field of real coils against closed forms (theory B3.9 and C6).
 #include <doctest/doctest.h>
 
 #include "tests/reference_rig.h"
