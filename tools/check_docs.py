@@ -5,7 +5,7 @@
 
 Checks, each named in the message when it fails:
 - docs/reference/ and the table of columns in docs/formats/run-directory.md are what tools/make_docs.py would write now;
-- docs/formats/cli.md has a row for every verb of `faba --help`;
+- docs/formats/cli.md has a row and a section for every verb of `faba --help`, with all its options and verbs of its own;
 - every relative link of every .md file leads to a file of this tree, and to a heading of it where it names one;
 - every fenced block marked `toml scenario` is accepted by the program, and so is every one marked `toml part`, which is
   an excerpt, once a swarm is added where it has none;
@@ -28,6 +28,8 @@ import make_docs
 
 MOST_LINES = 400
 SKIPPED = {"build", "runs", ".git", "node_modules"}
+FLOW_OPTIONS = "[FLOW OPTIONS]"  # on a page: those of `faba flow`
+EVERYWHERE = {"--help", "--json", "--quiet", "--force"}  # options that docs/formats/cli.md explains once for all verbs
 # Where labels of the theory are cited, in files of these kinds.
 CITING = ("src", "tests", "docs", "bench", "scenes", "rigs", "studies", "firmware", "tools", "web/src", "*.md")
 CITING_KINDS = {".h", ".cpp", ".c", ".py", ".toml", ".md", ".ts", ".svelte"}
@@ -70,6 +72,21 @@ class Checks:
         there = re.findall(r"^  ([a-z][\w-]*)", self.faba("--help", cwd=folder).stdout.split("\nSubcommands:\n")[1], re.M)
         if said != there:
             self.fail(page, f"the program has the verbs {', '.join(there)}; the page lists {', '.join(said)}")
+        sections = dict(re.findall(r"^## faba ([\w-]+)\n(.*?)(?=^## |\Z)", self.text.get(page, ""), re.M | re.S))
+        for verb in there:
+            text = sections.get(verb, "")
+            if FLOW_OPTIONS in text:
+                text += sections.get("flow", "")
+            for word in sorted(self.options_of(verb, folder)):
+                if not re.search(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text):
+                    self.fail(page, f"the section of faba {verb} does not name {word}")
+
+    def options_of(self, verb, folder):
+        """The verb's options, and its own verbs with theirs; not what every verb has."""
+        text = self.faba(*verb.split(), "--help", cwd=folder).stdout
+        own = re.findall(r"^  ([a-z][\w-]*)", text.partition("\nSubcommands:\n")[2], re.M)
+        found = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.M)) - EVERYWHERE
+        return found.union(own, *(self.options_of(f"{verb} {one}", folder) for one in own))
 
     # --- links -----------------------------------------------------------------------------------------------------
 
