@@ -6,6 +6,7 @@
 Checks, each named in the message when it fails:
 - docs/reference/ and the table of columns in docs/formats/run-directory.md are what tools/make_docs.py would write now;
 - docs/formats/cli.md has a row and a section for every verb of `faba --help`, with all its options and verbs of its own;
+- the list of assumptions of docs/theory/README.md names every parameter whose source in docs/reference/ says "assumed";
 - every relative link of every .md file leads to a file of this tree, and to a heading of it where it names one;
 - every fenced block marked `toml scenario` is accepted by the program, and so is every one marked `toml part`, which is
   an excerpt, once a swarm is added where it has none;
@@ -87,6 +88,14 @@ class Checks:
         own = re.findall(r"^  ([a-z][\w-]*)", text.partition("\nSubcommands:\n")[2], re.M)
         found = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.M)) - EVERYWHERE
         return found.union(own, *(self.options_of(f"{verb} {one}", folder) for one in own))
+
+    def assumptions(self):
+        page = self.root / "docs/theory/README.md"
+        listed = re.search(r"^## What is assumed\n(.*?)(?=^## |\Z)", self.text.get(page, ""), re.M | re.S)
+        for reference in sorted((self.root / "docs/reference").glob("*.md")):
+            for key, source in re.findall(r"^\| `(\w+)` \|.*\| ([^|]*) \|$", self.text[reference], re.M):
+                if re.search(r"\bassumed\b", source) and not (listed and f"`{key}`" in listed[1]):
+                    self.fail(page, f"the list of assumptions lacks `{key}` of docs/reference/{reference.name}")
 
     # --- links -----------------------------------------------------------------------------------------------------
 
@@ -292,6 +301,7 @@ def main():
         checks.columns(folder)
         checks.verbs(folder)
         checks.lengths()
+        checks.assumptions()
         checks.citations()
     for failure in checks.failures:
         print(failure)
