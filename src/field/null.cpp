@@ -185,6 +185,11 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
     c.along[k] = -polarity * 0.5 * unit * (g[0][0] - g[1][1]);
     c.across[k] = -polarity * 0.5 * unit * (g[0][1] + g[1][0]);
   }
+  FieldNull out;
+  if (!a.allFinite() || !c.mean.allFinite() || !c.along.allFinite() || !c.across.allFinite()) {
+    out.current.assign(std::size_t(n), 0.0);  // a place where the formulas of coils give no number
+    return out;
+  }
   const Vec3 earth = with_earth ? field.ambient() : Vec3{};
   const Eigen::Vector2d wanted(-earth.x, -earth.y);
   Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -192,7 +197,6 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
   const Matrix free = svd.matrixV().rightCols(n - svd.rank());
   const Vector start = least_currents(a, wanted);
 
-  FieldNull out;
   Vector current = start;
   const bool zero = (a * start - wanted).norm() <= 1e-9 * (wanted.norm() + 1e-12);
   if (zero && free.cols() > 0) {
