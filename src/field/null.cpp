@@ -185,9 +185,10 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
     c.along[k] = -polarity * 0.5 * unit * (g[0][0] - g[1][1]);
     c.across[k] = -polarity * 0.5 * unit * (g[0][1] + g[1][0]);
   }
-  if (!a.allFinite()) {  // in a winding, or outside of a measured map
+  if (!a.allFinite() || !c.mean.allFinite() || !c.along.allFinite() || !c.across.allFinite()) {
+    // In a winding, or outside of a measured map.
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    return {std::vector<double>(local.b.size()), {kUnknown, kUnknown}, kUnknown, false, true};
+    return {std::vector<double>(std::size_t(n)), {kUnknown, kUnknown}, kUnknown, false, true};
   }
   const Vec3 earth = with_earth ? field.ambient() : Vec3{};
   const Eigen::Vector2d wanted(-earth.x, -earth.y);
