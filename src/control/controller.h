@@ -34,8 +34,11 @@ class Reference {
 class Controller {
  public:
   virtual ~Controller() = default;
-  /// `dt` s since the last update. Called once per frame. An estimate that rests on no cells (`visible` 0)
-  /// must not move the swarm.
+  /// `dt` s since the last update. Called once per frame. The command has one current for each coil, and all
+  /// are finite whatever the estimate and the target are. With Trait::feedback, an estimate that rests on no
+  /// cells (`visible` 0) or whose centroid is not finite must not move the swarm: every current is zero, or
+  /// with Trait::seeks_null that of before as long as the target is the same, which leaves the zero of the
+  /// field where it is. Nor is such an estimate remembered.
   virtual Command update(const Estimate& e, const Target& target, double dt) = 0;
   virtual void archive(Archive&) {}
 };

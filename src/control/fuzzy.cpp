@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "control/controller.h"
 #include "core/schema.h"
@@ -124,7 +125,7 @@ Command Fuzzy::update(const Estimate& e, const Target& target, double) {
   const Vec2 error = target.position - e.centroid;
   const double d = norm(error), px = 1 / c_.scale.m_per_px;
   Vec2 drive;
-  if (e.visible > 0 && d > 0) switch (p_.direction) {
+  if (e.visible > 0 && d > 0 && std::isfinite(d)) switch (p_.direction) {
       case Direction::vector:
         drive = (strength(d * px) / d) * error;
         break;

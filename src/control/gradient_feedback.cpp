@@ -47,7 +47,7 @@ class GradientFeedback final : public Controller {
 
   Command update(const Estimate& e, const Target& target, double dt) override {
     const Vec2 error = target.position - e.centroid;
-    if (e.visible > 0 && std::isfinite(error.x + error.y)) {
+    if (e.visible > 0 && std::isfinite(norm(error))) {
       lead_ = clipped(p_.gain * error + integral_);
       // No winding up: the integral stops growing where the zero may not go further.
       if (norm(lead_) < most()) integral_ = clipped(integral_ + (p_.gain * dt / p_.integral_time) * error);

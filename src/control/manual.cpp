@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "control/controller.h"
 #include "core/portable_math.h"
@@ -117,7 +118,9 @@ Command Manual::update(const Estimate& e, const Target&, double dt) {
   started_ = true;
   const Segment* s = segment_at(t_);
   if (const auto& current = s ? s->current : p_.current; !current.empty()) return {current};
-  return {allocate(*c_.field, {e.centroid.x, e.centroid.y, 0}, field_at(t_))};
+  // The estimator `none` knows no place: the field is then that in the middle of the arena.
+  const Vec2 at = std::isfinite(norm(e.centroid)) ? e.centroid : Vec2{};
+  return {allocate(*c_.field, {at.x, at.y, 0}, field_at(t_))};
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "control/controller.h"
 #include "core/schema.h"
@@ -101,10 +102,12 @@ Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_
 
 Command Proportional::update(const Estimate& e, const Target& target, double dt) {
   const Vec2 moved = seen_ && dt > 0 ? (horizon_ / dt) * (e.centroid - last_) : Vec2{};
-  seen_ = e.visible > 0;
+  seen_ = e.visible > 0 && std::isfinite(norm(e.centroid));
   last_ = e.centroid;
   const Vec2 error_px = (1 / c_.scale.m_per_px) * (target.position - e.centroid - moved);
-  if (!seen_ || norm(error_px) <= p_.dead_zone_px) return drive_command(c_, e.centroid, {});
+  const double distance = norm(error_px);  // not finite: no target, or one out of all reason
+  if (!seen_ || !std::isfinite(distance) || distance <= p_.dead_zone_px)
+    return drive_command(c_, e.centroid, {});
 
   const bool duty = p_.actuation == Actuation::duty;
   // px per frame that the plant can do at most, and per field unit

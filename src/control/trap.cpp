@@ -31,7 +31,7 @@ Trap::Trap(const Params& p, const ControlContext& c) : p_(p), c_(c), current_(c.
 }
 
 Command Trap::at(Vec2 at) {
-  if ((known_ && at == at_) || !std::isfinite(at.x + at.y)) return {current_};
+  if ((known_ && at == at_) || !std::isfinite(norm(at))) return {current_};
   if (p_.source == Source::library) {
     if (const auto entry = c_.library->nearest(at, c_.polarity))
       current_ = c_.library->entries()[*entry].current;

@@ -1,9 +1,15 @@
 #include "field/allocate.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace faba {
 
 // Least norm: I = A^T (A A^T)^-1 B, A the 2 x coils matrix of in-plane field per ampere. A A^T is 2 x 2.
 std::vector<double> allocate(const Field& field, Vec3 at, Vec2 wanted) {
+  std::vector<double> current(field.coils(), 0.0);
+  // Formulas of coils need not end, or give a number, at a place that is none.
+  if (!std::isfinite(norm(wanted)) || (field.varies() && !std::isfinite(norm(at)))) return current;
   std::vector<Vec3> b(field.coils());
   field.basis(at, b, {});
   double xx = 0, xy = 0, yy = 0;
@@ -12,7 +18,6 @@ std::vector<double> allocate(const Field& field, Vec3 at, Vec2 wanted) {
     xy += v.x * v.y;
     yy += v.y * v.y;
   }
-  std::vector<double> current(b.size(), 0.0);
   const double det = xx * yy - xy * xy, trace = xx + yy;
   if (trace == 0) return current;
   Vec2 lambda;
@@ -23,6 +28,9 @@ std::vector<double> allocate(const Field& field, Vec3 at, Vec2 wanted) {
     lambda = {(xx * wanted.x + xy * wanted.y) / (trace * trace),
               (xy * wanted.x + yy * wanted.y) / (trace * trace)};
   for (std::size_t k = 0; k < b.size(); ++k) current[k] = lambda.x * b[k].x + lambda.y * b[k].y;
+  // So far away that rounding has eaten the field of a coil, or the square of it.
+  if (!std::all_of(current.begin(), current.end(), [](double i) { return std::isfinite(i); }))
+    std::fill(current.begin(), current.end(), 0.0);
   return current;
 }
 

@@ -185,6 +185,11 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
     c.along[k] = -polarity * 0.5 * unit * (g[0][0] - g[1][1]);
     c.across[k] = -polarity * 0.5 * unit * (g[0][1] + g[1][0]);
   }
+  if (!a.allFinite() || !c.mean.allFinite() || !c.along.allFinite() || !c.across.allFinite()) {
+    // In a winding, or outside of a measured map.
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    return {std::vector<double>(std::size_t(n)), {kUnknown, kUnknown}, kUnknown, false, true};
+  }
   const Vec3 earth = with_earth ? field.ambient() : Vec3{};
   const Eigen::Vector2d wanted(-earth.x, -earth.y);
   Eigen::JacobiSVD<Matrix> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -26,7 +26,8 @@ struct FieldNull {
 /// strongly as the current limits `most` (A, one per coil) allow (theory C6). The zero needs A I = -B_earth,
 /// A the 2 x coils matrix of field per ampere; of what is free in I the best is taken for the weaker of the
 /// two trapping gradients. Where no currents trap along both axes, as with two coils, the saddle with the
-/// stronger trap is given. Where the limits do not allow the zero, `reachable` is false.
+/// stronger trap is given. Where the limits do not allow the zero, `reachable` is
+/// false; where the field is not known, outside of a measured map, it is false and the gradients are NaN.
 FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const double> most,
                   bool with_earth = true);
 

@@ -47,7 +47,9 @@ class Rig final : public Field {
              {.doc = "The coils, one [[coil]] each; their order is that of the currents", .context = coils})
         .add("earth", &Params::earth, {.doc = "The field that no coil makes"})
         .check([](const Params& p) -> std::string {
-          return p.coil.empty() ? "needs at least one [[coil]], or file = \"a rig's TOML file\"" : "";
+          return p.coil.empty() ? "needs at least one [[coil]]; a scenario may name a file that has them: "
+                                  "file = \"rig.toml\""
+                                : "";
         })
         .validity(
             "Ferrite cores that magnetise each other: measure the field of each coil with all cores in "

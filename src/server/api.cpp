@@ -14,6 +14,7 @@
 #include "core/file.h"
 #include "server/embedded_page.h"
 #include "server/recorded_run.h"
+#include "study/data/run_info.h"
 #include "study/pages/drop_report.h"
 #include "study/pages/scale_report.h"
 #include "study/pages/thumbnail.h"
@@ -206,6 +207,11 @@ WebResponse Api::run(const WebRequest& r, Rest rest) {
       const fs::path dir = workspace_.existing("runs/" + name);
       const Json m = Json::parse(read_file(dir / run_files::kManifest), nullptr, false);
       if (!m.is_object()) continue;
+      try {
+        read_run_info(dir / run_files::kManifest);
+      } catch (const Error&) {  // one manifest that is wrong must not hide the other runs
+        continue;
+      }
       Json files = Json::array();
       for (const char* file : {"series.csv", "tracks.h5", "video.mp4", "video.avi", "flow.h5", "report.html"})
         if (fs::exists(dir / file)) files.push_back(file);

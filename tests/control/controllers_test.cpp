@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "tests/reference_rig.h"
+
 #include "app/scenario/scenario.h"
 
 using namespace faba;
@@ -148,6 +150,29 @@ TEST_CASE("manual: segments begin on time, rotate, and do not drift") {
   CHECK_THROWS_AS(
       part(kParts.controller, "[p]\ntype='manual'\n[[p.segment]]\nat=2\n[[p.segment]]\nat=1\n", context()),
       Error);
+}
+
+TEST_CASE("manual without an estimate: among coils the scheduled field is that at the arena's centre") {
+  ControlContext c = context();
+  const Document coils = parse_toml("[f]\ntype = 'rig'\n" + reference_coils("f.coil", {0, 90}), "test");
+  c.field = kParts.field.resolve(Node(coils).child("f")).make({});
+  const auto manual = part(kParts.controller, "[p]\ntype = 'manual'\nfield = [1e-3, -2e-3]\n", c);
+  const auto none = part(kParts.estimator, "p = 'none'", c);
+  const Command command = manual->update(none->update({}, {}), {}, 1.0 / 15);
+  const Vec3 b = c.field->at({0, 0, 0}, command.current);
+  CHECK(b.x == doctest::Approx(1e-3));
+  CHECK(b.y == doctest::Approx(-2e-3));
+}
+
+TEST_CASE("proportional, duty: an estimate that is not a number leaves no trace") {
+  const auto shaken = part(kParts.controller, "p = { type = 'proportional', actuation = 'duty' }", context());
+  const auto calm = part(kParts.controller, "p = { type = 'proportional', actuation = 'duty' }", context());
+  CHECK(norm(drive(*shaken, {std::nan(""), 0})) == 0);
+  for (int k = 0; k < 30; ++k) {
+    const Vec2 from_left{-200, 0};
+    CHECK(drive(*shaken, from_left).x == drive(*calm, from_left).x);
+  }
+  CHECK(drive(*shaken, {-200, 0}).x > 0);  // towards the setpoint
 }
 
 TEST_CASE("route: goes on after the hold, or late after the timeout, and ends") {

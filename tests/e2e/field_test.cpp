@@ -196,3 +196,45 @@ TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in 
     CHECK_FALSE(std::filesystem::exists(f.path / "bad"));
   }
 }
+
+TEST_CASE(
+    "field: where a measured map does not reach, verbs and runs refuse or report it, and nothing crashes") {
+  const TestFolder f;
+  REQUIRE(faba_in(f.path,
+                  "field map " + kRig + " --current 1,0,0,0 --size '4 mm, 4 mm' --picture m.png --out m.h5")
+              .exit == 0);
+  write_file(
+      f.path / "maps.toml",
+      "[[coil]]\ntype = 'map'\nfile = 'm.h5'\n[[coil]]\ntype = 'map'\nfile = 'm.h5'\nturn = '180 deg'\n");
+  for (const char* verb : {"null", "tolerance"}) {
+    const Called c = faba_in(f.path, std::string("field ") + verb + " maps.toml --at '10 mm, 0 mm'");
+    CHECK(c.exit == 2);
+    CHECK(c.err.find("outside of a measured map") != std::string::npos);
+  }
+  const auto partly =
+      faba_in(f.path, "field map maps.toml --current 1,1 --size '8 mm, 8 mm' --picture p.png --json").json();
+  CHECK(partly["note"].get<std::string>().find("outside of what was measured") != std::string::npos);
+  CHECK(partly["strongest_t"].get<double>() > 0);
+  write_file(f.path / "far.toml",
+             "duration = '0.2 s'\n[field]\ntype = 'rig'\nfile = 'maps.toml'\n[[swarm]]\ncount = "
+             "5\n[controller]\ntype = "
+             "'gradient'\n"
+             "[reference]\ntype = 'hold'\nsetpoint_px = [30000, 200]\n");
+  const Called far = faba_in(f.path, "run far.toml --out far --json");
+  REQUIRE_MESSAGE(far.exit == 0, far.err);
+  CHECK(far.err.find("cannot put a zero of the field at") != std::string::npos);
+  // A map as the only coil of a scenario names its file itself.
+  write_file(f.path / "one.toml",
+             "duration = '0.2 s'\n[field]\ntype = 'map'\nfile = 'm.h5'\n[[swarm]]\ncount = 5\n"
+             "[controller]\ntype = 'manual'\ncurrent = ['0.1 A']\n[reference]\ntype = 'none'\n");
+  const Called one = faba_in(f.path, "run one.toml --out one --json");
+  CHECK_MESSAGE(one.exit == 0, one.err);
+}
+
+TEST_CASE("field: one name for two outputs is refused, and places are within a metre") {
+  const TestFolder f;
+  CHECK(faba_in(f.path, "field map " + kRig + " --current 1,1,1,1 --picture a.png --out a.png").exit == 2);
+  const Called far = faba_in(f.path, "field null " + kRig + " --at '1 km, 0 mm'");
+  CHECK(far.exit == 2);
+  CHECK(far.err.find("up to 1 m") != std::string::npos);
+}

@@ -76,12 +76,15 @@ class StudyFile {
       : path_(dir / kStudy), experiment_(std::move(experiment)) {
     std::error_code ec;
     if (std::filesystem::exists(path_, ec)) root_ = read_toml(path_).root;
-    if (!root_.contains("video")) {
-      root_["video"] = Json::array();
-    }
+    if (!root_.contains("video")) root_["video"] = Json::array();
+    const Json& videos = root_["video"];
+    if (!videos.is_array() ||
+        !std::all_of(videos.begin(), videos.end(), [](const Json& v) { return v.is_object(); }))
+      throw Error(Errc::usage, path_.string() + ": video", "must be [[video]] tables; choose another --out");
     if (experiment_.empty()) {
       std::vector<std::string> names;
-      for (const Json& v : root_["video"]) names.push_back(v.value("experiment", ""));
+      for (const Json& v : root_["video"])
+        names.push_back(v.contains("experiment") ? v["experiment"].dump() : "");
       std::sort(names.begin(), names.end());
       experiment_ = std::to_string(std::unique(names.begin(), names.end()) - names.begin() + 1);
     }
@@ -160,12 +163,12 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
   std::error_code ec;
   if (std::filesystem::exists(job.run.out / run_files::kScenario, ec))
     throw Error(Errc::usage, job.run.out.string(), "is the directory of a run; choose another --out");
+  StudyFile study(job.run.out, p, job.experiment);
   OpenBench bench(scenes.gather, job.seed);
   scenes.respond.camera.rate = scenes.gather.camera.rate;
   bench.try_coils();
   std::filesystem::create_directories(job.run.out, ec);
   if (ec) throw Error(Errc::usage, job.run.out.string(), "cannot be made: " + ec.message());
-  StudyFile study(job.run.out, p, job.experiment);
   bench.rig(job.run.out / fmt::format("coils-{}.log", study.experiment()));
   scenes.gather.rig->params.delay = scenes.respond.rig->params.delay =
       scenes.gather.rig->params.delay.value_or(0);  // a schedule reckons with none

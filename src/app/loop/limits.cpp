@@ -23,6 +23,14 @@ Schema<Limits::Params> Limits::schema() {
             .doc = "Older pictures are not acted on: all currents go to zero"});
 }
 
+double Limits::limited(std::size_t coil, double current, double dt) const {
+  const double most = most_.empty() ? p_.max_current : std::min(most_[coil], p_.max_current);
+  const double i = std::isfinite(current) ? std::clamp(current, -most, most) : 0;
+  if (!p_.max_slew) return i;
+  const double change = *p_.max_slew * std::max(0.0, dt);
+  return std::clamp(i, last_[coil] - change, last_[coil] + change);
+}
+
 bool Limits::apply(Command& c, double dt, double frame_age) {
   if (!most_.empty() && c.current.size() != most_.size())
     throw Error(
@@ -31,13 +39,11 @@ bool Limits::apply(Command& c, double dt, double frame_age) {
                     c.current.size(), most_.size()));
   const std::vector<double> asked = c.current;
   last_.resize(c.current.size(), 0.0);
-  if (wired_) wired_(c.current);
-  for (std::size_t k = 0; k < c.current.size(); ++k) {
-    double& i = c.current[k];
-    if (!std::isfinite(i) || frame_age > p_.max_frame_age) i = 0;
-    const double most = most_.empty() ? p_.max_current : std::min(most_[k], p_.max_current);
-    i = std::clamp(i, -most, most);
-    if (p_.max_slew) i = std::clamp(i, last_[k] - *p_.max_slew * dt, last_[k] + *p_.max_slew * dt);
+  if (!(frame_age <= p_.max_frame_age)) {
+    std::fill(c.current.begin(), c.current.end(), 0.0);
+  } else {
+    if (wired_) wired_(c.current);
+    for (std::size_t k = 0; k < c.current.size(); ++k) c.current[k] = limited(k, c.current[k], dt);
   }
   last_ = c.current;
   return c.current != asked;

@@ -47,7 +47,7 @@ void read_sections(const Node& root, const Parts& parts, Scenario& s) {
 
 Scenario read_scenario(Document d, const Parts& parts) {
   d.table_reader = parts.readers.table;
-  include_rig(d);
+  include_rig(d, parts);
   include_calibration(d);
   const Node root(d);
   check_top_level(root);

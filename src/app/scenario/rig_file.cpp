@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/hash.h"
 
 namespace faba {
@@ -48,11 +50,15 @@ std::string rig_fingerprint(const Json& resolved) {
   return h.hex();
 }
 
-void include_rig(Document& scenario) {
+void include_rig(Document& scenario, const Parts& parts) {
   if (!scenario.root.is_object() || !scenario.root.contains("field") || !scenario.root["field"].is_object())
     return;
   Json& field = scenario.root["field"];
   if (!field.contains("file")) return;
+  // A part of another kind reads a file of its own, such as a measured map.
+  const std::vector<std::string> systems = parts.field.names_with(Trait::coil_system);
+  if (field.contains("type") && std::find(systems.begin(), systems.end(), field["type"]) == systems.end())
+    return;
   const Node node = Node(scenario).child("field").child("file");
   if (!field["file"].is_string()) node.fail("expected the name of a rig file in quotes");
   const std::string named = field["file"].get<std::string>();

@@ -18,6 +18,6 @@ std::string rig_fingerprint(const Json& resolved);
 /// Puts the content of the rig file named by the scenario's `field.file`, relative to the scenario or to
 /// where the program was called, in the key's place, so that what is recorded stands by itself. What the
 /// scenario says itself wins.
-void include_rig(Document& scenario);
+void include_rig(Document& scenario, const Parts& parts);
 
 }  // namespace faba

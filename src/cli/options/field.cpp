@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "cli/quantity.h"
 #include "core/error.h"
@@ -23,8 +24,11 @@ Vec2 place(const std::string& option, const std::string& words) {
   if (comma == std::string::npos)
     throw Error(Errc::usage, option,
                 fmt::format("needs two lengths, such as \"1 mm, -0.5 mm\"; \"{}\" is one", words));
-  return {metres(option, words.substr(0, comma)),
-          metres(option, words.substr(std::min(comma + 1, words.size())))};
+  const Vec2 at{metres(option, words.substr(0, comma)),
+                metres(option, words.substr(std::min(comma + 1, words.size())))};
+  if (!(std::fabs(at.x) <= 1 && std::fabs(at.y) <= 1))
+    throw Error(Errc::usage, option, fmt::format("\"{}\" must be two lengths of up to 1 m", words));
+  return at;
 }
 
 Vec2 rectangle(const std::string& words) {

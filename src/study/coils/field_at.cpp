@@ -30,17 +30,22 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
   return out;
 }
 
-RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity) {
-  const auto field = rig_of(rig);
-  if (!(field->clearance({at.x, at.y, 0}) > 0))
+FieldNull null_where_known(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity) {
+  if (!(field.clearance({at.x, at.y, 0}) > 0))
     throw Error(Errc::usage, rig.string(),
                 "there is a winding at that place, or it lies outside of a measured map");
-  RigNull out;
-  out.at = at;
-  out.null = null_at(*field, at, polarity, current_limits(*field));
-  const FieldNull& n = out.null;
+  FieldNull n = null_at(field, at, polarity, current_limits(field));
   if (!std::isfinite(n.gradient[0] + n.gradient[1]))
     throw Error(Errc::usage, rig.string(), "has no field that can be computed there");
+  return n;
+}
+
+RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity) {
+  const auto field = rig_of(rig);
+  RigNull out;
+  out.at = at;
+  out.null = null_where_known(*field, rig, at, polarity);
+  const FieldNull& n = out.null;
   for (std::size_t k = 0; k < field->coils(); ++k) out.coils.push_back(field->circuit(k).name);
   out.note =
       !n.reachable ? "these coils cannot put a zero of the field there within their current limits"

@@ -17,6 +17,10 @@ struct FieldAtPoints {
 /// points.
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points);
 
+/// null_at() with the coils' own limits. Throws Error(usage) naming `rig` where its field is not known: in a
+/// winding or outside of a measured map.
+FieldNull null_where_known(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity);
+
 /// Currents for a zero of the field at a place in the plane of the sample.
 struct RigNull {
   Vec2 at;                         ///< m

@@ -153,7 +153,20 @@ FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
     const NullGradient g = null_gradient(*field, current, at);
     map.zeros.push_back({at, g, kind_of(g)});
   }
-  for (const Vec3& v : m.b) map.strongest = std::max(map.strongest, norm(Vec2{v.x, v.y}));
+  std::size_t known = 0;
+  for (const Vec3& v : m.b) {
+    if (!std::isfinite(v.x + v.y)) continue;
+    ++known;
+    map.strongest = std::max(map.strongest, norm(Vec2{v.x, v.y}));
+  }
+  if (known == 0)
+    throw Error(Errc::usage, rig.string(),
+                "has no field that is known anywhere in this rectangle; measured maps reach not so far: "
+                "choose another --size");
+  if (known < m.b.size())
+    map.note = fmt::format(
+        "{:.0f} % of this rectangle lie outside of what was measured, where the field is not known",
+        std::ceil(100.0 * double(m.b.size() - known) / double(m.b.size())));
   map.table = table_of(*field, o);
   if (!o.picture.empty()) draw(o, *field, m, map.zeros);
   if (!o.hdf5.empty()) write_hdf5(o.hdf5, m, current);

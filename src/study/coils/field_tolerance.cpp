@@ -10,6 +10,7 @@
 #include "core/file.h"
 #include "core/units.h"
 #include "field/null.h"
+#include "study/coils/field_at.h"
 #include "study/plot/plot_svg.h"
 
 namespace faba {
@@ -121,7 +122,7 @@ FieldTolerance field_tolerance(const std::filesystem::path& file, Vec2 at,
   const auto part = read_rig(file, parts);
   const RigEditor rig(parts.field, part.resolved);
   const auto field = part.make({});
-  const FieldNull n = null_at(*field, at, 1, current_limits(*field));
+  const FieldNull n = null_where_known(*field, file, at, 1);
   if (!n.reachable)
     throw Error(Errc::usage, file.string(), "these coils cannot put a zero of the field there");
   FieldTolerance out{at, n.current, n.saddle, {}};

@@ -55,7 +55,7 @@ TEST_CASE("limits: clip, slew, not-a-number, stale pictures") {
   CHECK(l.apply(c, 0.1, 0));
   CHECK(c.current[0] == doctest::Approx(0.1));  // towards zero, no faster than allowed
   c.current = {0.1, -0.3};
-  CHECK(l.apply(c, 10, 5));
+  CHECK(l.apply(c, 1.0 / 15, 5));  // at once, in one cycle of the camera
   CHECK(c.current == std::vector<double>{0, 0});
 }
 

@@ -28,6 +28,7 @@ void print_fitted(const char* what, const std::array<double, 3>& value, const st
 int field_fit(const FieldFitVerb& v, const Common& c) {
   check_output(v.out, "", v.force, {v.rig, v.measured});
   check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
+  check_distinct({v.out, v.picture});
   const FieldFit fit = faba::field_fit(v.rig, v.measured, v.out, v.picture);
   if (c.json) {
     fmt::print("{}\n", field_json(fit).dump());

@@ -61,6 +61,7 @@ int field_map(const FieldMapVerb& v, const Common& c) {
     o.hdf5 = v.out;
     check_output(o.picture, "", v.force, {v.rig});
     check_output(o.hdf5, "", v.force, {v.rig});
+    check_distinct({o.picture, o.hdf5});
     if (!o.picture.empty() && o.picture.extension() != ".png")
       throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
   }

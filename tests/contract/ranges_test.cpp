@@ -1,0 +1,186 @@
+// The ends of the range of every number of every part, those in tables within parts included.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "tests/contract/contract.h"
+
+using namespace faba;
+
+namespace {
+
+/// A range end that a part refuses by a rule over several keys, the others having their defaults.
+struct Refused {
+  std::string at;      ///< "kind part key end"; holds for a coil of a coil system too
+  std::string phrase;  ///< of the message: the rule
+};
+const std::vector<Refused> kRefused{
+    {"model dipole speed maximum", "speed is above speed_max"},
+    {"model dipole speed_max minimum", "speed is above speed_max"},
+    {"field helmholtz radius minimum", "wire_radius must be smaller than radius"},
+    {"field helmholtz wire_radius maximum", "wire_radius must be smaller than radius"},
+    {"field loop radius minimum", "wire_radius must be smaller than radius"},
+    {"field loop wire_radius maximum", "wire_radius must be smaller than radius"},
+    {"field solenoid wire_radius maximum", "wire_radius must be smaller than radius"},
+    {"field solenoid core_radius maximum", "core_radius must not be above radius"},
+    {"field thick_coil inner_radius maximum", "outer_radius must be larger than inner_radius"},
+    {"field thick_coil outer_radius minimum", "outer_radius must be larger than inner_radius"},
+    {"controller fuzzy near_px maximum", "near_px is beyond far_px"},
+    {"controller fuzzy far_px minimum", "near_px is beyond far_px"},
+};
+
+/// The key by which the tables here know a number: a coil of a coil system has the rules of the coil alone.
+std::string listed_at(const std::string& key) {
+  const std::string list = "field rig coil[";
+  if (!key.starts_with(list)) return key;
+  std::string coil = "field " + key.substr(list.size());
+  if (const auto dot = coil.find("]."); dot != std::string::npos) return coil.replace(dot, 2, " ");
+  coil.pop_back();
+  return coil;
+}
+
+/// What must stand in a table beside the number that is looked at, for the table to be complete.
+Json beside(const std::string& table) {
+  static const std::map<std::string, Json> all{
+      {"field rig", {{"coil", Json::array({"loop"})}}},
+      {"field map", {{"expansion", {{"coefficients", {0, 0, 0}}}}}},
+      {"field map expansion", {{"coefficients", {0, 0, 0}}}},
+      {"reference route", {{"setpoints_px", {{100, 120}}}}},
+      {"controller fuzzy set", {{"trapezoid_px", {0, 0, 1, 1}}}},
+      {"camera playback", {{"file", "a video"}}},
+  };
+  const auto it = all.find(listed_at(table));
+  return it == all.end() ? Json::object() : it->second;
+}
+
+/// How many numbers a list of numbers holds.
+std::size_t count_of(const std::string& key, const Json& schema) {
+  if (key.ends_with(".coefficients")) return 3;
+  if (key.ends_with(".trapezoid_px")) return 4;
+  return schema.value("minItems", std::size_t{1});
+}
+
+/// The number of a part: its schema, and how the part's table looks with a value of it.
+struct Number {
+  std::string key;  ///< as in "field rig coil[loop].position"
+  const Json& schema;
+  std::function<Json(const Json&)> table;
+};
+using Wrap = std::function<Json(const Json&)>;
+using VisitNumber = std::function<void(const Number&)>;
+
+void each_number(const std::string& key, const Json& schema, const Wrap& table, const VisitNumber& visit);
+
+/// The numbers of a table; `start`: what is in it anyway.
+void each_number_within(const std::string& at, const std::string& separator, const Json& properties,
+                        const Json& start, const Wrap& table, const VisitNumber& visit) {
+  for (const auto& item : properties.items()) {
+    const std::string& key = item.key();
+    const auto wrap = [&table, &start, &key](const Json& value) {
+      Json t = start;
+      if (key == "inductance") t["resistance"] = 1;
+      t[key] = value;
+      return table(t);
+    };
+    each_number(at + separator + key, item.value(), wrap, visit);
+  }
+}
+
+/// Visits all numbers of what a schema describes; `table` makes the part's table of its value.
+void each_number(const std::string& key, const Json& schema, const Wrap& table, const VisitNumber& visit) {
+  if (schema.contains("minimum") || schema.contains("maximum")) {
+    visit({key, schema, table});
+  } else if (schema.contains("oneOf")) {
+    for (const Json& one : schema["oneOf"]) {
+      if (!one.contains("properties")) continue;  // a name alone
+      const Json& type = one["properties"]["type"]["const"];
+      const std::string at = fmt::format("{}[{}]", key, type.get<std::string>());
+      Json start = beside(at);
+      start["type"] = type;
+      each_number_within(at, ".", one["properties"], start, table, visit);
+    }
+  } else if (schema.contains("properties")) {
+    each_number_within(key, ".", schema["properties"], beside(key), table, visit);
+  } else if (schema.contains("items")) {
+    const std::size_t n = count_of(key, schema);
+    const auto wrap = [&table, n](const Json& value) { return table(Json(n, value)); };
+    each_number(key, schema["items"], wrap, visit);
+  }
+}
+
+/// Every number of every part: visit(registry, number).
+template <class Visit>
+void each_number_of_parts(Visit&& visit) {
+  each_kind(contract::parts(), [&](const char* kind, const auto& registry) {
+    for (const auto& name : registry.names()) {
+      const std::string at = fmt::format("{} {}", kind, name);
+      Json start = beside(at);
+      start["type"] = name;
+      each_number_within(
+          at, " ", registry.json_schema(name)["properties"], start, [](const Json& table) { return table; },
+          [&](const Number& n) { visit(registry, n); });
+    }
+  });
+}
+
+/// Why a table is refused; empty when it is not.
+template <class R>
+std::string refusal(const R& registry, const Json& table) {
+  try {
+    contract::resolved(registry, table);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("every number of every part: its range ends are accepted, or refused by a rule over several keys") {
+  std::set<std::string> used;
+  int numbers = 0;
+  each_number_of_parts([&](const auto& registry, const Number& n) {
+    ++numbers;
+    for (const std::string end : {"minimum", "maximum"}) {
+      if (!n.schema.contains(end)) continue;
+      const std::string here = listed_at(n.key) + " " + end, why = refusal(registry, n.table(n.schema[end]));
+      const auto known =
+          std::find_if(kRefused.begin(), kRefused.end(), [&](const Refused& r) { return r.at == here; });
+      INFO(n.key, " ", end, ": ", why);
+      if (known == kRefused.end()) {
+        CHECK(why == "");
+      } else {
+        used.insert(here);
+        CHECK(why.find(known->phrase) != std::string::npos);
+      }
+    }
+  });
+  CHECK(numbers > 100);
+  for (const Refused& r : kRefused) {
+    INFO(r.at, " is accepted now, or there is no such number: take it out of the table");
+    CHECK(used.count(r.at) == 1);
+  }
+}
+
+TEST_CASE("every number of every part: beyond its range, and what is no number, is refused for that reason") {
+  each_number_of_parts([&](const auto& registry, const Number& n) {
+    INFO(n.key);
+    for (const std::string end : {"minimum", "maximum"}) {
+      if (!n.schema.contains(end)) continue;
+      const double limit = n.schema[end].template get<double>(), step = std::max(1.0, std::fabs(limit));
+      const Json beyond = end == "minimum" ? limit - step : limit + step;
+      const std::string why = refusal(registry, n.table(beyond));
+      INFO(end, ": ", why);
+      CHECK(why.find("is out of range; it must be") != std::string::npos);
+    }
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      const std::string why = refusal(registry, n.table(bad));
+      INFO(why);
+      CHECK(why.find("must be a finite number") != std::string::npos);
+    }
+  });
+}
