@@ -1,3 +1,30 @@
-#define DOCTEST_CONFIG_IMPLEMENT  // the next line alone says it to a header that was not precompiled
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
+
+#include "tests/skip.h"
+
+namespace {
+int skips = 0;
+}
+
+namespace faba::test {
+
+void skip(const std::string& why) {
+  ++skips;
+  MESSAGE("skipped: ", why);
+}
+
+bool skipped_without(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path)) return false;
+  skip(path.string() + " does not exist");
+  return true;
+}
+
+}  // namespace faba::test
+
+int main(int argc, char** argv) {
+  doctest::Context context(argc, argv);
+  const int result = context.run();
+  if (context.shouldExit() || result != 0 || skips == 0) return result;
+  return faba::test::kSkipped;
+}

@@ -5,14 +5,16 @@
 
 Checks, each named in the message when it fails:
 - docs/reference/ and the table of columns in docs/formats/run-directory.md are what tools/make_docs.py would write now;
-- docs/formats/cli.md has a row for every verb of `faba --help`;
+- docs/formats/cli.md has a row and a section for every verb of `faba --help`, with all its options and verbs of its own;
+- the list of assumptions of docs/theory/README.md names every parameter whose source in docs/reference/ says "assumed";
 - every relative link of every .md file leads to a file of this tree, and to a heading of it where it names one;
 - every fenced block marked `toml scenario` is accepted by the program, and so is every one marked `toml part`, which is
   an excerpt, once a swarm is added where it has none;
 - every block marked `console checked` prints, command by command, what the page says; `...` stands for anything;
 - every option that a `$ build/faba VERB ...` line uses exists, and so does every scene that it names;
 - the columns of docs/formats/run-directory.md are those of a series.csv;
-- every theory label and source tag cited in src/ and tests/ exists in docs/theory/;
+- docs/theory/README.md lists every section of docs/theory/ that has a label, A to H, and no other;
+- every label (A4, B3.4) and source tag ([S12]) that is cited in sources, tests, scenes, tools and pages is one of docs/theory/;
 - no file of src/ is longer than 400 lines.
 """
 
@@ -27,6 +29,14 @@ import make_docs
 
 MOST_LINES = 400
 SKIPPED = {"build", "runs", ".git", "node_modules"}
+FLOW_OPTIONS = "[FLOW OPTIONS]"  # on a page: those of `faba flow`
+EVERYWHERE = {"--help", "--json", "--quiet", "--force"}  # options that docs/formats/cli.md explains once for all verbs
+# Where labels of the theory are cited, in files of these kinds.
+CITING = ("src", "tests", "docs", "bench", "scenes", "rigs", "studies", "firmware", "tools", "web/src", "*.md")
+CITING_KINDS = {".h", ".cpp", ".c", ".py", ".toml", ".md", ".ts", ".svelte"}
+# A letter and a number that is not one: a byte of JPEG, the C standard.
+NOT_A_LABEL = {"D9", "C99"}
+PLANTS = "tests/tools/"  # has wrong citations, for the test of this program
 
 
 class Checks:
@@ -63,6 +73,29 @@ class Checks:
         there = re.findall(r"^  ([a-z][\w-]*)", self.faba("--help", cwd=folder).stdout.split("\nSubcommands:\n")[1], re.M)
         if said != there:
             self.fail(page, f"the program has the verbs {', '.join(there)}; the page lists {', '.join(said)}")
+        sections = dict(re.findall(r"^## faba ([\w-]+)\n(.*?)(?=^## |\Z)", self.text.get(page, ""), re.M | re.S))
+        for verb in there:
+            text = sections.get(verb, "")
+            if FLOW_OPTIONS in text:
+                text += sections.get("flow", "")
+            for word in sorted(self.options_of(verb, folder)):
+                if not re.search(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text):
+                    self.fail(page, f"the section of faba {verb} does not name {word}")
+
+    def options_of(self, verb, folder):
+        """The verb's options, and its own verbs with theirs; not what every verb has."""
+        text = self.faba(*verb.split(), "--help", cwd=folder).stdout
+        own = re.findall(r"^  ([a-z][\w-]*)", text.partition("\nSubcommands:\n")[2], re.M)
+        found = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.M)) - EVERYWHERE
+        return found.union(own, *(self.options_of(f"{verb} {one}", folder) for one in own))
+
+    def assumptions(self):
+        page = self.root / "docs/theory/README.md"
+        listed = re.search(r"^## What is assumed\n(.*?)(?=^## |\Z)", self.text.get(page, ""), re.M | re.S)
+        for reference in sorted((self.root / "docs/reference").glob("*.md")):
+            for key, source in re.findall(r"^\| `(\w+)` \|.*\| ([^|]*) \|$", self.text[reference], re.M):
+                if re.search(r"\bassumed\b", source) and not (listed and f"`{key}`" in listed[1]):
+                    self.fail(page, f"the list of assumptions lacks `{key}` of docs/reference/{reference.name}")
 
     # --- links -----------------------------------------------------------------------------------------------------
 
@@ -174,23 +207,54 @@ class Checks:
 
     # --- sources ---------------------------------------------------------------------------------------------------
 
-    def sources(self):
-        labels = set(make_docs.theory_labels(self.root))
+    def lengths(self):
+        for file in sorted((self.root / "src").rglob("*.[hc]*")):
+            lines = len(file.read_text(errors="replace").splitlines())
+            if lines > MOST_LINES:
+                self.fail(file, f"{lines} lines; at most {MOST_LINES}")
+
+    # --- citations -------------------------------------------------------------------------------------------------
+
+    def labels(self):
+        """Label -> text of its section, from the pages themselves, which the index must agree with."""
+        sections = {}
+        for page in sorted((self.root / "docs/theory").glob("*.md")):
+            for m in re.finditer(r"^(#+) ([A-H]\d+)\b(.*?)(?=^#{1,3} |\Z)", self.text[page], re.M | re.S):
+                sections[m[2]] = m[3]
+        index = set(make_docs.theory_labels(self.root))
+        for label in sorted(index ^ set(sections)):
+            page = self.root / "docs/theory/README.md"
+            self.fail(page, f"lists {label}, which no page has" if label in index else f"does not list {label}")
+        return sections
+
+    def citing(self):
+        for place in CITING:
+            for top in sorted(self.root.glob(place)):
+                for file in [top] if top.is_file() else sorted(top.rglob("*")):
+                    if file.suffix in CITING_KINDS and not SKIPPED & set(file.relative_to(self.root).parts):
+                        yield file
+
+    def citations(self):
+        sections = self.labels()
         tags = (self.root / "docs/theory/sources.md").read_text()
-        for folder in ("src", "tests"):
-            for file in sorted((self.root / folder).rglob("*.[hc]*")):
-                lines = file.read_text(errors="replace").splitlines()
-                if folder == "src" and len(lines) > MOST_LINES:
-                    self.fail(file, f"{len(lines)} lines; at most {MOST_LINES}")
-                for number, line in enumerate(lines, 1):
-                    place = f"{file.relative_to(self.root)}:{number}"
-                    for cited in re.findall(r"\btheory ([A-G]\d{1,2}(?:(?:, | and )[A-G]\d{1,2})*)", line):
-                        for label in re.findall(r"[A-G]\d{1,2}", cited):
-                            if label not in labels:
-                                self.fail(place, f"cites theory {label}, which docs/theory/README.md does not list")
-                    for tag in re.findall(r"\[(S\d{1,2})\]", line):
-                        if not re.search(rf"\b{tag}\b", tags):
-                            self.fail(place, f"cites [{tag}], which docs/theory/sources.md does not list")
+        for file in self.citing():
+            name = str(file.relative_to(self.root))
+            if name.startswith(PLANTS):
+                continue
+            for number, line in enumerate(file.read_text(errors="replace").splitlines(), 1):
+                place = f"{name}:{number}"
+                cited = re.findall(r"(?:(?<=theory )([A-Z]\d{1,2})|(?<![\w#])([A-H]\d{1,2}))(?!\w)(?:\.(\d+)\b)?", line)
+                for named, label, item in cited:
+                    label = named or label
+                    if label in NOT_A_LABEL:
+                        continue
+                    if label not in sections:
+                        self.fail(place, f"cites {label}, which docs/theory/ does not have")
+                    elif item and not re.search(rf"^{item}\. ", sections[label], re.M):
+                        self.fail(place, f"cites {label}.{item}, which section {label} of docs/theory/ does not have")
+                for tag in re.findall(r"\[(S\d{1,2})\]", line):
+                    if not re.search(rf"\b{tag}\b", tags):
+                        self.fail(place, f"cites [{tag}], which docs/theory/sources.md does not list")
 
 
 def without_code(text, keep_lines=False):
@@ -236,7 +300,9 @@ def main():
         checks.commands(folder)
         checks.columns(folder)
         checks.verbs(folder)
-        checks.sources()
+        checks.lengths()
+        checks.assumptions()
+        checks.citations()
     for failure in checks.failures:
         print(failure)
     print(f"check_docs: {len(checks.pages)} pages, {len(checks.failures)} failures")

@@ -4,7 +4,7 @@
 - a file includes a folder that its layer may not see, or a subfolder that its own subfolder may not see,
 - a folder of study that measures makes JSON of its results itself,
 - files include each other in a circle (a file is the .h and .cpp of one name),
-- a third-party library is included outside its home, or a header that shows a library's types leaves its folder,
+- a third-party library is included outside its home or has none, or a header that shows a library's types leaves its folder,
 - two headers give different types one name, which no compiler notices and the linker makes one of,
 - two .cpp files of a folder of src have a name of their own in common, which compiling several at a time forbids,
 - a folder is not in the table, or has more files directly in it than a reader can take in.
@@ -91,7 +91,7 @@ ENGINE = (
 ).split()
 # Headers that the engine may include though it does not have their sources: interfaces of parts that come on top.
 ENGINE_INTERFACES = ["rig/rig.h", "rig/camera.h", "rig/coil_driver.h", "vision/flow/flow.h"]
-# A third-party library has one home.
+# The folders of src, for most a single one, that may include a third-party library.
 HOME = {
     "opencv2/": {"vision", "rig"},
     "libav": {"vision"},
@@ -102,6 +102,7 @@ HOME = {
     "CLI/": {"cli"},
     "lemon/": {"vision"},
     "Eigen/": {"vision", "study", "field"},
+    "unsupported/Eigen/": {"study"},
     "nanoflann": {"field"},
     "nlopt": {"study"},
     "zlib": {"app"},
@@ -110,6 +111,11 @@ HOME = {
     "boost/asio": {"server"},
     "boost/beast": {"server"},
 }
+EVERYWHERE = ("fmt/", "nlohmann/")
+# Headers of the standard library and of the operating system; all others are of third parties.
+SYSTEM = re.compile(
+    r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
+)
 # Folders that are compiled several files at a time (CMakeLists.txt: FABA_UNITY).
 UNITY = {"field", "control", "app", "study", "cli"}
 MOST_FILES = 40
@@ -229,6 +235,8 @@ def check_libraries(tree):
             if file.suffix == ".h":
                 headers.setdefault(tree.name(file), set()).add(path)
             continue
+        if not SYSTEM.fullmatch(path) and not path.startswith((*HOME, *EVERYWHERE)):
+            yield f"{file}:{number}: <{path}> has no home in the table of tools/check_layers.py"
         for prefix, homes in HOME.items():
             if not path.startswith(prefix):
                 continue

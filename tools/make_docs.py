@@ -51,7 +51,7 @@ def ask(program, *arguments):
 def theory_labels(root):
     """Label of a theory section -> link from docs/reference/."""
     index = (root / "docs/theory/README.md").read_text()
-    return {label: "../theory/" + target for label, target in re.findall(r"^\| ([A-G]\d+) \| \[[^]]*\]\(([^)]*)\)",
+    return {label: "../theory/" + target for label, target in re.findall(r"^\| ([A-H]\d+) \| \[[^]]*\]\(([^)]*)\)",
                                                                          index, re.M)}
 
 
@@ -104,7 +104,7 @@ def kind_text(field):
 
 
 def linked(text, labels):
-    return re.sub(r"\b([A-G]\d{1,2})\b", lambda m: f"[{m[1]}]({labels[m[1]]})" if m[1] in labels else m[1], text)
+    return re.sub(r"\b([A-H]\d{1,2})\b", lambda m: f"[{m[1]}]({labels[m[1]]})" if m[1] in labels else m[1], text)
 
 
 def table(properties, labels):

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Makes every result of the 2016 thesis again that software can reproduce, compares it with what it must be, and writes one page.
+"""Makes the results of the 2016 thesis that software can reproduce, compares each with what it must be, and writes one page. Results that
+need the thesis's videos, which are not public, are shown by the same procedure on rendered experiments.
 
     tools/reproduce.py [--out runs/reproduce] [--only ITEM]... [--force] [--program build/faba]
     tools/reproduce.py --list

@@ -29,7 +29,7 @@ struct Circuit {
   double lag = 0;  ///< time constant L/R with which the current follows its command, s; 0 is at once
 };
 
-/// Magnetic field of a set of coils, linear in their currents: B(r) = B0 + sum_k I_k b_k(r), with B0 the
+/// Magnetic field of a set of coils, linear in their currents: B(r) = B_0 + sum_k I_k b_k(r), with B_0 the
 /// Earth's field. World frame: x to the right, y up, z towards the camera; the swarm swims at z = 0.
 class Field {
  public:

@@ -9,7 +9,7 @@ using namespace faba;
 TEST_CASE(
     "a run on a bench is not gone on with as a simulation, and an old one stays when no device is there") {
   OnBench b("", kPatient);
-  b.steer();
+  if (!b.steer()) return;
   b.program->signal(SIGKILL);
   b.program->wait();
   const auto bytes = std::filesystem::file_size(b.f.path / "run/commands.csv");
@@ -30,7 +30,7 @@ TEST_CASE(
 
 TEST_CASE("who comes second to a bench is turned away, and the first goes on") {
   OnBench b("", kPatient);
-  b.steer();
+  if (!b.steer()) return;
   const Called c = faba_in(b.f.path, "rig check scene.toml");
   CHECK(c.exit == 4);
   CHECK(c.err.find("another program") != std::string::npos);
@@ -69,7 +69,7 @@ TEST_CASE("a coil that does not get what was asked for: the sensed current says 
   for (const char* fault : {"open", "weak"}) {
     INFO(fault);
     OnBench b(std::string("fault = '") + fault + "'\nfault_after = '1 s'\n", kPatient);
-    b.steer();
+    if (!b.steer()) return;
     CHECK(b.program->wait() == 4);
     CHECK(b.err().find("is not what was asked for") != std::string::npos);
     CHECK_FALSE(b.flows());
@@ -78,7 +78,7 @@ TEST_CASE("a coil that does not get what was asked for: the sensed current says 
 
 TEST_CASE("the device is unplugged: the run ends with one line, and what was recorded is kept") {
   OnBench b("", kPatient);
-  b.steer();
+  if (!b.steer()) return;
   b.simulated->signal(SIGKILL);
   CHECK(b.program->wait() == 4);
   CHECK(one_clear_line(b.err()));
@@ -159,8 +159,11 @@ TEST_CASE(
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   const auto j = c.json();
   // It began 280 px away. How fast it comes depends on how busy this machine is, so that only that it comes
-  // counts, and not even that where half of the pictures are missed, as with sanitizers.
-  if (j["frames"] > j["frames_dropped"]) CHECK(j["steady_rms_px"].get<double>() < 70);
+  // counts. Where more pictures are missed than recorded, as with sanitizers, control was not tested.
+  if (j["frames"] > j["frames_dropped"])
+    CHECK(j["steady_rms_px"].get<double>() < 70);
+  else
+    test::skip("control was not checked: the machine lost more frames than it recorded");
   CHECK(j["complete"] == true);
   CHECK(j["guard"]["refused"] == 0);
   CHECK(j["frames"].get<int>() + j["frames_dropped"].get<int>() > 300);

@@ -57,8 +57,8 @@ class Child {
 };
 
 /// How long this machine itself stood still: the longest that a thread which wakes every millisecond was not
-/// woken, s. What must be over in a tenth of a second is allowed that much more, which is a few milliseconds
-/// on a quiet machine.
+/// woken, s. What must be over in a tenth of a second is allowed that much more, up to a bound (kMostLate of
+/// tests/rig/devices.h); on a quiet machine it is a few milliseconds.
 class StandStill {
  public:
   StandStill()

@@ -7,6 +7,7 @@
 
 #include "study/motion/activity.h"
 #include "study/pages/flow_report.h"
+#include "tests/skip.h"
 
 using namespace faba;
 
@@ -41,8 +42,8 @@ void compare_with_list(const std::vector<MotionSegment>& found, double slack_deg
 
 }  // namespace
 
-TEST_CASE("rollers: every stretch of driving within half a second, the direct reversal too" *
-          doctest::skip(!std::filesystem::exists(kRollers))) {
+TEST_CASE("rollers: every stretch of driving within half a second, the direct reversal too") {
+  if (test::skipped_without(kRollers)) return;
   const VideoActivity a =
       measured(kRollers, 4);  // a sixteenth of the pixels, for the time that a test may take
   CHECK_FALSE(a.direction_given);
@@ -52,7 +53,8 @@ TEST_CASE("rollers: every stretch of driving within half a second, the direct re
   compare_with_list(motion_segments(a.signature, 90), 1e-9);
 }
 
-TEST_CASE("beads in water: no motion in one direction" * doctest::skip(!std::filesystem::exists(kBeads))) {
+TEST_CASE("beads in water: no motion in one direction") {
+  if (test::skipped_without(kBeads)) return;
   const VideoActivity a = measured(kBeads, 2);
   CHECK(a.segments.empty());
   CHECK_FALSE(a.responds);

@@ -5,6 +5,7 @@
 
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_report.h"
+#include "tests/skip.h"
 
 using namespace faba;
 
@@ -13,10 +14,7 @@ const std::filesystem::path kVideo = std::filesystem::path(FABA_SHARED_DATA) / "
 }
 
 TEST_CASE("beads of 1 um in water diffuse as Stokes and Einstein say, and do not swim") {
-  if (!std::filesystem::exists(kVideo)) {
-    MESSAGE("skipped: no real data");
-    return;
-  }
+  if (test::skipped_without(kVideo)) return;
   TrackOptions o;
   o.video = kVideo;
   o.um_per_px = 100.0 / 285;  // as trackpy's walkthrough has it for these beads

@@ -2,15 +2,13 @@
 #include <doctest/doctest.h>
 
 #include "study/coils/field_fit.h"
+#include "tests/skip.h"
 
 using namespace faba;
 
 TEST_CASE("the measured map of a flat coil is fitted to 0.024 G") {
   const std::filesystem::path file = std::filesystem::path(FABA_SHARED_DATA) / "coil/loop_bz_map.csv";
-  if (!std::filesystem::exists(file)) {
-    MESSAGE("skipped: no real data");
-    return;
-  }
+  if (test::skipped_without(file)) return;
   const FieldFit fit = field_fit(FABA_SCENES "/../rigs/flat-coil.toml", file, {}, {});
   // As the data's own description says, to the digits that it gives.
   CHECK(fit.rms == doctest::Approx(0.024e-4).epsilon(0.02));

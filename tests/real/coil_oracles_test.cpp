@@ -9,6 +9,7 @@
 #include "app/scenario/rig_file.h"
 #include "core/file.h"
 #include "field/kernels/axial.h"
+#include "tests/skip.h"
 
 using namespace faba;
 
@@ -42,7 +43,7 @@ struct Rows {
 }  // namespace
 
 TEST_CASE("solenoid_reference.csv, every row to 1e-10 of the field's magnitude") {
-  if (!std::filesystem::exists(kOracles / "solenoid_reference.csv")) return;
+  if (test::skipped_without(kOracles / "solenoid_reference.csv")) return;
   const Rows r(read_file(kOracles / "solenoid_reference.csv"));
   REQUIRE(r.rows.size() == 32);
   for (std::size_t i = 0; i < r.rows.size(); ++i) {
@@ -58,7 +59,7 @@ TEST_CASE("solenoid_reference.csv, every row to 1e-10 of the field's magnitude")
 }
 
 TEST_CASE("fourcoil_reference.csv, every row to 1e-10 of the largest field of one coil there") {
-  if (!std::filesystem::exists(kOracles / "fourcoil_reference.csv")) return;
+  if (test::skipped_without(kOracles / "fourcoil_reference.csv")) return;
   const auto field = read_rig(FABA_SCENES "/../rigs/thesis-four-coils.toml", builtin_parts()).make({});
   const Rows r(read_file(kOracles / "fourcoil_reference.csv"));
   REQUIRE(r.rows.size() == 30);

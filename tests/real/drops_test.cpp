@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "tests/skip.h"
 #include "vision/drop/drop_edge.h"
 #include "vision/files/picture.h"
 
@@ -15,12 +16,6 @@ using namespace faba;
 namespace {
 
 const std::filesystem::path kShared = FABA_SHARED_DATA;
-
-bool missing(const char* folder) {
-  if (std::filesystem::exists(kShared / folder)) return false;
-  MESSAGE("skipped: no real data");
-  return true;
-}
 
 std::string why_refused(const std::filesystem::path& file) {
   DropEdgeOptions options;
@@ -37,7 +32,7 @@ std::string why_refused(const std::filesystem::path& file) {
 }  // namespace
 
 TEST_CASE("ten frames of one drop of E. coli") {
-  if (missing("drops")) return;
+  if (test::skipped_without(kShared / "drops")) return;
   std::vector<double> radii;
   for (int k = 0; k < 10; ++k) {
     const auto file = kShared / "drops" / fmt::format("{:05d}.tif", k);
@@ -62,7 +57,7 @@ TEST_CASE("ten frames of one drop of E. coli") {
 }
 
 TEST_CASE("pictures without a drop are refused") {
-  if (missing("suspension")) return;
+  if (test::skipped_without(kShared / "suspension")) return;
   for (const auto& entry : std::filesystem::directory_iterator(kShared / "suspension"))
     if (entry.path().extension() == ".tif")
       CHECK(why_refused(entry.path()).find("no edge") != std::string::npos);

@@ -7,6 +7,7 @@
 
 #include "core/table.h"
 #include "study/pages/flow_report.h"
+#include "tests/skip.h"
 #include "vision/flow/horn_schunck.h"
 
 using namespace faba;
@@ -30,7 +31,8 @@ Plane<double> spot(double dx, double dy) {
 
 }  // namespace
 
-TEST_CASE("every row of the reference to 1e-9" * doctest::skip(!std::filesystem::exists(kReference))) {
+TEST_CASE("every row of the reference to 1e-9") {
+  if (test::skipped_without(kReference)) return;
   const Table table = read_table(kReference);
   Pool pool(1);
   const auto column = [&](const char* name) { return table.column(name); };
@@ -56,8 +58,8 @@ TEST_CASE("every row of the reference to 1e-9" * doctest::skip(!std::filesystem:
   }
 }
 
-TEST_CASE("RubberWhale: endpoint error of the plain method and with a pyramid" *
-          doctest::skip(!std::filesystem::exists(kData / "flow"))) {
+TEST_CASE("RubberWhale: endpoint error of the plain method and with a pyramid") {
+  if (test::skipped_without(kData / "flow")) return;
   const auto folder = kData / "flow";
   const auto error_of = [&](const FlowChoice& choice) {
     FlowJob job;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "tests/skip.h"
 #include "tests/vision/media.h"
 #include "vision/cells/video_ground.h"
 #include "vision/files/picture.h"
@@ -16,17 +17,10 @@ using namespace faba;
 namespace {
 
 const std::filesystem::path kShared = FABA_SHARED_DATA;
-
-bool missing(const char* folder) {
-  if (std::filesystem::exists(kShared / folder)) return false;
-  MESSAGE("skipped: no real data");
-  return true;
-}
-
 }  // namespace
 
 TEST_CASE("the default light and noise are those of a real suspension") {
-  if (missing("suspension")) return;
+  if (test::skipped_without(kShared / "suspension")) return;
   const media::ScratchFolder folder;
   VideoWriter writer(folder / "part", VideoFormat::lossless_avi, 1376, 1096, 26.87, 0, VideoPixels::grey8);
   for (int k = 11; k < 36; ++k) {
@@ -47,7 +41,7 @@ TEST_CASE("the default light and noise are those of a real suspension") {
 }
 
 TEST_CASE("a real video as background: what lies still stays, what moves does not") {
-  if (missing("beads")) return;
+  if (test::skipped_without(kShared / "beads")) return;
   const VideoGround real = read_video_ground(kShared / "beads" / "bulk-water.mov");
   CHECK(real.light.width == 640);
   CHECK(real.light.height == 424);

@@ -5,15 +5,13 @@
 #include "app/scenario/calibration_file.h"
 #include "study/pages/scale_report.h"
 #include "tests/app/run_directory.h"
+#include "tests/skip.h"
 
 using namespace faba;
 
 TEST_CASE("a stage micrometer through a 10x objective") {
   const std::filesystem::path picture = std::filesystem::path(FABA_SHARED_DATA) / "ruler" / "cal10.png";
-  if (!std::filesystem::exists(picture)) {
-    MESSAGE("skipped: no real data");
-    return;
-  }
+  if (test::skipped_without(picture)) return;
   const TestFolder folder;
   const PictureScale s = report_scale_picture(picture, 10e-6, folder.path / "marks.png");
   // Burnt into the picture: 688.33 px for 89 ticks of 10 um, 1.293 um/px.

@@ -5,6 +5,7 @@
 
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_report.h"
+#include "tests/skip.h"
 
 using namespace faba;
 
@@ -13,10 +14,7 @@ const std::filesystem::path kFolder = std::filesystem::path(FABA_SHARED_DATA) / 
 }
 
 TEST_CASE("rods in a suspension swim, straight and each its own way") {
-  if (!std::filesystem::exists(kFolder)) {
-    MESSAGE("skipped: no real data");
-    return;
-  }
+  if (test::skipped_without(kFolder)) return;
   TrackOptions o;
   o.video = kFolder / "frame_*.tif";
   o.fps = 26.87;

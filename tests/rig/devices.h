@@ -1,8 +1,10 @@
 #pragma once
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <sstream>
 #include <vector>
@@ -11,11 +13,39 @@
 #include "core/schema.h"
 #include "rig/guard/guard_link.h"
 #include "tests/e2e/child.h"
+#include "tests/skip.h"
 #include "tests/temporary_folder.h"
 
 namespace faba {
 
 inline constexpr double kNeutral = 2.5;  // V
+
+inline constexpr double kWithin = 0.1;  // s after whatever ends or stops a program, no current flows
+
+/// A machine that stood still for longer than this, s, proves nothing about a guard: with an allowance as
+/// long as the guard's own deadline a guard that misses one deadline and acts at the next one would still
+/// pass.
+inline const double kMostLate = CoilGuard::Params{}.heartbeat_deadline;
+
+/// Checks that what took `s` was over `within`, or later only by what the machine stood still. False when it
+/// was not and the machine stood still for longer than kMostLate: nothing is checked then.
+[[nodiscard]] inline bool checked_in_time(double s, double within, const StandStill& machine) {
+  const double late = machine.longest();
+  if (s >= within && late > kMostLate) return false;
+  CHECK(s < within + std::min(late, kMostLate));
+  return true;
+}
+
+/// Makes attempts until the machine was not late in one, which then returns true. The test case is skipped,
+/// not passed, when the machine was late in all of them.
+inline void until_in_time(const std::function<bool()>& attempt) {
+  constexpr int kAttempts = 6;
+  for (int i = 0; i < kAttempts; ++i) {
+    INFO("attempt ", i);
+    if (attempt()) return;
+  }
+  test::skip(std::to_string(kAttempts) + " attempts, and the machine was late in each");
+}
 
 /// The library that stands for NI-DAQmx, for the guards that are begun while this exists. It keeps a log of
 /// all that it is told.

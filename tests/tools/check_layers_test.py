@@ -41,6 +41,7 @@ PLANTED = {
         "an include circle: core/x, core/y, core/z",
     ),
     "a library away from its home": ({"study/a.cpp": "#include <opencv2/core.hpp>\n"}, "may be included by"),
+    "a library without a home": ({"study/a.cpp": "#include <spdlog/spdlog.h>\n"}, "<spdlog/spdlog.h> has no home"),
     "a library's types beyond its folder": (
         {"server/a.h": "#include <boost/asio/ip/tcp.hpp>\n", "cli/b.cpp": '#include "server/a.h"\n'},
         "shows a library's types",

@@ -55,10 +55,12 @@ class Check:
 
 
 class Found:
-    """What a row's work comes to: our value in a line, checks, pictures, and words about them."""
+    """What a row's work comes to: our value in a line, checks, pictures, and words about them; `beside` says which of its values are
+    computed without the program, `chosen` which inputs are not the thesis's."""
 
     def __init__(self):
         self.value, self.note, self.checks, self.pictures, self.commands, self.files, self.failed = "", [], [], [], [], [], None
+        self.beside, self.chosen = "", ""
 
     def within(self, what, value, low, high, why, unit=""):
         value = value if isinstance(value, (bool, int)) or value is None else float(value)

@@ -188,6 +188,16 @@ def corner(lab, found):
         off = np.hypot(s["true_centroid_x_px"] - s["true_centroid_x_px"][-1], s["true_centroid_y_px"] - s["true_centroid_y_px"][-1])
         times.append(float(s["t_s"][np.flatnonzero(off <= 30)[0]]))
     mean, low, high = stats.mean_ci95(times)
+    scene = read.scenario(film)
+    swarm, field = scene["swarm"][0], [1e6 * _si(b, "T") for b in scene["controller"]["field"]]
+    found.chosen = (
+        "The thesis states the size of the grid, the direction, and that the corner is reached after 4 s. Everything else is chosen by us:"
+        f" model Basic with {swarm['model']['max_speed']:g} px per iteration (its best model has 8.1181, and steps are whole),"
+        f" {swarm['count']} cells (as in its next experiment), a start in a disc of {swarm['start']['radius_px']:g} px about the centre, a"
+        f" constant field of {abs(field[0]):g} and {abs(field[1]):g} µT"
+        " along x and y (5 field units each), one iteration per frame at 15 Hz, and that the swarm counts as arrived when its mean is within"
+        " 30 px of where it is at the end."
+    )
     found.value = f"{mean:.2f} s (95 % of the mean {low:.2f} to {high:.2f} s; ten seeds from {min(times):.2f} to {max(times):.2f} s)"
     found.within("Soonest of ten seeds", min(times), 3.5, 4.6, WHY, "s")
     found.within("Latest of ten seeds", max(times), 3.5, 4.6, WHY, "s")

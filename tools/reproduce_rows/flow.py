@@ -105,6 +105,7 @@ def horn_schunck(lab, found):
         f"({mean[0]:.3f}, {mean[1]:.3f}) px for a spot that moved by ({SHIFT[0]}, {SHIFT[1]}) px; the system as it is printed gives "
         f"({wrong[0]:.1f}, {wrong[1]:.1f}) px"
     )
+    found.beside = "The iteration written out, and the system as it is printed. The flow that is compared with them is the program's."
     found.within(
         "Largest difference to the iteration written out here, per sweep",
         off,

@@ -253,6 +253,7 @@ def crossing(lab, found):
             "the claim that is corrected: a slope of zero does not mark the parameter",
         )
         found.show(slopes_plot(f"Slopes, {model.capitalize()}", model, rows, f"The truth is {TRUTH[model]}."))
+    found.beside = "Lines through slopes and where they cross zero. Each slope is the program's (`faba compare`)."
     found.about(
         "Zero of the line through the two slopes that the thesis prints",
         two_point_zero(),
@@ -317,6 +318,7 @@ def means(lab, found):
     found.value = f"the thesis's numbers: p = {p45:.2f} (45 simulations each) to {p15:.2f} (15); rendered experiments: " + ", ".join(
         f"{m} {x.mean():.2f} (s.d. {x.std(ddof=1):.2f})" for m, x in ours.items()
     )
+    found.beside = "Welch's tests. The differences of the rendered experiments are the program's (`faba compare`)."
     found.about("Welch's test of the thesis's numbers, 45 each", p45, 0.21, 0.5e-2, "computed elsewhere; half of the last digit")
     found.about("The same with 15 each", p15, 0.48, 0.5e-2, "computed elsewhere; half of the last digit")
     found.within("Smaller of both", min(p45, p15), 0.05, None, "no evidence for either model at 5 %")

@@ -109,6 +109,8 @@ def section(row, found):
     facts = (
         _fact("In the thesis", text(row.thesis))
         + _fact("Here", text(found.value))
+        + _fact("Chosen by us", text(found.chosen))
+        + _fact("Computed without the program", text(found.beside))
         + _fact("How", _commands(row, found))
         + _fact("Verdict", f"{badge(said)} {words}")
     )
@@ -120,10 +122,38 @@ def section(row, found):
     )
 
 
+def extent(results, of):
+    """How many of all results are on the page, and what became of them."""
+    counts = count(results)
+    many = f"All {of}" if len(results) == of else f"{len(results)} of the {of}"
+    became = (
+        (counts[SAME] + counts[CORRECTED], "made again, each within the range that it must lie in"),
+        (counts[VIDEOS], "shown by the same procedure on rendered experiments, because the videos are not public"),
+        (counts[PENDING], "not made yet"),
+        (counts[DIFFERS], "outside of the accepted range, or not made"),
+    )
+    return f"{many} results of the 2016 thesis that software can reproduce: " + "; ".join(f"{n} {words}" for n, words in became if n) + "."
+
+
+def calls_the_program(found):
+    return any(c.startswith("build/faba ") for c in found.commands)
+
+
+def origin(results, version):
+    """Where the values on the page come from."""
+    runs = sum(calls_the_program(found) for _, found in results)
+    beside = [row.item for row, found in results if not calls_the_program(found)]
+    return (
+        f"{runs} of the {len(results)} results on this page come from runs of {html.escape(version)}"
+        + (f"; computed without it: {html.escape(', '.join(beside))}" if beside else "")
+        + ". Means, intervals and reference values are computed by <code>tools/reproduce_rows</code>; where that is more than a comparison,"
+        " the result says so."
+    )
+
+
 def page(results, of, style, version):
     counts = count(results)
     differing = [row.item for row, found in results if verdict(row.verdict, found) == DIFFERS]
-    part = f" {len(results)} of its {of} results are on this page." if len(results) < of else ""
     cards = "".join(
         f"<div><dt>{badge(v)}</dt><dd><b>{counts[v]}</b><span>{WORDS[v]}</span></dd></div>\n"
         for v in (SAME, CORRECTED, VIDEOS, PENDING, DIFFERS)
@@ -147,12 +177,11 @@ def page(results, of, style, version):
             f'<td><a href="#{anchor(row.item)}">{badge(said)}</a></td></tr>\n'
         )
     body = (
-        '<h1>Faba reproduces a thesis</h1>\n<p class="lead">Every result of the 2016 thesis that software can reproduce, made'
-        f' again{"" if differing else ", each within the range that it must lie in"}.</p>\n<p class="details">L. F. M. Diniz,'
-        f" <i>Experimental evaluation and computational modeling of the Magnetofaba itaipuensis bacteria</i>, UFMG 2016.{part} Every"
-        f" verdict is computed: a result whose value leaves its accepted range is marked {DIFFERS}. All values on this page come from runs"
-        f' of {html.escape(version)}; commands are called in the project\'s folder.</p>\n<dl class="cards">{cards}</dl>\n{warning}<h2'
-        ' id="summary">All results</h2>\n<table class="index"><thead><tr><th>item</th><th>shows</th><th class="there">in the'
+        f'<h1>Faba reproduces a thesis</h1>\n<p class="lead">{extent(results, of)}</p>\n<p class="details">L. F. M. Diniz,'
+        " <i>Experimental evaluation and computational modeling of the Magnetofaba itaipuensis bacteria</i>, UFMG 2016. Every verdict"
+        f" is computed: a result whose value leaves its accepted range is marked {DIFFERS}. {origin(results, version)} Commands are called"
+        f' in the project\'s folder.</p>\n<dl class="cards">{cards}</dl>\n{warning}<h2 id="summary">Results</h2>\n'
+        '<table class="index"><thead><tr><th>item</th><th>shows</th><th class="there">in the'
         f" thesis</th><th>here</th><th>verdict</th></tr></thead>\n<tbody>{rows}</tbody></table>\n"
         + "".join(section(row, found) for row, found in results)
     )

@@ -158,6 +158,7 @@ def kernel(lab, found):
         f"sum {KERNEL.sum()}, standard deviation {width:.3f} px; the Gaussian of 1 px over each pixel, in"
         f" 1/{scales[0] if scales else '?'} and rounded"
     )
+    found.beside = "All of it: the numbers of the thesis are compared with the Gaussian. `faba drop` smooths with a Gaussian of 1 px sampled at 5 × 5 pixels."
     found.within("Sum of the whole numbers", int(KERNEL.sum()), 273, 273, "the divisor that goes with them")
     found.within("Scales at which the rounded Gaussian gives all 25 numbers", len(scales), 1, None, "an identity of whole numbers")
     found.about(
@@ -214,6 +215,7 @@ def hough(lab, found):
         f"the ten strongest lines touch the drop within {max(off):.1f} px; the program's circle has {a['radius_px']:.1f} ±"
         f" {a['sd_px']['radius']:.1f} px (truth {radius:g})"
     )
+    found.beside = "The transform in (ρ, θ) and its ten lines, as the appendix has them. Edge and circle are the program's (`faba drop`)."
     found.within(
         "Ten strongest lines: farthest from touching the known circle",
         max(off),

@@ -1,4 +1,4 @@
-// The guard's rules, without a device or a clock: H3 to H6 of docs/guide/bench.md.
+// The guard's rules, without a device or a clock ("Safety" of docs/guide/bench.md).
 #include <doctest/doctest.h>
 
 #include <cmath>
