@@ -46,7 +46,7 @@ struct BenchSession::Impl {
   std::shared_ptr<OpenBench> bench;
   BenchRig* rig = nullptr;  ///< of the bench
   Recording recording;
-  std::unique_ptr<Sink> commands;
+  std::unique_ptr<RunSink> commands;
   std::unique_ptr<Loop> loop;
   std::size_t most_behind = 0;
   std::uint64_t commands_before = 0, refused_before = 0,
@@ -121,7 +121,10 @@ bool BenchSession::run() {
     for (std::size_t i = 0; i < m.rig->delays().size(); ++i)
       latency.append(
           fmt::format("{},{},{}\n", i, ms(m.rig->delays()[i].arrival), ms(m.rig->delays()[i].command)));
+    latency.sync();
+    latency.close();
     recorder.finish();
+    m.commands->finish(false);
     m.recording.finish(m.manifest, false);
   };
   try {
@@ -147,7 +150,10 @@ bool BenchSession::run() {
     }
   } catch (const Error& e) {
     m.notes.push_back(fmt::format("ended by {}", e.what()));
-    if (loop.next > 0) finish();
+    try {
+      if (loop.next > 0) finish();
+    } catch (const Error&) {  // what ended the run is reported, not what followed from it
+    }
     throw;
   }
   finish();
