@@ -47,7 +47,7 @@ int carry_out(Session& session, Progress& bar, const Common& c, const std::strin
   const Series series = session.series();
   write_run_report(session.dir(), run_info(manifest), series);
   session.complete();
-  const Metrics metrics = control_metrics(series);
+  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
     for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})

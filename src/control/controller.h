@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "core/archive.h"
 #include "core/frame.h"
@@ -27,6 +28,8 @@ class Reference {
   virtual void archive(Archive&) {}
   /// All setpoints in order, world frame, m: for pictures and reports.
   virtual std::vector<Vec2> setpoints() const = 0;
+  /// Distance within which a setpoint counts as reached, px; empty where the reference does not look at it.
+  virtual std::optional<double> tolerance_px() const { return std::nullopt; }
 };
 
 /// Feedback law. It sees an estimate and a target only; it cannot reach the simulator, a clock or a device,

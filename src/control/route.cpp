@@ -17,6 +17,7 @@ class ReferenceRoute final : public Reference {
   ReferenceRoute(const Params& p, const ControlContext& c);
   Target update(const Estimate& e) override;
   std::vector<Vec2> setpoints() const override { return points_; }
+  std::optional<double> tolerance_px() const override { return p_.tolerance_px; }
   void archive(Archive& a) override { a& index_& inside_& since_& started_& finished_; }
 
  private:

@@ -20,21 +20,22 @@ std::string advice(int error_number) {
   if (error_number == EACCES || error_number == EROFS || error_number == EPERM) {
     return reason + "; choose a place that may be written";
   }
+  if (error_number == EFBIG)
+    return reason + "; the limit of file sizes (ulimit -f) or of the disk is reached";
   if (error_number == ENOENT) return reason + "; does the folder exist?";
   return reason;
 }
 
-// Devices and some network file systems have nothing to flush and say so.
-bool cannot_flush(int error_number) { return error_number == EINVAL || error_number == ENOTSUP; }
-
 void flush_path(const std::filesystem::path& path, int flags, const std::filesystem::path& blame) {
   const int descriptor = ::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw Error(Errc::internal, blame.string(), "cannot be flushed: " + advice(errno));
-  const int failure = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
-  if (failure != 0 && !cannot_flush(failure)) {
-    throw Error(Errc::internal, blame.string(), "cannot be flushed: " + advice(failure));
+  try {
+    flush_descriptor(descriptor, blame);
+  } catch (...) {
+    ::close(descriptor);
+    throw;
   }
+  ::close(descriptor);  // read only: what closing says is of no file's content
 }
 
 }  // namespace
@@ -116,15 +117,20 @@ void OutputFile::append(std::string_view piece) {
   append(std::span(reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()));
 }
 
-void OutputFile::sync() {
-  if (::fsync(descriptor_) != 0 && !cannot_flush(errno)) fail("cannot be flushed to the disk", errno);
-}
+void OutputFile::sync() { flush_descriptor(descriptor_, shown_); }
 
 void OutputFile::close() {
   if (descriptor_ < 0) return;
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0 && errno != EINTR) fail("cannot be closed", errno);
+}
+
+void flush_descriptor(int descriptor, const std::filesystem::path& shown) {
+  if (::fsync(descriptor) == 0) return;
+  // Devices and some network file systems have nothing to flush and say so.
+  if (errno != EINVAL && errno != ENOTSUP)
+    throw Error(Errc::internal, shown.string(), "cannot be flushed to the disk: " + advice(errno));
 }
 
 void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to) {

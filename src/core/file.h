@@ -47,6 +47,9 @@ class OutputFile {
   std::uint64_t size_ = 0;
 };
 
+/// Returns when all that was written to an open file is on the disk. Throws Error(Errc::internal, shown).
+void flush_descriptor(int descriptor, const std::filesystem::path& shown);
+
 /// Gives the complete file `from` its final name in the same file system, replacing what is there, and makes
 /// sure that content and name outlive a power cut. Throws Error(Errc::internal, to).
 void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to);

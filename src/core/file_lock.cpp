@@ -53,15 +53,17 @@ FileLock::FileLock(const std::filesystem::path& file, const std::filesystem::pat
     if (same_file(descriptor_, file_)) break;  // else its holder completed and removed it meanwhile
     ::close(std::exchange(descriptor_, -1));
   }
+  if (descriptor_ < 0) fail(file_, "cannot be written");
+  struct stat before {};
+  const bool marks = fstat(descriptor_, &before) != 0 || before.st_size > 0;
+  // Over the old text and then cut: on a full disk an older mark stays.
   const std::string content = fmt::format("{}{}\n{}", kFirst, getpid(), text);
-  if (descriptor_ < 0 || ::ftruncate(descriptor_, 0) != 0 ||
-      ::pwrite(descriptor_, content.data(), content.size(), 0) != ssize_t(content.size()) ||
-      ::fsync(descriptor_) != 0) {
+  errno = ENOSPC;  // the reason of a write that takes only a part
+  if (::pwrite(descriptor_, content.data(), content.size(), 0) != ssize_t(content.size()) ||
+      ::ftruncate(descriptor_, off_t(content.size())) != 0 || ::fsync(descriptor_) != 0) {
     const int reason = errno;
-    if (descriptor_ >= 0) {
-      ::unlink(file_.c_str());
-      ::close(std::exchange(descriptor_, -1));
-    }
+    if (!marks) ::unlink(file_.c_str());
+    ::close(std::exchange(descriptor_, -1));
     errno = reason;
     fail(file_, "cannot be written");
   }

@@ -2,10 +2,35 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
-#include "tests/e2e/program.h"
+#include "tests/e2e/incomplete_run.h"
 #include "tests/skip.h"
 
 using namespace faba;
+
+TEST_CASE("a disk that fills up at any moment: the run is complete or marked incomplete") {
+  const TestFolder f;
+  const auto disk = f.path / "disk";
+  std::filesystem::create_directory(disk);
+  const std::string umount = "umount '" + disk.string() + "'";
+  write_file(f.path / "s.toml", kSmallScene + "[record]\nlossless = true\ncheckpoint = '0.1 s'\n");
+  int complete = 0;
+  for (int kib = 4; complete == 0 && kib < 8192; kib += 4 + kib / 6) {
+    const std::string size = std::to_string(kib) + "k";
+    if (geteuid() != 0 ||
+        std::system(
+            ("mount -t tmpfs -o size=" + size + " tmpfs '" + disk.string() + "' 2> /dev/null").c_str()) !=
+            0) {
+      test::skip("no small file system can be mounted here");
+      return;
+    }
+    const Called c = faba_in(f.path, "run s.toml --seed 1 --quiet --out disk/run");
+    INFO(size);
+    complete_or_marked(disk / "run", c);
+    complete += c.exit == 0;
+    CHECK(std::system(umount.c_str()) == 0);
+  }
+  CHECK(complete == 1);
+}
 
 TEST_CASE("a full disk: exit 1, one line, the run stays marked incomplete") {
   const TestFolder f;

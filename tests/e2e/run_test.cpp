@@ -121,6 +121,26 @@ TEST_CASE("Ctrl-C: exit 130, what was recorded is readable, resume ends with the
   CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "whole/series.csv"));
 }
 
+TEST_CASE("setpoints_reached counts what the swarm came to, setpoints what the scenario gives") {
+  const TestFolder f;
+  const std::string run = "run '" FABA_SCENES "/steer.toml' --seed 1 --json --set record.video=false ";
+  const Called on = faba_in(f.path, run + "--out on");
+  REQUIRE_MESSAGE(on.exit == 0, on.err);
+  CHECK(on.json()["setpoints"] == 4);
+  CHECK(on.json()["setpoints_reached"] == 4);
+  CHECK(read_file(f.path / "on/report.html").find("Setpoints reached") != std::string::npos);
+  const Called off = faba_in(f.path, run + "--out off --set 'controller={type=\"manual\"}'");
+  REQUIRE_MESSAGE(off.exit == 0, off.err);
+  CHECK(off.json()["setpoints"] == 4);
+  CHECK(off.json()["setpoints_reached"] == 0);
+  // A route that goes on by time alone gives setpoints that nothing comes to.
+  const Called late = faba_in(f.path, run +
+                                          "--out late --set 'controller={type=\"manual\"}' "
+                                          "--set 'reference.timeout=\"1 s\"'");
+  REQUIRE_MESSAGE(late.exit == 0, late.err);
+  CHECK(late.json()["setpoints_reached"] == 0);
+}
+
 TEST_CASE("kill -9 at any moment: resume ends with the same hash and the same series") {
   const TestFolder f;
   write_file(f.path / "s.toml",

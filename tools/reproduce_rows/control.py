@@ -34,11 +34,11 @@ def loops(lab, found):
     closed = lab.run("basic-film", BASIC)
     a, b = opened.answer, closed.answer
     found.value = (
-        f"open loop: {a['setpoints']} of 3 setpoints, {a['final_distance_px']:.1f} px from the last one; closed loop: settled after "
+        f"open loop: {a['setpoints_reached']} of 3 setpoints, {a['final_distance_px']:.1f} px from the last one; closed loop: settled after "
         f"{b['settling_time_s']:.2f} s, {b['steady_rms_px']:.1f} px rms"
     )
     found.within(
-        "Open loop: setpoints that it came to", a["setpoints"], 3, 3, "a setpoint is given when the one before was held for 15 frames"
+        "Open loop: setpoints that it came to", a["setpoints_reached"], 3, 3, "counted from the recording, with the route's own tolerance"
     )
     found.within("Open loop: distance to the last one", a["final_distance_px"], None, 20, "the route's own tolerance", "px")
     found.within("Closed loop: distance over the last third", b["steady_rms_px"], 1.5, 3, WHY, "px rms")
@@ -318,16 +318,16 @@ def route(lab, found):
     a = step.answer
     error = a["path_tracking_rms_px"]
     found.value = (
-        f"{a['setpoints']} of {len(goals)} setpoints, {a['final_distance_px']:.1f} px from the last; {error:.1f} px rms off the route"
+        f"{a['setpoints_reached']} of {len(goals)} setpoints, {a['final_distance_px']:.1f} px from the last; {error:.1f} px rms off the route"
         if error
         else ""
     )
     found.within(
         "Setpoints that the swarm came to",
-        a["setpoints"],
+        a["setpoints_reached"],
         len(goals),
         len(goals),
-        "the next one is given when the one before was held for 15 frames",
+        "counted from the recording, with the route's own tolerance",
     )
     found.within("Distance to the last one", a["final_distance_px"], None, 10, "the route's tolerance", "px")
     found.show(

@@ -117,8 +117,8 @@ def library(lab, found):
     off_um = 1e6 * made.answer["off_m"]["median"]
     found.value = (
         f"{made.answer['entries']} fields kept of {made.answer['combinations']} sets of currents; nearest zero {off_um:.0f} µm away in the"
-        f" median; the swarm came to {step.answer['setpoints']} of"
-        f" {len(step.answer['setpoints']) if isinstance(step.answer['setpoints'], list) else 3} setpoints with it"
+        f" median; the swarm came to {step.answer['setpoints_reached']} of"
+        f" {step.answer['setpoints']} setpoints with it"
     )
     found.within(
         "Frames whose currents are not those of the nearest zero", wrong, 0, 0, "compared with the library's own table, frame by frame"

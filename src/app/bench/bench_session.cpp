@@ -23,6 +23,16 @@ Latency in_ms(std::vector<double> s) {
   return {1e3 * quantile(s, 0.5), 1e3 * quantile(s, 0.99), 1e3 * quantile(s, 0.999), 1e3 * quantile(s, 1)};
 }
 
+void write_latency(const std::filesystem::path& file, const BenchRig& rig) {
+  OutputFile out(file);
+  out.append("frame,arrival_ms,command_ms\n");
+  const auto ms = [](double s) { return std::isnan(s) ? std::string() : fmt::format("{:.4f}", 1e3 * s); };
+  for (std::size_t i = 0; i < rig.delays().size(); ++i)
+    out.append(fmt::format("{},{},{}\n", i, ms(rig.delays()[i].arrival), ms(rig.delays()[i].command)));
+  out.sync();
+  out.close();
+}
+
 /// The camera of a bench: what it saw comes with the observations.
 class BenchFrames final : public FrameSource {
  public:
@@ -46,7 +56,7 @@ struct BenchSession::Impl {
   std::shared_ptr<OpenBench> bench;
   BenchRig* rig = nullptr;  ///< of the bench
   Recording recording;
-  std::unique_ptr<Sink> commands;
+  std::unique_ptr<RunSink> commands;
   std::unique_ptr<Loop> loop;
   std::size_t most_behind = 0;
   std::uint64_t commands_before = 0, refused_before = 0,
@@ -115,14 +125,14 @@ bool BenchSession::run() {
   const auto finish = [&] {
     m.most_behind = recorder.most_behind();
     m.manifest = describe();
-    OutputFile latency(dir() / "latency.csv");
-    latency.append("frame,arrival_ms,command_ms\n");
-    const auto ms = [](double s) { return std::isnan(s) ? std::string() : fmt::format("{:.4f}", 1e3 * s); };
-    for (std::size_t i = 0; i < m.rig->delays().size(); ++i)
-      latency.append(
-          fmt::format("{},{},{}\n", i, ms(m.rig->delays()[i].arrival), ms(m.rig->delays()[i].command)));
+    write_latency(dir() / "latency.csv", *m.rig);
     recorder.finish();
+    m.commands->finish(false);
+    const GuardReport guard = m.rig->coils()->report();
+    const bool logged = guard.log_failure.front() == '\0';
+    m.manifest.complete = m.manifest.complete && logged;
     m.recording.finish(m.manifest, false);
+    if (!logged) throw Error(Errc::internal, "", guard.log_failure.data());
   };
   try {
     const Urgent urgent;
@@ -147,7 +157,10 @@ bool BenchSession::run() {
     }
   } catch (const Error& e) {
     m.notes.push_back(fmt::format("ended by {}", e.what()));
-    if (loop.next > 0) finish();
+    try {
+      if (loop.next > 0) finish();
+    } catch (const Error&) {  // what ended the run is reported, not what followed from it
+    }
     throw;
   }
   finish();
@@ -172,6 +185,7 @@ Manifest BenchSession::describe() const {
   all.duration_s = m.loop->last_t + m.loop->frame_period;
   all.wall_time_s = m.recording.wall_time();
   all.setpoints = m.controls->reference->setpoints().size();
+  all.setpoint_tolerance_px = m.controls->reference->tolerance_px();
   all.video_shows = "camera";
   all.distance_source = "estimated";
   all.notes = m.notes;

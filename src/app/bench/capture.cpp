@@ -31,7 +31,10 @@ class Store {
     times_.append(fmt::format("{},{},{:.6f}\n", at_.size(), f.number, t));
     at_.push_back(t);
   }
-  virtual void finish() {}
+  virtual void finish() {
+    times_.sync();
+    times_.close();
+  }
   virtual std::string begun() const = 0;  ///< where the pictures are that were not finished
   std::uint64_t size() const { return at_.size(); }
 
@@ -59,6 +62,7 @@ class VideoStore final : public Store {
       std::filesystem::remove(out_.string() + ".csv", ec);
       return;
     }
+    Store::finish();
     writer_.finish(out_, false, [this](long long i) {
       const auto k = std::size_t(i);
       return k < at_.size() ? at_[k] : 2 * at_.back() - at_[at_.size() > 1 ? at_.size() - 2 : 0];

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/file.h"
+
 namespace faba {
 namespace {
 
@@ -143,7 +145,7 @@ void LibraryWriter::take_over(const std::string& task) {
     } catch (const Error& e) {
       if (e.code() != Errc::input) throw;  // else what could be read is kept, and the rest is made again
     }
-  std::filesystem::rename(part_.string() + ".new", part_);
+  file_.rename_complete(part_);
 }
 
 std::size_t LibraryWriter::entries() const { return std::size_t(field_->rows()); }
@@ -170,7 +172,7 @@ void LibraryWriter::finish() {
   for (auto* table : {&combination_, &current_, &zero_, &gradient_, &field_, &tried_, &whole_})
     table->reset();
   file_.close();
-  std::filesystem::rename(part_, path_);
+  rename_complete(part_, path_);
 }
 
 }  // namespace faba

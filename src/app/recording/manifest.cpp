@@ -26,6 +26,10 @@ Json swarms_json(const std::vector<Manifest::Swarm>& swarms) {
   return all;
 }
 
+Json tolerance_json(const Manifest& m) {
+  return m.setpoint_tolerance_px ? Json(*m.setpoint_tolerance_px) : Json();
+}
+
 void add_simulated(Json& j, const Manifest& m) {
   const Manifest::Simulated& s = *m.simulated;
   j.update({{"threads", s.threads},
@@ -38,6 +42,7 @@ void add_simulated(Json& j, const Manifest& m) {
             {"cells", s.cells},
             {"swarms", swarms_json(s.swarms)},
             {"setpoints", m.setpoints},
+            {"setpoint_tolerance_px", tolerance_json(m)},
             {"video_shows", m.video_shows},
             {"distance_source", m.distance_source},
             {"notes", m.notes}});
@@ -51,6 +56,7 @@ void add_bench(Json& j, const Manifest& m) {
             {"wall_time_s", m.wall_time_s},
             {"notes", m.notes},
             {"setpoints", m.setpoints},
+            {"setpoint_tolerance_px", tolerance_json(m)},
             {"video_shows", m.video_shows},
             {"distance_source", m.distance_source},
             {"frames_dropped", b.frames_dropped},

@@ -26,9 +26,10 @@ struct Manifest {
   bool complete = false;
   std::uint64_t frames = 0;  ///< turns of the control loop
   double duration_s = 0, wall_time_s = 0;
-  std::size_t setpoints = 0;    ///< that the reference gives, also those that were not reached
-  std::string video_shows;      ///< "camera" or "drawing"
-  std::string distance_source;  ///< "true" or "estimated": of distance_px in series.csv
+  std::size_t setpoints = 0;  ///< that the reference gives, also those that were not reached
+  std::optional<double> setpoint_tolerance_px;  ///< within which the reference takes one for reached
+  std::string video_shows;                      ///< "camera" or "drawing"
+  std::string distance_source;                  ///< "true" or "estimated": of distance_px in series.csv
   std::vector<std::string> notes;
 
   /// Of a swarm that was simulated.

@@ -113,6 +113,7 @@ Manifest Session::manifest() const {
   m.duration_s = double(loop.next) * scenario_.frame_period();
   m.wall_time_s = recording_.wall_time();
   m.setpoints = setpoints.size();
+  m.setpoint_tolerance_px = simulation_->reference().tolerance_px();
   m.video_shows = scenario_.record.as_seen ? "camera" : "drawing";
   m.distance_source = "true";
   m.notes = notes_;

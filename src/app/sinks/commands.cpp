@@ -8,7 +8,7 @@ namespace faba {
 namespace {
 
 /// All that a loop's decisions depend on beside the pictures, and what it decided, to the last bit.
-class Commands final : public Sink {
+class Commands final : public RunSink {
  public:
   explicit Commands(const SinkContext& c) : file_(c.dir / run_files::kCommands) {
     std::string head = "frame,camera_frame,t_s,age_s,rested";
@@ -19,6 +19,11 @@ class Commands final : public Sink {
     file_.append(fmt::format("{},{},{},{},{:d},{}\n", t.index, t.seen.frame, t.seen.t, t.seen.age,
                              t.seen.rested, fmt::join(t.command.current, ",")));
   }
+  void checkpoint(Archive&) override { file_.sync(); }  // a run on a bench is not resumed
+  void finish(bool) override {
+    file_.sync();
+    file_.close();
+  }
 
  private:
   OutputFile file_;
@@ -26,6 +31,6 @@ class Commands final : public Sink {
 
 }  // namespace
 
-std::unique_ptr<Sink> commands_sink(const SinkContext& c) { return std::make_unique<Commands>(c); }
+std::unique_ptr<RunSink> commands_sink(const SinkContext& c) { return std::make_unique<Commands>(c); }
 
 }  // namespace faba

@@ -54,8 +54,7 @@ class FlowSink final : public RunSink {
         writer_->write(frame, t0, t1, flow_);
       }
     }
-    writer_->sync();
-    std::filesystem::rename(path_.string() + ".new", path_);
+    writer_->rename_complete(path_);
   }
 
   SinkContext c_;

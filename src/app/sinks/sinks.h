@@ -75,6 +75,6 @@ std::unique_ptr<RunSink> video_sink(const SinkContext& c, bool lossless, Archive
 /// flow.h5: optical flow from frame to frame of what the camera sees (docs/formats/flow.md).
 std::unique_ptr<RunSink> flow_sink(const SinkContext& c, Archive* resume);
 /// commands.csv: on a bench, what each command was made from and what it was, exactly.
-std::unique_ptr<Sink> commands_sink(const SinkContext& c);
+std::unique_ptr<RunSink> commands_sink(const SinkContext& c);
 
 }  // namespace faba

@@ -106,8 +106,7 @@ class Tracks final : public RunSink {
         responding_->append<std::uint8_t>(flags_);
       }
     }
-    file_.sync();
-    std::filesystem::rename(path_.string() + ".new", path_);
+    file_.rename_complete(path_);
   }
 
   SinkContext c_;

@@ -1,15 +1,14 @@
 #include "core/h5/h5.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <mutex>
 #include <type_traits>
 #include <utility>
 
 #include "core/error.h"
+#include "core/file.h"
 
 namespace faba {
 namespace {
@@ -264,10 +263,17 @@ void H5File::begin_writing() {
 void H5File::sync() {
   quiet();
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->fail(Errc::internal, "write");
-  if (const int fd = ::open(impl_->path.c_str(), O_RDONLY | O_CLOEXEC); fd >= 0) {
-    ::fsync(fd);
-    ::close(fd);
-  }
+  void* handle = nullptr;  // a pointer to HDF5's descriptor of the file, whatever the file is called by now
+  if (H5Fget_vfd_handle(impl_->file, H5P_DEFAULT, &handle) < 0) impl_->fail(Errc::internal, "write");
+  flush_descriptor(*static_cast<const int*>(handle), impl_->path);
+}
+
+void H5File::rename_complete(const std::filesystem::path& to) {
+  sync();
+  faba::rename_complete(impl_->path, to);
+  impl_->path = to;
+  for (const auto& weak : impl_->tables)
+    if (const auto t = weak.lock()) t->where = to.string();
 }
 
 void H5File::close() {

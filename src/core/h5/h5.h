@@ -58,7 +58,9 @@ class H5File {
 
   void begin_writing();  ///< from here on readers may follow, and a crash leaves a readable file
   void sync();           ///< everything appended so far to the disk
-  void close();          ///< reports what a destructor cannot
+  /// Brings all to the disk and gives the file its final name; writing may continue.
+  void rename_complete(const std::filesystem::path& to);
+  void close();  ///< reports what a destructor cannot
 
  private:
   struct Impl;

@@ -39,7 +39,8 @@ void GuardLoop::note(const std::string& what) {
   if (!log_) return;
   try {
     log_->append(fmt::format("{:.6f} {}\n", monotonic_now(), what));
-  } catch (const Error&) {
+  } catch (const Error& e) {
+    log_failure_ = e.what();
     log_.reset();  // a full disk must not keep the coils on
   }
 }
@@ -59,6 +60,7 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   r.sensed = sensed_;
   const std::string why = guard_.state() == CoilGuard::State::disarmed ? driver_->unsafe() : guard_.reason();
   why.copy(r.reason.data(), r.reason.size() - 1);
+  log_failure_.copy(r.log_failure.data(), r.log_failure.size() - 1);
   // Who does not read misses reports; the coils do not wait for it.
   (void)send(link_, &r, sizeof r, MSG_DONTWAIT | MSG_NOSIGNAL);
 }

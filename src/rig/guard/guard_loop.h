@@ -33,6 +33,7 @@ class GuardLoop {
   CoilWiring wiring_;
   std::unique_ptr<CoilDriver> driver_;
   std::unique_ptr<OutputFile> log_;
+  std::string log_failure_;  ///< why there is no log any more
   CoilGuard::State shown_ = CoilGuard::State::disarmed;
   std::vector<double> put_;  ///< A, at the outputs
   bool armed_ = false;       ///< as the device was told

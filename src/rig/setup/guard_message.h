@@ -34,6 +34,7 @@ struct GuardReport {
   std::uint64_t passed = 0, refused = 0;
   std::array<double, kMostCoils> sensed{};  ///< A, not a number where nothing is told
   std::array<char, 240> reason{};           ///< of the fault, or why it will not be armed
+  std::array<char, 480> log_failure{};      ///< file and reason, when the log could not be written on
 };
 
 }  // namespace faba

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/scenario/rig_file.h"
+#include "core/file.h"
 #include "core/h5/h5.h"
 #include "field/kernels/field_table.h"
 #include "study/coils/field_map.h"
@@ -97,7 +98,7 @@ void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vect
   }
   for (std::size_t c = 0; c < columns; ++c) x.append<double>({&m.at[c].x, 1});
   h5.close();
-  std::filesystem::rename(part, file);
+  rename_complete(part, file);
   unfinished.file.clear();
 }
 

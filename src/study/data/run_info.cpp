@@ -90,6 +90,7 @@ RunInfo run_info(const Json& json, const std::string& source) {
   info.duration_s = keys.number("duration_s");
   info.wall_time_s = keys.number("wall_time_s");
   info.setpoints = keys.number("setpoints");
+  info.setpoint_tolerance_px = keys.number("setpoint_tolerance_px");
   info.um_per_px = keys.number("um_per_px");
   if (info.um_per_px && !(*info.um_per_px > 0)) keys.fail("um_per_px", "greater than 0");
   info.view_px = keys.pair("view_px");
@@ -144,6 +145,7 @@ RunInfo run_info(const Manifest& m) {
     info.duration_s = m.duration_s;
     info.wall_time_s = m.wall_time_s;
     info.setpoints = double(m.setpoints);
+    info.setpoint_tolerance_px = m.setpoint_tolerance_px;
     info.notes = m.notes;
   }
   if (m.simulated) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/statistics.h"
 #include "core/units.h"
@@ -59,7 +60,8 @@ double signal_to_noise(const VideoActivity& a) {
     block = 0;
   }
   const double total = a.mean_along * double(s.size()), error = std::sqrt(squares);
-  return error > 0 ? total / error : total > 0 ? 1e9 : 0;
+  if (error > 0) return total / error;
+  return total == 0 ? 0 : std::copysign(std::numeric_limits<double>::infinity(), total);
 }
 
 FlowSourceOptions source_options(const ActivityJob& job, const ActivityInput& v) {

@@ -57,7 +57,8 @@ struct VideoActivity {
   std::optional<double> onset_s, maximum_s,
       leaving_s;  ///< points (1), (2), (3) of the thesis's Fig. 4.9; with a good fit
   /// Mean flow along the direction over the error that the flow across it has; only of a direction that was
-  /// given: one found in the video is that of its largest flow, whatever made it.
+  /// given: one found in the video is that of its largest flow, whatever made it. Infinite when the flow
+  /// across is exactly zero, as in a computed file of flows, so that it gives no error.
   std::optional<double> signal_to_noise;
   /// Whether there is a response: a peak of activity, or flow along the direction, of four standard errors or
   /// more. Where cells jump further than their own size from frame to frame their flow has no direction, and

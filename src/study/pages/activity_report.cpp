@@ -50,7 +50,8 @@ Json video_json(const VideoActivity& a) {
   j["visible_cells"] = or_null(a.visible_cells);
   j["mean_activity_per_cell"] = or_null(activity_per_cell(a));
   j["frame_s"] = a.frame_s;
-  j["signal_to_noise"] = or_null(a.signal_to_noise);
+  const bool finite = a.signal_to_noise && std::isfinite(*a.signal_to_noise);  // JSON has no infinity
+  j["signal_to_noise"] = finite ? Json(*a.signal_to_noise) : Json();
   j["responds"] = a.responds;
   j["gaussian"] = gaussian_json(a.fit);
   j["onset_s"] = or_null(a.onset_s);

@@ -79,7 +79,8 @@ std::string arrival_in_words(const Metrics& m, const RunInfo& info) {
 
 std::string metric_row(const MetricInfo& one, double value, const RunInfo& info) {
   const double shown = one.shown * value;
-  std::string cells = fmt::format("<td>{}\u00A0{}</td>", three_digits(shown), one.unit);
+  std::string cells = one.count ? fmt::format("<td>{:.0f}</td>", value)
+                                : fmt::format("<td>{}\u00A0{}</td>", three_digits(shown), one.unit);
   if (info.um_per_px)
     cells += one.in_um ? fmt::format("<td>{}\u00A0{}</td>", three_digits(shown * *info.um_per_px), one.in_um)
                        : "<td></td>";
@@ -204,7 +205,7 @@ std::string existing_text(const std::filesystem::path& file) {
 
 std::string body_of(const std::filesystem::path& run_dir, const std::string& title, const Series& series,
                     const RunInfo& info) {
-  const Metrics m = control_metrics(series);
+  const Metrics m = control_metrics(series, info.setpoint_tolerance_px);
   const std::string scenario = existing_text(run_dir / "scenario.toml");
   std::error_code ignored;
   const bool video = std::filesystem::is_regular_file(run_dir / "video.mp4", ignored);

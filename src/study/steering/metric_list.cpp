@@ -16,7 +16,14 @@ using M = Metrics;
 
 // To add a metric: its member and its definition in metrics.h, what computes it in metrics.cpp, its line
 // here.
-constexpr MetricInfo kMetrics[] = {{.key = "initial_error_px",
+constexpr MetricInfo kMetrics[] = {{.key = "setpoints_reached",
+                                    .group = kReaching,
+                                    .name = "Setpoints reached",
+                                    .meaning = "within the route's tolerance or the settling band",
+                                    .unit = "",
+                                    .count = true,
+                                    .value = &M::setpoints_reached},
+                                   {.key = "initial_error_px",
                                     .group = kReaching,
                                     .name = "Initial error",
                                     .meaning = "distance when the first target was given",
@@ -180,7 +187,10 @@ nlohmann::ordered_json metrics_json(const Metrics& m) {
             {"metrics_source", m.source},
             {"dispersion_px", {number(m.sigma_x_px), number(m.sigma_y_px)}}};
   for (const MetricInfo& one : kMetrics)
-    if (one.value != &M::sigma_x_px && one.value != &M::sigma_y_px) j[one.key] = number(m.*one.value);
+    if (one.count)
+      j[one.key] = std::uint64_t((m.*one.value).value_or(0));
+    else if (one.value != &M::sigma_x_px && one.value != &M::sigma_y_px)
+      j[one.key] = number(m.*one.value);
   return j;
 }
 

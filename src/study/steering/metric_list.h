@@ -18,6 +18,7 @@ struct MetricInfo {
   const char* unit;             ///< as it is shown
   double shown = 1;             ///< what a value is multiplied by to be in that unit
   const char* in_um = nullptr;  ///< unit when the picture scale multiplies the value; null: not a length
+  bool count = false;           ///< a whole number, in JSON 0 where it is empty
   bool compared = false;        ///< studies of controllers give it with an interval over seeds
   std::optional<double> Metrics::*value;
 };

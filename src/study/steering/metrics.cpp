@@ -117,6 +117,18 @@ void measure_error(Metrics& m, Values t, Values d, std::size_t first_leg_end) {
   }
 }
 
+/// Legs during which the distance was within `reach` in some frame.
+std::size_t reached(Values d, const std::vector<std::size_t>& since, double reach) {
+  std::size_t count = 0;
+  for (std::size_t leg = 0; leg < since.size(); ++leg) {
+    const std::size_t end = leg + 1 < since.size() ? since[leg + 1] : d.size();
+    const Values of_leg = d.subspan(since[leg], end - since[leg]);
+    count +=
+        std::any_of(of_leg.begin(), of_leg.end(), [&](double x) { return x <= reach; });  // false for NaN
+  }
+  return count;
+}
+
 std::optional<double> overshoot_percent(const std::vector<Vec2>& centroid, const Route& route,
                                         std::size_t leg_end) {
   std::size_t first = route.since.front();
@@ -181,7 +193,7 @@ void measure_command(Metrics& m, const Series& series, Values t) {
 
 }  // namespace
 
-Metrics control_metrics(const Series& series) {
+Metrics control_metrics(const Series& series, std::optional<double> tolerance_px) {
   const Values t = series.column("t_s"), d = series.column("distance_px");
   const SwarmColumns swarm = swarm_columns(series);
   check_times(series, t);
@@ -198,6 +210,10 @@ Metrics control_metrics(const Series& series) {
   measure_error(m, t, d, first_leg_end);
   m.setpoints = route.vertex.size();
   if (m.setpoints == 0 && m.initial_error_px) m.setpoints = 1;  // older recordings keep only the distance
+  if (m.initial_error_px) {
+    const std::vector<std::size_t> since = route.since.empty() ? std::vector<std::size_t>{0} : route.since;
+    m.setpoints_reached = double(reached(d, since, tolerance_px.value_or(*m.settling_band_px)));
+  }
   if (!route.vertex.empty()) m.overshoot_percent = overshoot_percent(centroid, route, first_leg_end);
   m.path_length_px = way_length(centroid);
   measure_route(m, centroid, route);

@@ -20,6 +20,11 @@ struct Metrics {
   double duration_s = 0;      ///< from the first to the last frame
   std::size_t setpoints = 0;  ///< different successive setpoints: 0 no target, 1 hold, more on a route
 
+  /// Setpoints that were reached: those of `setpoints` during which some frame had d <= the tolerance of the
+  /// reference, or <= the settling band where the reference has none. A setpoint that comes back counts
+  /// again. Empty without a target.
+  std::optional<double> setpoints_reached;
+
   /// d0: how far off the swarm was when the first target was given, px.
   std::optional<double> initial_error_px;
   /// d of the last targeted frame, px.
@@ -72,7 +77,7 @@ struct Metrics {
 
 /// Computes what the columns allow. Needs `t_s`, `distance_px` and the centroid and sigmas of
 /// swarm_columns(), and times that increase; else throws Error(Errc::input) with file and line. A series
-/// without rows gives frames = 0 and nothing else.
-Metrics control_metrics(const Series& series);
+/// without rows gives frames = 0 and nothing else. `tolerance_px`: of the reference, where it has one.
+Metrics control_metrics(const Series& series, std::optional<double> tolerance_px = {});
 
 }  // namespace faba

@@ -17,6 +17,7 @@ constexpr double kPlaceNoise = 0.15;    // px, least error of a spot's place
 constexpr double kForget = 0.98;        // per frame, of what is learnt
 constexpr double kBetter = 0.8;         // ratio of squared errors that changes the way of foretelling
 constexpr double kFewLinks = 20;
+constexpr double kUnknownReach = 10;  // px, assumed: where no two neighbouring frames have spots to measure
 
 double place_variance(const Spot& s) { return kPlaceNoise * kPlaceNoise + s.sd_px * s.sd_px; }
 
@@ -254,7 +255,7 @@ double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cu
       pairs.push_back({*std::min_element(d.begin(), d.begin() + std::ptrdiff_t(nth) + 1), density});
       if (density > 0) spacing.push_back(1 / std::sqrt(density));
     }
-  if (pairs.empty()) return 10;
+  if (pairs.empty()) return kUnknownReach;
   double far = spacing.empty() ? 0 : kSpacings * median_high(spacing);
   if (spacing.empty())
     for (const Pair& p : pairs) far = std::max(far, p.nearest);

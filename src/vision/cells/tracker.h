@@ -119,6 +119,7 @@ class Tracker {
 /// How far things move from one frame to the next: the distance within which 95 % of those that have a
 /// successor find it, times 1.25. Nearest neighbours in the next frame are counted, and what chance gives at
 /// the density around each spot is taken off. At most three quarters of the mean spacing; at least 2 px.
+/// 10 px (assumed) when no two neighbouring frames have spots.
 double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cut = nullptr);
 
 }  // namespace faba

@@ -134,6 +134,7 @@ long long Remuxer::copy_frames() {
 void Remuxer::finish() {
   libav::forget_messages();
   int result = av_write_trailer(out_.get());
+  avio_flush(out_->pb);
   if (result >= 0) result = out_->pb->error;
   const int closed = avio_closep(&out_->pb);
   if (result >= 0) result = closed;

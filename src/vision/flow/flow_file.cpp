@@ -97,6 +97,7 @@ void FlowFileWriter::write(std::uint64_t frame, double t0_s, double t1_s, const 
 }
 std::uint64_t FlowFileWriter::size() const { return impl_->frame->rows(); }
 void FlowFileWriter::sync() { impl_->file.sync(); }
+void FlowFileWriter::rename_complete(const std::filesystem::path& to) { impl_->file.rename_complete(to); }
 void FlowFileWriter::close() {
   impl_->frame.reset();
   impl_->t.reset();

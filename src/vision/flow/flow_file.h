@@ -35,6 +35,8 @@ class FlowFileWriter {
   void write(std::uint64_t frame, double t0_s, double t1_s, const Flow& flow);
   std::uint64_t size() const;  ///< flows written
   void sync();                 ///< everything so far to the disk
+  /// Gives the file its final name, all of it on the disk; writing may continue.
+  void rename_complete(const std::filesystem::path& to);
   void close();
 
  private:

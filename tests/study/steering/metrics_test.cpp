@@ -179,6 +179,8 @@ TEST_CASE("metrics: without a target there is no error, but spread and path") {
   for (int k = 0; k < 5; ++k) r.frame(0.5 * k, {10.0 + 3 * k, 20.0 + 4 * k}, kNowhere);
   const faba::Metrics m = control_metrics(r.series());
   CHECK(m.setpoints == 0);
+  CHECK_FALSE(m.setpoints_reached);
+  CHECK(metrics_json(m)["setpoints_reached"].dump() == "0");
   CHECK_FALSE(m.initial_error_px);
   CHECK_FALSE(m.settling_time_s);
   CHECK_FALSE(m.steady_rms_px);
@@ -216,6 +218,22 @@ TEST_CASE("metrics: no overshoot and no rise are claimed when the swarm started 
   CHECK(*m.settling_time_s == 0);
   CHECK_FALSE(m.rise_time_s);
   CHECK_FALSE(m.overshoot_percent);
+}
+
+TEST_CASE("metrics: a setpoint is reached when a frame of its leg is near enough, in tolerance or band") {
+  Recording r;
+  const std::pair<Vec2, Vec2> frames[] = {{{0, 0}, {100, 0}},      {{95, 0}, {100, 0}},      // 5 px
+                                          {{100, 20}, {100, 100}}, {{100, 85}, {100, 100}},  // 15 px
+                                          {{100, 85}, {0, 100}},   {{60, 85}, {0, 100}},
+                                          {{60, 85}, {100, 0}},    {{95, 5}, {100, 0}}};  // again, 7.1 px
+  for (std::size_t k = 0; k < std::size(frames); ++k) r.frame(double(k), frames[k].first, frames[k].second);
+  const faba::Series s = r.series();
+  CHECK(control_metrics(s).setpoints == 4);
+  CHECK(*control_metrics(s).setpoints_reached == 2);  // band: 10 px
+  CHECK(*control_metrics(s, 15).setpoints_reached == 3);
+  CHECK(*control_metrics(s, 6).setpoints_reached == 1);
+  CHECK(*control_metrics(s, 1).setpoints_reached == 0);
+  CHECK(metrics_json(control_metrics(s))["setpoints_reached"].dump() == "2");
 }
 
 TEST_CASE("metrics: cross-track error is the distance to the polyline of setpoints") {

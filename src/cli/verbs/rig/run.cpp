@@ -55,8 +55,11 @@ int rig_run(const RigRunVerb& v, const Common& c) {
     whole = session.run();
   } catch (const Error&) {
     std::error_code ec;  // what was recorded can be looked at, too
-    if (std::filesystem::exists(session.dir() / run_files::kManifest, ec))
-      write_run_report(session.dir(), run_info(session.manifest()), session.series());
+    try {
+      if (std::filesystem::exists(session.dir() / run_files::kManifest, ec))
+        write_run_report(session.dir(), run_info(session.manifest()), session.series());
+    } catch (const Error&) {  // what ended the run is reported, not what followed from it
+    }
     throw;
   }
   bar.clear();
@@ -64,7 +67,7 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   const Series series = session.series();
   write_run_report(session.dir(), run_info(manifest), series);
   if (whole) session.complete();
-  const Metrics metrics = control_metrics(series);
+  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
   if (!c.quiet)
     for (const std::string& note : manifest.notes) tell(fmt::format("faba: note: {}: {}", v.run.scene, note));
   if (c.json) {

@@ -13,7 +13,6 @@ SwarmOutput::SwarmOutput(std::filesystem::path path, const TrackSurvey& survey, 
 
 SwarmOutput::~SwarmOutput() {
   if (whole_) return;
-  file_.close();
   std::error_code ignored;
   std::filesystem::remove(temporary_name(path_), ignored);
 }

@@ -25,10 +25,7 @@ class CsvTracks final : public TrackOutput {
     file_.append("track,frame,t_s,x_px,y_px,mass,snr\n");
   }
   ~CsvTracks() override {
-    if (!whole_) {
-      file_.close();
-      remove_quietly(temporary_name(path_));
-    }
+    if (!whole_) remove_quietly(temporary_name(path_));
   }
   void write(const Track& track) override {
     std::string lines;
