@@ -42,7 +42,7 @@ accuracy: build       ## render studies with known truth and see whether it is f
 	@/usr/bin/python3 bench/exposure.py --seeds $(or $(SEEDS),2)
 	@/usr/bin/python3 bench/recovery.py --experiments $(or $(EXPERIMENTS),6) --keep build/recovery --out $(if $(EXPERIMENTS),bench/results,build/recovery)
 
-reproduce: build      ## make every result of the 2016 thesis again: runs/reproduce/index.html; 10 to 20 minutes
+reproduce: build      ## reproduce the results of the 2016 thesis: runs/reproduce/index.html; 10 to 20 minutes
 	@$(SETUP) test
 	@/usr/bin/python3 tools/reproduce.py
 
