@@ -112,12 +112,16 @@ HOME = {
     "boost/beast": {"server"},
 }
 EVERYWHERE = ("fmt/", "nlohmann/")
+# What the engine may include of them, wherever else in its folders they have a home.
+ENGINE_LIBRARIES = (*EVERYWHERE, "toml++", "Eigen/", "nanoflann", "boost/math")
 # Headers of the standard library and of the operating system; all others are of third parties.
 SYSTEM = re.compile(
     r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
 )
 # Folders that are compiled several files at a time (CMakeLists.txt: FABA_UNITY).
-UNITY = {"field", "control", "app", "study", "cli"}
+UNITY = {"field", "sim", "control", "app", "study", "cli"}
+ALONE = {"sim/agents/adapted.cpp", "sim/agents/basic.cpp", "sim/agents/dipole.cpp", "field/uniform.cpp", "app/parts.cpp"}
+SOURCES = (".h", ".cpp", ".c")
 MOST_FILES = 40
 
 
@@ -126,11 +130,11 @@ class Tree:
 
     def __init__(self, root):
         self.root = root
-        self.files = [f for f in sorted(root.rglob("*")) if f.suffix in (".h", ".cpp", ".c")]
+        self.files = [f for f in sorted(root.rglob("*")) if f.suffix in SOURCES]
         self.includes = []  # (file, line number, included path as written, whether in quotes)
         for file in self.files:
             for number, line in enumerate(file.read_text().splitlines(), 1):
-                found = re.match(r'\s*#\s*include ([<"])([^>"]+)[>"]', line)
+                found = re.match(r'\s*#\s*include\s*([<"])([^>"]+)[>"]', line)
                 if found:
                     self.includes.append((file, number, found[2], found[1] == '"'))
 
@@ -145,6 +149,9 @@ def subfolder(path):
 
 
 def check_folders(tree):
+    for file in sorted(tree.root.rglob("*")):
+        if file.suffix in (".hpp", ".hh", ".cc", ".cxx", ".inc", ".inl"):
+            yield f"{file}: sources end in {', '.join(SOURCES)}"
     count = {}
     for file in tree.files:
         count[file.parent] = count.get(file.parent, 0) + 1
@@ -162,6 +169,8 @@ def check_includes(tree):
     for file, number, path, own in tree.includes:
         here, name = tree.name(file).split("/")[0], tree.name(file)
         there = path.split("/")[0]
+        if not own and there in MAY and "/" in path:
+            yield f"{file}:{number}: {path} is a header of the project and stands in quotes"
         if not own or there not in MAY or here not in MAY:
             continue
         if here != there and there not in MAY[here].split():
@@ -180,6 +189,8 @@ def check_engine(tree):
     for file, number, path, own in tree.includes:
         if own and in_engine(tree.name(file)) and not in_engine(path) and path not in ENGINE_INTERFACES:
             yield f"{file}:{number}: is part of the engine and must not include {path}"
+        if not own and in_engine(tree.name(file)) and not SYSTEM.fullmatch(path) and not path.startswith(ENGINE_LIBRARIES):
+            yield f"{file}:{number}: is part of the engine and must not include <{path}>"
 
 
 def check_json(tree):
@@ -299,7 +310,7 @@ def check_unity(tree):
     own = {}
     for file in tree.files:
         folder = tree.name(file).split("/")[0]
-        if file.suffix != ".cpp" or folder not in UNITY:
+        if file.suffix != ".cpp" or folder not in UNITY or tree.name(file) in ALONE:
             continue
         for name in own_names(file.read_text()):
             other = own.setdefault((folder, name), file)

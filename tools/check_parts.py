@@ -63,7 +63,10 @@ OTHER_MEANINGS = (
     ("visible", "a label, a parameter or a style",
      "src/sim/starts/edge.cpp src/study/pages/run_figures.cpp web/src/view/Microscope.svelte"),
 )
-COMPARED = re.compile(r'\.(type|name)(\(\))? *[!=]= *"')
+# "x" is compared with p.type, p.name() or j["type"], from either side. Words of JSON Schema are no parts.
+WHAT = r'(?:\.(?:type|name)(?:\(\))?|\["(?:type|name)"\])'
+KIND = "(?:number|integer|string|boolean|array|object|const)"
+COMPARED = re.compile(rf'{WHAT} *[!=]==? *["\'](?!{KIND}["\'])|["\'] *[!=]==? *[\w.\[\]>-]*{WHAT}')
 LIST = "src/app/parts.cpp"
 SOURCES = ("src/**/*.cpp", "src/**/*.h", "web/src/**/*.ts", "web/src/**/*.svelte")
 
@@ -95,7 +98,7 @@ def misused(root, names):
         here = file.relative_to(root).as_posix()
         text = file.read_text()
         for number, line in enumerate(text.splitlines(), 1):
-            if file.suffix in (".cpp", ".h") and COMPARED.search(line):
+            if COMPARED.search(line.split("//")[0]):
                 yield f"{here}:{number}: a type or a name is compared with a string; ask for a trait, a role or an enum"
         for number, word in strings_in(text):
             if word not in names or here == LIST or own_file(text, word):

@@ -71,15 +71,18 @@ OutputFile::OutputFile(const std::filesystem::path& path, std::uint64_t keep_byt
     : path_(path), shown_(shown.empty() ? path : shown), size_(keep_bytes) {
   const int flags = keep_bytes == 0 ? O_WRONLY | O_CREAT | O_TRUNC : O_WRONLY;
   descriptor_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+  if (descriptor_ < 0 && keep_bytes > 0 && errno == ENOENT)
+    throw Error(Errc::input, shown_.string(),
+                "is missing, so it cannot be continued; start again from scratch");
   if (descriptor_ < 0) fail("cannot be written", errno);
   if (keep_bytes == 0) return;
   try {
     const off_t end = ::lseek(descriptor_, 0, SEEK_END);
     if (end < 0) fail("cannot be continued", errno);
     if (static_cast<std::uint64_t>(end) < keep_bytes) {
-      throw Error(Errc::internal, shown_.string(),
-                  "is shorter (" + std::to_string(end) + " bytes) than what was safe (" +
-                      std::to_string(keep_bytes) + " bytes), so it cannot be continued; start it anew");
+      throw Error(Errc::input, shown_.string(),
+                  "has " + std::to_string(end) + " bytes, fewer than the " + std::to_string(keep_bytes) +
+                      " bytes that were written before, so it cannot be continued; start again from scratch");
     }
     if (::ftruncate(descriptor_, static_cast<off_t>(keep_bytes)) != 0) fail("cannot be cut", errno);
     if (::lseek(descriptor_, 0, SEEK_END) < 0) fail("cannot be continued", errno);

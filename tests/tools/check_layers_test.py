@@ -28,6 +28,13 @@ PLANTED = {
         {"control/a.cpp": '#include "vision/cells/tracker.h"\n'},
         "part of the engine and must not include",
     ),
+    "a library in the engine": (
+        {"vision/image/a.cpp": "#include <opencv2/core.hpp>\n"},
+        "part of the engine and must not include <opencv2/core.hpp>",
+    ),
+    "a header of the project as a library": ({"sim/a.cpp": "#include <control/b.h>\n"}, "stands in quotes"),
+    "an include without a space": ({"sim/a.cpp": '#include"control/b.h"\n'}, "sim must not include control"),
+    "another kind of file": ({"core/a.hpp": ""}, "sources end in"),
     "a measurement that gives JSON": (
         {"study/drop/a.h": "nlohmann::ordered_json measure();\n"},
         "a measurement gives a struct",

@@ -26,6 +26,9 @@ PLANTED = {
     "a name in the file of another part": ({"src/sim/disc.cpp": CLEAN["src/sim/disc.cpp"] + 'f("box");\n'}, "disc.cpp:2"),
     "a comparison of a type": ({"src/sim/other.cpp": 'if (p.type == "x") return;\n'}, "compared with a string"),
     "a comparison of a name": ({"src/sim/other.cpp": 'if (p.name() != "x") return;\n'}, "compared with a string"),
+    "a comparison of a JSON value": ({"src/sim/other.cpp": 'if (j["type"] == "x") return;\n'}, "compared with a string"),
+    "a comparison from the other side": ({"src/sim/other.cpp": 'if ("x" == p.type) return;\n'}, "compared with a string"),
+    "a comparison on the page": ({"web/src/a.ts": "if (p.type === 'x') return;\n"}, "compared with a string"),
     "an entry that nothing needs": ({"src/server/frame.cpp": "\n"}, '"box" no longer stands in src/server/frame.cpp'),
 }
 
