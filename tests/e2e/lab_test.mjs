@@ -21,10 +21,10 @@ await step('the gallery opens, the token is out of the address', async () => {
 
 await step('a scene is started', async () => {
   await page.getByRole('button', { name: 'Steer a swarm along a route' }).click();
-  await page.getByText('Drag on the picture: the field').waitFor();
+  await page.getByText('Drag on the picture to apply a field').waitFor();
   await until(async () => (await read('swarm'))[0] > 0, 'the swarm is shown');
   await shot('first');
-  await page.getByRole('button', { name: 'Understood' }).click();
+  await page.getByRole('button', { name: 'Close' }).click();
   await until(async () => (await read('swarm'))[0] > 120, 'it swims along its route');
   await shot('route');
 });
@@ -44,7 +44,7 @@ await step('dragging the field pulls the swarm along', async () => {
 
 await step('the field is reversed, the swarm turns back', async () => {
   const before = await read('swarm');
-  await page.getByRole('button', { name: 'Reverse the field' }).click();
+  await page.getByRole('button', { name: 'Reverse field' }).click();
   await until(async () => (await read('swarm'))[1] < before[1] - 20, 'upwards');
 });
 
@@ -64,14 +64,14 @@ await step('a click sets a goal, and it is reached', async () => {
 
 await step('pause, one frame, speed', async () => {
   await page.getByRole('button', { name: 'Pause' }).click();
-  await page.getByRole('button', { name: 'Go on' }).waitFor();
+  await page.getByRole('button', { name: 'Resume' }).waitFor();
   await page.waitForTimeout(200);
   const still = await read('swarm');
   await page.waitForTimeout(300);
   assert.deepEqual(await read('swarm'), still);
   await page.getByRole('button', { name: 'One frame' }).click();
   await page.locator('.transport select').selectOption('4');
-  await page.getByRole('button', { name: 'Go on' }).click();
+  await page.getByRole('button', { name: 'Resume' }).click();
 });
 
 await step('a route is drawn and followed', async () => {
@@ -82,7 +82,7 @@ await step('a route is drawn and followed', async () => {
   }
   assert.equal(await page.locator('.panel ol li').count(), 3);
   await shot('sketch');
-  await page.getByRole('button', { name: 'Go along it' }).click();
+  await page.getByRole('button', { name: 'Follow route' }).click();
   await until(async () => (await page.locator('.panel ol li').count()) === 0, 'it is sent');
   await until(async () => (await read('swarm'))[0] > 350, 'the swarm goes along it');
 });
@@ -96,8 +96,8 @@ await step('the model is changed while it runs', async () => {
   await speed.fill('3 bananas');
   await page.getByText('needs a unit such as').waitFor();
   await speed.fill('60 um/s');
-  await page.getByRole('button', { name: 'Change now' }).click();
-  await until(async () => (await page.getByRole('button', { name: 'Change now' }).count()) === 0, 'it is taken');
+  await page.getByRole('button', { name: 'Apply' }).click();
+  await until(async () => (await page.getByRole('button', { name: 'Apply' }).count()) === 0, 'it is taken');
   await shot('scenario');
 });
 
@@ -106,7 +106,7 @@ await step('the run is recorded, and the recording has the same state', async ()
   await page.getByRole('button', { name: /Record$/ }).click();
   await page.getByLabel('Name of the recording').fill('By hand');
   await page.keyboard.press('Enter');
-  await panel('Work');
+  await panel('Jobs');
   const job = page.locator('.panel li').first();
   await job.getByText('done', { exact: true }).waitFor({ timeout: 120000 });
   recorded = /\(([0-9a-f]+)\)/.exec(await job.textContent())[1];
@@ -151,7 +151,7 @@ await step('a picture of a drop is dropped on the page', async () => {
   faba('run', 'scenes/drop.toml', '--as-seen', '--duration', '0.2 s', '--out', 'seen', '--seed', '3');
   await tab('Gallery');
   await page.locator('.dropzone input').setInputFiles(join(workspace, 'seen/video.mp4'));
-  await page.getByRole('heading', { name: 'The edge of the drop' }).waitFor();
+  await page.getByRole('heading', { name: 'Edge of the drop' }).waitFor();
   await page.waitForTimeout(300);
   await shot('drop');
   const radius = page.locator('.editor .numbers input').nth(2);
@@ -206,12 +206,12 @@ await step('a job survives that the page is loaded again, and is stopped', async
   await page.getByLabel('Study').selectOption('studies/long.toml');
   await page.locator('form', { hasText: 'Identify' }).getByRole('button', { name: 'Start' }).click();
   const job = page.locator('li', { hasText: 'long.toml' });
-  await job.getByText(/^runs/).waitFor();
+  await job.getByText(/^running/).waitFor();
   await page.reload();
   await tab('Analyse');
-  await job.getByText(/^runs/).waitFor();
-  await job.getByRole('button', { name: 'Stop' }).click();
-  await job.getByText('stopped').waitFor();
+  await job.getByText(/^running/).waitFor();
+  await job.getByRole('button', { name: 'Cancel' }).click();
+  await job.getByText('cancelled').waitFor();
   await shot('analyse');
 });
 
@@ -222,7 +222,7 @@ await step('the map of a field and the activity of a video are shown', async () 
     await job.getByRole('button', { name: 'Open' }).click({ timeout: 120000 });
     await page.locator(what).waitFor();
   };
-  await show('Map of a field', 'field map', '.page img');
+  await show('Field map', 'field map', '.page img');
   await until(() => page.evaluate(() => document.querySelector('.page > section > img').naturalWidth > 0), 'the map');
   await shot('field');
   await page.getByRole('button', { name: 'Close' }).click();
@@ -250,7 +250,7 @@ await step('through the camera of a bench: its picture, its gain, and a ruler', 
       "[rig]\ndriver = 'none'\n[rig.camera]\ntype = 'playback'\nfile = '../ruler'\nfps = 5\n",
   );
   await tab('Bench');
-  const picture = page.getByAltText('What the camera sees');
+  const picture = page.getByAltText('Camera picture');
   const open = async (scene) => {
     await page.getByLabel('Scene with a bench').selectOption(scene);
     await page.getByRole('button', { name: 'Open the camera' }).click();
@@ -276,7 +276,7 @@ await step('through the camera of a bench: its picture, its gain, and a ruler', 
   await page.getByRole('button', { name: 'Close the camera' }).click();
   await open('ruler');
   await page.getByLabel('Objective').fill('20x');
-  await page.getByLabel('Neighbouring marks').fill('10');
+  await page.getByLabel('Tick spacing').fill('10');
   await page.getByRole('button', { name: 'Measure the ruler' }).click();
   await page.getByText('calibrations/20x.toml').first().waitFor();
   await shot('ruler');
@@ -289,19 +289,19 @@ await step('a second page watches, and takes over when it asks to', async () => 
   await tab('Lab');
   const other = await context.newPage();
   await other.goto(new URL('/', address).href);
-  await other.getByRole('button', { name: 'Steer from here' }).waitFor();
+  await other.getByRole('button', { name: 'Take control' }).waitFor();
   assert.ok(await other.getByRole('button', { name: 'Pause' }).isDisabled());
-  await other.getByRole('button', { name: 'Steer from here' }).click();
-  await page.getByText('Another page steers').waitFor();
+  await other.getByRole('button', { name: 'Take control' }).click();
+  await page.getByText('Another page controls the swarm').waitFor();
   await other.close();
-  await page.getByText('Another page steers').waitFor({ state: 'detached' });
+  await page.getByText('Another page controls the swarm').waitFor({ state: 'detached' });
 });
 
 await step('a lost connection is said and heals', async () => {
   lab.kill('SIGSTOP'); // hangs: nothing is closed, nothing is answered
-  await page.getByText('The connection is lost').waitFor();
+  await page.getByText('Connection lost').waitFor();
   lab.kill('SIGCONT');
-  await until(async () => (await page.getByText('The connection is lost').count()) === 0, 'connected again');
+  await until(async () => (await page.getByText('Connection lost').count()) === 0, 'connected again');
   const before = await read('swarm');
   await until(async () => String(await read('swarm')) !== String(before), 'it goes on');
 });
@@ -328,10 +328,10 @@ await step('a lab that was started again asks for its own token', async () => {
   lab.removeAllListeners('exit');
   lab.kill('SIGINT');
   assert.equal(await new Promise((r) => lab.on('exit', r)), 0);
-  await page.getByText('The connection is lost').waitFor();
+  await page.getByText('Connection lost').waitFor();
   await shot('lost');
   await serveAgain('--port', port);
-  await page.getByText('open the address that faba lab printed').waitFor();
+  await page.getByText('Open the address that faba lab prints').waitFor();
   await page.goto(address);
   await page.getByRole('heading', { name: 'Scenes' }).waitFor();
 });
