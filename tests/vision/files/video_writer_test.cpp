@@ -280,10 +280,10 @@ TEST_CASE("a recording cannot be continued beyond its end") {
   const auto resume = [&](const char* name, std::uint64_t at) {
     return refusal([&] { VideoWriter(folder / name, VideoFormat::mp4, 32, 18, 15, at); });
   };
-  CHECK(resume("v.part", 11).code() == Errc::internal);
+  CHECK(resume("v.part", 11).code() == Errc::input);
   CHECK(resume("v.part", 11).where() == (folder / "v.part").string());
   CHECK(std::filesystem::file_size(folder / "v.part") == 10);
-  CHECK(resume("missing.part", 5).code() == Errc::internal);
+  CHECK(resume("missing.part", 5).code() == Errc::input);
 }
 
 TEST_CASE("a full disk and places that cannot be written") {
