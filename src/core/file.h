@@ -21,8 +21,8 @@ std::string read_file(const std::filesystem::path& file);
 class OutputFile {
  public:
   /// Creates `path`, or replaces what is there. With `keep_bytes` > 0 the file must exist with at least that
-  /// many bytes, else Error(Errc::input); it is truncated to them and continued. Messages name `shown` when it
-  /// is given.
+  /// many bytes, else Error(Errc::input); it is truncated to them and continued. Messages name `shown` when
+  /// it is given.
   explicit OutputFile(const std::filesystem::path& path, std::uint64_t keep_bytes = 0,
                       const std::filesystem::path& shown = {});
   ~OutputFile();

@@ -25,8 +25,8 @@ class VideoWriter {
  public:
   /// `width`, `height` in px, 1 to 16384; `fps` > 0 in frames per second, taken as frame_rate_near() says. An
   /// existing `part` is replaced, or with `resume_at_bytes` > 0 cut to that length and continued. Throws
-  /// Error(Errc::input, part) when it is missing or shorter than that, Error(Errc::internal) when it cannot be
-  /// written or this FFmpeg lacks the encoder. Only pictures of the kind `pixels` can be written.
+  /// Error(Errc::input, part) when it is missing or shorter than that, Error(Errc::internal) when it cannot
+  /// be written or this FFmpeg lacks the encoder. Only pictures of the kind `pixels` can be written.
   VideoWriter(const std::filesystem::path& part, VideoFormat format, int width, int height, double fps,
               std::uint64_t resume_at_bytes = 0, VideoPixels pixels = VideoPixels::colour);
   /// Closes `part` and keeps it: only finish() removes it.
