@@ -39,7 +39,7 @@ int carry_out(Session& session, Progress& bar, const Common& c, const std::strin
   bar.clear();
   if (!whole) {
     if (!c.quiet)
-      tell(fmt::format("faba: interrupted; what was recorded is kept. Go on with: {} resume {}",
+      tell(fmt::format("faba: interrupted; the recorded data are kept. Resume the run with: {} resume {}",
                        shell_word(program()), shell_word(session.dir().string())));
     return int(Errc::interrupted);
   }

@@ -38,7 +38,7 @@ struct HarmonicFit {
   double rms = 0;        ///< of what is left over, all given components together, T
   double rms_field = 0;  ///< of the measurements themselves, T
 };
-/// Least squares, with the degree for which every fifth point, left out for that, is best foretold from the
+/// Least squares, with the degree for which every fifth point, left out for that, is best predicted from the
 /// others. Components of the field that were not given come out with the symmetry that asks for the least.
 /// Throws Error(input) with fewer than 8 points, or when they lie on one line.
 HarmonicFit fit_harmonics(const FieldData& data);

@@ -14,7 +14,6 @@
 #include "core/file.h"
 #include "server/embedded_page.h"
 #include "server/recorded_run.h"
-#include "study/data/run_info.h"
 #include "study/pages/drop_report.h"
 #include "study/pages/scale_report.h"
 #include "study/pages/thumbnail.h"
@@ -75,6 +74,23 @@ std::string about(const fs::path& scene) {
   for (std::string line; std::getline(in, line) && line.starts_with("#");)
     text += (text.empty() ? "" : " ") + line.substr(std::min(line.find_first_not_of("# "), line.size()));
   return text;
+}
+
+// One entry of the list of runs. Throws Json::exception for a manifest that is not JSON or has another kind
+// of value.
+Json run_card(const std::string& name, const fs::path& dir) {
+  const Json m = Json::parse(read_file(dir / run_files::kManifest));
+  Json files = Json::array();
+  for (const char* file : {"series.csv", "tracks.h5", "video.mp4", "video.avi", "flow.h5", "report.html"})
+    if (fs::exists(dir / file)) files.push_back(file);
+  return {{"name", name},
+          {"title", m.value("title", "")},
+          {"complete", m.value("complete", false) && !RunLock::marks(dir)},
+          {"frames", m.value("frames", 0)},
+          {"duration_s", m.value("duration_s", 0.0)},
+          {"seed", m.contains("seed") ? m["seed"].dump() : ""},
+          {"state_hash", m.value("state_hash", "")},
+          {"files", files}};
 }
 
 }  // namespace
@@ -205,24 +221,11 @@ WebResponse Api::run(const WebRequest& r, Rest rest) {
     Json all = Json::array();
     for (const std::string& name : workspace_.runs()) {
       const fs::path dir = workspace_.existing("runs/" + name);
-      const Json m = Json::parse(read_file(dir / run_files::kManifest), nullptr, false);
-      if (!m.is_object()) continue;
       try {
-        read_run_info(dir / run_files::kManifest);
-      } catch (const Error&) {  // one manifest that is wrong must not hide the other runs
+        all.push_back(run_card(name, dir));
+      } catch (const Json::exception&) {  // one manifest that is wrong must not hide the other runs
         continue;
       }
-      Json files = Json::array();
-      for (const char* file : {"series.csv", "tracks.h5", "video.mp4", "video.avi", "flow.h5", "report.html"})
-        if (fs::exists(dir / file)) files.push_back(file);
-      all.push_back({{"name", name},
-                     {"title", m.value("title", "")},
-                     {"complete", m.value("complete", false) && !RunLock::marks(dir)},
-                     {"frames", m.value("frames", 0)},
-                     {"duration_s", m.value("duration_s", 0.0)},
-                     {"seed", m.contains("seed") ? m["seed"].dump() : ""},
-                     {"state_hash", m.value("state_hash", "")},
-                     {"files", files}});
     }
     return json_answer(all);
   }

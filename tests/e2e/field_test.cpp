@@ -213,7 +213,7 @@ TEST_CASE(
   }
   const auto partly =
       faba_in(f.path, "field map maps.toml --current 1,1 --size '8 mm, 8 mm' --picture p.png --json").json();
-  CHECK(partly["note"].get<std::string>().find("outside of what was measured") != std::string::npos);
+  CHECK(partly["note"].get<std::string>().find("outside of a measured map") != std::string::npos);
   CHECK(partly["strongest_t"].get<double>() > 0);
   write_file(f.path / "far.toml",
              "duration = '0.2 s'\n[field]\ntype = 'rig'\nfile = 'maps.toml'\n[[swarm]]\ncount = "

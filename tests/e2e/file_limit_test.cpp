@@ -61,7 +61,7 @@ TEST_CASE("a full disk leaves the mark of an earlier incomplete run") {
   write_file(f.path / "s.toml", kSmallScene);
   REQUIRE(faba_in(f.path, "run s.toml --seed 1 --quiet --out run").exit == 0);
   write_file(f.path / "run/incomplete",
-             "faba process 1\nThis run is not complete. Go on with: faba resume run\n");
+             "faba process 1\nThis run is not complete. Resume it with: faba resume run\n");
   const std::string command = "cd '" + f.path.string() +
                               "' && ulimit -f 0 && exec '" FABA_PROGRAM
                               "' resume run --quiet > /dev/null 2>&1";

@@ -11,7 +11,7 @@ constexpr const char* kSecond = "This run is not complete. ";
 
 std::string words(const std::filesystem::path& dir, const std::string& program) {
   if (program.empty()) return fmt::format("{}It was on a bench and cannot go on.\n", kSecond);
-  return fmt::format("{}Go on with: {} resume {}\n", kSecond, program, dir.string());
+  return fmt::format("{}Resume it with: {} resume {}\n", kSecond, program, dir.string());
 }
 
 }  // namespace

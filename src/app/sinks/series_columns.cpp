@@ -38,7 +38,8 @@ SeriesColumn current_column(const std::string& coil, std::function<double(const 
           fmt::format("commanded current of coil {}, after [limits]", coil), kAlways, std::move(value)};
 }
 
-// To add a column: add its line here, where it is to stand, and write docs/ anew with `make docs`.
+// To add a column: insert its line at its place in the order, then generate the documentation with `make
+// docs`.
 std::vector<SeriesColumn> columns_around(std::vector<SeriesColumn> currents) {
   std::vector<SeriesColumn> all{
       {"frame", "", "number of the turn of the control loop, from 0", kAlways,

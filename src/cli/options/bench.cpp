@@ -16,7 +16,7 @@ void add_bench_scene(CLI::App* v, SceneOptions& o) {
 }
 
 void add_arm(CLI::App* v, bool& arm) {
-  v->add_flag("--arm", arm, "Let current flow: somebody who sees the coils says that they may be on");
+  v->add_flag("--arm", arm, "Allow current in the coils; give it only while somebody watches the coils");
 }
 
 Scenario read_bench_scene(const SceneOptions& o) {
@@ -27,9 +27,10 @@ Scenario read_bench_scene(const SceneOptions& o) {
 
 void require_arm(bool arm) {
   if (arm) return;
-  throw Error(Errc::usage, "--arm",
-              "is missing: coils are disarmed until somebody who sees them says so; to look only, `faba rig "
-              "check`");
+  throw Error(
+      Errc::usage, "--arm",
+      "is missing: the coils stay disarmed without it; give it while somebody watches the coils, or use "
+      "`faba rig check`, which needs no current");
 }
 
 }  // namespace faba::cli

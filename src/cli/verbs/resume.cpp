@@ -32,7 +32,7 @@ int resume(const ResumeVerb& v, const Common& c) {
 
 void add_resume(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<ResumeVerb>();
-  CLI::App* v = verb(app, line, "resume", "Go on with an interrupted run from its last checkpoint",
+  CLI::App* v = verb(app, line, "resume", "Resume an interrupted run from its last checkpoint",
                      "  faba resume runs/steer-1");
   v->add_option("dir", o->dir, "Run directory")->required();
   v->add_option("--threads", o->threads, "Threads; all of the machine's when absent")

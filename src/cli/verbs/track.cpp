@@ -187,7 +187,9 @@ void add_track(CLI::App& app, CommandLine& line) {
       ->check(between(1, 1e6));
   v->add_option("--reach", t->reach_px, "Farthest displacement between two frames, px; found when absent")
       ->check(between(0.1, 1e5));
-  v->add_option("--motion", t->motion, "Foretell by velocity or as nearest; found when absent")
+  v->add_option(
+       "--motion", t->motion,
+       "Predict the next position by velocity, or take the nearest spot; chosen from the video when absent")
       ->check(CLI::IsMember({"auto", "nearest", "velocity"}));
   v->add_option("--memory", t->memory, "Frames in a row that a cell may be unseen")
       ->check(CLI::Range(0, 1000));

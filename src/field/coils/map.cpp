@@ -92,7 +92,7 @@ class Map final : public Field {
         .validity(
             "A box that holds a winding or a core. Up to a twentieth of its diagonal outside of the box the "
             "field is "
-            "foretold, further out it is not a number.");
+            "predicted, further out it is not a number.");
   }
   static void settle(Params& p, const Node& n) {
     if (p.expansion) return;

@@ -161,13 +161,16 @@ FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
     map.strongest = std::max(map.strongest, norm(Vec2{v.x, v.y}));
   }
   if (known == 0)
-    throw Error(Errc::usage, rig.string(),
-                "has no field that is known anywhere in this rectangle; measured maps reach not so far: "
-                "choose another --size");
-  if (known < m.b.size())
-    map.note = fmt::format(
-        "{:.0f} % of this rectangle lie outside of what was measured, where the field is not known",
-        std::ceil(100.0 * double(m.b.size() - known) / double(m.b.size())));
+    throw Error(
+        Errc::usage, rig.string(),
+        "has no known field in this rectangle, which lies in a winding or outside of its measured maps; "
+        "choose another --size");
+  if (known < m.b.size()) {
+    const double unknown = 100.0 * double(m.b.size() - known) / double(m.b.size());
+    map.note += fmt::format(
+        "{}the field is not known in {:.2g} % of this rectangle, in a winding or outside of a measured map",
+        map.note.empty() ? "" : "; ", unknown);
+  }
   map.table = table_of(*field, o);
   if (!o.picture.empty()) draw(o, *field, m, map.zeros);
   if (!o.hdf5.empty()) write_hdf5(o.hdf5, m, current);

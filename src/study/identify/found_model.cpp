@@ -79,8 +79,8 @@ double energy_score(const MatrixXd& draws, const VectorXd& came, const VectorXd&
 
 // What an experiment would show at parameters drawn from the others' posterior: the expected numbers, and
 // what is left over of a simulation.
-MatrixXd foretell(const ParameterSearch& s, const MatrixXd& u, const std::vector<Index>& columns,
-                  StudyRandom& random) {
+MatrixXd predict(const ParameterSearch& s, const MatrixXd& u, const std::vector<Index>& columns,
+                 StudyRandom& random) {
   const MatrixXd& left = s.emulator().residuals();
   MatrixXd x(u.rows(), Index(columns.size()));
   for (Index i = 0; i < u.rows(); ++i) {
@@ -199,8 +199,8 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
   m.simulations = std::size_t(s.simulations().size());
   m.fit_p = fit_p(s, middle, s.observed());
   const VectorXd mean = s.emulator().mean(middle), noise = noise_of(s);
-  m.foretold.assign(mean.begin(), mean.end());
-  m.foretold_sd.assign(noise.begin(), noise.end());
+  m.predicted.assign(mean.begin(), mean.end());
+  m.predicted_sd.assign(noise.begin(), noise.end());
   StudyRandom random(seed, StudyDraws::prediction);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     MatrixXd u = draws.topRows(kForetold);
@@ -212,7 +212,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
       u = s.posterior(others, kForetold, derived_seed(seed, SeedUse::left_out, e));
     }
     const auto& columns = experiments[e];
-    m.scores.push_back(energy_score(foretell(s, u, columns, random), s.observed()(columns), scale(columns)));
+    m.scores.push_back(energy_score(predict(s, u, columns, random), s.observed()(columns), scale(columns)));
     m.score += m.scores.back() / double(experiments.size());
   }
   return m;
@@ -244,7 +244,7 @@ void judge(Identification& r) {
   for (const double x : lead) r.ahead += x / n;
   if (n < 2) {
     r.words =
-        fmt::format("No evidence either way: one experiment cannot foretell another. {} is nearer than {}.",
+        fmt::format("No evidence either way: one experiment cannot predict another. {} is nearer than {}.",
                     best.name, next.name) +
         poor;
     return;
@@ -252,7 +252,7 @@ void judge(Identification& r) {
   const double se = sample_sd(lead) / std::sqrt(n), half = student_t_quantile(0.975, n - 1) * se;
   r.ahead_ci95 = {r.ahead - half, r.ahead + half};
   r.evidence = r.ahead - half > 0 ? "clear" : r.ahead > se ? "weak" : "none";
-  // Of models that foretell equally well the one with the fewest parameters will do.
+  // Of models that predict equally well the one with the fewest parameters will do.
   std::string simpler;
   if (r.evidence == "none" && next.parameters.size() < best.parameters.size()) {
     r.best = order[1];
@@ -261,7 +261,7 @@ void judge(Identification& r) {
   const std::string lead_words =
       fmt::format("its energy score is {:.3g} less per experiment, 95 % {:.3g} to {:.3g}", r.ahead,
                   (*r.ahead_ci95)[0], (*r.ahead_ci95)[1]);
-  r.words = (r.evidence == "clear" ? fmt::format("{} foretells experiments better than {}: {}.", best.name,
+  r.words = (r.evidence == "clear" ? fmt::format("{} predicts experiments better than {}: {}.", best.name,
                                                  next.name, lead_words)
              : r.evidence == "weak"
                  ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)

@@ -11,7 +11,7 @@ namespace faba {
 Eigen::VectorXd noise_of(const ParameterSearch& search);
 
 /// What a search that is over has found: parameters with intervals, how well the model fits, and its energy
-/// score for each experiment (the columns of its statistics), foretold from the others. `scale`: what the
+/// score for each experiment (the columns of its statistics), predicted from the others. `scale`: what the
 /// statistics are measured in for the scores, the same for all models. Name and failure are left to the
 /// caller.
 FoundModel found_model(const Candidate& candidate, const ParameterSearch& search,

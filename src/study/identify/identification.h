@@ -32,13 +32,13 @@ struct FoundModel {
   std::string failed;  ///< why it could not be identified; empty when it could
   std::vector<FoundParameter> parameters;
   double score = 0;            ///< mean of the energy scores
-  std::vector<double> scores;  ///< of each experiment, foretold from the others; less is better
+  std::vector<double> scores;  ///< of each experiment, predicted from the others; less is better
   /// How often simulations of this model are as far from their own mean as what was observed: small values
   /// say that the model does not explain the videos.
   double fit_p = 0;
-  std::vector<double> foretold, foretold_sd;  ///< statistics at the posterior
+  std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior
   /// Of the best model: where 90 % of the simulations at draws from the posterior have them.
-  std::vector<std::array<double, 2>> foretold90 = {};
+  std::vector<std::array<double, 2>> predicted90 = {};
   std::size_t simulations = 0;
   Json best;  ///< values of the parameters at the posterior's median, by path
 };

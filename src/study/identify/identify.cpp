@@ -208,8 +208,8 @@ void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
 }
 
 // What the best model would show again and again, with all that is not known of it.
-bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSearch& search, const Observed& o,
-              const Parts& parts, ResultStore& results, const SweepOptions& options) {
+bool predict(const IdentifyStudy& study, Identification& r, const ParameterSearch& search, const Observed& o,
+             const Parts& parts, ResultStore& results, const SweepOptions& options) {
   constexpr int kAgain = 40;
   constexpr std::size_t kNumber = 1000000;  // of a round that the search never has
   const MatrixXd u = search.posterior({}, kAgain, derived_seed(study.seed, SeedUse::best_model));
@@ -222,8 +222,8 @@ bool foretell(const IdentifyStudy& study, Identification& r, const ParameterSear
     std::vector<double> v;
     for (const double x : shown.col(k))
       if (std::isfinite(x)) v.push_back(x);
-    r.models[r.best].foretold90.push_back(v.empty() ? std::array{std::nan(""), std::nan("")}
-                                                    : std::array{quantile(v, 0.05), quantile(v, 0.95)});
+    r.models[r.best].predicted90.push_back(v.empty() ? std::array{std::nan(""), std::nan("")}
+                                                     : std::array{quantile(v, 0.05), quantile(v, 0.95)});
   }
   return true;
 }
@@ -354,7 +354,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   r.statistics = o.statistics;
   r.experiments = o.experiments;
   judge(r);
-  if (!foretell(study, r, *searches[r.best].search, o, parts, results, options)) return {};
+  if (!predict(study, r, *searches[r.best].search, o, parts, results, options)) return {};
   if (study.legacy) {
     auto legacy = legacy_selection(study, r.videos, results, options, reading);
     if (!legacy) return {};

@@ -45,7 +45,7 @@ class ParameterSearch {
   /// The likelihood on those columns, and where it was sampled.
   SyntheticLikelihood likelihood(const std::vector<Eigen::Index>& columns) const;
   const ParameterBox& box() const { return box_; }
-  /// Expected statistics and their noise near the posterior: for what a model foretells.
+  /// Expected statistics and their noise near the posterior: for what a model predicts.
   const Emulator& emulator() const { return *emulator_; }
   /// Posterior by another way, from the same simulations: those nearest to what was observed, weighed by
   /// prior over proposal and brought to it by linear regression (approximate Bayesian computation, Beaumont

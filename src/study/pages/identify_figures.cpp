@@ -57,7 +57,7 @@ Course course_of(const Identification& r, std::size_t video, std::size_t episode
       c.shown.lo.push_back(kGap);
       c.shown.hi.push_back(kGap);
     }
-    const auto& band = r.models[r.best].foretold90[k];
+    const auto& band = r.models[r.best].predicted90[k];
     c.observed.x.push_back(s.number.t_s);
     c.observed.y.push_back(map(s.observed));
     c.shown.x.push_back(s.number.t_s);
@@ -100,7 +100,7 @@ Figure by_drive(const Identification& r) {
     if (s.number.what != "median speed along") continue;
     const ResponseVideo& v = r.videos[s.video];
     const double um_s = v.um_per_px * v.fps;  // of a pixel per frame
-    const auto& band = r.models[r.best].foretold90[k];
+    const auto& band = r.models[r.best].predicted90[k];
     ++n;
     dots.x.push_back(n);
     dots.y.push_back(s.observed * um_s);

@@ -60,7 +60,7 @@ std::string models_table(const Identification& r) {
   return out +
          fmt::format(
              "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments "
-             "is foretold from "
+             "is predicted from "
              "the others; less is better. Fit p: how often simulations of the model are as far from "
              "their own mean as "
              "the videos are; below 0.01 the model does not explain them.{}</p>\n",

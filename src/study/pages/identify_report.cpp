@@ -43,8 +43,8 @@ nlohmann::ordered_json identify_json(const Identification& r) {
     Json one{
         {"what", r.statistics[k].name}, {"observed", r.statistics[k].observed}, {"foretold", Json::object()}};
     for (const FoundModel& m : r.models)
-      if (m.failed.empty()) one["foretold"][m.name] = {{"mean", m.foretold[k]}, {"sd", m.foretold_sd[k]}};
-    one["foretold90"] = r.models[r.best].foretold90[k];
+      if (m.failed.empty()) one["foretold"][m.name] = {{"mean", m.predicted[k]}, {"sd", m.predicted_sd[k]}};
+    one["foretold90"] = r.models[r.best].predicted90[k];
     j["statistics"].push_back(std::move(one));
   }
   for (const LegacyModel& m : r.legacy)

@@ -64,7 +64,8 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerpri
     throw Error(
         Errc::usage, dir.string(),
         "holds this study already, complete; choose another --out, or --force to write its pages again");
-  lock_ = FileLock(dir / kMarker, dir, fmt::format("This study is not complete. Go on with: {}\n", again));
+  lock_ =
+      FileLock(dir / kMarker, dir, fmt::format("This study is not complete. Resume it with: {}\n", again));
   if (!same) {
     fs::remove(dir / kResults, ec);
     if (there)

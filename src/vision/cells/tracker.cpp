@@ -15,7 +15,7 @@ constexpr std::size_t kLookAhead = 12;  // frames, to find reach and motion
 constexpr double kGate = 4;             // standard deviations of a forecast
 constexpr double kPlaceNoise = 0.15;    // px, least error of a spot's place
 constexpr double kForget = 0.98;        // per frame, of what is learnt
-constexpr double kBetter = 0.8;         // ratio of squared errors that changes the way of foretelling
+constexpr double kBetter = 0.8;         // ratio of squared errors that changes the method of prediction
 constexpr double kFewLinks = 20;
 constexpr double kUnknownReach = 10;  // px, assumed: where no two neighbouring frames have spots to measure
 
@@ -191,7 +191,8 @@ void Tracker::follow(Live& l, std::uint64_t frame, double t_s, const Spot& spot)
     const double off = std::min(dot(innovation, innovation) / (2 * s), kGate * kGate);
     acceleration_ *= 1 + 0.002 * (off - 1);
   }
-  // Filtered places lag behind; what is foretold from them is better, what is known of the last place is not.
+  // Filtered places lag behind; what is predicted from them is better, what is known of the last place is
+  // not.
   if (motion_ == Motion::nearest) l.at = seen;
   l.t_s = t_s;
   l.missed = 0;

@@ -22,7 +22,7 @@ struct Track {
   bool goes_on = false;  ///< a piece of a long track; the next piece has the same number
 };
 
-/// How a cell's next place is foretold.
+/// How a cell's next place is predicted.
 enum class Motion {
   automatic,  ///< the one of the two whose mean squared error over the tracks so far is smaller
   nearest,    ///< where it is: for what diffuses
@@ -43,7 +43,7 @@ struct TrackerOptions {
 /// Joins spots into tracks, frame by frame: spots in, finished tracks out. Times are those of the frames;
 /// spacing may vary.
 ///
-/// Each frame, every live track foretells its place with an uncertainty; pairs of track and spot inside the
+/// Each frame, every live track predicts its place with an uncertainty; pairs of track and spot inside the
 /// gate are weighed by their likelihood against "the cell was missed and the spot is new", and the assignment
 /// with the largest total is taken (best_assignment). Tracks that got nothing may then take a left-over spot
 /// within reach of their last place, which is how reversals are followed. Spots left over begin tracks;
