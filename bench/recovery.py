@@ -2,7 +2,7 @@
 """Whether `faba identify` finds what is known: experiments are rendered with a model, a speed and everything else drawn by chance,
 and identified from what a camera sees of them.
 
-Each experiment is a drop of which an arc is in view, with a swarm at its edge and six drives to and fro along a line. Drawn are
+Each experiment is a drop of which an arc is in view, with a swarm at its edge and six field segments to and fro along a line. Drawn are
 the model (basic, adapted or dipole), its speed or largest displacement, 150 to 800 cells, the camera's noise, the time in air, the
 size and place of the drop and the line. The study is told the scale, the strength of the field and the time in air; a run keeps
 the moments at which its field turned; edge, light, cells, their number and where they begin are found. Prints a table and a verdict on every goal; keeps them in bench/results/.
@@ -79,7 +79,7 @@ def main_parameter(model):
 
 
 def study(t, o):
-    lines = [f"seed = {t['number'] + 1}", f"simulations = {o.simulations}", f"legacy = {str(not o.reduced).lower()}", 'boundary = "drop"', f'drive = "{FIELD * 1e6} uT"',
+    lines = [f"seed = {t['number'] + 1}", f"simulations = {o.simulations}", f"legacy = {str(not o.reduced).lower()}", 'boundary = "drop"', f'field_strength = "{FIELD * 1e6} uT"',
              "[scene]", 'motility = "thesis"', "[[video]]", 'file = "film"', f'exposure = "{t["exposure"]} s"']
     for m in o.models:
         low, high = RANGE[m]

@@ -48,7 +48,7 @@ lossless = true
 tracks = false
 """
 STUDY = """boundary = "drop"
-drive = "115 uT"
+field_strength = "115 uT"
 simulations = {simulations}
 look = "{look}"
 legacy = {legacy}

@@ -6,7 +6,7 @@
 
 namespace faba {
 
-/// FNV-1a, 64 bits, over little-endian bytes: a fingerprint to compare runs by, not a safeguard against
+/// FNV-1a, 64 bits, over little-endian bytes: a hash to compare runs by, not a safeguard against
 /// forgery.
 class Hash {
  public:

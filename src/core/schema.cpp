@@ -175,7 +175,9 @@ void Fields::include(const Fields& other, std::size_t at) {
 }
 
 const Fields::Field* Fields::find(const std::string& key) const {
-  const auto it = std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) { return f.key == key; });
+  const auto it = std::find_if(fields_.begin(), fields_.end(), [&](const Field& f) {
+    return f.key == key || (!key.empty() && f.info.old_key == key);
+  });
   return it == fields_.end() ? nullptr : &*it;
 }
 
@@ -198,6 +200,9 @@ void Fields::read(void* to, const Node& n, const std::vector<std::string>& extra
       if (!presets.empty()) known.emplace_back("preset");
       throw Error(Errc::usage, n.where(key), "unknown key" + suggestion(key, known));
     }
+    if (key != f->key && n.has(f->key))
+      throw Error(Errc::usage, n.where(key),
+                  fmt::format("is the old name of \"{}\"; give one of the two", f->key));
     f->type->read(static_cast<char*>(to) + f->at, n.child(key), f->info);
   }
   for (const Rule& rule : rules)

@@ -39,6 +39,7 @@ struct FieldInfo {
   std::string doc = {};                   ///< one sentence
   std::string source = {};                ///< where the default comes from; "assumed" when nobody measured it
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
+  std::string old_key = {};               ///< name of the key in the version before, which is still read
   Role role = Role::none;
   /// For a type whose description needs something, such as the registry of the parts that a table may name:
   /// handed to its schema(context).
@@ -204,7 +205,7 @@ class Fields {
     const ValueType* type;
     Json json_schema;
   };
-  const Field* find(const std::string& key) const;
+  const Field* find(const std::string& key) const;  ///< by its key or its old one
   std::vector<Field> fields_;
 };
 }  // namespace schema_detail

@@ -23,8 +23,9 @@ struct Detection {
 struct Observation {
   std::uint64_t frame = 0;
   double t = 0;
-  double age = 0;       ///< s from mid-exposure to the moment the rig hands it out
-  bool rested = false;  ///< the coils had no current for a while since the last frame, whatever was commanded
+  double age = 0;  ///< s from mid-exposure to the moment the rig hands it out
+  bool coils_off =
+      false;  ///< the coils had no current for a while since the last frame, whatever was commanded
   std::vector<Detection> seen;
   ImageRef image;
 };

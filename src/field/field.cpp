@@ -19,7 +19,7 @@ void Field::at(std::span<const Vec3> points, std::span<const double> current, st
   }
 }
 
-std::vector<double> Field::own_currents() const {
+std::vector<double> Field::default_currents() const {
   std::vector<double> current;
   for (std::size_t k = 0; k < coils(); ++k) current.push_back(circuit(k).current);
   return current;

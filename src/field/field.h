@@ -63,7 +63,7 @@ class Field {
   /// B at many points, T; spans have equal length.
   void at(std::span<const Vec3> points, std::span<const double> current, std::span<Vec3> b) const;
   /// What flows in every coil when nobody says otherwise, A.
-  std::vector<double> own_currents() const;
+  std::vector<double> default_currents() const;
   /// The largest current of every coil where `limit` is the largest of all, A.
   std::vector<double> max_currents(double limit) const;
 };

@@ -59,14 +59,14 @@ FieldLibrary::FieldLibrary(Content content) : content_(std::move(content)) {
 
 FieldLibrary::~FieldLibrary() = default;
 
-FieldTable FieldLibrary::table(const Field& field, const std::string& fingerprint) const {
+FieldTable FieldLibrary::table(const Field& field, const std::string& coil_hash) const {
   const auto other = [&] {
     return Error(
         Errc::input, content_.source,
         "was made for another rig; make it again for this one with `faba field library RIG.toml --out "
         "FILE --force`");
   };
-  if (content_.rig != fingerprint ||
+  if (content_.rig != coil_hash ||
       (!content_.entries.empty() && content_.entries.front().current.size() != field.coils()))
     throw other();
   FieldTable table(field, content_.grid);

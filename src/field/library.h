@@ -26,7 +26,7 @@ class FieldLibrary {
  public:
   struct Content {
     std::string source;  ///< file name, for messages
-    std::string rig;     ///< fingerprint of the coils that it was made for
+    std::string rig;     ///< hash of the coils that it was made for
     TableGrid grid;
     std::vector<LibraryEntry> entries;
     /// The field of an entry at all nodes, T: x and y of every node, row by row from below.
@@ -42,8 +42,8 @@ class FieldLibrary {
   /// As Content::field.
   std::vector<float> field(std::size_t entry) const { return content_.field(entry); }
   /// The field of a rig at the nodes of the library's grid. Throws Error(input) unless this is the rig that
-  /// the library was made for: the fingerprints are equal, and so is the field of some of the entries.
-  FieldTable table(const Field& field, const std::string& fingerprint) const;
+  /// the library was made for: the hashes are equal, and so is the field of some of the entries.
+  FieldTable table(const Field& field, const std::string& coil_hash) const;
 
   /// The entry whose zero is nearest to `at` (m) among those that trap cells of `polarity` (+1 north-seeking,
   /// -1 south-seeking); of equally near ones that with the least power. Where none traps along both axes, as

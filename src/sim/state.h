@@ -46,7 +46,7 @@ struct State {
   std::vector<double> current;  ///< flowing in each coil, A
   std::vector<double> command;  ///< asked of each coil, A; `current` follows it with the coil's lag
 
-  /// Fingerprint of everything above, as sixteen hexadecimal digits; equal states have equal hashes on every
+  /// Hash of everything above, as sixteen hexadecimal digits; equal states have equal hashes on every
   /// machine.
   std::string hash() const;
   void archive(Archive& a) { a& step& t& agents& current& command; }

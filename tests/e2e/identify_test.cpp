@@ -26,7 +26,7 @@ const std::string kScene =
 const std::string kHead =
     "boundary = \"box\"\nlook = \"positions\"\nsimulations = 150\nreversal = \"0.6 s\"\ndirection = "
     "0\nduration = \"2.4 s\"\n"
-    "drive = \"69 uT\"\n[[video]]\nfile = \"film\"\n";
+    "field_strength = \"69 uT\"\n[[video]]\nfile = \"film\"\n";
 const std::string kBasic = "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n";
 const std::string kAdapted =
     "[[model]]\ntype = \"adapted\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n";
@@ -56,7 +56,7 @@ TEST_CASE("a rendered step response: the model and its parameter; shards and a k
   const Called c = faba_in(f.path, "identify study.toml --json --out whole");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   const auto j = c.json();
-  CHECK(j["evidence"] == "none");  // one drive cannot foretell another
+  CHECK(j["evidence"] == "none");  // one segment cannot predict another
   const auto p = j["models"][0]["parameters"]["swarm[0].model.max_speed"];
   CHECK(p["ci90"][0].get<double>() < p["median"].get<double>());
   CHECK(p["median"].get<double>() < p["ci90"][1].get<double>());
@@ -170,7 +170,7 @@ TEST_CASE(
   const std::string given = best(kHead);
   std::string said = kHead, unsaid = kHead;
   said.replace(said.find("direction = 0"), 13, "direction = \"0 deg\"");
-  unsaid.erase(unsaid.find("drive"), unsaid.find("[[video]]") - unsaid.find("drive"));
+  unsaid.erase(unsaid.find("field_strength"), unsaid.find("[[video]]") - unsaid.find("field_strength"));
   CHECK(best(said) == given);
   CHECK(best(unsaid) == given);
   CHECK(given.find("6.9e-05 T") != std::string::npos);
@@ -220,13 +220,13 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
   refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");
   refused(f, kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
   refused(f, kHead + "[[video]]\nfile = \"./film\"\n" + kBasic, 2, "there already");
-  refused(
-      f,
-      kHead +
-          "[[video.drive]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.drive]]\nfrom = \"1.5 s\"\nto = \"3 s\"\n" +
-          kBasic,
-      2, "follow each other");
-  refused(f, kHead + "reversal = \"1 s\"\n[[video.drive]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
+  refused(f,
+          kHead +
+              "[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.segment]]\nfrom = \"1.5 s\"\nto = "
+              "\"3 s\"\n" +
+              kBasic,
+          2, "follow each other");
+  refused(f, kHead + "reversal = \"1 s\"\n[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
           "one of both");
   refused(f, kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2, "the video tells it");
   refused(f, kHead + "[[model]]\ntype = \"bassic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n", 2,

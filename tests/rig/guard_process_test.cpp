@@ -57,16 +57,16 @@ TEST_CASE("the control thread hangs while the program lives: no current when the
 TEST_CASE("a decision that takes too long: the coils rest without a fault, and go on when they are woken") {
   Firmware f;
   GuardLink g(coils_on(f.driver(), {"0", "1"}, {}, false), FABA_GUARD);
-  g.rest_when_late();
+  g.deenergise_when_late();
   g.arm();
   steer(g, 0.2);
   const auto flows = [&] { return f.log().back().furthest > 1e-6; };
   REQUIRE(flows());
-  CHECK(g.rests() == 0);
+  CHECK(g.command_timeouts() == 0);
   REQUIRE(soon([&] { return !flows(); }, 5));
-  CHECK(g.rests() == 1);
+  CHECK(g.command_timeouts() == 1);
   CHECK(g.report().state == CoilGuard::State::armed);
-  CHECK_FALSE(g.request(std::vector<double>(2, 0.3), monotonic_now()));  // decided before they rested
+  CHECK_FALSE(g.request(std::vector<double>(2, 0.3), monotonic_now()));  // decided before the coils were off
   CHECK(g.wake());
   CHECK_FALSE(g.wake());
   CHECK(g.request(std::vector<double>(2, 0.3), monotonic_now()));

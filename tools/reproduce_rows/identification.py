@@ -10,14 +10,14 @@ SCENE = "scenes/response.toml"
 GRID = {"basic": (1, 5, 10, 15, 20), "adapted": (5, 10, 15, 20, 30)}
 TRUTH = {"basic": 8, "adapted": 9}
 EXPERIMENTS, REPEATS = range(3), range(3)
-# One drive away from the edge from the first frame on, 6 s, 90 frames.
+# One field segment away from the edge from the first frame on, 6 s, 90 frames.
 ONE_DRIVE = ('controller={type="manual", field=["-115 uT", "0 uT"]}', "--duration", "6 s")
 REPORTED = {"basic": (15.5902, 2.1296), "adapted": (14.6310, 4.6621)}  # mean difference and its s.d.
 SLOPES = {1: 0.1943, 20: -0.0381}
 
 STUDY = """title = "Rendered with MODEL: which model is it?"
 boundary = "drop"
-drive = "115 uT"            # strength of the field
+field_strength = "115 uT"            # strength of the field
 simulations = 300
 
 [[video]]
@@ -265,7 +265,7 @@ def crossing(lab, found):
 
 
 def identified(lab, model):
-    """The program's own answer for an experiment of this model with four drives, and the film."""
+    """The program's own answer for an experiment of this model with four field segments, and the film."""
     film = lab.run(f"identify-film-{model}", SCENE, f'swarm[0].model={{type="{model}", max_speed={TRUTH[model]}}}', seed=7)
     path = lab.write(f"identify-study-{model}", "study.toml", STUDY.replace("MODEL", model))
     return film, lab.call(f"identify-{model}", "identify", path, after=[film])

@@ -60,7 +60,7 @@ struct BenchSession::Impl {
   std::unique_ptr<Loop> loop;
   std::size_t most_behind = 0;
   std::uint64_t commands_before = 0, refused_before = 0,
-                rests_before = 0;  ///< the bench may have had runs before
+                timeouts_before = 0;  ///< the bench may have had runs before
   bool whole = false;
   std::vector<std::string> notes;
   Manifest manifest;  ///< as it was when the run ended
@@ -94,7 +94,7 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
   const GuardReport guard = m->rig->coils()->report();
   m->commands_before = guard.passed;
   m->refused_before = guard.refused;
-  m->rests_before = m->rig->coils()->rests();
+  m->timeouts_before = m->rig->coils()->command_timeouts();
   m->scenario = std::move(s);
   m->controls = std::make_unique<BenchControls>(m->scenario);
   m->recording = Recording(std::move(directory), m->scenario, false);
@@ -200,7 +200,7 @@ Manifest BenchSession::describe() const {
                               .guard_state = word(guard.state),
                               .guard_commands = guard.passed - m.commands_before,
                               .guard_refused = guard.refused - m.refused_before,
-                              .guard_rests = m.rig->coils()->rests() - m.rests_before,
+                              .command_timeouts = m.rig->coils()->command_timeouts() - m.timeouts_before,
                               .guard_heat = guard.heat};
   return all;
 }

@@ -12,7 +12,7 @@
 namespace faba {
 
 Replayed replay_run(const std::filesystem::path& dir,
-                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& go_on) {
+                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& keep_running) {
   std::error_code ec;
   const auto commands = dir / run_files::kCommands, video = dir / "video.avi";
   if (!std::filesystem::exists(commands, ec))
@@ -26,7 +26,7 @@ Replayed replay_run(const std::filesystem::path& dir,
   Loop loop = controls.loop(rig, s.frame_period());
   bool stopped = false;
   run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
-    stopped = !go_on(loop.next, rig.frames());
+    stopped = !keep_running(loop.next, rig.frames());
     return !stopped;
   });
   if (stopped) throw Error(Errc::interrupted, dir.string(), "was not replayed to its end");

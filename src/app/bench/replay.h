@@ -14,8 +14,8 @@ struct Replayed {
 };
 
 /// Does the decisions of the run in `dir` again. Throws Error(input) when it is none of a bench, or kept no
-/// lossless video. `go_on` is asked after every frame; Error(interrupted) when it says no.
+/// lossless video. `keep_running` is asked after every frame; Error(interrupted) when it says no.
 Replayed replay_run(const std::filesystem::path& dir,
-                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& go_on);
+                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& keep_running);
 
 }  // namespace faba

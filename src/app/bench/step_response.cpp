@@ -117,13 +117,13 @@ class Schedule {
         whole_(p.every * (p.repeat - 1) + p.gather + p.before + p.record) {}
   double now() const { return monotonic_now() - began_; }
   bool stopped() const { return job_.run.stop && job_.run.stop->load(); }
-  bool go_on() const {
+  bool keep_running() const {
     if (job_.run.progress)
       job_.run.progress(std::uint64_t(1e3 * std::min(now(), whole_)), std::uint64_t(1e3 * whole_));
     return !stopped();
   }
   void wait_until(double t) const {
-    while (now() < t && go_on())
+    while (now() < t && keep_running())
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kLook, t - now())));
   }
 
@@ -146,7 +146,7 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
   const Urgent urgent;
   run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
     if (loop.next == 1) rig.arm();
-    return loop.last_t + 0.5 * loop.frame_period < s.params.duration && schedule.go_on();
+    return loop.last_t + 0.5 * loop.frame_period < s.params.duration && schedule.keep_running();
   });
   out.cells = newest.estimate.visible;
   if (out.cells > 0) out.at_px = controls.frame.image_from_world(newest.estimate.centroid);
@@ -191,7 +191,7 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
     RunOptions o = job.run;
     o.out /= fmt::format("{}-{:.0f}s", study.experiment(), one.exposure);
     o.numbered = true;
-    o.progress = [&](std::uint64_t, std::uint64_t) { (void)schedule.go_on(); };
+    o.progress = [&](std::uint64_t, std::uint64_t) { (void)schedule.keep_running(); };
     BenchSession session =
         BenchSession::begin(s, std::shared_ptr<OpenBench>(&bench, [](OpenBench*) {}), job.seed, o);
     one.dir = session.dir();

@@ -11,13 +11,13 @@
 namespace faba {
 
 // A field library in a file. HDF5: `current_a` (entry, coil), `zero_m` (entry, (x, y)), `gradient_t_per_m`
-// (entry, 2), `field_t` (entry, row from below, column, (x, y)); attributes `format`, `rig` (fingerprint of
+// (entry, 2), `field_t` (entry, row from below, column, (x, y)); attributes `format`, `rig` (hash of
 // the coils), `low_x_m`, `low_y_m`, `spacing_m`, `columns`, `rows`, `coils`, `task`.
 
 /// The library in a file, which stays open. Throws Error(input) when the file is not a complete library.
 std::shared_ptr<const FieldLibrary> open_library(const std::filesystem::path& file);
 
-/// How the library in a file was made: fingerprint of the coils, grid and currents. Throws Error(input).
+/// How the library in a file was made: hash of the coils, grid and currents. Throws Error(input).
 std::string library_task(const std::filesystem::path& file);
 
 /// Writes a library entry by entry. What is there stays readable whatever happens; the library gets its name

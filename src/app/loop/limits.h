@@ -37,7 +37,7 @@ class Limits {
   /// changed. Throws Error(usage) for another number of currents than there are coils.
   bool apply(Command& c, double dt, double frame_age);
   /// The coils had no current for a while: changes are reckoned from there.
-  void rested() { last_.assign(last_.size(), 0.0); }
+  void coils_off() { last_.assign(last_.size(), 0.0); }
   void archive(Archive& a) { a& last_; }
 
  private:

@@ -13,9 +13,9 @@ bool turn(Loop& loop) {
   const Estimate estimate = loop.estimator->update(seen, loop.last);
   const Target target = loop.reference->update(estimate);
   Command command = loop.controller->update(estimate, target, dt);
-  if (seen.rested) loop.limits.rested();
+  if (seen.coils_off) loop.limits.coils_off();
   // Nothing flowed in the frames before: a change out of rest has one frame's time, as the guard reckons.
-  const double changing = seen.rested ? std::min(dt, loop.frame_period) : dt;
+  const double changing = seen.coils_off ? std::min(dt, loop.frame_period) : dt;
   const bool limited = loop.limits.apply(command, changing, seen.age);
   loop.rig.write(command);
   loop.last = command;
@@ -25,13 +25,13 @@ bool turn(Loop& loop) {
   return true;
 }
 
-void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on) {
+void run(Loop& loop, std::uint64_t end, const std::function<bool()>& keep_running) {
   struct Guard {
     Rig& rig;
     ~Guard() { rig.safe(); }
   } guard{loop.rig};
   while (loop.next < end && turn(loop))
-    if (!go_on()) break;
+    if (!keep_running()) break;
 }
 
 }  // namespace faba

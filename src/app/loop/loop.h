@@ -47,8 +47,8 @@ struct Loop {
 bool turn(Loop& loop);
 
 /// The only control loop in the program; simulation, replay and hardware differ only in the rig. Takes turns
-/// until turn `end`, until the rig has no more frames, or until `go_on` (asked after every turn) says no. The
-/// rig is made safe on every way out.
-void run(Loop& loop, std::uint64_t end, const std::function<bool()>& go_on);
+/// until turn `end`, until the rig has no more frames, or until `keep_running` (asked after every turn) says
+/// no. The rig is made safe on every way out.
+void run(Loop& loop, std::uint64_t end, const std::function<bool()>& keep_running);
 
 }  // namespace faba

@@ -69,7 +69,7 @@ void add_bench(Json& j, const Manifest& m) {
              {{"state", b.guard_state},
               {"commands", b.guard_commands},
               {"refused", b.guard_refused},
-              {"rests", b.guard_rests},
+              {"command_timeouts", b.command_timeouts},
               {"heat", b.guard_heat}}}});
 }
 

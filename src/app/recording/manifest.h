@@ -55,7 +55,7 @@ struct Manifest {
     Latency arrival, command;  ///< from mid-exposure to the program, from there to the coils
     std::size_t recorder_most_behind = 0;
     std::string guard_state;
-    std::uint64_t guard_commands = 0, guard_refused = 0, guard_rests = 0;
+    std::uint64_t guard_commands = 0, guard_refused = 0, command_timeouts = 0;
     double guard_heat = 0;  ///< of the warmest coil, 1 at its limit
   };
   std::optional<Bench> bench;

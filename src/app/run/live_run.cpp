@@ -19,8 +19,8 @@ LiveRun::LiveRun(const Document& d, std::uint64_t seed, const Parts& parts, Pool
   now_.events.clear();
 }
 
-void LiveRun::run(const std::function<bool()>& go_on) {
-  faba::run(simulation_->loop(), std::numeric_limits<std::uint64_t>::max(), go_on);
+void LiveRun::run(const std::function<bool()>& keep_running) {
+  faba::run(simulation_->loop(), std::numeric_limits<std::uint64_t>::max(), keep_running);
 }
 
 void LiveRun::exchange(const Json& event) {

@@ -13,8 +13,8 @@ class LiveRun {
   /// Throws Error(usage) as read_scenario() and Simulation do. Events in `d` happen, too.
   LiveRun(const Document& d, std::uint64_t seed, const Parts& parts, Pool& pool);
 
-  /// Runs until `go_on`, asked after every frame, says no. Coils are made safe then.
-  void run(const std::function<bool()>& go_on);
+  /// Runs until `keep_running`, asked after every frame, says no. Coils are made safe then.
+  void run(const std::function<bool()>& keep_running);
   /// Exchanges the parts that `event` names (the keys of an [[event]] without `frame`) before the next
   /// frame. Throws Error(usage), having changed nothing.
   void exchange(const Json& event);

@@ -36,7 +36,7 @@ FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary* libr
         fmt::format("covers {:.4g} x {:.4g} mm about the centre, the arena reaches over {:.4g} x {:.4g} mm; "
                     "make it larger with --size",
                     1e3 * (to - from).x, 1e3 * (to - from).y, 1e3 * (high - low).x, 1e3 * (high - low).y));
-  return library->table(field, rig_fingerprint(s.field.resolved));
+  return library->table(field, coil_system_hash(s.field.resolved));
 }
 
 constexpr double kJitterSteps = 4;  // in one sd of the frames' times, so that whole steps do not show

@@ -39,9 +39,9 @@ Event read_event(const Node& n, Scenario& now, const Parts& parts) {
       return registry.resolve(Node(name, kind, n.document));
     };
     if (!e.estimator && next.estimator.has(Trait::no_estimate))
-      e.estimator = usual(parts.estimator, "estimator", next.usual_estimator());
+      e.estimator = usual(parts.estimator, "estimator", next.default_estimator());
     if (!e.reference && next.reference.has(Trait::no_target))
-      e.reference = usual(parts.reference, "reference", next.usual_reference());
+      e.reference = usual(parts.reference, "reference", next.default_reference());
     change(e, next);
   }
   check_control(n, next, parts);

@@ -37,7 +37,7 @@ Json rig_file_json_schema(const Parts& parts) {
   return j;
 }
 
-std::string rig_fingerprint(const Json& resolved) {
+std::string coil_system_hash(const Json& resolved) {
   Json rig = resolved;
   const auto strip = [](Json& coil) {
     for (const char* key : {"name", "current", "file"}) coil.erase(key);

@@ -13,7 +13,7 @@ Json rig_file_json_schema(const Parts& parts);
 
 /// What a resolved rig, or any other field, is told by: everything but names, where maps were read from, and
 /// the currents that flow when nothing commands them.
-std::string rig_fingerprint(const Json& resolved);
+std::string coil_system_hash(const Json& resolved);
 
 /// Puts the content of the rig file named by the scenario's `field.file`, relative to the scenario or to
 /// where the program was called, in the key's place, so that what is recorded stands by itself. What the

@@ -38,12 +38,12 @@ int Scenario::polarity() const {
   return sum > 0 ? 1 : -1;
 }
 
-Json Scenario::usual_estimator() const {
+Json Scenario::default_estimator() const {
   if (!sees_pictures()) return "mean";
   return steers() ? "image" : "none";
 }
 
-Json Scenario::usual_reference() const { return steers() ? "hold" : "none"; }
+Json Scenario::default_reference() const { return steers() ? "hold" : "none"; }
 
 std::shared_ptr<const VideoGround> Scenario::ground() const {
   if (microscope.background.empty()) return nullptr;

@@ -71,8 +71,8 @@ struct Scenario {
          "swarm", [](const Node& n, const Parts& p, S& to) { to.swarms = read_swarms(n, p); },
          [](const S& from) { return swarms_json(from.swarms); }, swarms_json_schema)
         .fill_in = [](const Node& n, const Parts&, S&) { n.fail("needs at least one [[swarm]]"); };
-    s.part("estimator", &S::estimator, &Parts::estimator, &S::usual_estimator);
-    s.part("reference", &S::reference, &Parts::reference, &S::usual_reference);
+    s.part("estimator", &S::estimator, &Parts::estimator, &S::default_estimator);
+    s.part("reference", &S::reference, &Parts::reference, &S::default_reference);
     s.part("controller", &S::controller, &Parts::controller, "fuzzy");
     s.table("limits", &S::limits, Limits::schema);
     s.part("flow", &S::flow, &Parts::flow, {{"type", "horn_schunck"}, {"preset", "published"}})
@@ -108,9 +108,9 @@ struct Scenario {
   bool steers() const { return !controller.has(Trait::open_loop); }
   /// The estimator of a scenario that names none: all positions where the camera gives them, else the
   /// picture; none without feedback, since nobody needs to know where the cells are.
-  Json usual_estimator() const;
+  Json default_estimator() const;
   /// The reference of a scenario that names none.
-  Json usual_reference() const;
+  Json default_reference() const;
   /// Polarity of most of the cells, which is what a controller steers: +1 or -1; south when both are as many.
   int polarity() const;
   /// Light and noise of the video microscope.background; null when none is named. Reads the video. Throws
@@ -120,7 +120,7 @@ struct Scenario {
   std::shared_ptr<const FieldLibrary> field_library() const;
   /// Every key with its value; as TOML it reads back to the same scenario.
   Json resolved() const;
-  /// Fingerprint of what happens in a run: of resolved() without title, seed and what only says how the run
+  /// Hash of what happens in a run: of resolved() without title, seed and what only says how the run
   /// is recorded or carried out.
   std::string hash() const;
 };

@@ -11,13 +11,13 @@ namespace {
 class Commands final : public RunSink {
  public:
   explicit Commands(const SinkContext& c) : file_(c.dir / run_files::kCommands) {
-    std::string head = "frame,camera_frame,t_s,age_s,rested";
+    std::string head = "frame,camera_frame,t_s,age_s,coils_off";
     for (std::size_t k = 0; k < c.field->coils(); ++k) head += fmt::format(",current_{}_a", k);
     file_.append(head + '\n');
   }
   void take(const Tick& t) override {
     file_.append(fmt::format("{},{},{},{},{:d},{}\n", t.index, t.seen.frame, t.seen.t, t.seen.age,
-                             t.seen.rested, fmt::join(t.command.current, ",")));
+                             t.seen.coils_off, fmt::join(t.command.current, ",")));
   }
   void checkpoint(Archive&) override { file_.sync(); }  // a run on a bench is not resumed
   void finish(bool) override {

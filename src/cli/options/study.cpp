@@ -56,19 +56,19 @@ void add_study_options(CLI::App* v, StudyOptions& o) {
               "Replace another study in the directory, or write a complete one's pages again");
 }
 
-StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& fingerprint) {
+StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& study_hash) {
   const std::filesystem::path out = out_of(v);
   const std::string again = fmt::format("{} {} {} --out {}", shell_word(program()), verb,
                                         shell_word(v.study.string()), shell_word(out.string()));
-  StudyDirectory dir(out, fingerprint, again, v.force);
+  StudyDirectory dir(out, study_hash, again, v.force);
   dir.merge(v.merge);
   return dir;
 }
 
-bool told_complete(const StudyOptions& v, const std::string& name, const std::string& fingerprint,
-                   const Common& c) {
+bool report_if_complete(const StudyOptions& v, const std::string& name, const std::string& study_hash,
+                        const Common& c) {
   const std::filesystem::path out = out_of(v);
-  if (v.force || !holds_complete_study(out, fingerprint)) return false;
+  if (v.force || !holds_complete_study(out, study_hash)) return false;
   if (c.json)
     print_json(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
   else if (!c.quiet)

@@ -25,11 +25,11 @@ struct StudyOptions {
 void add_study_options(CLI::App* v, StudyOptions& o);
 
 /// Where the study goes: --out, or runs/NAME. `name` of the verb, for the command to go on with.
-StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& fingerprint);
+StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& study_hash);
 
 /// Whether the study is there already, whole; then this has been said, or its NAME.json printed again.
-bool told_complete(const StudyOptions& v, const std::string& name, const std::string& fingerprint,
-                   const Common& c);
+bool report_if_complete(const StudyOptions& v, const std::string& name, const std::string& study_hash,
+                        const Common& c);
 
 /// Threads, shard, progress and stop of a study. `bar` outlives the sweep. Throws Error(usage, "--shard").
 SweepOptions sweep_options(const StudyOptions& v, Progress& bar);

@@ -30,7 +30,7 @@ ActivityJob job_of(const ActivityVerb& v) {
   ActivityJob job;
   const FlowChoice choice{v.flow.method, v.flow.values};
   job.method = flow_part(choice, published_flow());
-  job.said = options_said(choice, v.flow.shrink, v.flow.fps);
+  job.options_text = options_text(choice, v.flow.shrink, v.flow.fps);
   job.frames = !v.picture.empty();
   job.noise = v.noise;
   job.shrink = v.flow.shrink;

@@ -59,7 +59,7 @@ int compare(const CompareVerb& v, const Common& c) {
   job.m = v.m;
   job.threshold = v.threshold;
   job.method = flow_part({v.flow.method, v.flow.values}, published_flow());
-  job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
+  job.options_text = options_text({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
   job.threads = v.flow.threads;

@@ -33,8 +33,8 @@ int compare_controllers(const StudyOptions& v, const Common& c) {
   const ControllerStudy study = read_controller_study(v.study);
   Progress bar("trials", !c.quiet && !c.json);
   const SweepOptions options = sweep_options(v, bar);
-  const std::string mark = fingerprint(study);
-  if (told_complete(v, "controllers", mark, c)) return 0;
+  const std::string mark = study_hash(study);
+  if (report_if_complete(v, "controllers", mark, c)) return 0;
   StudyDirectory dir = open_study(v, "compare-controllers", mark);
   const auto result = compare_controllers(study, dir.results(), options);
   bar.clear();

@@ -35,7 +35,7 @@ FlowJob job_of(const FlowVerb& v) {
   job.overlay = v.overlay;
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
-  job.said = options_said({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
+  job.options_text = options_text({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
   job.threads = v.flow.threads;
   return job;
 }

@@ -39,8 +39,8 @@ int identify(const StudyOptions& v, const Common& c) {
   const IdentifyStudy study = read_identify_study(v.study);
   Progress bar("simulating", !c.quiet && !c.json);
   SweepOptions options = sweep_options(v, bar);
-  const std::string mark = fingerprint(study);
-  if (told_complete(v, "identify", mark, c)) return 0;
+  const std::string mark = study_hash(study);
+  if (report_if_complete(v, "identify", mark, c)) return 0;
   StudyDirectory dir = open_study(v, "identify", mark);
   Progress reader("reading, frames", !c.quiet && !c.json);
   std::uint64_t frames = 0;

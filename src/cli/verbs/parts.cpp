@@ -31,7 +31,7 @@ std::string range_of(const Json& f) {
 }
 
 // Of a preset: the values that are not the defaults.
-std::string own_values(const Json& values, const Json& properties) {
+std::string overrides(const Json& values, const Json& properties) {
   std::string out;
   for (const auto& [key, value] : values.items())
     if (const Json& f = properties[key]; !f.contains("default") || f["default"] != value)
@@ -52,7 +52,7 @@ void describe(const Json& schema, const std::string& indent) {
       else
         for (const auto& [name, source] : f["x-source"].items())
           fmt::print("{0}    {1}: {2}\n{0}        {3}\n", indent, name, source.get<std::string>(),
-                     own_values(f["x-values"][name], schema["properties"]));
+                     overrides(f["x-values"][name], schema["properties"]));
     }
     if (f.contains("properties")) describe(f, indent + "    ");
     if (!f.contains("items")) continue;

@@ -15,7 +15,7 @@ BenchRig::BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> co
     : p_(p), feed_(std::move(camera), p.keep), coils_(std::move(coils)) {
   if (!coils_) return;
   coils_->on_answer = [this](const GuardReport& r) { answered(r); };
-  coils_->rest_when_late();
+  coils_->deenergise_when_late();
 }
 
 BenchRig::~BenchRig() { safe(); }
@@ -90,8 +90,8 @@ bool BenchRig::read(Observation& out) {
   out.age = feed_.camera().waits() ? 0 : std::max(0.0, arrived_ - frame.t);  // a file has no age
   out.seen.clear();
   out.image = frame.image;
-  out.rested = coils_ && coils_->wake();
-  if (std::exchange(just_armed_, false)) out.rested = true;  // what was decided before went nowhere
+  out.coils_off = coils_ && coils_->wake();
+  if (std::exchange(just_armed_, false)) out.coils_off = true;  // what was decided before went nowhere
   delays_.push_back({out.age, std::nan("")});
   return true;
 }

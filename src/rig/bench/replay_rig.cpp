@@ -12,7 +12,9 @@ namespace faba {
 ReplayRig::ReplayRig(const std::filesystem::path& video, const std::filesystem::path& commands)
     : video_(video) {
   const Table table = read_table(commands, LastLine::drop);
-  const auto t = table.column("t_s"), age = table.column("age_s"), rested = table.column("rested");
+  const auto t = table.column("t_s"), age = table.column("age_s"),
+             coils_off = table.column(table.has("rested") ? "rested"
+                                                          : "coils_off");  // its name in the version before
   std::vector<std::span<const double>> current;
   for (std::size_t k = 0;; ++k) {
     const auto one = table.find(fmt::format("current_{}_a", k));
@@ -24,7 +26,7 @@ ReplayRig::ReplayRig(const std::filesystem::path& video, const std::filesystem::
     if (frame[i] != double(i))
       throw Error(Errc::input, commands.string(),
                   fmt::format("row {} is of frame {:g}: it is not as it was recorded", i + 1, frame[i]));
-    Row& row = rows_.emplace_back(Row{t[i], age[i], rested[i] != 0, {}});
+    Row& row = rows_.emplace_back(Row{t[i], age[i], coils_off[i] != 0, {}});
     for (const auto& coil : current) row.current.push_back(coil[i]);
   }
 }
@@ -36,7 +38,7 @@ bool ReplayRig::read(Observation& out) {
   out.frame = next_++;
   out.t = row.t;
   out.age = row.age;
-  out.rested = row.rested;
+  out.coils_off = row.coils_off;
   out.seen.clear();
   out.image = std::make_shared<Gray8>(rounded(grey_));
   return true;

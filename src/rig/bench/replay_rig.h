@@ -27,7 +27,7 @@ class ReplayRig final : public Rig {
  private:
   struct Row {
     double t, age;
-    bool rested;
+    bool coils_off;
     std::vector<double> current;
   };
   VideoReader video_;

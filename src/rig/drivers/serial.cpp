@@ -39,8 +39,9 @@ struct Answer {
 std::optional<Answer> parse_answer(std::string_view line) {
   if (line.size() < 8 || line.front() != '$' || line[line.size() - 5] != '*') return {};
   const std::string_view body = line.substr(1, line.size() - 6), tail = line.substr(line.size() - 4);
-  unsigned said = 0;
-  if (std::from_chars(tail.data(), tail.data() + 4, said, 16).ptr != tail.data() + 4 || said != crc16(body))
+  unsigned stated = 0;
+  if (std::from_chars(tail.data(), tail.data() + 4, stated, 16).ptr != tail.data() + 4 ||
+      stated != crc16(body))
     return {};
   if (!body.starts_with("A ")) return {};
   std::vector<std::int64_t> numbers;
@@ -110,7 +111,7 @@ class Serial final : public CoilDriver {
     t.c_cflag |= CLOCAL | CREAD;
     if (tcsetattr(descriptor_, TCSANOW, &t) != 0) fail(std::strerror(errno));
     tcflush(descriptor_, TCIOFLUSH);
-    // Coils that nothing is said of stay at the range's middle, which is where the firmware's neutral is.
+    // Coils that nothing is stated of stay at the range's middle, which is where the firmware's neutral is.
     std::ranges::fill(microvolts_, to_microvolts(c.neutral.empty() ? 0 : c.neutral[0]));
     const double until = monotonic_now() + kGreeting;
     while (!answered_) {  // a board may begin anew when its line is opened, and takes its time

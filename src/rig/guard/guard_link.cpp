@@ -87,8 +87,8 @@ void GuardLink::live(const std::stop_token& stop, double pause) {
       if (patient_ && flows_ && monotonic_now() - asked_ > patience_) {
         tell({.kind = ToGuard::Kind::request, .number = ++number_, .frame_t = std::nan("")});
         flows_ = false;
-        resting_ = true;
-        ++rests_;
+        coils_off_ = true;
+        ++command_timeouts_;
       } else {
         tell({.kind = ToGuard::Kind::beat});
         if (patient_ && flows_) wait = std::min(wait, asked_ + patience_ - monotonic_now());
@@ -170,7 +170,7 @@ void GuardLink::disarm() noexcept {
   try {
     {
       const std::lock_guard lock(mutex_);
-      flows_ = resting_ = false;  // nobody is late with what is over
+      flows_ = coils_off_ = false;  // nobody is late with what is over
     }
     if (tell({.kind = ToGuard::Kind::disarm}) && !gone_)
       wait_for([](const GuardReport& g) { return g.state != CoilGuard::State::armed; }, kAnswer);
@@ -187,7 +187,7 @@ void GuardLink::reset() {
 std::optional<std::uint64_t> GuardLink::request(std::span<const double> current, double frame_t) {
   drain();
   const std::lock_guard lock(mutex_);
-  if (resting_) return {};
+  if (coils_off_) return {};
   ToGuard m{.kind = ToGuard::Kind::request, .number = ++number_, .frame_t = frame_t};
   std::copy(current.begin(), current.end(), m.current.begin());
   tell(m);
@@ -198,7 +198,7 @@ std::optional<std::uint64_t> GuardLink::request(std::span<const double> current,
 
 bool GuardLink::wake() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(resting_, false);
+  return std::exchange(coils_off_, false);
 }
 
 GuardReport GuardLink::report() {

@@ -32,14 +32,14 @@ class GuardLink {
   void reset();
   /// Hands on currents, A, one per coil. Does not wait; what becomes of them a later report tells.
   /// Returns its number, by which a report answers it; none, and nothing is handed on, while the coils rest
-  /// as rest_when_late() says.
+  /// as deenergise_when_late() says.
   std::optional<std::uint64_t> request(std::span<const double> current, double frame_t);
   /// From now on the coils come to rest shortly before the guard would find that no command came in time,
   /// which is a fault: for who may wait for a camera, or think, for longer.
-  void rest_when_late() { patient_ = true; }
+  void deenergise_when_late() { patient_ = true; }
   /// Whether they rest; from now on requests are handed on again.
   bool wake();
-  std::uint64_t rests() const { return rests_; }  ///< how often they came to rest so
+  std::uint64_t command_timeouts() const { return command_timeouts_; }  ///< how often they came to rest so
   /// The newest report.
   GuardReport report();
   /// Called with every report of a request as report() or request() comes across it: for latencies.
@@ -59,11 +59,11 @@ class GuardLink {
   pid_t process_ = -1;
   std::uint64_t coils_;
   double patience_;   ///< s after a request until the coils come to rest
-  std::mutex mutex_;  ///< of what both threads touch: number_, flows_, resting_, asked_
+  std::mutex mutex_;  ///< of what both threads touch: number_, flows_, coils_off_, asked_
   std::uint64_t number_ = 0;
-  bool flows_ = false, resting_ = false;
+  bool flows_ = false, coils_off_ = false;
   double asked_ = 0;  ///< s, when the last request was made
-  std::atomic<std::uint64_t> rests_ = 0;
+  std::atomic<std::uint64_t> command_timeouts_ = 0;
   std::atomic<bool> patient_ = false;
   GuardReport last_;
   double heard_ = 0;  ///< s, when it came

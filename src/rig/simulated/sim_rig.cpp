@@ -51,7 +51,7 @@ bool SimRig::step_to(std::uint64_t frame) {
         1, std::uint64_t(std::llround(0.5 * p_.microscope->exposure_time() / world_.parts().dt)));
   for (std::uint64_t i = 0; i < steps; ++i) {
     if (p_.microscope && i == steps - std::min(since, steps)) camera_.remember(world_.state());
-    if (go_on_ && !go_on_()) return false;
+    if (keep_running_ && !keep_running_()) return false;
     world_.step();
   }
   world_.check_finite();

@@ -34,7 +34,7 @@ class SimRig final : public Rig {
   void archive(Archive& a) override;
   const World& world() const { return world_; }
   /// Asked before each step: when it says no read() gives up the frame it is at, and with it the run.
-  void before_steps(std::function<bool()> go_on) { go_on_ = std::move(go_on); }
+  void before_steps(std::function<bool()> keep_running) { keep_running_ = std::move(keep_running); }
 
   /// Time of a frame, s, whether it was made already or not: a whole number of steps.
   double time_of(std::uint64_t frame) const;
@@ -62,7 +62,7 @@ class SimRig final : public Rig {
   Params p_;
   Frame frame_;
   CellsInCamera camera_;
-  std::function<bool()> go_on_;
+  std::function<bool()> keep_running_;
   std::uint64_t next_ = 0;  ///< frame that read() will make
   std::deque<Seen> seen_;   ///< the last delay + 1 frames, oldest first
   ImageRef newest_;         ///< picture(), once somebody asked for it

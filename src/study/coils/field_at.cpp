@@ -17,7 +17,7 @@ std::unique_ptr<Field> rig_of(const std::filesystem::path& file) {
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points) {
   const auto field = rig_of(rig);
   FieldAtPoints out;
-  out.current = field->own_currents();
+  out.current = field->default_currents();
   const Table table = read_table(points);
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m");
   for (std::size_t i = 0; i < table.size(); ++i) {

@@ -27,7 +27,7 @@ constexpr double kMuch = 0.1;  // assumed: a rig that is right leaves a few hund
 class Model {
  public:
   Model(const Field& field, const FieldData& data)
-      : field_(field), data_(data), current_(field.own_currents()) {
+      : field_(field), data_(data), current_(field.default_currents()) {
     for (std::size_t i = 0; i < data.at.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k)
         if (data.given[k]) values_.push_back(part(data.b[i], k));
@@ -171,7 +171,7 @@ FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path
   const Parts parts = builtin_parts();
   const auto part = read_rig(rig, parts);
   const auto field = part.make({});
-  const std::vector<double> current = field->own_currents();
+  const std::vector<double> current = field->default_currents();
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
     throw Error(Errc::usage, rig.string(),
                 "no current flows in it; give its coils the `current` with which the field was measured");

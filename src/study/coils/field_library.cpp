@@ -33,7 +33,7 @@ class Lattice {
     size_ = std::uint64_t(all);
   }
   /// As many levels as make some million sets.
-  static int usual_levels(std::size_t coils) {
+  static int default_levels(std::size_t coils) {
     int n = 1;
     while (n < 100 && std::pow(2 * n + 3, double(coils)) <= 4e6) ++n;
     return n;
@@ -187,11 +187,11 @@ FieldLibrarySummary build_field_library(const std::filesystem::path& rig, const 
   const auto field = part.make({});
   const Vec2 half{0.5 * o.width, 0.5 * o.height};
   const TableGrid grid = library_grid(o);
-  const int levels = o.levels > 0 ? o.levels : Lattice::usual_levels(field->coils());
+  const int levels = o.levels > 0 ? o.levels : Lattice::default_levels(field->coils());
   const Lattice lattice(current_limits(*field), levels);
   FieldTable table(*field, grid);
-  const std::string fingerprint = rig_fingerprint(part.resolved);
-  const Json task = {{"rig", fingerprint},   {"levels", levels},          {"width_m", o.width},
+  const std::string coil_hash = coil_system_hash(part.resolved);
+  const Json task = {{"rig", coil_hash},     {"levels", levels},          {"width_m", o.width},
                      {"height_m", o.height}, {"spacing_m", grid.spacing}, {"version", FABA_VERSION}};
 
   FileLock lock(out.string() + ".lock", out, "");
@@ -199,7 +199,7 @@ FieldLibrarySummary build_field_library(const std::filesystem::path& rig, const 
   std::error_code ec;
   if (std::filesystem::exists(out, ec) && !o.force)
     throw Error(Errc::usage, out.string(), "already exists; name another file, or --force to replace it");
-  LibraryWriter writer(out, fingerprint, task.dump(), grid, field->coils());
+  LibraryWriter writer(out, coil_hash, task.dump(), grid, field->coils());
   Pool pool(o.threads);
   const Search search(*field, half);
   std::vector<std::optional<LibraryEntry>> found(kBlock);

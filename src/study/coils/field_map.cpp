@@ -135,7 +135,7 @@ std::optional<FieldMap::Table> table_of(const Field& field, const FieldMapOption
 
 FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
   const auto field = read_rig(rig, builtin_parts()).make({});
-  const std::vector<double> current = o.current.empty() ? field->own_currents() : o.current;
+  const std::vector<double> current = o.current.empty() ? field->default_currents() : o.current;
   if (current.size() != field->coils())
     throw Error(Errc::usage, "--current",
                 fmt::format("has {} currents, the rig has {} coils", current.size(), field->coils()));

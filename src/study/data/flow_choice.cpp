@@ -20,13 +20,13 @@ FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& def
   return parts.flow.resolve(Node(d).child("flow"));
 }
 
-std::string options_said(const FlowChoice& choice, int shrink, double fps) {
-  std::string said = choice.method == FlowChoice{}.method ? "" : "--method";
-  const auto add = [&](const std::string& option) { said += (said.empty() ? "--" : ", --") + option; };
+std::string options_text(const FlowChoice& choice, int shrink, double fps) {
+  std::string text = choice.method == FlowChoice{}.method ? "" : "--method";
+  const auto add = [&](const std::string& option) { text += (text.empty() ? "--" : ", --") + option; };
   for (const auto& [key, _] : choice.values) add(key);
   if (shrink > 0) add("shrink");
   if (fps > 0) add("fps");
-  return said;
+  return text;
 }
 
 FlowChoice published_flow() { return {"horn_schunck", {{"preset", "published"}}}; }

@@ -13,7 +13,7 @@ struct FlowChoice {
   std::vector<std::pair<std::string, std::string>> values;  ///< such as {"alpha2", "30"}
 };
 /// The options that a choice came from, with --shrink and --fps where they were given: "--pyramid, --shrink".
-std::string options_said(const FlowChoice& choice, int shrink, double fps);
+std::string options_text(const FlowChoice& choice, int shrink, double fps);
 /// The part. Parameters that are not given have the values of `defaults`, and else the part's own; a method
 /// that is not that of `defaults` takes nothing from there. Throws Error(usage, "--alpha2") with the reason.
 FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults = {});

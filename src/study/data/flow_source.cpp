@@ -148,9 +148,9 @@ std::vector<std::string> FlowSource::notes() const {
   if (is_run(impl_->path) && !is_whole(impl_->path))
     notes.emplace_back("the run was interrupted; this is what was recorded");
   if (impl_->flows) {
-    if (!impl_->options.said.empty())
+    if (!impl_->options.options_text.empty())
       notes.push_back(fmt::format("its flows are taken from {} as they are: {} does not apply",
-                                  impl_->input.file.filename().string(), impl_->options.said));
+                                  impl_->input.file.filename().string(), impl_->options.options_text));
     return notes;
   }
   const VideoReader& reader = impl_->video->reader();

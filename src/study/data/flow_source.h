@@ -26,7 +26,7 @@ struct FlowSourceOptions {
   std::optional<double> t1_s = {};  ///< up to this time
   std::uint64_t every = 1;          ///< only each pair whose number is a multiple of this
   double fps = 0;                   ///< > 0: in place of what a video states
-  std::string said =
+  std::string options_text =
       {};  ///< which of these the user gave, "--pyramid, --shrink": a note when they do not apply
   bool frames = false;  ///< frames are wanted with the flows: of a run its video is taken
 };

@@ -63,9 +63,9 @@ void write_best_scene(const Identification& r, const std::filesystem::path& dir)
                  [](float share) { return std::uint8_t(std::lround(std::clamp(share, 0.0F, 1.0F) * 255)); });
   write_png(dir / "background.png", picture);
 
-  Document d = episode_scenario(video, episode,
-                                {r.study.boundary, r.study.scene, candidate.model, candidate.drive_in(video)},
-                                exact_timing(episode));
+  Document d = episode_scenario(
+      video, episode, {r.study.boundary, r.study.scene, candidate.model, candidate.field_strength_in(video)},
+      exact_timing(episode));
   for (const auto& [path, value] : best.best.items()) d.set(path, value, "best");
   d.root["title"] = fmt::format("{}, as {} was found in {}", r.study.title, best.name, episode.name);
   d.root["microscope"]["background"] = "background.png";

@@ -10,10 +10,10 @@
 namespace faba {
 namespace {
 
-constexpr int kBursts = 3;       // of each drive
+constexpr int kBursts = 3;       // of each segment
 constexpr int kFrames = 8;       // of each burst
 constexpr int kSeenIn = 6;       // frames of a burst at least, that a cell must be seen in
-constexpr double kFrom = 0.2;    // share of a drive after which the first burst begins: cells have turned
+constexpr double kFrom = 0.2;    // share of a segment after which the first burst begins: cells have turned
 constexpr double kTo = 0.9;      // and before which the last one ends: the end is not known to the frame
 constexpr double kStill = 0.01;  // px^2: added to squared steps before the logarithm
 /// A number, and how uncertain it is beside chance: real cells differ in more than a model knows of, and
@@ -26,19 +26,19 @@ constexpr What kBurstNumbers[] = {{"10 % of speeds along", 0.1}, {"median speed 
                                   {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
                                   {"median step", 0.3},          {"cells followed", 0.3}};
 
-/// Short pieces of tracks: how fast cells move along the drive and across it, and how far in one frame, which
-/// with diffusion is more than their speed says. Speeds are px per frame.
+/// Short pieces of tracks: how fast cells move along the segment and across it, and how far in one frame,
+/// which with diffusion is more than their speed says. Speeds are px per frame.
 class BurstStatistics final : public EpisodeStatistics {
  public:
   BurstStatistics(const Episode& episode, const CellView& view) : episode_(episode), view_(view) {
-    for (std::size_t d = 0; d < episode.drives.size(); ++d) {
-      const Drive& drive = episode.drives[d];
-      const double length = drive.t1_s - drive.t0_s, burst = (kFrames - 1) * view.frame_s;
+    for (std::size_t d = 0; d < episode.segments.size(); ++d) {
+      const FieldSegment& segment = episode.segments[d];
+      const double length = segment.t1_s - segment.t0_s, burst = (kFrames - 1) * view.frame_s;
       const double first = kFrom * length, last = std::max(first, kTo * length - burst);
       for (int b = 0; b < kBursts; ++b)
         for (int k = 0; k < kFrames; ++k)
-          times_s_.push_back(drive.t0_s + first + (last - first) * b / (kBursts - 1) + k * view.frame_s);
-      for (const What& what : kBurstNumbers) numbers_.push_back({what.name, d, drive.t1_s});
+          times_s_.push_back(segment.t0_s + first + (last - first) * b / (kBursts - 1) + k * view.frame_s);
+      for (const What& what : kBurstNumbers) numbers_.push_back({what.name, d, segment.t1_s});
     }
   }
 
@@ -77,8 +77,8 @@ class BurstStatistics final : public EpisodeStatistics {
 
   std::vector<double> summed(const std::vector<std::vector<Spot>>& spots) const {
     std::vector<double> out;
-    for (std::size_t d = 0; d < episode_.drives.size(); ++d) {
-      const Vec2 way = unit_vector(episode_.drives[d].direction_deg);
+    for (std::size_t d = 0; d < episode_.segments.size(); ++d) {
+      const Vec2 way = unit_vector(episode_.segments[d].direction_deg);
       std::vector<double> along, across, steps;
       for (std::size_t b = 0; b < kBursts; ++b)
         for (const Track& t : followed(spots, (d * kBursts + b) * kFrames)) {

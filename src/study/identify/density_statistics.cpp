@@ -12,7 +12,7 @@ constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is
 constexpr double kFew = 0.02;       // share in view that is as good as none
 constexpr const char* kDensityNumbers[] = {"cells in view", "10 % along", "median along", "90 % along",
                                            "width across"};
-constexpr int kMoments = 6;  // of each drive
+constexpr int kMoments = 6;  // of each segment
 // How many cells a crowd is taken for depends on how each of them looks. At the true parameters simulations
 // of experiments 0 and 1 of bench/recovery.py were counted 6 % above the videos, though as wide and as
 // strong.
@@ -58,8 +58,8 @@ class LightProfile {
   std::vector<double> mass_;
 };
 
-/// At six moments of each drive how many cells are in view, where along the direction of the drive 10, 50 and
-/// 90 % of them are, and how wide they spread across it; and how many there are in all.
+/// At six moments of each segment how many cells are in view, where along the direction of the segment 10, 50
+/// and 90 % of them are, and how wide they spread across it; and how many there are in all.
 class DensityStatistics final : public EpisodeStatistics {
  public:
   DensityStatistics(const Episode& episode, const CellView& view);
@@ -80,18 +80,18 @@ class DensityStatistics final : public EpisodeStatistics {
 
   Episode episode_;
   CellView view_;
-  std::vector<std::size_t> drive_at_;  ///< of each moment
+  std::vector<std::size_t> segment_at_;  ///< of each moment
 };
 
 DensityStatistics::DensityStatistics(const Episode& e, const CellView& view) : episode_(e), view_(view) {
-  for (std::size_t d = 0; d < e.drives.size(); ++d)
+  for (std::size_t d = 0; d < e.segments.size(); ++d)
     for (int i = 1; i <= kMoments; ++i) {
-      const Drive& drive = e.drives[d];
-      times_s_.push_back(drive.t0_s + (drive.t1_s - drive.t0_s) * i / kMoments);
-      drive_at_.push_back(d);
+      const FieldSegment& segment = e.segments[d];
+      times_s_.push_back(segment.t0_s + (segment.t1_s - segment.t0_s) * i / kMoments);
+      segment_at_.push_back(d);
     }
   for (std::size_t k = 0; k < times_s_.size(); ++k)
-    for (const char* what : kDensityNumbers) numbers_.push_back({what, drive_at_[k], times_s_[k]});
+    for (const char* what : kDensityNumbers) numbers_.push_back({what, segment_at_[k], times_s_[k]});
   numbers_.push_back({"number of cells", 0, times_s_.back()});
 }
 
@@ -133,7 +133,8 @@ std::vector<double> DensityStatistics::summed(const std::vector<std::vector<Mass
   }
   std::vector<double> out;
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    const Vec2 along = unit_vector(episode_.drives[drive_at_[k]].direction_deg), across{-along.y, along.x};
+    const Vec2 along = unit_vector(episode_.segments[segment_at_[k]].direction_deg),
+               across{-along.y, along.x};
     LightProfile a(along, view_.width, view_.height), b(across, view_.width, view_.height);
     for (const Mass& m : seen[k]) {
       a.add(m.at, m.weight);

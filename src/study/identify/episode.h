@@ -9,8 +9,8 @@
 
 namespace faba {
 
-/// A time during which a field drives the cells in one direction.
-struct Drive {
+/// A time interval in which the direction of the field is constant and cells swim along it.
+struct FieldSegment {
   double t0_s = 0, t1_s = 0;
   double direction_deg = 0;            ///< in which cells swim; image frame: 0 right, 90 down
   std::optional<double> field_t = {};  ///< strength of the field, T, where it was recorded
@@ -21,15 +21,15 @@ struct Drive {
 struct Episode {
   std::string name;     ///< of the experiment, for reports
   double begins_s = 0;  ///< in the video
-  std::vector<Drive> drives;
+  std::vector<FieldSegment> segments;
   std::vector<Vec2> places_image;  ///< where cells are when it begins, px
-  double length_s() const { return drives.empty() ? 0 : drives.back().t1_s; }
+  double length_s() const { return segments.empty() ? 0 : segments.back().t1_s; }
 };
 
 /// How an episode is put into numbers.
 enum class Measure {
-  density,  ///< where the swarm is at six moments of each drive, without finding cells one by one
-  tracks    ///< how cells move that are followed for a moment, three times in each drive
+  density,  ///< where the swarm is at six moments of each segment, without finding cells one by one
+  tracks    ///< how cells move that are followed for a moment, three times in each segment
 };
 
 /// What is measured of an episode, of frames of a video and of simulated ones alike.
@@ -41,9 +41,9 @@ class EpisodeStatistics {
   const std::vector<double>& times_s() const { return times_s_; }
   /// What one of the numbers is.
   struct Number {
-    std::string what;       ///< "median along"
-    std::size_t drive = 0;  ///< to which it belongs
-    double t_s = 0;         ///< when it is measured; the end of the drive for what is of all of it
+    std::string what;         ///< "median along"
+    std::size_t segment = 0;  ///< to which it belongs
+    double t_s = 0;           ///< when it is measured; the end of the segment for what is of all of it
   };
   const std::vector<Number>& numbers() const { return numbers_; }
 

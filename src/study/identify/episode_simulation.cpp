@@ -80,16 +80,17 @@ class Watch final : public Sink {
 
 }  // namespace
 
-DriveTiming exact_timing(const Episode& e) {
-  DriveTiming t;
-  for (const Drive& d : e.drives) t.turns_s.push_back(d.t0_s);
+SegmentTiming exact_timing(const Episode& e) {
+  SegmentTiming t;
+  for (const FieldSegment& d : e.segments) t.turns_s.push_back(d.t0_s);
   return t;
 }
 
-DriveTiming drawn_timing(const Episode& e, double sd_s, std::uint64_t seed) {
+SegmentTiming drawn_timing(const Episode& e, double sd_s, std::uint64_t seed) {
   StudyRandom random(seed, StudyDraws::timing);
-  DriveTiming t;
-  for (const Drive& d : e.drives) t.turns_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
+  SegmentTiming t;
+  for (const FieldSegment& d : e.segments)
+    t.turns_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
   t.lead_s = std::max(0.0, -t.turns_s.front());
   for (double& turn : t.turns_s) turn += t.lead_s;
   std::sort(t.turns_s.begin(), t.turns_s.end());
@@ -97,7 +98,7 @@ DriveTiming drawn_timing(const Episode& e, double sd_s, std::uint64_t seed) {
 }
 
 Document episode_scenario(const ResponseVideo& v, const Episode& e, const EpisodeSettings& settings,
-                          const DriveTiming& timing) {
+                          const SegmentTiming& timing) {
   Document d;
   d.name = settings.model.origin;
   Json places = Json::array();
@@ -125,16 +126,17 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   Json& swarm = d.root["swarm"][0];
   // Held at the edge they head there: the first turn of the field takes them a U-turn, too.
   if (settings.boundary != Boundary::none && !swarm.contains("heading"))
-    swarm["heading"] = quantity(-(e.drives[0].direction_deg + 180), "deg");
+    swarm["heading"] = quantity(-(e.segments[0].direction_deg + 180), "deg");
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
-  const auto along = [&](double deg) { return field_along(deg, settings.drive_t, north); };
-  Json first = along(e.drives[0].direction_deg), segments = Json::array();
+  const auto along = [&](double deg) { return field_along(deg, settings.field_strength_t, north); };
+  Json first = along(e.segments[0].direction_deg), segments = Json::array();
   if (timing.turns_s[0] > 0)
-    first = settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.drives[0].direction_deg + 180);
-  for (std::size_t i = 0; i < e.drives.size(); ++i)
+    first =
+        settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.segments[0].direction_deg + 180);
+  for (std::size_t i = 0; i < e.segments.size(); ++i)
     if (timing.turns_s[i] > 0)
       segments.push_back(
-          {{"at", quantity(timing.turns_s[i], "s")}, {"field", along(e.drives[i].direction_deg)}});
+          {{"at", quantity(timing.turns_s[i], "s")}, {"field", along(e.segments[i].direction_deg)}});
   d.root["controller"] = {{"type", "manual"}, {"field", first}};
   if (!segments.empty()) d.root["controller"]["segment"] = segments;
   apply(settings.model, "model", d);

@@ -13,25 +13,25 @@ struct EpisodeSettings {
   Boundary boundary = Boundary::drop;
   Json scene = Json::object();  ///< tables of a scenario that all candidates share
   Variant model;
-  double drive_t = 1e-3;  ///< strength of the field that drives the cells, T
+  double field_strength_t = 1e-3;  ///< strength of the applied field, T
 };
 
 /// When the field turns in a simulation of an episode.
-struct DriveTiming {
+struct SegmentTiming {
   double lead_s = 0;            ///< how long the simulation runs before the episode is taken to begin
-  std::vector<double> turns_s;  ///< beginning of each drive, from the simulation's own on
+  std::vector<double> turns_s;  ///< beginning of each segment, from the simulation's own on
 };
 /// As the episode says.
-DriveTiming exact_timing(const Episode& episode);
+SegmentTiming exact_timing(const Episode& episode);
 /// Each turn off by a normal law of `sd_s`, but in order: the moments are known to a frame or so only, and at
 /// tens of pixels per frame that shows.
-DriveTiming drawn_timing(const Episode& episode, double sd_s, std::uint64_t seed);
+SegmentTiming drawn_timing(const Episode& episode, double sd_s, std::uint64_t seed);
 
 /// A scenario that repeats an episode: its place, light, noise and field of view, its cells where they were
-/// seen, and the field along its drives. Before the first one the field is the opposite and has
+/// seen, and the field along its segments. Before the first one the field is the opposite and has
 /// turned the cells; without a boundary there is none, and they head anywhere.
 Document episode_scenario(const ResponseVideo& video, const Episode& episode, const EpisodeSettings& settings,
-                          const DriveTiming& timing);
+                          const SegmentTiming& timing);
 
 /// How a simulated episode is looked at.
 enum class Look {
@@ -44,7 +44,7 @@ struct SeenEpisode {
   std::vector<GrayF> frames;
   std::vector<std::vector<Vec2>> positions;
 };
-/// Simulates an episode on the calling thread. `lead_s` as in DriveTiming.
+/// Simulates an episode on the calling thread. `lead_s` as in SegmentTiming.
 SeenEpisode simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
                              const std::vector<double>& times_s, Look look,
                              const std::shared_ptr<const VideoGround>& ground);

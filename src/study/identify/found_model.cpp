@@ -30,7 +30,7 @@ VectorXd noise_of(const ParameterSearch& s) {
 namespace {
 
 constexpr int kDraws = 1000;        // from a posterior
-constexpr int kForetold = 200;      // of what an experiment will show
+constexpr int kPredictions = 200;   // of what an experiment will show
 constexpr double kLevel = 0.90;     // of the intervals
 constexpr int kProfile = 41;        // values of each parameter
 constexpr double kUnlearnt = 0.75;  // share of the range: 0.9 when nothing was learnt
@@ -56,7 +56,7 @@ FoundParameter found(const FreeParameter& p, const VectorXd& u, const VectorXd& 
   const std::vector<double> shares(u.begin(), u.end());
   f.median = p.value(median(shares));
   f.ci90 = {p.value(quantile(shares, low)), p.value(quantile(shares, high))};
-  f.share_of_range = quantile(shares, high) - quantile(shares, low);
+  f.fraction_of_range = quantile(shares, high) - quantile(shares, low);
   f.abc_median = p.value(weighed_quantile(abc_u, abc_weight, 0.5));
   f.abc_ci90 = {p.value(weighed_quantile(abc_u, abc_weight, low)),
                 p.value(weighed_quantile(abc_u, abc_weight, high))};
@@ -114,10 +114,10 @@ void tell_doubts(FoundModel& m, const MatrixXd& draws) {
   const MatrixXd off = draws.rowwise() - draws.colwise().mean();
   for (Index j = 0; j < draws.cols(); ++j) {
     FoundParameter& p = m.parameters[std::size_t(j)];
-    if (p.share_of_range > kUnlearnt) {
+    if (p.fraction_of_range > kUnlearnt) {
       p.doubt = fmt::format(
           "{} cannot be found from these videos: 90 % of the posterior cover {:.0f} % of its range",
-          p.parameter.path, 100 * p.share_of_range);
+          p.parameter.path, 100 * p.fraction_of_range);
       continue;
     }
     for (Index k = 0; k < draws.cols(); ++k) {
@@ -203,13 +203,13 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
   m.predicted_sd.assign(noise.begin(), noise.end());
   StudyRandom random(seed, StudyDraws::prediction);
   for (std::size_t e = 0; e < experiments.size(); ++e) {
-    MatrixXd u = draws.topRows(kForetold);
+    MatrixXd u = draws.topRows(kPredictions);
     if (experiments.size() > 1) {
       std::vector<Index> others;
       for (std::size_t k = 0; k < experiments.size(); ++k)
         if (k != e) others.insert(others.end(), experiments[k].begin(), experiments[k].end());
       std::sort(others.begin(), others.end());
-      u = s.posterior(others, kForetold, derived_seed(seed, SeedUse::left_out, e));
+      u = s.posterior(others, kPredictions, derived_seed(seed, SeedUse::left_out, e));
     }
     const auto& columns = experiments[e];
     m.scores.push_back(energy_score(predict(s, u, columns, random), s.observed()(columns), scale(columns)));

@@ -19,7 +19,7 @@ struct FoundParameter {
   /// Where 90 % of its estimates lie with experiments drawn anew; empty for fewer than three.
   std::optional<std::array<double, 2>> resampled90 = {};
   /// Share of its prior range that the interval covers: near 0.9 nothing was learnt.
-  double share_of_range = 1;
+  double fraction_of_range = 1;
   std::vector<double> draws = {};
   /// Largest log-likelihood that the other parameters can give each value, relative to the best.
   std::vector<double> profile_at = {}, profile = {};
@@ -43,7 +43,7 @@ struct FoundModel {
   Json best;  ///< values of the parameters at the posterior's median, by path
 };
 
-/// One simulation against one drive of a video, as the thesis compared them.
+/// One simulation against one segment of a video, as the thesis compared them.
 struct LegacySimulation {
   double value = 0;  ///< of the parameter
   std::size_t video = 0, episode = 0, repeat = 0;
@@ -53,9 +53,9 @@ struct LegacySimulation {
 };
 
 /// What the selection rule of the 2016 thesis says of one model (theory A19), bug for bug: five values of its
-/// first free parameter, three simulations of each against the first drive of every episode, rendered without
-/// the camera's noise; a line through each distance over the frames; a line through their slopes over the
-/// values; the value at which that is zero is called best. Not to be trusted: a distance that is flat has
+/// first free parameter, three simulations of each against the first segment of every episode, rendered
+/// without the camera's noise; a line through each distance over the frames; a line through their slopes over
+/// the values; the value at which that is zero is called best. Not to be trusted: a distance that is flat has
 /// slope zero however large it is (theory E1).
 struct LegacyModel {
   std::string name;
@@ -74,7 +74,7 @@ struct Identification {
   std::vector<ResponseVideo> videos;
   /// Each number that videos and simulations are compared by.
   struct Statistic {
-    std::string name;  ///< "drive 1, 2.5 s: median along"
+    std::string name;  ///< "segment 1, 2.5 s: median along"
     std::size_t video = 0, episode = 0;
     EpisodeStatistics::Number number;
     double observed = 0;

@@ -45,11 +45,11 @@ struct Observed {
   std::vector<std::vector<Index>> columns;  ///< of each experiment
 };
 
-// With one experiment its drives are what stands for several.
+// With one experiment its segments are what stands for several.
 Observed gather(const std::vector<ResponseVideo>& videos) {
   Observed o;
   std::vector<double> numbers;
-  std::vector<std::string> experiment, drive;  // of each number
+  std::vector<std::string> experiment, segment;  // of each number
   for (std::size_t v = 0; v < videos.size(); ++v)
     for (std::size_t e = 0; e < videos[v].episodes.size(); ++e) {
       const ResponseVideo& video = videos[v];
@@ -62,16 +62,16 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
         const EpisodeStatistics::Number& n = statistics->numbers()[k];
         const bool several = videos.size() > 1 || video.episodes.size() > 1;
         o.statistics.push_back(
-            {fmt::format("{}drive {}, {:.3g} s: {}", several ? video.episodes[e].name + ": " : "",
-                         n.drive + 1, n.t_s, n.what),
+            {fmt::format("{}segment {}, {:.3g} s: {}", several ? video.episodes[e].name + ": " : "",
+                         n.segment + 1, n.t_s, n.what),
              v, e, n, video.observed[e][k]});
         experiment.push_back(own);
-        drive.push_back(fmt::format("{}, drive {}", own, e + n.drive + 1));
+        segment.push_back(fmt::format("{}, segment {}", own, e + n.segment + 1));
       }
     }
   const bool one =
       std::all_of(experiment.begin(), experiment.end(), [&](const auto& x) { return x == experiment[0]; });
-  const auto& label = one ? drive : experiment;
+  const auto& label = one ? segment : experiment;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto at = std::find(o.experiments.begin(), o.experiments.end(), label[k]);
     const auto i = std::size_t(at - o.experiments.begin());
@@ -106,8 +106,8 @@ ParameterSearch::LogPrior prior_of(const Candidate& c) {
 }
 
 Document scenario_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v, const Episode& e,
-                     const VectorXd& u, const DriveTiming& timing) {
-  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.drive_in(v)}, timing);
+                     const VectorXd& u, const SegmentTiming& timing) {
+  Document d = episode_scenario(v, e, {study.boundary, study.scene, c.model, c.field_strength_in(v)}, timing);
   for (std::size_t j = 0; j < c.free.size(); ++j) d.set(c.free[j].path, c.free[j].json(u[Index(j)]), "free");
   return d;
 }
@@ -141,8 +141,8 @@ class Round {
     h.value(p);
     const std::uint64_t seed = h.result() >> 1;
     const Episode& episode = video.episodes[part.episode];
-    const double usual = (video.drives_found ? kTimingFound : kTimingGiven) / video.fps;
-    const DriveTiming timing = drawn_timing(episode, study_.timing_s.value_or(usual), seed);
+    const double usual = (video.segments_detected ? kTimingFound : kTimingGiven) / video.fps;
+    const SegmentTiming timing = drawn_timing(episode, study_.timing_s.value_or(usual), seed);
     const auto d = std::make_shared<const Document>(scenario_of(study_, c, video, episode, u, timing));
     const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
                                                  timing.lead_s, seen_, p, int(study_.look)));
@@ -200,10 +200,11 @@ void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
     const Document d =
         scenario_of(study, c, v, v.episodes.front(), VectorXd::Constant(Index(c.free.size()), 0.5),
                     exact_timing(v.episodes.front()));
-    const double turn = u_turn_s(d.root["swarm"][0]["model"], p.median, c.drive_in(v)), frame = 1 / v.fps;
+    const double turn = u_turn_s(d.root["swarm"][0]["model"], p.median, c.field_strength_in(v)),
+                 frame = 1 / v.fps;
     if (turn < frame)
-      p.doubt += fmt::format(
-          "; a U-turn lasts less than a frame, {:.2g} of {:.2g} s: drive with a weaker field", turn, frame);
+      p.doubt += fmt::format("; a U-turn lasts less than a frame, {:.2g} of {:.2g} s: apply a weaker field",
+                             turn, frame);
   }
 }
 
@@ -248,15 +249,15 @@ void check_alike(const std::vector<ResponseVideo>& videos) {
 }
 
 // The field decides how fast cells turn.
-void note_drive(const IdentifyStudy& study, ResponseVideo& v) {
+void note_field_strength(const IdentifyStudy& study, ResponseVideo& v) {
   constexpr double kSame = 0.02;
   for (const Candidate& c : study.candidates) {
-    const double t = c.drive_in(v);
-    if (!c.drive_t && !v.field_t) {
-      v.notes.push_back(
-          fmt::format("does not tell how strong its field is: simulated with {:g} uT; say it with drive = "
-                      "\"115 uT\"",
-                      1e6 * t));
+    const double t = c.field_strength_in(v);
+    if (!c.field_strength_t && !v.field_t) {
+      v.notes.push_back(fmt::format(
+          "does not tell how strong its field is: simulated with {:g} uT; give it with field_strength = "
+          "\"115 uT\"",
+          1e6 * t));
       return;
     }
     if (v.field_t && std::fabs(t / *v.field_t - 1) > kSame)
@@ -340,7 +341,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
         throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
     }));
   check_alike(r.videos);
-  for (ResponseVideo& v : r.videos) note_drive(study, v);
+  for (ResponseVideo& v : r.videos) note_field_strength(study, v);
   const Observed o = gather(r.videos);
   for (Index k = 0; k < o.numbers.size(); ++k)
     if (!std::isfinite(o.numbers[k]))

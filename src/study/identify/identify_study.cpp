@@ -17,6 +17,10 @@
 namespace faba {
 namespace {
 
+// Key of a [[model]], and its name in the version before, which is still read.
+constexpr const char* kFieldStrength = "field_strength";
+constexpr const char* kOldFieldStrength = "drive";
+
 // Tables that say what the video does not.
 constexpr const char* kOfScene[] = {"exclusion", "field", "library", "limits", "motility", "simulation"};
 
@@ -30,7 +34,7 @@ struct IdentifyFile {
   bool legacy = false;
   std::optional<double> um_per_px, reversal, direction, duration, timing;
   std::string scale;
-  std::optional<double> drive;
+  std::optional<double> field_strength;
   static Schema<IdentifyFile> schema() {
     return Schema<IdentifyFile>("identify", "Which model and which parameters explain videos")
         .add("title", &IdentifyFile::title, {.doc = "What the study is called in reports"})
@@ -68,24 +72,24 @@ struct IdentifyFile {
               .max = 10,
               .doc = "How well the moments are known at which the field turns, sd; 0.58 frames, which is a "
                      "frame either way, when absent"})
-        .add(
-            "drive", &IdentifyFile::drive,
-            {.unit = "T",
-             .min = 0,
-             .max = 1,
-             .doc =
-                 "Strength of the field that drives the cells; what a run recorded, else 1 mT, when absent"});
+        .add("field_strength", &IdentifyFile::field_strength,
+             {.unit = "T",
+              .min = 0,
+              .max = 1,
+              .doc = "Strength of the field; the strength that the run recorded, else 1 mT, when absent",
+              .old_key = "drive"});
   }
 };
 
-struct DriveFile {
+struct SegmentFile {
   double from = 0, to = 0, direction = 0;
-  static Schema<DriveFile> schema() {
-    return Schema<DriveFile>("drive", "A time during which the field drives the cells one way")
-        .add("from", &DriveFile::from,
+  static Schema<SegmentFile> schema() {
+    return Schema<SegmentFile>(
+               "segment", "A field segment: a time interval in which the direction of the field is constant")
+        .add("from", &SegmentFile::from,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "When it begins, in the video"})
-        .add("to", &DriveFile::to, {.unit = "s", .min = 0, .max = 1e6, .doc = "When it ends"})
-        .add("direction", &DriveFile::direction,
+        .add("to", &SegmentFile::to, {.unit = "s", .min = 0, .max = 1e6, .doc = "When it ends"})
+        .add("direction", &SegmentFile::direction,
              {.unit = "deg",
               .min = -360,
               .max = 360,
@@ -97,7 +101,7 @@ struct VideoFile {
   std::string file, experiment;
   double exposure = 0, fps = 0;
   std::optional<double> um_per_px, reversal, direction, duration;
-  std::vector<DriveFile> drive;
+  std::vector<SegmentFile> segment;
   static Schema<VideoFile> schema() {
     return Schema<VideoFile>("video", "A video of an experiment")
         .add("file", &VideoFile::file, {.doc = "Video or run directory; beside the study"})
@@ -113,8 +117,9 @@ struct VideoFile {
              {.unit = "deg", .min = -360, .max = 360, .doc = "In which cells swim from then on"})
         .add("duration", &VideoFile::duration,
              {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at"})
-        .add("drive", &VideoFile::drive,
-             {.doc = "[[video.drive]]: several drives, in place of reversal and duration"});
+        .add("segment", &VideoFile::segment,
+             {.doc = "[[video.segment]]: field segments, in place of reversal, direction and duration",
+              .old_key = "drive"});
   }
 };
 
@@ -122,8 +127,8 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   const VideoFile v = VideoFile::schema().parse(n);
   if (v.file.empty()) n.fail("needs file = \"...\"");
   ResponseInput r;
-  if (!v.drive.empty() && (v.reversal || v.direction || v.duration))
-    n.fail("gives drives as well as reversal, direction or duration; give one of both");
+  if (!v.segment.empty() && (v.reversal || v.direction || v.duration))
+    n.fail("has field segments as well as reversal, direction or duration; give only one of the two");
   if (!std::filesystem::exists(n.file(v.file)))
     throw Error(Errc::input, n.where("file"), "no such file: " + v.file);
   r.file = n.file(v.file);
@@ -135,10 +140,11 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   r.direction_deg = v.direction ? v.direction : study.direction;
   r.duration_s = v.duration ? v.duration : study.duration;
   double last = 0;
-  for (const DriveFile& d : v.drive) {
+  for (const SegmentFile& d : v.segment) {
     if (!(d.to > d.from) || d.from < last)
-      n.fail("drives must follow each other, each from a time to a later one");
-    r.drives.push_back({d.from, last = d.to, d.direction});
+      n.fail(
+          "field segments must not overlap, must be in the order of time, and each must end after it begins");
+    r.segments.push_back({d.from, last = d.to, d.direction});
   }
   return r;
 }
@@ -161,16 +167,20 @@ ResponseVideo any_video() {
 
 Candidate candidate_of(const Variant& model, const IdentifyFile& f, const IdentifyStudy& study,
                        const Node& root, std::size_t index) {
-  Candidate c{model, f.drive, {}, {}};
+  Candidate c{model, f.field_strength, {}, {}};
   const Node here = root.has("model") ? root.child("model").item(index) : root;
-  if (c.model.extra.contains("drive")) {
-    const Node n{c.model.extra["drive"], here.path + ".drive", root.document};
-    c.drive_t = schema_detail::read_number(n, {.unit = "T", .min = 0, .max = 1});
+  if (model.extra.contains(kFieldStrength) && model.extra.contains(kOldFieldStrength))
+    here.fail("has field_strength and drive, its old name; give one of the two");
+  const char* key = model.extra.contains(kOldFieldStrength) ? kOldFieldStrength : kFieldStrength;
+  if (model.extra.contains(key)) {
+    const Node n{c.model.extra[key], here.path + "." + key, root.document};
+    c.field_strength_t = schema_detail::read_number(n, {.unit = "T", .min = 0, .max = 1});
   }
   const Parts parts = builtin_parts();
   if (!c.model.part.is_null()) (void)parts.model.resolve({c.model.part, here.path, root.document});
   const ResponseVideo video = any_video();
-  Document d = episode_scenario(video, video.episodes[0], {study.boundary, study.scene, c.model, kUsualDrive},
+  Document d = episode_scenario(video, video.episodes[0],
+                                {study.boundary, study.scene, c.model, kDefaultFieldStrength},
                                 exact_timing(video.episodes[0]));
   d.root["microscope"].erase("background");
   if (c.model.extra.contains("free"))
@@ -251,7 +261,8 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
       videos.item(i).fail("is a video that is there already; it would count as another experiment");
   }
   if (!root.has("model")) root.fail("needs [[model]], once for each candidate");
-  const std::vector<Variant> models = read_variants(root, "model", {"free", "drive", "legacy"});
+  const std::vector<Variant> models =
+      read_variants(root, "model", {"free", kFieldStrength, kOldFieldStrength, "legacy"});
   for (std::size_t i = 0; i < models.size(); ++i)
     study.candidates.push_back(candidate_of(models[i], f, study, root, i));
   return study;
@@ -270,8 +281,8 @@ Json identify_study_schema() {
                                  {"description",
                                   "What is to be found, by path: [lowest, highest], true for the range of "
                                   "the reference, or { mean, sd }"}};
-  model["properties"]["drive"] = {{"type", "string"},
-                                  {"description", "Strength of the field for this model"}};
+  model["properties"][kFieldStrength] = {{"type", "string"},
+                                         {"description", "Strength of the field for this model"}};
   model["properties"]["legacy"] = {
       {"type", "array"},
       {"items", {{"type", "number"}}},
@@ -308,7 +319,7 @@ void hash_content(const std::filesystem::path& file, Hash& h) {
 
 }  // namespace
 
-std::string fingerprint(const IdentifyStudy& study) {
+std::string study_hash(const IdentifyStudy& study) {
   Hash h;
   h.text("identify");
   h.value(study.seed);
@@ -324,7 +335,7 @@ std::string fingerprint(const IdentifyStudy& study) {
     for (const double x : {v.exposure_s, v.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
                            v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
       h.value(x);
-    for (const Drive& d : v.drives) {
+    for (const FieldSegment& d : v.segments) {
       h.value(d.t0_s);
       h.value(d.t1_s);
       h.value(d.direction_deg);
@@ -333,7 +344,7 @@ std::string fingerprint(const IdentifyStudy& study) {
   for (const Candidate& c : study.candidates) {
     h.text(c.model.name);
     h.text(c.model.part.dump());
-    h.value(c.drive_t.value_or(-1));
+    h.value(c.field_strength_t.value_or(-1));
     for (const double v : c.legacy_values) h.value(v);
     for (const auto& [path, value] : c.model.set) {
       h.text(path);

@@ -10,19 +10,21 @@
 namespace faba {
 
 /// Field that is taken when nothing is known of it, T: with it IT-1 turns at once (assumed).
-inline constexpr double kUsualDrive = 1e-3;
+inline constexpr double kDefaultFieldStrength = 1e-3;
 
 /// A model that may explain the videos, with what of it is not known.
 struct Candidate {
   Variant model;
-  std::optional<double> drive_t;  ///< strength of the field, T; what a run recorded when empty
+  std::optional<double> field_strength_t;  ///< strength of the field, T; what a run recorded when empty
   std::vector<FreeParameter> free;
   /// Values of the first of them that the thesis's rule tries; the middles of five equal parts of its range
   /// when empty.
   std::vector<double> legacy_values = {};
 
-  /// Strength of the field that drives the cells of a video, T: as given, as recorded, or the usual one.
-  double drive_in(const ResponseVideo& v) const { return drive_t.value_or(v.field_t.value_or(kUsualDrive)); }
+  /// Strength of the field in a video, T: as given, as recorded, or the default.
+  double field_strength_in(const ResponseVideo& v) const {
+    return field_strength_t.value_or(v.field_t.value_or(kDefaultFieldStrength));
+  }
 };
 
 /// What `faba identify` is asked for.
@@ -45,7 +47,7 @@ struct IdentifyStudy {
 IdentifyStudy read_identify_study(const std::filesystem::path& file);
 /// JSON Schema of a study file.
 Json identify_study_schema();
-/// Fingerprint of all that the result depends on, with what is in the videos.
-std::string fingerprint(const IdentifyStudy& study);
+/// Hash of all that the result depends on, with what is in the videos.
+std::string study_hash(const IdentifyStudy& study);
 
 }  // namespace faba

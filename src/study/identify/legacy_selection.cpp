@@ -23,7 +23,7 @@ constexpr int kValues = 5, kRepeats = 3;    // of the thesis
 constexpr double kM = 0.9, kThreshold = 3;  // of the distance (A17)
 constexpr const char* kVersion = "legacy 1";
 
-/// The first drive of an episode as the thesis looked at it: the flow of every pair of frames.
+/// The first segment of an episode as the thesis looked at it: the flow of every pair of frames.
 struct LegacyReference {
   std::vector<double> times_s;  ///< of the frames, from the episode's beginning
   FlowFilter filter;
@@ -44,8 +44,8 @@ std::vector<FlowHistograms> histograms_of(const std::vector<GrayF>& frames, cons
 
 LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std::function<void()>& reading) {
   LegacyReference r;
-  const Drive& drive = e.drives.front();
-  const auto last = std::lround(drive.t1_s / v.view.frame_s);
+  const FieldSegment& segment = e.segments.front();
+  const auto last = std::lround(segment.t1_s / v.view.frame_s);
   for (long k = 0; k <= last; ++k) r.times_s.push_back(double(k) * v.view.frame_s);
   std::vector<double> at;
   for (const double t : r.times_s) at.push_back(e.begins_s + t);
@@ -56,7 +56,7 @@ LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std
   options.fps = v.input.fps;
   r.filter.threshold_px =
       noise_level(v.file, options, pool, [&](auto, auto) { reading(); }).threshold_px / v.side;
-  r.filter.direction_deg = drive.direction_deg;
+  r.filter.direction_deg = segment.direction_deg;
   r.pairs = histograms_of(frames_at(v, at, reading), r.filter);
   return r;
 }
@@ -150,11 +150,11 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
           for (int k = 0; k < kRepeats; ++k) {
             const ResponseVideo& video = videos[v];
             Episode episode = video.episodes[e];
-            episode.drives.resize(1);
+            episode.segments.resize(1);
             const double u = shares[i];
-            Document d =
-                episode_scenario(video, episode, {study.boundary, study.scene, c.model, c.drive_in(video)},
-                                 exact_timing(episode));
+            Document d = episode_scenario(video, episode,
+                                          {study.boundary, study.scene, c.model, c.field_strength_in(video)},
+                                          exact_timing(episode));
             d.set(c.free.front().path, c.free.front().json(u), "legacy");
             d.root["microscope"]["noise"] = 0;
             Hash h;

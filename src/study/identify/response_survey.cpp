@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "study/data/run_info.h"
 #include "study/data/run_video.h"
-#include "study/identify/found_drives.h"
+#include "study/identify/found_segments.h"
 #include "study/identify/matched_look.h"
 #include "study/stats/statistics.h"
 #include "study/tracks/track_survey.h"
@@ -24,14 +24,14 @@ namespace {
 
 constexpr double kResolved =
     0.8;  // share of the cells that are seen one by one, from which on their places count
-constexpr double kShortestDrive = 0.2;  // s
-constexpr double kShortestBurst = 12;   // frames: a burst of eight in the part of a drive that is measured
-constexpr double kWidthEnough = 5;      // px: cells need be no wider
-constexpr double kFaint = 0.25;         // of the signal-to-noise that a tenth of what is seen exceeds
-constexpr double kLeastWay = 0.1;       // share of the view that a swarm goes, or it does not
-constexpr double kSameWay = 60;         // degrees
-constexpr double kUncovered = 0.85;     // share of the frames in which a place may be covered by cells
-constexpr double kReach = 2;            // times as far as what is seen
+constexpr double kShortestSegment = 0.2;  // s
+constexpr double kShortestBurst = 12;  // frames: a burst of eight in the part of a segment that is measured
+constexpr double kWidthEnough = 5;     // px: cells need be no wider
+constexpr double kFaint = 0.25;        // of the signal-to-noise that a tenth of what is seen exceeds
+constexpr double kLeastWay = 0.1;      // share of the view that a swarm goes, or it does not
+constexpr double kSameWay = 60;        // degrees
+constexpr double kUncovered = 0.85;    // share of the frames in which a place may be covered by cells
+constexpr double kReach = 2;           // times as far as what is seen
 constexpr double kWhite = 255;
 constexpr double kSameScale = 1e-3;  // as a share
 
@@ -72,7 +72,7 @@ std::vector<Vec2> evenly_mixed(const std::vector<Vec2>& places) {
 }
 
 /// Where the swarm is in each frame.
-std::vector<Drive> drives_of_drop(const ResponseVideo& v, const std::function<void()>& tick) {
+std::vector<FieldSegment> segments_of_drop(const ResponseVideo& v, const std::function<void()>& tick) {
   GreyVideo video(v.file, v.input.fps, v.side);
   std::vector<double> t_s;
   std::vector<Vec2> centroid;
@@ -82,60 +82,61 @@ std::vector<Drive> drives_of_drop(const ResponseVideo& v, const std::function<vo
     t_s.push_back(t);
     centroid.push_back(m.signal > 0 ? m.centroid_image : Vec2{std::nan(""), std::nan("")});
   }
-  return drives_of_swarm(t_s, centroid, kLeastWay * std::min(v.view.width, v.view.height));
+  return segments_of_swarm(t_s, centroid, kLeastWay * std::min(v.view.width, v.view.height));
 }
 
 /// What a run says of its own field; none for a video that is no run, or whose field was not recorded.
-std::vector<Drive> recorded_drives(const std::filesystem::path& run) {
+std::vector<FieldSegment> recorded_segments(const std::filesystem::path& run) {
   if (!is_run(run) || !std::filesystem::exists(run / "series.csv")) return {};
-  return drives_of_field(read_series(run / "series.csv"),
-                         read_run_info(run / run_files::kManifest).polarity == "south");
+  return segments_of_field(read_series(run / "series.csv"),
+                           read_run_info(run / run_files::kManifest).polarity == "south");
 }
 
-std::vector<Drive> drives_in(const ResponseVideo& v, const std::vector<Drive>& recorded, Boundary boundary,
-                             double duration_s, const std::function<void()>& tick) {
+std::vector<FieldSegment> segments_in(const ResponseVideo& v, const std::vector<FieldSegment>& recorded,
+                                      Boundary boundary, double duration_s,
+                                      const std::function<void()>& tick) {
   const ResponseInput& in = v.input;
-  if (!in.drives.empty()) return in.drives;
+  if (!in.segments.empty()) return in.segments;
   const double end =
       in.duration_s && in.reversal_s ? std::min(*in.reversal_s + *in.duration_s, duration_s) : duration_s;
   if (in.reversal_s && in.direction_deg) return {{*in.reversal_s, end, *in.direction_deg}};
-  std::vector<Drive> found = !recorded.empty() ? recorded
-                             : boundary == Boundary::none
-                                 ? drives_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, tick)
-                                 : drives_of_drop(v, tick);
+  std::vector<FieldSegment> found = !recorded.empty() ? recorded
+                                    : boundary == Boundary::none
+                                        ? segments_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, tick)
+                                        : segments_of_drop(v, tick);
   if (in.direction_deg)
-    std::erase_if(found, [&](const Drive& d) {
+    std::erase_if(found, [&](const FieldSegment& d) {
       return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kSameWay;
     });
-  std::erase_if(found, [&](const Drive& d) { return d.t1_s <= in.reversal_s.value_or(0); });
+  std::erase_if(found, [&](const FieldSegment& d) { return d.t1_s <= in.reversal_s.value_or(0); });
   if (found.empty())
     throw Error(
         Errc::input, in.file.string(),
-        "shows nothing that moves one way; if it does, give reversal and direction, or [[video.drive]]");
+        "shows nothing that moves one way; if it does, give reversal and direction, or [[video.segment]]");
   if (in.reversal_s) found.front().t0_s = *in.reversal_s;
   if (in.duration_s) {
     const double until = found.front().t0_s + *in.duration_s;
-    std::erase_if(found, [&](const Drive& d) { return d.t0_s >= until; });
+    std::erase_if(found, [&](const FieldSegment& d) { return d.t0_s >= until; });
     found.back().t1_s = std::min(found.back().t1_s, until);
   }
   return found;
 }
 
-// With nothing to hold them cells leave the view and others come: each drive then begins with what is seen.
+// With nothing to hold them cells leave the view and others come: each segment then begins with what is seen.
 std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
-                                 const std::vector<Drive>& drives) {
+                                 const std::vector<FieldSegment>& segments) {
   std::vector<Episode> episodes;
-  for (Drive d : drives) {
+  for (FieldSegment d : segments) {
     if (boundary == Boundary::none || episodes.empty()) {
       Episode& e = episodes.emplace_back();
       e.begins_s = d.t0_s;
       e.name = v.input.experiment.empty() ? v.input.file.stem().string() : v.input.experiment;
-      if (boundary == Boundary::none && drives.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
+      if (boundary == Boundary::none && segments.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
     }
     Episode& e = episodes.back();
     d.t0_s -= e.begins_s;
     d.t1_s -= e.begins_s;
-    e.drives.push_back(d);
+    e.segments.push_back(d);
   }
   return episodes;
 }
@@ -220,15 +221,15 @@ void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
   v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * apart);
 }
 
-void check_drives(const std::vector<Drive>& drives, const ResponseInput& input, Measure measure,
-                  const TrackSurvey& survey) {
-  const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestDrive;
-  for (const Drive& d : drives)
+void check_segments(const std::vector<FieldSegment>& segments, const ResponseInput& input, Measure measure,
+                    const TrackSurvey& survey) {
+  const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestSegment;
+  for (const FieldSegment& d : segments)
     if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
       throw Error(
           Errc::input, input.file.string(),
           fmt::format(
-              "a drive from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
+              "a segment from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
               d.t0_s, d.t1_s, shortest, survey.duration_s));
 }
 
@@ -284,7 +285,7 @@ std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& 
 }
 
 std::vector<double> picture_times(const Episode& e) {
-  const double length = e.drives.front().t1_s;
+  const double length = e.segments.front().t1_s;
   return {0.15 * length, 0.5 * length, length};
 }
 
@@ -303,23 +304,24 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
                                   *source.um_per_px, *scale));
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
-  const std::vector<Drive> recorded = recorded_drives(input.file);
-  const std::vector<Drive> drives = drives_in(v, recorded, boundary, survey.duration_s, tick);
-  for (const Drive& d : recorded) v.field_t = std::max(v.field_t.value_or(0), d.field_t.value_or(0));
-  v.drives_found = recorded.empty() && input.drives.empty() && !(input.reversal_s && input.direction_deg);
-  check_drives(drives, input, measure, survey);
-  if (v.drives_found) {
+  const std::vector<FieldSegment> recorded = recorded_segments(input.file);
+  const std::vector<FieldSegment> segments = segments_in(v, recorded, boundary, survey.duration_s, tick);
+  for (const FieldSegment& d : recorded) v.field_t = std::max(v.field_t.value_or(0), d.field_t.value_or(0));
+  v.segments_detected =
+      recorded.empty() && input.segments.empty() && !(input.reversal_s && input.direction_deg);
+  check_segments(segments, input, measure, survey);
+  if (v.segments_detected) {
     std::string all;
-    for (const Drive& d : drives)
+    for (const FieldSegment& d : segments)
       all += fmt::format("{}{:.2f} to {:.2f} s at {:.0f} deg", all.empty() ? "" : ", ", d.t0_s, d.t1_s,
                          d.direction_deg);
-    v.notes.push_back("drives were found, everything rests on them: " + all);
+    v.notes.push_back("segments were found, everything rests on them: " + all);
   }
-  v.episodes = episodes_of(v, boundary, drives);
-  // Before the first drive a swarm may wait at one place for longer than it moves.
+  v.episodes = episodes_of(v, boundary, segments);
+  // Before the first segment a swarm may wait at one place for longer than it moves.
   if (measure == Measure::density &&
-      (drives.front().t0_s > 0.2 * survey.duration_s || drives.back().t1_s < 0.8 * survey.duration_s))
-    find_ground(v, measure, drives.front().t0_s, drives.back().t1_s, tick);
+      (segments.front().t0_s > 0.2 * survey.duration_s || segments.back().t1_s < 0.8 * survey.duration_s))
+    find_ground(v, measure, segments.front().t0_s, segments.back().t1_s, tick);
 
   take_frames(v, boundary, measure, tick);
   return v;

@@ -14,9 +14,9 @@ std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& 
 /// Moments of an episode that pictures are shown of, s.
 std::vector<double> picture_times(const Episode& episode);
 
-/// Reads the video several times: for its background, the noise, the drives where they are not given, and the
-/// frames that are measured. `tick` is called after every frame. Throws Error(input) for videos that cannot
-/// be read, show no cells, no motion, or no edge with Boundary::drop.
+/// Reads the video several times: for its background, the noise, the segments where they are not given, and
+/// the frames that are measured. `tick` is called after every frame. Throws Error(input) for videos that
+/// cannot be read, show no cells, no motion, or no edge with Boundary::drop.
 ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Measure measure,
                               const std::function<void()>& tick);
 

@@ -28,7 +28,7 @@ struct ResponseInput {
   std::optional<double> reversal_s;     ///< when the field is reversed; found when absent, as is the next:
   std::optional<double> direction_deg;  ///< in which cells swim from then on; found when absent
   std::optional<double> duration_s;     ///< from there on; to the video's end when absent
-  std::vector<Drive> drives;            ///< in place of these three; times in the video
+  std::vector<FieldSegment> segments;   ///< in place of these three; times in the video
 };
 
 /// What the video tells: all that is needed to simulate the same and to measure both alike.
@@ -42,8 +42,8 @@ struct ResponseVideo {
   std::optional<DropEdge> edge;               ///< with Boundary::drop
   std::shared_ptr<const VideoGround> ground;  ///< light and noise
   double cell_px = 0, contrast = 0;  ///< of a cell that is rendered: width as seen, and as in [microscope]
-  std::optional<double> field_t;     ///< strength of the field that drives the cells, T, as a run recorded it
-  bool drives_found = false;         ///< in the video; else they were given, or a run recorded its field
+  std::optional<double> field_t;     ///< strength of the field, T, as a run recorded it
+  bool segments_detected = false;    ///< in the video; else they were given, or a run recorded its field
   std::vector<Episode> episodes;
   std::vector<std::shared_ptr<const EpisodeStatistics>> statistics;  ///< of each episode
   std::vector<std::vector<double>> observed;                         ///< what they give for the video

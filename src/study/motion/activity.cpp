@@ -70,7 +70,7 @@ FlowSourceOptions source_options(const ActivityJob& job, const ActivityInput& v)
           .t0_s = v.from_s,
           .t1_s = v.to_s,
           .fps = job.fps,
-          .said = job.said,
+          .options_text = job.options_text,
           .frames = job.frames};
 }
 

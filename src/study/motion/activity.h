@@ -27,12 +27,12 @@ struct ActivityJob {
   std::optional<double> threshold_px;  ///< flows of less are noise, px per pair; found when empty
   std::filesystem::path noise;         ///< a video without motion (a dead sample) to find it from
   FlowRegistry::PartType method;
-  int shrink = 0;         ///< see FlowSourceOptions
-  double fps = 0;         ///< see FlowSourceOptions
-  std::string said = {};  ///< see FlowSourceOptions
-  bool frames = false;    ///< see FlowSourceOptions
-  bool cells = true;      ///< count the cells in view; costs another look at the video
-  unsigned threads = 0;   ///< 0: all
+  int shrink = 0;                 ///< see FlowSourceOptions
+  double fps = 0;                 ///< see FlowSourceOptions
+  std::string options_text = {};  ///< see FlowSourceOptions
+  bool frames = false;            ///< see FlowSourceOptions
+  bool cells = true;              ///< count the cells in view; costs another look at the video
+  unsigned threads = 0;           ///< 0: all
   /// Called with the number of the video, and pairs of frames done and to do in it; to do is 0 when not
   /// known.
   std::function<void(std::size_t video, std::uint64_t done, std::uint64_t total)> progress = [](auto, auto,

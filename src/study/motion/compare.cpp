@@ -85,7 +85,7 @@ class Comparer {
       : job_(job), pool_(job.threads), distance_(BinSimilarity::truncated_linear(job.threshold), job.m) {}
 
   FlowSourceOptions options() const {
-    return {.method = job_.method, .shrink = job_.shrink, .fps = job_.fps, .said = job_.said};
+    return {.method = job_.method, .shrink = job_.shrink, .fps = job_.fps, .options_text = job_.options_text};
   }
 
   Signature signature(const std::filesystem::path& video, double threshold) {

@@ -23,9 +23,9 @@ struct CompareJob {
   double duration_s = 1e9;        ///< compared from there on
   double m = 0.9, threshold = 3;  ///< of the Quadratic-Chi distance; the threshold in bins
   FlowRegistry::PartType method;
-  int shrink = 0;         ///< see FlowSourceOptions
-  double fps = 0;         ///< see FlowSourceOptions
-  std::string said = {};  ///< see FlowSourceOptions
+  int shrink = 0;                 ///< see FlowSourceOptions
+  double fps = 0;                 ///< see FlowSourceOptions
+  std::string options_text = {};  ///< see FlowSourceOptions
   unsigned threads = 0;
   bool simulate_floor =
       true;  ///< run a run's scenario once more with another seed, when no two runs tell the floor

@@ -58,9 +58,9 @@ std::vector<Run> runs_of(const Signature& s, const Pairs& p) {
   std::vector<Run> runs;
   for (std::size_t k = 0; k < n; ++k) {
     if (!(size[k] > p.one_way * speed[k] && size[k] > kOfMost * most)) continue;
-    const bool goes_on = !runs.empty() && s.t0_s(k) - s.t1_s(runs.back().end - 1) < kGap &&
-                         between(angle(flow[k]), angle(runs.back().sum)) < kTurn;
-    if (!goes_on) runs.push_back({k, k, {0, 0}});
+    const bool continues = !runs.empty() && s.t0_s(k) - s.t1_s(runs.back().end - 1) < kGap &&
+                           between(angle(flow[k]), angle(runs.back().sum)) < kTurn;
+    if (!continues) runs.push_back({k, k, {0, 0}});
     runs.back().end = k + 1;
     runs.back().sum = runs.back().sum + flow[k];
   }

@@ -111,7 +111,7 @@ VideoFlow flow_of_video(const std::filesystem::path& video, const FlowJob& job) 
                     {.method = job.method,
                      .shrink = job.shrink,
                      .fps = job.fps,
-                     .said = job.said,
+                     .options_text = job.options_text,
                      .frames = !job.overlay.empty()},
                     pool);
   FlowOutputs outputs(source, video, job);

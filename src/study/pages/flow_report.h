@@ -19,7 +19,7 @@ struct FlowJob {
   std::filesystem::path overlay;  ///< of a video: arrows on its frames, MP4
   int shrink = 0;                 ///< see FlowSourceOptions
   double fps = 0;                 ///< see FlowSourceOptions
-  std::string said = {};          ///< see FlowSourceOptions
+  std::string options_text = {};  ///< see FlowSourceOptions
   bool compress = true;           ///< of .h5
   unsigned threads = 0;           ///< 0: all
   std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};

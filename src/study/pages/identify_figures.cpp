@@ -35,7 +35,7 @@ Plot plot_of(const std::string& heading, std::string x, std::string y) {
   return p;
 }
 
-/// The numbers of one kind of an episode over time, with a gap between drives.
+/// The numbers of one kind of an episode over time, with a gap between segments.
 struct Course {
   Line observed;
   Ribbon shown;
@@ -45,12 +45,12 @@ Course course_of(const Identification& r, std::size_t video, std::size_t episode
   Course c;
   c.observed.label = label;
   c.observed.ink = c.shown.ink = ink;
-  std::size_t drive = 0;
+  std::size_t segment = 0;
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
     const Statistic& s = r.statistics[k];
     if (s.video != video || s.episode != episode || s.number.what != what) continue;
-    if (s.number.drive != drive) {
-      drive = s.number.drive;
+    if (s.number.segment != segment) {
+      segment = s.number.segment;
       c.observed.x.push_back(s.number.t_s);
       c.observed.y.push_back(kGap);
       c.shown.x.push_back(s.number.t_s);
@@ -86,12 +86,12 @@ Figure courses(const Identification& r, std::size_t video, std::size_t episode, 
   return f;
 }
 
-Figure by_drive(const Identification& r) {
-  Figure f{
-      "Speed along each drive",
-      "Median speed along the drive of the cells that were followed: in the video (dots), and where 90 % of "
-      "the simulations of the best model have it (bars).",
-      plot_of("Speed along each drive", "drive", "speed along (um/s)")};
+Figure by_segment(const Identification& r) {
+  Figure f{"Speed along each segment",
+           "Median speed along the segment of the cells that were followed: in the video (dots), and where "
+           "90 % of "
+           "the simulations of the best model have it (bars).",
+           plot_of("Speed along each segment", "segment", "speed along (um/s)")};
   Line bars{.x = {}, .y = {}, .label = "simulated, 90 %", .ink = Ink::vermillion, .width = 5};
   Scatter dots{.x = {}, .y = {}, .label = "video", .ink = Ink::blue, .size = 8};
   double n = 0;
@@ -137,10 +137,11 @@ std::vector<double> spread_along(const GrayF& frame, const CellView& view, doubl
 
 Figure spread_figure(const EpisodePictures& e, const ResponseVideo& v, double deg) {
   Figure f{
-      "Cells along the drive",
-      "Share of what is seen of the swarm in each 24th of the view along the first drive: video (full) and "
+      "Cells along the segment",
+      "Share of what is seen of the swarm in each 24th of the view along the first segment: video (full) and "
       "one simulation of the best model (dashed).",
-      plot_of("Cells along the drive", "along the drive (share of the view)", "share of the cells")};
+      plot_of("Cells along the segment", "along the segment (fraction of the view)",
+              "fraction of the cells")};
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};
   std::vector<double> x(kBins);
   for (int i = 0; i < kBins; ++i) x[std::size_t(i)] = (i + 0.5) / kBins;
@@ -161,7 +162,7 @@ Figure spread_figure(const EpisodePictures& e, const ResponseVideo& v, double de
 }  // namespace
 
 std::vector<Figure> predictive_figures(const Identification& r) {
-  if (r.study.measure == Measure::tracks) return {by_drive(r)};
+  if (r.study.measure == Measure::tracks) return {by_segment(r)};
   std::vector<Figure> figures;
   for (std::size_t v = 0; v < r.videos.size() && figures.size() < 2 * kMostEpisodes; ++v)
     for (std::size_t e = 0; e < r.videos[v].episodes.size() && figures.size() < 2 * kMostEpisodes; ++e) {
@@ -169,9 +170,9 @@ std::vector<Figure> predictive_figures(const Identification& r) {
       figures.push_back(
           courses(r, v, e, "Where the swarm is" + where,
                   "10, 50 and 90 % of the cells in view lie behind these lines, measured along each "
-                  "drive: in the video (dots), and in 90 % of the simulations of the best model "
+                  "segment: in the video (dots), and in 90 % of the simulations of the best model "
                   "(shaded).",
-                  "along the drive (share of the view)",
+                  "along the segment (fraction of the view)",
                   {{"10 % along", "10 %", Ink::blue},
                    {"median along", "half", Ink::vermillion},
                    {"90 % along", "90 %", Ink::green}},
@@ -284,9 +285,9 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
   for (const ResponseVideo& v : r.videos)
     for (std::size_t e = 0; e < v.episodes.size() && all.size() < 2; ++e) {
       const Episode& episode = v.episodes[e];
-      Document d = episode_scenario(v, episode,
-                                    {r.study.boundary, r.study.scene, candidate.model, candidate.drive_in(v)},
-                                    exact_timing(episode));
+      Document d = episode_scenario(
+          v, episode, {r.study.boundary, r.study.scene, candidate.model, candidate.field_strength_in(v)},
+          exact_timing(episode));
       for (const auto& [path, value] : r.models[r.best].best.items()) d.set(path, value, "best");
       EpisodePictures& one = all.emplace_back();
       one.name = episode.name;
@@ -295,7 +296,7 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
       one.simulated =
           simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video, v.ground)
               .frames;
-      one.spread = spread_figure(one, v, episode.drives.front().direction_deg);
+      one.spread = spread_figure(one, v, episode.segments.front().direction_deg);
     }
   return all;
 }

@@ -7,7 +7,7 @@
 namespace faba {
 
 /// What was observed and what the best model shows again and again: over time where the swarm is and how much
-/// of it is in view, or drive by drive how fast cells go.
+/// of it is in view, or segment by segment how fast cells go.
 std::vector<Figure> predictive_figures(const Identification& result);
 
 /// The posterior of a parameter and its profile.
@@ -18,7 +18,7 @@ Figure profile_figure(const FoundParameter& parameter);
 /// slopes against the parameter (Figs. 3.32, 4.14 to 4.16).
 std::vector<Figure> legacy_figures(const LegacyModel& model);
 
-/// A drive of an episode as it was and as it is simulated, and how cells are spread along it.
+/// A segment of an episode as it was and as it is simulated, and how cells are spread along it.
 struct EpisodePictures {
   std::string name;
   std::vector<double> t_s;  ///< from the episode's beginning

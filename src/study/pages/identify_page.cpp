@@ -57,18 +57,17 @@ std::string models_table(const Identification& r) {
     out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2g}</td><td>{}</td></tr>\n",
                        escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
   }
-  return out +
-         fmt::format(
-             "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments "
-             "is predicted from "
-             "the others; less is better. Fit p: how often simulations of the model are as far from "
-             "their own mean as "
-             "the videos are; below 0.01 the model does not explain them.{}</p>\n",
-             r.experiments.size(),
-             one_drop(r)
-                 ? " The experiments are drives of one swarm and share its cells: intervals of the lead are "
-                   "too narrow by what they share."
-                 : "");
+  return out + fmt::format(
+                   "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments "
+                   "is predicted from "
+                   "the others; less is better. Fit p: how often simulations of the model are as far from "
+                   "their own mean as "
+                   "the videos are; below 0.01 the model does not explain them.{}</p>\n",
+                   r.experiments.size(),
+                   one_drop(r) ? " The experiments are segments of one swarm and share its cells: intervals "
+                                 "of the lead are "
+                                 "too narrow by what they share."
+                               : "");
 }
 
 // Both in the greys of the real one.
@@ -144,7 +143,7 @@ std::string notes(const Identification& r) {
         "<li>{}: {:.4g} um per px, {:.4g} frames per second, field {:.3g} uT; times count from {:.4g} "
         "s.</li>\n",
         escape_markup(v.input.file.string()), v.um_per_px, v.fps,
-        1e6 * r.study.candidates[r.best].drive_in(v), v.episodes.front().begins_s);
+        1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().begins_s);
   out += fmt::format("<li>Seed {}, {} simulations with each model; Faba {}.</li>\n", r.study.seed,
                      r.study.simulations, FABA_VERSION);
   return "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";

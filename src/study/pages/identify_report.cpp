@@ -10,7 +10,7 @@ Json parameter_json(const FoundParameter& p) {
           {"ci90", p.ci90},
           {"unit", p.parameter.unit},
           {"range", {p.parameter.low, p.parameter.high}},
-          {"share_of_range", p.share_of_range},
+          {"fraction_of_range", p.fraction_of_range},
           {"doubt", p.doubt.empty() ? Json() : Json(p.doubt)},
           {"abc", {{"median", p.abc_median}, {"ci90", p.abc_ci90}}},
           {"resampled90", p.resampled90 ? Json(*p.resampled90) : Json()}};
@@ -40,11 +40,12 @@ nlohmann::ordered_json identify_json(const Identification& r) {
   j["ahead"] = r.ahead_ci95 ? Json{{"mean", r.ahead}, {"ci95", *r.ahead_ci95}} : Json();
   j["statistics"] = Json::array();
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
-    Json one{
-        {"what", r.statistics[k].name}, {"observed", r.statistics[k].observed}, {"foretold", Json::object()}};
+    Json one{{"what", r.statistics[k].name},
+             {"observed", r.statistics[k].observed},
+             {"predicted", Json::object()}};
     for (const FoundModel& m : r.models)
-      if (m.failed.empty()) one["foretold"][m.name] = {{"mean", m.predicted[k]}, {"sd", m.predicted_sd[k]}};
-    one["foretold90"] = r.models[r.best].predicted90[k];
+      if (m.failed.empty()) one["predicted"][m.name] = {{"mean", m.predicted[k]}, {"sd", m.predicted_sd[k]}};
+    one["predicted90"] = r.models[r.best].predicted90[k];
     j["statistics"].push_back(std::move(one));
   }
   for (const LegacyModel& m : r.legacy)

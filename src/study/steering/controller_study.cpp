@@ -111,7 +111,7 @@ MeanOverSeeds mean_of(const std::vector<double>& values) {
 }
 
 // Wilson's interval of a share.
-std::array<double, 2> share_ci95(int k, int n) {
+std::array<double, 2> fraction_ci95(int k, int n) {
   constexpr double z = 1.959964;
   const double p = double(k) / n, centre = p + z * z / (2 * n);
   const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4.0 * n * n)), scale = 1 + z * z / n;
@@ -153,7 +153,7 @@ Combination conclude(const ControllerStudy& study, const Setting& s, const Trial
     if (metrics[i]->value == &Metrics::settling_time_s) c.settled = m.n;
     if (m.n > 0) c.metrics[metrics[i]->key] = m;
   }
-  c.settled_ci95 = share_ci95(c.settled, c.trials);
+  c.settled_ci95 = fraction_ci95(c.settled, c.trials);
   curves(trials, c);
   return c;
 }
@@ -212,7 +212,7 @@ Json controller_study_schema() {
   return j;
 }
 
-std::string fingerprint(const ControllerStudy& study) {
+std::string study_hash(const ControllerStudy& study) {
   Hash h;
   h.text("compare-controllers");
   for (const Setting& s : settings(study)) h.text(s.scenario.hash());

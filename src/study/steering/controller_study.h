@@ -56,8 +56,8 @@ struct ControllerComparison {
 
 /// JSON Schema of a study file.
 Json controller_study_schema();
-/// Fingerprint of all that the result depends on.
-std::string fingerprint(const ControllerStudy& study);
+/// Hash of all that the result depends on.
+std::string study_hash(const ControllerStudy& study);
 /// Runs what `results` has not yet. Checks every combination before the first trial. Empty when other shards
 /// have tasks left. Throws Error(usage) for combinations that do not fit together, and what sweep() throws.
 std::optional<ControllerComparison> compare_controllers(const ControllerStudy& study, ResultStore& results,

@@ -15,12 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char *kMarker = "incomplete", *kStudy = "study.json", *kResults = "results.jsonl";
 
-// Fingerprint of the study that a directory holds.
+// Hash of the study that a directory holds.
 std::optional<std::string> held(const fs::path& dir) {
   if (!fs::is_regular_file(dir / kStudy)) return {};
   const auto j = nlohmann::json::parse(read_file(dir / kStudy), nullptr, false);
-  if (!j.is_object() || !j.contains("fingerprint") || !j["fingerprint"].is_string()) return {};
-  return j["fingerprint"].get<std::string>();
+  if (!j.is_object()) return {};
+  for (const char* key : {"study_hash", "fingerprint"})  // the second is its name in the version before
+    if (j.contains(key) && j[key].is_string()) return j[key].get<std::string>();
+  return {};
 }
 
 // What studies of any kind write.
@@ -29,12 +31,12 @@ constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best
 
 }  // namespace
 
-bool holds_complete_study(const fs::path& dir, const std::string& fingerprint) {
-  return held(dir) == fingerprint && !fs::exists(dir / kMarker);
+bool holds_complete_study(const fs::path& dir, const std::string& study_hash) {
+  return held(dir) == study_hash && !fs::exists(dir / kMarker);
 }
 
 StudyDirectory::~StudyDirectory() {
-  if (!new_ || whole_ || !results_ || !results_->empty()) return;
+  if (!new_ || complete_ || !results_ || !results_->empty()) return;
   results_.reset();
   lock_.complete();
   std::error_code ignored;
@@ -42,9 +44,9 @@ StudyDirectory::~StudyDirectory() {
   fs::remove(dir_, ignored);  // not when something else is in it
 }
 
-StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerprint, const std::string& again,
+StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_hash, const std::string& again,
                                bool force)
-    : dir_(dir), fingerprint_(fingerprint) {
+    : dir_(dir), study_hash_(study_hash) {
   std::error_code ec;
   if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
     throw Error(Errc::usage, dir.string(), "exists and is not a directory");
@@ -56,7 +58,7 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerpri
   const auto there = held(dir);
   if (!there && !fs::is_empty(dir, ec))
     throw Error(Errc::usage, dir.string(), "holds other files and no study; choose another --out");
-  const bool same = there == fingerprint;
+  const bool same = there == study_hash;
   if (there && !same && !force)
     throw Error(Errc::usage, dir.string(),
                 "holds another study; choose another --out, or --force to replace it");
@@ -70,9 +72,8 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& fingerpri
     fs::remove(dir / kResults, ec);
     if (there)
       for (const char* name : kWritten) fs::remove(dir / name, ec);
-    write_file(
-        dir / kStudy,
-        nlohmann::ordered_json{{"fingerprint", fingerprint}, {"version", FABA_VERSION}}.dump(2) + "\n");
+    write_file(dir / kStudy,
+               nlohmann::ordered_json{{"study_hash", study_hash}, {"version", FABA_VERSION}}.dump(2) + "\n");
   }
   results_ = std::make_unique<ResultStore>(dir / kResults);
 }
@@ -81,7 +82,7 @@ void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
   for (const fs::path& other : dirs) {
     const auto there = held(other);
     if (!there) throw Error(Errc::input, other.string(), "holds no study");
-    if (*there != fingerprint_) throw Error(Errc::usage, other.string(), "holds another study than this one");
+    if (*there != study_hash_) throw Error(Errc::usage, other.string(), "holds another study than this one");
     if (fs::weakly_canonical(other) != fs::weakly_canonical(dir_) && fs::exists(other / kResults))
       results_->merge(other / kResults);
   }

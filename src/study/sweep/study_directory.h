@@ -9,18 +9,18 @@
 
 namespace faba {
 
-/// Whether `dir` holds a complete study with this fingerprint.
-bool holds_complete_study(const std::filesystem::path& dir, const std::string& fingerprint);
+/// Whether `dir` holds a complete study with this hash.
+bool holds_complete_study(const std::filesystem::path& dir, const std::string& study_hash);
 
 /// Where a study keeps its results. While it is being made it holds the file `incomplete`; a study that was
 /// stopped or killed goes on from the results that are there.
 class StudyDirectory {
  public:
-  /// Makes `dir`, or goes on in it. `fingerprint` tells studies apart: of all that the results depend on.
-  /// `again` is the command that goes on. Throws Error(usage) when it holds something else, another study or
-  /// (without `force`) a complete one, and when another process is at it. With `force` the results of another
-  /// study give way; those of the same one are taken.
-  StudyDirectory(const std::filesystem::path& dir, const std::string& fingerprint, const std::string& again,
+  /// Makes `dir`, or resumes the study in it. `study_hash` is the hash of all inputs that the results depend
+  /// on. `again` is the command that goes on. Throws Error(usage) when it holds something else, another study
+  /// or (without `force`) a complete one, and when another process is at it. With `force` the results of
+  /// another study give way; those of the same one are taken.
+  StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash, const std::string& again,
                  bool force);
   /// A directory that was made for a study that then came to nothing goes again.
   ~StudyDirectory();
@@ -34,14 +34,14 @@ class StudyDirectory {
   /// Everything is written: the study is whole.
   void complete() {
     lock_.complete();
-    whole_ = true;
+    complete_ = true;
   }
 
  private:
   std::filesystem::path dir_;
-  std::string fingerprint_;
+  std::string study_hash_;
   FileLock lock_;
-  bool new_ = false, whole_ = false;
+  bool new_ = false, complete_ = false;
   std::unique_ptr<ResultStore> results_;
 };
 

@@ -15,7 +15,7 @@ struct Task {
   std::function<std::vector<double>()> work;
 };
 
-/// Fingerprint of what a task is made of, and of the program's version.
+/// Hash of what a task is made of, and of the program's version.
 std::string task_key(const std::string& what);
 
 /// Part `index` of `count` of the tasks, 1 <= index <= count: those whose place in the list leaves index - 1

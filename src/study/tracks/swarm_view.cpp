@@ -62,12 +62,12 @@ SwarmMoments SwarmView::take(const GrayF& frame, double t_s) {
 }
 
 std::optional<double> visible_cells(const std::filesystem::path& path, const VideoPart& part,
-                                    const std::function<bool()>& go_on) {
+                                    const std::function<bool()>& keep_running) {
   if (is_run(path) && !has_camera_video(path)) return counted_by_run(path, part);
   const std::filesystem::path video = run_video(path).file;
   if (FlowFileReader::recognises(video)) return {};
   const auto check = [&] {
-    if (!go_on()) throw Error(Errc::interrupted, path.string(), "stopped");
+    if (!keep_running()) throw Error(Errc::interrupted, path.string(), "stopped");
   };
   TrackOptions options;
   options.video = video;

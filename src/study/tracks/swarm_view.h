@@ -32,9 +32,9 @@ struct VideoPart {
 
 /// Cells in view, as spots that Detector finds: the mean over fifty frames or more of a part of a video
 /// (anything VideoReader reads, or a run). Of a run without a camera's video it is the number that is in its
-/// series. Empty for a file of flows, which shows no cells. `go_on` is asked between frames;
+/// series. Empty for a file of flows, which shows no cells. `keep_running` is asked between frames;
 /// Error(interrupted) when it says no. Throws as VideoReader.
 std::optional<double> visible_cells(const std::filesystem::path& path, const VideoPart& part,
-                                    const std::function<bool()>& go_on);
+                                    const std::function<bool()>& keep_running);
 
 }  // namespace faba

@@ -351,7 +351,7 @@ void TrackStatistics::take(const Track& track) {
   Impl& me = *impl_;
   if (track.points.empty()) return;
   me.points += track.points.size();
-  if (!track.goes_on) {
+  if (!track.continues) {
     me.track_count += 1;
     me.groups[track.number % kGroups].tracks += 1;
   }

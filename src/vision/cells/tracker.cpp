@@ -200,9 +200,9 @@ void Tracker::follow(Live& l, std::uint64_t frame, double t_s, const Spot& spot)
   l.track.points.push_back({frame, t_s, spot.x_px, spot.y_px, spot.mass, spot.snr});
   if (l.points == std::size_t(options_.least_points)) l.track.number = ++numbered_;
   if (l.track.points.size() >= std::size_t(options_.most_points) && l.track.number > 0) {
-    l.track.goes_on = true;
+    l.track.continues = true;
     finished_.push_back(l.track);
-    l.track.goes_on = false;
+    l.track.continues = false;
     l.track.points.clear();
   }
 }

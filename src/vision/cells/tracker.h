@@ -19,7 +19,7 @@ struct TrackPoint {
 struct Track {
   std::uint64_t number = 0;  ///< 1, 2, 3 ... in the order in which tracks became sure
   std::vector<TrackPoint> points;
-  bool goes_on = false;  ///< a piece of a long track; the next piece has the same number
+  bool continues = false;  ///< a piece of a long track; the next piece has the same number
 };
 
 /// How a cell's next place is predicted.

@@ -13,14 +13,15 @@ extern "C" {
 namespace faba::libav {
 namespace {
 
-thread_local std::string said;
+thread_local std::string message;
 
 void keep_first_complaint(void*, int level, const char* format, std::va_list arguments) {
-  if (level > AV_LOG_ERROR || !said.empty()) return;
+  if (level > AV_LOG_ERROR || !message.empty()) return;
   std::array<char, 256> line{};
   std::vsnprintf(line.data(), line.size(), format, arguments);
-  said = line.data();
-  while (!said.empty() && (said.back() == '\n' || said.back() == ' ' || said.back() == '.')) said.pop_back();
+  message = line.data();
+  while (!message.empty() && (message.back() == '\n' || message.back() == ' ' || message.back() == '.'))
+    message.pop_back();
 }
 
 }  // namespace
@@ -30,14 +31,14 @@ void quiet() {
   std::call_once(once, [] { av_log_set_callback(keep_first_complaint); });
 }
 
-void forget_messages() { said.clear(); }
+void forget_messages() { message.clear(); }
 
-std::string first_message() { return said; }
+std::string first_message() { return message; }
 
 std::string reason(int error_number) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
   av_strerror(error_number, text.data(), text.size());
-  return said.empty() ? std::string(text.data()) : std::string(text.data()) + " (" + said + ")";
+  return message.empty() ? std::string(text.data()) : std::string(text.data()) + " (" + message + ")";
 }
 
 }  // namespace faba::libav

@@ -21,13 +21,13 @@ constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;  // a hostile heade
 constexpr tmsize_t kMaxBuffer = tmsize_t{1} << 30;  // bytes libtiff, or one row or tile here, may take
 
 // What libtiff complains of first goes into the Error; its later lines only repeat it.
-int keep_first_complaint(TIFF*, void* said_pointer, const char*, const char* format, va_list arguments) {
-  auto& said = *static_cast<std::string*>(said_pointer);
-  if (said.empty()) {
+int keep_first_complaint(TIFF*, void* message_pointer, const char*, const char* format, va_list arguments) {
+  auto& message = *static_cast<std::string*>(message_pointer);
+  if (message.empty()) {
     std::array<char, 256> line{};
     std::vsnprintf(line.data(), line.size(), format, arguments);
-    said = line.data();
-    while (!said.empty() && said.back() == '.') said.pop_back();
+    message = line.data();
+    while (!message.empty() && message.back() == '.') message.pop_back();
   }
   return 1;  // handled: nothing is printed
 }
@@ -107,7 +107,7 @@ struct TiffStack::Impl {
   };
 
   std::filesystem::path path;
-  std::string said;  // libtiff's first complaint since forget()
+  std::string message;  // libtiff's first complaint since forget()
   std::unique_ptr<TIFF, Close> tiff;
   Layout page;  // of the page about to be read
   int first_width = 0, first_height = 0, first_bits = 0;
@@ -119,7 +119,7 @@ struct TiffStack::Impl {
 
   [[noreturn]] void refuse(const std::string& why) const {
     const std::string which = page_number > 1 ? "page " + std::to_string(page_number) + ": " : "";
-    throw Error(Errc::input, path.string(), which + why + (said.empty() ? "" : " (" + said + ")"));
+    throw Error(Errc::input, path.string(), which + why + (message.empty() ? "" : " (" + message + ")"));
   }
   void open();
   void read_layout();
@@ -134,7 +134,7 @@ struct TiffStack::Impl {
 void TiffStack::Impl::open() {
   const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
                                                                                  &TIFFOpenOptionsFree);
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_first_complaint, &said);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_first_complaint, &message);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore_warning, nullptr);
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxBuffer);
   tiff.reset(TIFFOpenExt(path.c_str(), "r", options.get()));
@@ -293,13 +293,13 @@ double TiffStack::fps() const { return impl_->fps; }
 
 int TiffStack::pages() const {
   const auto count = TIFFNumberOfDirectories(impl_->tiff.get());
-  impl_->said.clear();
+  impl_->message.clear();
   return static_cast<int>(count);
 }
 
 bool TiffStack::read(GrayF& page) {
   Impl& self = *impl_;
-  self.said.clear();
+  self.message.clear();
   if (!self.on_fresh_page && !self.at_end) self.advance();
   if (self.at_end) return false;
   self.on_fresh_page = false;

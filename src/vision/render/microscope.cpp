@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kWidestSpot = 200;  // px, sd: tables of wider ones would fill the memory
 constexpr double kMostPixels = 1 << 28;
-constexpr double kUsualExposure = 0.01;  // s
+constexpr double kDefaultExposure = 0.01;  // s
 
 // Sum over the pixels of what one cell adds: an optical density, or light scattered in.
 double weight_of(const MicroscopeParams& p, double m_per_px) {
@@ -43,7 +43,7 @@ SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t se
 }
 
 double exposure_of(const MicroscopeParams& p, double frame_period) {
-  const double t = p.exposure_time.value_or(std::min(kUsualExposure, 0.5 * frame_period));
+  const double t = p.exposure_time.value_or(std::min(kDefaultExposure, 0.5 * frame_period));
   if (t > frame_period * (1 + 1e-9))
     throw Error(Errc::usage, "microscope.exposure_time",
                 fmt::format("{:g} s is longer than a frame ({:g} s); shorten it or lower camera.rate", t,

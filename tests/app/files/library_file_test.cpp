@@ -86,7 +86,7 @@ TEST_CASE("library: what was written before a crash is taken over, for the same 
   CHECK(w.entries() == 0);
 }
 
-TEST_CASE("library: another rig is refused, by its fingerprint and by its field") {
+TEST_CASE("library: another rig is refused, by its hash and by its field") {
   const auto made = [](const std::string& radius) {
     return field_of("type = 'rig'\n[[coil]]\ntype = 'loop'\nposition = [0, 0, 0.02]\nradius = " + radius +
                     "\n[[coil]]\ntype = 'loop'\nposition = [0, 0.02, 0]\n");

@@ -44,7 +44,7 @@ TEST_CASE("field library: every entry is a zero that traps, and its field is the
   const FieldLibrary& l = *kept_l;
   const auto rig = read_rig(kRig, builtin_parts());
   const auto field = rig.make({});
-  CHECK_NOTHROW(l.table(*field, rig_fingerprint(rig.resolved)));
+  CHECK_NOTHROW(l.table(*field, coil_system_hash(rig.resolved)));
   REQUIRE(l.entries().size() == made.entries);
   REQUIRE(l.entries().size() > 20);
   const double best = -null_at(*field, {}, 1, current_limits(*field)).gradient[1];

@@ -21,7 +21,7 @@ CellView view() {
   return v;
 }
 
-// Cells in rows 20 px apart that go right at 2 px per frame in the first drive, and back in the second.
+// Cells in rows 20 px apart that go right at 2 px per frame in the first segment, and back in the second.
 std::vector<std::vector<Vec2>> seen_at(const std::vector<double>& times) {
   std::vector<std::vector<Vec2>> seen;
   for (const double t : times) {
@@ -34,9 +34,9 @@ std::vector<std::vector<Vec2>> seen_at(const std::vector<double>& times) {
 }
 
 double value_of(const EpisodeStatistics& s, const std::vector<double>& numbers, const std::string& what,
-                std::size_t drive) {
+                std::size_t segment) {
   for (std::size_t k = 0; k < numbers.size(); ++k)
-    if (s.numbers()[k].what == what && s.numbers()[k].drive == drive) return numbers[k];
+    if (s.numbers()[k].what == what && s.numbers()[k].segment == segment) return numbers[k];
   return std::nan("");
 }
 
@@ -46,12 +46,12 @@ TEST_CASE("tracks: speeds along and across are those of the cells, in both direc
   const auto s = make_statistics(Measure::tracks, kEpisode, view());
   const auto numbers = s->of_positions(seen_at(s->times_s()));
   REQUIRE(numbers.size() == s->numbers().size());
-  for (const std::size_t drive : {0, 1}) {
+  for (const std::size_t segment : {0, 1}) {
     for (const char* what : {"10 % of speeds along", "median speed along", "90 % of speeds along"})
-      CHECK(value_of(*s, numbers, what, drive) == doctest::Approx(2));
-    CHECK(value_of(*s, numbers, "spread of speeds across", drive) == doctest::Approx(0));
-    CHECK(value_of(*s, numbers, "median step", drive) == doctest::Approx(std::log(4.01)));
-    CHECK(value_of(*s, numbers, "cells followed", drive) == doctest::Approx(std::log1p(50)));
+      CHECK(value_of(*s, numbers, what, segment) == doctest::Approx(2));
+    CHECK(value_of(*s, numbers, "spread of speeds across", segment) == doctest::Approx(0));
+    CHECK(value_of(*s, numbers, "median step", segment) == doctest::Approx(std::log(4.01)));
+    CHECK(value_of(*s, numbers, "cells followed", segment) == doctest::Approx(std::log1p(50)));
   }
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("density: the swarm's place is that of its cells, as a share of the vi
     // One in a hundred is spread over the view, and places are told to the bin, a pixel.
     if (n.what == "median along") {
       const double middle = (80 + gone) / 321;
-      CHECK(std::fabs(numbers[k] - (n.drive == 0 ? middle : 1 - middle)) < 3.0 / 321);
+      CHECK(std::fabs(numbers[k] - (n.segment == 0 ? middle : 1 - middle)) < 3.0 / 321);
     }
     if (n.what == "cells in view") CHECK(numbers[k] == doctest::Approx(std::log(1.02)));
   }

@@ -218,7 +218,7 @@ TEST_CASE("long tracks are handed out in pieces; time must go on") {
     t.take(k, double(k), {spot({50, 50})});
     for (const Track& piece : t.finished()) {
       CHECK(piece.number == 1);
-      CHECK(piece.goes_on);
+      CHECK(piece.continues);
       points += piece.points.size();
       ++pieces;
     }

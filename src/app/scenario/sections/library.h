@@ -9,7 +9,7 @@ namespace faba {
 /// currents.
 struct LibraryParams {
   std::string file;
-  std::string made;  ///< fingerprint of how the library was made
+  std::string made;  ///< hash of how the library was made
   static Schema<LibraryParams> schema();
   /// What tells it from another one: how it was made, wherever it lies.
   Json hashed() const;

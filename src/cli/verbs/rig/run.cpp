@@ -28,9 +28,9 @@ void latency(std::uint64_t frames, const Manifest::Bench& b) {
              frames, b.frames_dropped, b.frames_corrupt, ms(b.arrival.median));
   fmt::print("command at the coils {} after the frame came (median), 99.9 % within {}\n",
              ms(b.command.median), ms(b.command.p999));
-  if (b.guard_rests > 0)
-    fmt::print("the coils came to rest {} time{}, because no command came in time\n", b.guard_rests,
-               b.guard_rests == 1 ? "" : "s");
+  if (b.command_timeouts > 0)
+    fmt::print("the coils came to rest {} time{}, because no command came in time\n", b.command_timeouts,
+               b.command_timeouts == 1 ? "" : "s");
 }
 
 int rig_run(const RigRunVerb& v, const Common& c) {

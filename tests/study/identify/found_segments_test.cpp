@@ -1,5 +1,5 @@
 // Drives from the way a swarm goes: a triangle wave along a tilted line with noise, whose turns are known.
-#include "study/identify/found_drives.h"
+#include "study/identify/found_segments.h"
 
 #include <doctest/doctest.h>
 
@@ -43,19 +43,19 @@ Way way(double noise_px) {
 TEST_CASE("turns are found to a frame, directions to a degree") {
   Way w = way(0.3);
   w.at[40] = {std::nan(""), std::nan("")};  // a frame in which nothing is seen
-  const auto drives = drives_of_swarm(w.t, w.at, 20);
-  REQUIRE(drives.size() == 3);
+  const auto segments = segments_of_swarm(w.t, w.at, 20);
+  REQUIRE(segments.size() == 3);
   // Noise of 0.3 px at 30 px/s moves the crossing of 5 % by 10 ms; extrapolating makes it half as much again.
   for (std::size_t k = 0; k < 3; ++k) {
-    CHECK(std::fabs(drives[k].t0_s - (1 + 3 * double(k))) < kFrame);
+    CHECK(std::fabs(segments[k].t0_s - (1 + 3 * double(k))) < kFrame);
     const double want = k % 2 == 0 ? 25 : 205;
-    CHECK(std::fabs(std::remainder(drives[k].direction_deg - want, 360)) < 1);
+    CHECK(std::fabs(std::remainder(segments[k].direction_deg - want, 360)) < 1);
   }
-  CHECK(drives[0].t1_s == drives[1].t0_s);
-  CHECK(drives[2].t1_s == doctest::Approx(10));
+  CHECK(segments[0].t1_s == segments[1].t0_s);
+  CHECK(segments[2].t1_s == doctest::Approx(10));
 }
 
-TEST_CASE("a run's record of its field has its drives, to the frame") {
+TEST_CASE("a run's record of its field has its segments, to the frame") {
   std::vector<std::vector<double>> columns(3);
   for (int k = 0; k <= 90; ++k) {
     const double t = k * kFrame;
@@ -71,21 +71,21 @@ TEST_CASE("a run's record of its field has its drives, to the frame") {
   }
   const Series record("series.csv", {"t_s", "field_x_ut", "field_y_ut"}, columns);
   for (const bool against : {false, true}) {
-    const auto drives = drives_of_field(record, against);
-    REQUIRE(drives.size() == 2);
-    CHECK(drives[0].t0_s == doctest::Approx(1));
-    CHECK(drives[0].t1_s == doctest::Approx(3));
-    CHECK(drives[1].t0_s == doctest::Approx(3.2));
-    CHECK(drives[1].t1_s == doctest::Approx(6));
-    CHECK(std::fabs(std::remainder(drives[0].direction_deg - (against ? 155 : 335), 360)) < 1e-9);
-    CHECK(std::fabs(std::remainder(drives[1].direction_deg - (against ? 335 : 155), 360)) < 1e-9);
+    const auto segments = segments_of_field(record, against);
+    REQUIRE(segments.size() == 2);
+    CHECK(segments[0].t0_s == doctest::Approx(1));
+    CHECK(segments[0].t1_s == doctest::Approx(3));
+    CHECK(segments[1].t0_s == doctest::Approx(3.2));
+    CHECK(segments[1].t1_s == doctest::Approx(6));
+    CHECK(std::fabs(std::remainder(segments[0].direction_deg - (against ? 155 : 335), 360)) < 1e-9);
+    CHECK(std::fabs(std::remainder(segments[1].direction_deg - (against ? 335 : 155), 360)) < 1e-9);
   }
-  CHECK(drives_of_field(Series("series.csv", {"t_s"}, {{0, 1}}), false).empty());
+  CHECK(segments_of_field(Series("series.csv", {"t_s"}, {{0, 1}}), false).empty());
 }
 
 TEST_CASE("a swarm that stays where it is has none") {
   Way w = way(0.3);
   for (Vec2& at : w.at) at = {100 + 0.01 * at.x, 80 + 0.01 * at.y};
-  CHECK(drives_of_swarm(w.t, w.at, 20).empty());
-  CHECK(drives_of_swarm({}, {}, 20).empty());
+  CHECK(segments_of_swarm(w.t, w.at, 20).empty());
+  CHECK(segments_of_swarm({}, {}, 20).empty());
 }

@@ -1,4 +1,4 @@
-#include "study/identify/found_drives.h"
+#include "study/identify/found_segments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace faba {
 namespace {
 
 constexpr double kTurn = 0.25;  // share of the whole way that a swarm must go back before it counts
-constexpr double kLeaves = 0.05, kGone = 0.25;  // shares of a drive's way that its beginning is told from
+constexpr double kLeaves = 0.05, kGone = 0.25;  // shares of a segment's way that its beginning is told from
 
 constexpr double kLeastHeld = 0.4;       // s: of a field that is held
 constexpr double kFieldOn = 0.2;         // of the strongest
@@ -55,8 +55,8 @@ std::vector<std::size_t> turning_points(const std::vector<double>& q, double lea
 
 }  // namespace
 
-std::vector<Drive> drives_of_swarm(const std::vector<double>& t_s, const std::vector<Vec2>& centroid,
-                                   double least_px) {
+std::vector<FieldSegment> segments_of_swarm(const std::vector<double>& t_s, const std::vector<Vec2>& centroid,
+                                            double least_px) {
   std::vector<double> t;
   std::vector<Vec2> p;
   for (std::size_t i = 0; i < t_s.size(); ++i)
@@ -77,7 +77,7 @@ std::vector<Drive> drives_of_swarm(const std::vector<double>& t_s, const std::ve
   const double range = *hi - *lo;
   if (!(range >= least_px)) return {};
   const std::vector<std::size_t> turns = turning_points(q, kTurn * range);
-  std::vector<Drive> drives;
+  std::vector<FieldSegment> segments;
   for (std::size_t k = 0; k + 1 < turns.size(); ++k) {
     const double from = q[turns[k]], way = q[turns[k + 1]] - from;
     if (std::fabs(way) < kTurn * range) continue;
@@ -91,19 +91,19 @@ std::vector<Drive> drives_of_swarm(const std::vector<double>& t_s, const std::ve
     const double leaves = last_below(kLeaves), gone = last_below(kGone);
     const double begins = leaves - (gone - leaves) * kLeaves / (kGone - kLeaves);
     const double deg = axis * 180 / std::numbers::pi + (way > 0 ? 0 : 180);
-    drives.push_back({std::max(begins, t[turns[k]]), 0, std::fmod(deg + 360, 360)});
+    segments.push_back({std::max(begins, t[turns[k]]), 0, std::fmod(deg + 360, 360)});
   }
-  for (std::size_t k = 0; k < drives.size(); ++k)
-    drives[k].t1_s = k + 1 < drives.size() ? drives[k + 1].t0_s : t.back();
-  return drives;
+  for (std::size_t k = 0; k < segments.size(); ++k)
+    segments[k].t1_s = k + 1 < segments.size() ? segments[k + 1].t0_s : t.back();
+  return segments;
 }
 
-std::vector<Drive> drives_of_field(const Series& record, bool against) {
+std::vector<FieldSegment> segments_of_field(const Series& record, bool against) {
   const auto t = record.find("t_s"), bx = record.find("field_x_ut"), by = record.find("field_y_ut");
   if (t.empty() || bx.empty() || by.empty()) return {};
   double strongest = 0;
   for (std::size_t k = 0; k < t.size(); ++k) strongest = std::max(strongest, std::hypot(bx[k], by[k]));
-  std::vector<Drive> drives;
+  std::vector<FieldSegment> segments;
   Vec2 sum;
   std::size_t from = 0;
   // A row has the field at its moment, before the command that is given then: it turned right after the row
@@ -113,7 +113,7 @@ std::vector<Drive> drives_of_field(const Series& record, bool against) {
     if (ends - begins >= kLeastHeld) {
       const Vec2 way = against ? -1 * sum : sum;
       const double deg = std::atan2(-way.y, way.x) * 180 / std::numbers::pi;  // y is down in pictures
-      drives.push_back({begins, ends, std::fmod(deg + 360, 360), norm(sum) / double(at - from) * 1e-6});
+      segments.push_back({begins, ends, std::fmod(deg + 360, 360), norm(sum) / double(at - from) * 1e-6});
     }
     sum = {};
     from = at;
@@ -127,12 +127,12 @@ std::vector<Drive> drives_of_field(const Series& record, bool against) {
     sum = sum + b;
   }
   if (norm(sum) > 0) close(t.size());
-  if (drives.size() > 1 && drives.front().t0_s < t.front() + kLeastHeld) drives.erase(drives.begin());
-  return drives;
+  if (segments.size() > 1 && segments.front().t0_s < t.front() + kLeastHeld) segments.erase(segments.begin());
+  return segments;
 }
 
-std::vector<Drive> drives_of_motion(const std::filesystem::path& video, double fps, int side,
-                                    const std::function<void()>& tick) {
+std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, double fps, int side,
+                                             const std::function<void()>& tick) {
   ActivityJob job;
   job.videos.push_back({.file = video});
   job.method = flow_part({}, published_flow());
@@ -140,11 +140,11 @@ std::vector<Drive> drives_of_motion(const std::filesystem::path& video, double f
   job.shrink = side;
   job.cells = false;
   job.progress = [&](auto, auto, auto) { tick(); };
-  std::vector<Drive> drives;
+  std::vector<FieldSegment> segments;
   const ActivityResult activity = measure_activity(job);
   for (const MotionSegment& s : activity.videos.front().segments)
-    drives.push_back({s.t0_s, s.t1_s, s.direction_deg});
-  return drives;
+    segments.push_back({s.t0_s, s.t1_s, s.direction_deg});
+  return segments;
 }
 
 }  // namespace faba
