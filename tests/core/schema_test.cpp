@@ -29,7 +29,7 @@ struct Params {
     fast.speed = 5e-4;
     return Schema<Params>("params", "For the test")
         .add("speed", &Params::speed, {.unit = "m/s", .min = 0, .max = 1e-3, .doc = "how fast"})
-        .add("count", &Params::count, {.min = 0, .max = 10})
+        .add("count", &Params::count, {.min = 0, .max = 10, .old_key = "number"})
         .add("on", &Params::on, {})
         .add("name", &Params::name, {})
         .add("colour", &Params::colour, {.choices = {"red", "green"}})
@@ -70,6 +70,14 @@ TEST_CASE("values, units, presets, nested lists") {
   CHECK(p.inner[0].weight == 0.25);
   CHECK(p.inner[1].weight == 0.5);
   CHECK(read("preset = 'fast'\nspeed = '1 um/s'").speed == 1e-6);
+}
+
+TEST_CASE("the name of a key in the version before is read, but not beside the new one") {
+  CHECK(read("number = 7").count == 7);
+  CHECK(complaint("number = 7\ncount = 7").find("number: is the old name of \"count\"") != std::string::npos);
+  CHECK(complaint("number = 70").find("between 0 and 10") != std::string::npos);
+  CHECK_FALSE(Params::schema().json_schema()["properties"].contains("number"));
+  CHECK_FALSE(Params::schema().to_json(read("number = 7")).contains("number"));
 }
 
 TEST_CASE("every complaint is one line that names file, line, path, reason and a way out") {

@@ -135,7 +135,8 @@ TEST_CASE(
 
   const std::string models =
       "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n";
-  const std::string head = "boundary = \"box\"\nsimulations = 150\ndrive = \"69 uT\"\n";
+  const std::string head =  // the old name of field_strength is still read
+      "boundary = \"box\"\nsimulations = 150\ndrive = \"69 uT\"\n";
   write_file(f.path / "forwards.toml",
              head +
                  "reversal = \"0.6 s\"\ndirection = 0\nduration = \"2.4 s\"\n[[video]]\nfile = \"film\"\n" +
@@ -225,9 +226,9 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
               "[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.segment]]\nfrom = \"1.5 s\"\nto = "
               "\"3 s\"\n" +
               kBasic,
-          2, "follow each other");
+          2, "must not overlap");
   refused(f, kHead + "reversal = \"1 s\"\n[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
-          "one of both");
+          "only one of the two");
   refused(f, kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2, "the video tells it");
   refused(f, kHead + "[[model]]\ntype = \"bassic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n", 2,
           "did you mean \"basic\"");

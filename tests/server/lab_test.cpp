@@ -223,6 +223,25 @@ TEST_CASE("S6: nothing but the workspace's runs and scenes can be read") {
   CHECK((longer == 431 || longer == 400));
 }
 
+TEST_CASE("a run with a damaged manifest does not hide the other runs") {
+  const Served lab;
+  const std::pair<const char*, const char*> manifests[] = {
+      {"good", R"({"title": "Good", "frames": 3, "seed": 1})"},
+      {"frames", R"({"frames": "x"})"},
+      {"title", R"({"title": 3})"},
+      {"list", "[1]"},
+      {"half", R"({"title": "Ha)"}};
+  for (const auto& [name, manifest] : manifests) {
+    fs::create_directories(lab.folder() / "runs" / name);
+    write_file(lab.folder() / "runs" / name / "manifest.json", manifest);
+  }
+  const std::string a = lab.get("/api/runs");
+  CHECK(status_of(a) == 200);
+  const Json runs = Json::parse(a.substr(a.find("\r\n\r\n")));
+  REQUIRE(runs.size() == 1);
+  CHECK(runs[0]["name"] == "good");
+}
+
 TEST_CASE("S7: slow, many, huge: bounded, and others are served meanwhile") {
   const Served lab;
   const std::size_t before = resident();
