@@ -1,0 +1,155 @@
+#!/usr/bin/python3
+"""Fails when a text of this tree has a word that Faba does not use, and names the term to use instead.
+
+    tools/check_language.py --root . [--under src/cli ...] [--count]
+
+Faba is written in plain technical English: the standard terms of the field, one term for each concept (CONTRIBUTING.md,
+"Language"). WORDS lists what reviewers stumbled over; a word that makes a reader stumble is added there. The check reads
+comments, messages, identifiers (`goes_on` and `kGoesOn` are read as "goes on"), pages and documentation.
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+# What is not used, as a regular expression for lower-case text, and what to say instead.
+WORDS = {
+    # resume, complete, truncate
+    r"(go|goes|going|went|gone) on with": "resume; continue",
+    r"(go|goes) on": "continue",
+    r"wholly|whole": "complete; entire; all of; integer",
+    r"cut back": "truncate",
+    r"anew": "again; from scratch",
+    r"begun|begin anew": "started",
+    # coils and the guard
+    r"(come|comes|came|coming|told|put|puts) to rest": "is de-energised; \"coils off\" in the user interface",
+    r"coils (rest|rests|rested)": "are de-energised",
+    r"signs? of life": "heartbeat",
+    r"(program|client) is gone": "client disconnected",
+    r"the decision took": "control cycle overran",
+    r"(had|has had) (its|as much) heat": "thermal limit exceeded",
+    r"sits? still|stand still|stands still|stood still": "does not move; is not running; hangs",
+    # statements
+    r"foretell|foretells|foretelling|foretold": "predict",
+    r"said|unsaid": "given; specified; reported; stated",
+    r"told": "reported; given; configured; detected",
+    r"says? so": "reports it; warns",
+    r"bears?": "permits; withstands",
+    r"heeds?|heeded": "follows; obeys",
+    r"reckons?|reckoned|reckoning": "computes; uses",
+    r"foreseen|beheld|hitherto|thereof|whence|whereby": "a plain word",
+    r"nothing is known of": "unknown; not documented",
+    r"never (been )?tried": "not tested",
+    r"on the word of": "according to; not verified",
+    r"for its own sake|of its own accord": "automatically",
+    r"own values?": "override; custom value",
+    r"usual": "default; typical",
+    r"by chance": "at random",
+    r"how far apart": "distance; nearest-neighbour distance",
+    # numbers
+    r"shares? of": "fraction of",
+    r"fingerprints?": "hash; state hash",
+    r"coils turn round|field turns round|turns? round": "field reversal; is reversed",
+    r"times? in air": "air exposure time",
+    r"those that respond": "responsive fraction",
+    r"(a|each|one|the|several|first|every) drive": "field segment",
+    r"drives (were|are) found": "field segments were detected",
+    # messages
+    r"(?<!there )is no (?!longer|more|less|greater|larger|slower|faster|better|worse|need)": "is not a ...; unknown ...",
+    r"are no (?=files|numbers|pictures|videos)": "are not ...",
+    r"is none(?! of the above)": "not found; must be one of",
+    r"there is nothing here": "not found",
+    r"nothing to do": "no jobs; already complete",
+    r"texts? in quotes": "string",
+    r"letters beyond": "non-ASCII characters",
+    r"of another kind": "has the wrong type",
+    r"needs a new beginning": "restart required",
+    # literary connectives
+    r"that is all there is|and nothing else|nothing but": "only",
+    r"as it were|so to speak|to and fro": "back and forth",
+    r"ere|lest|albeit|thus far|henceforth": "a plain word",
+}
+# Old keys, which are still read, and texts that quote a word to refuse it: (file, regular expression of the line).
+ALLOWED = [
+    ("tools/check_language.py", r""),
+    ("tests/tools/check_language_test.py", r""),
+    ("CHANGELOG.md", r"`(drive|foretold|foretold90|fingerprint|rested|rests|share_of_range)`"),
+    ("src/study/sweep/study_directory.cpp", r'"fingerprint"'),
+    ("src/study/identify/identify_study.cpp", r'"drive"'),
+]
+# Where people read: sources, tests, tools, pages and documentation.
+PLACES = ("*.md", "docs", "src", "tests", "tools", "bench", "web/src", "web/tests", "scenes", "rigs", "studies", "firmware",
+          "cmake", "*.txt", "Makefile")
+KINDS = {".md", ".h", ".cpp", ".c", ".ino", ".py", ".toml", ".ts", ".mjs", ".svelte", ".sh", ".cmake", ".txt", ""}
+
+CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+PATTERN = re.compile("|".join(rf"(?P<w{i}>\b(?:{word})\b)" if word[-1] != ")" else rf"(?P<w{i}>\b(?:{word}))"
+                              for i, word in enumerate(WORDS)))
+INSTEAD = list(WORDS.values())
+
+
+def plain(line):
+    """The line as a reader hears it: identifiers fall into words."""
+    return re.sub(r"\s+", " ", CAMEL.sub(" ", line).replace("_", " ")).lower()
+
+
+def findings(line):
+    """(text, what to say instead) of each word in a line that is not used."""
+    seen = {}
+    for text in (re.sub(r"\s+", " ", line.lower()), plain(line)):
+        for m in PATTERN.finditer(text):
+            seen[m.group().strip()] = INSTEAD[int(m.lastgroup[1:])]
+    return seen.items()
+
+
+def files(root, under):
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", "--", *(under or PLACES)],
+                            cwd=root, capture_output=True, text=True)
+    if listed.returncode:  # not a repository, as in an unpacked archive
+        return sorted(p for p in root.rglob("*") if p.is_file())
+    return [root / name for name in listed.stdout.splitlines()]
+
+
+def allowed(name, line):
+    return any(name == file and re.search(pattern, line) for file, pattern in ALLOWED)
+
+
+def check(root, under=()):
+    """The complaints, one line each."""
+    complaints = []
+    for path in files(root, under):
+        if path.suffix not in KINDS or not path.is_file():
+            continue
+        name = str(path.relative_to(root))
+        for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+            if allowed(name, line):
+                continue
+            complaints += [f'{name}:{number}: "{word}" is not used here; write: {instead}'
+                           for word, instead in findings(line)]
+    return complaints
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    p.add_argument("--root", type=pathlib.Path, default=pathlib.Path("."))
+    p.add_argument("--under", nargs="*", default=[], help="only these files and folders")
+    p.add_argument("--count", action="store_true", help="print the number of complaints of each folder only")
+    a = p.parse_args()
+    complaints = check(a.root.resolve(), a.under)
+    if a.count:
+        folders = {}
+        for c in complaints:
+            folder = "/".join(c.split(":")[0].split("/")[:2])
+            folders[folder] = folders.get(folder, 0) + 1
+        print("\n".join(f"{n:5} {folder}" for folder, n in sorted(folders.items())))
+    else:
+        print("\n".join(complaints))
+    print(f"check_language: {len(complaints)} words that are not used" if complaints else "check_language: ok",
+          file=sys.stderr)
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
