@@ -119,7 +119,7 @@ SYSTEM = re.compile(
     r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
 )
 # Folders that are compiled several files at a time (CMakeLists.txt: FABA_UNITY).
-UNITY = {"field", "sim", "control", "app", "study", "cli"}
+UNITY = {"field", "sim", "control", "rig", "app", "study", "server", "cli"}
 ALONE = {"sim/agents/adapted.cpp", "sim/agents/basic.cpp", "sim/agents/dipole.cpp", "field/uniform.cpp", "app/parts.cpp"}
 SOURCES = (".h", ".cpp", ".c")
 MOST_FILES = 40

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMostOutput = 16u << 20;
 constexpr int kPollMs = 100;
 constexpr double kTellEvery = 0.2;  // s
-constexpr double kPatience = 5;     // s that a job may take to stop before it is killed
+constexpr double kKillAfter = 5;     // s that a job may take to stop before it is killed
 constexpr int kProgressFd = 3;
 constexpr std::size_t kKept = 100;  // jobs that are remembered
 
@@ -244,7 +244,7 @@ void JobList::carry_out(Job& job, const std::stop_token& stop) {
       asked = Clock::now();
       ::kill(process.pid, SIGINT);
     }
-    if (asked && !killed && since(*asked) > kPatience) {
+    if (asked && !killed && since(*asked) > kKillAfter) {
       killed = true;
       ::kill(process.pid, SIGKILL);
     }

@@ -1,20 +1,15 @@
 #include "server/live_lab.h"
 
 #include <cmath>
-#include <random>
 
+#include "app/run/random_seed.h"
 #include "server/shown_run.h"
 
 namespace faba {
 namespace {
 
-constexpr double kTellEvery = 0.5;  // s: how fast it really goes
+constexpr double kSpeedEvery = 0.5;  // s: how fast it really goes
 constexpr double kLate = 0.25;      // s: what a run may catch up with; the rest is given up
-
-std::uint64_t drawn_seed() {
-  std::random_device device;
-  return (std::uint64_t{device()} << 32 | device()) & 0xFFFFFFFFFFFFull;
-}
 
 Json box_json(const PictureBox& b) { return {b.left, b.top, b.right, b.bottom}; }
 
@@ -92,7 +87,7 @@ void LiveLab::keep_pace() {
   due_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period));
   if (now - due_ > std::chrono::duration<double>(kLate)) due_ = now;
   const double since = std::chrono::duration<double>(now - told_).count();
-  if (since < kTellEvery) return;
+  if (since < kSpeedEvery) return;
   const std::uint64_t frames = shown_->live.frame() - told_frame_;
   real_speed_ = double(frames) * shown_->live.scenario().frame_period() / since;
   told_ = now;
@@ -229,7 +224,7 @@ Json LiveLab::begin(const Document& d, std::uint64_t seed) {
 }
 
 void LiveLab::start(Document d, std::optional<std::uint64_t> seed, Done done) {
-  ask([this, d = std::move(d), seed] { return begin(d, seed.value_or(drawn_seed())); }, std::move(done));
+  ask([this, d = std::move(d), seed] { return begin(d, seed.value_or(random_seed())); }, std::move(done));
 }
 
 void LiveLab::restart(Done done) {

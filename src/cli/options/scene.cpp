@@ -1,7 +1,5 @@
 #include "cli/options/scene.h"
 
-#include <random>
-
 #include "app/files/from_picture.h"
 #include "core/error.h"
 
@@ -22,11 +20,6 @@ Document read_scene(const SceneOptions& v) {
   if (!d.root.contains("title"))
     d.set("title", Json(std::filesystem::path(v.scene).stem().string()), v.scene);
   return d;
-}
-
-std::uint64_t drawn_seed() {
-  std::random_device device;
-  return (std::uint64_t{device()} << 32 | device()) & 0xFFFFFFFFFFFFull;  // 48 bits
 }
 
 void refuse_own_input(const SceneOptions& v) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/recording/session.h"
+#include "app/run/random_seed.h"
 #include "app/scenario/read_scenario.h"
 #include "cli/command_line.h"
 #include "cli/options/scene.h"
@@ -26,7 +27,7 @@ std::string again_with(const SceneOptions& v, std::uint64_t seed) {
 int run(const SceneOptions& v, const Common& c) {
   const Scenario s = read_scenario(read_scene(v), builtin_parts());
 
-  const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
+  const std::uint64_t seed = s.params.seed.value_or(random_seed());
   Progress bar("simulating", !c.quiet && !c.json);
   RunOptions o;
   o.out = v.out;

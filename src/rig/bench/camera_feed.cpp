@@ -9,7 +9,7 @@
 namespace faba {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(1);  // for a camera's thread to end
+constexpr auto kEndTimeout = std::chrono::seconds(1);  // for a camera's thread to end
 
 }  // namespace
 
@@ -26,7 +26,7 @@ CameraFeed::~CameraFeed() {
   }
   camera_->interrupt();
   std::unique_lock lock(shared_->mutex);
-  const bool ended = shared_->came.wait_for(lock, kPatience, [&] { return shared_->left; });
+  const bool ended = shared_->came.wait_for(lock, kEndTimeout, [&] { return shared_->left; });
   lock.unlock();
   if (ended)
     thread_.join();

@@ -20,7 +20,7 @@
 namespace faba {
 namespace {
 
-constexpr double kPatience = 10;         // s for a device to be opened
+constexpr double kOpenTimeout = 10;         // s for a device to be opened
 constexpr double kAnswer = 2;            // s for what an open device is told
 constexpr double kSilent = 1;            // s without a report, of which ten a second come: it stands still
 constexpr double kEnding = 5;            // s for the coils to be brought to rest once more
@@ -67,7 +67,7 @@ GuardLink::GuardLink(const GuardSetup& setup, const std::filesystem::path& guard
   const std::string text = setup.to_json().dump();
   try {
     if (send(link_, text.data(), text.size(), MSG_NOSIGNAL) != ssize_t(text.size())) fail("does not listen");
-    const GuardReport first = wait_for([](const GuardReport&) { return true; }, kPatience);
+    const GuardReport first = wait_for([](const GuardReport&) { return true; }, kOpenTimeout);
     if (first.state == CoilGuard::State::faulted) fail(first.reason.data());
   } catch (...) {
     close_link();

@@ -6,6 +6,7 @@
 #include "app/bench/bench_session.h"
 #include "app/bench/open_bench.h"
 #include "app/recording/session.h"
+#include "app/run/random_seed.h"
 #include "cli/command_line.h"
 #include "cli/options/bench.h"
 #include "cli/progress.h"
@@ -35,7 +36,7 @@ void latency(std::uint64_t frames, const Manifest::Bench& b) {
 
 int rig_run(const RigRunVerb& v, const Common& c) {
   Scenario s = read_bench_scene(v.run);
-  const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
+  const std::uint64_t seed = s.params.seed.value_or(random_seed());
   require_arm(v.arm);
   Progress bar("on the bench", !c.quiet && !c.json);
   RunOptions o;

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/bench/simulated_bench.h"
+#include "app/run/random_seed.h"
 #include "cli/command_line.h"
 #include "cli/options/bench.h"
 #include "core/error.h"
@@ -20,7 +21,7 @@ struct SimulateVerb {
 
 int rig_simulate(const SimulateVerb& v, const Common& c) {
   const Scenario s = read_bench_scene(v.run);
-  const std::uint64_t seed = s.params.seed.value_or(drawn_seed());
+  const std::uint64_t seed = s.params.seed.value_or(random_seed());
   std::error_code ec;
   if (!v.run.force && std::filesystem::exists(v.log, ec))
     throw Error(Errc::usage, v.log.string(), "exists; choose another --log, or --force to replace it");

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/bench/step_response.h"
+#include "app/run/random_seed.h"
 #include "app/scenario/read_scenario.h"
 #include "cli/command_line.h"
 #include "cli/options/bench.h"
@@ -29,7 +30,7 @@ int rig_step_response(const StepResponseVerb& v, const Common& c) {
   if (v.repeat) job.scene.set("rig.step_response.repeat", *v.repeat, "--repeat");
   if (v.every) job.scene.set("rig.step_response.every", *v.every, "--every");
   const Scenario s = read_scenario(job.scene, builtin_parts());
-  job.seed = s.params.seed.value_or(drawn_seed());
+  job.seed = s.params.seed.value_or(random_seed());
   require_arm(v.arm);
   job.experiment = v.experiment;
   Progress bar("on the bench", !c.quiet && !c.json);

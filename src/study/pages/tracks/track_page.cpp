@@ -69,7 +69,7 @@ std::string drift(const TrackMeasurement& m) {
   return velocity(s.drift_x_px_s, m) + " right, " + velocity(s.drift_y_px_s, m) + " down";
 }
 
-std::string card(const std::string& name, const std::string& value, const std::string& detail) {
+std::string value_card(const std::string& name, const std::string& value, const std::string& detail) {
   return fmt::format("<div><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>\n", escape_markup(name),
                      escape_markup(value), escape_markup(detail));
 }
@@ -79,20 +79,20 @@ std::string row(const std::string& name, const std::string& value) {
 }
 
 std::string localisation_card(const TrackSummary& s) {
-  if (s.msd.size() < 2) return card("Localisation", "–", "sd of an axis");
-  if (s.localisation_px == 0) return card("Localisation", "–", "too small to be told");
-  return card("Localisation", number(s.localisation_px, "\u00A0px"), "sd of an axis");
+  if (s.msd.size() < 2) return value_card("Localisation", "–", "sd of an axis");
+  if (s.localisation_px == 0) return value_card("Localisation", "–", "too small to be told");
+  return value_card("Localisation", number(s.localisation_px, "\u00A0px"), "sd of an axis");
 }
 
 std::string cards(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
   const SupportedWalk walk = supported_walk(s);
   std::string out = "<dl class=\"cards\">\n";
-  out += card("Tracks", std::to_string(s.tracks),
+  out += value_card("Tracks", std::to_string(s.tracks),
               fmt::format("{} in {}", counted(s.points, "place"), counted(std::uint64_t(m.frames), "frame")));
-  if (walk == SupportedWalk::diffusion) out += card("Diffusion", diffusion(m), "± standard error");
-  if (walk == SupportedWalk::persistent) out += card("Speed of the walk", walk_speed(m), "root mean square");
-  out += card("Mean speed", mean_speed(m), s.speed_count > 0 ? "over " + number(s.interval_s, " s") : "");
+  if (walk == SupportedWalk::diffusion) out += value_card("Diffusion", diffusion(m), "± standard error");
+  if (walk == SupportedWalk::persistent) out += value_card("Speed of the walk", walk_speed(m), "root mean square");
+  out += value_card("Mean speed", mean_speed(m), s.speed_count > 0 ? "over " + number(s.interval_s, " s") : "");
   return out + localisation_card(s) + "</dl>\n";
 }
 
