@@ -15,7 +15,7 @@
 namespace faba {
 namespace {
 
-/// Writes flows and overlay of a video under temporary names and names them when all are whole.
+/// Writes flows and overlay of a video under temporary names and renames them when all are complete.
 class FlowOutputs {
  public:
   FlowOutputs(const FlowSource& source, const std::filesystem::path& video, const FlowJob& job) : job_(job) {
@@ -42,7 +42,7 @@ class FlowOutputs {
     if (!overlay_) return;
     if (p.image.empty())
       throw Error(Errc::usage, "--overlay",
-                  "needs the frames, and a file of flows holds none; give the video");
+                  "a flow file contains no frames; give the video");
     if (full_ <= 0) full_ = full_speed(p.flow);  // one scale for all frames
     FlowDrawing how;
     how.full_px = full_;
