@@ -201,7 +201,7 @@ Figure posterior_figure(const FoundParameter& p) {
     for (const double x : p.draws)
       count[std::size_t(std::clamp(int((q.shown(x) - from) / step), 0, kBins - 1))] +=
           1 / (double(p.draws.size()) * step);
-  Line steps{.x = {}, .y = {}, .label = {}, .ink = Ink::blue, .held = true};
+  Line steps{.x = {}, .y = {}, .label = {}, .ink = Ink::blue, .stairs = true};
   for (int i = 0; i <= kBins; ++i) {
     steps.x.push_back(from + i * step);
     steps.y.push_back(i < kBins ? count[std::size_t(i)] : 0);

@@ -16,7 +16,7 @@ constexpr int kLatencyBins = 92;                     // 20 per decade
 // Histogram of latencies as a staircase; values outside the axis are counted in the first or last bin.
 Line latency_histogram(std::span<const double> ms, std::string label) {
   Line line{
-      .x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .held = true};
+      .x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .stairs = true};
   const double step = std::log(kLongest / kShortest) / kLatencyBins;
   for (int i = 0; i <= kLatencyBins; ++i) line.x.push_back(kShortest * std::exp(step * i));
   for (const double v : ms)

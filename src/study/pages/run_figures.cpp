@@ -251,7 +251,7 @@ double add_command(Plot& plot, const Values& t, const Values& v, const Line& sty
     Line line = style;
     line.x = t;
     line.y = v;
-    line.held = true;
+    line.stairs = true;
     line.width = 1.4;
     plot.add(std::move(line));
     return 0;

@@ -110,7 +110,7 @@ std::string table(const TrackMeasurement& m) {
   out += row("Background", d.temporal ? fmt::format("median of {} frames, with {} stationary spots",
                                                     d.background_frames, d.still_spots)
                                       : "spatial, from each frame");
-  out += row("Linking", fmt::format("reach {}, {} prediction, memory {} frames; {} tracks with fewer than {} points ignored",
+  out += row("Linking", fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
                                    number(t.reach_px, " px"), word_of(t.motion), t.memory_frames,
                                    t.unsure_tracks, t.least_points));
   out += row("Drift", drift(m));
