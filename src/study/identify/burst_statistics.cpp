@@ -23,8 +23,8 @@ struct BurstNumber {
   double blur;
 };
 constexpr BurstNumber kBurstNumbers[] = {{"10 % of speeds along", 0.1}, {"median speed along", 0.05},
-                                  {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
-                                  {"median step", 0.3},          {"cells followed", 0.3}};
+                                         {"90 % of speeds along", 0.1}, {"spread of speeds across", 0.2},
+                                         {"median step", 0.3},          {"cells followed", 0.3}};
 
 /// Statistics of short tracks: velocities along and across the direction of the segment, and displacements
 /// per frame, which diffusion makes larger than the mean velocity. Speeds in px per frame.

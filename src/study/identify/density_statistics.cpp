@@ -13,9 +13,9 @@ constexpr double kLogOffset = 0.02;  // added to the fraction in view before the
 constexpr const char* kDensityNumbers[] = {"cells in view", "10 % along", "median along", "90 % along",
                                            "width across"};
 constexpr int kTimesPerSegment = 6;
-// Model error (sd) of the logarithm of the cell count: the count in a dense group depends on the appearance of
-// single cells. At the true parameters, simulations of experiments 0 and 1 of bench/recovery.py had counts 6 %
-// above those of the videos at equal width and strength.
+// Model error (sd) of the logarithm of the cell count: the count in a dense group depends on the appearance
+// of single cells. At the true parameters, simulations of experiments 0 and 1 of bench/recovery.py had counts
+// 6 % above those of the videos at equal width and strength.
 constexpr double kCountError = 0.1;
 // Model error (sd) of the logarithm of the signal in view, for dense groups at the dark edge of a drop.
 constexpr double kSignalError = 0.05;
@@ -58,8 +58,8 @@ class LightProfile {
   std::vector<double> mass_;
 };
 
-/// Statistics at six times of each segment: signal in view, 10, 50 and 90 % quantiles of the position along the
-/// direction of the segment, and width across it. The last statistic is the number of cells.
+/// Statistics at six times of each segment: signal in view, 10, 50 and 90 % quantiles of the position along
+/// the direction of the segment, and width across it. The last statistic is the number of cells.
 class DensityStatistics final : public EpisodeStatistics {
  public:
   DensityStatistics(const Episode& episode, const CellView& view);
@@ -122,7 +122,7 @@ std::vector<double> DensityStatistics::of_positions(const std::vector<std::vecto
 }
 
 std::vector<double> DensityStatistics::statistics_of(const std::vector<std::vector<Mass>>& seen,
-                                              double cells) const {
+                                                     double cells) const {
   std::vector<double> mass;
   double mean = 0;
   for (const auto& one : seen) {
@@ -142,7 +142,8 @@ std::vector<double> DensityStatistics::statistics_of(const std::vector<std::vect
     }
     a.add_uniform(kUniform * mean);
     b.add_uniform(kUniform * mean);
-    out.push_back(mean > 0 ? std::log(kLogOffset + mass[k] / mean) : std::numeric_limits<double>::quiet_NaN());
+    out.push_back(mean > 0 ? std::log(kLogOffset + mass[k] / mean)
+                           : std::numeric_limits<double>::quiet_NaN());
     for (const double p : {0.1, 0.5, 0.9}) out.push_back(a.quantile(p));
     out.push_back(b.quantile(0.9) - b.quantile(0.1));
   }

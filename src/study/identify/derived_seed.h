@@ -16,9 +16,9 @@ enum class SeedUse {
 
 inline constexpr std::uint64_t kBestModelSeed = 5, kFoundModelSeeds = 77, kSearchSeeds = 1000;
 
-/// Seed for a purpose. `seed` is the seed of the search for `proposal` and `truncation`, the seed of the found
-/// model for `left_out`, and the seed of the study otherwise. The numbers determine the results of studies; do
-/// not change them.
+/// Seed for a purpose. `seed` is the seed of the search for `proposal` and `truncation`, the seed of the
+/// found model for `left_out`, and the seed of the study otherwise. The numbers determine the results of
+/// studies; do not change them.
 constexpr std::uint64_t derived_seed(std::uint64_t seed, SeedUse use, std::size_t index = 0) {
   switch (use) {
     case SeedUse::proposal:
@@ -38,8 +38,8 @@ constexpr std::uint64_t derived_seed(std::uint64_t seed, SeedUse use, std::size_
 }
 
 // The seeds of all posteriors are different for up to 12 candidates and 75 experiments: best model 5; found
-// models 77 (c + 1) to 77 (c + 1) + 75; searches from 1000. With more, the Markov chains of two candidates can
-// have equal random numbers, which correlates their Monte Carlo errors.
+// models 77 (c + 1) to 77 (c + 1) + 75; searches from 1000. With more, the Markov chains of two candidates
+// can have equal random numbers, which correlates their Monte Carlo errors.
 static_assert(kBestModelSeed < kFoundModelSeeds);
 static_assert(derived_seed(derived_seed(0, SeedUse::found_model, 0), SeedUse::left_out, 74) <
               derived_seed(0, SeedUse::found_model, 1));

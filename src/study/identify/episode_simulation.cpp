@@ -43,7 +43,8 @@ Json field_along(double direction_deg, double strength_t, bool north) {
 /// Records the frames or cell positions at the times of the statistics.
 class EpisodeSink final : public Sink {
  public:
-  EpisodeSink(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s, Look look)
+  EpisodeSink(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s,
+              Look look)
       : simulation_(simulation), look_(look) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       const double frame = std::round((times[i] + lead_s) * s.camera.rate);
@@ -143,8 +144,8 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
 }
 
 EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
-                             const std::vector<double>& times_s, Look look,
-                             const std::shared_ptr<const VideoGround>& ground) {
+                                    const std::vector<double>& times_s, Look look,
+                                    const std::shared_ptr<const VideoGround>& ground) {
   Pool pool(1);
   Scenario scenario = s;
   scenario.record = {};

@@ -27,8 +27,8 @@ SegmentTiming exact_timing(const Episode& episode);
 /// one frame only, in which a cell can swim tens of pixels.
 SegmentTiming random_timing(const Episode& episode, double sd_s, std::uint64_t seed);
 
-/// Scenario of an episode: arena, illumination, noise, field of view, initial cell positions, and the field of
-/// its segments. Before the first segment the field is opposite to it and the cells are aligned; without a
+/// Scenario of an episode: arena, illumination, noise, field of view, initial cell positions, and the field
+/// of its segments. Before the first segment the field is opposite to it and the cells are aligned; without a
 /// boundary the field is zero and the headings are random.
 Document episode_scenario(const ResponseVideo& video, const Episode& episode, const EpisodeSettings& settings,
                           const SegmentTiming& timing);
@@ -46,7 +46,7 @@ struct EpisodeObservation {
 };
 /// Simulates an episode on the calling thread. `lead_s` as in SegmentTiming.
 EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
-                             const std::vector<double>& times_s, Look look,
-                             const std::shared_ptr<const VideoGround>& ground);
+                                    const std::vector<double>& times_s, Look look,
+                                    const std::shared_ptr<const VideoGround>& ground);
 
 }  // namespace faba

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kResamples = 1000;
-constexpr double kStep = 0.5;                   // of finite differences, in sd of the posterior
+constexpr double kStep = 0.5;                  // of finite differences, in sd of the posterior
 constexpr double kUniformVariance = 1.0 / 12;  // of the prior; it bounds parameters without information
 
 /// Quadratic approximation of a log-likelihood at a point: gradient and negative Hessian.

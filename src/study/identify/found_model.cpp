@@ -29,14 +29,14 @@ VectorXd noise_of(const ParameterSearch& s) {
 
 namespace {
 
-constexpr int kDraws = 1000;                // samples of a posterior
-constexpr int kPredictions = 200;           // predictive samples of an experiment
-constexpr double kLevel = 0.90;             // of the credible intervals
-constexpr int kProfile = 41;                // points of a profile likelihood
-constexpr double kUninformative = 0.75;     // fraction of the prior range; a uniform posterior has 0.9
-constexpr double kMaxCorrelation = 0.9;     // above it two parameters are not identifiable separately
-constexpr double kLimitTolerance = 0.005;   // fraction of the prior range
-constexpr double kMaxBootstrapWidth = 2;    // over the posterior width; three sd for four equal experiments
+constexpr int kDraws = 1000;               // samples of a posterior
+constexpr int kPredictions = 200;          // predictive samples of an experiment
+constexpr double kLevel = 0.90;            // of the credible intervals
+constexpr int kProfile = 41;               // points of a profile likelihood
+constexpr double kUninformative = 0.75;    // fraction of the prior range; a uniform posterior has 0.9
+constexpr double kMaxCorrelation = 0.9;    // above it two parameters are not identifiable separately
+constexpr double kLimitTolerance = 0.005;  // fraction of the prior range
+constexpr double kMaxBootstrapWidth = 2;   // over the posterior width; three sd for four equal experiments
 
 double weighted_quantile(const VectorXd& v, const VectorXd& weight, double p) {
   std::vector<Index> order(std::size_t(v.size()));
@@ -99,7 +99,8 @@ std::string range_limit_warning(const FoundParameter& p) {
   const double low = q.fraction(p.ci90[0]), high = q.fraction(p.ci90[1]);
   const auto warning = [&](const char* which, double value) {
     return fmt::format(
-        "the 90 % interval of {} reaches the {} limit of its prior range, {:.3g}{}{}: repeat with a wider range",
+        "the 90 % interval of {} reaches the {} limit of its prior range, {:.3g}{}{}: repeat with a wider "
+        "range",
         q.path, which, q.shown(value), q.shown_unit().empty() ? "" : " ", q.shown_unit());
   };
   if (!q.low_is_limit && low < kLimitTolerance) return warning("lower", q.low);
@@ -124,18 +125,18 @@ void add_doubts(FoundModel& m, const MatrixXd& draws) {
     for (Index k = 0; k < draws.cols(); ++k) {
       const double r = off.col(j).dot(off.col(k)) / (off.col(j).norm() * off.col(k).norm());
       if (k != j && std::fabs(r) > kMaxCorrelation)
-        p.doubt =
-            fmt::format("{} and {} are not identifiable separately: posterior correlation {:.2f}",
-                        p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
+        p.doubt = fmt::format("{} and {} are not identifiable separately: posterior correlation {:.2f}",
+                              p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
     }
     const FreeParameter& q = p.parameter;
     add_doubt(p, range_limit_warning(p));
     if (p.abc_ci90[0] > p.ci90[1] || p.abc_ci90[1] < p.ci90[0])
       add_doubt(p, fmt::format("the 90 % intervals of {} from the synthetic likelihood and from approximate "
-                               "Bayesian computation do not overlap: neither is reliable", q.path));
-    const bool differ =
-        p.resampled90 && ((*p.resampled90)[1] - (*p.resampled90)[0] > kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]) ||
-                          p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
+                               "Bayesian computation do not overlap: neither is reliable",
+                               q.path));
+    const bool differ = p.resampled90 && ((*p.resampled90)[1] - (*p.resampled90)[0] >
+                                              kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]) ||
+                                          p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
     if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
           "{} differs between experiments by more than the model predicts: 90 % bootstrap interval over "
@@ -231,11 +232,12 @@ void judge(Identification& r) {
   r.best = order[0];
   const FoundModel& best = r.models[r.best];
   r.evidence = "none";
-  const std::string poor = best.fit_p < 0.01 ? fmt::format(
-                                                   " {} does not explain the videos: only {:.1g} % of its "
-                                                   "simulations deviate from their mean as much as the videos.",
-                                                   best.name, 100 * best.fit_p)
-                                             : "";
+  const std::string poor = best.fit_p < 0.01
+                               ? fmt::format(
+                                     " {} does not explain the videos: only {:.1g} % of its "
+                                     "simulations deviate from their mean as much as the videos.",
+                                     best.name, 100 * best.fit_p)
+                               : "";
   if (order.size() < 2) {
     r.words = "Only one model was identified; there is no comparison of models." + poor;
     return;
@@ -247,8 +249,10 @@ void judge(Identification& r) {
   for (const double x : lead) r.score_lead += x / n;
   if (n < 2) {
     r.words =
-        fmt::format("No evidence: a comparison needs at least two experiments. The energy score of {} is lower than "
-                    "that of {}.", best.name, next.name) +
+        fmt::format(
+            "No evidence: a comparison needs at least two experiments. The energy score of {} is lower than "
+            "that of {}.",
+            best.name, next.name) +
         poor;
     return;
   }
@@ -264,13 +268,13 @@ void judge(Identification& r) {
   const std::string lead_words =
       fmt::format("the energy score of {} is lower by {:.3g} per experiment (95 % interval {:.3g} to {:.3g})",
                   best.name, r.score_lead, (*r.score_lead_ci95)[0], (*r.score_lead_ci95)[1]);
-  r.words = (r.evidence == "clear" ? fmt::format("Clear evidence for {} over {}: {}.", best.name,
-                                                 next.name, lead_words)
-             : r.evidence == "weak"
-                 ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
-                 : fmt::format("No evidence for {} over {}: {}.{}", best.name, next.name,
-                               lead_words, simpler)) +
-            poor;
+  r.words =
+      (r.evidence == "clear"
+           ? fmt::format("Clear evidence for {} over {}: {}.", best.name, next.name, lead_words)
+       : r.evidence == "weak"
+           ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
+           : fmt::format("No evidence for {} over {}: {}.{}", best.name, next.name, lead_words, simpler)) +
+      poor;
 }
 
 }  // namespace faba

@@ -10,8 +10,10 @@
 namespace faba {
 namespace {
 
-constexpr double kReversal = 0.25;  // fraction of the range that the swarm must move back to count as a reversal
-constexpr double kOnsetLow = 0.05, kOnsetHigh = 0.25;  // fractions of a segment's path: extrapolation to its start
+constexpr double kReversal =
+    0.25;  // fraction of the range that the swarm must move back to count as a reversal
+constexpr double kOnsetLow = 0.05,
+                 kOnsetHigh = 0.25;  // fractions of a segment's path: extrapolation to its start
 
 constexpr double kMinDuration = 0.4;     // s: of a constant field
 constexpr double kFieldOn = 0.2;         // fraction of the maximum field strength
@@ -31,8 +33,8 @@ double main_axis(const std::vector<Vec2>& p) {
   return 0.5 * std::atan2(2 * c.xy, c.xx - c.yy);
 }
 
-/// Indices of the turning points of q, which end its monotonic sections longer than `least`. Empty when there is
-/// no such section.
+/// Indices of the turning points of q, which end its monotonic sections longer than `least`. Empty when there
+/// are no such sections.
 std::vector<std::size_t> turning_points(const std::vector<double>& q, double least) {
   std::vector<std::size_t> turns;
   std::size_t lowest = 0, highest = 0;  // of the current section
@@ -107,13 +109,14 @@ std::vector<FieldSegment> segments_of_field(const Series& record, bool against) 
   std::vector<FieldSegment> segments;
   Vec2 sum;
   std::size_t from = 0;
-  // A row holds the field before the command of that row takes effect, so the field changed directly after the
-  // row before the first row with the new value.
+  // A row holds the field before the command of that row takes effect, so the field changed directly after
+  // the row before the first row with the new value.
   const auto close = [&](std::size_t at) {
     const double start = t[from > 0 ? from - 1 : 0], end = t[at - 1];
     if (end - start >= kMinDuration) {
       const Vec2 direction = against ? -1 * sum : sum;
-      const double deg = std::atan2(-direction.y, direction.x) * 180 / std::numbers::pi;  // y is down in pictures
+      const double deg =
+          std::atan2(-direction.y, direction.x) * 180 / std::numbers::pi;  // y is down in pictures
       segments.push_back({start, end, std::fmod(deg + 360, 360), norm(sum) / double(at - from) * 1e-6});
     }
     sum = {};
@@ -128,7 +131,8 @@ std::vector<FieldSegment> segments_of_field(const Series& record, bool against) 
     sum = sum + b;
   }
   if (norm(sum) > 0) close(t.size());
-  if (segments.size() > 1 && segments.front().t0_s < t.front() + kMinDuration) segments.erase(segments.begin());
+  if (segments.size() > 1 && segments.front().t0_s < t.front() + kMinDuration)
+    segments.erase(segments.begin());
   return segments;
 }
 

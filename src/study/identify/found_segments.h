@@ -9,10 +9,10 @@
 
 namespace faba {
 
-/// Detects field segments from the path of a swarm that swims back and forth along a line. A segment starts when
-/// the swarm leaves one side, extrapolated from 5 % and 25 % of its path, and lasts until the next segment or the
-/// end of the video. The time before the first segment is ignored. Empty when the swarm moves less than
-/// `least_px`. `centroid_image`: centroid at each time, NaN where no swarm is visible.
+/// Detects field segments from the path of a swarm that swims back and forth along a line. A segment starts
+/// when the swarm leaves one side, extrapolated from 5 % and 25 % of its path, and lasts until the next
+/// segment or the end of the video. The time before the first segment is ignored. Empty when the swarm moves
+/// less than `least_px`. `centroid_image`: centroid at each time, NaN where no swarm is visible.
 std::vector<FieldSegment> segments_of_swarm(const std::vector<double>& t_s,
                                             const std::vector<Vec2>& centroid_image, double least_px);
 
@@ -21,8 +21,8 @@ std::vector<FieldSegment> segments_of_swarm(const std::vector<double>& t_s,
 /// `against`: cells swim against the field (south-seeking). Empty when the record has no field.
 std::vector<FieldSegment> segments_of_field(const Series& record, bool against);
 
-/// Segments of a video with motion in one direction (see motion_segments()). `fps` as in VideoReader; frames are
-/// averaged over squares of `side` px. `tick` is called after each pair of frames. Throws the errors of
+/// Segments of a video with motion in one direction (see motion_segments()). `fps` as in VideoReader; frames
+/// are averaged over squares of `side` px. `tick` is called after each pair of frames. Throws the errors of
 /// measure_activity().
 std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, double fps, int side,
                                              const std::function<void()>& tick);

@@ -108,16 +108,19 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   }
   const Json& s = *d.schema;
   if (!s.contains("minimum") || !s.contains("maximum"))
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not a number with a range, so it cannot be a free parameter");
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                "is not a number with a range, so it cannot be a free parameter");
   FreeParameter p{
       .path = path, .unit = s.value("x-unit", ""), .integer = s["type"] == "integer", .role = role_of(s)};
   const double least = s["minimum"].get<double>(), most = s["maximum"].get<double>();
   p.low = least;
   p.high = most;
   if (given && *given == false)
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "false is not permitted; remove the entry, or give true or [lowest, highest]");
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                "false is not permitted; remove the entry, or give true or [lowest, highest]");
   if ((!given || given->is_boolean()) && p.integer)
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "an integer parameter needs a range, such as [50, 1000]");
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                "an integer parameter needs a range, such as [50, 1000]");
   const bool all = !given || given->is_boolean();
   if (all) {
     const double default_value = s.contains("default") ? quantity_of(s["default"], p) : 0;
@@ -140,11 +143,11 @@ FreeParameter read_one(const std::string& path, const Node& n, const Json* given
   }
   const std::string unit = p.shown_unit().empty() ? "" : " " + p.shown_unit();
   if (!(p.low < p.high))
-    n.fail(fmt::format("{}: must be [lowest, highest] with lowest < highest, not {:g} to {:g}{}", path, p.shown(p.low),
-                       p.shown(p.high), unit));
+    n.fail(fmt::format("{}: must be [lowest, highest] with lowest < highest, not {:g} to {:g}{}", path,
+                       p.shown(p.low), p.shown(p.high), unit));
   if (!(p.low >= least) || !(p.high <= most))
-    n.fail(fmt::format("{}: {:g} to {:g} is out of range; it must be a range within {:g} to {:g}{}", path, p.shown(p.low),
-                       p.shown(p.high), p.shown(least), p.shown(most), unit));
+    n.fail(fmt::format("{}: {:g} to {:g} is out of range; it must be a range within {:g} to {:g}{}", path,
+                       p.shown(p.low), p.shown(p.high), p.shown(least), p.shown(most), unit));
   p.low_is_limit = p.low <= least;
   p.high_is_limit = p.high >= most;
   return p;
@@ -219,8 +222,7 @@ std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& sc
   } else {
     free.fail("must be a list of paths or a table of paths and bounds");
   }
-  if (all.size() > 8)
-    free.fail(fmt::format("{} free parameters are too many; the maximum is 8", all.size()));
+  if (all.size() > 8) free.fail(fmt::format("{} free parameters are too many; the maximum is 8", all.size()));
   return all;
 }
 

@@ -32,8 +32,9 @@ struct FoundModel {
   std::string name;
   std::string failed;  ///< reason of a failed identification; else empty
   std::vector<FoundParameter> parameters;
-  double score = 0;            ///< mean of the energy scores
-  std::vector<double> scores;  ///< energy score of each experiment, predicted from the others; lower is better
+  double score = 0;  ///< mean of the energy scores
+  std::vector<double>
+      scores;  ///< energy score of each experiment, predicted from the others; lower is better
   /// Fraction of the simulations of this model that deviate from their mean as much as the observation. Below
   /// 0.01 the model does not explain the videos.
   double fit_p = 0;
@@ -55,9 +56,9 @@ struct LegacySimulation {
 
 /// Selection rule of the 2016 thesis for one model (theory A19), reproduced including its errors: five values
 /// of the first free parameter and three simulations of each, compared with the first segment of every
-/// episode and rendered without camera noise; a line fit of each distance over the frames; a line fit of these
-/// slopes over the values. The rule selects the value at which the second line is zero. It is not reliable: a
-/// constant distance has slope zero, however large it is (theory E1).
+/// episode and rendered without camera noise; a line fit of each distance over the frames; a line fit of
+/// these slopes over the values. The rule selects the value at which the second line is zero. It is not
+/// reliable: a constant distance has slope zero, however large it is (theory E1).
 struct LegacyModel {
   std::string name;
   FreeParameter parameter;
@@ -67,7 +68,7 @@ struct LegacyModel {
   std::optional<std::array<double, 2>> zero_ci95;  ///< Fieller interval; empty when it is unbounded
   double mean = 0, sd = 0;                         ///< of the mean distances of all simulations
   double least_distance_at = 0;                    ///< value with the smallest mean distance: a better rule
-  std::string meaningless;  ///< why the result is invalid; else empty
+  std::string meaningless;                         ///< why the result is invalid; else empty
 };
 
 struct Identification {
@@ -84,8 +85,8 @@ struct Identification {
   std::vector<std::string> experiments;  ///< in the order of FoundModel::scores
   std::vector<FoundModel> models;
   std::size_t best = 0;
-  std::string evidence;  ///< "clear", "weak" or "none"
-  std::string words;     ///< the evidence as a sentence
+  std::string evidence;   ///< "clear", "weak" or "none"
+  std::string words;      ///< the evidence as a sentence
   double score_lead = 0;  ///< mean difference of energy scores per experiment: second-best minus best model
   std::optional<std::array<double, 2>> score_lead_ci95;
   std::vector<LegacyModel> legacy;  ///< rule of the thesis for each candidate, when requested

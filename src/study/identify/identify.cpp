@@ -117,7 +117,11 @@ class Round {
  public:
   Round(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos, const Observed& observed,
         const Parts& parts)
-      : study_(study), videos_(videos), observed_(observed), parts_(parts), observed_digest_(digest(observed.numbers)) {}
+      : study_(study),
+        videos_(videos),
+        observed_(observed),
+        parts_(parts),
+        observed_digest_(digest(observed.numbers)) {}
 
   /// Adds simulations of candidate `candidate`, one for each row of `u` and each episode.
   void add(const Candidate& c, const MatrixXd& u, std::size_t candidate, std::size_t number) {
@@ -193,7 +197,7 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
 // The magnetic moment is estimated from the duration of U-turns; a U-turn shorter than a frame carries no
 // information.
 void add_u_turn_doubt(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
-                 const std::vector<ResponseVideo>& videos) {
+                      const std::vector<ResponseVideo>& videos) {
   const ResponseVideo& v = videos.front();
   for (FoundParameter& p : m.parameters) {
     if (p.parameter.role != Role::coupling || p.doubt.empty()) continue;
@@ -211,7 +215,7 @@ void add_u_turn_doubt(FoundModel& m, const IdentifyStudy& study, const Candidate
 // Posterior predictive intervals of the best model. False when the sweep was stopped.
 bool predict(const IdentifyStudy& study, Identification& r, const ParameterSearch& search, const Observed& o,
              const Parts& parts, ResultStore& results, const SweepOptions& options) {
-  constexpr int kPredictive = 40;  // simulations
+  constexpr int kPredictive = 40;           // simulations
   constexpr std::size_t kNumber = 1000000;  // round number that no search reaches
   const MatrixXd u = search.posterior({}, kPredictive, derived_seed(study.seed, SeedUse::best_model));
   Round round(study, r.videos, o, parts);
@@ -237,16 +241,18 @@ void check_same_camera(const std::vector<ResponseVideo>& videos) {
       return std::abs(a * v.side - b * first.side) >= std::max(v.side, first.side);
     };
     if (differs(v.view.width, first.view.width) || differs(v.view.height, first.view.height))
-      throw Error(Errc::input, v.input.file.string(),
-                  fmt::format("frame size {} x {} px differs from {} x {} px of {}; all videos of a study must come "
-                              "from one camera",
-                              v.view.width * v.side, v.view.height * v.side, first.view.width * first.side,
-                              first.view.height * first.side, first.input.file.string()));
+      throw Error(
+          Errc::input, v.input.file.string(),
+          fmt::format("frame size {} x {} px differs from {} x {} px of {}; all videos of a study must come "
+                      "from one camera",
+                      v.view.width * v.side, v.view.height * v.side, first.view.width * first.side,
+                      first.view.height * first.side, first.input.file.string()));
     if (std::fabs(v.fps / first.fps - 1) > 0.01)
-      throw Error(Errc::input, v.input.file.string(),
-                  fmt::format("frame rate {:.4g} Hz differs from {:.4g} Hz of {}; all videos of a study must have "
-                              "one rate",
-                              v.fps, first.fps, first.input.file.string()));
+      throw Error(
+          Errc::input, v.input.file.string(),
+          fmt::format("frame rate {:.4g} Hz differs from {:.4g} Hz of {}; all videos of a study must have "
+                      "one rate",
+                      v.fps, first.fps, first.input.file.string()));
   }
 }
 
@@ -262,9 +268,9 @@ void note_field_strength(const IdentifyStudy& study, ResponseVideo& v) {
       return;
     }
     if (v.field_t && std::fabs(t / *v.field_t - 1) > kSame)
-      v.notes.push_back(
-          fmt::format("recorded field strength {:.4g} uT; {} is simulated with {:.4g} uT, as given in the study",
-                      1e6 * *v.field_t, c.model.name, 1e6 * t));
+      v.notes.push_back(fmt::format(
+          "recorded field strength {:.4g} uT; {} is simulated with {:.4g} uT, as given in the study",
+          1e6 * *v.field_t, c.model.name, 1e6 * t));
   }
 }
 

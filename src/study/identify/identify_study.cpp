@@ -42,11 +42,13 @@ struct IdentifyFile {
         .add("boundary", &IdentifyFile::boundary,
              {.doc = "Boundary that confines the cells", .choices = {"drop", "box", "none"}})
         .add("look", &IdentifyFile::look,
-             {.doc = "How simulations are observed: as frames rendered through the microscope, like the videos, or as "
+             {.doc = "How simulations are observed: as frames rendered through the microscope, like the "
+                     "videos, or as "
                      "positions of the cells, which is faster but has no camera effects",
               .choices = {"video", "positions"}})
         .add("measure", &IdentifyFile::measure,
-             {.doc = "Statistics for the comparison: distribution of the swarm in the picture (density), or motion of "
+             {.doc = "Statistics for the comparison: distribution of the swarm in the picture (density), or "
+                     "motion of "
                      "cells in short tracks (tracks); default: tracks without a boundary, else density",
               .choices = {"density", "tracks"}})
         .add("simulations", &IdentifyFile::simulations,
@@ -54,8 +56,7 @@ struct IdentifyFile {
         .add("legacy", &IdentifyFile::legacy,
              {.doc = "Apply the selection rule of the 2016 thesis as well; it is not reliable"})
         .add("um_per_px", &IdentifyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
-        .add("scale", &IdentifyFile::scale,
-             {.doc = "Calibration file of `faba scale`, instead of um_per_px"})
+        .add("scale", &IdentifyFile::scale, {.doc = "Calibration file of `faba scale`, instead of um_per_px"})
         .add("reversal", &IdentifyFile::reversal,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "Time of the field reversal"})
         .add("direction", &IdentifyFile::direction,
@@ -63,14 +64,16 @@ struct IdentifyFile {
               .min = -360,
               .max = 360,
               .doc = "Swimming direction after the field reversal: 0 right, 90 down in the picture"})
-        .add("duration", &IdentifyFile::duration,
-             {.unit = "s", .min = 0.1, .max = 1e6, .doc = "Duration of the analysis after the field reversal"})
+        .add(
+            "duration", &IdentifyFile::duration,
+            {.unit = "s", .min = 0.1, .max = 1e6, .doc = "Duration of the analysis after the field reversal"})
         .add("timing", &IdentifyFile::timing,
              {.unit = "s",
               .min = 0,
               .max = 10,
-              .doc = "Standard deviation of the times of field reversals; default: 0.58 frames (uniform within "
-                     "one frame), or 1.5 frames for segments that are detected in the video"})
+              .doc =
+                  "Standard deviation of the times of field reversals; default: 0.58 frames (uniform within "
+                  "one frame), or 1.5 frames for segments that are detected in the video"})
         .add("field_strength", &IdentifyFile::field_strength,
              {.unit = "T",
               .min = 0,
@@ -104,7 +107,8 @@ struct VideoFile {
   static Schema<VideoFile> schema() {
     return Schema<VideoFile>("video", "A video of an experiment")
         .add("file", &VideoFile::file, {.doc = "Video or run directory; relative to the study file"})
-        .add("experiment", &VideoFile::experiment, {.doc = "Name of the experiment (one drop) that the video belongs to"})
+        .add("experiment", &VideoFile::experiment,
+             {.doc = "Name of the experiment (one drop) that the video belongs to"})
         .add("exposure", &VideoFile::exposure,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "Air exposure time before the video"})
         .add("fps", &VideoFile::fps,
@@ -141,8 +145,7 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   double last = 0;
   for (const SegmentFile& d : v.segment) {
     if (!(d.to > d.from) || d.from < last)
-      n.fail(
-          "field segments must be in order of time, must not overlap, and must end after they start");
+      n.fail("field segments must be in order of time, must not overlap, and must end after they start");
     r.segments.push_back({d.from, last = d.to, d.direction});
   }
   return r;
@@ -211,7 +214,8 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
         values += fmt::format("{}{} = {:.4g}{}{}", values.empty() ? "" : ", ", p.path, p.shown(p.value(u)),
                               p.shown_unit().empty() ? "" : " ", p.shown_unit());
       throw Error(Errc::usage, c.model.origin,
-                  fmt::format("the free ranges permit {}, which is not valid: {}; give narrower ranges", values, e.what()));
+                  fmt::format("the free ranges permit {}, which is not valid: {}; give narrower ranges",
+                              values, e.what()));
     }
   }
   return c;
@@ -350,9 +354,8 @@ std::string study_hash(const IdentifyStudy& study) {
     }
     for (const FreeParameter& p : c.free) {
       h.text(p.path);
-      for (const double x :
-           {p.low, p.high, p.stretch, p.normal_prior ? p.normal_prior->mean : 0,
-            p.normal_prior ? p.normal_prior->sd : 0})
+      for (const double x : {p.low, p.high, p.stretch, p.normal_prior ? p.normal_prior->mean : 0,
+                             p.normal_prior ? p.normal_prior->sd : 0})
         h.value(x);
     }
   }

@@ -36,8 +36,8 @@ struct IdentifyStudy {
   Measure measure = Measure::density;
   int simulations = 600;  ///< per episode and candidate
   bool legacy = false;    ///< apply the rule of the thesis as well
-  /// Standard deviation of the times of field reversals, s. Empty: 0.58 frames, or 1.5 frames for segments that
-  /// are detected in the video.
+  /// Standard deviation of the times of field reversals, s. Empty: 0.58 frames, or 1.5 frames for segments
+  /// that are detected in the video.
   std::optional<double> timing_s;
   Json scene = Json::object();
   std::vector<ResponseInput> videos;

@@ -12,10 +12,10 @@
 namespace faba {
 namespace {
 
-constexpr int kIterations = 4;             // each one reduces the error several times
-constexpr double kIsolation = 2.5;         // distance of an isolated cell to its neighbours, cell widths
-constexpr std::size_t kMinIsolated = 5;    // isolated cells
-constexpr double kInitialContrast = 0.4;   // positive for bright cells, negative for dark ones
+constexpr int kIterations = 4;            // each one reduces the error several times
+constexpr double kIsolation = 2.5;        // distance of an isolated cell to its neighbours, cell widths
+constexpr std::size_t kMinIsolated = 5;   // isolated cells
+constexpr double kInitialContrast = 0.4;  // positive for bright cells, negative for dark ones
 constexpr double kFaintest = 0.02, kDarkest = 0.95, kBrightest = 10;
 constexpr double kMinWidth = 0.8;  // px
 

@@ -29,8 +29,8 @@ constexpr std::size_t kMaxRounds = 6;
 constexpr double kMaxAtLimit = 0.01;  // fraction of the posterior at a limit of the last round
 constexpr int kProposalDraws = 400;   // posterior samples that define the last round
 
-/// Low-discrepancy points in the unit cube: Kronecker sequence with the powers of the root of x^(d+1) = x + 1,
-/// which generalises the golden ratio.
+/// Low-discrepancy points in the unit cube: Kronecker sequence with the powers of the root of x^(d+1) = x +
+/// 1, which generalises the golden ratio.
 MatrixXd kronecker_points(Index n, Index d) {
   double root = 2;
   for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1.0 / double(d + 1));
@@ -260,7 +260,8 @@ ParameterSearch::WeightedDraws ParameterSearch::abc_posterior() const {
   const VectorXd scale =
       c.bottomRows(t.size() - from).array().square().colwise().mean().sqrt().max(1e-12).inverse();
   const VectorXd distance = (c * scale.asDiagonal()).rowwise().norm();
-  const auto near = smallest(distance, std::max<Index>(Index(kAbcFraction * double(t.size())), Index(10) * d_));
+  const auto near =
+      smallest(distance, std::max<Index>(Index(kAbcFraction * double(t.size())), Index(10) * d_));
   const double reach = std::max(distance[near.back()], 1e-300);
   WeightedDraws w{MatrixXd(near.size(), d_), VectorXd(near.size())};
   MatrixXd x(near.size(), d_ + 1);

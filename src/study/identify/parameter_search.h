@@ -19,8 +19,8 @@ struct SearchRounds {
   static SearchRounds of(int simulations);
 };
 
-/// Estimates the parameters of one model from observed statistics in rounds; each round proposes parameters from
-/// the simulations of the previous rounds. Parameters are fractions of their ranges, 0 to 1.
+/// Estimates the parameters of one model from observed statistics in rounds; each round proposes parameters
+/// from the simulations of the previous rounds. Parameters are fractions of their ranges, 0 to 1.
 class ParameterSearch {
  public:
   /// Minimum total number of simulations for d parameters.
@@ -46,8 +46,8 @@ class ParameterSearch {
   const ParameterBox& box() const { return box_; }
   /// Expected statistics and their noise near the posterior, for predictions.
   const Emulator& emulator() const { return *emulator_; }
-  /// Posterior by approximate Bayesian computation from the same simulations: those nearest to the observation,
-  /// weighted by prior over proposal, with linear regression adjustment (Beaumont et al. 2002).
+  /// Posterior by approximate Bayesian computation from the same simulations: those nearest to the
+  /// observation, weighted by prior over proposal, with linear regression adjustment (Beaumont et al. 2002).
   struct WeightedDraws {
     Eigen::MatrixXd u;
     Eigen::VectorXd weight;  ///< sum 1
@@ -58,8 +58,8 @@ class ParameterSearch {
   const SimulationTable& simulations() const { return all_; }
 
  private:
-  /// Proposal of a round: mixture of normal distributions with equal covariance at the centres, truncated to the
-  /// unit cube; uniform without centres.
+  /// Proposal of a round: mixture of normal distributions with equal covariance at the centres, truncated to
+  /// the unit cube; uniform without centres.
   struct Proposal {
     Eigen::MatrixXd centres, covariance;
     Eigen::Index count = 0;

@@ -22,20 +22,20 @@
 namespace faba {
 namespace {
 
-constexpr double kResolved = 0.8;      // fraction of the cells detected singly; above it their positions are used
-constexpr double kMinSegment = 0.2;    // s
-constexpr double kMinBurstFrames = 12;  // a burst of eight within the measured part of a segment
-constexpr double kMaxWidth = 5;        // px: wider cells are reduced by averaging
-constexpr double kMinRelativeSnr = 0.25;  // of the 90 % quantile of the signal-to-noise ratio
-constexpr double kMinPath = 0.1;       // of a moving swarm, fraction of the view
-constexpr double kSameDirection = 60;  // degrees
-constexpr double kCoverage = 0.85;     // quantile over the frames: a pixel may be covered by cells that often
-constexpr double kReach = 2;           // times the displacement in the video
+constexpr double kResolved = 0.8;  // fraction of the cells detected singly; above it their positions are used
+constexpr double kMinSegment = 0.2;         // s
+constexpr double kMinBurstFrames = 12;      // a burst of eight within the measured part of a segment
+constexpr double kMaxWidth = 5;             // px: wider cells are reduced by averaging
+constexpr double kMinRelativeSnr = 0.25;    // of the 90 % quantile of the signal-to-noise ratio
+constexpr double kMinPath = 0.1;            // of a moving swarm, fraction of the view
+constexpr double kDirectionTolerance = 60;  // degrees
+constexpr double kCoverage = 0.85;  // quantile over the frames: a pixel may be covered by cells that often
+constexpr double kReach = 2;        // times the displacement in the video
 constexpr double kWhite = 255;
 constexpr double kSameScale = 1e-3;  // relative
 
-// Positions of single cells if most are resolved; otherwise as many positions as the estimated number of cells,
-// distributed like the signal.
+// Positions of single cells if most are resolved; otherwise as many positions as the estimated number of
+// cells, distributed like the signal.
 std::vector<Vec2> positions_in(const GrayF& frame, const CellView& view, Measure measure) {
   const Foreground foreground = view.seen_in(frame);
   const double cells = foreground.moments().cells;
@@ -57,8 +57,8 @@ std::vector<Vec2> positions_in(const GrayF& frame, const CellView& view, Measure
   return positions;
 }
 
-// Reorders positions by the golden-ratio sequence, so that every leading part is distributed like all of them: a
-// simulation with fewer cells uses the first ones, one with more cells repeats the first ones.
+// Reorders positions by the golden-ratio sequence, so that every leading part is distributed like all of
+// them: a simulation with fewer cells uses the first ones, one with more cells repeats the first ones.
 std::vector<Vec2> low_discrepancy_order(const std::vector<Vec2>& positions) {
   constexpr double kGolden = 0.6180339887498949;
   std::vector<std::size_t> order(positions.size());
@@ -106,13 +106,12 @@ std::vector<FieldSegment> segments_in(const ResponseVideo& v, const std::vector<
                                         : segments_of_drop(v, tick);
   if (in.direction_deg)
     std::erase_if(found, [&](const FieldSegment& d) {
-      return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kSameDirection;
+      return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kDirectionTolerance;
     });
   std::erase_if(found, [&](const FieldSegment& d) { return d.t1_s <= in.reversal_s.value_or(0); });
   if (found.empty())
-    throw Error(
-        Errc::input, in.file.string(),
-        "no motion in one direction detected; give reversal and direction, or [[video.segment]]");
+    throw Error(Errc::input, in.file.string(),
+                "no motion in one direction detected; give reversal and direction, or [[video.segment]]");
   if (in.reversal_s) found.front().t0_s = *in.reversal_s;
   if (in.duration_s) {
     const double until = found.front().t0_s + *in.duration_s;
@@ -122,7 +121,8 @@ std::vector<FieldSegment> segments_in(const ResponseVideo& v, const std::vector<
   return found;
 }
 
-// Without a boundary cells enter and leave the view, so each segment is an episode with new initial positions.
+// Without a boundary cells enter and leave the view, so each segment is an episode with new initial
+// positions.
 std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
                                  const std::vector<FieldSegment>& segments) {
   std::vector<Episode> episodes;
@@ -141,10 +141,11 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
   return episodes;
 }
 
-// Background and noise. With Measure::density the background is a high (or low) quantile over time, because dense
-// groups cover the same pixels most of the time; with Measure::tracks everything that does not move is background.
+// Background and noise. With Measure::density the background is a high (or low) quantile over time, because
+// dense groups cover the same pixels most of the time; with Measure::tracks everything that does not move is
+// background.
 void estimate_background(ResponseVideo& v, Measure measure, double from_s, double to_s,
-                 const std::function<void()>& tick) {
+                         const std::function<void()>& tick) {
   VideoGroundOptions o;
   o.fps = v.input.fps;
   o.side = v.side;
@@ -201,8 +202,8 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   return s;
 }
 
-// Parameters for tracking single cells: a threshold, because much fainter spots are dirt or far out of focus, and
-// a reach that also covers faster simulated cells.
+// Parameters for tracking single cells: a threshold, because much fainter spots are dirt or far out of focus,
+// and a reach that also covers faster simulated cells.
 void set_tracking(ResponseVideo& v, const std::vector<GrayF>& frames) {
   const Detector detector = v.view.detector();
   std::vector<std::vector<Spot>> spots;
@@ -211,7 +212,8 @@ void set_tracking(ResponseVideo& v, const std::vector<GrayF>& frames) {
     spots.push_back(detector.find(f));
     for (const Spot& s : spots.back()) snr.push_back(s.snr);
   }
-  v.view.threshold_sd = std::max(detector.threshold_sd(), snr.empty() ? 0 : kMinRelativeSnr * quantile(snr, 0.9));
+  v.view.threshold_sd =
+      std::max(detector.threshold_sd(), snr.empty() ? 0 : kMinRelativeSnr * quantile(snr, 0.9));
   double count = 1;
   for (auto& one : spots) {
     std::erase_if(one, [&](const Spot& s) { return s.snr < v.view.threshold_sd; });
@@ -226,12 +228,11 @@ void check_segments(const std::vector<FieldSegment>& segments, const ResponseInp
   const double shortest = measure == Measure::tracks ? kMinBurstFrames * survey.frame_s : kMinSegment;
   for (const FieldSegment& d : segments)
     if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
-      throw Error(
-          Errc::input, input.file.string(),
-          fmt::format(
-              "field segment from {:.4g} to {:.4g} s is invalid; it must last at least {:.2g} s and end within "
-              "the video of {:.4g} s",
-              d.t0_s, d.t1_s, shortest, survey.duration_s));
+      throw Error(Errc::input, input.file.string(),
+                  fmt::format("field segment from {:.4g} to {:.4g} s is invalid; it must last at least "
+                              "{:.2g} s and end within "
+                              "the video of {:.4g} s",
+                              d.t0_s, d.t1_s, shortest, survey.duration_s));
 }
 
 // Reads all needed frames in one pass: initial positions, statistics, pictures for the report.
@@ -297,12 +298,12 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   const RunVideo source = run_video(input.file);
   v.file = source.file;
   const std::optional<double> scale = input.um_per_px ? input.um_per_px : source.um_per_px;
-  if (!scale)
-    throw Error(Errc::input, input.file.string(), "picture scale unknown; give um_per_px or scale");
+  if (!scale) throw Error(Errc::input, input.file.string(), "picture scale unknown; give um_per_px or scale");
   v.um_per_px = *scale;
   if (source.um_per_px && std::fabs(*scale / *source.um_per_px - 1) > kSameScale)
-    v.notes.push_back(fmt::format("recorded picture scale {:g} um per pixel; {:g} um per pixel of the study is used",
-                                  *source.um_per_px, *scale));
+    v.notes.push_back(
+        fmt::format("recorded picture scale {:g} um per pixel; {:g} um per pixel of the study is used",
+                    *source.um_per_px, *scale));
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
   const std::vector<FieldSegment> recorded = recorded_segments(input.file);

@@ -35,8 +35,8 @@ struct ResponseInput {
 struct ResponseVideo {
   ResponseInput input;
   std::filesystem::path file;  ///< the video itself
-  int side = 1;  ///< frames are averaged over squares of this side, px of the video; all px below are those of
-                 ///< the averaged frames
+  int side = 1;  ///< frames are averaged over squares of this side, px of the video; all px below are those
+                 ///< of the averaged frames
   CellView view;
   double fps = 0, um_per_px = 0;
   std::optional<DropEdge> edge;               ///< with Boundary::drop

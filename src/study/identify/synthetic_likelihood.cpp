@@ -18,8 +18,7 @@ SimulationTable rows_of(const SimulationTable& t, const std::vector<Eigen::Index
   return {t.u(rows, Eigen::all), t.s(rows, Eigen::all)};
 }
 
-SyntheticLikelihood::SyntheticLikelihood(const SimulationTable& compression,
-                                         const SimulationTable& fit,
+SyntheticLikelihood::SyntheticLikelihood(const SimulationTable& compression, const SimulationTable& fit,
                                          const Eigen::VectorXd& observed, const Eigen::VectorXd& centre) {
   const Emulator first(compression.u, compression.s);
   const Eigen::Index d = centre.size(), p = observed.size();

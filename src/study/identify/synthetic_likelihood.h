@@ -8,8 +8,8 @@
 
 namespace faba {
 
-/// Simulations of one model: row i of `u` holds the parameters of simulation i as fractions of their ranges (0
-/// to 1), row i of `s` its statistics.
+/// Simulations of one model: row i of `u` holds the parameters of simulation i as fractions of their ranges
+/// (0 to 1), row i of `s` its statistics.
 struct SimulationTable {
   Eigen::MatrixXd u, s;
   Eigen::Index size() const { return u.rows(); }
@@ -17,14 +17,15 @@ struct SimulationTable {
 /// The listed rows.
 SimulationTable rows_of(const SimulationTable& t, const std::vector<Eigen::Index>& rows);
 
-/// Synthetic likelihood (Wood 2010): the statistics of a simulation are normally distributed about a mean that
-/// depends on the parameters. The statistics are first compressed to one number for each parameter, its best
-/// linear estimate near `centre`. Mean and covariance of the compressed statistics are estimated from separate
-/// simulations; the uncertainty of these estimates gives Student's t distribution instead of a normal one.
+/// Synthetic likelihood (Wood 2010): the statistics of a simulation are normally distributed about a mean
+/// that depends on the parameters. The statistics are first compressed to one number for each parameter, its
+/// best linear estimate near `centre`. Mean and covariance of the compressed statistics are estimated from
+/// separate simulations; the uncertainty of these estimates gives Student's t distribution instead of a
+/// normal one.
 class SyntheticLikelihood {
  public:
-  /// `compression`: simulations to fit the compression; `fit`: simulations to fit the likelihood. Both must have
-  /// more than Emulator::terms(d) rows.
+  /// `compression`: simulations to fit the compression; `fit`: simulations to fit the likelihood. Both must
+  /// have more than Emulator::terms(d) rows.
   SyntheticLikelihood(const SimulationTable& compression, const SimulationTable& fit,
                       const Eigen::VectorXd& observed, const Eigen::VectorXd& centre);
 
@@ -49,8 +50,8 @@ struct ParameterBox {
 };
 
 /// Samples a density on a box by random-walk Metropolis. The step is adapted during the burn-in, which is
-/// discarded; the chain is thinned to reduce autocorrelation. Returns `count` samples. `spread`: initial estimate
-/// of the covariance.
+/// discarded; the chain is thinned to reduce autocorrelation. Returns `count` samples. `spread`: initial
+/// estimate of the covariance.
 Eigen::MatrixXd sample(const std::function<double(const Eigen::VectorXd&)>& log_density,
                        const ParameterBox& box, const Eigen::VectorXd& start, const Eigen::MatrixXd& spread,
                        int count, std::uint64_t seed);

@@ -43,8 +43,11 @@ Figure signature_figure(const VideoActivity& a) {
   p.add(Rule{.at = 0, .of_x = false});
   p.add(Line{
       .x = a.t_s, .y = a.amount, .label = "within 45° of the direction", .ink = Ink::blue, .width = 1.2});
-  p.add(Line{
-      .x = a.t_s, .y = a.along, .label = "net flow along the direction", .ink = Ink::vermillion, .width = 1.2});
+  p.add(Line{.x = a.t_s,
+             .y = a.along,
+             .label = "net flow along the direction",
+             .ink = Ink::vermillion,
+             .width = 1.2});
   if (a.fit.good) {
     Line curve;
     curve.label = "Gaussian";
@@ -64,10 +67,9 @@ Figure signature_figure(const VideoActivity& a) {
   f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
                           a.direction_deg, compass(a.direction_deg));
   if (!a.segments.empty()) f.caption += "Grey: motion in one direction. ";
-  f.caption +=
-      a.fit.good
-          ? "(1) Onset and (3) departure of the swarm: the fitted Gaussian is at 10 % of its amplitude. (2) Maximum."
-          : "No Gaussian fit: " + a.fit.why + ".";
+  f.caption += a.fit.good ? "(1) Onset and (3) departure of the swarm: the fitted Gaussian is at 10 % of its "
+                            "amplitude. (2) Maximum."
+                          : "No Gaussian fit: " + a.fit.why + ".";
   return f;
 }
 
@@ -86,8 +88,8 @@ std::vector<AgainstExposure> against_exposure(const ActivityResult& r) {
            }},
           {"Mean activity against air exposure time", "mean activity (px × px² per pair)", r.mean_line,
            [](const VideoActivity& a) { return std::optional(a.mean_amount); }},
-          {"Mean activity per visible cell against air exposure time", "mean activity per cell (px × px² per pair)",
-           r.per_cell_line, activity_per_cell}};
+          {"Mean activity per visible cell against air exposure time",
+           "mean activity per cell (px × px² per pair)", r.per_cell_line, activity_per_cell}};
 }
 
 Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
@@ -169,21 +171,20 @@ std::string table(const ActivityResult& r) {
 std::string lead(const ActivityResult& r) {
   if (r.videos.size() == 1) {
     const VideoActivity& a = r.videos.front();
-    return a.segments.empty()
-               ? "No significant motion in one direction was detected."
-               : fmt::format("Motion in one direction was detected in {}.",
-                             counted(a.segments.size(), "time interval"));
+    return a.segments.empty() ? "No significant motion in one direction was detected."
+                              : fmt::format("Motion in one direction was detected in {}.",
+                                            counted(a.segments.size(), "time interval"));
   }
   std::size_t respond = 0;
   for (const VideoActivity& a : r.videos) respond += a.responds;
   std::string words = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
   if (r.cutoff)
-    words += fmt::format(" The cut-off air exposure time is {} s (between {} and {} s); {}.",
-                         three_digits(r.cutoff->cutoff_s), three_digits(r.cutoff->between_s[0]),
-                         three_digits(r.cutoff->between_s[1]),
-                         r.cutoff->wrong == 0   ? "no video beyond it shows a response"
-                         : r.cutoff->wrong == 1 ? "one video is inconsistent with it"
-                                                : fmt::format("{} videos are inconsistent with it", r.cutoff->wrong));
+    words += fmt::format(
+        " The cut-off air exposure time is {} s (between {} and {} s); {}.", three_digits(r.cutoff->cutoff_s),
+        three_digits(r.cutoff->between_s[0]), three_digits(r.cutoff->between_s[1]),
+        r.cutoff->wrong == 0   ? "no video beyond it shows a response"
+        : r.cutoff->wrong == 1 ? "one video is inconsistent with it"
+                               : fmt::format("{} videos are inconsistent with it", r.cutoff->wrong));
   return words;
 }
 

@@ -21,16 +21,16 @@ nlohmann::ordered_json activity_json(const ActivityResult& result);
 /// The signatures as CSV: `video,t0_s,t1_s,activity,along`; videos are numbered from 1.
 std::string activity_csv(const ActivityResult& result);
 
-/// Signature of each video with its segments, its Gaussian fit and the three points of the thesis; for videos with
-/// air exposure times, the line fits against them.
+/// Signature of each video with its segments, its Gaussian fit and the three points of the thesis; for videos
+/// with air exposure times, the line fits against them.
 std::vector<Figure> activity_figures(const ActivityResult& result);
 
 /// HTML report.
 std::string activity_page(const ActivityResult& result);
 
-/// Writes the pair of frames with the largest activity as PNG: the flow, and beside it the flow above the threshold
-/// and within 45 degrees of the direction (Fig. 3.27 of the thesis). Throws Error(usage, "--picture") for a flow
-/// file, which has no frames.
+/// Writes the pair of frames with the largest activity as PNG: the flow, and beside it the flow above the
+/// threshold and within 45 degrees of the direction (Fig. 3.27 of the thesis). Throws Error(usage,
+/// "--picture") for a flow file, which has no frames.
 void write_activity_picture(const std::filesystem::path& file, const VideoActivity& video);
 
 }  // namespace faba

@@ -37,8 +37,11 @@ Plot distances(const Comparison& c) {
                .ink = Ink::muted,
                .dashed = true});
   }
-  p.add(
-      Line{.x = c.naive.t_s, .y = c.naive.value, .label = "video without motion", .ink = Ink::muted, .width = 1.2});
+  p.add(Line{.x = c.naive.t_s,
+             .y = c.naive.value,
+             .label = "video without motion",
+             .ink = Ink::muted,
+             .width = 1.2});
   if (c.floor) p.add(Rule{.at = *c.floor, .label = "same scenario, different seed", .of_x = false});
   return p;
 }
@@ -65,9 +68,9 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
   FlowDrawing how;
   how.arrow_step_px = 0;
   how.full_px = std::max({full_speed(r.furthest.reference), full_speed(r.furthest.run), 1e-6});
-  std::string out = fmt::format(
-      "<h2>{}: filtered flow at the largest distance, {:.2f} s</h2>\n<div class=\"figures\">\n",
-      escape_markup(name_of(r.file)), r.furthest.t_s);
+  std::string out =
+      fmt::format("<h2>{}: filtered flow at the largest distance, {:.2f} s</h2>\n<div class=\"figures\">\n",
+                  escape_markup(name_of(r.file)), r.furthest.t_s);
   const std::pair<const Flow*, const char*> both[] = {{&r.furthest.reference, "Reference"},
                                                       {&r.furthest.run, "Run"}};
   for (const auto& [flow, words] : both)
@@ -99,7 +102,8 @@ std::string table(const Comparison& c) {
                   [&](const ComparedRun& r) { return score_of(c, r).has_value(); }))
     out +=
         " Score: the mean distance on a scale where 0 is the distance between two runs of one scenario with "
-        "different seeds and 1 is the distance to a video without motion. Scores below 0 are random variation or "
+        "different seeds and 1 is the distance to a video without motion. Scores below 0 are random "
+        "variation or "
         "the same run; a score of 1 or more is no better than a video without motion.";
   return out + " Legacy mean: the distance as defined in the thesis.</p>\n";
 }
@@ -154,8 +158,10 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
       out +=
           fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
   out += fmt::format(
-      "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Quadratic-Chi distance (m = {:g}, "
-      "bin similarity threshold {:g} bins) between the sums of the flow over columns and rows. Dashed: line fits. "
+      "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Quadratic-Chi distance (m = "
+      "{:g}, "
+      "bin similarity threshold {:g} bins) between the sums of the flow over columns and rows. Dashed: line "
+      "fits. "
       "Same scenario, different seed: {}.</figcaption>\n</figure>\n",
       svg(distances(c)), job.m, job.threshold, escape_markup(c.floor_from));
   out += table(c);

@@ -11,12 +11,12 @@ namespace faba {
 /// `flow_threshold_px`, `m`, `threshold`; `runs[]` =
 /// `{"run","t0_s","pairs","mean","sd","slope","slope_ci95","intercept","score","legacy":{"mean","sd",
 /// "slope","intercept"},"notes"}`; `floor` (null when unknown) and `floor_from`, `naive` (mean distance to
-/// a video without motion), `notes`. `score` is (mean - floor) / (naive - floor): 0 is the distance of the same
-/// scenario with a different seed, 1 that of a video without motion.
+/// a video without motion), `notes`. `score` is (mean - floor) / (naive - floor): 0 is the distance of the
+/// same scenario with a different seed, 1 that of a video without motion.
 nlohmann::ordered_json compare_json(const Comparison& c, const CompareJob& job);
 
-/// HTML report: distances over time, and for each run both filtered flows with their histograms (Figs. 3.27 to
-/// 3.29 of the thesis).
+/// HTML report: distances over time, and for each run both filtered flows with their histograms (Figs. 3.27
+/// to 3.29 of the thesis).
 std::string compare_page(const Comparison& c, const CompareJob& job);
 
 /// CSV: `run,t_s,distance,legacy`; runs are numbered from 1, 0 is the video without motion.

@@ -68,12 +68,13 @@ std::string table(const ControllerComparison& r) {
     for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
     out += table_row(cells, "td");
   }
-  return out +
-         fmt::format(
-             "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % confidence intervals (Student's "
-             "t). Settling time: mean over the trials that settled. Difference to the best: mean difference in "
-             "steady error, for equal seeds, to the controller with the smallest steady error.</p>\n",
-             counted(std::uint64_t(r.study.seeds), "seed"));
+  return out + fmt::format(
+                   "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % confidence intervals "
+                   "(Student's "
+                   "t). Settling time: mean over the trials that settled. Difference to the best: mean "
+                   "difference in "
+                   "steady error, for equal seeds, to the controller with the smallest steady error.</p>\n",
+                   counted(std::uint64_t(r.study.seeds), "seed"));
 }
 
 // The combinations grouped by model and delay; those of one group are contiguous.

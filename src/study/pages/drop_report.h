@@ -13,19 +13,19 @@ namespace faba {
 /// Positions in picture px, y down as in the image file; `inside` is a point of the picture inside the drop.
 nlohmann::ordered_json drop_json(const DropEdge& edge);
 
-/// A proposed drop for the web page of the lab: the fields of drop_json(DropEdge) and `"found"`, and `"why"` when
-/// a bubble was found; without an edge `"found": false, "why", "center_px", "radius_px", "image_size"`.
+/// A proposed drop for the web page of the lab: the fields of drop_json(DropEdge) and `"found"`, and `"why"`
+/// when a bubble was found; without an edge `"found": false, "why", "center_px", "radius_px", "image_size"`.
 nlohmann::ordered_json drop_json(const ProposedDrop& drop);
 
 /// Detects the drop edge in a picture or in the first frame of a video. Unless `overlay` is empty, writes the
-/// picture with the edge drawn in. Unless `stages` is empty, writes pictures of the stages of the detection into
-/// that folder; those before the detection of an edge also when it fails. Throws Error(input) when the picture is
-/// not usable or has no edge.
+/// picture with the edge drawn in. Unless `stages` is empty, writes pictures of the stages of the detection
+/// into that folder; those before the detection of an edge also when it fails. Throws Error(input) when the
+/// picture is not usable or has no edge.
 DropEdge report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
                      const std::filesystem::path& stages);
 
-/// Calls propose_drop() and writes the contrast-stretched picture as PNG to `shown`. `name`: name of the picture
-/// in messages. Throws Error(input) when the picture is not usable.
+/// Calls propose_drop() and writes the contrast-stretched picture as PNG to `shown`. `name`: name of the
+/// picture in messages. Throws Error(input) when the picture is not usable.
 ProposedDrop report_proposed_drop(const std::filesystem::path& picture, const std::string& name,
                                   const std::filesystem::path& shown);
 

@@ -41,8 +41,7 @@ class FlowOutputs {
     if (file_) file_->write(p.frame, p.t0_s, p.t1_s, p.flow);
     if (!overlay_) return;
     if (p.image.empty())
-      throw Error(Errc::usage, "--overlay",
-                  "a flow file contains no frames; give the video");
+      throw Error(Errc::usage, "--overlay", "a flow file contains no frames; give the video");
     if (full_ <= 0) full_ = full_speed(p.flow);  // one scale for all frames
     FlowDrawing how;
     how.full_px = full_;

@@ -29,8 +29,8 @@ struct FlowJob {
 /// Measures the flow between two pictures and writes the requested files. Throws Error(input).
 PairFlow flow_of_pair(const std::filesystem::path& a, const std::filesystem::path& b, const FlowJob& job);
 
-/// Measures the flows of a video or of the video of a run and writes the requested files when they are complete.
-/// Throws Error(input), and Error(interrupted) when stopped.
+/// Measures the flows of a video or of the video of a run and writes the requested files when they are
+/// complete. Throws Error(input), and Error(interrupted) when stopped.
 VideoFlow flow_of_video(const std::filesystem::path& video, const FlowJob& job);
 
 /// `{"image_size":[w,h],"method":{..},"iterations":n,"converged":b,"mean_px":[u,v],"mean_speed_px":..,"largest_px":..,

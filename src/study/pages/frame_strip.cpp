@@ -41,8 +41,8 @@ struct Shot {
   double t_s = 0;
 };
 
-/// Frames at equal time intervals from a video of unknown length: every 2^k-th frame is kept, and every second kept
-/// frame is dropped when the maximum number is reached.
+/// Frames at equal time intervals from a video of unknown length: every 2^k-th frame is kept, and every
+/// second kept frame is dropped when the maximum number is reached.
 std::vector<Shot> shots_of(const std::filesystem::path& video) {
   VideoReader reader(video);
   const int n = std::max(1, (reader.width() + kMaxFrameWidth - 1) / kMaxFrameWidth);
@@ -87,8 +87,7 @@ std::string frame_strip(const std::filesystem::path& video) {
     out += fmt::format("<p>{}{}\u00A0s</p>\n",
                        inline_picture(s.picture, fmt::format("Frame at {} s", three_digits(s.t_s))),
                        three_digits(s.t_s));
-  return out +
-         "</div>\n<figcaption>Frames of the video at equal time intervals.</figcaption>\n</figure>\n";
+  return out + "</div>\n<figcaption>Frames of the video at equal time intervals.</figcaption>\n</figure>\n";
 }
 
 }  // namespace faba

@@ -4,8 +4,8 @@
 
 namespace faba {
 
-/// Figure for a page: up to six frames of a video at equal time intervals, including the first and the last, with
-/// their times below. Empty when the video cannot be read.
+/// Figure for a page: up to six frames of a video at equal time intervals, including the first and the last,
+/// with their times below. Empty when the video cannot be read.
 std::string frame_strip(const std::filesystem::path& video);
 
 }  // namespace faba

@@ -17,7 +17,8 @@ namespace {
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxEpisodes = 4;  // with figures
 constexpr int kBins = 24;
-constexpr double kProfileLevel = -1.353;  // 90 % interval: half of 2.706, the chi-square quantile for one degree of freedom
+constexpr double kProfileLevel =
+    -1.353;  // 90 % interval: half of 2.706, the chi-square quantile for one degree of freedom
 
 using Statistic = Identification::Statistic;
 
@@ -40,8 +41,8 @@ struct StatisticSeries {
   Line observed;
   Ribbon predicted;
 };
-StatisticSeries series_of(const Identification& r, std::size_t video, std::size_t episode, const std::string& what,
-                 const std::string& label, Ink ink, double (*map)(double)) {
+StatisticSeries series_of(const Identification& r, std::size_t video, std::size_t episode,
+                          const std::string& what, const std::string& label, Ink ink, double (*map)(double)) {
   StatisticSeries c;
   c.observed.label = label;
   c.observed.ink = c.predicted.ink = ink;
@@ -70,9 +71,10 @@ StatisticSeries series_of(const Identification& r, std::size_t video, std::size_
 double unchanged(double x) { return x; }
 double from_log(double x) { return std::exp(x); }
 
-Figure series_figure(const Identification& r, std::size_t video, std::size_t episode, const std::string& heading,
-               const std::string& caption, const std::string& y,
-               const std::vector<std::tuple<const char*, const char*, Ink>>& what, double (*map)(double)) {
+Figure series_figure(const Identification& r, std::size_t video, std::size_t episode,
+                     const std::string& heading, const std::string& caption, const std::string& y,
+                     const std::vector<std::tuple<const char*, const char*, Ink>>& what,
+                     double (*map)(double)) {
   Figure f{heading, caption, plot_of(heading, "time (s)", y)};
   std::vector<StatisticSeries> all;
   all.reserve(what.size());
@@ -87,10 +89,11 @@ Figure series_figure(const Identification& r, std::size_t video, std::size_t epi
 }
 
 Figure by_segment(const Identification& r) {
-  Figure f{"Velocity along each segment",
-           "Median velocity of the tracked cells along the direction of each segment. Dots: video. Bars: 90 % "
-           "predictive interval of the best model.",
-           plot_of("Velocity along each segment", "segment", "velocity along the segment (um/s)")};
+  Figure f{
+      "Velocity along each segment",
+      "Median velocity of the tracked cells along the direction of each segment. Dots: video. Bars: 90 % "
+      "predictive interval of the best model.",
+      plot_of("Velocity along each segment", "segment", "velocity along the segment (um/s)")};
   Line bars{.x = {}, .y = {}, .label = "predicted, 90 %", .ink = Ink::vermillion, .width = 5};
   Scatter dots{.x = {}, .y = {}, .label = "video", .ink = Ink::blue, .size = 8};
   double n = 0;
@@ -135,12 +138,12 @@ std::vector<double> histogram_along(const GrayF& frame, const CellView& view, do
 }
 
 Figure distribution_figure(const EpisodePictures& e, const ResponseVideo& v, double deg) {
-  Figure f{
-      "Distribution along the segment",
-      "Fraction of the signal of the swarm in each of 24 bins along the direction of the first segment. Solid: "
-      "video. Dashed: one simulation of the best model.",
-      plot_of("Distribution along the segment", "position along the segment (fraction of the view)",
-              "fraction of the signal")};
+  Figure f{"Distribution along the segment",
+           "Fraction of the signal of the swarm in each of 24 bins along the direction of the first segment. "
+           "Solid: "
+           "video. Dashed: one simulation of the best model.",
+           plot_of("Distribution along the segment", "position along the segment (fraction of the view)",
+                   "fraction of the signal")};
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};
   std::vector<double> x(kBins);
   for (int i = 0; i < kBins; ++i) x[std::size_t(i)] = (i + 0.5) / kBins;
@@ -166,20 +169,20 @@ std::vector<Figure> predictive_figures(const Identification& r) {
   for (std::size_t v = 0; v < r.videos.size() && figures.size() < 2 * kMaxEpisodes; ++v)
     for (std::size_t e = 0; e < r.videos[v].episodes.size() && figures.size() < 2 * kMaxEpisodes; ++e) {
       const std::string where = r.videos.size() > 1 ? ": " + r.videos[v].episodes[e].name : "";
+      figures.push_back(series_figure(
+          r, v, e, "Position of the swarm" + where,
+          "10, 50 and 90 % quantiles of the position of the cells in view along the direction of "
+          "each segment. Dots: video. Shaded: 90 % predictive interval of the best model.",
+          "position along the segment (fraction of the view)",
+          {{"10 % along", "10 %", Ink::blue},
+           {"median along", "50 %", Ink::vermillion},
+           {"90 % along", "90 %", Ink::green}},
+          unchanged));
       figures.push_back(
-          series_figure(r, v, e, "Position of the swarm" + where,
-                  "10, 50 and 90 % quantiles of the position of the cells in view along the direction of "
-                  "each segment. Dots: video. Shaded: 90 % predictive interval of the best model.",
-                  "position along the segment (fraction of the view)",
-                  {{"10 % along", "10 %", Ink::blue},
-                   {"median along", "50 %", Ink::vermillion},
-                   {"90 % along", "90 %", Ink::green}},
-                  unchanged));
-      figures.push_back(series_figure(r, v, e, "Cells in view" + where,
-                                "Signal of the swarm in view, relative to its mean over time. Dots: video. Shaded: "
-                                "90 % predictive interval of the best model.",
-                                "relative to the mean", {{"cells in view", "cells in view", Ink::blue}},
-                                from_log));
+          series_figure(r, v, e, "Cells in view" + where,
+                        "Signal of the swarm in view, relative to its mean over time. Dots: video. Shaded: "
+                        "90 % predictive interval of the best model.",
+                        "relative to the mean", {{"cells in view", "cells in view", Ink::blue}}, from_log));
     }
   return figures;
 }
@@ -226,10 +229,11 @@ Figure posterior_figure(const FoundParameter& p) {
 
 Figure profile_figure(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
-  Figure f{"Profile of " + q.path,
-           "Log-likelihood at each value, maximised over the other parameters. Values above the line form the "
-           "90 % confidence interval. A flat profile means that the parameter is not identifiable.",
-           plot_of("Profile of " + q.path, label_of(q), "log-likelihood")};
+  Figure f{
+      "Profile of " + q.path,
+      "Log-likelihood at each value, maximised over the other parameters. Values above the line form the "
+      "90 % confidence interval. A flat profile means that the parameter is not identifiable.",
+      plot_of("Profile of " + q.path, label_of(q), "log-likelihood")};
   std::vector<double> x;
   for (const double v : p.profile_at) x.push_back(q.shown(v));
   f.plot.y.lo = -8;
@@ -241,10 +245,11 @@ Figure profile_figure(const FoundParameter& p) {
 
 std::vector<Figure> legacy_figures(const LegacyModel& m) {
   const FreeParameter& q = m.parameter;
-  Figure over{m.name + ": difference over time",
-              "Quadratic-Chi distance between the flow histograms of the video and of the first simulation of each "
-              "value, for each pair of frames. Dashed: line fits.",
-              plot_of("Difference over time", "pair of frames", "difference")};
+  Figure over{
+      m.name + ": difference over time",
+      "Quadratic-Chi distance between the flow histograms of the video and of the first simulation of each "
+      "value, for each pair of frames. Dashed: line fits.",
+      plot_of("Difference over time", "pair of frames", "difference")};
   Figure slopes{m.name + ": slope against " + q.name(),
                 fmt::format("Dots: slope of each simulation. The line fit is zero at {}.",
                             three_digits(q.shown(m.zero))),

@@ -6,8 +6,8 @@
 
 namespace faba {
 
-/// Observed statistics and posterior predictive intervals of the best model: position and signal of the swarm over
-/// time, or velocity of the cells in each segment.
+/// Observed statistics and posterior predictive intervals of the best model: position and signal of the swarm
+/// over time, or velocity of the cells in each segment.
 std::vector<Figure> predictive_figures(const Identification& result);
 
 /// Posterior of a parameter, and its profile likelihood.

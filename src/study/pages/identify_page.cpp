@@ -63,9 +63,10 @@ std::string models_table(const Identification& r) {
                    "simulations that deviate from their mean as much as the videos do; below 0.01 the model "
                    "does not explain the videos.{}</p>\n",
                    r.experiments.size(),
-                   single_experiment(r) ? " The experiments are segments of the same swarm and not independent: the "
-                                 "interval of the score difference is too narrow."
-                               : "");
+                   single_experiment(r)
+                       ? " The experiments are segments of the same swarm and not independent: the "
+                         "interval of the score difference is too narrow."
+                       : "");
 }
 
 // Both with the grey scale of the video.
@@ -94,7 +95,8 @@ std::string pictures(const Identification& r) {
           "<figure>\n<h3>{}, {:.2g} s</h3>\n{}<figcaption>Left: video. Right: simulation with {} at the "
           "posterior median.</figcaption>\n</figure>\n",
           escape_markup(e.name), e.t_s[k],
-          inline_picture(side_by_side(e.real[k], e.simulated[k]), "Frame of the video beside a frame of a simulation"),
+          inline_picture(side_by_side(e.real[k], e.simulated[k]),
+                         "Frame of the video beside a frame of a simulation"),
           escape_markup(r.models[r.best].name));
     if (r.study.measure == Measure::density) out += figure_markup(e.distribution);
     out += "</div>\n";
@@ -105,9 +107,12 @@ std::string pictures(const Identification& r) {
 std::string legacy(const Identification& r) {
   if (r.legacy.empty()) return "";
   std::string out =
-      "<h2>Legacy: selection rule of the 2016 thesis</h2>\n<p class=\"warning\">Not reliable: the rule selects "
-      "the value at which the difference between video and simulation does not grow over time, and a difference "
-      "that is large from the start does not grow either. It fails in tests with known true values. The results "
+      "<h2>Legacy: selection rule of the 2016 thesis</h2>\n<p class=\"warning\">Not reliable: the rule "
+      "selects "
+      "the value at which the difference between video and simulation does not grow over time, and a "
+      "difference "
+      "that is large from the start does not grow either. It fails in tests with known true values. The "
+      "results "
       "above do not use it.</p>\n<div class=\"wide\"><table "
       "class=\"numbers\">\n<thead><tr><th>model</th><th>slope is zero at</th><th>95 % interval</th>"
       "<th>difference, mean ± s.d.</th><th>smallest difference at</th></tr></thead>\n<tbody>\n";
@@ -120,8 +125,7 @@ std::string legacy(const Identification& r) {
     out += fmt::format(
         "<tr><th scope=\"row\">{}<small>{}</small></th><td>{}</td><td>{}</td><td>{} ± "
         "{}</td><td>{}</td></tr>\n",
-        escape_markup(m.name),
-        escape_markup(m.meaningless.empty() ? "" : "Invalid: " + m.meaningless + "."),
+        escape_markup(m.name), escape_markup(m.meaningless.empty() ? "" : "Invalid: " + m.meaningless + "."),
         three_digits(q.shown(m.zero)), interval, three_digits(m.mean), three_digits(m.sd),
         three_digits(q.shown(m.least_distance_at)));
   }
@@ -136,7 +140,8 @@ std::string notes(const Identification& r) {
   for (const std::string& note : notes_of(r)) out += fmt::format("<li>{}</li>\n", escape_markup(note));
   for (const ResponseVideo& v : r.videos)
     out += fmt::format(
-        "<li>{}: {:.4g} um per px, {:.4g} frames per second, field strength {:.3g} uT; time zero is at {:.4g} "
+        "<li>{}: {:.4g} um per px, {:.4g} frames per second, field strength {:.3g} uT; time zero is at "
+        "{:.4g} "
         "s of the video.</li>\n",
         escape_markup(v.input.file.string()), v.um_per_px, v.fps,
         1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().start_s);

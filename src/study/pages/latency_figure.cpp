@@ -47,11 +47,12 @@ std::optional<Figure> latency_figure(const std::filesystem::path& run_dir, doubl
   plot.add(Rule{.at = 1e3 * frame_s, .label = "one frame"});
   plot.add(latency_histogram(table.column("arrival_ms"), "mid-exposure to arrival of the frame"));
   plot.add(latency_histogram(table.column("command_ms"), "arrival of the frame to the coils"));
-  return Figure{"Latency",
-                "Latency of each frame from the middle of its exposure to its arrival in the program, and of its "
-                "command from this arrival until the device has accepted the voltages. Values outside the axis are "
-                "counted in the first or last bin.",
-                std::move(plot)};
+  return Figure{
+      "Latency",
+      "Latency of each frame from the middle of its exposure to its arrival in the program, and of its "
+      "command from this arrival until the device has accepted the voltages. Values outside the axis are "
+      "counted in the first or last bin.",
+      std::move(plot)};
 }
 
 }  // namespace faba

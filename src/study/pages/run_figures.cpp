@@ -66,7 +66,7 @@ const char* centroid_of(const Series& series) {
   return is_estimated(series) ? "estimated centroid" : "true centroid of all cells";
 }
 
-constexpr double kShortApproach = 0.1;     // fraction of the run; a shorter approach gets a separate figure
+constexpr double kShortApproach = 0.1;  // fraction of the run; a shorter approach gets a separate figure
 constexpr std::size_t kMaxSetpointMarks = 12;  // more setpoints are a moving target without marks
 
 double first_targeted_time(const Series& series) {
@@ -160,7 +160,7 @@ void add_outlines(Plot& plot, const RunInfo& info) {
         Box{centre.x - half.x, centre.y - half.y, centre.x + half.x, centre.y + half.y, "walls", Ink::sky};
   }
   const double difference = std::max({std::abs(walls.x0 - picture.x0), std::abs(walls.x1 - picture.x1),
-                                 std::abs(walls.y0 - picture.y0), std::abs(walls.y1 - picture.y1)});
+                                      std::abs(walls.y0 - picture.y0), std::abs(walls.y1 - picture.y1)});
   const bool same = !walls.label.empty() && difference < 1.5;  // px: draw one outline
   if (same) walls.label = "picture and walls";
   if (!picture.label.empty() && !same) plot.add(picture);
@@ -187,8 +187,8 @@ Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) 
   set_path_range(plot, series, info, setpoints);
   add_outlines(plot, info);
   if (m.sigma_x_px && m.sigma_y_px && std::isfinite(x.back() + y.back())) {
-    plot.add(
-        Ellipse{x.back(), y.back(), *m.sigma_x_px, *m.sigma_y_px, "final standard deviation", Ink::orange, true});
+    plot.add(Ellipse{x.back(), y.back(), *m.sigma_x_px, *m.sigma_y_px, "final standard deviation",
+                     Ink::orange, true});
     figure.caption +=
         " Semi-axes of the dashed ellipse: standard deviations of the cell positions in the last frame.";
   }
@@ -244,8 +244,8 @@ bool switches_too_fast(const Values& v) {
   return reversals > kMaxReversals;
 }
 
-/// Adds a command over time or, when it switches too fast, its mean and range in windows. Returns the length of a
-/// window, s; 0 for none.
+/// Adds a command over time or, when it switches too fast, its mean and range in windows. Returns the length
+/// of a window, s; 0 for none.
 double add_command(Plot& plot, const Values& t, const Values& v, const Line& style) {
   if (t.size() < 2 * kWindows || !switches_too_fast(v)) {
     Line line = style;
@@ -275,7 +275,8 @@ double add_command(Plot& plot, const Values& t, const Values& v, const Line& sty
 std::string window_note(double window) {
   if (window == 0) return {};
   return fmt::format(
-      " The signal switches too fast to be resolved: lines are means over {} s, shaded areas the ranges in these "
+      " The signal switches too fast to be resolved: lines are means over {} s, shaded areas the ranges in "
+      "these "
       "windows.",
       three_digits(window));
 }

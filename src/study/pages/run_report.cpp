@@ -47,10 +47,10 @@ std::string outcome_text(const Metrics& m, const RunInfo& info) {
   const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
   const bool moving = given > kMaxRouteSetpoints, route = given > 1 && !moving;
   if (route && m.setpoints < given) {
-    return fmt::format(
-        "After {} the swarm {} setpoint {} of {}; the final distance was {}.", seconds(m.duration_s),
-        *m.final_distance_px <= *m.settling_band_px ? "had reached" : "had not reached", m.setpoints, given,
-        length_text(*m.final_distance_px, info));
+    return fmt::format("After {} the swarm {} setpoint {} of {}; the final distance was {}.",
+                       seconds(m.duration_s),
+                       *m.final_distance_px <= *m.settling_band_px ? "had reached" : "had not reached",
+                       m.setpoints, given, length_text(*m.final_distance_px, info));
   }
   const std::string goal = moving  ? "its moving setpoint"
                            : route ? fmt::format("the last of {} setpoints", given)
@@ -58,8 +58,8 @@ std::string outcome_text(const Metrics& m, const RunInfo& info) {
   if (!m.settling_time_s) {
     const std::string start =
         given > 1 ? "" : fmt::format("{} at the start and ", length_text(*m.initial_error_px, info));
-    return fmt::format("The swarm did not settle at {}: the distance was {}{} at the end, after {}.", goal, start,
-                       length_text(*m.final_distance_px, info), seconds(m.duration_s));
+    return fmt::format("The swarm did not settle at {}: the distance was {}{} at the end, after {}.", goal,
+                       start, length_text(*m.final_distance_px, info), seconds(m.duration_s));
   }
   if (*m.settling_time_s > kLate * m.duration_s) {  // the steady error would include the approach
     return fmt::format("The swarm reached {} only after {} of {}; the final distance was {}.", goal,
@@ -137,7 +137,8 @@ std::string cards(const Metrics& m, const RunInfo& info) {
 }
 
 std::string video_figure(const RunInfo& info) {
-  const Vec2 size = info.view_px.value_or(Vec2{4, 3});  // aspect ratio of the placeholder until the video is loaded
+  const Vec2 size =
+      info.view_px.value_or(Vec2{4, 3});  // aspect ratio of the placeholder until the video is loaded
   return fmt::format(
       "<figure class=\"video\">\n<h3>Video</h3>\n<video controls=\"controls\" preload=\"metadata\" "
       "width=\"{}\" "
@@ -221,10 +222,13 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
   if (!info.um_per_px)
     out += "<p class=\"note\">The run has no picture scale, so lengths are in pixels only.</p>\n";
   if (!info.complete)
-    out += "<p class=\"warning\">The run was stopped before its end; this report covers the recorded part.</p>\n";
+    out +=
+        "<p class=\"warning\">The run was stopped before its end; this report covers the recorded "
+        "part.</p>\n";
   if (series.last_line_cut()) {
     out +=
-        "<p class=\"warning\">The recording ends in the middle of a line, as after an interruption. This last "
+        "<p class=\"warning\">The recording ends in the middle of a line, as after an interruption. This "
+        "last "
         "frame is ignored.</p>\n";
   }
   out += cards(m, info);
@@ -251,8 +255,8 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   RunSummary summary;
   if (m.frames == 1) return {"Only one frame was recorded, the start of the run.", ""};
   summary.outcome = m.initial_error_px ? outcome_text(m, info)
-                                     : fmt::format("The swarm had no setpoint and was recorded for {}.",
-                                                   seconds(m.duration_s));
+                                       : fmt::format("The swarm had no setpoint and was recorded for {}.",
+                                                     seconds(m.duration_s));
   if (m.cross_track_95_px) {
     summary.details =
         fmt::format("After the first setpoint, the swarm was within {} of the route in 95 % of the frames. ",
@@ -260,8 +264,8 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   }
   const std::string dispersion = dispersion_text(m, info);
   if (!dispersion.empty()) {
-    summary.details +=
-        fmt::format("At the end, the standard deviations of the cell positions in x and y were {}.", dispersion);
+    summary.details += fmt::format(
+        "At the end, the standard deviations of the cell positions in x and y were {}.", dispersion);
   }
   return summary;
 }

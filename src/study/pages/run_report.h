@@ -16,10 +16,10 @@ struct RunSummary {
 RunSummary run_summary(const Metrics& metrics, const RunInfo& info);
 
 /// Writes `report.html` into the directory of a run (temporary name, then renamed; replaces an older report):
-/// summary, metrics in px and um, figures, the video if `video.mp4` exists, and the data to reproduce the run, with
-/// `scenario.toml` if it exists. The page needs no network and no script; only the video is a separate file. Throws
-/// Error(Errc::input) when mandatory columns of the series are missing, Error(Errc::internal) when the report
-/// cannot be written.
+/// summary, metrics in px and um, figures, the video if `video.mp4` exists, and the data to reproduce the
+/// run, with `scenario.toml` if it exists. The page needs no network and no script; only the video is a
+/// separate file. Throws Error(Errc::input) when mandatory columns of the series are missing,
+/// Error(Errc::internal) when the report cannot be written.
 void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series);
 
 }  // namespace faba

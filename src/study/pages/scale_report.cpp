@@ -34,7 +34,8 @@ std::string scale_note(const TableScale& s) {
                                         s.intercept_ci95_px[0], s.intercept_ci95_px[1]);
   if (s.edge_excess_significant())
     return fmt::format(
-        "the readings have a constant offset of {} (too {}), an edge effect independent of the width. Use the "
+        "the readings have a constant offset of {} (too {}), an edge effect independent of the width. Use "
+        "the "
         "regression; the mean of the ratios is biased by {:+.1f} %",
         range, s.intercept_px > 0 ? "wide" : "narrow", 100 * s.ratio_bias);
   return fmt::format(

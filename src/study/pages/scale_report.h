@@ -26,8 +26,8 @@ std::string scale_note(const TableScale& scale);
 std::string scale_note(const PictureScale& scale);
 
 /// Measures the scale from a picture of a ruler with a distance of `tick_m` between its finest marks
-/// (find_ruler). Unless `overlay` is empty, writes the picture with the marks drawn in. Throws Error(input) when
-/// no ruler is detected.
+/// (find_ruler). Unless `overlay` is empty, writes the picture with the marks drawn in. Throws Error(input)
+/// when no ruler is detected.
 PictureScale report_scale_picture(const std::filesystem::path& picture, double tick_m,
                                   const std::filesystem::path& overlay);
 

@@ -16,8 +16,8 @@ std::string three_digits(double value);
 /// A power of ten as text: "10³", "10⁻⁶".
 std::string power_of_ten(int exponent);
 
-/// A row of an HTML table: the first cell is the row heading, the others are elements of `tag` ("td" or "th").
-/// The cells must be escaped already.
+/// A row of an HTML table: the first cell is the row heading, the others are elements of `tag` ("td" or
+/// "th"). The cells must be escaped already.
 std::string table_row(const std::vector<std::string>& cells, const char* tag);
 
 }  // namespace faba

@@ -7,20 +7,20 @@
 
 namespace faba {
 
-/// Colours of the layers, after Okabe and Ito (Color Universal Design, 2008), distinguishable with common colour
-/// vision deficiencies. Dark mode exchanges blue with sky and vermillion with orange for contrast. `automatic`:
-/// next colour not used for an automatic layer of this plot.
+/// Colours of the layers, after Okabe and Ito (Color Universal Design, 2008), distinguishable with common
+/// colour vision deficiencies. Dark mode exchanges blue with sky and vermillion with orange for contrast.
+/// `automatic`: next colour not used for an automatic layer of this plot.
 enum class Ink { automatic, blue, vermillion, green, purple, orange, sky, text, muted };
 
-/// A curve through (x[i], y[i]) in the units of the axes. Non-finite points leave a gap. Long curves are thinned
-/// to the screen resolution; the minimum and maximum of every pixel column are kept.
+/// A curve through (x[i], y[i]) in the units of the axes. Non-finite points leave a gap. Long curves are
+/// thinned to the screen resolution; the minimum and maximum of every pixel column are kept.
 struct Line {
   std::vector<double> x, y;  ///< equal length; a longer one is truncated
   std::string label = {};    ///< legend entry; none when empty
   Ink ink = Ink::automatic;
   bool dashed = false;
   bool stairs = false;  ///< each value is constant until the next x, as a command
-  double width = 1.7;  ///< in units of the figure
+  double width = 1.7;   ///< in units of the figure
 };
 
 /// Unconnected points.
@@ -76,8 +76,8 @@ struct PlotAxis {
   std::string label = {};        ///< quantity and unit: "time (s)"
   std::optional<double> lo, hi;  ///< limits of the range, finite; empty: from the data
   bool reversed = false;         ///< small values right or on top, as the rows of a picture
-  /// Logarithmic scale: values that are not positive are omitted; lo and hi must be positive. Cannot be combined
-  /// with equal_aspect or a second scale.
+  /// Logarithmic scale: values that are not positive are omitted; lo and hi must be positive. Cannot be
+  /// combined with equal_aspect or a second scale.
   bool logarithmic = false;
 };
 
@@ -87,8 +87,8 @@ struct SecondScale {
   std::string label = {};
 };
 
-/// A plot: layers in drawing order, and axes. To add a kind of layer, add a struct to `Layer` and its extent(),
-/// draw() and swatch() in plot_layers.cpp.
+/// A plot: layers in drawing order, and axes. To add a kind of layer, add a struct to `Layer` and its
+/// extent(), draw() and swatch() in plot_layers.cpp.
 struct Plot {
   using Layer = std::variant<Line, Scatter, Band, Ribbon, Rule, Ellipse, Box>;
 

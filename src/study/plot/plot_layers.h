@@ -6,8 +6,8 @@
 
 #include "study/plot/plot.h"
 
-/// Implementation details of plot_svg.cpp: colours, coordinates and the drawing of one layer. Include plot_svg.h
-/// instead.
+/// Implementation details of plot_svg.cpp: colours, coordinates and the drawing of one layer. Include
+/// plot_svg.h instead.
 namespace faba::drawing {
 
 /// A colour: class in the style sheet, value in light mode and in dark mode.

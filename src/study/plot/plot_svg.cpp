@@ -75,7 +75,8 @@ Legend legend_of(const Plot& plot, const std::vector<Ink>& inks, double left, do
   return legend;
 }
 
-/// Ticks and their labels. Large and small numbers have a common power of ten, which is part of the axis label.
+/// Ticks and their labels. Large and small numbers have a common power of ten, which is part of the axis
+/// label.
 struct Scale {
   std::vector<double> at;
   std::vector<std::string> labels;

@@ -49,10 +49,10 @@ Figure speed_figure(const TrackSummary& s, const Unit& unit) {
 
 Figure msd_figure(const TrackSummary& s, const Unit& unit) {
   const double area = unit.length * unit.length;
-  Figure f{
-      "Mean-square displacement",
-      "Relative to the common drift, against lag. Shaded: ± two standard errors (jackknife over groups of tracks).",
-      {}};
+  Figure f{"Mean-square displacement",
+           "Relative to the common drift, against lag. Shaded: ± two standard errors (jackknife over groups "
+           "of tracks).",
+           {}};
   f.plot.description = "Mean-square displacement against lag";
   f.plot.inlined = true;
   f.plot.x.logarithmic = f.plot.y.logarithmic = true;
@@ -94,7 +94,8 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
 Figure heading_figure(const TrackSummary& s) {
   Figure f{
       "Direction over time",
-      "Dots: direction of the mean velocity in the picture (0 right, 90 degrees down), at times with significant "
+      "Dots: direction of the mean velocity in the picture (0 right, 90 degrees down), at times with "
+      "significant "
       "common motion. Line: order parameter, the length of the mean displacement over the mean length of the "
       "displacements, from 0 (bottom) to 1 (top).",
       {}};

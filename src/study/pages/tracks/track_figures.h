@@ -7,8 +7,8 @@
 
 namespace faba {
 
-/// The figures of tracks: distribution of speeds, mean-square displacement with both fits on logarithmic axes, and
-/// direction over time. In um if `um_per_px` > 0, else in px. A figure without data is omitted.
+/// The figures of tracks: distribution of speeds, mean-square displacement with both fits on logarithmic
+/// axes, and direction over time. In um if `um_per_px` > 0, else in px. A figure without data is omitted.
 std::vector<Figure> track_figures(const TrackSummary& summary, double um_per_px);
 
 /// Plot of the paths in picture coordinates, px, y down.

@@ -6,8 +6,8 @@
 namespace faba {
 
 /// Output of `faba track --json` (docs/formats/cli.md): parameters of detection and linking, mean-square
-/// displacement, drift, diffusion and persistent walk, speeds, turns, order. Values have their standard error and
-/// 95 % interval; lengths are also in um when the scale is known; unknown values are null.
+/// displacement, drift, diffusion and persistent walk, speeds, turns, order. Values have their standard error
+/// and 95 % interval; lengths are also in um when the scale is known; unknown values are null.
 nlohmann::ordered_json track_json(const TrackMeasurement& tracks);
 
 /// "dark", "bright" or "both".

@@ -7,10 +7,10 @@
 
 namespace faba {
 
-/// Writes a table of tracks. The file has a temporary name until complete() is called, and is deleted otherwise.
-/// CSV: `track,frame,t_s,x_px,y_px,mass,snr`. HDF5: one dataset for each of these columns, and attributes
-/// `format` = "faba tracked 1", `um_per_px` (when known), `width_px`, `height_px`. Rows of one part of a track are
-/// contiguous.
+/// Writes a table of tracks. The file has a temporary name until complete() is called, and is deleted
+/// otherwise. CSV: `track,frame,t_s,x_px,y_px,mass,snr`. HDF5: one dataset for each of these columns, and
+/// attributes `format` = "faba tracked 1", `um_per_px` (when known), `width_px`, `height_px`. Rows of one
+/// part of a track are contiguous.
 class TrackOutput {
  public:
   virtual ~TrackOutput() = default;
@@ -24,8 +24,8 @@ struct TrackedVideo {
   double um_per_px = 0;
 };
 
-/// Creates the output for the extension of `path`: .csv or .h5. Throws Error(Errc::usage) for other extensions,
-/// Error(Errc::internal) when the file cannot be written.
+/// Creates the output for the extension of `path`: .csv or .h5. Throws Error(Errc::usage) for other
+/// extensions, Error(Errc::internal) when the file cannot be written.
 std::unique_ptr<TrackOutput> track_output(const std::filesystem::path& path, const TrackedVideo& video);
 
 }  // namespace faba

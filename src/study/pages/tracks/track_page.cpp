@@ -88,10 +88,12 @@ std::string cards(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
   const SupportedWalk walk = supported_walk(s);
   std::string out = "<dl class=\"cards\">\n";
-  out += card("Tracks", std::to_string(s.tracks),
-              fmt::format("{} in {}", counted(s.points, "position"), counted(std::uint64_t(m.frames), "frame")));
+  out +=
+      card("Tracks", std::to_string(s.tracks),
+           fmt::format("{} in {}", counted(s.points, "position"), counted(std::uint64_t(m.frames), "frame")));
   if (walk == SupportedWalk::diffusion) out += card("Diffusion", diffusion(m), "± standard error");
-  if (walk == SupportedWalk::persistent) out += card("Persistent walk speed", walk_speed(m), "root mean square");
+  if (walk == SupportedWalk::persistent)
+    out += card("Persistent walk speed", walk_speed(m), "root mean square");
   out += card("Mean speed", mean_speed(m), s.speed_count > 0 ? "over " + number(s.interval_s, " s") : "");
   return out + localisation_card(s) + "</dl>\n";
 }
@@ -104,15 +106,17 @@ std::string table(const TrackMeasurement& m) {
   out += row("Video", fmt::format("{}, {}, {} s", m.video.string(), counted(std::uint64_t(m.frames), "frame"),
                                   number(m.duration_s, "")));
   out += row("Scale", m.um_per_px ? number(*m.um_per_px, " µm per px") : "not given");
-  out += row("Spots", fmt::format("{}, width {}, signal-to-noise ratio at least {}; {} per frame", word_of(d.polarity),
-                                  number(d.size_px, " px"), number(d.threshold_snr, ""),
+  out += row("Spots", fmt::format("{}, width {}, signal-to-noise ratio at least {}; {} per frame",
+                                  word_of(d.polarity), number(d.size_px, " px"), number(d.threshold_snr, ""),
                                   number(d.spots_per_frame, "")));
   out += row("Background", d.temporal ? fmt::format("median of {} frames, with {} stationary spots",
                                                     d.background_frames, d.still_spots)
                                       : "spatial, from each frame");
-  out += row("Linking", fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
-                                   number(t.reach_px, " px"), word_of(t.motion), t.memory_frames,
-                                   t.unsure_tracks, t.least_points));
+  out += row(
+      "Linking",
+      fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
+                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.unsure_tracks,
+                  t.least_points));
   out += row("Drift", drift(m));
   out += row("Diffusion", diffusion(m));
   out += row("Persistent walk", walk_speed(m) + ", persistence time " + walk_time(m));

@@ -14,8 +14,8 @@ namespace faba {
 std::string track_page(const TrackMeasurement& measured, const std::vector<Figure>& figures,
                        const RgbImage& tracks);
 
-/// Writes tracks.svg (`paths`), speeds.svg, msd.svg and heading.svg into the folder `where`, which is created when
-/// it does not exist.
+/// Writes tracks.svg (`paths`), speeds.svg, msd.svg and heading.svg into the folder `where`, which is created
+/// when it does not exist.
 void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures,
                          const Plot& paths);
 
