@@ -9,9 +9,9 @@ enum class SeedUse {
   proposal,     ///< posterior for the proposal of the next round of a search
   truncation,   ///< posterior for the check that the last round was wide enough
   left_out,     ///< posterior without one experiment; index: the experiment
-  best_model,   ///< posterior of the best model, to simulate it again
-  found_model,  ///< posterior and conclusions; index: the candidate
-  search        ///< all rounds; index: the candidate
+  best_model,   ///< posterior of the best model, for predictive simulations
+  found_model,  ///< posterior and estimates; index: the candidate
+  search        ///< all rounds of a search; index: the candidate
 };
 
 inline constexpr std::uint64_t kBestModelSeed = 5, kFoundModelSeeds = 77, kSearchSeeds = 1000;

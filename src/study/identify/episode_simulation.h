@@ -23,8 +23,8 @@ struct SegmentTiming {
 };
 /// The times of the episode.
 SegmentTiming exact_timing(const Episode& episode);
-/// The times of the episode with normally distributed errors of `sd_s`, sorted. The times are known to about
-/// one frame only, in which a cell can swim tens of pixels.
+/// The times of the episode with normally distributed errors of `sd_s`, truncated at 2.5 sd, and sorted. The
+/// times are known to about one frame only, in which a cell can swim tens of pixels.
 SegmentTiming random_timing(const Episode& episode, double sd_s, std::uint64_t seed);
 
 /// Scenario of an episode: arena, illumination, noise, field of view, initial cell positions, and the field

@@ -36,7 +36,7 @@ constexpr int kProfile = 41;               // points of a profile likelihood
 constexpr double kUninformative = 0.75;    // fraction of the prior range; a uniform posterior has 0.9
 constexpr double kMaxCorrelation = 0.9;    // above it two parameters are not identifiable separately
 constexpr double kLimitTolerance = 0.005;  // fraction of the prior range
-constexpr double kMaxBootstrapWidth = 2;   // over the posterior width; three sd for four equal experiments
+constexpr double kMaxBootstrapWidth = 2;   // over the posterior width; a 3 sd event for four experiments
 
 double weighted_quantile(const VectorXd& v, const VectorXd& weight, double p) {
   std::vector<Index> order(std::size_t(v.size()));

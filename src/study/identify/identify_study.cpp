@@ -36,7 +36,7 @@ struct IdentifyFile {
   std::string scale;
   std::optional<double> field_strength;
   static Schema<IdentifyFile> schema() {
-    return Schema<IdentifyFile>("identify", "Which model and which parameters explain videos")
+    return Schema<IdentifyFile>("identify", "Model selection and parameter estimation from videos")
         .add("title", &IdentifyFile::title, {.doc = "Title of the study in reports"})
         .add("seed", &IdentifyFile::seed, {.min = 0, .max = 9e15, .doc = "Seed of all random numbers"})
         .add("boundary", &IdentifyFile::boundary,
@@ -238,7 +238,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   study.legacy = f.legacy;
   if (root.has("scene")) {
     if (!root.child("scene").json->is_object())
-      root.child("scene").fail("must be a table with tables of a scenario");
+      root.child("scene").fail("must be a table of scenario tables");
     study.scene = *root.child("scene").json;
     for (const auto& [key, _] : study.scene.items())
       if (std::find(std::begin(kOfScene), std::end(kOfScene), key) == std::end(kOfScene))

@@ -15,7 +15,7 @@ struct SearchRounds {
   int first = 160;       ///< over the full ranges
   int refinement = 120;  ///< two rounds, around the simulations nearest to the observation
   int last = 200;        ///< over the posterior and its surroundings
-  int total() const { return first + 2 * closer + last; }
+  int total() const { return first + 2 * refinement + last; }
   static SearchRounds of(int simulations);
 };
 
