@@ -263,7 +263,7 @@ void note_field_strength(const IdentifyStudy& study, ResponseVideo& v) {
     const double t = c.field_strength_in(v);
     if (!c.field_strength_t && !v.field_t) {
       v.notes.push_back(fmt::format(
-          "field strength unknown: simulated with the default, {:g} uT; set field_strength = \"115 uT\"",
+          "field strength unknown: simulated with the default, {:g} uT; give field_strength, such as \"115 uT\"",
           1e6 * t));
       return;
     }

@@ -43,14 +43,14 @@ struct IdentifyFile {
              {.doc = "Boundary that confines the cells", .choices = {"drop", "box", "none"}})
         .add("look", &IdentifyFile::look,
              {.doc = "How simulations are observed: as frames rendered through the microscope, like the "
-                     "videos, or as "
-                     "positions of the cells, which is faster but has no camera effects",
+                     "videos, or as positions of the cells, which is faster but has no camera effects",
               .choices = {"video", "positions"}})
-        .add("measure", &IdentifyFile::measure,
-             {.doc = "Statistics for the comparison: distribution of the swarm in the picture (density), or "
-                     "motion of "
-                     "cells in short tracks (tracks); default: tracks without a boundary, else density",
-              .choices = {"density", "tracks"}})
+        .add(
+            "measure", &IdentifyFile::measure,
+            {.doc =
+                 "Statistics for the comparison: distribution of the swarm in the picture (density), or "
+                 "motion of cells in short tracks (tracks); default: tracks without a boundary, else density",
+             .choices = {"density", "tracks"}})
         .add("simulations", &IdentifyFile::simulations,
              {.min = 100, .max = 1e6, .doc = "Number of simulations of each video with each model"})
         .add("legacy", &IdentifyFile::legacy,
@@ -128,7 +128,7 @@ struct VideoFile {
 
 ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<double> um_per_px) {
   const VideoFile v = VideoFile::schema().parse(n);
-  if (v.file.empty()) n.fail("file is missing; give file = \"...\"");
+  if (v.file.empty()) n.fail("the key file is missing; give file = \"...\"");
   ResponseInput r;
   if (!v.segment.empty() && (v.reversal || v.direction || v.duration))
     n.fail("segment cannot be combined with reversal, direction or duration; give only one of the two");
@@ -254,7 +254,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
     um_per_px = parse_calibration(root.file(f.scale).string(), root.where("scale")).um_per_px;
   }
   if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
-    root.fail("video is missing; give one [[video]] for each video");
+    root.fail("[[video]] is missing; give one for each video");
   const Node videos = root.child("video");
   std::set<std::filesystem::path> seen;
   for (std::size_t i = 0; i < videos.json->size(); ++i) {
@@ -262,7 +262,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
     if (!seen.insert(std::filesystem::weakly_canonical(study.videos.back().file)).second)
       videos.item(i).fail("duplicate video; it would count as another experiment");
   }
-  if (!root.has("model")) root.fail("model is missing; give one [[model]] for each candidate");
+  if (!root.has("model")) root.fail("[[model]] is missing; give one for each candidate");
   const std::vector<Variant> models =
       read_variants(root, "model", {"free", kFieldStrength, kOldFieldStrength, "legacy"});
   for (std::size_t i = 0; i < models.size(); ++i)

@@ -230,8 +230,7 @@ void check_segments(const std::vector<FieldSegment>& segments, const ResponseInp
     if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
       throw Error(Errc::input, input.file.string(),
                   fmt::format("field segment from {:.4g} to {:.4g} s is invalid; it must last at least "
-                              "{:.2g} s and end within "
-                              "the video of {:.4g} s",
+                              "{:.2g} s and end within the video of {:.4g} s",
                               d.t0_s, d.t1_s, shortest, survey.duration_s));
 }
 

@@ -87,8 +87,7 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
 std::string table(const Comparison& c) {
   std::string out =
       "<table class=\"numbers\">\n<thead><tr><th>run</th><th>mean</th><th>s.d.</th><th>slope per "
-      "frame</th><th>score</th>"
-      "<th>legacy mean</th></tr></thead>\n<tbody>\n";
+      "frame</th><th>score</th><th>legacy mean</th></tr></thead>\n<tbody>\n";
   const auto line = [&](const std::string& name, const DistanceSeries& d, std::optional<double> score) {
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -103,8 +102,7 @@ std::string table(const Comparison& c) {
     out +=
         " Score: the mean distance on a scale where 0 is the distance between two runs of one scenario with "
         "different seeds and 1 is the distance to a video without motion. Scores below 0 are random "
-        "variation or "
-        "the same run; a score of 1 or more is no better than a video without motion.";
+        "variation or the same run; a score of 1 or more is no better than a video without motion.";
   return out + " Legacy mean: the distance as defined in the thesis.</p>\n";
 }
 
@@ -159,10 +157,8 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
           fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
   out += fmt::format(
       "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Quadratic-Chi distance (m = "
-      "{:g}, "
-      "bin similarity threshold {:g} bins) between the sums of the flow over columns and rows. Dashed: line "
-      "fits. "
-      "Same scenario, different seed: {}.</figcaption>\n</figure>\n",
+      "{:g}, bin similarity threshold {:g} bins) between the sums of the flow over columns and rows. Dashed: "
+      "line fits. Same scenario, different seed: {}.</figcaption>\n</figure>\n",
       svg(distances(c)), job.m, job.threshold, escape_markup(c.floor_from));
   out += table(c);
   for (const ComparedRun& r : c.runs) out += pictures(r, c.filter);

@@ -70,10 +70,9 @@ std::string table(const ControllerComparison& r) {
   }
   return out + fmt::format(
                    "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % confidence intervals "
-                   "(Student's "
-                   "t). Settling time: mean over the trials that settled. Difference to the best: mean "
-                   "difference in "
-                   "steady error, for equal seeds, to the controller with the smallest steady error.</p>\n",
+                   "(Student's t). Settling time: mean over the trials that settled. Difference to the best: "
+                   "mean difference in steady error, for equal seeds, to the controller with the smallest "
+                   "steady error.</p>\n",
                    counted(std::uint64_t(r.study.seeds), "seed"));
 }
 

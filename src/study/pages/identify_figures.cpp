@@ -140,8 +140,7 @@ std::vector<double> histogram_along(const GrayF& frame, const CellView& view, do
 Figure distribution_figure(const EpisodePictures& e, const ResponseVideo& v, double deg) {
   Figure f{"Distribution along the segment",
            "Fraction of the signal of the swarm in each of 24 bins along the direction of the first segment. "
-           "Solid: "
-           "video. Dashed: one simulation of the best model.",
+           "Solid: video. Dashed: one simulation of the best model.",
            plot_of("Distribution along the segment", "position along the segment (fraction of the view)",
                    "fraction of the signal")};
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};

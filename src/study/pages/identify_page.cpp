@@ -108,14 +108,11 @@ std::string legacy(const Identification& r) {
   if (r.legacy.empty()) return "";
   std::string out =
       "<h2>Legacy: selection rule of the 2016 thesis</h2>\n<p class=\"warning\">Not reliable: the rule "
-      "selects "
-      "the value at which the difference between video and simulation does not grow over time, and a "
-      "difference "
-      "that is large from the start does not grow either. It fails in tests with known true values. The "
-      "results "
-      "above do not use it.</p>\n<div class=\"wide\"><table "
-      "class=\"numbers\">\n<thead><tr><th>model</th><th>slope is zero at</th><th>95 % interval</th>"
-      "<th>difference, mean ± s.d.</th><th>smallest difference at</th></tr></thead>\n<tbody>\n";
+      "selects the value at which the difference between video and simulation does not grow over time, and a "
+      "difference that is large from the start does not grow either. It fails in tests with known true "
+      "values. The results above do not use it.</p>\n<div class=\"wide\"><table "
+      "class=\"numbers\">\n<thead><tr><th>model</th><th>slope is zero at</th><th>95 % "
+      "interval</th><th>difference, mean ± s.d.</th><th>smallest difference at</th></tr></thead>\n<tbody>\n";
   for (const LegacyModel& m : r.legacy) {
     const FreeParameter& q = m.parameter;
     const std::string interval = m.zero_ci95
@@ -141,8 +138,7 @@ std::string notes(const Identification& r) {
   for (const ResponseVideo& v : r.videos)
     out += fmt::format(
         "<li>{}: {:.4g} um per px, {:.4g} frames per second, field strength {:.3g} uT; time zero is at "
-        "{:.4g} "
-        "s of the video.</li>\n",
+        "{:.4g} s of the video.</li>\n",
         escape_markup(v.input.file.string()), v.um_per_px, v.fps,
         1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().start_s);
   out += fmt::format("<li>Seed {}, {} simulations with each model; Faba {}.</li>\n", r.study.seed,

@@ -276,8 +276,7 @@ std::string window_note(double window) {
   if (window == 0) return {};
   return fmt::format(
       " The signal switches too fast to be resolved: lines are means over {} s, shaded areas the ranges in "
-      "these "
-      "windows.",
+      "these windows.",
       three_digits(window));
 }
 

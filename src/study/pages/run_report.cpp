@@ -141,9 +141,8 @@ std::string video_figure(const RunInfo& info) {
       info.view_px.value_or(Vec2{4, 3});  // aspect ratio of the placeholder until the video is loaded
   return fmt::format(
       "<figure class=\"video\">\n<h3>Video</h3>\n<video controls=\"controls\" preload=\"metadata\" "
-      "width=\"{}\" "
-      "height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>{}: "
-      "<a href=\"video.mp4\">video.mp4</a> in the directory of this page.</figcaption>\n</figure>\n",
+      "width=\"{}\" height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>{}: <a "
+      "href=\"video.mp4\">video.mp4</a> in the directory of this page.</figcaption>\n</figure>\n",
       size.x, size.y, info.video_shows == "camera" ? "Camera frames of the run" : "Drawing of the run");
 }
 
@@ -228,8 +227,7 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
   if (series.last_line_cut()) {
     out +=
         "<p class=\"warning\">The recording ends in the middle of a line, as after an interruption. This "
-        "last "
-        "frame is ignored.</p>\n";
+        "last frame is ignored.</p>\n";
   }
   out += cards(m, info);
   std::vector<Figure> figures = run_figures(series, m, info);

@@ -35,8 +35,7 @@ std::string scale_note(const TableScale& s) {
   if (s.edge_excess_significant())
     return fmt::format(
         "the readings have a constant offset of {} (too {}), an edge effect independent of the width. Use "
-        "the "
-        "regression; the mean of the ratios is biased by {:+.1f} %",
+        "the regression; the mean of the ratios is biased by {:+.1f} %",
         range, s.intercept_px > 0 ? "wide" : "narrow", 100 * s.ratio_bias);
   return fmt::format(
       "the constant offset of the readings, {}, is not significantly different from 0, so no bias of either "

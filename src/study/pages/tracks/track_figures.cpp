@@ -92,13 +92,11 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
 }
 
 Figure heading_figure(const TrackSummary& s) {
-  Figure f{
-      "Direction over time",
-      "Dots: direction of the mean velocity in the picture (0 right, 90 degrees down), at times with "
-      "significant "
-      "common motion. Line: order parameter, the length of the mean displacement over the mean length of the "
-      "displacements, from 0 (bottom) to 1 (top).",
-      {}};
+  Figure f{"Direction over time",
+           "Dots: direction of the mean velocity in the picture (0 right, 90 degrees down), at times with "
+           "significant common motion. Line: order parameter, the length of the mean displacement over the "
+           "mean length of the displacements, from 0 (bottom) to 1 (top).",
+           {}};
   f.plot.description = "Mean heading over time";
   f.plot.inlined = true;
   f.plot.x.label = "time (s)";
