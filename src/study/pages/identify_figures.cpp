@@ -244,7 +244,7 @@ Figure profile_figure(const FoundParameter& p) {
 
 std::vector<Figure> legacy_figures(const LegacyModel& m) {
   const FreeParameter& q = m.parameter;
-  Figure over{
+  Figure distances{
       m.name + ": difference over time",
       "Quadratic-Chi distance between the flow histograms of the video and of the first simulation of each "
       "value, for each pair of frames. Dashed: line fits.",
@@ -264,12 +264,12 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
     Line series{.x = {}, .y = s.distance, .label = three_digits(q.shown(s.value)), .ink = ink, .width = 1.2};
     for (std::size_t i = 0; i < s.distance.size(); ++i) series.x.push_back(double(i));
     const double last = double(s.distance.size() - 1);
-    over.plot.add(std::move(series));
-    over.plot.add(Line{.x = {0, last},
-                       .y = {s.line.intercept, s.line.intercept + s.line.slope * last},
-                       .label = {},
-                       .ink = ink,
-                       .dashed = true});
+    distances.plot.add(std::move(series));
+    distances.plot.add(Line{.x = {0, last},
+                            .y = {s.line.intercept, s.line.intercept + s.line.slope * last},
+                            .label = {},
+                            .ink = ink,
+                            .dashed = true});
   }
   const auto [low, high] = std::minmax_element(dots.x.begin(), dots.x.end());
   const double per_shown = q.shown(1);
@@ -278,7 +278,7 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
   slopes.plot.add(
       Line{.x = {*low, *high}, .y = {line_at(*low), line_at(*high)}, .label = {}, .ink = Ink::vermillion});
   slopes.plot.add(std::move(dots));
-  return {over, slopes};
+  return {distances, slopes};
 }
 
 std::vector<EpisodePictures> episode_pictures(const Identification& r) {

@@ -209,20 +209,21 @@ std::string draw(const Band& b, Ink ink, const Map& map) {
 }
 
 std::string draw(const Ribbon& r, Ink ink, const Map& map) {
-  std::string out, there, back;
+  std::string out, upper, lower;
   const auto close = [&] {
-    if (!there.empty())
-      out += fmt::format(R"(<polygon {} fill-opacity="0.25" points="{}{}"/>)", fill(shade(ink)), there, back);
-    there.clear();
-    back.clear();
+    if (!upper.empty())
+      out +=
+          fmt::format(R"(<polygon {} fill-opacity="0.25" points="{}{}"/>)", fill(shade(ink)), upper, lower);
+    upper.clear();
+    lower.clear();
   };
   for (std::size_t i = 0; i < std::min({r.x.size(), r.lo.size(), r.hi.size()}); ++i) {
     if (!std::isfinite(r.x[i] + r.lo[i] + r.hi[i])) {
       close();  // a gap, as in a line
       continue;
     }
-    there += fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.hi[i]));
-    back.insert(0, fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.lo[i])));
+    upper += fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.hi[i]));
+    lower.insert(0, fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.lo[i])));
   }
   close();
   return out;
