@@ -18,10 +18,10 @@ namespace {
 constexpr std::size_t kMaxSignatures = 24;  // figures of single videos
 
 std::string title_of(const VideoActivity& a) {
-  std::string words = a.input.file.filename().string();
-  if (words.empty()) words = a.input.file.parent_path().filename().string();
-  if (a.input.exposure_s) words += fmt::format(", air exposure {} s", three_digits(*a.input.exposure_s));
-  return words;
+  std::string text = a.input.file.filename().string();
+  if (text.empty()) text = a.input.file.parent_path().filename().string();
+  if (a.input.exposure_s) text += fmt::format(", air exposure {} s", three_digits(*a.input.exposure_s));
+  return text;
 }
 
 std::string compass(double deg) {
@@ -177,15 +177,15 @@ std::string lead(const ActivityResult& r) {
   }
   std::size_t respond = 0;
   for (const VideoActivity& a : r.videos) respond += a.responds;
-  std::string words = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
+  std::string text = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
   if (r.cutoff)
-    words += fmt::format(
+    text += fmt::format(
         " The cut-off air exposure time is {} s (between {} and {} s); {}.", three_digits(r.cutoff->cutoff_s),
         three_digits(r.cutoff->between_s[0]), three_digits(r.cutoff->between_s[1]),
         r.cutoff->wrong == 0   ? "no video beyond it shows a response"
         : r.cutoff->wrong == 1 ? "one video is inconsistent with it"
                                : fmt::format("{} videos are inconsistent with it", r.cutoff->wrong));
-  return words;
+  return text;
 }
 
 }  // namespace

@@ -73,10 +73,10 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
                   escape_markup(name_of(r.file)), r.furthest.t_s);
   const std::pair<const Flow*, const char*> both[] = {{&r.furthest.reference, "Reference"},
                                                       {&r.furthest.run, "Run"}};
-  for (const auto& [flow, words] : both)
+  for (const auto& [flow, heading] : both)
     out += fmt::format(
         "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Flow within 45° of the direction.</figcaption>\n</figure>\n",
-        words, inline_picture(draw_flow(kept_flow(*flow, filter), how), words));
+        heading, inline_picture(draw_flow(kept_flow(*flow, filter), how), heading));
   out += fmt::format("<figure>\n<h3>Flow by column</h3>\n{}</figure>\n",
                      svg(histogram("column (px)", r.furthest.reference_bins.x, r.furthest.run_bins.x)));
   out += fmt::format("<figure>\n<h3>Flow by row</h3>\n{}</figure>\n</div>\n",

@@ -42,10 +42,10 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
 bool several_delays(const ControllerComparison& r) { return r.study.delays.size() > 1; }
 
 std::string condition(const ControllerComparison& r, const Combination& c) {
-  std::string words = r.study.models.size() > 1 ? c.model : "";
+  std::string text = r.study.models.size() > 1 ? c.model : "";
   if (several_delays(r))
-    words += fmt::format("{}delay {}", words.empty() ? "" : ", ", counted(std::uint64_t(c.delay), "frame"));
-  return words;
+    text += fmt::format("{}delay {}", text.empty() ? "" : ", ", counted(std::uint64_t(c.delay), "frame"));
+  return text;
 }
 
 std::string table(const ControllerComparison& r) {
@@ -189,9 +189,9 @@ nlohmann::ordered_json controllers_json(const ControllerComparison& r) {
 }
 
 std::string controllers_csv(const ControllerComparison& r) {
-  const auto quoted = [](const std::string& words) {
+  const auto quoted = [](const std::string& text) {
     std::string out = "\"";
-    for (const char ch : words) out += ch == '"' ? std::string("\"\"") : std::string(1, ch);
+    for (const char ch : text) out += ch == '"' ? std::string("\"\"") : std::string(1, ch);
     return out + "\"";
   };
   std::string out = "controller,model,delay_frames,metric,mean,sd,ci95_low,ci95_high,n\n";

@@ -25,22 +25,22 @@ constexpr std::size_t kMaxRouteSetpoints = 50;  // more are a moving setpoint, n
 
 /// "12.3 px (9.86 µm)", or only pixels without a picture scale.
 std::string length_text(double px, const RunInfo& info) {
-  std::string words = three_digits(px) + "\u00A0px";
-  if (info.um_per_px) words += fmt::format(" ({}\u00A0µm)", three_digits(px * *info.um_per_px));
-  return words;
+  std::string text = three_digits(px) + "\u00A0px";
+  if (info.um_per_px) text += fmt::format(" ({}\u00A0µm)", three_digits(px * *info.um_per_px));
+  return text;
 }
 
 std::string seconds(double s) { return three_digits(s) + "\u00A0s"; }
 
 std::string dispersion_text(const Metrics& m, const RunInfo& info) {
   if (!m.sigma_x_px || !m.sigma_y_px) return {};
-  std::string words =
+  std::string text =
       fmt::format("{}\u00A0×\u00A0{}\u00A0px", three_digits(*m.sigma_x_px), three_digits(*m.sigma_y_px));
   if (info.um_per_px) {
-    words += fmt::format(" ({}\u00A0×\u00A0{}\u00A0µm)", three_digits(*m.sigma_x_px * *info.um_per_px),
-                         three_digits(*m.sigma_y_px * *info.um_per_px));
+    text += fmt::format(" ({}\u00A0×\u00A0{}\u00A0µm)", three_digits(*m.sigma_x_px * *info.um_per_px),
+                        three_digits(*m.sigma_y_px * *info.um_per_px));
   }
-  return words;
+  return text;
 }
 
 std::string outcome_text(const Metrics& m, const RunInfo& info) {
@@ -66,14 +66,14 @@ std::string outcome_text(const Metrics& m, const RunInfo& info) {
                        seconds(*m.settling_time_s), seconds(m.duration_s),
                        length_text(*m.final_distance_px, info));
   }
-  std::string words = *m.settling_time_s == 0
-                          ? fmt::format("The swarm was at {} from the start", goal)
-                          : fmt::format("The swarm reached {} after {}", goal, seconds(*m.settling_time_s));
+  std::string text = *m.settling_time_s == 0
+                         ? fmt::format("The swarm was at {} from the start", goal)
+                         : fmt::format("The swarm reached {} after {}", goal, seconds(*m.settling_time_s));
   if (m.steady_rms_px) {
-    words += fmt::format(" and stayed within {} rms of it over the last third of the run",
-                         length_text(*m.steady_rms_px, info));
+    text += fmt::format(" and stayed within {} rms of it over the last third of the run",
+                        length_text(*m.steady_rms_px, info));
   }
-  return words + ".";
+  return text + ".";
 }
 
 std::string metric_row(const MetricInfo& one, double value, const RunInfo& info) {
@@ -160,12 +160,12 @@ std::string fact(const char* name, const std::string& value) {
 
 std::string computing_time(const Metrics& m, const RunInfo& info) {
   if (!info.wall_time_s) return {};
-  std::string words = three_digits(*info.wall_time_s) + " s";
+  std::string text = three_digits(*info.wall_time_s) + " s";
   const double simulated = info.duration_s.value_or(m.duration_s);
   if (*info.wall_time_s > 0 && simulated > 0) {
-    words += fmt::format(", {} times real time", three_digits(simulated / *info.wall_time_s));
+    text += fmt::format(", {} times real time", three_digits(simulated / *info.wall_time_s));
   }
-  return words;
+  return text;
 }
 
 std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {

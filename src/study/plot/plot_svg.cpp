@@ -93,10 +93,10 @@ Scale scale_of(Range r, int wanted, const std::string& label) {
   const double step = scale.at.size() > 1 ? (scale.at[1] - scale.at[0]) / unit : 1;
   const int decimals = std::clamp(int(std::ceil(-std::log10(step) - 1e-6)), 0, 9);
   for (const double v : scale.at) {
-    std::string words = fmt::format("{:.{}f}", std::abs(v) / unit, decimals);
-    if (v < -0.5 * step * unit) words.insert(0, "\u2212");
-    scale.width = std::max(scale.width, kDigit * character_count(words));
-    scale.labels.push_back(std::move(words));
+    std::string text = fmt::format("{:.{}f}", std::abs(v) / unit, decimals);
+    if (v < -0.5 * step * unit) text.insert(0, "\u2212");
+    scale.width = std::max(scale.width, kDigit * character_count(text));
+    scale.labels.push_back(std::move(text));
   }
   if (exponent != 0) scale.label += " \u00D7" + power_of_ten(exponent);
   return scale;
@@ -169,32 +169,32 @@ Plot with_logarithms(Plot plot) {
   return plot;
 }
 
-std::string rotated_text(PlotPoint p, const std::string& words) {
+std::string rotated_text(PlotPoint p, const std::string& text) {
   const std::string turn = fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})")svg", p.x, p.y);
-  return text_at(p, "middle", shade(Ink::text), words, turn.c_str());
+  return text_at(p, "middle", shade(Ink::text), text, turn.c_str());
 }
 
 std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, double per_unit, const Map& map) {
-  std::string grid, words;
+  std::string grid, text;
   const double bottom = map.top + map.h, end = map.left + map.w;
   for (std::size_t i = 0; i < x.at.size(); ++i) {
     const double at = map.left + map.to_x(x.at[i]);
     grid += fmt::format("M{:.1f} {:.1f}v{:.1f}", at, map.top, map.h);
-    words += text_at({at, bottom + 16}, "middle", shade(Ink::muted), x.labels[i]);
+    text += text_at({at, bottom + 16}, "middle", shade(Ink::muted), x.labels[i]);
   }
   for (std::size_t i = 0; i < y.at.size(); ++i) {
     const double at = map.top + map.to_y(y.at[i]);
     grid += fmt::format("M{:.1f} {:.1f}h{:.1f}", map.left, at, map.w);
-    words += text_at({map.left - 6, at + 4}, "end", shade(Ink::muted), y.labels[i]);
+    text += text_at({map.left - 6, at + 4}, "end", shade(Ink::muted), y.labels[i]);
   }
   for (std::size_t i = 0; i < right.at.size(); ++i) {
     const double at = map.top + map.to_y(right.at[i] / per_unit);
-    words += text_at({end + 6, at + 4}, "start", shade(Ink::muted), right.labels[i]);
+    text += text_at({end + 6, at + 4}, "start", shade(Ink::muted), right.labels[i]);
   }
-  words += text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label);
-  words += rotated_text({map.left - y.width - 14, map.top + map.h / 2}, y.label);
-  if (!right.label.empty()) words += rotated_text({end + right.width + 21, map.top + map.h / 2}, right.label);
-  return fmt::format(R"(<path {} d="{}"/>)", stroke(kGrid), grid) + words;
+  text += text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label);
+  text += rotated_text({map.left - y.width - 14, map.top + map.h / 2}, y.label);
+  if (!right.label.empty()) text += rotated_text({end + right.width + 21, map.top + map.h / 2}, right.label);
+  return fmt::format(R"(<path {} d="{}"/>)", stroke(kGrid), grid) + text;
 }
 
 /// Gives both axes the same unit length by widening one range about its centre.

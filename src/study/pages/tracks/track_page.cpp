@@ -31,9 +31,9 @@ std::string number(double v, const char* unit) {
 
 // "12.3 ± 0.4", `scale` times the value.
 std::string with_error(const Estimated& e, double scale) {
-  std::string words = three_digits(scale * e.value);
-  if (std::isfinite(scale * e.se)) words += " ± " + three_digits(scale * e.se);
-  return words;
+  std::string text = three_digits(scale * e.value);
+  if (std::isfinite(scale * e.se)) text += " ± " + three_digits(scale * e.se);
+  return text;
 }
 
 std::string estimate(const Estimated& e, double scale, const std::string& unit) {
