@@ -262,9 +262,10 @@ void note_field_strength(const IdentifyStudy& study, ResponseVideo& v) {
   for (const Candidate& c : study.candidates) {
     const double t = c.field_strength_in(v);
     if (!c.field_strength_t && !v.field_t) {
-      v.notes.push_back(fmt::format(
-          "field strength unknown: simulated with the default, {:g} uT; give field_strength, such as \"115 uT\"",
-          1e6 * t));
+      v.notes.push_back(
+          fmt::format("field strength unknown: simulated with the default, {:g} uT; give field_strength, "
+                      "such as \"115 uT\"",
+                      1e6 * t));
       return;
     }
     if (v.field_t && std::fabs(t / *v.field_t - 1) > kSame)

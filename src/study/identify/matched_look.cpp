@@ -26,15 +26,15 @@ struct CellLook {
 };
 
 /// Median of the isolated cells, or of all cells when too few are isolated.
-CellLook look_of(const std::vector<Spot>& spots, double apart) {
+CellLook look_of(const std::vector<Spot>& spots, double isolation_px) {
   std::vector<double> mass, size, isolated_mass, isolated_size;
   for (const Spot& s : spots) {
-    double nearest = apart;
+    double nearest = isolation_px;
     for (const Spot& other : spots)
       if (&other != &s) nearest = std::min(nearest, norm(Vec2{other.x_px - s.x_px, other.y_px - s.y_px}));
     mass.push_back(s.mass);
     size.push_back(s.size_px);
-    if (nearest >= apart) {
+    if (nearest >= isolation_px) {
       isolated_mass.push_back(s.mass);
       isolated_size.push_back(s.size_px);
     }
@@ -48,13 +48,13 @@ CellLook look_of(const std::vector<Spot>& spots, double apart) {
 
 void match_look(ResponseVideo& v, const GrayF& frame, Boundary boundary) {
   const bool bright = v.view.cells.polarity == Polarity::bright;
-  const double apart = kIsolation * v.view.cells.cell_px;
+  const double isolation_px = kIsolation * v.view.cells.cell_px;
   const Detector detector = v.view.detector();
   const std::vector<Spot> spots = detector.find(frame);
-  const CellLook wanted = look_of(spots, apart);
+  const CellLook target = look_of(spots, isolation_px);
   v.cell_px = v.view.cells.cell_px;
   v.contrast = bright ? kInitialContrast : -kInitialContrast;
-  if (!(wanted.mass > 0)) return;
+  if (!(target.mass > 0)) return;
   Episode still{"", 0, {{0, v.view.frame_s, 0}}, {}};
   for (const Spot& s : spots) still.positions_image.push_back({s.x_px, s.y_px});
   EpisodeSettings settings;
@@ -64,12 +64,13 @@ void match_look(ResponseVideo& v, const GrayF& frame, Boundary boundary) {
     const Document d = episode_scenario(v, still, settings, exact_timing(still));
     const EpisodeObservation seen =
         simulate_episode(read_scenario(d, builtin_parts()), 1, 0, {0.0}, Look::video, v.ground);
-    const CellLook now = look_of(detector.find(seen.frames.front()), apart);
-    if (!(now.mass > 0)) return;
-    const double wider = std::clamp(wanted.size_px / now.size_px, 0.5, 2.0), more = wanted.mass / now.mass;
-    v.cell_px = std::max(kMinWidth, v.cell_px * wider);
+    const CellLook current = look_of(detector.find(seen.frames.front()), isolation_px);
+    if (!(current.mass > 0)) return;
+    const double width_ratio = std::clamp(target.size_px / current.size_px, 0.5, 2.0),
+                 mass_ratio = target.mass / current.mass;
+    v.cell_px = std::max(kMinWidth, v.cell_px * width_ratio);
     // At the same contrast the integrated grey value grows with the square of the width.
-    const double ratio = more / (wider * wider);
+    const double ratio = mass_ratio / (width_ratio * width_ratio);
     v.contrast = bright ? std::clamp(v.contrast * ratio, kFaintest, kBrightest)
                         : std::clamp(std::expm1(std::log1p(v.contrast) * ratio), -kDarkest, -kFaintest);
   }

@@ -224,11 +224,11 @@ void ParameterSearch::fit_emulator() {
 }
 
 SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& columns) const {
-  const auto wanted = columns.empty() ? all_columns(observed_.size()) : columns;
-  const auto part = [&](SimulationTable t) { return SimulationTable{t.u, t.s(Eigen::all, wanted)}; };
+  const auto selected = columns.empty() ? all_columns(observed_.size()) : columns;
+  const auto part = [&](SimulationTable t) { return SimulationTable{t.u, t.s(Eigen::all, selected)}; };
   if (proposals_.size() <= 3) {
     const SimulationTable both = part(rows_of(all_, rows_since(1)));
-    return {both, both, observed_(wanted), centre_};
+    return {both, both, observed_(selected), centre_};
   }
   // The compression is fitted to the simulations of earlier rounds in and near the region of the last one.
   const VectorXd margin = 0.5 * (box_.high - box_.low);
@@ -240,7 +240,7 @@ SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& column
     earlier.clear();
     for (Index i = round_begin_[1]; i < round_begin_[3]; ++i) earlier.push_back(i);
   }
-  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(3))), observed_(wanted), centre_};
+  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(3))), observed_(selected), centre_};
 }
 
 MatrixXd ParameterSearch::posterior(const std::vector<Index>& columns, int count, std::uint64_t seed) const {

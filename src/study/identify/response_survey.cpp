@@ -237,13 +237,13 @@ void check_segments(const std::vector<FieldSegment>& segments, const ResponseInp
 // Reads all needed frames in one pass: initial positions, statistics, pictures for the report.
 void take_frames(ResponseVideo& v, Boundary boundary, Measure measure, const std::function<void()>& tick) {
   std::vector<double> times_s;
-  const auto want = [&](const Episode& e, const std::vector<double>& times) {
+  const auto add_times = [&](const Episode& e, const std::vector<double>& times) {
     for (const double t : times) times_s.push_back(e.start_s + t);
   };
   for (const Episode& e : v.episodes) {
-    want(e, {0});
-    want(e, make_statistics(measure, e, v.view)->times_s());
-    want(e, picture_times(e));
+    add_times(e, {0});
+    add_times(e, make_statistics(measure, e, v.view)->times_s());
+    add_times(e, picture_times(e));
   }
   std::vector<GrayF> frames = frames_at(v, times_s, tick);
   if (measure == Measure::tracks) set_tracking(v, frames);

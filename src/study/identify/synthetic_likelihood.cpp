@@ -70,12 +70,12 @@ Eigen::MatrixXd sample(const std::function<double(const Eigen::VectorXd&)>& log_
   for (int i = 0; i < steps; ++i) {
     Eigen::VectorXd z(d);
     for (Eigen::Index j = 0; j < d; ++j) z[j] = random.normal();
-    const Eigen::VectorXd to = at + step * (root * z);
-    const double there = box.contains(to) ? log_density(to) : -HUGE_VAL;
+    const Eigen::VectorXd proposal = at + step * (root * z);
+    const double proposed_density = box.contains(proposal) ? log_density(proposal) : -HUGE_VAL;
     const double threshold = std::log(random.uniform());
-    if (threshold < there - density) {
-      at = to;
-      density = there;
+    if (threshold < proposed_density - density) {
+      at = proposal;
+      density = proposed_density;
       ++accepted;
     }
     ++since;

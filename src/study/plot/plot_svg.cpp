@@ -20,7 +20,7 @@ constexpr std::size_t kAutomaticInks = 6;
 constexpr double kLegendRow = 18, kSwatch = 20;
 constexpr double kDigit = 7.5;  // advance of a digit in a wide font, so that tick labels never overlap
 
-constexpr double kLeastLength = 1e-200;  // above the denormal numbers
+constexpr double kMinAxisLength = 1e-200;  // above the denormal numbers
 
 /// Range of an axis: as configured, else that of the data with a margin; its length is always positive.
 Range settled(Range data, const PlotAxis& axis, double margin) {
@@ -29,7 +29,7 @@ Range settled(Range data, const PlotAxis& axis, double margin) {
   const double pad = margin * std::max(0.0, r.length());
   if (!axis.lo) r.lo -= pad;
   if (!axis.hi) r.hi += pad;
-  const double least = std::max(1e-9 * std::max(std::abs(r.lo), std::abs(r.hi)), kLeastLength);
+  const double least = std::max(1e-9 * std::max(std::abs(r.lo), std::abs(r.hi)), kMinAxisLength);
   if (!(r.length() > least)) {
     const double half = std::max(0.5, 0.05 * std::abs(r.lo));
     r = axis.lo ? Range{r.lo, r.lo + 2 * half} : Range{r.lo - half, r.lo + half};
@@ -84,8 +84,8 @@ struct Scale {
   double width = 0;
 };
 
-Scale scale_of(Range r, int wanted, const std::string& label) {
-  Scale scale{tick_positions(r.lo, r.hi, wanted), {}, label};
+Scale scale_of(Range r, int tick_count, const std::string& label) {
+  Scale scale{tick_positions(r.lo, r.hi, tick_count), {}, label};
   if (scale.at.empty()) return scale;
   const double size = std::max(std::abs(r.lo), std::abs(r.hi));
   const int exponent = size >= 1e5 || size < 1e-2 ? int(std::floor(std::log10(size))) : 0;
@@ -103,11 +103,11 @@ Scale scale_of(Range r, int wanted, const std::string& label) {
 }
 
 // Ticks of a logarithmic axis: decades, with 2 and 5 between them if there is space.
-Scale decades_of(Range r, int wanted, const std::string& label) {
+Scale decades_of(Range r, int tick_count, const std::string& label) {
   Scale scale{{}, {}, label};
   const int first = int(std::ceil(r.lo - 1e-9)), last = int(std::floor(r.hi + 1e-9));
-  const bool between = last - first + 1 < wanted / 2 + 1;
-  const int every = std::max(1, (last - first + 1 + wanted) / std::max(1, wanted));
+  const bool between = last - first + 1 < tick_count / 2 + 1;
+  const int every = std::max(1, (last - first + 1 + tick_count) / std::max(1, tick_count));
   for (int decade = first - 1; decade <= last; ++decade)
     for (const int lead : {1, 2, 5}) {
       const double at = decade + std::log10(lead);
@@ -124,8 +124,8 @@ Scale decades_of(Range r, int wanted, const std::string& label) {
   return scale;
 }
 
-Scale scale_along(const PlotAxis& axis, Range r, int wanted) {
-  return axis.logarithmic ? decades_of(r, wanted, axis.label) : scale_of(r, wanted, axis.label);
+Scale scale_along(const PlotAxis& axis, Range r, int tick_count) {
+  return axis.logarithmic ? decades_of(r, tick_count, axis.label) : scale_of(r, tick_count, axis.label);
 }
 
 double logarithm(double v) { return v > 0 ? std::log10(v) : std::numeric_limits<double>::quiet_NaN(); }
@@ -261,10 +261,10 @@ std::string opening(const Plot& plot, double height) {
 
 }  // namespace
 
-std::vector<double> tick_positions(double lo, double hi, int wanted) {
+std::vector<double> tick_positions(double lo, double hi, int tick_count) {
   std::vector<double> at;
   if (!(lo < hi) || !std::isfinite(hi - lo)) return at;
-  const double raw = (hi - lo) / std::max(1, wanted);
+  const double raw = (hi - lo) / std::max(1, tick_count);
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   const double lead = raw / power;
   const double step = power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
