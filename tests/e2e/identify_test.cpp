@@ -165,7 +165,7 @@ TEST_CASE(
     write_file(f.path / "study.toml", head + kBasic);
     const Called c = faba_in(f.path, "identify study.toml --json --force --out out");
     REQUIRE_MESSAGE(c.exit == 0, c.err);
-    CHECK(c.json()["notes"].dump().find("how strong") == std::string::npos);
+    CHECK(c.json()["notes"].dump().find("field strength unknown") == std::string::npos);
     return read_file(f.path / "out/best.toml");
   };
   const std::string given = best(kHead);
@@ -202,8 +202,8 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
   const TestFolder f;
   make_film(f);
   refused(f, kHead, 2, "[[model]]");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\n", 2, "nothing to find");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = []\n", 2, "nothing to find");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\n", 2, "no free parameters");
+  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = []\n", 2, "no free parameters");
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].model.max_sped\"]\n", 2,
           "did you mean \"max_speed\"");
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[4].model.max_speed\"]\n", 2,
@@ -217,10 +217,10 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
           kHead + "[[model]]\ntype = \"dipole\"\nfree = { \"swarm[0].model.speed\" = [\"5 s\", \"9 s\"] }\n",
           2, "not a quantity");
   refused(f, kHead + kBasic + "legacy = [1, 5]\n", 2, "three values");
-  refused(f, kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "not in the range");
+  refused(f, kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "out of range");
   refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");
   refused(f, kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
-  refused(f, kHead + "[[video]]\nfile = \"./film\"\n" + kBasic, 2, "there already");
+  refused(f, kHead + "[[video]]\nfile = \"./film\"\n" + kBasic, 2, "duplicate video");
   refused(f,
           kHead +
               "[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.segment]]\nfrom = \"1.5 s\"\nto = "
@@ -229,7 +229,7 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
           2, "must not overlap");
   refused(f, kHead + "reversal = \"1 s\"\n[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
           "only one of the two");
-  refused(f, kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2, "the video tells it");
+  refused(f, kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2, "taken from the video");
   refused(f, kHead + "[[model]]\ntype = \"bassic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n", 2,
           "did you mean \"basic\"");
   for (const char* path : {"camera.rate", "duration", "seed", "arena.size_px"})

@@ -105,9 +105,9 @@ def histograms(lab, found):
     found.show(
         read.figure(page, "Reference", "Flow of the experiment"),
         read.figure(page, "Run", "Flow of the simulation"),
-        read.figure(page, "Over columns", "Sums over columns"),
-        read.figure(page, "Over rows", "Sums over rows"),
-        read.figure(page, "Distance of the flows over time"),
+        read.figure(page, "Flow by column", "Sums over columns"),
+        read.figure(page, "Flow by row", "Sums over rows"),
+        read.figure(page, "Distance between the flows over time"),
     )
 
 

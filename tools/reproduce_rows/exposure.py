@@ -138,7 +138,7 @@ def one_experiment(lab, found):
         f" {course}, to {mean[700]:.0f} at 700 s: a fall at 15 Hz, as in the thesis, need not tell how fast cells are."
     )
     page = step.folder / "report.html"
-    found.show(read.figure(page, "Mean activity against exposure"), read.figure(page, "Time of the maximum against exposure"))
+    found.show(read.figure(page, "Mean activity against air exposure time"), read.figure(page, "Time of the maximum against air exposure time"))
 
 
 def line(lab, found):
@@ -170,10 +170,10 @@ def line(lab, found):
     found.note.append(f"Mean activity scatters, as in the thesis, and at 15 Hz {trend} (slope {m[0]:.2f} to {m[1]:.2f}); see Fig 4.11.")
     page = noisy.folder / "report.html"
     found.show(
-        read.figure(page, "Mean activity against exposure"),
-        read.figure(page, "Time of the maximum against exposure"),
+        read.figure(page, "Mean activity against air exposure time"),
+        read.figure(page, "Time of the maximum against air exposure time"),
         read.figure(page, "Mean activity per visible cell"),
-        read.figure(plain.folder / "report.html", "Time of the maximum against exposure", "The same cells without noise"),
+        read.figure(plain.folder / "report.html", "Time of the maximum against air exposure time", "The same cells without noise"),
     )
 
 

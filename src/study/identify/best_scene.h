@@ -5,8 +5,8 @@
 
 namespace faba {
 
-/// Writes best.toml: a scene that repeats the first segment, or all of one drop, with the best model and its
-/// parameters at the middle of what was found; and background.png, its light. For `faba run` and
+/// Writes best.toml, a scene of the first episode with the best model at the posterior medians of its
+/// parameters, and background.png, its background illumination. For `faba run` and
 /// `faba compare-controllers`. Throws Error(internal) when `dir` cannot be written.
 void write_best_scene(const Identification& result, const std::filesystem::path& dir);
 

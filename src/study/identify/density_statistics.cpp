@@ -7,20 +7,20 @@
 namespace faba {
 namespace {
 
-constexpr double kAnywhere = 0.01;  // share of the mean number of cells that is spread over the view: where
-                                    // none is seen quantiles are then those of the view
-constexpr double kFew = 0.02;       // share in view that is as good as none
+constexpr double kUniform = 0.01;    // fraction of the mean signal that is added uniformly over the view, so
+                                     // that quantiles are defined without cells
+constexpr double kLogOffset = 0.02;  // added to the fraction in view before the logarithm
 constexpr const char* kDensityNumbers[] = {"cells in view", "10 % along", "median along", "90 % along",
                                            "width across"};
-constexpr int kMoments = 6;  // of each segment
-// How many cells a crowd is taken for depends on how each of them looks. At the true parameters simulations
-// of experiments 0 and 1 of bench/recovery.py were counted 6 % above the videos, though as wide and as
-// strong.
-constexpr double kCount = 0.1;
-// So much more or less of them is seen in a crowd at the edge of a drop, where light is lost to both.
-constexpr double kMass = 0.05;
+constexpr int kTimesPerSegment = 6;
+// Model error (sd) of the logarithm of the cell count: the count in a dense group depends on the appearance
+// of single cells. At the true parameters, simulations of experiments 0 and 1 of bench/recovery.py had counts
+// 6 % above those of the videos at equal width and strength.
+constexpr double kCountError = 0.1;
+// Model error (sd) of the logarithm of the signal in view, for dense groups at the dark edge of a drop.
+constexpr double kSignalError = 0.05;
 
-/// A distribution along one direction of the view, by bins of a pixel.
+/// Distribution of the signal along one direction of the view, in bins of one pixel.
 class LightProfile {
  public:
   LightProfile(Vec2 along, int width, int height) : along_(along) {
@@ -33,21 +33,21 @@ class LightProfile {
     mass_.assign(std::size_t(std::ceil(high_ - low_)) + 1, 0.0);
   }
   void add(Vec2 at, double weight) {
-    const double place = std::clamp(dot(at, along_) - low_, 0.0, double(mass_.size() - 1));
-    mass_[std::size_t(place)] += weight;
+    const double position = std::clamp(dot(at, along_) - low_, 0.0, double(mass_.size() - 1));
+    mass_[std::size_t(position)] += weight;
   }
-  void add_everywhere(double weight) {
+  void add_uniform(double weight) {
     for (double& m : mass_) m += weight / double(mass_.size());
   }
-  /// Share p of the mass lies below it; as a share of the view's length.
+  /// Quantile p, as a fraction of the length of the view.
   double quantile(double p) const {
     double sum = 0;
     for (const double m : mass_) sum += std::max(m, 0.0);
-    double want = p * sum;
+    double remaining = p * sum;
     for (std::size_t i = 0; i < mass_.size(); ++i) {
       const double m = std::max(mass_[i], 0.0);
-      if (want <= m) return (double(i) + (m > 0 ? want / m : 0)) / double(mass_.size());
-      want -= m;
+      if (remaining <= m) return (double(i) + (m > 0 ? remaining / m : 0)) / double(mass_.size());
+      remaining -= m;
     }
     return 1;
   }
@@ -58,8 +58,8 @@ class LightProfile {
   std::vector<double> mass_;
 };
 
-/// At six moments of each segment how many cells are in view, where along the direction of the segment 10, 50
-/// and 90 % of them are, and how wide they spread across it; and how many there are in all.
+/// Statistics at six times of each segment: signal in view, 10, 50 and 90 % quantiles of the position along
+/// the direction of the segment, and width across it. The last statistic is the number of cells.
 class DensityStatistics final : public EpisodeStatistics {
  public:
   DensityStatistics(const Episode& episode, const CellView& view);
@@ -67,8 +67,8 @@ class DensityStatistics final : public EpisodeStatistics {
   std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override;
   void blur(std::vector<double>& numbers, StudyRandom& random) const override {
     for (std::size_t k = 0; k + 1 < numbers.size(); k += std::size(kDensityNumbers))
-      numbers[k] += kMass * random.normal();
-    numbers.back() += kCount * random.normal();
+      numbers[k] += kSignalError * random.normal();
+    numbers.back() += kCountError * random.normal();
   }
 
  private:
@@ -76,18 +76,18 @@ class DensityStatistics final : public EpisodeStatistics {
     Vec2 at;
     double weight;
   };
-  std::vector<double> summed(const std::vector<std::vector<Mass>>& seen, double cells) const;
+  std::vector<double> statistics_of(const std::vector<std::vector<Mass>>& seen, double cells) const;
 
   Episode episode_;
   CellView view_;
-  std::vector<std::size_t> segment_at_;  ///< of each moment
+  std::vector<std::size_t> segment_at_;  ///< of each time
 };
 
 DensityStatistics::DensityStatistics(const Episode& e, const CellView& view) : episode_(e), view_(view) {
   for (std::size_t d = 0; d < e.segments.size(); ++d)
-    for (int i = 1; i <= kMoments; ++i) {
+    for (int i = 1; i <= kTimesPerSegment; ++i) {
       const FieldSegment& segment = e.segments[d];
-      times_s_.push_back(segment.t0_s + (segment.t1_s - segment.t0_s) * i / kMoments);
+      times_s_.push_back(segment.t0_s + (segment.t1_s - segment.t0_s) * i / kTimesPerSegment);
       segment_at_.push_back(d);
     }
   for (std::size_t k = 0; k < times_s_.size(); ++k)
@@ -107,7 +107,7 @@ std::vector<double> DensityStatistics::of_frames(const std::vector<GrayF>& frame
         if (const float v = w.at(c, r); v != 0) one.push_back({{double(c), double(r)}, double(v)});
     most = std::max(most, foreground.moments().cells);
   }
-  return summed(seen, most);
+  return statistics_of(seen, most);
 }
 
 std::vector<double> DensityStatistics::of_positions(const std::vector<std::vector<Vec2>>& positions) const {
@@ -118,11 +118,11 @@ std::vector<double> DensityStatistics::of_positions(const std::vector<std::vecto
     for (const Vec2 at : frame) one.push_back({at, 1.0});
     most = std::max(most, double(one.size()));
   }
-  return summed(seen, most);
+  return statistics_of(seen, most);
 }
 
-std::vector<double> DensityStatistics::summed(const std::vector<std::vector<Mass>>& seen,
-                                              double cells) const {
+std::vector<double> DensityStatistics::statistics_of(const std::vector<std::vector<Mass>>& seen,
+                                                     double cells) const {
   std::vector<double> mass;
   double mean = 0;
   for (const auto& one : seen) {
@@ -140,9 +140,10 @@ std::vector<double> DensityStatistics::summed(const std::vector<std::vector<Mass
       a.add(m.at, m.weight);
       b.add(m.at, m.weight);
     }
-    a.add_everywhere(kAnywhere * mean);
-    b.add_everywhere(kAnywhere * mean);
-    out.push_back(mean > 0 ? std::log(kFew + mass[k] / mean) : std::numeric_limits<double>::quiet_NaN());
+    a.add_uniform(kUniform * mean);
+    b.add_uniform(kUniform * mean);
+    out.push_back(mean > 0 ? std::log(kLogOffset + mass[k] / mean)
+                           : std::numeric_limits<double>::quiet_NaN());
     for (const double p : {0.1, 0.5, 0.9}) out.push_back(a.quantile(p));
     out.push_back(b.quantile(0.9) - b.quantile(0.1));
   }

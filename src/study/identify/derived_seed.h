@@ -4,26 +4,26 @@
 
 namespace faba {
 
-/// What an identification makes a seed for.
+/// Purpose of a seed within an identification.
 enum class SeedUse {
-  guide,        ///< posterior from which a search proposes its next round
-  cut_off,      ///< posterior that shows whether the last round was wide enough
+  proposal,     ///< posterior for the proposal of the next round of a search
+  truncation,   ///< posterior for the check that the last round was wide enough
   left_out,     ///< posterior without one experiment; index: the experiment
-  best_model,   ///< posterior of the best model, to simulate it again
-  found_model,  ///< posterior and conclusions; index: the candidate
-  search        ///< all rounds; index: the candidate
+  best_model,   ///< posterior of the best model, for predictive simulations
+  found_model,  ///< posterior and estimates; index: the candidate
+  search        ///< all rounds of a search; index: the candidate
 };
 
 inline constexpr std::uint64_t kBestModelSeed = 5, kFoundModelSeeds = 77, kSearchSeeds = 1000;
 
-/// The seed for a use, made from the seed of what it is a part of: of the study, for `guide` and `cut_off` of
-/// the search, and for `left_out` of the found model. The numbers keep the results of studies; do not change
-/// them.
+/// Seed for a purpose. `seed` is the seed of the search for `proposal` and `truncation`, the seed of the
+/// found model for `left_out`, and the seed of the study otherwise. The numbers determine the results of
+/// studies; do not change them.
 constexpr std::uint64_t derived_seed(std::uint64_t seed, SeedUse use, std::size_t index = 0) {
   switch (use) {
-    case SeedUse::guide:
+    case SeedUse::proposal:
       return seed + 1;
-    case SeedUse::cut_off:
+    case SeedUse::truncation:
       return seed + 2;
     case SeedUse::left_out:
       return seed + 1 + index;
@@ -37,9 +37,9 @@ constexpr std::uint64_t derived_seed(std::uint64_t seed, SeedUse use, std::size_
   return seed;
 }
 
-// Posteriors are told apart by their seeds alone, and no two are equal with up to 12 candidates and 75
-// experiments: best model 5; found models 77 (c + 1) to 77 (c + 1) + 75; searches from 1000. With more, two
-// candidates' Markov chains may have the same random numbers, which correlates their Monte Carlo errors.
+// The seeds of all posteriors are different for up to 12 candidates and 75 experiments: best model 5; found
+// models 77 (c + 1) to 77 (c + 1) + 75; searches from 1000. With more, the Markov chains of two candidates
+// can have equal random numbers, which correlates their Monte Carlo errors.
 static_assert(kBestModelSeed < kFoundModelSeeds);
 static_assert(derived_seed(derived_seed(0, SeedUse::found_model, 0), SeedUse::left_out, 74) <
               derived_seed(0, SeedUse::found_model, 1));

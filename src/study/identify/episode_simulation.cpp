@@ -12,10 +12,10 @@
 namespace faba {
 namespace {
 
-// A round cell of this share of the width that is seen, blurred by this one, is seen that wide (full width at
-// half maximum F: (F / 2.355)^2 = d^2 / 16 + s^2).
+// A round cell of diameter d = 0.85 F, blurred with sd s = 0.3676 F, has full width at half maximum F:
+// (F / 2.355)^2 = d^2 / 16 + s^2.
 constexpr double kDiameter = 0.85, kBlur = 0.3676;
-constexpr double kFar = 1e5;  // px: the edge of a place that has none
+constexpr double kUnbounded = 1e5;  // px: largest radius of an arena without boundary
 
 std::string quantity(double value, const char* unit) { return fmt::format("{} {}", value, unit); }
 
@@ -30,21 +30,21 @@ Json arena_of(const ResponseVideo& v, Boundary boundary) {
   return {{"type", "drop"},
           {"view_px", view},
           {"centre_px", {(v.view.width - 1) / 2.0, (v.view.height - 1) / 2.0}},
-          {"radius_px", std::min(kFar, 20.0 * std::hypot(v.view.width, v.view.height))}};
+          {"radius_px", std::min(kUnbounded, 20.0 * std::hypot(v.view.width, v.view.height))}};
 }
 
-// South-seeking cells, which is what scenarios have unless they say otherwise, swim against the field; the
-// world's y axis points up.
+// South-seeking cells, the default of scenarios, swim against the field. The y axis of the world points up.
 Json field_along(double direction_deg, double strength_t, bool north) {
-  const Vec2 way = unit_vector(direction_deg);
+  const Vec2 direction = unit_vector(direction_deg);
   const double b = north ? strength_t : -strength_t;
-  return {quantity(b * way.x, "T"), quantity(-b * way.y, "T")};
+  return {quantity(b * direction.x, "T"), quantity(-b * direction.y, "T")};
 }
 
-/// Looks at the moments that are measured.
-class Watch final : public Sink {
+/// Records the frames or cell positions at the times of the statistics.
+class EpisodeSink final : public Sink {
  public:
-  Watch(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s, Look look)
+  EpisodeSink(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s,
+              Look look)
       : simulation_(simulation), look_(look) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       const double frame = std::round((times[i] + lead_s) * s.camera.rate);
@@ -58,7 +58,7 @@ class Watch final : public Sink {
     for (const std::size_t i : it->second)
       look_ == Look::video ? take_picture(seen.frames[i]) : take_positions(seen.positions[i]);
   }
-  SeenEpisode seen;
+  EpisodeObservation seen;
 
  private:
   void take_picture(GrayF& out) {
@@ -82,18 +82,18 @@ class Watch final : public Sink {
 
 SegmentTiming exact_timing(const Episode& e) {
   SegmentTiming t;
-  for (const FieldSegment& d : e.segments) t.turns_s.push_back(d.t0_s);
+  for (const FieldSegment& d : e.segments) t.starts_s.push_back(d.t0_s);
   return t;
 }
 
-SegmentTiming drawn_timing(const Episode& e, double sd_s, std::uint64_t seed) {
+SegmentTiming random_timing(const Episode& e, double sd_s, std::uint64_t seed) {
   StudyRandom random(seed, StudyDraws::timing);
   SegmentTiming t;
   for (const FieldSegment& d : e.segments)
-    t.turns_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
-  t.lead_s = std::max(0.0, -t.turns_s.front());
-  for (double& turn : t.turns_s) turn += t.lead_s;
-  std::sort(t.turns_s.begin(), t.turns_s.end());
+    t.starts_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
+  t.lead_s = std::max(0.0, -t.starts_s.front());
+  for (double& start : t.starts_s) start += t.lead_s;
+  std::sort(t.starts_s.begin(), t.starts_s.end());
   return t;
 }
 
@@ -102,7 +102,7 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   Document d;
   d.name = settings.model.origin;
   Json places = Json::array();
-  for (const Vec2 at : e.places_image) places.push_back({at.x, at.y});
+  for (const Vec2 at : e.positions_image) places.push_back({at.x, at.y});
   const double px = v.um_per_px;
   d.root = {{"title", e.name},
             {"duration", quantity(timing.lead_s + e.length_s() + 1 / v.fps, "s")},
@@ -120,41 +120,41 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
                                     {"start", {{"type", "places"}, {"places_px", places}}}}})},
             {"estimator", "none"},
             {"record", {{"tracks", false}, {"video", true}, {"as_seen", true}}}};
-  // Few are in view and the place has no end: no grid of it.
+  // An occupancy grid of the large arena would be too large, and cells are sparse.
   if (settings.boundary == Boundary::none) d.root["exclusion"] = {{"order", "none"}};
   d.root.merge_patch(settings.scene);
   Json& swarm = d.root["swarm"][0];
-  // Held at the edge they head there: the first turn of the field takes them a U-turn, too.
+  // Cells at the edge head towards it, so the first field reversal needs a U-turn as well.
   if (settings.boundary != Boundary::none && !swarm.contains("heading"))
     swarm["heading"] = quantity(-(e.segments[0].direction_deg + 180), "deg");
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
   const auto along = [&](double deg) { return field_along(deg, settings.field_strength_t, north); };
   Json first = along(e.segments[0].direction_deg), segments = Json::array();
-  if (timing.turns_s[0] > 0)
+  if (timing.starts_s[0] > 0)
     first =
         settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.segments[0].direction_deg + 180);
   for (std::size_t i = 0; i < e.segments.size(); ++i)
-    if (timing.turns_s[i] > 0)
+    if (timing.starts_s[i] > 0)
       segments.push_back(
-          {{"at", quantity(timing.turns_s[i], "s")}, {"field", along(e.segments[i].direction_deg)}});
+          {{"at", quantity(timing.starts_s[i], "s")}, {"field", along(e.segments[i].direction_deg)}});
   d.root["controller"] = {{"type", "manual"}, {"field", first}};
   if (!segments.empty()) d.root["controller"]["segment"] = segments;
   apply(settings.model, "model", d);
   return d;
 }
 
-SeenEpisode simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
-                             const std::vector<double>& times_s, Look look,
-                             const std::shared_ptr<const VideoGround>& ground) {
+EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
+                                    const std::vector<double>& times_s, Look look,
+                                    const std::shared_ptr<const VideoGround>& ground) {
   Pool pool(1);
-  Scenario looked_at = s;
-  looked_at.record = {};
-  looked_at.record.as_seen = look == Look::video;
-  Simulation simulation(looked_at, seed, pool, ground);
-  Watch watch(times_s, lead_s, simulation, looked_at, look);
-  simulation.loop().sinks.push_back(&watch);
+  Scenario scenario = s;
+  scenario.record = {};
+  scenario.record.as_seen = look == Look::video;
+  Simulation simulation(scenario, seed, pool, ground);
+  EpisodeSink sink(times_s, lead_s, simulation, scenario, look);
+  simulation.loop().sinks.push_back(&sink);
   run(simulation.loop(), s.frames(), [] { return true; });
-  return std::move(watch.seen);
+  return std::move(sink.seen);
 }
 
 }  // namespace faba

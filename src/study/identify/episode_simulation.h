@@ -8,7 +8,7 @@
 
 namespace faba {
 
-/// What an episode is simulated with, beside what its video tells.
+/// Settings of a simulated episode that are not determined by its video.
 struct EpisodeSettings {
   Boundary boundary = Boundary::drop;
   Json scene = Json::object();  ///< tables of a scenario that all candidates share
@@ -16,37 +16,37 @@ struct EpisodeSettings {
   double field_strength_t = 1e-3;  ///< strength of the applied field, T
 };
 
-/// When the field turns in a simulation of an episode.
+/// Times of the field segments in a simulation of an episode.
 struct SegmentTiming {
-  double lead_s = 0;            ///< how long the simulation runs before the episode is taken to begin
-  std::vector<double> turns_s;  ///< beginning of each segment, from the simulation's own on
+  double lead_s = 0;             ///< simulated time before the start of the episode
+  std::vector<double> starts_s;  ///< start of each segment, relative to the start of the simulation
 };
-/// As the episode says.
+/// The times of the episode.
 SegmentTiming exact_timing(const Episode& episode);
-/// Each turn off by a normal law of `sd_s`, but in order: the moments are known to a frame or so only, and at
-/// tens of pixels per frame that shows.
-SegmentTiming drawn_timing(const Episode& episode, double sd_s, std::uint64_t seed);
+/// The times of the episode with normally distributed errors of `sd_s`, truncated at 2.5 sd, and sorted. The
+/// times are known to about one frame only, in which a cell can swim tens of pixels.
+SegmentTiming random_timing(const Episode& episode, double sd_s, std::uint64_t seed);
 
-/// A scenario that repeats an episode: its place, light, noise and field of view, its cells where they were
-/// seen, and the field along its segments. Before the first one the field is the opposite and has
-/// turned the cells; without a boundary there is none, and they head anywhere.
+/// Scenario of an episode: arena, illumination, noise, field of view, initial cell positions, and the field
+/// of its segments. Before the first segment the field is opposite to it and the cells are aligned; without a
+/// boundary the field is zero and the headings are random.
 Document episode_scenario(const ResponseVideo& video, const Episode& episode, const EpisodeSettings& settings,
                           const SegmentTiming& timing);
 
-/// How a simulated episode is looked at.
+/// How a simulated episode is observed.
 enum class Look {
-  video,     ///< through the microscope, as the video was
-  positions  ///< every cell in view is known: quick, and blind to what a camera does
+  video,     ///< as frames rendered through the microscope
+  positions  ///< as positions of all cells in view: faster, without camera effects
 };
 
-/// What is seen of a simulated episode at the moments asked for: one of the two.
-struct SeenEpisode {
+/// Observation of a simulated episode at the given times: frames or positions, as Look.
+struct EpisodeObservation {
   std::vector<GrayF> frames;
   std::vector<std::vector<Vec2>> positions;
 };
 /// Simulates an episode on the calling thread. `lead_s` as in SegmentTiming.
-SeenEpisode simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
-                             const std::vector<double>& times_s, Look look,
-                             const std::shared_ptr<const VideoGround>& ground);
+EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
+                                    const std::vector<double>& times_s, Look look,
+                                    const std::shared_ptr<const VideoGround>& ground);
 
 }  // namespace faba

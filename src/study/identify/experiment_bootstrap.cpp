@@ -14,11 +14,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kResamples = 1000;
-constexpr double kStep = 0.5;  // of derivatives, in sd of the posterior
-constexpr double kFlatPrior =
-    1.0 / 12;  // variance of a uniform law: what holds a parameter that nothing tells
+constexpr double kStep = 0.5;                  // of finite differences, in sd of the posterior
+constexpr double kUniformVariance = 1.0 / 12;  // of the prior; it bounds parameters without information
 
-/// A log-likelihood near a point, as a parabola: its slopes, and minus its second derivatives.
+/// Quadratic approximation of a log-likelihood at a point: gradient and negative Hessian.
 struct Parabola {
   VectorXd slope;
   MatrixXd curvature;
@@ -61,7 +60,7 @@ std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& se
   std::vector<std::vector<double>> estimates(static_cast<std::size_t>(d));
   for (int k = 0; k < kResamples; ++k) {
     VectorXd slope = VectorXd::Zero(d);
-    MatrixXd curvature = MatrixXd::Identity(d, d) / kFlatPrior;
+    MatrixXd curvature = MatrixXd::Identity(d, d) / kUniformVariance;
     for (std::size_t e = 0; e < each.size(); ++e) {
       const Parabola& drawn = each[random.below(each.size())];
       slope += drawn.slope;

@@ -7,11 +7,11 @@
 
 namespace faba {
 
-/// Between which values 90 % of the estimates of each parameter lie when the experiments are drawn anew with
-/// replacement (cluster bootstrap), as shares of their ranges: wider than the posterior where experiments
-/// differ by more than the chance that a model knows of. Each experiment is the columns of its statistics.
-/// Estimates are one Newton step from `centre`, which is near the best, on the sum of the experiments' own
-/// log-likelihoods. Empty for fewer than three experiments, which have too few ways to be drawn.
+/// 90 % bootstrap interval of each parameter, as fractions of its range: experiments are resampled with
+/// replacement (cluster bootstrap). It is wider than the posterior when experiments differ by more than the
+/// randomness of the model. Each experiment is given by the columns of its statistics. An estimate is one
+/// Newton step from `centre`, a point near the maximum, on the sum of the log-likelihoods of the experiments.
+/// Empty for fewer than three experiments.
 std::vector<std::array<double, 2>> resampled_estimates(
     const ParameterSearch& search, const std::vector<std::vector<Eigen::Index>>& experiments,
     const Eigen::VectorXd& centre, const Eigen::VectorXd& sd, std::uint64_t seed);

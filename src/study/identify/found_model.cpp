@@ -23,22 +23,22 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 VectorXd noise_of(const ParameterSearch& s) {
-  // Whatever a statistic is of, pixels per frame or a share, a hundredth is below what videos tell.
+  // 0.01 is below the resolution of a video for all statistics, in pixels per frame or as a fraction.
   return (s.emulator().residuals().array().square().colwise().mean().sqrt().max(0.01)).matrix().transpose();
 }
 
 namespace {
 
-constexpr int kDraws = 1000;        // from a posterior
-constexpr int kPredictions = 200;   // of what an experiment will show
-constexpr double kLevel = 0.90;     // of the intervals
-constexpr int kProfile = 41;        // values of each parameter
-constexpr double kUnlearnt = 0.75;  // share of the range: 0.9 when nothing was learnt
-constexpr double kTogether = 0.9;   // correlation from which on two are one
-constexpr double kAtEnd = 0.005;    // of the range, from its end
-constexpr double kDiffer = 2;  // times the posterior's width: by chance three sd off for four experiments
+constexpr int kDraws = 1000;               // samples of a posterior
+constexpr int kPredictions = 200;          // predictive samples of an experiment
+constexpr double kLevel = 0.90;            // of the credible intervals
+constexpr int kProfile = 41;               // points of a profile likelihood
+constexpr double kUninformative = 0.75;    // fraction of the prior range; a uniform posterior has 0.9
+constexpr double kMaxCorrelation = 0.9;    // above it two parameters are not identifiable separately
+constexpr double kLimitTolerance = 0.005;  // fraction of the prior range
+constexpr double kMaxBootstrapWidth = 2;   // over the posterior width; a 3 sd event for four experiments
 
-double weighed_quantile(const VectorXd& v, const VectorXd& weight, double p) {
+double weighted_quantile(const VectorXd& v, const VectorXd& weight, double p) {
   std::vector<Index> order(std::size_t(v.size()));
   std::iota(order.begin(), order.end(), Index(0));
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return v[a] < v[b]; });
@@ -53,56 +53,58 @@ FoundParameter found(const FreeParameter& p, const VectorXd& u, const VectorXd& 
   FoundParameter f{.parameter = p};
   for (const double x : u) f.draws.push_back(p.value(x));
   const double low = (1 - kLevel) / 2, high = 1 - low;
-  const std::vector<double> shares(u.begin(), u.end());
-  f.median = p.value(median(shares));
-  f.ci90 = {p.value(quantile(shares, low)), p.value(quantile(shares, high))};
-  f.fraction_of_range = quantile(shares, high) - quantile(shares, low);
-  f.abc_median = p.value(weighed_quantile(abc_u, abc_weight, 0.5));
-  f.abc_ci90 = {p.value(weighed_quantile(abc_u, abc_weight, low)),
-                p.value(weighed_quantile(abc_u, abc_weight, high))};
+  const std::vector<double> fractions(u.begin(), u.end());
+  f.median = p.value(median(fractions));
+  f.ci90 = {p.value(quantile(fractions, low)), p.value(quantile(fractions, high))};
+  f.fraction_of_range = quantile(fractions, high) - quantile(fractions, low);
+  f.abc_median = p.value(weighted_quantile(abc_u, abc_weight, 0.5));
+  f.abc_ci90 = {p.value(weighted_quantile(abc_u, abc_weight, low)),
+                p.value(weighted_quantile(abc_u, abc_weight, high))};
   return f;
 }
 
-/// Energy score of draws (rows) for what came, in units of `scale`; divided by the square root of how many
-/// numbers there are, so that experiments of different length count alike.
-double energy_score(const MatrixXd& draws, const VectorXd& came, const VectorXd& scale) {
+/// Energy score of samples (rows) against an observation, in units of `scale`, divided by the square root of
+/// the number of statistics, so that scores of experiments of different length are comparable.
+double energy_score(const MatrixXd& draws, const VectorXd& observed, const VectorXd& scale) {
   const MatrixXd x = draws * scale.cwiseInverse().asDiagonal();
-  const VectorXd y = came.cwiseQuotient(scale);
-  double to = 0, among = 0;
+  const VectorXd y = observed.cwiseQuotient(scale);
+  double to_observed = 0, between_draws = 0;
   for (Index i = 0; i < x.rows(); ++i) {
-    to += (x.row(i).transpose() - y).norm();
-    for (Index j = 0; j < i; ++j) among += (x.row(i) - x.row(j)).norm();
+    to_observed += (x.row(i).transpose() - y).norm();
+    for (Index j = 0; j < i; ++j) between_draws += (x.row(i) - x.row(j)).norm();
   }
   const double m = double(x.rows());
-  return (to / m - among / (m * (m - 1))) / std::sqrt(double(came.size()));
+  return (to_observed / m - between_draws / (m * (m - 1))) / std::sqrt(double(observed.size()));
 }
 
-// What an experiment would show at parameters drawn from the others' posterior: the expected numbers, and
-// what is left over of a simulation.
+// Predictive samples of an experiment at parameters `u`: expected statistics plus the residuals of a
+// simulation that is sampled at random.
 MatrixXd predict(const ParameterSearch& s, const MatrixXd& u, const std::vector<Index>& columns,
                  StudyRandom& random) {
-  const MatrixXd& left = s.emulator().residuals();
+  const MatrixXd& residuals = s.emulator().residuals();
   MatrixXd x(u.rows(), Index(columns.size()));
   for (Index i = 0; i < u.rows(); ++i) {
     const VectorXd mean = s.emulator().mean(u.row(i).transpose());
-    const Index other = Index(random.below(std::size_t(left.rows())));
+    const Index row = Index(random.below(std::size_t(residuals.rows())));
     for (std::size_t k = 0; k < columns.size(); ++k)
-      x(i, Index(k)) = mean[columns[k]] + left(other, columns[k]);
+      x(i, Index(k)) = mean[columns[k]] + residuals(row, columns[k]);
   }
   return x;
 }
 
-// The end of its range that the posterior leans on, unless nothing lies beyond it; empty for neither.
-std::string leans_on(const FoundParameter& p) {
+// Warning about a limit of the prior range that the posterior reaches, unless it is a limit of the parameter
+// itself; empty for none.
+std::string range_limit_warning(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
-  const double low = q.share(p.ci90[0]), high = q.share(p.ci90[1]);
-  const auto said = [&](const char* which, double value) {
+  const double low = q.fraction(p.ci90[0]), high = q.fraction(p.ci90[1]);
+  const auto warning = [&](const char* which, double value) {
     return fmt::format(
-        "{} lies at the {} end of its range, {:.3g}{}{}: a wider range may give another answer", q.path,
-        which, q.shown(value), q.shown_unit().empty() ? "" : " ", q.shown_unit());
+        "the 90 % interval of {} reaches the {} limit of its prior range, {:.3g}{}{}: repeat with a wider "
+        "range",
+        q.path, which, q.shown(value), q.shown_unit().empty() ? "" : " ", q.shown_unit());
   };
-  if (!q.low_is_least && low < kAtEnd) return said("lower", q.low);
-  if (!q.high_is_most && high > 1 - kAtEnd) return said("upper", q.high);
+  if (!q.low_is_limit && low < kLimitTolerance) return warning("lower", q.low);
+  if (!q.high_is_limit && high > 1 - kLimitTolerance) return warning("upper", q.high);
   return {};
 }
 
@@ -110,49 +112,61 @@ void add_doubt(FoundParameter& p, const std::string& doubt) {
   if (!doubt.empty()) p.doubt += (p.doubt.empty() ? "" : "; ") + doubt;
 }
 
-void tell_doubts(FoundModel& m, const MatrixXd& draws) {
+void add_doubts(FoundModel& m, const MatrixXd& draws) {
   const MatrixXd off = draws.rowwise() - draws.colwise().mean();
   for (Index j = 0; j < draws.cols(); ++j) {
     FoundParameter& p = m.parameters[std::size_t(j)];
-    if (p.fraction_of_range > kUnlearnt) {
+    if (p.fraction_of_range > kUninformative) {
       p.doubt = fmt::format(
-          "{} cannot be found from these videos: 90 % of the posterior cover {:.0f} % of its range",
+          "{} is not identifiable from these videos: its 90 % interval covers {:.0f} % of the prior range",
           p.parameter.path, 100 * p.fraction_of_range);
       continue;
     }
     for (Index k = 0; k < draws.cols(); ++k) {
       const double r = off.col(j).dot(off.col(k)) / (off.col(j).norm() * off.col(k).norm());
-      if (k != j && std::fabs(r) > kTogether)
-        p.doubt =
-            fmt::format("{} is found together with {} only: one makes up for the other (correlation {:.2f})",
-                        p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
+      if (k != j && std::fabs(r) > kMaxCorrelation)
+        p.doubt = fmt::format("{} and {} are not identifiable separately: posterior correlation {:.2f}",
+                              p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
     }
     const FreeParameter& q = p.parameter;
-    add_doubt(p, leans_on(p));
+    add_doubt(p, range_limit_warning(p));
     if (p.abc_ci90[0] > p.ci90[1] || p.abc_ci90[1] < p.ci90[0])
-      add_doubt(p, fmt::format("approximate Bayesian computation puts {} elsewhere: trust neither", q.path));
-    const bool differ =
-        p.resampled90 && ((*p.resampled90)[1] - (*p.resampled90)[0] > kDiffer * (p.ci90[1] - p.ci90[0]) ||
-                          p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
+      add_doubt(p, fmt::format("the 90 % intervals of {} from the synthetic likelihood and from approximate "
+                               "Bayesian computation do not overlap: neither is reliable",
+                               q.path));
+    const bool differ = p.resampled90 && ((*p.resampled90)[1] - (*p.resampled90)[0] >
+                                              kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]) ||
+                                          p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
     if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
-          "experiments differ about {} by more than the model knows of: of experiments drawn anew, 90 % give "
-          "{:.3g} to {:.3g}{}{}",
+          "{} differs between experiments by more than the model predicts: 90 % bootstrap interval over "
+          "experiments {:.3g} to {:.3g}{}{}",
           q.path, q.shown((*p.resampled90)[0]), q.shown((*p.resampled90)[1]),
           q.shown_unit().empty() ? "" : " ", q.shown_unit());
   }
 }
 
-// How far from its own mean a simulation is, by all numbers together; as a share of simulations that are
-// further.
+// Fraction of simulations whose squared distance from the expected statistics, in units of the noise, is at
+// least that of the observation.
 double fit_p(const ParameterSearch& s, const VectorXd& mode, const VectorXd& observed) {
-  const MatrixXd& left = s.emulator().residuals();
+  const MatrixXd& residuals = s.emulator().residuals();
   const VectorXd scale = noise_of(s);
-  const auto far = [&](const VectorXd& off) { return off.cwiseQuotient(scale).squaredNorm(); };
-  const double here = far(observed - s.emulator().mean(mode));
+  const auto squared_distance = [&](const VectorXd& off) { return off.cwiseQuotient(scale).squaredNorm(); };
+  const double distance = squared_distance(observed - s.emulator().mean(mode));
   double further = 0;
-  for (Index i = 0; i < left.rows(); ++i) further += far(left.row(i).transpose()) >= here;
-  return (further + 1) / double(left.rows() + 1);
+  for (Index i = 0; i < residuals.rows(); ++i)
+    further += squared_distance(residuals.row(i).transpose()) >= distance;
+  return (further + 1) / double(residuals.rows() + 1);
+}
+
+// A sentence about a model that does not fit, else nothing.
+std::string poor_fit(const FoundModel& m) {
+  if (m.fit_p >= 0.01) return "";
+  return fmt::format(
+      " {} does not explain the videos: only {:.1g} % of its simulations deviate from their mean as much as "
+      "the "
+      "videos.",
+      m.name, 100 * m.fit_p);
 }
 
 }  // namespace
@@ -162,7 +176,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
                        std::uint64_t seed) {
   FoundModel m;
   const MatrixXd draws = s.posterior({}, kDraws, seed);
-  const auto abc = s.by_distance();
+  const auto abc = s.abc_posterior();
   VectorXd middle(draws.cols());
   for (Index j = 0; j < draws.cols(); ++j) {
     const FreeParameter& p = candidate.free[std::size_t(j)];
@@ -178,7 +192,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
     const FreeParameter& p = m.parameters[j].parameter;
     m.parameters[j].resampled90 = {p.value(resampled[j][0]), p.value(resampled[j][1])};
   }
-  tell_doubts(m, draws);
+  add_doubts(m, draws);
   const SyntheticLikelihood l = s.likelihood({});
   for (Index j = 0; j < draws.cols(); ++j) {
     FoundParameter& p = m.parameters[std::size_t(j)];
@@ -186,7 +200,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
                                                s.box(), middle, j, kProfile);
     Index best = 0, from, to;
     profile.log_likelihood.maxCoeff(&best);
-    // Where it rises again the emulator's parabola has turned, far from all simulations.
+    // A profile that rises again far from its maximum is an artefact of the emulator's polynomial: cut it.
     for (from = best; from > 0 && profile.log_likelihood[from - 1] <= profile.log_likelihood[from];) --from;
     for (to = best;
          to + 1 < profile.u.size() && profile.log_likelihood[to + 1] <= profile.log_likelihood[to];)
@@ -228,46 +242,43 @@ void judge(Identification& r) {
   r.best = order[0];
   const FoundModel& best = r.models[r.best];
   r.evidence = "none";
-  const std::string poor = best.fit_p < 0.01 ? fmt::format(
-                                                   " None of them explains the videos: only {:.1g} % of the "
-                                                   "simulations of {} are as far from their mean.",
-                                                   100 * best.fit_p, best.name)
-                                             : "";
   if (order.size() < 2) {
-    r.words = "One model only: there is nothing to compare it with." + poor;
+    r.words = "Only one model was identified; there is no comparison of models." + poor_fit(best);
     return;
   }
   const FoundModel& next = r.models[order[1]];
   const double n = double(best.scores.size());
   std::vector<double> lead;
   for (std::size_t e = 0; e < best.scores.size(); ++e) lead.push_back(next.scores[e] - best.scores[e]);
-  for (const double x : lead) r.ahead += x / n;
+  for (const double x : lead) r.score_lead += x / n;
   if (n < 2) {
     r.words =
-        fmt::format("No evidence either way: one experiment cannot predict another. {} is nearer than {}.",
-                    best.name, next.name) +
-        poor;
+        fmt::format(
+            "No evidence: a comparison needs at least two experiments. The energy score of {} is lower than "
+            "that of {}.",
+            best.name, next.name) +
+        poor_fit(best);
     return;
   }
   const double se = sample_sd(lead) / std::sqrt(n), half = student_t_quantile(0.975, n - 1) * se;
-  r.ahead_ci95 = {r.ahead - half, r.ahead + half};
-  r.evidence = r.ahead - half > 0 ? "clear" : r.ahead > se ? "weak" : "none";
-  // Of models that predict equally well the one with the fewest parameters will do.
+  r.score_lead_ci95 = {r.score_lead - half, r.score_lead + half};
+  r.evidence = r.score_lead - half > 0 ? "clear" : r.score_lead > se ? "weak" : "none";
+  // Without evidence the model with fewer parameters is preferred.
   std::string simpler;
   if (r.evidence == "none" && next.parameters.size() < best.parameters.size()) {
     r.best = order[1];
-    simpler = fmt::format(" {} has fewer parameters and will do.", next.name);
+    simpler = fmt::format(" {} has fewer parameters and is preferred.", next.name);
   }
   const std::string lead_words =
-      fmt::format("its energy score is {:.3g} less per experiment, 95 % {:.3g} to {:.3g}", r.ahead,
-                  (*r.ahead_ci95)[0], (*r.ahead_ci95)[1]);
-  r.words = (r.evidence == "clear" ? fmt::format("{} predicts experiments better than {}: {}.", best.name,
-                                                 next.name, lead_words)
-             : r.evidence == "weak"
-                 ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
-                 : fmt::format("No evidence either way between {} and {}: {}.{}", best.name, next.name,
-                               lead_words, simpler)) +
-            poor;
+      fmt::format("the energy score of {} is lower by {:.3g} per experiment (95 % interval {:.3g} to {:.3g})",
+                  best.name, r.score_lead, (*r.score_lead_ci95)[0], (*r.score_lead_ci95)[1]);
+  r.words =
+      (r.evidence == "clear"
+           ? fmt::format("Clear evidence for {} over {}: {}.", best.name, next.name, lead_words)
+       : r.evidence == "weak"
+           ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
+           : fmt::format("No evidence for {} over {}: {}.{}", best.name, next.name, lead_words, simpler)) +
+      poor_fit(r.models[r.best]);
 }
 
 }  // namespace faba

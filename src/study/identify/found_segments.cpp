@@ -10,14 +10,16 @@
 namespace faba {
 namespace {
 
-constexpr double kTurn = 0.25;  // share of the whole way that a swarm must go back before it counts
-constexpr double kLeaves = 0.05, kGone = 0.25;  // shares of a segment's way that its beginning is told from
+constexpr double kReversal =
+    0.25;  // fraction of the range that the swarm must move back to count as a reversal
+constexpr double kOnsetLow = 0.05,
+                 kOnsetHigh = 0.25;  // fractions of a segment's path: extrapolation to its start
 
-constexpr double kLeastHeld = 0.4;       // s: of a field that is held
-constexpr double kFieldOn = 0.2;         // of the strongest
+constexpr double kMinDuration = 0.4;     // s: of a constant field
+constexpr double kFieldOn = 0.2;         // fraction of the maximum field strength
 constexpr double kSameDirection = 0.87;  // cosine of 30 degrees
 
-/// Angle of the line that the points are spread along most.
+/// Angle of the principal axis of the points, rad.
 double main_axis(const std::vector<Vec2>& p) {
   Vec2 mean;
   for (const Vec2 v : p) mean = mean + (1.0 / double(p.size())) * v;
@@ -31,25 +33,26 @@ double main_axis(const std::vector<Vec2>& p) {
   return 0.5 * std::atan2(2 * c.xy, c.xx - c.yy);
 }
 
-/// Where q turns: the ends of its legs, each longer than `least`. Empty when there is no such leg.
+/// Indices of the turning points of q, which end its monotonic sections longer than `least`. Empty when there
+/// are no such sections.
 std::vector<std::size_t> turning_points(const std::vector<double>& q, double least) {
   std::vector<std::size_t> turns;
-  std::size_t lowest = 0, highest = 0;  // of the leg that is on
-  int way = 0;
+  std::size_t lowest = 0, highest = 0;  // of the current section
+  int sign = 0;
   for (std::size_t i = 1; i < q.size(); ++i) {
     if (q[i] < q[lowest]) lowest = i;
     if (q[i] > q[highest]) highest = i;
-    if (way != 1 && q[i] - q[lowest] > least) {
+    if (sign != 1 && q[i] - q[lowest] > least) {
       turns.push_back(lowest);
-      way = 1;
+      sign = 1;
       highest = i;
-    } else if (way != -1 && q[highest] - q[i] > least) {
+    } else if (sign != -1 && q[highest] - q[i] > least) {
       turns.push_back(highest);
-      way = -1;
+      sign = -1;
       lowest = i;
     }
   }
-  if (way != 0) turns.push_back(way == 1 ? highest : lowest);
+  if (sign != 0) turns.push_back(sign == 1 ? highest : lowest);
   return turns;
 }
 
@@ -69,29 +72,29 @@ std::vector<FieldSegment> segments_of_swarm(const std::vector<double>& t_s, cons
   const Vec2 along{std::cos(axis), std::sin(axis)};
   std::vector<double> raw, q;
   for (const Vec2 v : p) raw.push_back(dot(v, along));
-  for (std::size_t i = 0; i < raw.size(); ++i) {  // the middle of three: a single bad frame is no turn
+  for (std::size_t i = 0; i < raw.size(); ++i) {  // median of three, against outliers
     double a = raw[i > 0 ? i - 1 : i], b = raw[i], c = raw[std::min(i + 1, raw.size() - 1)];
     q.push_back(std::max(std::min(a, b), std::min(std::max(a, b), c)));
   }
   const auto [lo, hi] = std::minmax_element(q.begin(), q.end());
   const double range = *hi - *lo;
   if (!(range >= least_px)) return {};
-  const std::vector<std::size_t> turns = turning_points(q, kTurn * range);
+  const std::vector<std::size_t> turns = turning_points(q, kReversal * range);
   std::vector<FieldSegment> segments;
   for (std::size_t k = 0; k + 1 < turns.size(); ++k) {
-    const double from = q[turns[k]], way = q[turns[k + 1]] - from;
-    if (std::fabs(way) < kTurn * range) continue;
-    // Backwards, so that what wavers at the beginning does not count.
-    const auto last_below = [&](double share) {
+    const double from = q[turns[k]], path = q[turns[k + 1]] - from;
+    if (std::fabs(path) < kReversal * range) continue;
+    // From the end backwards, so that fluctuations at the start are ignored.
+    const auto last_below = [&](double fraction) {
       std::size_t i = turns[k + 1];
-      while (i > turns[k] && (q[i] - from) / way > share) --i;
-      const double a = (q[i] - from) / way, b = i + 1 < q.size() ? (q[i + 1] - from) / way : a;
-      return t[i] + (b > a ? (share - a) / (b - a) * (t[i + 1] - t[i]) : 0);
+      while (i > turns[k] && (q[i] - from) / path > fraction) --i;
+      const double a = (q[i] - from) / path, b = i + 1 < q.size() ? (q[i + 1] - from) / path : a;
+      return t[i] + (b > a ? (fraction - a) / (b - a) * (t[i + 1] - t[i]) : 0);
     };
-    const double leaves = last_below(kLeaves), gone = last_below(kGone);
-    const double begins = leaves - (gone - leaves) * kLeaves / (kGone - kLeaves);
-    const double deg = axis * 180 / std::numbers::pi + (way > 0 ? 0 : 180);
-    segments.push_back({std::max(begins, t[turns[k]]), 0, std::fmod(deg + 360, 360)});
+    const double low = last_below(kOnsetLow), high = last_below(kOnsetHigh);
+    const double start = low - (high - low) * kOnsetLow / (kOnsetHigh - kOnsetLow);
+    const double deg = axis * 180 / std::numbers::pi + (path > 0 ? 0 : 180);
+    segments.push_back({std::max(start, t[turns[k]]), 0, std::fmod(deg + 360, 360)});
   }
   for (std::size_t k = 0; k < segments.size(); ++k)
     segments[k].t1_s = k + 1 < segments.size() ? segments[k + 1].t0_s : t.back();
@@ -106,14 +109,15 @@ std::vector<FieldSegment> segments_of_field(const Series& record, bool against) 
   std::vector<FieldSegment> segments;
   Vec2 sum;
   std::size_t from = 0;
-  // A row has the field at its moment, before the command that is given then: it turned right after the row
-  // before the first that shows it.
+  // A row holds the field before the command of that row takes effect, so the field changed directly after
+  // the row before the first row with the new value.
   const auto close = [&](std::size_t at) {
-    const double begins = t[from > 0 ? from - 1 : 0], ends = t[at - 1];
-    if (ends - begins >= kLeastHeld) {
-      const Vec2 way = against ? -1 * sum : sum;
-      const double deg = std::atan2(-way.y, way.x) * 180 / std::numbers::pi;  // y is down in pictures
-      segments.push_back({begins, ends, std::fmod(deg + 360, 360), norm(sum) / double(at - from) * 1e-6});
+    const double start = t[from > 0 ? from - 1 : 0], end = t[at - 1];
+    if (end - start >= kMinDuration) {
+      const Vec2 direction = against ? -1 * sum : sum;
+      const double deg =
+          std::atan2(-direction.y, direction.x) * 180 / std::numbers::pi;  // y is down in pictures
+      segments.push_back({start, end, std::fmod(deg + 360, 360), norm(sum) / double(at - from) * 1e-6});
     }
     sum = {};
     from = at;
@@ -127,7 +131,8 @@ std::vector<FieldSegment> segments_of_field(const Series& record, bool against) 
     sum = sum + b;
   }
   if (norm(sum) > 0) close(t.size());
-  if (segments.size() > 1 && segments.front().t0_s < t.front() + kLeastHeld) segments.erase(segments.begin());
+  if (segments.size() > 1 && segments.front().t0_s < t.front() + kMinDuration)
+    segments.erase(segments.begin());
   return segments;
 }
 

@@ -21,11 +21,11 @@ struct Shown {
 constexpr Shown kShown[] = {
     {"m/s", "um/s", 1e6}, {"m", "um", 1e6}, {"m^2/s", "um^2/s", 1e12}, {"T", "uT", 1e6}};
 
-/// What the schemas say of the value at a path.
+/// Schema and value at a path.
 struct Description {
   const Json* schema = nullptr;    ///< null: no such path
-  const Json* value = nullptr;     ///< what stands there; null: nothing
-  std::vector<std::string> known;  ///< keys that are there in its place
+  const Json* value = nullptr;     ///< value at the path; null: none
+  std::vector<std::string> known;  ///< permitted keys, when the path does not exist
 };
 
 std::vector<std::string> keys_of(const Json& properties) {
@@ -34,7 +34,7 @@ std::vector<std::string> keys_of(const Json& properties) {
   return keys;
 }
 
-// The schema of the part that stands at a place which several can take.
+// Schema of the part that the value selects among the alternatives.
 const Json* chosen(const Json& schema, const Json* value) {
   const std::string type = !value               ? ""
                            : value->is_string() ? value->get<std::string>()
@@ -82,8 +82,8 @@ double number(const Node& n, const FreeParameter& p) {
     if (q.dimension == parse_unit(p.unit).dimension) return q.value;
   } catch (const std::invalid_argument&) {
   }
-  n.fail(fmt::format("\"{}\" is not a quantity in {}", n.json->get<std::string>(),
-                     p.unit.empty() ? "numbers" : p.unit));
+  n.fail(fmt::format("\"{}\" is not a {}", n.json->get<std::string>(),
+                     p.unit.empty() ? "number" : "quantity in " + p.unit));
 }
 
 double quantity_of(const Json& v, const FreeParameter& p) {
@@ -91,62 +91,65 @@ double quantity_of(const Json& v, const FreeParameter& p) {
   return v.is_string() && !p.unit.empty() ? parse_quantity(v.get<std::string>()).value : 0;
 }
 
-// Tables that the video, the study or the recording decides.
-constexpr const char* kDecided[] = {"title",  "seed",      "duration",  "camera",     "arena",   "record",
+// Tables that are set by the video, the study or the recording.
+constexpr const char* kNotFree[] = {"title",  "seed",      "duration",  "camera",     "arena",   "record",
                                     "limits", "estimator", "reference", "controller", "library", "flow"};
 
 FreeParameter read_one(const std::string& path, const Node& n, const Json* given, const Json& scenario) {
-  for (const char* key : kDecided)
+  for (const char* key : kNotFree)
     if (path.substr(0, path.find_first_of(".[")) == key)
       throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
-                  "cannot be found: the video or the study decides it");
+                  "cannot be a free parameter: the video or the study decides it");
   const Description d = describe(path, scenario);
   if (!d.schema) {
     const std::string key = path.substr(path.find_last_of('.') + 1);
     throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
-                "there is no such value in the scenario" + suggestion(key, d.known));
+                "no such value in the scenario" + suggestion(key, d.known));
   }
   const Json& s = *d.schema;
   if (!s.contains("minimum") || !s.contains("maximum"))
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not a number that could be found");
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                "is not a number with a range, so it cannot be a free parameter");
   FreeParameter p{
-      .path = path, .unit = s.value("x-unit", ""), .whole = s["type"] == "integer", .role = role_of(s)};
+      .path = path, .unit = s.value("x-unit", ""), .integer = s["type"] == "integer", .role = role_of(s)};
   const double least = s["minimum"].get<double>(), most = s["maximum"].get<double>();
   p.low = least;
   p.high = most;
   if (given && *given == false)
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "is not free; leave it out, or set it");
-  if ((!given || given->is_boolean()) && p.whole)
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path), "needs a range, such as [50, 1000]");
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                "false is not permitted; remove the entry, or give true or [lowest, highest]");
+  if ((!given || given->is_boolean()) && p.integer)
+    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
+                "an integer parameter needs a range, such as [50, 1000]");
   const bool all = !given || given->is_boolean();
   if (all) {
-    const double usual = s.contains("default") ? quantity_of(s["default"], p) : 0;
-    const double place = (usual - p.low) / (p.high - p.low);
-    if (place > 0 && place < 0.5) p.stretch = 2 * std::log(1 / place - 1);
+    const double default_value = s.contains("default") ? quantity_of(s["default"], p) : 0;
+    const double position = (default_value - p.low) / (p.high - p.low);
+    if (position > 0 && position < 0.5) p.stretch = 2 * std::log(1 / position - 1);
   } else if (given->is_array()) {
     if (given->size() != 2) n.fail(path + ": must be [lowest, highest]");
     p.low = number({(*given)[0], n.path + "." + path, n.document}, p);
     p.high = number({(*given)[1], n.path + "." + path, n.document}, p);
   } else if (given->is_object() && given->contains("mean") && given->contains("sd")) {
-    FreeParameter::Known k;
+    FreeParameter::NormalPrior k;
     k.mean = number({(*given)["mean"], n.path + "." + path, n.document}, p);
     k.sd = number({(*given)["sd"], n.path + "." + path, n.document}, p);
-    if (!(k.sd > 0)) n.fail(path + ": the sd must be above 0");
+    if (!(k.sd > 0)) n.fail(fmt::format("{}: sd {:g} must be greater than 0", path, k.sd));
     p.low = std::max(least, k.mean - 4 * k.sd);
     p.high = std::min(most, k.mean + 4 * k.sd);
-    p.known = k;
+    p.normal_prior = k;
   } else {
     n.fail(path + ": must be true, [lowest, highest] or { mean = ..., sd = ... }");
   }
   const std::string unit = p.shown_unit().empty() ? "" : " " + p.shown_unit();
   if (!(p.low < p.high))
-    n.fail(fmt::format("{}: must be [lowest, highest], not {:g} to {:g}{}", path, p.shown(p.low),
-                       p.shown(p.high), unit));
+    n.fail(fmt::format("{}: must be [lowest, highest] with lowest < highest, not {:g} to {:g}{}", path,
+                       p.shown(p.low), p.shown(p.high), unit));
   if (!(p.low >= least) || !(p.high <= most))
-    n.fail(fmt::format("{}: {:g} to {:g} must be a range inside of {:g} to {:g}{}", path, p.shown(p.low),
-                       p.shown(p.high), p.shown(least), p.shown(most), unit));
-  p.low_is_least = p.low <= least;
-  p.high_is_most = p.high >= most;
+    n.fail(fmt::format("{}: {:g} to {:g} is out of range; it must be a range within {:g} to {:g}{}", path,
+                       p.shown(p.low), p.shown(p.high), p.shown(least), p.shown(most), unit));
+  p.low_is_limit = p.low <= least;
+  p.high_is_limit = p.high >= most;
   return p;
 }
 
@@ -167,32 +170,32 @@ double FreeParameter::shown(double value) const {
 }
 
 double FreeParameter::value(double u) const {
-  const double share = stretch > 0 ? std::expm1(stretch * u) / std::expm1(stretch) : u;
-  const double v = low + (high - low) * share;
-  return whole ? std::floor(v + 0.5) : v;
+  const double linear = stretch > 0 ? std::expm1(stretch * u) / std::expm1(stretch) : u;
+  const double v = low + (high - low) * linear;
+  return integer ? std::floor(v + 0.5) : v;
 }
 
-double FreeParameter::share(double value) const {
+double FreeParameter::fraction(double value) const {
   const double at = std::clamp((value - low) / (high - low), 0.0, 1.0);
   return stretch > 0 ? std::log1p(at * std::expm1(stretch)) / stretch : at;
 }
 
 Json FreeParameter::json(double u) const {
   const double v = value(u);
-  if (whole) return std::int64_t(v);
+  if (integer) return std::int64_t(v);
   return unit.empty() ? Json(v) : Json(fmt::format("{} {}", v, unit));
 }
 
 double FreeParameter::log_prior(double u) const {
-  if (!known) return 0;
-  const double z = (value(u) - known->mean) / known->sd;
+  if (!normal_prior) return 0;
+  const double z = (value(u) - normal_prior->mean) / normal_prior->sd;
   return -0.5 * z * z;
 }
 
 double read_value(const Node& n, const FreeParameter& p) {
   const double v = number(n, p);
   if (!(v >= p.low && v <= p.high))
-    n.fail(fmt::format("{:g} is not in the range of {}, {:g} to {:g}{}", v, p.path, p.low, p.high,
+    n.fail(fmt::format("{:g} is out of range; {} must be between {:g} and {:g}{}", v, p.path, p.low, p.high,
                        p.unit.empty() ? "" : " " + p.unit));
   return v;
 }
@@ -219,8 +222,7 @@ std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& sc
   } else {
     free.fail("must be a list of paths or a table of paths and bounds");
   }
-  if (all.size() > 8)
-    free.fail(fmt::format("{} parameters at once are too many; 8 are the most", all.size()));
+  if (all.size() > 8) free.fail(fmt::format("{} free parameters are too many; the maximum is 8", all.size()));
   return all;
 }
 

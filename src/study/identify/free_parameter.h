@@ -7,48 +7,46 @@
 
 namespace faba {
 
-/// A number of a scenario that is not known.
+/// An unknown number of a scenario that is to be estimated.
 struct FreeParameter {
   std::string path;  ///< "swarm[0].model.max_speed"
-  std::string unit;  ///< of the numbers below, as units.h knows it; "" for a pure number
-  bool whole = false;
+  std::string unit;  ///< unit of the numbers below, as in units.h; "" for a dimensionless number
+  bool integer = false;
   Role role = Role::none;
-  bool low_is_least = false, high_is_most = false;  ///< nothing lies beyond that end of the range
+  bool low_is_limit = false, high_is_limit = false;  ///< the range ends at the limit of the parameter itself
   double low = 0, high = 1;
-  /// Of the scale on which all values are taken for equally likely: 0 a linear one; else it is stretched, so
-  /// that the middle of it lies at the part's own default (bounds that come from a schema are wide).
+  /// Scale on which the prior is uniform: 0 linear; > 0 exponential, so that the middle of the range lies at
+  /// the default of the part (the bounds of a schema are wide).
   double stretch = 0;
-  /// A normal law in place of an even one: what a calibration says.
-  struct Known {
+  /// Normal prior, for example from a calibration, instead of a uniform one.
+  struct NormalPrior {
     double mean = 0, sd = 0;
   };
-  std::optional<Known> known = {};
+  std::optional<NormalPrior> normal_prior = {};
 
-  std::string name() const;  ///< the last word of its path: "max_speed"
-  /// The unit that people use for it, "um/s" for "m/s", and how many of them one of `unit` is.
+  std::string name() const;  ///< last key of the path: "max_speed"
+  /// Unit for display ("um/s" for "m/s"), and a value converted to that unit.
   std::string shown_unit() const;
   double shown(double value) const;
-  /// The value at share u of the range, 0 to 1, and back.
+  /// Value at fraction u of the range, 0 to 1, and the inverse.
   double value(double u) const;
-  double share(double value) const;
-  /// As it stands in a scenario: with unit, or whole.
+  double fraction(double value) const;
+  /// Value at fraction u in the form of a scenario: a quantity with unit, a number or an integer.
   Json json(double u) const;
-  /// Logarithm of the prior density at share u, up to a constant.
+  /// Logarithm of the prior density at fraction u, up to a constant.
   double log_prior(double u) const;
 };
 
 /// Reads the table or list `free` of a model: paths, or paths with `[low, high]`, `{ mean, sd }` or true.
-/// Bounds that are not given come from the schema of what stands at the path in `scenario`, and none may go
-/// beyond it. Throws Error(usage) for paths that do not exist, values that are no numbers, and bounds that
-/// make no range.
+/// The default bounds are those of the schema at the path in `scenario`; given bounds must lie within them.
+/// Throws Error(usage) for unknown paths, values that are not numbers, and invalid bounds.
 std::vector<FreeParameter> read_free_parameters(const Node& free, const Json& scenario);
 
-/// A value of the parameter as a study gives it: a number, or a quantity in its unit. Throws Error(usage) for
-/// one that is neither, or beyond its range.
+/// Reads a value of the parameter: a number, or a quantity in its unit. Throws Error(usage) for other values
+/// and for values out of range.
 double read_value(const Node& n, const FreeParameter& p);
 
-/// The number at a path of a scenario, in SI: what stands there, else its default. Empty when there is
-/// neither.
+/// The number at a path of a scenario, in SI units: its value, else its default. Empty when there is neither.
 std::optional<double> scenario_number(const std::string& path, const Json& scenario);
 
 }  // namespace faba

@@ -9,70 +9,72 @@
 
 namespace faba {
 
-/// What was found of one parameter.
+/// Estimate of one parameter.
 struct FoundParameter {
   FreeParameter parameter;
   double median = 0;
   std::array<double, 2> ci90{};
-  double abc_median = 0;  ///< by approximate Bayesian computation, from the same simulations
+  double abc_median = 0;  ///< from approximate Bayesian computation with the same simulations
   std::array<double, 2> abc_ci90{};
-  /// Where 90 % of its estimates lie with experiments drawn anew; empty for fewer than three.
+  /// 90 % interval of the bootstrap over experiments; empty for fewer than three experiments.
   std::optional<std::array<double, 2>> resampled90 = {};
-  /// Share of its prior range that the interval covers: near 0.9 nothing was learnt.
+  /// Fraction of the prior range that the interval covers; 0.9 for a uniform posterior.
   double fraction_of_range = 1;
   std::vector<double> draws = {};
-  /// Largest log-likelihood that the other parameters can give each value, relative to the best.
+  /// Profile likelihood: log-likelihood at each value, maximised over the other parameters, relative to the
+  /// maximum.
   std::vector<double> profile_at = {}, profile = {};
-  std::string doubt = {};  ///< why it could not be told, or only together with another; empty when it could
+  std::string doubt = {};  ///< why the estimate is not reliable; empty when there is no reason
 };
 
-/// What was found of one candidate.
+/// Result for one candidate model.
 struct FoundModel {
   std::string name;
-  std::string failed;  ///< why it could not be identified; empty when it could
+  std::string failed;  ///< reason of a failed identification; else empty
   std::vector<FoundParameter> parameters;
-  double score = 0;            ///< mean of the energy scores
-  std::vector<double> scores;  ///< of each experiment, predicted from the others; less is better
-  /// How often simulations of this model are as far from their own mean as what was observed: small values
-  /// say that the model does not explain the videos.
+  double score = 0;  ///< mean of the energy scores
+  std::vector<double>
+      scores;  ///< energy score of each experiment, predicted from the others; lower is better
+  /// Fraction of the simulations of this model that deviate from their mean as much as the observation. Below
+  /// 0.01 the model does not explain the videos.
   double fit_p = 0;
-  std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior
-  /// Of the best model: where 90 % of the simulations at draws from the posterior have them.
+  std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior median
+  /// 90 % posterior predictive interval of each statistic; of the best model only.
   std::vector<std::array<double, 2>> predicted90 = {};
   std::size_t simulations = 0;
-  Json best;  ///< values of the parameters at the posterior's median, by path
+  Json best;  ///< posterior medians of the parameters, by path
 };
 
-/// One simulation against one segment of a video, as the thesis compared them.
+/// Comparison of one simulation with one segment of a video by the method of the thesis.
 struct LegacySimulation {
-  double value = 0;  ///< of the parameter
+  double value = 0;  ///< value of the parameter
   std::size_t video = 0, episode = 0, repeat = 0;
   std::vector<double> distance;  ///< of each pair of frames
-  LineFit line;                  ///< of it against the number of the frame
+  LineFit line;                  ///< distance against frame number
   double mean = 0;
 };
 
-/// What the selection rule of the 2016 thesis says of one model (theory A19), bug for bug: five values of its
-/// first free parameter, three simulations of each against the first segment of every episode, rendered
-/// without the camera's noise; a line through each distance over the frames; a line through their slopes over
-/// the values; the value at which that is zero is called best. Not to be trusted: a distance that is flat has
-/// slope zero however large it is (theory E1).
+/// Selection rule of the 2016 thesis for one model (theory A19), reproduced including its errors: five values
+/// of the first free parameter and three simulations of each, compared with the first segment of every
+/// episode and rendered without camera noise; a line fit of each distance over the frames; a line fit of
+/// these slopes over the values. The rule selects the value at which the second line is zero. It is not
+/// reliable: a constant distance has slope zero, however large it is (theory E1).
 struct LegacyModel {
   std::string name;
   FreeParameter parameter;
   std::vector<LegacySimulation> simulations;
-  LineFit slopes;                                  ///< of the distance's slope against the parameter
-  double zero = 0;                                 ///< where it crosses zero
-  std::optional<std::array<double, 2>> zero_ci95;  ///< Fieller's; empty when it has no bounds
+  LineFit slopes;                                  ///< slope of the distance against the parameter
+  double zero = 0;                                 ///< value at which it is zero
+  std::optional<std::array<double, 2>> zero_ci95;  ///< Fieller interval; empty when it is unbounded
   double mean = 0, sd = 0;                         ///< of the mean distances of all simulations
-  double least_distance_at = 0;                    ///< the value whose simulations are nearest: a better rule
-  std::string meaningless;  ///< why its answer means nothing; empty when nothing shows it
+  double least_distance_at = 0;                    ///< value with the smallest mean distance: a better rule
+  std::string meaningless;                         ///< why the result is invalid; else empty
 };
 
 struct Identification {
   IdentifyStudy study;
   std::vector<ResponseVideo> videos;
-  /// Each number that videos and simulations are compared by.
+  /// A statistic by which videos and simulations are compared.
   struct Statistic {
     std::string name;  ///< "segment 1, 2.5 s: median along"
     std::size_t video = 0, episode = 0;
@@ -80,15 +82,14 @@ struct Identification {
     double observed = 0;
   };
   std::vector<Statistic> statistics;
-  std::vector<std::string> experiments;  ///< that scores are of
+  std::vector<std::string> experiments;  ///< in the order of FoundModel::scores
   std::vector<FoundModel> models;
   std::size_t best = 0;
-  std::string evidence;  ///< "clear", "weak" or "none"
-  std::string words;     ///< the same as a sentence
-  std::optional<std::array<double, 2>>
-      ahead_ci95;  ///< of the best model's lead over the next, per experiment
-  double ahead = 0;
-  std::vector<LegacyModel> legacy;  ///< what the thesis's rule says of each candidate, when it was asked for
+  std::string evidence;   ///< "clear", "weak" or "none"
+  std::string words;      ///< the evidence as a sentence
+  double score_lead = 0;  ///< mean difference of energy scores per experiment: second-best minus best model
+  std::optional<std::array<double, 2>> score_lead_ci95;
+  std::vector<LegacyModel> legacy;  ///< rule of the thesis for each candidate, when requested
 };
 
 }  // namespace faba

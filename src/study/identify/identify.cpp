@@ -25,18 +25,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Frames, sd: how well the moment is known at which a field turns, when it is given to a frame either way,
-// and when it is told from the swarm's way.
-constexpr double kTimingGiven = 0.58, kTimingFound = 1.5;
+// Standard deviation of the time of a field reversal, frames: given to within one frame (uniform), and
+// detected from the path of the swarm.
+constexpr double kTimingGiven = 0.58, kTimingDetected = 1.5;
 
-/// One of the parts of the videos that are simulated: which, and where its numbers stand in the whole list.
+/// An episode of a video and the columns of its statistics in the list of all statistics.
 struct Part {
   std::size_t video = 0, episode = 0;
   Index begin = 0, count = 0;
   std::shared_ptr<const EpisodeStatistics> statistics;
 };
 
-/// All that is observed, in one list of numbers, and how it falls into experiments.
+/// Statistics of all videos in one list, and their division into experiments.
 struct Observed {
   std::vector<Part> parts;
   VectorXd numbers;
@@ -45,16 +45,16 @@ struct Observed {
   std::vector<std::vector<Index>> columns;  ///< of each experiment
 };
 
-// With one experiment its segments are what stands for several.
+// With one experiment, its field segments take the role of experiments.
 Observed gather(const std::vector<ResponseVideo>& videos) {
   Observed o;
   std::vector<double> numbers;
-  std::vector<std::string> experiment, segment;  // of each number
+  std::vector<std::string> experiment, segment;  // of each statistic
   for (std::size_t v = 0; v < videos.size(); ++v)
     for (std::size_t e = 0; e < videos[v].episodes.size(); ++e) {
       const ResponseVideo& video = videos[v];
       const auto& statistics = video.statistics[e];
-      const std::string own =
+      const std::string name =
           video.input.experiment.empty() ? fmt::format("video {}", v + 1) : video.input.experiment;
       o.parts.push_back({v, e, Index(numbers.size()), Index(video.observed[e].size()), statistics});
       for (std::size_t k = 0; k < video.observed[e].size(); ++k) {
@@ -65,8 +65,8 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
             {fmt::format("{}segment {}, {:.3g} s: {}", several ? video.episodes[e].name + ": " : "",
                          n.segment + 1, n.t_s, n.what),
              v, e, n, video.observed[e][k]});
-        experiment.push_back(own);
-        segment.push_back(fmt::format("{}, segment {}", own, e + n.segment + 1));
+        experiment.push_back(name);
+        segment.push_back(fmt::format("{}, segment {}", name, e + n.segment + 1));
       }
     }
   const bool one =
@@ -91,7 +91,7 @@ std::string digest(const VectorXd& v) {
   return h.hex();
 }
 
-/// One candidate while it is being identified.
+/// Search for the parameters of one candidate.
 struct CandidateSearch {
   std::unique_ptr<ParameterSearch> search;
   std::string failed;
@@ -112,14 +112,18 @@ Document scenario_of(const IdentifyStudy& study, const Candidate& c, const Respo
   return d;
 }
 
-/// The simulations of one round, and the place of each in what it is to be.
+/// The simulations of one round, as tasks.
 class Round {
  public:
   Round(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos, const Observed& observed,
         const Parts& parts)
-      : study_(study), videos_(videos), observed_(observed), parts_(parts), seen_(digest(observed.numbers)) {}
+      : study_(study),
+        videos_(videos),
+        observed_(observed),
+        parts_(parts),
+        observed_digest_(digest(observed.numbers)) {}
 
-  /// Simulations of candidate number `candidate`, one for each row of `u`.
+  /// Adds simulations of candidate `candidate`, one for each row of `u` and each episode.
   void add(const Candidate& c, const MatrixXd& u, std::size_t candidate, std::size_t number) {
     for (Index i = 0; i < u.rows(); ++i)
       for (std::size_t p = 0; p < observed_.parts.size(); ++p)
@@ -132,7 +136,7 @@ class Round {
                std::size_t p) {
     const Part& part = observed_.parts[p];
     const ResponseVideo& video = videos_[part.video];
-    // A seed of its own for each: what chance does to one simulation says nothing of the next.
+    // Independent seed for each simulation.
     Hash h;
     h.value(study_.seed);
     h.value(candidate);
@@ -141,14 +145,14 @@ class Round {
     h.value(p);
     const std::uint64_t seed = h.result() >> 1;
     const Episode& episode = video.episodes[part.episode];
-    const double usual = (video.segments_detected ? kTimingFound : kTimingGiven) / video.fps;
-    const SegmentTiming timing = drawn_timing(episode, study_.timing_s.value_or(usual), seed);
+    const double timing_sd = (video.segments_detected ? kTimingDetected : kTimingGiven) / video.fps;
+    const SegmentTiming timing = random_timing(episode, study_.timing_s.value_or(timing_sd), seed);
     const auto d = std::make_shared<const Document>(scenario_of(study_, c, video, episode, u, timing));
     const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
-                                                 timing.lead_s, seen_, p, int(study_.look)));
+                                                 timing.lead_s, observed_digest_, p, int(study_.look)));
     tasks_.push_back({key, [this, d, seed, lead = timing.lead_s, &part, &video] {
                         try {
-                          const SeenEpisode seen =
+                          const EpisodeObservation seen =
                               simulate_episode(read_scenario(*d, parts_), seed, lead,
                                                part.statistics->times_s(), study_.look, video.ground);
                           std::vector<double> numbers = study_.look == Look::video
@@ -159,7 +163,7 @@ class Round {
                           return numbers;
                         } catch (const Error& e) {
                           if (e.code() != Errc::usage) throw;
-                          // Values that do not go together, such as speeds that want too many steps.
+                          // Incompatible values, such as speeds that need too many steps.
                           return std::vector<double>(std::size_t(part.count), std::nan(""));
                         }
                       }});
@@ -168,11 +172,11 @@ class Round {
   const std::vector<ResponseVideo>& videos_;
   const Observed& observed_;
   const Parts& parts_;
-  std::string seen_;
+  std::string observed_digest_;
   std::vector<Task> tasks_;
 };
 
-// Rows of statistics for the simulations that a search waits for, in the order of their tasks.
+// Statistics of the simulations of one candidate in a round, one row each, in the order of their tasks.
 MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std::size_t& at, Index rows,
                  const Observed& o) {
   MatrixXd s = MatrixXd::Constant(rows, o.numbers.size(), std::nan(""));
@@ -182,8 +186,7 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
       if (Index(values.size()) != part.count)
         throw Error(
             Errc::usage, "results.jsonl",
-            fmt::format("has a result of {} numbers where there are {}; take the file away to compute all of "
-                        "them again",
+            fmt::format("result with {} numbers, expected {}; delete the file to compute all results again",
                         values.size(), part.count));
       s.row(i).segment(part.begin, part.count) =
           Eigen::Map<const VectorXd>(values.data(), part.count).transpose();
@@ -191,9 +194,10 @@ MatrixXd collect(const ResultStore& results, const std::vector<Task>& tasks, std
   return s;
 }
 
-// A magnetic moment shows in how long a U-turn takes, and not at all where that is shorter than a frame.
-void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
-                 const std::vector<ResponseVideo>& videos) {
+// The magnetic moment is estimated from the duration of U-turns; a U-turn shorter than a frame carries no
+// information.
+void add_u_turn_doubt(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
+                      const std::vector<ResponseVideo>& videos) {
   const ResponseVideo& v = videos.front();
   for (FoundParameter& p : m.parameters) {
     if (p.parameter.role != Role::coupling || p.doubt.empty()) continue;
@@ -203,25 +207,25 @@ void tell_u_turn(FoundModel& m, const IdentifyStudy& study, const Candidate& c,
     const double turn = u_turn_s(d.root["swarm"][0]["model"], p.median, c.field_strength_in(v)),
                  frame = 1 / v.fps;
     if (turn < frame)
-      p.doubt += fmt::format("; a U-turn lasts less than a frame, {:.2g} of {:.2g} s: apply a weaker field",
+      p.doubt += fmt::format("; a U-turn lasts {:.2g} s, less than a frame ({:.2g} s): use a weaker field",
                              turn, frame);
   }
 }
 
-// What the best model would show again and again, with all that is not known of it.
+// Posterior predictive intervals of the best model. False when the sweep was stopped.
 bool predict(const IdentifyStudy& study, Identification& r, const ParameterSearch& search, const Observed& o,
              const Parts& parts, ResultStore& results, const SweepOptions& options) {
-  constexpr int kAgain = 40;
-  constexpr std::size_t kNumber = 1000000;  // of a round that the search never has
-  const MatrixXd u = search.posterior({}, kAgain, derived_seed(study.seed, SeedUse::best_model));
+  constexpr int kPredictive = 40;           // simulations
+  constexpr std::size_t kNumber = 1000000;  // round number that no search reaches
+  const MatrixXd u = search.posterior({}, kPredictive, derived_seed(study.seed, SeedUse::best_model));
   Round round(study, r.videos, o, parts);
   round.add(study.candidates[r.best], u, r.best, kNumber);
   if (!sweep(results, round.tasks(), options)) return false;
   std::size_t at = 0;
-  const MatrixXd shown = collect(results, round.tasks(), at, u.rows(), o);
-  for (Index k = 0; k < shown.cols(); ++k) {
+  const MatrixXd simulated = collect(results, round.tasks(), at, u.rows(), o);
+  for (Index k = 0; k < simulated.cols(); ++k) {
     std::vector<double> v;
-    for (const double x : shown.col(k))
+    for (const double x : simulated.col(k))
       if (std::isfinite(x)) v.push_back(x);
     r.models[r.best].predicted90.push_back(v.empty() ? std::array{std::nan(""), std::nan("")}
                                                      : std::array{quantile(v, 0.05), quantile(v, 0.95)});
@@ -229,41 +233,45 @@ bool predict(const IdentifyStudy& study, Identification& r, const ParameterSearc
   return true;
 }
 
-// One camera: what differs between videos is to be the experiments.
-void check_alike(const std::vector<ResponseVideo>& videos) {
+// All videos must have one frame size and one frame rate.
+void check_same_camera(const std::vector<ResponseVideo>& videos) {
   const ResponseVideo& first = videos.front();
   for (const ResponseVideo& v : videos) {
     const auto differs = [&](int a, int b) {
       return std::abs(a * v.side - b * first.side) >= std::max(v.side, first.side);
     };
     if (differs(v.view.width, first.view.width) || differs(v.view.height, first.view.height))
-      throw Error(Errc::input, v.input.file.string(),
-                  fmt::format("has pictures of {} x {} px, {} of {} x {}; one study is of one camera",
-                              v.view.width * v.side, v.view.height * v.side, first.input.file.string(),
-                              first.view.width * first.side, first.view.height * first.side));
+      throw Error(
+          Errc::input, v.input.file.string(),
+          fmt::format("frame size {} x {} px differs from {} x {} px of {}; all videos of a study must come "
+                      "from one camera",
+                      v.view.width * v.side, v.view.height * v.side, first.view.width * first.side,
+                      first.view.height * first.side, first.input.file.string()));
     if (std::fabs(v.fps / first.fps - 1) > 0.01)
-      throw Error(Errc::input, v.input.file.string(),
-                  fmt::format("has {:.4g} frames per second, {} has {:.4g}; one study is of one rate", v.fps,
-                              first.input.file.string(), first.fps));
+      throw Error(
+          Errc::input, v.input.file.string(),
+          fmt::format("frame rate {:.4g} Hz differs from {:.4g} Hz of {}; all videos of a study must have "
+                      "one rate",
+                      v.fps, first.fps, first.input.file.string()));
   }
 }
 
-// The field decides how fast cells turn.
+// The turning rate of cells depends on the field strength.
 void note_field_strength(const IdentifyStudy& study, ResponseVideo& v) {
   constexpr double kSame = 0.02;
   for (const Candidate& c : study.candidates) {
     const double t = c.field_strength_in(v);
     if (!c.field_strength_t && !v.field_t) {
-      v.notes.push_back(fmt::format(
-          "does not tell how strong its field is: simulated with {:g} uT; give it with field_strength = "
-          "\"115 uT\"",
-          1e6 * t));
+      v.notes.push_back(
+          fmt::format("field strength unknown: simulated with the default, {:g} uT; give field_strength, "
+                      "such as \"115 uT\"",
+                      1e6 * t));
       return;
     }
     if (v.field_t && std::fabs(t / *v.field_t - 1) > kSame)
-      v.notes.push_back(
-          fmt::format("recorded a field of {:.4g} uT; {} is simulated with {:.4g} uT, as the study says",
-                      1e6 * *v.field_t, c.model.name, 1e6 * t));
+      v.notes.push_back(fmt::format(
+          "recorded field strength {:.4g} uT; {} is simulated with {:.4g} uT, as given in the study",
+          1e6 * *v.field_t, c.model.name, 1e6 * t));
   }
 }
 
@@ -322,7 +330,7 @@ std::vector<FoundModel> models_of(const std::vector<CandidateSearch>& searches, 
                       derived_seed(study.seed, SeedUse::found_model, c));
     m.name = study.candidates[c].model.name;
     m.failed = searches[c].failed;
-    tell_u_turn(m, study, study.candidates[c], videos);
+    add_u_turn_doubt(m, study, study.candidates[c], videos);
     found.push_back(std::move(m));
   }
   return found;
@@ -338,16 +346,16 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
     r.videos.push_back(survey_response(study.videos[v], study.boundary, study.measure, [&] {
       reading();
       if (options.stop())
-        throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; what is done is kept");
+        throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; completed results are kept");
     }));
-  check_alike(r.videos);
+  check_same_camera(r.videos);
   for (ResponseVideo& v : r.videos) note_field_strength(study, v);
   const Observed o = gather(r.videos);
   for (Index k = 0; k < o.numbers.size(); ++k)
     if (!std::isfinite(o.numbers[k]))
       throw Error(
           Errc::input, study.videos.front().file.string(),
-          fmt::format("shows no cells while they should move ({})", o.statistics[std::size_t(k)].name));
+          fmt::format("no cells detected in the measured frames ({})", o.statistics[std::size_t(k)].name));
   const Parts parts = builtin_parts();
   std::vector<CandidateSearch> searches = searches_of(study, o);
   if (!run_searches(searches, study, r.videos, o, parts, results, options)) return {};

@@ -7,9 +7,9 @@
 
 namespace faba {
 
-/// Surveys the videos, simulates what `results` has not yet, and concludes. Empty when other shards have
-/// tasks left. `reading` is called after each frame that is read. Throws Error(input) for
-/// videos that do not do, and what sweep() throws.
+/// Measures the videos, runs the simulations that are missing in `results`, and identifies the models. Empty
+/// when other shards have tasks left. `reading` is called after each frame that is read. Throws Error(input)
+/// for unsuitable videos, and the errors of sweep().
 std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
                                        const std::function<void()>& reading);
 

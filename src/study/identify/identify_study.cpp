@@ -17,11 +17,11 @@
 namespace faba {
 namespace {
 
-// Key of a [[model]], and its name in the version before, which is still read.
+// Key of a [[model]], and its name in the previous version, which is still read.
 constexpr const char* kFieldStrength = "field_strength";
 constexpr const char* kOldFieldStrength = "drive";
 
-// Tables that say what the video does not.
+// Tables of a scenario that are not determined by the video.
 constexpr const char* kOfScene[] = {"exclusion", "field", "library", "limits", "motility", "simulation"};
 
 struct IdentifyFile {
@@ -36,47 +36,49 @@ struct IdentifyFile {
   std::string scale;
   std::optional<double> field_strength;
   static Schema<IdentifyFile> schema() {
-    return Schema<IdentifyFile>("identify", "Which model and which parameters explain videos")
-        .add("title", &IdentifyFile::title, {.doc = "What the study is called in reports"})
-        .add("seed", &IdentifyFile::seed, {.min = 0, .max = 9e15, .doc = "Of all randomness"})
+    return Schema<IdentifyFile>("identify", "Model selection and parameter estimation from videos")
+        .add("title", &IdentifyFile::title, {.doc = "Title of the study in reports"})
+        .add("seed", &IdentifyFile::seed, {.min = 0, .max = 9e15, .doc = "Seed of all random numbers"})
         .add("boundary", &IdentifyFile::boundary,
-             {.doc = "What keeps the cells together", .choices = {"drop", "box", "none"}})
+             {.doc = "Boundary that confines the cells", .choices = {"drop", "box", "none"}})
         .add("look", &IdentifyFile::look,
-             {.doc = "How simulations are looked at: through the microscope, as the videos were, or by the "
-                     "positions "
-                     "of the cells, which is quick and blind to what a camera does",
+             {.doc = "How simulations are observed: as frames rendered through the microscope, like the "
+                     "videos, or as positions of the cells, which is faster but has no camera effects",
               .choices = {"video", "positions"}})
-        .add("measure", &IdentifyFile::measure,
-             {.doc = "What videos are compared by: where the swarm is (density), or how cells move that are "
-                     "followed for a moment (tracks); tracks without a boundary, else density, when absent",
-              .choices = {"density", "tracks"}})
+        .add(
+            "measure", &IdentifyFile::measure,
+            {.doc =
+                 "Statistics for the comparison: distribution of the swarm in the picture (density), or "
+                 "motion of cells in short tracks (tracks); default: tracks without a boundary, else density",
+             .choices = {"density", "tracks"}})
         .add("simulations", &IdentifyFile::simulations,
-             {.min = 100, .max = 1e6, .doc = "Simulations of each video with each model"})
+             {.min = 100, .max = 1e6, .doc = "Number of simulations of each video with each model"})
         .add("legacy", &IdentifyFile::legacy,
-             {.doc = "Also what the selection rule of the 2016 thesis says, which is not to be trusted"})
+             {.doc = "Apply the selection rule of the 2016 thesis as well; it is not reliable"})
         .add("um_per_px", &IdentifyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
-        .add("scale", &IdentifyFile::scale,
-             {.doc = "Calibration file of `faba scale`, in place of um_per_px"})
+        .add("scale", &IdentifyFile::scale, {.doc = "Calibration file of `faba scale`, instead of um_per_px"})
         .add("reversal", &IdentifyFile::reversal,
-             {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time of the field reversal"})
         .add("direction", &IdentifyFile::direction,
              {.unit = "deg",
               .min = -360,
               .max = 360,
-              .doc = "In which cells swim from then on: 0 right, 90 down in the picture"})
-        .add("duration", &IdentifyFile::duration,
-             {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at from there on"})
+              .doc = "Swimming direction after the field reversal: 0 right, 90 down in the picture"})
+        .add(
+            "duration", &IdentifyFile::duration,
+            {.unit = "s", .min = 0.1, .max = 1e6, .doc = "Duration of the analysis after the field reversal"})
         .add("timing", &IdentifyFile::timing,
              {.unit = "s",
               .min = 0,
               .max = 10,
-              .doc = "How well the moments are known at which the field turns, sd; 0.58 frames, which is a "
-                     "frame either way, when absent"})
+              .doc =
+                  "Standard deviation of the times of field reversals; default: 0.58 frames (uniform within "
+                  "one frame), or 1.5 frames for segments that are detected in the video"})
         .add("field_strength", &IdentifyFile::field_strength,
              {.unit = "T",
               .min = 0,
               .max = 1,
-              .doc = "Strength of the field; the strength that the run recorded, else 1 mT, when absent",
+              .doc = "Field strength; default: the field strength that the run recorded, else 1 mT",
               .old_key = "drive"});
   }
 };
@@ -87,13 +89,13 @@ struct SegmentFile {
     return Schema<SegmentFile>(
                "segment", "A field segment: a time interval in which the direction of the field is constant")
         .add("from", &SegmentFile::from,
-             {.unit = "s", .min = 0, .max = 1e6, .doc = "When it begins, in the video"})
-        .add("to", &SegmentFile::to, {.unit = "s", .min = 0, .max = 1e6, .doc = "When it ends"})
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Start time in the video"})
+        .add("to", &SegmentFile::to, {.unit = "s", .min = 0, .max = 1e6, .doc = "End time in the video"})
         .add("direction", &SegmentFile::direction,
              {.unit = "deg",
               .min = -360,
               .max = 360,
-              .doc = "In which cells swim: 0 right, 90 down in the picture"});
+              .doc = "Swimming direction: 0 right, 90 down in the picture"});
   }
 };
 
@@ -104,33 +106,34 @@ struct VideoFile {
   std::vector<SegmentFile> segment;
   static Schema<VideoFile> schema() {
     return Schema<VideoFile>("video", "A video of an experiment")
-        .add("file", &VideoFile::file, {.doc = "Video or run directory; beside the study"})
-        .add("experiment", &VideoFile::experiment, {.doc = "The experiment that it belongs to: a drop"})
+        .add("file", &VideoFile::file, {.doc = "Video or run directory; relative to the study file"})
+        .add("experiment", &VideoFile::experiment,
+             {.doc = "Name of the experiment (one drop) that the video belongs to"})
         .add("exposure", &VideoFile::exposure,
-             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time in air before it"})
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Air exposure time before the video"})
         .add("fps", &VideoFile::fps,
-             {.min = 0, .max = 1e6, .doc = "Frames per second, where it does not state them"})
+             {.min = 0, .max = 1e6, .doc = "Frames per second, for a video without a frame rate"})
         .add("um_per_px", &VideoFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
         .add("reversal", &VideoFile::reversal,
-             {.unit = "s", .min = 0, .max = 1e6, .doc = "When the field is reversed"})
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time of the field reversal"})
         .add("direction", &VideoFile::direction,
-             {.unit = "deg", .min = -360, .max = 360, .doc = "In which cells swim from then on"})
+             {.unit = "deg", .min = -360, .max = 360, .doc = "Swimming direction after the field reversal"})
         .add("duration", &VideoFile::duration,
-             {.unit = "s", .min = 0.1, .max = 1e6, .doc = "How long is looked at"})
+             {.unit = "s", .min = 0.1, .max = 1e6, .doc = "Duration of the analysis"})
         .add("segment", &VideoFile::segment,
-             {.doc = "[[video.segment]]: field segments, in place of reversal, direction and duration",
+             {.doc = "[[video.segment]]: field segments, instead of reversal, direction and duration",
               .old_key = "drive"});
   }
 };
 
 ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<double> um_per_px) {
   const VideoFile v = VideoFile::schema().parse(n);
-  if (v.file.empty()) n.fail("needs file = \"...\"");
+  if (v.file.empty()) n.fail("the key file is missing; give file = \"...\"");
   ResponseInput r;
   if (!v.segment.empty() && (v.reversal || v.direction || v.duration))
-    n.fail("has field segments as well as reversal, direction or duration; give only one of the two");
+    n.fail("segment cannot be combined with reversal, direction or duration; give only one of the two");
   if (!std::filesystem::exists(n.file(v.file)))
-    throw Error(Errc::input, n.where("file"), "no such file: " + v.file);
+    throw Error(Errc::input, n.where("file"), "file not found: " + v.file);
   r.file = n.file(v.file);
   r.experiment = v.experiment;
   r.exposure_s = v.exposure;
@@ -142,14 +145,13 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   double last = 0;
   for (const SegmentFile& d : v.segment) {
     if (!(d.to > d.from) || d.from < last)
-      n.fail(
-          "field segments must not overlap, must be in the order of time, and each must end after it begins");
+      n.fail("field segments must be in order of time, must not overlap, and must end after they start");
     r.segments.push_back({d.from, last = d.to, d.direction});
   }
   return r;
 }
 
-// A video that there need not be, to check scenarios with.
+// Placeholder video to check scenarios with.
 ResponseVideo any_video() {
   ResponseVideo v;
   v.view.width = 64;
@@ -170,7 +172,7 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
   Candidate c{model, f.field_strength, {}, {}};
   const Node here = root.has("model") ? root.child("model").item(index) : root;
   if (model.extra.contains(kFieldStrength) && model.extra.contains(kOldFieldStrength))
-    here.fail("has field_strength and drive, its old name; give one of the two");
+    here.fail("field_strength and drive (its old name) are both given; give only one");
   const char* key = model.extra.contains(kOldFieldStrength) ? kOldFieldStrength : kFieldStrength;
   if (model.extra.contains(key)) {
     const Node n{c.model.extra[key], here.path + "." + key, root.document};
@@ -187,21 +189,20 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
     c.free = read_free_parameters({c.model.extra["free"], here.path + ".free", root.document}, d.root);
   if (c.free.empty())
     throw Error(Errc::usage, c.model.origin,
-                "has nothing to find: give free = { \"swarm[0].model.speed\" = [\"20 um/s\", \"300 um/s\"] "
-                "}, or another "
-                "path of the scenario");
+                "no free parameters; give free = { \"swarm[0].model.speed\" = [\"20 um/s\", \"300 um/s\"] } "
+                "or another path of the scenario");
   if (c.model.extra.contains("legacy")) {
     const Node n{c.model.extra["legacy"], here.path + ".legacy", root.document};
     if (!n.json->is_array() || n.json->size() < 3)
-      n.fail("must be three values or more of the first free parameter");
+      n.fail("must be a list of at least three values of the first free parameter");
     for (std::size_t i = 0; i < n.json->size(); ++i)
       c.legacy_values.push_back(read_value(n.item(i), c.free.front()));
   }
   if (const int least = ParameterSearch::least_simulations(int(c.free.size())); study.simulations < least)
     throw Error(Errc::usage, c.model.origin,
-                fmt::format("{} parameters take {} simulations or more, not {}", c.free.size(), least,
+                fmt::format("{} free parameters need at least {} simulations, not {}", c.free.size(), least,
                             study.simulations));
-  // Both ends of every range, and the middle.
+  // The middle and both ends of every range must give a valid scenario.
   for (const double u : {0.5, 0.0, 1.0}) {
     Document one = d;
     for (const FreeParameter& p : c.free) one.set(p.path, p.json(u), c.model.origin + ".free");
@@ -213,7 +214,8 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
         values += fmt::format("{}{} = {:.4g}{}{}", values.empty() ? "" : ", ", p.path, p.shown(p.value(u)),
                               p.shown_unit().empty() ? "" : " ", p.shown_unit());
       throw Error(Errc::usage, c.model.origin,
-                  fmt::format("free may be {}, and then {}; give narrower ranges", values, e.what()));
+                  fmt::format("the free ranges permit {}, which is not valid: {}; give narrower ranges",
+                              values, e.what()));
     }
   }
   return c;
@@ -236,31 +238,31 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   study.legacy = f.legacy;
   if (root.has("scene")) {
     if (!root.child("scene").json->is_object())
-      root.child("scene").fail("must be a table with tables of a scenario");
+      root.child("scene").fail("must be a table of scenario tables");
     study.scene = *root.child("scene").json;
     for (const auto& [key, _] : study.scene.items())
       if (std::find(std::begin(kOfScene), std::end(kOfScene), key) == std::end(kOfScene))
         throw Error(
             Errc::usage, root.child("scene").where(key),
             fmt::format(
-                "is not for [scene] to say: the video tells it, or it changes nothing; [scene] takes {}",
+                "is not permitted in [scene]: it is taken from the video or has no effect; permitted: {}",
                 fmt::join(kOfScene, ", ")));
   }
   std::optional<double> um_per_px = f.um_per_px;
   if (!f.scale.empty()) {
-    if (um_per_px) root.fail("gives both um_per_px and scale");
+    if (um_per_px) root.fail("um_per_px and scale are both given; give only one");
     um_per_px = parse_calibration(root.file(f.scale).string(), root.where("scale")).um_per_px;
   }
   if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
-    root.fail("needs [[video]], once for each video");
+    root.fail("[[video]] is missing; give one for each video");
   const Node videos = root.child("video");
   std::set<std::filesystem::path> seen;
   for (std::size_t i = 0; i < videos.json->size(); ++i) {
     study.videos.push_back(input_of(videos.item(i), f, um_per_px));
     if (!seen.insert(std::filesystem::weakly_canonical(study.videos.back().file)).second)
-      videos.item(i).fail("is a video that is there already; it would count as another experiment");
+      videos.item(i).fail("duplicate video; it would count as another experiment");
   }
-  if (!root.has("model")) root.fail("needs [[model]], once for each candidate");
+  if (!root.has("model")) root.fail("[[model]] is missing; give one for each candidate");
   const std::vector<Variant> models =
       read_variants(root, "model", {"free", kFieldStrength, kOldFieldStrength, "legacy"});
   for (std::size_t i = 0; i < models.size(); ++i)
@@ -275,29 +277,29 @@ Json identify_study_schema() {
                 {"description",
                  fmt::format("Tables of a scenario that all models share: {}", fmt::join(kOfScene, ", "))}};
   Json video = VideoFile::schema().json_schema();
-  p["video"] = {{"type", "array"}, {"description", "[[video]], once for each"}, {"items", video}};
+  p["video"] = {{"type", "array"}, {"description", "One [[video]] for each video"}, {"items", video}};
   Json model = variant_schema("A candidate");
   model["properties"]["free"] = {{"type", "object"},
                                  {"description",
-                                  "What is to be found, by path: [lowest, highest], true for the range of "
-                                  "the reference, or { mean, sd }"}};
+                                  "Free parameters by path: [lowest, highest], true for the range in the "
+                                  "reference, or { mean, sd } of a normal prior"}};
   model["properties"][kFieldStrength] = {{"type", "string"},
-                                         {"description", "Strength of the field for this model"}};
+                                         {"description", "Field strength for this model"}};
   model["properties"]["legacy"] = {
       {"type", "array"},
       {"items", {{"type", "number"}}},
-      {"description", "Values of the first free parameter that the legacy rule tries"}};
-  p["model"] = {{"type", "array"}, {"description", "[[model]], once for each candidate"}, {"items", model}};
+      {"description", "Values of the first free parameter for the rule of the thesis"}};
+  p["model"] = {{"type", "array"}, {"description", "One [[model]] for each candidate"}, {"items", model}};
   return j;
 }
 
 namespace {
 
-// What is in a video, wherever it lies: another one of the same name is another study.
+// Hashes the content of a video, not its path: a different video under the same name is a different study.
 void hash_content(const std::filesystem::path& file, Hash& h) {
   namespace fs = std::filesystem;
   if (fs::is_directory(file)) {
-    std::set<fs::path> inside;  // in order
+    std::set<fs::path> inside;  // sorted
     for (const auto& e : fs::directory_iterator(file)) inside.insert(e.path());
     for (const fs::path& p : inside) {
       const std::string name = p.filename().string();
@@ -352,8 +354,8 @@ std::string study_hash(const IdentifyStudy& study) {
     }
     for (const FreeParameter& p : c.free) {
       h.text(p.path);
-      for (const double x :
-           {p.low, p.high, p.stretch, p.known ? p.known->mean : 0, p.known ? p.known->sd : 0})
+      for (const double x : {p.low, p.high, p.stretch, p.normal_prior ? p.normal_prior->mean : 0,
+                             p.normal_prior ? p.normal_prior->sd : 0})
         h.value(x);
     }
   }

@@ -9,45 +9,45 @@
 
 namespace faba {
 
-/// Field that is taken when nothing is known of it, T: with it IT-1 turns at once (assumed).
+/// Default field strength, T, when it is unknown: IT-1 turns almost immediately in it (assumed).
 inline constexpr double kDefaultFieldStrength = 1e-3;
 
-/// A model that may explain the videos, with what of it is not known.
+/// A candidate model with its free parameters.
 struct Candidate {
   Variant model;
-  std::optional<double> field_strength_t;  ///< strength of the field, T; what a run recorded when empty
+  std::optional<double> field_strength_t;  ///< field strength, T; empty: as recorded by the run
   std::vector<FreeParameter> free;
-  /// Values of the first of them that the thesis's rule tries; the middles of five equal parts of its range
-  /// when empty.
+  /// Values of the first free parameter for the rule of the thesis; empty: the middles of five equal parts of
+  /// its range.
   std::vector<double> legacy_values = {};
 
-  /// Strength of the field in a video, T: as given, as recorded, or the default.
+  /// Field strength in a video, T: as given, else as recorded, else the default.
   double field_strength_in(const ResponseVideo& v) const {
     return field_strength_t.value_or(v.field_t.value_or(kDefaultFieldStrength));
   }
 };
 
-/// What `faba identify` is asked for.
+/// Configuration of `faba identify`.
 struct IdentifyStudy {
   std::string title;
   std::uint64_t seed = 1;
   Boundary boundary = Boundary::drop;
   Look look = Look::video;
   Measure measure = Measure::density;
-  int simulations = 600;  ///< of each episode with each candidate
-  bool legacy = false;    ///< the thesis's rule, too
-  std::optional<double>
-      timing_s;  ///< how well the moments are known at which the field turns, sd; 0.58 frames when empty
+  int simulations = 600;  ///< per episode and candidate
+  bool legacy = false;    ///< apply the rule of the thesis as well
+  /// Standard deviation of the times of field reversals, s. Empty: 0.58 frames, or 1.5 frames for segments
+  /// that are detected in the video.
+  std::optional<double> timing_s;
   Json scene = Json::object();
   std::vector<ResponseInput> videos;
   std::vector<Candidate> candidates;
 };
-/// Reads a study file. Everything that can be wrong without looking at a video is found here. Throws
-/// Error(usage).
+/// Reads a study file and checks everything that does not need the videos. Throws Error(usage).
 IdentifyStudy read_identify_study(const std::filesystem::path& file);
 /// JSON Schema of a study file.
 Json identify_study_schema();
-/// Hash of all that the result depends on, with what is in the videos.
+/// Hash of everything that the result depends on, including the content of the videos.
 std::string study_hash(const IdentifyStudy& study);
 
 }  // namespace faba

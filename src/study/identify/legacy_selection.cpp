@@ -19,13 +19,13 @@
 namespace faba {
 namespace {
 
-constexpr int kValues = 5, kRepeats = 3;    // of the thesis
-constexpr double kM = 0.9, kThreshold = 3;  // of the distance (A17)
+constexpr int kValues = 5, kRepeats = 3;    // as in the thesis
+constexpr double kM = 0.9, kThreshold = 3;  // parameters of the distance (A17)
 constexpr const char* kVersion = "legacy 1";
 
-/// The first segment of an episode as the thesis looked at it: the flow of every pair of frames.
+/// The first segment of an episode as flow histograms of all pairs of frames, as in the thesis.
 struct LegacyReference {
-  std::vector<double> times_s;  ///< of the frames, from the episode's beginning
+  std::vector<double> times_s;  ///< of the frames, from the start of the episode
   FlowFilter filter;
   std::vector<FlowHistograms> pairs;
 };
@@ -48,7 +48,7 @@ LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std
   const auto last = std::lround(segment.t1_s / v.view.frame_s);
   for (long k = 0; k <= last; ++k) r.times_s.push_back(double(k) * v.view.frame_s);
   std::vector<double> at;
-  for (const double t : r.times_s) at.push_back(e.begins_s + t);
+  for (const double t : r.times_s) at.push_back(e.start_s + t);
   Pool pool(1);
   FlowSourceOptions options;
   options.method = flow_part({}, published_flow());
@@ -95,11 +95,11 @@ void conclude(LegacyModel& m) {
   const FreeParameter& p = m.parameter;
   if (!m.zero_ci95)
     m.meaningless = fmt::format(
-        "the slope does not depend on {} beyond chance, so that its zero may lie anywhere", p.path);
+        "the slope does not depend significantly on {}, so the position of its zero is undetermined", p.path);
   else if (m.zero < *low || m.zero > *high)
-    m.meaningless = fmt::format(
-        "its zero, {:.4g}, lies beyond all values that were tried, {:.4g} to {:.4g}{}", p.shown(m.zero),
-        p.shown(*low), p.shown(*high), p.shown_unit().empty() ? "" : " " + p.shown_unit());
+    m.meaningless =
+        fmt::format("its zero, {:.4g}, lies outside the tested values, {:.4g} to {:.4g}{}", p.shown(m.zero),
+                    p.shown(*low), p.shown(*high), p.shown_unit().empty() ? "" : " " + p.shown_unit());
 }
 
 }  // namespace
@@ -117,12 +117,12 @@ std::optional<std::array<double, 2>> zero_crossing_ci95(const LineFit& line, dou
 
 namespace {
 
-// Of the first free parameter, as shares of its range.
-std::vector<double> shares_tried(const Candidate& c) {
-  std::vector<double> shares;
-  for (const double v : c.legacy_values) shares.push_back(c.free.front().share(v));
-  for (int i = 0; c.legacy_values.empty() && i < kValues; ++i) shares.push_back((i + 0.5) / kValues);
-  return shares;
+// Tested values of the first free parameter, as fractions of its range.
+std::vector<double> tested_fractions(const Candidate& c) {
+  std::vector<double> fractions;
+  for (const double v : c.legacy_values) fractions.push_back(c.free.front().fraction(v));
+  for (int i = 0; c.legacy_values.empty() && i < kValues; ++i) fractions.push_back((i + 0.5) / kValues);
+  return fractions;
 }
 
 }  // namespace
@@ -143,15 +143,15 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
     LegacyModel m;
     m.name = c.model.name;
     m.parameter = c.free.front();
-    const std::vector<double> shares = shares_tried(c);
-    for (std::size_t i = 0; i < shares.size(); ++i)
+    const std::vector<double> fractions = tested_fractions(c);
+    for (std::size_t i = 0; i < fractions.size(); ++i)
       for (std::size_t v = 0; v < videos.size(); ++v)
         for (std::size_t e = 0; e < videos[v].episodes.size(); ++e)
           for (int k = 0; k < kRepeats; ++k) {
             const ResponseVideo& video = videos[v];
             Episode episode = video.episodes[e];
             episode.segments.resize(1);
-            const double u = shares[i];
+            const double u = fractions[i];
             Document d = episode_scenario(video, episode,
                                           {study.boundary, study.scene, c.model, c.field_strength_in(video)},
                                           exact_timing(episode));

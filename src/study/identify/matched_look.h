@@ -3,9 +3,9 @@
 
 namespace faba {
 
-/// Sets cell_px and contrast of a video so that a rendered picture, of cells where `frame` shows some, has
-/// cells as wide and as strong as those of `frame`, by the same measure. Everything else that is needed to
-/// render must be there.
+/// Sets `cell_px` and `contrast` of a video such that cells in a rendered frame have the same median width
+/// and integrated grey value as the cells in `frame`, measured by the same detector. All other data for
+/// rendering must be set before.
 void match_look(ResponseVideo& v, const GrayF& frame, Boundary boundary);
 
 }  // namespace faba

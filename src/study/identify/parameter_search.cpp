@@ -21,18 +21,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNearShare = 0.2;  // of the simulations, that the next round is drawn around
-constexpr double kWider = 1.8;      // sds of the last round over those of the posterior
-constexpr double kLongestStep =
-    25;  // squared difference of a statistic in robust sds, from which on it counts alike
-constexpr double kAbcShare = 0.25;  // of the simulations since the second round
-constexpr std::size_t kMostRounds = 6;
-constexpr double kAtTheEnd = 0.01;  // share of the posterior at the end of a round's range that is too much
-constexpr int kGuide = 400;         // draws that the last round is shaped by
+constexpr double kNearFraction = 0.2;  // of the simulations: centres of the next proposal
+constexpr double kWider = 1.8;         // sd of the last round over sd of the posterior
+constexpr double kMaxSquare = 25;      // limit of a squared difference of a statistic, in robust sd
+constexpr double kAbcFraction = 0.25;  // of the simulations since the second round: accepted by ABC
+constexpr std::size_t kMaxRounds = 6;
+constexpr double kMaxAtLimit = 0.01;  // fraction of the posterior at a limit of the last round
+constexpr int kProposalDraws = 400;   // posterior samples that define the last round
 
-/// Points that fill the unit cube evenly whatever their number: Kronecker's sequence with the powers of the
-/// root of x^(d+1) = x + 1, which generalises the golden ratio.
-MatrixXd even_points(Index n, Index d) {
+/// Low-discrepancy points in the unit cube: Kronecker sequence with the powers of the root of x^(d+1) = x +
+/// 1, which generalises the golden ratio.
+MatrixXd kronecker_points(Index n, Index d) {
   double root = 2;
   for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1.0 / double(d + 1));
   MatrixXd u(n, d);
@@ -46,7 +45,7 @@ MatrixXd even_points(Index n, Index d) {
   return u;
 }
 
-/// Each column about its median, in its median absolute deviations; a column that is constant becomes 0.
+/// Columns relative to their median, in robust standard deviations; a constant column becomes 0.
 struct Standard {
   VectorXd middle, scale;
   explicit Standard(const MatrixXd& s) : middle(s.cols()), scale(s.cols()) {
@@ -86,11 +85,11 @@ std::vector<Index> all_columns(Index n) {
 }  // namespace
 
 SearchRounds SearchRounds::of(int simulations) {
-  const SearchRounds usual;
+  const SearchRounds defaults;
   SearchRounds r;
-  r.first = simulations * usual.first / usual.total();
-  r.closer = simulations * usual.closer / usual.total();
-  r.last = simulations - r.first - 2 * r.closer;
+  r.first = simulations * defaults.first / defaults.total();
+  r.refinement = simulations * defaults.refinement / defaults.total();
+  r.last = simulations - r.first - 2 * r.refinement;
   return r;
 }
 
@@ -115,7 +114,7 @@ ParameterSearch::ParameterSearch(int d, VectorXd observed, LogPrior log_prior, S
 }
 
 void ParameterSearch::propose(Proposal p, int count) {
-  MatrixXd u = even_points(count, d_);
+  MatrixXd u = kronecker_points(count, d_);
   if (p.centres.rows() > 0) {
     StudyRandom random(
         seed_, StudyDraws(std::uint32_t(StudyDraws::first_proposal) + std::uint32_t(proposals_.size())));
@@ -145,14 +144,14 @@ std::vector<Index> ParameterSearch::rows_since(std::size_t round) const {
   return rows;
 }
 
-// By the statistics themselves, and by what a regression on all simulations makes of them: the first finds
-// the region, the second tells what matters in it.
+// Distance by the statistics themselves and by a linear regression of the parameters on them: the first finds
+// the region, the second weights the statistics by their information within it.
 std::vector<Index> ParameterSearch::nearest(Index count) const {
   const Standard standard(all_.s);
   const MatrixXd z = standard(all_.s);
   const VectorXd seen = standard(observed_.transpose()).transpose();
   const VectorXd plain =
-      (z.rowwise() - seen.transpose()).array().square().min(kLongestStep).rowwise().mean().matrix();
+      (z.rowwise() - seen.transpose()).array().square().min(kMaxSquare).rowwise().mean().matrix();
   const MatrixXd u = all_.u.rowwise() - all_.u.colwise().mean();
   MatrixXd normal = z.transpose() * z;
   normal.diagonal().array() += 0.02 * double(all_.size());
@@ -166,7 +165,7 @@ std::vector<Index> ParameterSearch::nearest(Index count) const {
 
 void ParameterSearch::take(const MatrixXd& statistics) {
   if (!next_ || statistics.rows() != next_->rows() || statistics.cols() != observed_.size())
-    throw Error(Errc::internal, "parameter search", "was given statistics of another form");
+    throw Error(Errc::internal, "parameter search", "statistics have the wrong size");
   std::vector<Index> good;
   for (Index i = 0; i < statistics.rows(); ++i)
     if (statistics.row(i).allFinite()) good.push_back(i);
@@ -175,8 +174,8 @@ void ParameterSearch::take(const MatrixXd& statistics) {
     throw Error(
         Errc::input, "identify",
         fmt::format(
-            "only {} of {} simulations could be measured, and {} are needed; nothing is seen in them, or "
-            "their parameters do not go together",
+            "only {} of {} simulations are valid, at least {} are needed; the others show no cells, or their "
+            "parameters are not compatible",
             good.size(), statistics.rows(), least));
   const SimulationTable fresh{(*next_)(good, Eigen::all), statistics(good, Eigen::all)};
   MatrixXd u(all_.size() + fresh.size(), d_), s(all_.size() + fresh.size(), observed_.size());
@@ -186,20 +185,20 @@ void ParameterSearch::take(const MatrixXd& statistics) {
   next_.reset();
   const std::size_t done = proposals_.size();
   if (done < 3) {
-    const Index near = std::max<Index>(Index(kNearShare * double(all_.size())), Index(8) * d_);
+    const Index near = std::max<Index>(Index(kNearFraction * double(all_.size())), Index(8) * d_);
     const MatrixXd centres = all_.u(nearest(near), Eigen::all);
-    propose({centres, 2 * covariance_of(centres) / (done == 1 ? 1 : 2), 0}, rounds_.closer);
+    propose({centres, 2 * covariance_of(centres) / (done == 1 ? 1 : 2), 0}, rounds_.refinement);
     return;
   }
-  conclude();
-  if (done > 3 && (done == kMostRounds || !cut_off())) return;
-  const MatrixXd draws = posterior({}, kGuide, derived_seed(seed_, SeedUse::guide));
+  fit_emulator();
+  if (done > 3 && (done == kMaxRounds || !truncated())) return;
+  const MatrixXd draws = posterior({}, kProposalDraws, derived_seed(seed_, SeedUse::proposal));
   propose({draws.colwise().mean(), kWider * kWider * covariance_of(draws), 0}, rounds_.last);
 }
 
-// Whether the posterior reaches beyond where the last round was.
-bool ParameterSearch::cut_off() const {
-  const MatrixXd draws = posterior({}, kGuide, derived_seed(seed_, SeedUse::cut_off));
+// Whether the region of the last round truncates the posterior.
+bool ParameterSearch::truncated() const {
+  const MatrixXd draws = posterior({}, kProposalDraws, derived_seed(seed_, SeedUse::truncation));
   for (Index j = 0; j < d_; ++j) {
     const double near = 0.03 * (box_.high[j] - box_.low[j]);
     double below = 0, above = 0;
@@ -207,14 +206,14 @@ bool ParameterSearch::cut_off() const {
       below += u < box_.low[j] + near;
       above += u > box_.high[j] - near;
     }
-    const double most = kAtTheEnd * double(draws.rows());
+    const double most = kMaxAtLimit * double(draws.rows());
     if ((below > most && box_.low[j] > near) || (above > most && box_.high[j] < 1 - near)) return true;
   }
   return false;
 }
 
-// Where the newest rounds were, and what holds there.
-void ParameterSearch::conclude() {
+// Sets region, centre, spread and emulator from the latest rounds.
+void ParameterSearch::fit_emulator() {
   const bool last = proposals_.size() > 3;
   const SimulationTable here = rows_of(all_, rows_since(last ? 3 : 1));
   box_ = {here.u.colwise().minCoeff(), here.u.colwise().maxCoeff()};
@@ -225,23 +224,23 @@ void ParameterSearch::conclude() {
 }
 
 SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& columns) const {
-  const auto wanted = columns.empty() ? all_columns(observed_.size()) : columns;
-  const auto part = [&](SimulationTable t) { return SimulationTable{t.u, t.s(Eigen::all, wanted)}; };
+  const auto selected = columns.empty() ? all_columns(observed_.size()) : columns;
+  const auto part = [&](SimulationTable t) { return SimulationTable{t.u, t.s(Eigen::all, selected)}; };
   if (proposals_.size() <= 3) {
     const SimulationTable both = part(rows_of(all_, rows_since(1)));
-    return {both, both, observed_(wanted), centre_};
+    return {both, both, observed_(selected), centre_};
   }
-  // The compression rests on the earlier rounds, on what of them lies about the last one.
+  // The compression is fitted to the simulations of earlier rounds in and near the region of the last one.
   const VectorXd margin = 0.5 * (box_.high - box_.low);
   const ParameterBox about{box_.low - margin, box_.high + margin};
   std::vector<Index> earlier;
   for (Index i = round_begin_[1]; i < round_begin_[3]; ++i)
-    if (about.holds(all_.u.row(i).transpose())) earlier.push_back(i);
+    if (about.contains(all_.u.row(i).transpose())) earlier.push_back(i);
   if (int(earlier.size()) < 2 * Emulator::terms(d_)) {
     earlier.clear();
     for (Index i = round_begin_[1]; i < round_begin_[3]; ++i) earlier.push_back(i);
   }
-  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(3))), observed_(wanted), centre_};
+  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(3))), observed_(selected), centre_};
 }
 
 MatrixXd ParameterSearch::posterior(const std::vector<Index>& columns, int count, std::uint64_t seed) const {
@@ -250,20 +249,21 @@ MatrixXd ParameterSearch::posterior(const std::vector<Index>& columns, int count
                 spread_, count, seed);
 }
 
-ParameterSearch::WeighedDraws ParameterSearch::by_distance() const {
+ParameterSearch::WeightedDraws ParameterSearch::abc_posterior() const {
   const SyntheticLikelihood l = likelihood({});
   const SimulationTable t = rows_of(all_, rows_since(1));
   const VectorXd seen = l.compressed(observed_);
   MatrixXd c(t.size(), d_);
   for (Index i = 0; i < t.size(); ++i) c.row(i) = (l.compressed(t.s.row(i).transpose()) - seen).transpose();
-  // In units of the spread that the last round has.
+  // In units of the spread of the last round.
   const Index from = round_begin_.back() - round_begin_[1];
   const VectorXd scale =
       c.bottomRows(t.size() - from).array().square().colwise().mean().sqrt().max(1e-12).inverse();
   const VectorXd distance = (c * scale.asDiagonal()).rowwise().norm();
-  const auto near = smallest(distance, std::max<Index>(Index(kAbcShare * double(t.size())), Index(10) * d_));
+  const auto near =
+      smallest(distance, std::max<Index>(Index(kAbcFraction * double(t.size())), Index(10) * d_));
   const double reach = std::max(distance[near.back()], 1e-300);
-  WeighedDraws w{MatrixXd(near.size(), d_), VectorXd(near.size())};
+  WeightedDraws w{MatrixXd(near.size(), d_), VectorXd(near.size())};
   MatrixXd x(near.size(), d_ + 1);
   for (std::size_t k = 0; k < near.size(); ++k) {
     const VectorXd u = t.u.row(near[k]).transpose();

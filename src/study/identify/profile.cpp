@@ -9,7 +9,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kTries = 400;  // of the others at one value
+constexpr int kMaxEvaluations = 400;  // per point of the profile
 
 struct ProfileSearch {
   const std::function<double(const VectorXd&)>* log_likelihood;
@@ -50,14 +50,14 @@ Profile profile_likelihood(const std::function<double(const VectorXd&)>& log_lik
       p.log_likelihood[i] = log_likelihood(search.u);
       continue;
     }
-    nlopt::opt seek(nlopt::LN_SBPLX, unsigned(begin.size()));
-    seek.set_lower_bounds(low);
-    seek.set_upper_bounds(high);
-    seek.set_max_objective(value, &search);
-    seek.set_maxeval(kTries);
-    seek.set_xtol_abs(1e-4);
+    nlopt::opt optimiser(nlopt::LN_SBPLX, unsigned(begin.size()));
+    optimiser.set_lower_bounds(low);
+    optimiser.set_upper_bounds(high);
+    optimiser.set_max_objective(value, &search);
+    optimiser.set_maxeval(kMaxEvaluations);
+    optimiser.set_xtol_abs(1e-4);
     std::vector<double> at = begin;
-    seek.optimize(at, p.log_likelihood[i]);
+    optimiser.optimize(at, p.log_likelihood[i]);
   }
   p.log_likelihood.array() -= p.log_likelihood.maxCoeff();
   return p;

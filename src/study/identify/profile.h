@@ -6,15 +6,15 @@
 
 namespace faba {
 
-/// How well one parameter is told apart from the others: the largest log-likelihood that these can give it at
-/// each of its values.
+/// Profile likelihood of one parameter: the log-likelihood at each of its values, maximised over the other
+/// parameters.
 struct Profile {
-  Eigen::VectorXd u;               ///< evenly over the box
-  Eigen::VectorXd log_likelihood;  ///< relative to the largest; 0 at best
+  Eigen::VectorXd u;               ///< equidistant values within the box
+  Eigen::VectorXd log_likelihood;  ///< relative to the maximum, which is 0
 };
 
-/// Of parameter `j` at `points` values. The others begin at `start` and are sought inside the box (NLopt's
-/// Subplex, which takes no derivatives and is the same in each run).
+/// Profile of parameter `j` at `points` values. The other parameters are optimised within the box, starting
+/// at `start` (NLopt's Subplex, which is derivative-free and deterministic).
 Profile profile_likelihood(const std::function<double(const Eigen::VectorXd&)>& log_likelihood,
                            const ParameterBox& box, const Eigen::VectorXd& start, Eigen::Index j, int points);
 

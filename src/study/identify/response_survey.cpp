@@ -22,56 +22,56 @@
 namespace faba {
 namespace {
 
-constexpr double kResolved =
-    0.8;  // share of the cells that are seen one by one, from which on their places count
-constexpr double kShortestSegment = 0.2;  // s
-constexpr double kShortestBurst = 12;  // frames: a burst of eight in the part of a segment that is measured
-constexpr double kWidthEnough = 5;     // px: cells need be no wider
-constexpr double kFaint = 0.25;        // of the signal-to-noise that a tenth of what is seen exceeds
-constexpr double kLeastWay = 0.1;      // share of the view that a swarm goes, or it does not
-constexpr double kSameWay = 60;        // degrees
-constexpr double kUncovered = 0.85;    // share of the frames in which a place may be covered by cells
-constexpr double kReach = 2;           // times as far as what is seen
+constexpr double kResolved = 0.8;  // fraction of the cells detected singly; above it their positions are used
+constexpr double kMinSegment = 0.2;         // s
+constexpr double kMinBurstFrames = 12;      // a burst of eight within the measured part of a segment
+constexpr double kMaxWidth = 5;             // px: wider cells are reduced by averaging
+constexpr double kMinRelativeSnr = 0.25;    // of the 90 % quantile of the signal-to-noise ratio
+constexpr double kMinPath = 0.1;            // of a moving swarm, fraction of the view
+constexpr double kDirectionTolerance = 60;  // degrees
+constexpr double kCoverage = 0.85;  // quantile over the frames: a pixel may be covered by cells that often
+constexpr double kReach = 2;        // times the displacement in the video
 constexpr double kWhite = 255;
-constexpr double kSameScale = 1e-3;  // as a share
+constexpr double kSameScale = 1e-3;  // relative
 
-// Cells one by one where they can be told apart; where not, as many places as there are cells, spread as what
-// is seen.
-std::vector<Vec2> places_in(const GrayF& frame, const CellView& view, Measure measure) {
+// Positions of single cells if most are resolved; otherwise as many positions as the estimated number of
+// cells, distributed like the signal.
+std::vector<Vec2> positions_in(const GrayF& frame, const CellView& view, Measure measure) {
   const Foreground foreground = view.seen_in(frame);
   const double cells = foreground.moments().cells;
-  std::vector<Vec2> places;
-  for (const Spot& s : view.detector().find(frame)) places.push_back({s.x_px, s.y_px});
-  if (measure == Measure::tracks || double(places.size()) >= kResolved * cells) return places;
-  places.clear();
+  std::vector<Vec2> positions;
+  for (const Spot& s : view.detector().find(frame)) positions.push_back({s.x_px, s.y_px});
+  if (measure == Measure::tracks || double(positions.size()) >= kResolved * cells) return positions;
+  positions.clear();
   const GrayF& w = foreground.weights();
   double sum = 0;
   for (const float x : w.px) sum += std::max(0.0, double(x));
   const int n = std::max(1, int(std::lround(cells)));
-  double due = 0.5 * sum / n, so_far = 0;
+  double next = 0.5 * sum / n, cumulative = 0;
   for (int r = 0; r < w.height; ++r)
     for (int c = 0; c < w.width; ++c) {
-      so_far += std::max(0.0, double(w.at(c, r)));
-      for (; so_far > due && int(places.size()) < n; due += sum / n) places.push_back({double(c), double(r)});
+      cumulative += std::max(0.0, double(w.at(c, r)));
+      for (; cumulative > next && int(positions.size()) < n; next += sum / n)
+        positions.push_back({double(c), double(r)});
     }
-  return places;
+  return positions;
 }
 
-// In an order of which every beginning is spread as the whole: a simulation of fewer cells takes the first of
-// them, one of more takes the first twice. The golden ratio does that.
-std::vector<Vec2> evenly_mixed(const std::vector<Vec2>& places) {
+// Reorders positions by the golden-ratio sequence, so that every leading part is distributed like all of
+// them: a simulation with fewer cells uses the first ones, one with more cells repeats the first ones.
+std::vector<Vec2> low_discrepancy_order(const std::vector<Vec2>& positions) {
   constexpr double kGolden = 0.6180339887498949;
-  std::vector<std::size_t> order(places.size());
+  std::vector<std::size_t> order(positions.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   const auto key = [](std::size_t k) { return std::fmod(kGolden * double(k), 1.0); };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   std::vector<Vec2> mixed;
   mixed.reserve(order.size());
-  for (const std::size_t k : order) mixed.push_back(places[k]);
+  for (const std::size_t k : order) mixed.push_back(positions[k]);
   return mixed;
 }
 
-/// Where the swarm is in each frame.
+/// Field segments from the centroid of the swarm in each frame.
 std::vector<FieldSegment> segments_of_drop(const ResponseVideo& v, const std::function<void()>& tick) {
   GreyVideo video(v.file, v.input.fps, v.side);
   std::vector<double> t_s;
@@ -82,10 +82,10 @@ std::vector<FieldSegment> segments_of_drop(const ResponseVideo& v, const std::fu
     t_s.push_back(t);
     centroid.push_back(m.signal > 0 ? m.centroid_image : Vec2{std::nan(""), std::nan("")});
   }
-  return segments_of_swarm(t_s, centroid, kLeastWay * std::min(v.view.width, v.view.height));
+  return segments_of_swarm(t_s, centroid, kMinPath * std::min(v.view.width, v.view.height));
 }
 
-/// What a run says of its own field; none for a video that is no run, or whose field was not recorded.
+/// Field segments that a run recorded; empty for a video without a run and for a run without a field record.
 std::vector<FieldSegment> recorded_segments(const std::filesystem::path& run) {
   if (!is_run(run) || !std::filesystem::exists(run / "series.csv")) return {};
   return segments_of_field(read_series(run / "series.csv"),
@@ -106,13 +106,12 @@ std::vector<FieldSegment> segments_in(const ResponseVideo& v, const std::vector<
                                         : segments_of_drop(v, tick);
   if (in.direction_deg)
     std::erase_if(found, [&](const FieldSegment& d) {
-      return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kSameWay;
+      return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kDirectionTolerance;
     });
   std::erase_if(found, [&](const FieldSegment& d) { return d.t1_s <= in.reversal_s.value_or(0); });
   if (found.empty())
-    throw Error(
-        Errc::input, in.file.string(),
-        "shows nothing that moves one way; if it does, give reversal and direction, or [[video.segment]]");
+    throw Error(Errc::input, in.file.string(),
+                "no motion in one direction detected; give reversal and direction, or [[video.segment]]");
   if (in.reversal_s) found.front().t0_s = *in.reversal_s;
   if (in.duration_s) {
     const double until = found.front().t0_s + *in.duration_s;
@@ -122,35 +121,37 @@ std::vector<FieldSegment> segments_in(const ResponseVideo& v, const std::vector<
   return found;
 }
 
-// With nothing to hold them cells leave the view and others come: each segment then begins with what is seen.
+// Without a boundary cells enter and leave the view, so each segment is an episode with new initial
+// positions.
 std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
                                  const std::vector<FieldSegment>& segments) {
   std::vector<Episode> episodes;
   for (FieldSegment d : segments) {
     if (boundary == Boundary::none || episodes.empty()) {
       Episode& e = episodes.emplace_back();
-      e.begins_s = d.t0_s;
+      e.start_s = d.t0_s;
       e.name = v.input.experiment.empty() ? v.input.file.stem().string() : v.input.experiment;
-      if (boundary == Boundary::none && segments.size() > 1) e.name += fmt::format(", {:.3g} s", e.begins_s);
+      if (boundary == Boundary::none && segments.size() > 1) e.name += fmt::format(", {:.3g} s", e.start_s);
     }
     Episode& e = episodes.back();
-    d.t0_s -= e.begins_s;
-    d.t1_s -= e.begins_s;
+    d.t0_s -= e.start_s;
+    d.t1_s -= e.start_s;
     e.segments.push_back(d);
   }
   return episodes;
 }
 
-// The light behind crowds that cover the place where they are held for most of the time, and the noise. Where
-// cells are followed one by one what stands still is background.
-void find_ground(ResponseVideo& v, Measure measure, double from_s, double to_s,
-                 const std::function<void()>& tick) {
+// Background and noise. With Measure::density the background is a high (or low) quantile over time, because
+// dense groups cover the same pixels most of the time; with Measure::tracks everything that does not move is
+// background.
+void estimate_background(ResponseVideo& v, Measure measure, double from_s, double to_s,
+                         const std::function<void()>& tick) {
   VideoGroundOptions o;
   o.fps = v.input.fps;
   o.side = v.side;
   o.tick = tick;
   if (measure == Measure::density)
-    o.share = v.view.cells.polarity == Polarity::bright ? 1 - kUncovered : kUncovered;
+    o.share = v.view.cells.polarity == Polarity::bright ? 1 - kCoverage : kCoverage;
   o.from_s = from_s - 0.5 * v.view.frame_s;
   o.to_s = to_s + 0.5 * v.view.frame_s;
   v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, o));
@@ -160,7 +161,7 @@ void find_ground(ResponseVideo& v, Measure measure, double from_s, double to_s,
   v.view.background = std::make_shared<const Background>(std::move(b));
 }
 
-// Light, noise and looks of the cells, and the place.
+// Background, noise, appearance of the cells, and boundary.
 TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
                         const std::function<void()>& tick) {
   const std::string name = v.input.file.string();
@@ -172,12 +173,12 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
         options, v.file, [&](auto, auto) { tick(); }, v.side);
   };
   TrackSurvey s = survey();
-  if (s.frames < 3) throw Error(Errc::input, name, "has fewer than three frames");
-  if (!s.timed) throw Error(Errc::input, name, "states no frame rate; give fps");
-  if (!s.size_found) throw Error(Errc::input, name, "shows no cells: nothing stands out of its noise");
-  v.side = std::max(1, int(s.size_px / kWidthEnough));
+  if (s.frames < 3) throw Error(Errc::input, name, "fewer than three frames");
+  if (!s.timed) throw Error(Errc::input, name, "frame rate unknown; give fps");
+  if (!s.size_found) throw Error(Errc::input, name, "no cells detected: no signal above the noise");
+  v.side = std::max(1, int(s.size_px / kMaxWidth));
   if (v.side > 1) {
-    v.notes.push_back(fmt::format("cells are {:.3g} px wide: its frames are averaged over squares of {} px",
+    v.notes.push_back(fmt::format("cells are {:.3g} px wide: frames are averaged over squares of {} px",
                                   s.size_px, v.side));
     s = survey();
   }
@@ -188,22 +189,22 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   v.view.frame_s = s.frame_s;
   v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
-  find_ground(v, measure, 0, s.duration_s, tick);
+  estimate_background(v, measure, 0, s.duration_s, tick);
   if (boundary == Boundary::drop) {
     DropEdgeOptions edge;
     edge.name = name;
     v.edge = find_drop_edge(s.first, edge);
   }
-  // How spots are found is an option of `track`; a crowd is measured as a whole.
+  // Notes on spot detection refer to options of `track` and do not apply here.
   std::erase_if(s.notes,
                 [](const std::string& note) { return note.find("--background") != std::string::npos; });
   v.notes.insert(v.notes.end(), s.notes.begin(), s.notes.end());
   return s;
 }
 
-// How cells are followed one by one. What is much fainter than most is dirt, or far out of focus. Simulated
-// cells that are faster are to be followed, too.
-void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
+// Parameters for tracking single cells: a threshold, because much fainter spots are dirt or far out of focus,
+// and a reach that also covers faster simulated cells.
+void set_tracking(ResponseVideo& v, const std::vector<GrayF>& frames) {
   const Detector detector = v.view.detector();
   std::vector<std::vector<Spot>> spots;
   std::vector<double> snr;
@@ -211,54 +212,54 @@ void find_followed(ResponseVideo& v, const std::vector<GrayF>& frames) {
     spots.push_back(detector.find(f));
     for (const Spot& s : spots.back()) snr.push_back(s.snr);
   }
-  v.view.threshold_sd = std::max(detector.threshold_sd(), snr.empty() ? 0 : kFaint * quantile(snr, 0.9));
+  v.view.threshold_sd =
+      std::max(detector.threshold_sd(), snr.empty() ? 0 : kMinRelativeSnr * quantile(snr, 0.9));
   double count = 1;
   for (auto& one : spots) {
     std::erase_if(one, [&](const Spot& s) { return s.snr < v.view.threshold_sd; });
     count += double(one.size()) / double(frames.size());
   }
-  const double apart = std::sqrt(double(v.view.width) * v.view.height / count);
-  v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * apart);
+  const double spacing = std::sqrt(double(v.view.width) * v.view.height / count);
+  v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * spacing);
 }
 
 void check_segments(const std::vector<FieldSegment>& segments, const ResponseInput& input, Measure measure,
                     const TrackSurvey& survey) {
-  const double shortest = measure == Measure::tracks ? kShortestBurst * survey.frame_s : kShortestSegment;
+  const double shortest = measure == Measure::tracks ? kMinBurstFrames * survey.frame_s : kMinSegment;
   for (const FieldSegment& d : segments)
     if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
-      throw Error(
-          Errc::input, input.file.string(),
-          fmt::format(
-              "a segment from {:.4g} to {:.4g} s is shorter than {:.2g} s, or beyond the video's {:.4g} s",
-              d.t0_s, d.t1_s, shortest, survey.duration_s));
+      throw Error(Errc::input, input.file.string(),
+                  fmt::format("field segment from {:.4g} to {:.4g} s is invalid; it must last at least "
+                              "{:.2g} s and end within the video of {:.4g} s",
+                              d.t0_s, d.t1_s, shortest, survey.duration_s));
 }
 
-// One pass for all frames: where cells begin, what is measured, what is shown.
+// Reads all needed frames in one pass: initial positions, statistics, pictures for the report.
 void take_frames(ResponseVideo& v, Boundary boundary, Measure measure, const std::function<void()>& tick) {
-  std::vector<double> moments;
-  const auto want = [&](const Episode& e, const std::vector<double>& times) {
-    for (const double t : times) moments.push_back(e.begins_s + t);
+  std::vector<double> times_s;
+  const auto add_times = [&](const Episode& e, const std::vector<double>& times) {
+    for (const double t : times) times_s.push_back(e.start_s + t);
   };
   for (const Episode& e : v.episodes) {
-    want(e, {0});
-    want(e, make_statistics(measure, e, v.view)->times_s());
-    want(e, picture_times(e));
+    add_times(e, {0});
+    add_times(e, make_statistics(measure, e, v.view)->times_s());
+    add_times(e, picture_times(e));
   }
-  std::vector<GrayF> frames = frames_at(v, moments, tick);
-  if (measure == Measure::tracks) find_followed(v, frames);
+  std::vector<GrayF> frames = frames_at(v, times_s, tick);
+  if (measure == Measure::tracks) set_tracking(v, frames);
   auto next = frames.begin();
   for (Episode& e : v.episodes) {
     const GrayF first = std::move(*next++);
-    e.places_image = evenly_mixed(places_in(first, v.view, measure));
-    if (e.places_image.empty())
+    e.positions_image = low_discrepancy_order(positions_in(first, v.view, measure));
+    if (e.positions_image.empty())
       throw Error(Errc::input, v.input.file.string(),
-                  fmt::format("shows no cells that move at {:.3g} s", e.begins_s));
+                  fmt::format("no cells in motion detected at {:.3g} s", e.start_s));
     v.statistics.push_back(make_statistics(measure, e, v.view));
     const auto measured_end = next + std::ptrdiff_t(v.statistics.back()->times_s().size());
     const std::vector<GrayF> measured(std::make_move_iterator(next), std::make_move_iterator(measured_end));
     next = measured_end + std::ptrdiff_t(picture_times(e).size());
     v.pictures.emplace_back(std::make_move_iterator(measured_end), std::make_move_iterator(next));
-    // Where the swarm has spread cells are seen best.
+    // Cells are resolved best in the middle of an episode, when the swarm is spread out.
     if (v.contrast == 0) match_look(v, measured[measured.size() / 2], boundary);
     v.observed.push_back(v.statistics.back()->of_frames(measured));
   }
@@ -296,12 +297,12 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   const RunVideo source = run_video(input.file);
   v.file = source.file;
   const std::optional<double> scale = input.um_per_px ? input.um_per_px : source.um_per_px;
-  if (!scale)
-    throw Error(Errc::input, input.file.string(), "has no scale; give um_per_px, or a calibration file");
+  if (!scale) throw Error(Errc::input, input.file.string(), "picture scale unknown; give um_per_px or scale");
   v.um_per_px = *scale;
   if (source.um_per_px && std::fabs(*scale / *source.um_per_px - 1) > kSameScale)
-    v.notes.push_back(fmt::format("was recorded with {:g} um per pixel; {:g} are taken, as the study says",
-                                  *source.um_per_px, *scale));
+    v.notes.push_back(
+        fmt::format("recorded picture scale {:g} um per pixel; {:g} um per pixel of the study is used",
+                    *source.um_per_px, *scale));
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
   const std::vector<FieldSegment> recorded = recorded_segments(input.file);
@@ -315,13 +316,13 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
     for (const FieldSegment& d : segments)
       all += fmt::format("{}{:.2f} to {:.2f} s at {:.0f} deg", all.empty() ? "" : ", ", d.t0_s, d.t1_s,
                          d.direction_deg);
-    v.notes.push_back("segments were found, everything rests on them: " + all);
+    v.notes.push_back("field segments were detected in the video; all results depend on them: " + all);
   }
   v.episodes = episodes_of(v, boundary, segments);
-  // Before the first segment a swarm may wait at one place for longer than it moves.
+  // Outside the segments the swarm may stay in one position for most of the time: estimate again within them.
   if (measure == Measure::density &&
       (segments.front().t0_s > 0.2 * survey.duration_s || segments.back().t1_s < 0.8 * survey.duration_s))
-    find_ground(v, measure, segments.front().t0_s, segments.back().t1_s, tick);
+    estimate_background(v, measure, segments.front().t0_s, segments.back().t1_s, tick);
 
   take_frames(v, boundary, measure, tick);
   return v;

@@ -11,43 +11,43 @@
 
 namespace faba {
 
-/// What keeps the cells together.
+/// Boundary that confines the cells.
 enum class Boundary {
-  drop,  ///< the edge of a drop, which is found in the first frame
-  box,   ///< a rectangle, all of it in view
-  none   ///< nothing that is near: cells that leave the view are gone
+  drop,  ///< edge of a drop, detected in the first frame
+  box,   ///< rectangle equal to the view
+  none   ///< no boundary near the view
 };
 
-/// What is said of a video of an experiment.
+/// Configuration of a video of an experiment.
 struct ResponseInput {
   std::filesystem::path file;  ///< video or run directory
-  std::string experiment;      ///< to which it belongs
-  double exposure_s = 0;       ///< time of the sample in air before the video
-  double fps = 0;              ///< > 0: in place of what the video states
+  std::string experiment;      ///< name of the experiment
+  double exposure_s = 0;       ///< air exposure time before the video
+  double fps = 0;              ///< > 0: overrides the frame rate of the file
   std::optional<double> um_per_px;
-  std::optional<double> reversal_s;     ///< when the field is reversed; found when absent, as is the next:
-  std::optional<double> direction_deg;  ///< in which cells swim from then on; found when absent
-  std::optional<double> duration_s;     ///< from there on; to the video's end when absent
-  std::vector<FieldSegment> segments;   ///< in place of these three; times in the video
+  std::optional<double> reversal_s;     ///< time of the field reversal; empty: detected
+  std::optional<double> direction_deg;  ///< swimming direction after it; empty: detected
+  std::optional<double> duration_s;     ///< duration after it; empty: to the end of the video
+  std::vector<FieldSegment> segments;   ///< instead of these three; times in the video
 };
 
-/// What the video tells: all that is needed to simulate the same and to measure both alike.
+/// Result of the measurement of a video: everything to simulate it and to measure the simulations equally.
 struct ResponseVideo {
   ResponseInput input;
   std::filesystem::path file;  ///< the video itself
-  int side = 1;  ///< of the squares that frames are averaged over, px of the video; px below are
-                 ///< those of the averaged frames
+  int side = 1;  ///< frames are averaged over squares of this side, px of the video; all px below are those
+                 ///< of the averaged frames
   CellView view;
   double fps = 0, um_per_px = 0;
   std::optional<DropEdge> edge;               ///< with Boundary::drop
-  std::shared_ptr<const VideoGround> ground;  ///< light and noise
-  double cell_px = 0, contrast = 0;  ///< of a cell that is rendered: width as seen, and as in [microscope]
-  std::optional<double> field_t;     ///< strength of the field, T, as a run recorded it
-  bool segments_detected = false;    ///< in the video; else they were given, or a run recorded its field
+  std::shared_ptr<const VideoGround> ground;  ///< background and noise
+  double cell_px = 0, contrast = 0;  ///< of a rendered cell: width (FWHM), and contrast as in [microscope]
+  std::optional<double> field_t;     ///< recorded field strength, T
+  bool segments_detected = false;    ///< detected in the video, neither given nor recorded
   std::vector<Episode> episodes;
   std::vector<std::shared_ptr<const EpisodeStatistics>> statistics;  ///< of each episode
-  std::vector<std::vector<double>> observed;                         ///< what they give for the video
-  std::vector<std::vector<GrayF>> pictures;  ///< of each episode at its picture_times(), greys of 0 to 255
+  std::vector<std::vector<double>> observed;                         ///< statistics of the video
+  std::vector<std::vector<GrayF>> pictures;  ///< of each episode at picture_times(), grey values 0 to 255
   std::vector<std::string> notes;
 };
 

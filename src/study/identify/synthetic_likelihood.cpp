@@ -9,7 +9,7 @@
 namespace faba {
 namespace {
 
-constexpr double kPriorPrecision = 12;  // of a uniform law on 0 to 1: what nothing is known of stays small
+constexpr double kPriorPrecision = 12;  // of a uniform distribution on 0 to 1; bounds uninformed parameters
 constexpr int kThinning = 20;
 
 }  // namespace
@@ -18,21 +18,21 @@ SimulationTable rows_of(const SimulationTable& t, const std::vector<Eigen::Index
   return {t.u(rows, Eigen::all), t.s(rows, Eigen::all)};
 }
 
-SyntheticLikelihood::SyntheticLikelihood(const SimulationTable& choose, const SimulationTable& fit,
+SyntheticLikelihood::SyntheticLikelihood(const SimulationTable& compression, const SimulationTable& fit,
                                          const Eigen::VectorXd& observed, const Eigen::VectorXd& centre) {
-  const Emulator first(choose.u, choose.s);
+  const Emulator first(compression.u, compression.s);
   const Eigen::Index d = centre.size(), p = observed.size();
-  // In units of their own noise; what has none cannot be weighed, and says nothing.
+  // In units of their noise. Statistics without noise are ignored.
   const Eigen::VectorXd sd = first.covariance().diagonal().cwiseSqrt();
   const Eigen::VectorXd scale = sd.unaryExpr([](double x) { return x > 1e-9 ? 1 / x : 0.0; });
   Eigen::MatrixXd noise = scale.asDiagonal() * first.covariance() * scale.asDiagonal();
   for (Eigen::Index j = 0; j < p; ++j)
     if (scale[j] == 0) noise(j, j) = 1;
   const Eigen::MatrixXd slope = scale.asDiagonal() * first.slope(centre);
-  const Eigen::MatrixXd weighed = shrunk(noise, first.freedom()).ldlt().solve(slope).transpose();
-  Eigen::MatrixXd information = weighed * slope;
+  const Eigen::MatrixXd weighted = shrunk(noise, first.freedom()).ldlt().solve(slope).transpose();
+  Eigen::MatrixXd information = weighted * slope;
   information.diagonal().array() += kPriorPrecision;
-  compression_ = information.ldlt().solve(weighed) * scale.asDiagonal();
+  compression_ = information.ldlt().solve(weighted) * scale.asDiagonal();
   at_centre_ = first.mean(centre);
   Eigen::MatrixXd t(fit.size(), d);
   for (Eigen::Index i = 0; i < fit.size(); ++i) t.row(i) = compressed(fit.s.row(i).transpose()).transpose();
@@ -66,29 +66,29 @@ Eigen::MatrixXd sample(const std::function<double(const Eigen::VectorXd&)>& log_
     return Eigen::MatrixXd(c.llt().matrixL());
   };
   Eigen::MatrixXd root = factor();
-  int taken = 0, since = 0;
+  int accepted = 0, since = 0;
   for (int i = 0; i < steps; ++i) {
     Eigen::VectorXd z(d);
     for (Eigen::Index j = 0; j < d; ++j) z[j] = random.normal();
-    const Eigen::VectorXd to = at + step * (root * z);
-    const double there = box.holds(to) ? log_density(to) : -HUGE_VAL;
-    const double luck = std::log(random.uniform());
-    if (luck < there - density) {
-      at = to;
-      density = there;
-      ++taken;
+    const Eigen::VectorXd proposal = at + step * (root * z);
+    const double proposed_density = box.contains(proposal) ? log_density(proposal) : -HUGE_VAL;
+    const double threshold = std::log(random.uniform());
+    if (threshold < proposed_density - density) {
+      at = proposal;
+      density = proposed_density;
+      ++accepted;
     }
     ++since;
     if (i < warm_up) {
-      // Covariance of what was visited so far, the beginning forgotten.
-      const double share = 1.0 / (20 + 0.5 * i);
+      // Running mean and covariance of the chain, with exponential forgetting.
+      const double rate = 1.0 / (20 + 0.5 * i);
       const Eigen::VectorXd off = at - mean;
-      mean += share * off;
-      covariance = (1 - share) * covariance + share * off * off.transpose();
+      mean += rate * off;
+      covariance = (1 - rate) * covariance + rate * off * off.transpose();
       if (since == 100) {
-        step *= std::exp((double(taken) / since - 0.25));
+        step *= std::exp((double(accepted) / since - 0.25));
         root = factor();
-        taken = since = 0;
+        accepted = since = 0;
       }
     } else if ((i - warm_up) % kThinning == 0) {
       draws.row((i - warm_up) / kThinning) = at.transpose();

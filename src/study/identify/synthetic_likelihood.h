@@ -8,30 +8,30 @@
 
 namespace faba {
 
-/// Simulations of one model: row i of `u` are the parameters of one, as shares of their ranges (0 to 1), row
-/// i of `s` its statistics.
+/// Simulations of one model: row i of `u` holds the parameters of simulation i as fractions of their ranges
+/// (0 to 1), row i of `s` its statistics.
 struct SimulationTable {
   Eigen::MatrixXd u, s;
   Eigen::Index size() const { return u.rows(); }
 };
-/// The rows whose numbers are listed.
+/// The listed rows.
 SimulationTable rows_of(const SimulationTable& t, const std::vector<Eigen::Index>& rows);
 
-/// How likely what was observed is under parameters (Wood 2010): statistics of a simulation are normally
-/// distributed about a mean that depends on the parameters. They are compressed to as many numbers as there
-/// are parameters first, the best linear guesses of these near `centre`, whose mean and covariance
-/// simulations other than those that chose the compression then tell. That they are estimates makes it
-/// Student's t in place of a normal law.
+/// Synthetic likelihood (Wood 2010): the statistics of a simulation are normally distributed about a mean
+/// that depends on the parameters. The statistics are first compressed to one number for each parameter, its
+/// best linear estimate near `centre`. Mean and covariance of the compressed statistics are estimated from
+/// separate simulations; the uncertainty of these estimates gives Student's t distribution instead of a
+/// normal one.
 class SyntheticLikelihood {
  public:
-  /// `choose`: simulations that the compression rests on; `fit`: those that the likelihood rests on. Both
-  /// hold more rows than Emulator::terms(d).
-  SyntheticLikelihood(const SimulationTable& choose, const SimulationTable& fit,
+  /// `compression`: simulations to fit the compression; `fit`: simulations to fit the likelihood. Both must
+  /// have more than Emulator::terms(d) rows.
+  SyntheticLikelihood(const SimulationTable& compression, const SimulationTable& fit,
                       const Eigen::VectorXd& observed, const Eigen::VectorXd& centre);
 
-  /// Up to a constant.
+  /// Log-likelihood at `u`, up to a constant.
   double log_likelihood(const Eigen::VectorXd& u) const;
-  /// The best linear guess from statistics, relative to the centre.
+  /// Best linear estimate of the parameters from statistics, relative to the centre.
   Eigen::VectorXd compressed(const Eigen::VectorXd& s) const { return compression_ * (s - at_centre_); }
 
  private:
@@ -41,16 +41,17 @@ class SyntheticLikelihood {
   Eigen::MatrixXd precision_;
 };
 
-/// A region of parameters: what lies between the two corners.
+/// A rectangular region of the parameters.
 struct ParameterBox {
   Eigen::VectorXd low, high;
-  bool holds(const Eigen::VectorXd& u) const {
+  bool contains(const Eigen::VectorXd& u) const {
     return (u.array() >= low.array()).all() && (u.array() <= high.array()).all();
   }
 };
 
-/// Draws from a density on a box (random-walk Metropolis, its step adapted during a first part that is thrown
-/// away): `count` of them, thinned so that neighbours hardly agree. `spread` is a guess at the covariance.
+/// Samples a density on a box by random-walk Metropolis. The step is adapted during the burn-in, which is
+/// discarded; the chain is thinned to reduce autocorrelation. Returns `count` samples. `spread`: initial
+/// estimate of the covariance.
 Eigen::MatrixXd sample(const std::function<double(const Eigen::VectorXd&)>& log_density,
                        const ParameterBox& box, const Eigen::VectorXd& start, const Eigen::MatrixXd& spread,
                        int count, std::uint64_t seed);

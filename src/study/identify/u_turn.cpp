@@ -15,9 +15,9 @@ double u_turn_s(const Json& model, double moment, double field_t) {
     return scenario_number(std::string("swarm[0].model.") + name, scenario).value_or(std::nan(""));
   };
   const double drag = of("drag_factor") * 8 * std::numbers::pi * of("viscosity") * std::pow(of("radius"), 3);
-  const double energy = moment * field_t, heat = kBoltzmann * of("temperature");
-  if (!(4 * energy > heat)) return std::numeric_limits<double>::infinity();
-  return drag / energy * std::log(4 * energy / heat);
+  const double energy = moment * field_t, thermal_energy = kBoltzmann * of("temperature");
+  if (!(4 * energy > thermal_energy)) return std::numeric_limits<double>::infinity();
+  return drag / energy * std::log(4 * energy / thermal_energy);
 }
 
 }  // namespace faba

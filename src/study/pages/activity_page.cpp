@@ -15,13 +15,13 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kMostSignatures = 24;  // drawn one by one
+constexpr std::size_t kMaxSignatures = 24;  // figures of single videos
 
 std::string title_of(const VideoActivity& a) {
-  std::string words = a.input.file.filename().string();
-  if (words.empty()) words = a.input.file.parent_path().filename().string();
-  if (a.input.exposure_s) words += fmt::format(", {} s in air", three_digits(*a.input.exposure_s));
-  return words;
+  std::string text = a.input.file.filename().string();
+  if (text.empty()) text = a.input.file.parent_path().filename().string();
+  if (a.input.exposure_s) text += fmt::format(", air exposure {} s", three_digits(*a.input.exposure_s));
+  return text;
 }
 
 std::string compass(double deg) {
@@ -43,8 +43,11 @@ Figure signature_figure(const VideoActivity& a) {
   p.add(Rule{.at = 0, .of_x = false});
   p.add(Line{
       .x = a.t_s, .y = a.amount, .label = "within 45° of the direction", .ink = Ink::blue, .width = 1.2});
-  p.add(Line{
-      .x = a.t_s, .y = a.along, .label = "along it, less against it", .ink = Ink::vermillion, .width = 1.2});
+  p.add(Line{.x = a.t_s,
+             .y = a.along,
+             .label = "net flow along the direction",
+             .ink = Ink::vermillion,
+             .width = 1.2});
   if (a.fit.good) {
     Line curve;
     curve.label = "Gaussian";
@@ -63,15 +66,14 @@ Figure signature_figure(const VideoActivity& a) {
     if (*at) p.add(Rule{.at = **at, .label = name});
   f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
                           a.direction_deg, compass(a.direction_deg));
-  if (!a.segments.empty()) f.caption += "Grey: times of motion in one direction. ";
-  f.caption +=
-      a.fit.good
-          ? "(1) onset, (2) maximum, (3) the swarm leaves: where the Gaussian is at a tenth and at its top."
-          : "No Gaussian: " + a.fit.why + ".";
+  if (!a.segments.empty()) f.caption += "Grey: motion in one direction. ";
+  f.caption += a.fit.good ? "(1) Onset and (3) departure of the swarm: the fitted Gaussian is at 10 % of its "
+                            "amplitude. (2) Maximum."
+                          : "No Gaussian fit: " + a.fit.why + ".";
   return f;
 }
 
-// Something of each video that is drawn against its exposure; empty where the video has none.
+// A quantity of each video that is plotted against air exposure time; empty when it is not available.
 struct AgainstExposure {
   std::string heading, label;
   const std::optional<ExposureLine>& line;
@@ -79,15 +81,15 @@ struct AgainstExposure {
 };
 
 std::vector<AgainstExposure> against_exposure(const ActivityResult& r) {
-  return {{"Time of the maximum against exposure", "time of the maximum (s)", r.peak_line,
+  return {{"Time of the maximum against air exposure time", "time of the maximum (s)", r.peak_line,
            [&r](const VideoActivity& a) -> std::optional<double> {
              if (!has_peak(a) || (r.cutoff && *a.input.exposure_s >= r.cutoff->cutoff_s)) return {};
              return a.fit.peak_s - a.input.from_s;
            }},
-          {"Mean activity against exposure", "mean activity (px × px² per pair)", r.mean_line,
+          {"Mean activity against air exposure time", "mean activity (px × px² per pair)", r.mean_line,
            [](const VideoActivity& a) { return std::optional(a.mean_amount); }},
-          {"Mean activity per visible cell against exposure", "mean activity per cell (px × px² per pair)",
-           r.per_cell_line, activity_per_cell}};
+          {"Mean activity per visible cell against air exposure time",
+           "mean activity per cell (px × px² per pair)", r.per_cell_line, activity_per_cell}};
 }
 
 Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
@@ -96,7 +98,7 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
   f.heading = what.heading;
   Plot& p = f.plot;
   p.inlined = true;
-  p.x.label = "time in air (s)";
+  p.x.label = "air exposure time (s)";
   p.y.label = what.label;
   p.width = 620;
   p.height = 300;
@@ -123,10 +125,10 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
   if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "cut-off"});
   p.add(Line{.x = {0, longest},
              .y = {line->intercept, line->intercept + line->slope * longest},
-             .label = line->experiments > 1 ? "line, a shift for each experiment" : "line",
+             .label = line->experiments > 1 ? "line fit, one offset per experiment" : "line fit",
              .ink = Ink::text});
   f.caption = fmt::format(
-      "Slope {}, 95 % from {} to {}; intercept {} ({} to {}); {} in {}.", three_digits(line->slope),
+      "Slope {} (95 % interval {} to {}); intercept {} ({} to {}); {} in {}.", three_digits(line->slope),
       three_digits(line->slope_ci95[0]), three_digits(line->slope_ci95[1]), three_digits(line->intercept),
       three_digits(line->intercept_ci95[0]), three_digits(line->intercept_ci95[1]),
       counted(std::uint64_t(line->values), "video"), counted(std::uint64_t(line->experiments), "experiment"));
@@ -139,9 +141,9 @@ std::string text_row(std::vector<std::string> cells, const char* tag) {
 }
 
 std::string table(const ActivityResult& r) {
-  std::string out = "<h2>Numbers</h2>\n<table class=\"numbers\">\n";
+  std::string out = "<h2>Results</h2>\n<table class=\"numbers\">\n";
   out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell",
-                   "signal to noise", "maximum (s)", "width (s)"},
+                   "signal-to-noise ratio", "maximum (s)", "width (s)"},
                   "th");
   for (const VideoActivity& a : r.videos)
     out += text_row(
@@ -169,21 +171,21 @@ std::string table(const ActivityResult& r) {
 std::string lead(const ActivityResult& r) {
   if (r.videos.size() == 1) {
     const VideoActivity& a = r.videos.front();
-    return a.segments.empty()
-               ? "Nothing in this video moves in one direction beyond chance."
-               : fmt::format("Something moves in one direction {}.", counted(a.segments.size(), "time"));
+    return a.segments.empty() ? "No significant motion in one direction was detected."
+                              : fmt::format("Motion in one direction was detected in {}.",
+                                            counted(a.segments.size(), "time interval"));
   }
   std::size_t respond = 0;
   for (const VideoActivity& a : r.videos) respond += a.responds;
-  std::string words = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
+  std::string text = fmt::format("{} of {} videos show a response.", respond, r.videos.size());
   if (r.cutoff)
-    words += fmt::format(" The cut-off is at {} s in air (between {} and {} s); {}.",
-                         three_digits(r.cutoff->cutoff_s), three_digits(r.cutoff->between_s[0]),
-                         three_digits(r.cutoff->between_s[1]),
-                         r.cutoff->wrong == 0   ? "beyond it none does"
-                         : r.cutoff->wrong == 1 ? "one video does not fit it"
-                                                : fmt::format("{} videos do not fit it", r.cutoff->wrong));
-  return words;
+    text += fmt::format(
+        " The cut-off air exposure time is {} s (between {} and {} s); {}.", three_digits(r.cutoff->cutoff_s),
+        three_digits(r.cutoff->between_s[0]), three_digits(r.cutoff->between_s[1]),
+        r.cutoff->wrong == 0   ? "no video beyond it shows a response"
+        : r.cutoff->wrong == 1 ? "one video is inconsistent with it"
+                               : fmt::format("{} videos are inconsistent with it", r.cutoff->wrong));
+  return text;
 }
 
 }  // namespace
@@ -195,7 +197,7 @@ std::vector<Figure> activity_figures(const ActivityResult& r) {
   if (exposures)
     for (const AgainstExposure& what : against_exposure(r))
       if (what.line) figures.push_back(line_figure(r, what));
-  for (std::size_t i = 0; i < std::min(r.videos.size(), kMostSignatures); ++i)
+  for (std::size_t i = 0; i < std::min(r.videos.size(), kMaxSignatures); ++i)
     figures.push_back(signature_figure(r.videos[i]));
   return figures;
 }
@@ -215,7 +217,7 @@ std::string activity_page(const ActivityResult& r) {
 
 void write_activity_picture(const std::filesystem::path& file, const VideoActivity& a) {
   if (a.busiest.image.empty())
-    throw Error(Errc::usage, "--picture", "needs the frames, and a file of flows holds none");
+    throw Error(Errc::usage, "--picture", "a flow file contains no frames; give the video");
   const double direction = a.direction_given ? a.direction_deg : a.busiest_deg;
   const Flow kept = kept_flow(a.busiest.flow, {a.threshold_px, direction});
   FlowDrawing how;
@@ -223,13 +225,13 @@ void write_activity_picture(const std::filesystem::path& file, const VideoActivi
   how.arrow_step_px = 0;
   how.words = fmt::format("flow at {:.2f} s", a.busiest.t1_s);
   const RgbImage all = draw_flow(a.busiest.flow, how);
-  how.words = fmt::format("above {:.3g} px, about {} degrees", a.threshold_px, whole_degrees(direction));
-  const RgbImage left = draw_flow(kept, how);
+  how.words = fmt::format("above {:.3g} px, direction {} degrees", a.threshold_px, whole_degrees(direction));
+  const RgbImage filtered = draw_flow(kept, how);
   RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
   for (int y = 0; y < all.height; ++y)
     for (int x = 0; x < all.width; ++x) {
       out.at(x, y) = all.at(x, y);
-      out.at(all.width + 8 + x, y) = left.at(x, y);
+      out.at(all.width + 8 + x, y) = filtered.at(x, y);
     }
   write_png(file, out);
 }

@@ -15,7 +15,7 @@ Json or_null(const std::optional<T>& v) {
 }
 
 Json gaussian_json(const GaussianFit& f) {
-  if (!f.good && f.amplitude == 0) {  // nothing to fit to
+  if (!f.good && f.amplitude == 0) {  // no data for a fit
     Json j{{"good", false}, {"why", f.why}};
     for (const char* key : {"amplitude", "peak_s", "sigma_s", "offset"}) j[key] = nullptr;
     return j;
@@ -81,7 +81,7 @@ Json activity_json(const ActivityResult& r) {
     return one;
   };
   j["peak_line"] = with_pooled(r.peak_line, r.peak_line_pooled);
-  // As the thesis has it, in frames: the time of the maximum over the time of a frame.
+  // In frames, as in the thesis.
   if (r.peak_line && r.frame_s)
     j["peak_line"]["frames"] = {{"rate_hz", 1 / *r.frame_s},
                                 {"slope", r.peak_line->slope / *r.frame_s},

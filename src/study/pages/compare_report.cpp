@@ -37,9 +37,12 @@ Plot distances(const Comparison& c) {
                .ink = Ink::muted,
                .dashed = true});
   }
-  p.add(
-      Line{.x = c.naive.t_s, .y = c.naive.value, .label = "nothing moves", .ink = Ink::muted, .width = 1.2});
-  if (c.floor) p.add(Rule{.at = *c.floor, .label = "same model, another seed", .of_x = false});
+  p.add(Line{.x = c.naive.t_s,
+             .y = c.naive.value,
+             .label = "video without motion",
+             .ink = Ink::muted,
+             .width = 1.2});
+  if (c.floor) p.add(Rule{.at = *c.floor, .label = "same scenario, different seed", .of_x = false});
   return p;
 }
 
@@ -65,18 +68,18 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
   FlowDrawing how;
   how.arrow_step_px = 0;
   how.full_px = std::max({full_speed(r.furthest.reference), full_speed(r.furthest.run), 1e-6});
-  std::string out = fmt::format(
-      "<h2>{}: filtered flow where the distance is largest, {:.2f} s</h2>\n<div class=\"figures\">\n",
-      escape_markup(name_of(r.file)), r.furthest.t_s);
+  std::string out =
+      fmt::format("<h2>{}: filtered flow at the largest distance, {:.2f} s</h2>\n<div class=\"figures\">\n",
+                  escape_markup(name_of(r.file)), r.furthest.t_s);
   const std::pair<const Flow*, const char*> both[] = {{&r.furthest.reference, "Reference"},
                                                       {&r.furthest.run, "Run"}};
-  for (const auto& [flow, words] : both)
+  for (const auto& [flow, heading] : both)
     out += fmt::format(
         "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Flow within 45° of the direction.</figcaption>\n</figure>\n",
-        words, inline_picture(draw_flow(kept_flow(*flow, filter), how), words));
-  out += fmt::format("<figure>\n<h3>Over columns</h3>\n{}</figure>\n",
+        heading, inline_picture(draw_flow(kept_flow(*flow, filter), how), heading));
+  out += fmt::format("<figure>\n<h3>Flow by column</h3>\n{}</figure>\n",
                      svg(histogram("column (px)", r.furthest.reference_bins.x, r.furthest.run_bins.x)));
-  out += fmt::format("<figure>\n<h3>Over rows</h3>\n{}</figure>\n</div>\n",
+  out += fmt::format("<figure>\n<h3>Flow by row</h3>\n{}</figure>\n</div>\n",
                      svg(histogram("row (px)", r.furthest.reference_bins.y, r.furthest.run_bins.y)));
   return out;
 }
@@ -84,8 +87,7 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
 std::string table(const Comparison& c) {
   std::string out =
       "<table class=\"numbers\">\n<thead><tr><th>run</th><th>mean</th><th>s.d.</th><th>slope per "
-      "frame</th><th>score</th>"
-      "<th>legacy mean</th></tr></thead>\n<tbody>\n";
+      "frame</th><th>score</th><th>legacy mean</th></tr></thead>\n<tbody>\n";
   const auto line = [&](const std::string& name, const DistanceSeries& d, std::optional<double> score) {
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
@@ -93,16 +95,15 @@ std::string table(const Comparison& c) {
         score ? three_digits(*score) : "–", three_digits(d.legacy_mean));
   };
   for (const ComparedRun& r : c.runs) line(name_of(r.file), r.distance, score_of(c, r));
-  line("nothing moves", c.naive, {});
-  out += "</tbody></table>\n<p>Mean, s.d. and slope are those of the distance from frame to frame.";
+  line("video without motion", c.naive, {});
+  out += "</tbody></table>\n<p>Mean, s.d. and slope of the distance over the frames.";
   if (std::any_of(c.runs.begin(), c.runs.end(),
                   [&](const ComparedRun& r) { return score_of(c, r).has_value(); }))
     out +=
-        " The score puts the mean on a scale of its own: 0 is the distance of two runs of one scenario with "
-        "different seeds, so that less than 0 is chance (or the same run), and 1 that of a video in which "
-        "nothing "
-        "moves, so that 1 or more says no more than no model at all.";
-  return out + " Legacy is the thesis's sum, for comparison with its figures.</p>\n";
+        " Score: the mean distance on a scale where 0 is the distance between two runs of one scenario with "
+        "different seeds and 1 is the distance to a video without motion. Scores below 0 are random "
+        "variation or the same run; a score of 1 or more is no better than a video without motion.";
+  return out + " Legacy mean: the distance as defined in the thesis.</p>\n";
 }
 
 }  // namespace
@@ -145,9 +146,10 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
 
 std::string compare_page(const Comparison& c, const CompareJob& job) {
   std::string out = fmt::format("<h1>Comparison with {}</h1>\n", escape_markup(name_of(job.reference)));
-  out += fmt::format("<p class=\"lead\">{} compared with it, {}.</p>\n",
-                     c.runs.size() == 1 ? name_of(c.runs.front().file) : counted(c.runs.size(), "video"),
-                     escape_markup(c.alignment));
+  out += fmt::format(
+      "<p class=\"lead\">{} compared with the reference, {}.</p>\n",
+      c.runs.size() == 1 ? escape_markup(name_of(c.runs.front().file)) : counted(c.runs.size(), "video"),
+      escape_markup(c.alignment));
   for (const std::string& note : c.notes)
     out += fmt::format("<p class=\"note\">{}.</p>\n", escape_markup(note));
   for (const ComparedRun& r : c.runs)
@@ -155,10 +157,9 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
       out +=
           fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
   out += fmt::format(
-      "<figure>\n<h3>Distance of the flows over time</h3>\n{}<figcaption>Quadratic-Chi distance (m = {:g}, "
-      "bins alike up to {:g}) of "
-      "the flow's sums over columns and rows. Dashed: straight lines. Same model, another seed: "
-      "{}.</figcaption>\n</figure>\n",
+      "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Quadratic-Chi distance (m = "
+      "{:g}, bin similarity threshold {:g} bins) between the sums of the flow over columns and rows. Dashed: "
+      "line fits. Same scenario, different seed: {}.</figcaption>\n</figure>\n",
       svg(distances(c)), job.m, job.threshold, escape_markup(c.floor_from));
   out += table(c);
   for (const ComparedRun& r : c.runs) out += pictures(r, c.filter);

@@ -22,7 +22,7 @@ Json mean_json(const MeanOverSeeds& m) {
   return {{"mean", m.mean}, {"sd", m.sd}, {"ci95", m.ci95}, {"n", m.n}};
 }
 
-// "2.13" with "1.9 to 2.4" below it; markup.
+// Markup: "2.13" with "1.9 to 2.4" below it.
 std::string with_interval(const MeanOverSeeds* m) {
   if (!m) return "–";
   if (m->n < 2) return three_digits(m->mean);
@@ -34,18 +34,18 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
     {"settling_time_s", "settling time (s)"},
     {"steady_rms_px", "steady error (px rms)"},
     {"iae_px_s", "IAE (px s)"},
-    {"cross_track_95_px", "off the route (px, 95 %)"},
-    {"rms_radius_px", "dispersion at the end (px rms)"},
-    {"control_effort_a2_s", "effort (A² s)"},
-    {"total_variation_ut", "restlessness (µT)"}};
+    {"cross_track_95_px", "cross-track error (px, 95 %)"},
+    {"rms_radius_px", "final dispersion (px rms)"},
+    {"control_effort_a2_s", "control effort (A² s)"},
+    {"total_variation_ut", "total variation (µT)"}};
 
 bool several_delays(const ControllerComparison& r) { return r.study.delays.size() > 1; }
 
-std::string place(const ControllerComparison& r, const Combination& c) {
-  std::string words = r.study.models.size() > 1 ? c.model : "";
+std::string condition(const ControllerComparison& r, const Combination& c) {
+  std::string text = r.study.models.size() > 1 ? c.model : "";
   if (several_delays(r))
-    words += fmt::format("{}{} late", words.empty() ? "" : ", ", counted(std::uint64_t(c.delay), "frame"));
-  return words;
+    text += fmt::format("{}delay {}", text.empty() ? "" : ", ", counted(std::uint64_t(c.delay), "frame"));
+  return text;
 }
 
 std::string table(const ControllerComparison& r) {
@@ -56,27 +56,27 @@ std::string table(const ControllerComparison& r) {
         }))
       columns.push_back(column);
   std::vector<std::string> head{"controller", "settled"};
-  if (!place(r, r.combinations.front()).empty()) head.insert(head.begin() + 1, "with");
-  head.emplace_back("behind the best (px)");
+  if (!condition(r, r.combinations.front()).empty()) head.insert(head.begin() + 1, "condition");
+  head.emplace_back("difference to the best (px)");
   for (const auto& column : columns) head.emplace_back(column.second);
-  std::string out = "<h2>Numbers</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>" +
+  std::string out = "<h2>Results</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>" +
                     table_row(head, "th") + "</thead><tbody>\n";
   for (const Combination& c : r.combinations) {
     std::vector<std::string> cells{escape_markup(c.controller), fmt::format("{} of {}", c.settled, c.trials)};
-    if (head[1] == "with") cells.insert(cells.begin() + 1, escape_markup(place(r, c)));
+    if (head[1] == "condition") cells.insert(cells.begin() + 1, escape_markup(condition(r, c)));
     cells.push_back(c.behind_best ? with_interval(&*c.behind_best) : "–");
     for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
     out += table_row(cells, "td");
   }
-  return out +
-         fmt::format(
-             "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % intervals (Student's "
-             "t); settling times of the trials that settled. Behind the best: the mean of the differences in "
-             "steady error, seed by seed, to the controller with the least.</p>\n",
-             counted(std::uint64_t(r.study.seeds), "seed"));
+  return out + fmt::format(
+                   "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % confidence intervals "
+                   "(Student's t). Settling time: mean over the trials that settled. Difference to the best: "
+                   "mean difference in steady error, for equal seeds, to the controller with the smallest "
+                   "steady error.</p>\n",
+                   counted(std::uint64_t(r.study.seeds), "seed"));
 }
 
-// The combinations of one model and delay, which are next to each other.
+// The combinations grouped by model and delay; those of one group are contiguous.
 std::vector<std::vector<const Combination*>> groups(const ControllerComparison& r) {
   std::vector<std::vector<const Combination*>> all;
   for (std::size_t i = 0; i < r.combinations.size(); ++i) {
@@ -90,7 +90,7 @@ constexpr Ink kGroupInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purpl
 
 Figure over_time(const ControllerComparison& r, const std::vector<const Combination*>& group, bool distance) {
   Figure f{distance ? "Distance to the setpoint" : "Dispersion", "", {}};
-  const std::string where = place(r, *group.front());
+  const std::string where = condition(r, *group.front());
   if (!where.empty()) f.heading += ": " + where;
   f.caption = fmt::format("{} over time, mean over {}. Shaded: one standard deviation between seeds.",
                           distance ? "Distance from the swarm's centroid to the setpoint"
@@ -144,27 +144,27 @@ Figure against_delay(const ControllerComparison& r, const Variant& model) {
   return f;
 }
 
-// Which controller is best: a sentence, or a row for each model and delay.
+// The controller with the smallest steady error: a sentence, or a table row for each model and delay.
 std::string verdict(const ControllerComparison& r) {
   std::string rows, sentence;
   for (const auto& group : groups(r)) {
     const Combination* best = nullptr;
-    bool sure = true;
+    bool significant = true;
     for (const Combination* c : group) {
       if (!c->behind_best && metric(*c, "steady_rms_px")) best = c;
-      if (c->behind_best && c->behind_best->ci95[0] <= 0) sure = false;
+      if (c->behind_best && c->behind_best->ci95[0] <= 0) significant = false;
     }
     if (!best || group.size() < 2) continue;
     const std::string at = fmt::format("{} px rms{}", three_digits(metric(*best, "steady_rms_px")->mean),
-                                       sure ? "" : "; the seeds do not tell it from all others");
-    sentence = fmt::format("<p class=\"lead\">{} keeps nearest to the setpoint, at {}.</p>\n",
+                                       significant ? "" : " (not significantly smaller than all others)");
+    sentence = fmt::format("<p class=\"lead\">{} has the smallest steady error, {}.</p>\n",
                            escape_markup(best->controller), at);
     rows += table_row(
-        {escape_markup(place(r, *best)), fmt::format("{}, at {}", escape_markup(best->controller), at)},
+        {escape_markup(condition(r, *best)), fmt::format("{}, {}", escape_markup(best->controller), at)},
         "td");
   }
   if (groups(r).size() < 2 || rows.empty()) return sentence;
-  return "<p class=\"lead\">Which controller keeps nearest to the setpoint</p>\n<table "
+  return "<p class=\"lead\">Controller with the smallest steady error</p>\n<table "
          "class=\"facts\"><tbody>\n" +
          rows + "</tbody></table>\n";
 }
@@ -189,9 +189,9 @@ nlohmann::ordered_json controllers_json(const ControllerComparison& r) {
 }
 
 std::string controllers_csv(const ControllerComparison& r) {
-  const auto quoted = [](const std::string& words) {
+  const auto quoted = [](const std::string& text) {
     std::string out = "\"";
-    for (const char ch : words) out += ch == '"' ? std::string("\"\"") : std::string(1, ch);
+    for (const char ch : text) out += ch == '"' ? std::string("\"\"") : std::string(1, ch);
     return out + "\"";
   };
   std::string out = "controller,model,delay_frames,metric,mean,sd,ci95_low,ci95_high,n\n";

@@ -9,19 +9,19 @@
 
 namespace faba {
 
-/// What `faba compare-controllers --json` prints: `combinations[]` = `{"controller", "model", "delay_frames",
+/// Output of `faba compare-controllers --json`: `combinations[]` = `{"controller", "model", "delay_frames",
 /// "trials", "settled", "settled_ci95", "metrics": {NAME: {"mean", "sd", "ci95", "n"}}, "behind_best_px"}`,
 /// NAME as in `faba run --json`.
 nlohmann::ordered_json controllers_json(const ControllerComparison& comparison);
 
-/// The table as CSV: a line for each combination and metric.
+/// The table as CSV, one line for each combination and metric.
 std::string controllers_csv(const ControllerComparison& comparison);
 
-/// Distance and dispersion over time for each model and delay; with several delays the steady error against
-/// them.
+/// Distance and dispersion over time for each model and delay; with several delays also the steady error
+/// against delay.
 std::vector<Figure> controllers_figures(const ControllerComparison& comparison);
 
-/// All of it as one page.
+/// HTML report.
 std::string controllers_page(const ControllerComparison& comparison);
 
 }  // namespace faba

@@ -8,29 +8,28 @@
 
 namespace faba {
 
-/// The drop's edge as the command line and the web page report it:
+/// The drop edge as reported by the command line and the web page:
 /// `{"center_px":[x,y],"radius_px":r,"sd_px":{"x":..,"y":..,"radius":..},"arc_deg":..,"inside":[x,y],"image_size":[w,h]}`,
-/// positions in picture px, y down as in the image file, `inside` a point of the picture inside the drop.
+/// Positions in picture px, y down as in the image file; `inside` is a point of the picture inside the drop.
 nlohmann::ordered_json drop_json(const DropEdge& edge);
 
-/// A drop to begin with as the lab's page takes it: drop_json() and `"found"`, and `"why"` when what was
-/// found is a bubble; or, when there is no edge, `"found": false, "why", "center_px", "radius_px",
-/// "image_size"`.
+/// A proposed drop for the web page of the lab: the fields of drop_json(DropEdge) and `"found"`, and `"why"`
+/// when a bubble was found; without an edge `"found": false, "why", "center_px", "radius_px", "image_size"`.
 nlohmann::ordered_json drop_json(const ProposedDrop& drop);
 
-/// Finds the edge in a picture or in the first frame of a video and, unless `overlay` is empty, writes the
-/// picture with the edge drawn in; unless `stages` is empty, pictures of each stage of the search into that
-/// folder (those before an edge was found also when none is). Throws Error(input) when there is no usable
-/// picture or no edge in it.
+/// Detects the drop edge in a picture or in the first frame of a video. Unless `overlay` is empty, writes the
+/// picture with the edge drawn in. Unless `stages` is empty, writes pictures of the stages of the detection
+/// into that folder; those before the detection of an edge also when it fails. Throws Error(input) when the
+/// picture is not usable or has no edge.
 DropEdge report_drop(const std::filesystem::path& picture, const std::filesystem::path& overlay,
                      const std::filesystem::path& stages);
 
-/// propose_drop for a page: writes the picture as PNG for the eye to `shown`. `name` stands for the picture
-/// in messages. Throws Error(input) when there is no usable picture.
+/// Calls propose_drop() and writes the contrast-stretched picture as PNG to `shown`. `name`: name of the
+/// picture in messages. Throws Error(input) when the picture is not usable.
 ProposedDrop report_proposed_drop(const std::filesystem::path& picture, const std::string& name,
                                   const std::filesystem::path& shown);
 
-/// The pictures in a folder of stages, in their order.
+/// File names of the stages, in order.
 inline constexpr std::array kDropStages{"1-grey.png", "2-edges.png", "3-lines.png", "4-circle.png"};
 
 }  // namespace faba

@@ -9,7 +9,7 @@ using Json = nlohmann::ordered_json;
 
 Json pair_json(Vec2 v) { return {v.x, v.y}; }
 
-Json known(const std::array<double, 3>& values) {
+Json null_if_nan(const std::array<double, 3>& values) {
   Json list = Json::array();
   for (const double v : values) list.push_back(std::isnan(v) ? Json() : Json(v));
   return list;
@@ -88,9 +88,9 @@ Json field_json(const FieldFit& f) {
   j["gain"] = f.best.gain;
   j["gain_se"] = f.standard_error.gain;
   j["shift_m"] = f.best.shift;
-  j["shift_se_m"] = known(f.standard_error.shift);
+  j["shift_se_m"] = null_if_nan(f.standard_error.shift);
   j["offset_t"] = f.best.offset;
-  j["offset_se_t"] = known(f.standard_error.offset);
+  j["offset_se_t"] = null_if_nan(f.standard_error.offset);
   j["rms_t"] = f.rms;
   j["rms_field_t"] = f.rms_field;
   j["note"] = f.note;

@@ -9,7 +9,7 @@
 
 namespace faba {
 
-/// What `faba field ... --json` prints.
+/// Output of `faba field ... --json`.
 nlohmann::ordered_json field_json(const FieldAtPoints& f);
 nlohmann::ordered_json field_json(const RigNull& n);
 nlohmann::ordered_json field_json(const FieldMap& m);

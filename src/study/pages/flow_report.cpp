@@ -15,7 +15,7 @@
 namespace faba {
 namespace {
 
-/// Writes flows and overlay of a video under temporary names and names them when all are whole.
+/// Writes flows and overlay of a video under temporary names and renames them when all are complete.
 class FlowOutputs {
  public:
   FlowOutputs(const FlowSource& source, const std::filesystem::path& video, const FlowJob& job) : job_(job) {
@@ -41,8 +41,7 @@ class FlowOutputs {
     if (file_) file_->write(p.frame, p.t0_s, p.t1_s, p.flow);
     if (!overlay_) return;
     if (p.image.empty())
-      throw Error(Errc::usage, "--overlay",
-                  "needs the frames, and a file of flows holds none; give the video");
+      throw Error(Errc::usage, "--overlay", "a flow file contains no frames; give the video");
     if (full_ <= 0) full_ = full_speed(p.flow);  // one scale for all frames
     FlowDrawing how;
     how.full_px = full_;

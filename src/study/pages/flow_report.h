@@ -10,32 +10,32 @@
 
 namespace faba {
 
-/// What `faba flow` is asked for.
+/// Configuration of `faba flow`.
 struct FlowJob {
   FlowRegistry::PartType method;
   std::filesystem::path out;      ///< .flo for a pair, .h5 for a video; not written when empty
-  std::filesystem::path picture;  ///< of a pair: in colours, PNG
-  std::filesystem::path truth;    ///< of a pair: the true flow, .flo
-  std::filesystem::path overlay;  ///< of a video: arrows on its frames, MP4
+  std::filesystem::path picture;  ///< for a pair: flow as colours, PNG
+  std::filesystem::path truth;    ///< for a pair: true flow, .flo
+  std::filesystem::path overlay;  ///< for a video: arrows on its frames, MP4
   int shrink = 0;                 ///< see FlowSourceOptions
   double fps = 0;                 ///< see FlowSourceOptions
   std::string options_text = {};  ///< see FlowSourceOptions
-  bool compress = true;           ///< of .h5
-  unsigned threads = 0;           ///< 0: all
+  bool compress = true;           ///< compress .h5
+  unsigned threads = 0;           ///< 0: all cores
   std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Measures the flow from one picture to another and writes the files that are named. Throws Error(input).
+/// Measures the flow between two pictures and writes the requested files. Throws Error(input).
 PairFlow flow_of_pair(const std::filesystem::path& a, const std::filesystem::path& b, const FlowJob& job);
 
-/// Measures the flows of a video (or of a run's) and writes the files that are named, each when it is
+/// Measures the flows of a video or of the video of a run and writes the requested files when they are
 /// complete. Throws Error(input), and Error(interrupted) when stopped.
 VideoFlow flow_of_video(const std::filesystem::path& video, const FlowJob& job);
 
 /// `{"image_size":[w,h],"method":{..},"iterations":n,"converged":b,"mean_px":[u,v],"mean_speed_px":..,"largest_px":..,
 /// "truth":{"endpoint_px":..,"angular_deg":..,"known":fraction},"notes":[..]}`; `iterations` and `converged`
-/// where the method has them, `truth` when it was given.
+/// for iterative methods, `truth` when a true flow is given.
 nlohmann::ordered_json flow_json(const PairFlow& flow);
 
 /// `{"image_size":[w,h],"method":{..},"pairs":n,"seconds":..,"mean_speed_px":.., "notes":[..]}`.

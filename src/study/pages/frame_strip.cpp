@@ -15,10 +15,10 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kStripFrames = 6;
-constexpr std::size_t kMost = 16 * kStripFrames;  // kept while the length is not known
-constexpr int kWidest = 320;                      // px, of a frame on the page
+constexpr std::size_t kMaxKept = 16 * kStripFrames;  // while the length of the video is unknown
+constexpr int kMaxFrameWidth = 320;                  // px, on the page
 
-/// A picture with squares of n pixels averaged.
+/// The picture averaged over squares of n x n pixels.
 RgbImage averaged(const RgbImage& picture, int n) {
   RgbImage out(picture.width / n, picture.height / n);
   for (int r = 0; r < out.height; ++r)
@@ -41,18 +41,18 @@ struct Shot {
   double t_s = 0;
 };
 
-/// Frames at equal distances from a video whose length is not known before its end: every 2^k-th is kept, and
-/// every other of them let go when there are twice as many as it takes.
+/// Frames at equal time intervals from a video of unknown length: every 2^k-th frame is kept, and every
+/// second kept frame is dropped when the maximum number is reached.
 std::vector<Shot> shots_of(const std::filesystem::path& video) {
   VideoReader reader(video);
-  const int n = std::max(1, (reader.width() + kWidest - 1) / kWidest);
+  const int n = std::max(1, (reader.width() + kMaxFrameWidth - 1) / kMaxFrameWidth);
   std::vector<Shot> kept;
-  Shot shot;  // keeps the last frame when there are no more
+  Shot shot;  // holds the last frame after the end
   std::size_t every = 1;
   for (std::size_t frame = 0; reader.read_colours(shot.picture, shot.t_s); ++frame) {
     if (frame % every) continue;
     kept.push_back({averaged(shot.picture, n), shot.t_s});
-    if (kept.size() < kMost) continue;
+    if (kept.size() < kMaxKept) continue;
     for (std::size_t i = 0; 2 * i < kept.size(); ++i) kept[i] = kept[2 * i];
     kept.resize(kept.size() / 2);
     every *= 2;
@@ -85,10 +85,9 @@ std::string frame_strip(const std::filesystem::path& video) {
   std::string out = "<figure class=\"frames\">\n<h3>Frames</h3>\n<div>\n";
   for (const Shot& s : shots)
     out += fmt::format("<p>{}{}\u00A0s</p>\n",
-                       inline_picture(s.picture, fmt::format("The frame at {} s", three_digits(s.t_s))),
+                       inline_picture(s.picture, fmt::format("Frame at {} s", three_digits(s.t_s))),
                        three_digits(s.t_s));
-  return out +
-         "</div>\n<figcaption>Frames of the video at equal distances in time.</figcaption>\n</figure>\n";
+  return out + "</div>\n<figcaption>Frames of the video at equal time intervals.</figcaption>\n</figure>\n";
 }
 
 }  // namespace faba

@@ -15,9 +15,10 @@ namespace faba {
 namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kMostEpisodes = 4;  // that are drawn
+constexpr std::size_t kMaxEpisodes = 4;  // with figures
 constexpr int kBins = 24;
-constexpr double kNinety = -1.353;  // 90 % of one degree of freedom: half of 2.706
+constexpr double kProfileLevel =
+    -1.353;  // 90 % interval: half of 2.706, the chi-square quantile for one degree of freedom
 
 using Statistic = Identification::Statistic;
 
@@ -35,16 +36,16 @@ Plot plot_of(const std::string& heading, std::string x, std::string y) {
   return p;
 }
 
-/// The numbers of one kind of an episode over time, with a gap between segments.
-struct Course {
+/// One statistic of an episode over time, observed and predicted, with gaps between segments.
+struct StatisticSeries {
   Line observed;
-  Ribbon shown;
+  Ribbon predicted;
 };
-Course course_of(const Identification& r, std::size_t video, std::size_t episode, const std::string& what,
-                 const std::string& label, Ink ink, double (*map)(double)) {
-  Course c;
+StatisticSeries series_of(const Identification& r, std::size_t video, std::size_t episode,
+                          const std::string& what, const std::string& label, Ink ink, double (*map)(double)) {
+  StatisticSeries c;
   c.observed.label = label;
-  c.observed.ink = c.shown.ink = ink;
+  c.observed.ink = c.predicted.ink = ink;
   std::size_t segment = 0;
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
     const Statistic& s = r.statistics[k];
@@ -53,33 +54,34 @@ Course course_of(const Identification& r, std::size_t video, std::size_t episode
       segment = s.number.segment;
       c.observed.x.push_back(s.number.t_s);
       c.observed.y.push_back(kGap);
-      c.shown.x.push_back(s.number.t_s);
-      c.shown.lo.push_back(kGap);
-      c.shown.hi.push_back(kGap);
+      c.predicted.x.push_back(s.number.t_s);
+      c.predicted.lo.push_back(kGap);
+      c.predicted.hi.push_back(kGap);
     }
     const auto& band = r.models[r.best].predicted90[k];
     c.observed.x.push_back(s.number.t_s);
     c.observed.y.push_back(map(s.observed));
-    c.shown.x.push_back(s.number.t_s);
-    c.shown.lo.push_back(map(band[0]));
-    c.shown.hi.push_back(map(band[1]));
+    c.predicted.x.push_back(s.number.t_s);
+    c.predicted.lo.push_back(map(band[0]));
+    c.predicted.hi.push_back(map(band[1]));
   }
   return c;
 }
 
-double as_it_is(double x) { return x; }
+double unchanged(double x) { return x; }
 double from_log(double x) { return std::exp(x); }
 
-Figure courses(const Identification& r, std::size_t video, std::size_t episode, const std::string& heading,
-               const std::string& caption, const std::string& y,
-               const std::vector<std::tuple<const char*, const char*, Ink>>& what, double (*map)(double)) {
+Figure series_figure(const Identification& r, std::size_t video, std::size_t episode,
+                     const std::string& heading, const std::string& caption, const std::string& y,
+                     const std::vector<std::tuple<const char*, const char*, Ink>>& what,
+                     double (*map)(double)) {
   Figure f{heading, caption, plot_of(heading, "time (s)", y)};
-  std::vector<Course> all;
+  std::vector<StatisticSeries> all;
   all.reserve(what.size());
   for (const auto& [name, label, ink] : what)
-    all.push_back(course_of(r, video, episode, name, label, ink, map));
-  for (Course& c : all) f.plot.add(std::move(c.shown));
-  for (Course& c : all) {
+    all.push_back(series_of(r, video, episode, name, label, ink, map));
+  for (StatisticSeries& c : all) f.plot.add(std::move(c.predicted));
+  for (StatisticSeries& c : all) {
     f.plot.add(Scatter{.x = c.observed.x, .y = c.observed.y, .label = {}, .ink = c.observed.ink});
     f.plot.add(std::move(c.observed));
   }
@@ -87,19 +89,19 @@ Figure courses(const Identification& r, std::size_t video, std::size_t episode, 
 }
 
 Figure by_segment(const Identification& r) {
-  Figure f{"Speed along each segment",
-           "Median speed along the segment of the cells that were followed: in the video (dots), and where "
-           "90 % of "
-           "the simulations of the best model have it (bars).",
-           plot_of("Speed along each segment", "segment", "speed along (um/s)")};
-  Line bars{.x = {}, .y = {}, .label = "simulated, 90 %", .ink = Ink::vermillion, .width = 5};
+  Figure f{
+      "Velocity along each segment",
+      "Median velocity of the tracked cells along the direction of each segment. Dots: video. Bars: 90 % "
+      "predictive interval of the best model.",
+      plot_of("Velocity along each segment", "segment", "velocity along the segment (um/s)")};
+  Line bars{.x = {}, .y = {}, .label = "predicted, 90 %", .ink = Ink::vermillion, .width = 5};
   Scatter dots{.x = {}, .y = {}, .label = "video", .ink = Ink::blue, .size = 8};
   double n = 0;
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
     const Statistic& s = r.statistics[k];
     if (s.number.what != "median speed along") continue;
     const ResponseVideo& v = r.videos[s.video];
-    const double um_s = v.um_per_px * v.fps;  // of a pixel per frame
+    const double um_s = v.um_per_px * v.fps;  // per pixel per frame
     const auto& band = r.models[r.best].predicted90[k];
     ++n;
     dots.x.push_back(n);
@@ -115,43 +117,42 @@ Figure by_segment(const Identification& r) {
   return f;
 }
 
-/// How much of a swarm lies in each of the bins along a direction, sum 1.
-std::vector<double> spread_along(const GrayF& frame, const CellView& view, double direction_deg) {
+/// Histogram of the signal of the swarm along a direction, sum 1.
+std::vector<double> histogram_along(const GrayF& frame, const CellView& view, double direction_deg) {
   const Foreground foreground = view.seen_in(frame);
-  const Vec2 way = unit_vector(direction_deg);
-  const double half = 0.5 * (std::fabs(way.x) * view.width + std::fabs(way.y) * view.height);
+  const Vec2 direction = unit_vector(direction_deg);
+  const double half = 0.5 * (std::fabs(direction.x) * view.width + std::fabs(direction.y) * view.height);
   const Vec2 middle{0.5 * view.width, 0.5 * view.height};
   std::vector<double> sum(kBins, 0.0);
   double all = 0;
   const GrayF& w = foreground.weights();
   for (int r = 0; r < w.height; ++r)
     for (int c = 0; c < w.width; ++c) {
-      const double place = (dot(Vec2{double(c), double(r)} - middle, way) / half + 1) / 2;
+      const double position = (dot(Vec2{double(c), double(r)} - middle, direction) / half + 1) / 2;
       const double mass = double(w.at(c, r));
-      sum[std::size_t(std::clamp(int(place * kBins), 0, kBins - 1))] += mass;
+      sum[std::size_t(std::clamp(int(position * kBins), 0, kBins - 1))] += mass;
       all += mass;
     }
   for (double& x : sum) x /= all > 0 ? all : 1;
   return sum;
 }
 
-Figure spread_figure(const EpisodePictures& e, const ResponseVideo& v, double deg) {
-  Figure f{
-      "Cells along the segment",
-      "Share of what is seen of the swarm in each 24th of the view along the first segment: video (full) and "
-      "one simulation of the best model (dashed).",
-      plot_of("Cells along the segment", "along the segment (fraction of the view)",
-              "fraction of the cells")};
+Figure distribution_figure(const EpisodePictures& e, const ResponseVideo& v, double deg) {
+  Figure f{"Distribution along the segment",
+           "Fraction of the signal of the swarm in each of 24 bins along the direction of the first segment. "
+           "Solid: video. Dashed: one simulation of the best model.",
+           plot_of("Distribution along the segment", "position along the segment (fraction of the view)",
+                   "fraction of the signal")};
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green};
   std::vector<double> x(kBins);
   for (int i = 0; i < kBins; ++i) x[std::size_t(i)] = (i + 0.5) / kBins;
   for (std::size_t k = 0; k < e.t_s.size(); ++k) {
     f.plot.add(Line{.x = x,
-                    .y = spread_along(e.real[k], v.view, deg),
+                    .y = histogram_along(e.real[k], v.view, deg),
                     .label = fmt::format("{:.2g} s", e.t_s[k]),
                     .ink = kInks[k % 3]});
     f.plot.add(Line{.x = x,
-                    .y = spread_along(e.simulated[k], v.view, deg),
+                    .y = histogram_along(e.simulated[k], v.view, deg),
                     .label = {},
                     .ink = kInks[k % 3],
                     .dashed = true});
@@ -164,22 +165,23 @@ Figure spread_figure(const EpisodePictures& e, const ResponseVideo& v, double de
 std::vector<Figure> predictive_figures(const Identification& r) {
   if (r.study.measure == Measure::tracks) return {by_segment(r)};
   std::vector<Figure> figures;
-  for (std::size_t v = 0; v < r.videos.size() && figures.size() < 2 * kMostEpisodes; ++v)
-    for (std::size_t e = 0; e < r.videos[v].episodes.size() && figures.size() < 2 * kMostEpisodes; ++e) {
+  for (std::size_t v = 0; v < r.videos.size() && figures.size() < 2 * kMaxEpisodes; ++v)
+    for (std::size_t e = 0; e < r.videos[v].episodes.size() && figures.size() < 2 * kMaxEpisodes; ++e) {
       const std::string where = r.videos.size() > 1 ? ": " + r.videos[v].episodes[e].name : "";
+      figures.push_back(series_figure(
+          r, v, e, "Position of the swarm" + where,
+          "10, 50 and 90 % quantiles of the position of the cells in view along the direction of "
+          "each segment. Dots: video. Shaded: 90 % predictive interval of the best model.",
+          "position along the segment (fraction of the view)",
+          {{"10 % along", "10 %", Ink::blue},
+           {"median along", "50 %", Ink::vermillion},
+           {"90 % along", "90 %", Ink::green}},
+          unchanged));
       figures.push_back(
-          courses(r, v, e, "Where the swarm is" + where,
-                  "10, 50 and 90 % of the cells in view lie behind these lines, measured along each "
-                  "segment: in the video (dots), and in 90 % of the simulations of the best model "
-                  "(shaded).",
-                  "along the segment (fraction of the view)",
-                  {{"10 % along", "10 %", Ink::blue},
-                   {"median along", "half", Ink::vermillion},
-                   {"90 % along", "90 %", Ink::green}},
-                  as_it_is));
-      figures.push_back(courses(r, v, e, "Cells in view" + where, "What is seen of the swarm, over its mean.",
-                                "relative to the mean", {{"cells in view", "cells in view", Ink::blue}},
-                                from_log));
+          series_figure(r, v, e, "Cells in view" + where,
+                        "Signal of the swarm in view, relative to its mean over time. Dots: video. Shaded: "
+                        "90 % predictive interval of the best model.",
+                        "relative to the mean", {{"cells in view", "cells in view", Ink::blue}}, from_log));
     }
   return figures;
 }
@@ -187,11 +189,11 @@ std::vector<Figure> predictive_figures(const Identification& r) {
 Figure posterior_figure(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
   Figure f{q.path,
-           fmt::format("{} [{}, {}] {}: median and 90 % of the posterior. Dashed: the same by approximate "
-                       "Bayesian computation{}.{}",
+           fmt::format("{} [{}, {}] {}: posterior median and 90 % interval. Dashed: 90 % interval from "
+                       "approximate Bayesian computation (ABC){}.{}",
                        three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
                        three_digits(q.shown(p.ci90[1])), q.shown_unit(),
-                       p.resampled90 ? ", and with experiments drawn anew" : "",
+                       p.resampled90 ? " and from the bootstrap over experiments" : "",
                        p.doubt.empty() ? "" : " " + p.doubt + "."),
            plot_of("Posterior of " + q.path, label_of(q), "density")};
   const auto [lo, hi] = std::minmax_element(p.draws.begin(), p.draws.end());
@@ -201,7 +203,7 @@ Figure posterior_figure(const FoundParameter& p) {
     for (const double x : p.draws)
       count[std::size_t(std::clamp(int((q.shown(x) - from) / step), 0, kBins - 1))] +=
           1 / (double(p.draws.size()) * step);
-  Line steps{.x = {}, .y = {}, .label = {}, .ink = Ink::blue, .held = true};
+  Line steps{.x = {}, .y = {}, .label = {}, .ink = Ink::blue, .stairs = true};
   for (int i = 0; i <= kBins; ++i) {
     steps.x.push_back(from + i * step);
     steps.y.push_back(i < kBins ? count[std::size_t(i)] : 0);
@@ -220,35 +222,35 @@ Figure posterior_figure(const FoundParameter& p) {
                     .width = 3});
   };
   across(p.abc_ci90, 0.04, "ABC, 90 %", Ink::vermillion);
-  if (p.resampled90) across(*p.resampled90, 0.08, "experiments anew, 90 %", Ink::green);
+  if (p.resampled90) across(*p.resampled90, 0.08, "bootstrap, 90 %", Ink::green);
   return f;
 }
 
 Figure profile_figure(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
-  Figure f{"Profile of " + q.path,
-           "Largest log-likelihood that the other parameters can give each value. Flat: the videos do not "
-           "tell it. "
-           "Above the line lie 90 %.",
-           plot_of("Profile of " + q.path, label_of(q), "log-likelihood")};
+  Figure f{
+      "Profile of " + q.path,
+      "Log-likelihood at each value, maximised over the other parameters. Values above the line form the "
+      "90 % confidence interval. A flat profile means that the parameter is not identifiable.",
+      plot_of("Profile of " + q.path, label_of(q), "log-likelihood")};
   std::vector<double> x;
   for (const double v : p.profile_at) x.push_back(q.shown(v));
   f.plot.y.lo = -8;
   f.plot.y.hi = 0.5;
-  f.plot.add(Rule{.at = kNinety, .label = "90 %", .of_x = false});
+  f.plot.add(Rule{.at = kProfileLevel, .label = "90 %", .of_x = false});
   f.plot.add(Line{.x = x, .y = p.profile, .label = {}, .ink = Ink::blue});
   return f;
 }
 
 std::vector<Figure> legacy_figures(const LegacyModel& m) {
   const FreeParameter& q = m.parameter;
-  Figure over{m.name + ": difference over the frames",
-              "Quadratic-Chi distance between the flows of the video and of a simulation, pair by pair, with "
-              "its line: "
-              "the first simulation of each value.",
-              plot_of("Difference over the frames", "pair of frames", "difference")};
+  Figure distances{
+      m.name + ": difference over time",
+      "Quadratic-Chi distance between the flow histograms of the video and of the first simulation of each "
+      "value, for each pair of frames. Dashed: line fits.",
+      plot_of("Difference over time", "pair of frames", "difference")};
   Figure slopes{m.name + ": slope against " + q.name(),
-                fmt::format("Each dot is the slope of one simulation. Their line is zero at {}.",
+                fmt::format("Dots: slope of each simulation. The line fit is zero at {}.",
                             three_digits(q.shown(m.zero))),
                 plot_of("Slope against the parameter", label_of(q), "slope per pair")};
   Scatter dots{.x = {}, .y = {}, .label = {}, .ink = Ink::blue};
@@ -262,12 +264,12 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
     Line series{.x = {}, .y = s.distance, .label = three_digits(q.shown(s.value)), .ink = ink, .width = 1.2};
     for (std::size_t i = 0; i < s.distance.size(); ++i) series.x.push_back(double(i));
     const double last = double(s.distance.size() - 1);
-    over.plot.add(std::move(series));
-    over.plot.add(Line{.x = {0, last},
-                       .y = {s.line.intercept, s.line.intercept + s.line.slope * last},
-                       .label = {},
-                       .ink = ink,
-                       .dashed = true});
+    distances.plot.add(std::move(series));
+    distances.plot.add(Line{.x = {0, last},
+                            .y = {s.line.intercept, s.line.intercept + s.line.slope * last},
+                            .label = {},
+                            .ink = ink,
+                            .dashed = true});
   }
   const auto [low, high] = std::minmax_element(dots.x.begin(), dots.x.end());
   const double per_shown = q.shown(1);
@@ -276,7 +278,7 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
   slopes.plot.add(
       Line{.x = {*low, *high}, .y = {line_at(*low), line_at(*high)}, .label = {}, .ink = Ink::vermillion});
   slopes.plot.add(std::move(dots));
-  return {over, slopes};
+  return {distances, slopes};
 }
 
 std::vector<EpisodePictures> episode_pictures(const Identification& r) {
@@ -296,7 +298,7 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
       one.simulated =
           simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video, v.ground)
               .frames;
-      one.spread = spread_figure(one, v, episode.segments.front().direction_deg);
+      one.distribution = distribution_figure(one, v, episode.segments.front().direction_deg);
     }
   return all;
 }

@@ -6,26 +6,26 @@
 
 namespace faba {
 
-/// What was observed and what the best model shows again and again: over time where the swarm is and how much
-/// of it is in view, or segment by segment how fast cells go.
+/// Observed statistics and posterior predictive intervals of the best model: position and signal of the swarm
+/// over time, or velocity of the cells in each segment.
 std::vector<Figure> predictive_figures(const Identification& result);
 
-/// The posterior of a parameter and its profile.
+/// Posterior of a parameter, and its profile likelihood.
 Figure posterior_figure(const FoundParameter& parameter);
 Figure profile_figure(const FoundParameter& parameter);
 
-/// The thesis's rule for one model: distances of its simulations over the frames (Fig. 3.31), and their
-/// slopes against the parameter (Figs. 3.32, 4.14 to 4.16).
+/// Selection rule of the thesis for one model: distances of its simulations over the frames (Fig. 3.31), and
+/// their slopes against the parameter (Figs. 3.32, 4.14 to 4.16).
 std::vector<Figure> legacy_figures(const LegacyModel& model);
 
-/// A segment of an episode as it was and as it is simulated, and how cells are spread along it.
+/// Frames of an episode and of its simulation, and the distribution of the cells along the first segment.
 struct EpisodePictures {
   std::string name;
-  std::vector<double> t_s;  ///< from the episode's beginning
+  std::vector<double> t_s;  ///< relative to the start of the episode
   std::vector<GrayF> real, simulated;
-  Figure spread;
+  Figure distribution;
 };
-/// Of the first episodes; simulates them with the best model.
+/// Pictures of the first two episodes, simulated with the best model.
 std::vector<EpisodePictures> episode_pictures(const Identification& result);
 
 }  // namespace faba

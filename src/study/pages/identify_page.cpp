@@ -25,14 +25,14 @@ std::string lead(const Identification& r) {
   for (const FoundParameter& p : best.parameters)
     found += fmt::format("{}{} {}", found.empty() ? "" : ", ", p.parameter.name(), with_interval(p));
   std::string out = fmt::format(
-      "<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {}. Medians and 90 % of the posterior.</p>\n",
+      "<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {} (posterior median and 90 % interval).</p>\n",
       escape_markup(r.words), escape_markup(best.name), escape_markup(found));
   for (const FoundParameter& p : best.parameters)
     if (!p.doubt.empty()) out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(p.doubt));
   return out;
 }
 
-bool one_drop(const Identification& r) {
+bool single_experiment(const Identification& r) {
   const std::string& first = r.videos.front().input.experiment;
   return r.videos.size() == 1 ||
          (!first.empty() && std::all_of(r.videos.begin(), r.videos.end(),
@@ -42,8 +42,8 @@ bool one_drop(const Identification& r) {
 std::string models_table(const Identification& r) {
   std::string out =
       "<h2>Models</h2>\n<div class=\"wide\"><table "
-      "class=\"numbers\">\n<thead><tr><th>model</th><th>parameters, 90 "
-      "%</th><th>energy score</th><th>fit p</th><th>simulations</th></tr></thead>\n<tbody>\n";
+      "class=\"numbers\">\n<thead><tr><th>model</th><th>parameters, median "
+      "and 90 % interval</th><th>energy score</th><th>fit p</th><th>simulations</th></tr></thead>\n<tbody>\n";
   for (const FoundModel& m : r.models) {
     if (!m.failed.empty()) {
       out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>–</td><td>–</td><td>–</td></tr>\n",
@@ -58,32 +58,31 @@ std::string models_table(const Identification& r) {
                        escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
   }
   return out + fmt::format(
-                   "</tbody></table></div>\n<p class=\"note\">Energy score: how well each of {} experiments "
-                   "is predicted from "
-                   "the others; less is better. Fit p: how often simulations of the model are as far from "
-                   "their own mean as "
-                   "the videos are; below 0.01 the model does not explain them.{}</p>\n",
+                   "</tbody></table></div>\n<p class=\"note\">Energy score: mean predictive score of {} "
+                   "experiments, each predicted from the others; lower is better. Fit p: fraction of the "
+                   "simulations that deviate from their mean as much as the videos do; below 0.01 the model "
+                   "does not explain the videos.{}</p>\n",
                    r.experiments.size(),
-                   one_drop(r) ? " The experiments are segments of one swarm and share its cells: intervals "
-                                 "of the lead are "
-                                 "too narrow by what they share."
-                               : "");
+                   single_experiment(r)
+                       ? " The experiments are segments of the same swarm and not independent: the "
+                         "interval of the score difference is too narrow."
+                       : "");
 }
 
-// Both in the greys of the real one.
+// Both with the grey scale of the video.
 RgbImage side_by_side(const GrayF& real, const GrayF& simulated) {
   const int gap = 4;
   RgbImage out(2 * real.width + gap, real.height);
   std::fill(out.px.begin(), out.px.end(), Rgb{255, 255, 255});
-  const auto put = [&](const GrayF& from, int at) {
+  const auto copy = [&](const GrayF& from, int at) {
     for (int r = 0; r < from.height; ++r)
       for (int c = 0; c < from.width; ++c) {
         const auto g = std::uint8_t(std::lround(std::clamp(from.at(c, r), 0.0F, 255.0F)));
         out.at(at + c, r) = {g, g, g};
       }
   };
-  put(real, 0);
-  put(simulated, real.width + gap);
+  copy(real, 0);
+  copy(simulated, real.width + gap);
   return out;
 }
 
@@ -93,12 +92,13 @@ std::string pictures(const Identification& r) {
     out += "<div class=\"figures\">\n";
     for (std::size_t k = 0; k < e.t_s.size(); ++k)
       out += fmt::format(
-          "<figure>\n<h3>{}, {:.2g} s</h3>\n{}<figcaption>Left the video, right {} as it was "
-          "found.</figcaption>\n</figure>\n",
+          "<figure>\n<h3>{}, {:.2g} s</h3>\n{}<figcaption>Left: video. Right: simulation with {} at the "
+          "posterior median.</figcaption>\n</figure>\n",
           escape_markup(e.name), e.t_s[k],
-          inline_picture(side_by_side(e.real[k], e.simulated[k]), "The video beside a simulation"),
+          inline_picture(side_by_side(e.real[k], e.simulated[k]),
+                         "Frame of the video beside a frame of a simulation"),
           escape_markup(r.models[r.best].name));
-    if (r.study.measure == Measure::density) out += figure_markup(e.spread);
+    if (r.study.measure == Measure::density) out += figure_markup(e.distribution);
     out += "</div>\n";
   }
   return out;
@@ -107,25 +107,22 @@ std::string pictures(const Identification& r) {
 std::string legacy(const Identification& r) {
   if (r.legacy.empty()) return "";
   std::string out =
-      "<h2>Legacy: what the rule of the 2016 thesis says</h2>\n<p class=\"warning\">Not to be trusted: it "
-      "looks for a "
-      "difference that does not grow, and one that is large from the beginning does not grow either. With "
-      "known truth "
-      "it fails; the figures above do not rest on it.</p>\n<div class=\"wide\"><table "
-      "class=\"numbers\">\n<thead><tr><th>model</th><th>slope is zero at</th><th>95 %</th><th>difference, "
-      "mean ± "
-      "s.d.</th><th>least difference at</th></tr></thead>\n<tbody>\n";
+      "<h2>Legacy: selection rule of the 2016 thesis</h2>\n<p class=\"warning\">Not reliable: the rule "
+      "selects the value at which the difference between video and simulation does not grow over time, and a "
+      "difference that is large from the start does not grow either. It fails in tests with known true "
+      "values. The results above do not use it.</p>\n<div class=\"wide\"><table "
+      "class=\"numbers\">\n<thead><tr><th>model</th><th>slope is zero at</th><th>95 % "
+      "interval</th><th>difference, mean ± s.d.</th><th>smallest difference at</th></tr></thead>\n<tbody>\n";
   for (const LegacyModel& m : r.legacy) {
     const FreeParameter& q = m.parameter;
     const std::string interval = m.zero_ci95
                                      ? fmt::format("{} to {}", three_digits(q.shown((*m.zero_ci95)[0])),
                                                    three_digits(q.shown((*m.zero_ci95)[1])))
-                                     : "no bounds";
+                                     : "unbounded";
     out += fmt::format(
         "<tr><th scope=\"row\">{}<small>{}</small></th><td>{}</td><td>{}</td><td>{} ± "
         "{}</td><td>{}</td></tr>\n",
-        escape_markup(m.name),
-        escape_markup(m.meaningless.empty() ? "" : "Means nothing: " + m.meaningless + "."),
+        escape_markup(m.name), escape_markup(m.meaningless.empty() ? "" : "Invalid: " + m.meaningless + "."),
         three_digits(q.shown(m.zero)), interval, three_digits(m.mean), three_digits(m.sd),
         three_digits(q.shown(m.least_distance_at)));
   }
@@ -140,10 +137,10 @@ std::string notes(const Identification& r) {
   for (const std::string& note : notes_of(r)) out += fmt::format("<li>{}</li>\n", escape_markup(note));
   for (const ResponseVideo& v : r.videos)
     out += fmt::format(
-        "<li>{}: {:.4g} um per px, {:.4g} frames per second, field {:.3g} uT; times count from {:.4g} "
-        "s.</li>\n",
+        "<li>{}: {:.4g} um per px, {:.4g} frames per second, field strength {:.3g} uT; time zero is at "
+        "{:.4g} s of the video.</li>\n",
         escape_markup(v.input.file.string()), v.um_per_px, v.fps,
-        1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().begins_s);
+        1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().start_s);
   out += fmt::format("<li>Seed {}, {} simulations with each model; Faba {}.</li>\n", r.study.seed,
                      r.study.simulations, FABA_VERSION);
   return "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
@@ -153,7 +150,7 @@ std::string notes(const Identification& r) {
 
 std::string identify_page(const Identification& r) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) + models_table(r);
-  out += "<h2>What was seen, and what the best model shows</h2>\n<div class=\"figures\">\n";
+  out += "<h2>Observation and posterior prediction of the best model</h2>\n<div class=\"figures\">\n";
   for (const Figure& f : predictive_figures(r)) out += figure_markup(f);
   out += "</div>\n" + pictures(r) + "<h2>Parameters of the best model</h2>\n<div class=\"figures\">\n";
   for (const FoundParameter& p : r.models[r.best].parameters)

@@ -37,7 +37,7 @@ nlohmann::ordered_json identify_json(const Identification& r) {
   j["evidence"] = r.evidence;
   j["words"] = r.words;
   j["experiments"] = r.experiments;
-  j["ahead"] = r.ahead_ci95 ? Json{{"mean", r.ahead}, {"ci95", *r.ahead_ci95}} : Json();
+  j["ahead"] = r.score_lead_ci95 ? Json{{"mean", r.score_lead}, {"ci95", *r.score_lead_ci95}} : Json();
   j["statistics"] = Json::array();
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
     Json one{{"what", r.statistics[k].name},

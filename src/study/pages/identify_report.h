@@ -5,12 +5,12 @@
 
 namespace faba {
 
-/// What `faba identify --json` prints.
+/// Output of `faba identify --json`.
 nlohmann::ordered_json identify_json(const Identification& result);
-/// What is to be known of the videos, each with its name.
+/// Notes on the videos, each with the name of its file.
 std::vector<std::string> notes_of(const Identification& result);
-/// Everything as one self-contained HTML page: words, tables, curves, pictures of the video beside simulated
-/// ones. Simulates some segments again for the pictures.
+/// Self-contained HTML report: verdict, tables, figures, and frames of the videos beside simulated frames.
+/// Simulates the first episodes again for these frames.
 std::string identify_page(const Identification& result);
 
 }  // namespace faba

@@ -10,13 +10,13 @@
 namespace faba {
 namespace {
 
-constexpr double kShortest = 0.05, kLongest = 2000;  // ms, ends of the axis
-constexpr int kLatencyBins = 92;                     // 20 a decade
+constexpr double kShortest = 0.05, kLongest = 2000;  // ms, limits of the axis
+constexpr int kLatencyBins = 92;                     // 20 per decade
 
-// Frames whose latency lies in each bin, as a staircase; the ends take what lies beyond.
-Line histogram(std::span<const double> ms, std::string label) {
+// Histogram of latencies as a staircase; values outside the axis are counted in the first or last bin.
+Line latency_histogram(std::span<const double> ms, std::string label) {
   Line line{
-      .x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .held = true};
+      .x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .stairs = true};
   const double step = std::log(kLongest / kShortest) / kLatencyBins;
   for (int i = 0; i <= kLatencyBins; ++i) line.x.push_back(kShortest * std::exp(step * i));
   for (const double v : ms)
@@ -42,17 +42,17 @@ std::optional<Figure> latency_figure(const std::filesystem::path& run_dir, doubl
   plot.x.logarithmic = true;
   plot.y.label = "frames";
   plot.y.lo = 0;
-  plot.description = "Histogram of how late pictures and commands were";
+  plot.description = "Histogram of the latencies of frames and commands";
   plot.inlined = true;
   plot.add(Rule{.at = 1e3 * frame_s, .label = "one frame"});
-  plot.add(histogram(table.column("arrival_ms"), "from mid-exposure to the program"));
-  plot.add(histogram(table.column("command_ms"), "from there to the coils"));
-  return Figure{"Latency",
-                "How long each picture took from the middle of its exposure to the program, and the command "
-                "that came of it "
-                "from there until the device had taken the voltages. What lies beyond an end of the axis is "
-                "counted there.",
-                std::move(plot)};
+  plot.add(latency_histogram(table.column("arrival_ms"), "mid-exposure to arrival of the frame"));
+  plot.add(latency_histogram(table.column("command_ms"), "arrival of the frame to the coils"));
+  return Figure{
+      "Latency",
+      "Latency of each frame from the middle of its exposure to its arrival in the program, and of its "
+      "command from this arrival until the device has accepted the voltages. Values outside the axis are "
+      "counted in the first or last bin.",
+      std::move(plot)};
 }
 
 }  // namespace faba

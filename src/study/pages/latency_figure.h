@@ -6,9 +6,8 @@
 
 namespace faba {
 
-/// How late pictures and commands of a run on a bench were, as histograms of its latency.csv; none where
-/// there is no such file. `frame_s`: time between two frames, s. Throws Error(Errc::input) for a file that is
-/// damaged.
+/// Histograms of the frame and command latencies of a run on hardware, from its latency.csv; empty without
+/// such a file. `frame_s`: frame period, s. Throws Error(Errc::input) for a damaged file.
 std::optional<Figure> latency_figure(const std::filesystem::path& run_dir, double frame_s);
 
 }  // namespace faba

@@ -34,7 +34,7 @@ Plot over_time(std::string what, std::string description) {
   return plot;
 }
 
-/// Lengths start at zero, and have micrometres at the right when the scale is known.
+/// Plot of a length over time: starts at zero, with a second axis in micrometres when the scale is known.
 Plot lengths_over_time(const std::string& what, std::string description, const RunInfo& info) {
   Plot plot = over_time(what + " (px)", std::move(description));
   plot.y.lo = 0;
@@ -42,7 +42,7 @@ Plot lengths_over_time(const std::string& what, std::string description, const R
   return plot;
 }
 
-/// Positions where the setpoint changes, without repeats.
+/// Setpoints at their times of change, without repetitions.
 struct Setpoints {
   Values t, x, y;
 };
@@ -60,15 +60,14 @@ Setpoints setpoints_of(const Series& series) {
   return out;
 }
 
-// A camera shows no cell by itself: what a series then has is the estimator's.
-bool is_seen(const Series& series) { return swarm_columns(series).source != "true"; }
+// Whether the centroid is estimated: a series without true columns has those of the estimator.
+bool is_estimated(const Series& series) { return swarm_columns(series).source != "true"; }
 const char* centroid_of(const Series& series) {
-  return is_seen(series) ? "centroid that the estimator finds" : "centroid of all cells";
+  return is_estimated(series) ? "estimated centroid" : "true centroid of all cells";
 }
 
-constexpr double kShortApproach = 0.1;  // of the run; a shorter one is shown by itself as well
-constexpr std::size_t kMostMarks =
-    12;  // more than that is a moving target, and marks for each would cover the plot
+constexpr double kShortApproach = 0.1;  // fraction of the run; a shorter approach gets a separate figure
+constexpr std::size_t kMaxSetpointMarks = 12;  // more setpoints are a moving target without marks
 
 double first_targeted_time(const Series& series) {
   const auto t = series.column("t_s"), d = series.column("distance_px");
@@ -81,16 +80,16 @@ Figure distance_figure(const Series& series, const Metrics& m, const RunInfo& in
   Figure figure{
       "Distance to the setpoint",
       fmt::format("Distance between the {} and the setpoint. The band is the larger of 5 % of the "
-                  "initial error and 10 px; the swarm counts as settled from its last entry into it.",
+                  "initial error and 10 px; the swarm is settled after its last entry into the band.",
                   centroid_of(series)),
       lengths_over_time("distance", "Distance to the setpoint over time", info)};
   Plot& plot = figure.plot;
   const double band = m.settling_band_px.value_or(0);
   plot.add(Band{0, band, fmt::format("settling band, {} px", three_digits(band)), false, Ink::green});
   const Setpoints setpoints = setpoints_of(series);
-  if (setpoints.t.size() > 1 && setpoints.t.size() <= kMostMarks) {
+  if (setpoints.t.size() > 1 && setpoints.t.size() <= kMaxSetpointMarks) {
     for (std::size_t i = 1; i < setpoints.t.size(); ++i) plot.add(Rule{setpoints.t[i]});
-    figure.caption += " Grey lines: the setpoint changes.";
+    figure.caption += " Grey lines: setpoint changes.";
   }
   plot.add(Line{values(series.column("t_s")), values(series.column("distance_px")), "distance"});
   if (m.settling_time_s) {
@@ -100,12 +99,12 @@ Figure distance_figure(const Series& series, const Metrics& m, const RunInfo& in
   return figure;
 }
 
-/// The same, looked at closely where the settling takes a small part of the run.
+/// The start of the distance figure, for a settling time that is a small part of the run.
 Figure approach_figure(Figure figure, const Series& series, const Metrics& m) {
   const double begin = first_targeted_time(series);
   figure.heading = "Approach";
-  figure.caption = "The beginning of figure 1.";
-  figure.plot.description = "Distance to the setpoint at the beginning";
+  figure.caption = "Start of Figure 1, enlarged.";
+  figure.plot.description = "Distance to the setpoint at the start of the run";
   figure.plot.x.lo = begin;
   figure.plot.x.hi = begin + 3 * *m.settling_time_s;
   return figure;
@@ -115,7 +114,7 @@ Figure holding_figure(const Series& series, const Metrics& m, const RunInfo& inf
   const auto t = series.column("t_s"), d = series.column("distance_px");
   const auto from = std::ptrdiff_t(2 * t.size() / 3);
   Figure figure{
-      "Staying there", "Distance to the setpoint over the last third of the frames, on its own scale.",
+      "Steady error", "Distance to the setpoint over the last third of the frames.",
       lengths_over_time("distance", "Distance to the setpoint over the last third of the run", info)};
   figure.plot.add(Line{{t.begin() + from, t.end()}, {d.begin() + from, d.end()}, "distance"});
   figure.plot.add(Line{{t[std::size_t(from)], t.back()},
@@ -126,8 +125,8 @@ Figure holding_figure(const Series& series, const Metrics& m, const RunInfo& inf
   return figure;
 }
 
-/// The part of the plane to show: the picture when known, and in any case the whole path and the setpoints.
-void frame_path(Plot& plot, const Series& series, const RunInfo& info, const Setpoints& setpoints) {
+/// Sets the axis ranges to the picture, when known, and the complete path with all setpoints.
+void set_path_range(Plot& plot, const Series& series, const RunInfo& info, const Setpoints& setpoints) {
   double x0 = std::numeric_limits<double>::infinity(), x1 = -x0, y0 = x0, y1 = -x0;
   const auto take = [&](double x, double y) {
     if (!std::isfinite(x) || !std::isfinite(y)) return;
@@ -160,9 +159,9 @@ void add_outlines(Plot& plot, const RunInfo& info) {
     walls =
         Box{centre.x - half.x, centre.y - half.y, centre.x + half.x, centre.y + half.y, "walls", Ink::sky};
   }
-  const double apart = std::max({std::abs(walls.x0 - picture.x0), std::abs(walls.x1 - picture.x1),
-                                 std::abs(walls.y0 - picture.y0), std::abs(walls.y1 - picture.y1)});
-  const bool same = !walls.label.empty() && apart < 1.5;  // px: one outline then says it better than two
+  const double difference = std::max({std::abs(walls.x0 - picture.x0), std::abs(walls.x1 - picture.x1),
+                                      std::abs(walls.y0 - picture.y0), std::abs(walls.y1 - picture.y1)});
+  const bool same = !walls.label.empty() && difference < 1.5;  // px: draw one outline
   if (same) walls.label = "picture and walls";
   if (!picture.label.empty() && !same) plot.add(picture);
   if (!walls.label.empty()) plot.add(walls);
@@ -177,7 +176,7 @@ Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) 
   const SwarmColumns swarm = swarm_columns(series);
   const auto x = swarm.x, y = swarm.y;
   Figure figure{"Path in the picture",
-                fmt::format("Path of the {}, in picture pixels: y points down.", centroid_of(series)),
+                fmt::format("Path of the {} in picture coordinates; y points down.", centroid_of(series)),
                 {}};
   Plot& plot = figure.plot;
   plot.description = "Path of the centroid in the picture";
@@ -185,21 +184,20 @@ Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) 
   plot.x.label = "x (px)";
   plot.y.label = "y (px)";
   const Setpoints setpoints = setpoints_of(series);
-  frame_path(plot, series, info, setpoints);
+  set_path_range(plot, series, info, setpoints);
   add_outlines(plot, info);
   if (m.sigma_x_px && m.sigma_y_px && std::isfinite(x.back() + y.back())) {
-    plot.add(
-        Ellipse{x.back(), y.back(), *m.sigma_x_px, *m.sigma_y_px, "spread at the end", Ink::orange, true});
+    plot.add(Ellipse{x.back(), y.back(), *m.sigma_x_px, *m.sigma_y_px, "final standard deviation",
+                     Ink::orange, true});
     figure.caption +=
-        " The dashed ellipse has the standard deviations of the cells' positions at the last frame as "
-        "its half-axes.";
+        " Semi-axes of the dashed ellipse: standard deviations of the cell positions in the last frame.";
   }
   if (setpoints.x.size() > 1)
     plot.add(Line{setpoints.x, setpoints.y, "route", Ink::purple, true, false, 1.4});
   plot.add(Line{values(x), values(y), "centroid", Ink::blue});
   plot.add(Scatter{{x.front()}, {y.front()}, "start", Ink::blue, Scatter::Mark::ring, 9});
   plot.add(Scatter{{x.back()}, {y.back()}, "end", Ink::blue, Scatter::Mark::dot, 8});
-  if (!setpoints.x.empty() && setpoints.x.size() <= kMostMarks) {
+  if (!setpoints.x.empty() && setpoints.x.size() <= kMaxSetpointMarks) {
     plot.add(Scatter{setpoints.x, setpoints.y, "setpoint", Ink::purple, Scatter::Mark::cross, 13});
   }
   return figure;
@@ -209,9 +207,9 @@ Figure dispersion_figure(const Series& series, const RunInfo& info) {
   const Values t = values(series.column("t_s"));
   Figure figure{
       "Dispersion",
-      "Standard deviations of the cells' positions along x and y, and their root-mean-square distance from "
+      "Standard deviations of the cell positions in x and y, and root-mean-square distance of the cells from "
       "the centroid.",
-      lengths_over_time("spread", "Spread of the swarm over time", info)};
+      lengths_over_time("dispersion", "Dispersion of the swarm over time", info)};
   const SwarmColumns swarm = swarm_columns(series);
   figure.plot.add(Line{t, swarm.rms_radius, "rms radius", Ink::text});
   figure.plot.add(Line{t, values(swarm.sigma_x), "\u03C3x", Ink::blue});
@@ -219,49 +217,48 @@ Figure dispersion_figure(const Series& series, const RunInfo& info) {
   return figure;
 }
 
-constexpr int kSwitches = 100;        // changes of direction that a plot can show one by one
-constexpr std::size_t kWindows = 60;  // of a plot that cannot
+constexpr int kMaxReversals = 100;    // of a signal that a plot can resolve
+constexpr std::size_t kWindows = 60;  // of the mean and range of a faster signal
 
-/// Whether a signal goes up and down more often than a plot can show, swings of less than a twentieth of its
-/// range aside.
-bool restless(const Values& v) {
+/// Whether a signal reverses more often than a plot can resolve; changes below 5 % of its range are ignored.
+bool switches_too_fast(const Values& v) {
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
   for (const double x : v)
     if (std::isfinite(x)) {
       lo = std::min(lo, x);
       hi = std::max(hi, x);
     }
-  int switches = 0, direction = 0;
-  double turn = v.empty() ? 0 : v.front();
+  int reversals = 0, direction = 0;
+  double extreme = v.empty() ? 0 : v.front();
   for (const double x : v) {
     if (!std::isfinite(x)) continue;
-    if (std::abs(x - turn) > 0.05 * (hi - lo)) {
-      const int now = x > turn ? 1 : -1;
-      switches += now != direction;
+    if (std::abs(x - extreme) > 0.05 * (hi - lo)) {
+      const int now = x > extreme ? 1 : -1;
+      reversals += now != direction;
       direction = now;
-      turn = x;
-    } else if ((x - turn) * direction > 0) {
-      turn = x;
+      extreme = x;
+    } else if ((x - extreme) * direction > 0) {
+      extreme = x;
     }
   }
-  return switches > kSwitches;
+  return reversals > kMaxReversals;
 }
 
-/// A command over time: as it is or, where it switches too often to be read, its mean and its range window by
-/// window. Returns the length of a window, 0 for none.
-double add_command(Plot& plot, const Values& t, const Values& v, const Line& like) {
-  if (t.size() < 2 * kWindows || !restless(v)) {
-    Line line = like;
+/// Adds a command over time or, when it switches too fast, its mean and range in windows. Returns the length
+/// of a window, s; 0 for none.
+double add_command(Plot& plot, const Values& t, const Values& v, const Line& style) {
+  if (t.size() < 2 * kWindows || !switches_too_fast(v)) {
+    Line line = style;
     line.x = t;
     line.y = v;
-    line.held = true;
+    line.stairs = true;
     line.width = 1.4;
     plot.add(std::move(line));
     return 0;
   }
   const std::size_t size = (t.size() + kWindows - 1) / kWindows;
-  Ribbon range{{}, {}, {}, {}, like.ink};
-  Line mean = like;
+  Ribbon range{{}, {}, {}, {}, style.ink};
+  Line mean = style;
   for (std::size_t first = 0; first < t.size(); first += size) {
     const std::size_t end = std::min(first + size, t.size());
     const auto [lo, hi] = std::minmax_element(&v[first], &v[first] + (end - first));
@@ -275,11 +272,11 @@ double add_command(Plot& plot, const Values& t, const Values& v, const Line& lik
   return double(size) * (t.back() - t.front()) / double(t.size() - 1);
 }
 
-std::string windows_in_words(double window) {
+std::string window_note(double window) {
   if (window == 0) return {};
   return fmt::format(
-      " It switches faster than can be shown: lines are means over {} s, shades go from the smallest to the "
-      "largest value in them.",
+      " The signal switches too fast to be resolved: lines are means over {} s, shaded areas the ranges in "
+      "these windows.",
       three_digits(window));
 }
 
@@ -296,45 +293,45 @@ Figure field_figure(const Series& series) {
                 over_time("field (µT)", "Magnetic field at the centroid over time")};
   if (has_number(limited)) {
     figure.plot.add(Line{t, limited, "limited", Ink::orange, false, true, 5});
-    figure.caption += " Where the magnitude is underlaid, the command was clipped by a limit.";
+    figure.caption += " Highlighted magnitude: the command was limited.";
   }
   double window = add_command(figure.plot, t, size, {{}, {}, "magnitude", Ink::text});
   window = std::max(window, add_command(figure.plot, t, x, {{}, {}, "Bx", Ink::blue}));
   window = std::max(window, add_command(figure.plot, t, y, {{}, {}, "By", Ink::vermillion, true}));
-  figure.caption += windows_in_words(window);
+  figure.caption += window_note(window);
   return figure;
 }
 
 Figure current_figure(const Series& series) {
   const Values t = values(series.column("t_s"));
-  Figure figure{"Coil currents", "Current through each coil, held from one frame to the next.",
+  Figure figure{"Coil currents", "Current through each coil, constant within a frame.",
                 over_time("current (A)", "Coil currents over time")};
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple};
   double window = 0;
   for (std::size_t coil = 0;; ++coil) {
     const std::string name = fmt::format("current_{}_a", coil);
     if (!series.has(name)) break;
-    const Line like{{}, {}, fmt::format("coil {}", coil), kInks[coil % std::size(kInks)], coil % 2 == 1};
-    window = std::max(window, add_command(figure.plot, t, values(series.find(name)), like));
+    const Line style{{}, {}, fmt::format("coil {}", coil), kInks[coil % std::size(kInks)], coil % 2 == 1};
+    window = std::max(window, add_command(figure.plot, t, values(series.find(name)), style));
   }
-  figure.caption += windows_in_words(window);
+  figure.caption += window_note(window);
   return figure;
 }
 
 Figure count_figure(const Series& series) {
   const Values t = values(series.column("t_s"));
-  const bool seen = is_seen(series);
+  const bool estimated = is_estimated(series);
   Figure figure{
       "Cells",
-      seen ? "Cells that the estimator counts in the picture."
-           : "Cells inside the picture, and cells that respond to the field.",
-      over_time("cells", seen ? "Visible cells over time" : "Visible and responding cells over time")};
+      estimated ? "Estimated number of cells in the picture."
+                : "Number of cells in the picture, and number of responsive cells.",
+      over_time("cells", estimated ? "Visible cells over time" : "Visible and responsive cells over time")};
   figure.plot.y.lo = 0;
   if (series.has("visible_count")) {
     figure.plot.add(Line{t, values(series.find("visible_count")), "visible", Ink::blue});
   }
-  if (!seen) {
-    figure.plot.add(Line{t, values(series.find("responding_count")), "responding", Ink::vermillion, true});
+  if (!estimated) {
+    figure.plot.add(Line{t, values(series.find("responding_count")), "responsive", Ink::vermillion, true});
   }
   return figure;
 }

@@ -9,10 +9,10 @@
 
 namespace faba {
 
-/// The figures of a run, in the order a reader wants them: distance to the setpoint, path in the picture,
-/// dispersion, field, currents, counts of cells. One is left out when its columns are missing or say nothing
-/// (no target; counts that never change). Lengths have a second scale in micrometres when the picture scale
-/// is known. Throws Error(Errc::input) when a column that every run has is missing (see control_metrics()).
+/// The figures of a run, in the order of the report: distance to the setpoint, path in the picture,
+/// dispersion, field, currents, number of cells. A figure is omitted when its columns are missing or without
+/// information (no setpoint, constant counts). Lengths have a second axis in micrometres when the picture
+/// scale is known. Throws Error(Errc::input) when a mandatory column is missing (see control_metrics()).
 std::vector<Figure> run_figures(const Series& series, const Metrics& metrics, const RunInfo& info);
 
 }  // namespace faba

@@ -20,61 +20,60 @@
 namespace faba {
 namespace {
 
-constexpr double kLate = 2.0 / 3;          // of the run, where the steady error begins
-constexpr std::size_t kFewSetpoints = 50;  // more are called a moving setpoint, not a route
+constexpr double kLate = 2.0 / 3;               // fraction of the run; start of the steady error
+constexpr std::size_t kMaxRouteSetpoints = 50;  // more are a moving setpoint, not a route
 
-/// "12.3 px (9.86 µm)", or pixels alone without a picture scale.
-std::string length_in_words(double px, const RunInfo& info) {
-  std::string words = three_digits(px) + "\u00A0px";
-  if (info.um_per_px) words += fmt::format(" ({}\u00A0µm)", three_digits(px * *info.um_per_px));
-  return words;
+/// "12.3 px (9.86 µm)", or only pixels without a picture scale.
+std::string length_text(double px, const RunInfo& info) {
+  std::string text = three_digits(px) + "\u00A0px";
+  if (info.um_per_px) text += fmt::format(" ({}\u00A0µm)", three_digits(px * *info.um_per_px));
+  return text;
 }
 
 std::string seconds(double s) { return three_digits(s) + "\u00A0s"; }
 
-std::string spread_in_words(const Metrics& m, const RunInfo& info) {
+std::string dispersion_text(const Metrics& m, const RunInfo& info) {
   if (!m.sigma_x_px || !m.sigma_y_px) return {};
-  std::string words =
+  std::string text =
       fmt::format("{}\u00A0×\u00A0{}\u00A0px", three_digits(*m.sigma_x_px), three_digits(*m.sigma_y_px));
   if (info.um_per_px) {
-    words += fmt::format(" ({}\u00A0×\u00A0{}\u00A0µm)", three_digits(*m.sigma_x_px * *info.um_per_px),
-                         three_digits(*m.sigma_y_px * *info.um_per_px));
+    text += fmt::format(" ({}\u00A0×\u00A0{}\u00A0µm)", three_digits(*m.sigma_x_px * *info.um_per_px),
+                        three_digits(*m.sigma_y_px * *info.um_per_px));
   }
-  return words;
+  return text;
 }
 
-std::string arrival_in_words(const Metrics& m, const RunInfo& info) {
+std::string outcome_text(const Metrics& m, const RunInfo& info) {
   const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
-  const bool moving = given > kFewSetpoints, route = given > 1 && !moving;
+  const bool moving = given > kMaxRouteSetpoints, route = given > 1 && !moving;
   if (route && m.setpoints < given) {
-    return fmt::format(
-        "After {} the swarm {} setpoint {} of {}, {} away from it.", seconds(m.duration_s),
-        *m.final_distance_px <= *m.settling_band_px ? "had come to" : "was still on its way to", m.setpoints,
-        given, length_in_words(*m.final_distance_px, info));
+    return fmt::format("After {} the swarm {} setpoint {} of {}; the final distance was {}.",
+                       seconds(m.duration_s),
+                       *m.final_distance_px <= *m.settling_band_px ? "had reached" : "had not reached",
+                       m.setpoints, given, length_text(*m.final_distance_px, info));
   }
   const std::string goal = moving  ? "its moving setpoint"
                            : route ? fmt::format("the last of {} setpoints", given)
                                    : "its setpoint";
   if (!m.settling_time_s) {
-    const std::string from =
-        given > 1 ? "" : fmt::format("it started {} away and ", length_in_words(*m.initial_error_px, info));
-    return fmt::format("The swarm did not settle at {}: {}was {} away at the end, after {}.", goal,
-                       from.empty() ? "it " : from, length_in_words(*m.final_distance_px, info),
-                       seconds(m.duration_s));
+    const std::string start =
+        given > 1 ? "" : fmt::format("{} at the start and ", length_text(*m.initial_error_px, info));
+    return fmt::format("The swarm did not settle at {}: the distance was {}{} at the end, after {}.", goal,
+                       start, length_text(*m.final_distance_px, info), seconds(m.duration_s));
   }
-  if (*m.settling_time_s > kLate * m.duration_s) {  // the steady error would speak of the approach
-    return fmt::format("The swarm reached {} only after {}, late in a run of {}; at the end it was {} away.",
-                       goal, seconds(*m.settling_time_s), seconds(m.duration_s),
-                       length_in_words(*m.final_distance_px, info));
+  if (*m.settling_time_s > kLate * m.duration_s) {  // the steady error would include the approach
+    return fmt::format("The swarm reached {} only after {} of {}; the final distance was {}.", goal,
+                       seconds(*m.settling_time_s), seconds(m.duration_s),
+                       length_text(*m.final_distance_px, info));
   }
-  std::string words = *m.settling_time_s == 0
-                          ? fmt::format("The swarm was at {} from the start", goal)
-                          : fmt::format("The swarm reached {} after {}", goal, seconds(*m.settling_time_s));
+  std::string text = *m.settling_time_s == 0
+                         ? fmt::format("The swarm was at {} from the start", goal)
+                         : fmt::format("The swarm reached {} after {}", goal, seconds(*m.settling_time_s));
   if (m.steady_rms_px) {
-    words += fmt::format(" and stayed within {} rms of it over the last third of the run",
-                         length_in_words(*m.steady_rms_px, info));
+    text += fmt::format(" and stayed within {} rms of it over the last third of the run",
+                        length_text(*m.steady_rms_px, info));
   }
-  return words + ".";
+  return text + ".";
 }
 
 std::string metric_row(const MetricInfo& one, double value, const RunInfo& info) {
@@ -88,7 +87,7 @@ std::string metric_row(const MetricInfo& one, double value, const RunInfo& info)
 }
 
 std::string metrics_table(const Metrics& m, const RunInfo& info) {
-  std::string out = "<h2>Measures</h2>\n<table class=\"numbers\"><thead><tr><th scope=\"col\">Quantity</th>";
+  std::string out = "<h2>Metrics</h2>\n<table class=\"numbers\"><thead><tr><th scope=\"col\">Quantity</th>";
   out += info.um_per_px ? "<th scope=\"col\">in pixels</th><th scope=\"col\">in µm</th>"
                         : "<th scope=\"col\">Value</th>";
   out += "</tr></thead>\n<tbody>\n";
@@ -116,19 +115,19 @@ std::string in_um(double px, const RunInfo& info, const char* otherwise) {
 std::string cards(const Metrics& m, const RunInfo& info) {
   std::string out;
   if (m.initial_error_px) {
-    out += card("Settling time", m.settling_time_s ? seconds(*m.settling_time_s) : "never",
-                fmt::format("into ±{}\u00A0px", three_digits(*m.settling_band_px)));
+    out += card("Settling time", m.settling_time_s ? seconds(*m.settling_time_s) : "not settled",
+                fmt::format("band ±{}\u00A0px", three_digits(*m.settling_band_px)));
   }
   if (m.steady_rms_px) {
     out += card("Steady error, rms", three_digits(*m.steady_rms_px) + "\u00A0px",
                 in_um(*m.steady_rms_px, info, "last third"));
   }
   if (m.path_tracking_rms_px) {
-    out += card("Off the route, rms", three_digits(*m.path_tracking_rms_px) + "\u00A0px",
+    out += card("Tracking error, rms", three_digits(*m.path_tracking_rms_px) + "\u00A0px",
                 in_um(*m.path_tracking_rms_px, info, "from the second setpoint"));
   }
   if (m.rms_radius_px) {
-    out += card("Spread, rms radius", three_digits(*m.rms_radius_px) + "\u00A0px",
+    out += card("Dispersion, rms radius", three_digits(*m.rms_radius_px) + "\u00A0px",
                 in_um(*m.rms_radius_px, info, "last frame"));
   }
   if (m.limited_fraction && m.initial_error_px) {
@@ -138,13 +137,13 @@ std::string cards(const Metrics& m, const RunInfo& info) {
 }
 
 std::string video_figure(const RunInfo& info) {
-  const Vec2 size = info.view_px.value_or(Vec2{4, 3});  // only its shape counts, until the video is loaded
+  const Vec2 size =
+      info.view_px.value_or(Vec2{4, 3});  // aspect ratio of the placeholder until the video is loaded
   return fmt::format(
       "<figure class=\"video\">\n<h3>Video</h3>\n<video controls=\"controls\" preload=\"metadata\" "
-      "width=\"{}\" "
-      "height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>{}: "
-      "<a href=\"video.mp4\">video.mp4</a>, beside this page.</figcaption>\n</figure>\n",
-      size.x, size.y, info.video_shows == "camera" ? "The run as the camera saw it" : "The run, drawn");
+      "width=\"{}\" height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>{}: <a "
+      "href=\"video.mp4\">video.mp4</a> in the directory of this page.</figcaption>\n</figure>\n",
+      size.x, size.y, info.video_shows == "camera" ? "Camera frames of the run" : "Drawing of the run");
 }
 
 std::string figures_section(const std::vector<Figure>& figures, const std::string& video) {
@@ -161,16 +160,16 @@ std::string fact(const char* name, const std::string& value) {
 
 std::string computing_time(const Metrics& m, const RunInfo& info) {
   if (!info.wall_time_s) return {};
-  std::string words = three_digits(*info.wall_time_s) + " s";
+  std::string text = three_digits(*info.wall_time_s) + " s";
   const double simulated = info.duration_s.value_or(m.duration_s);
   if (*info.wall_time_s > 0 && simulated > 0) {
-    words += fmt::format(", {} times real time", three_digits(simulated / *info.wall_time_s));
+    text += fmt::format(", {} times real time", three_digits(simulated / *info.wall_time_s));
   }
-  return words;
+  return text;
 }
 
 std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {
-  std::string out = "<h2>How it was made</h2>\n<table class=\"facts\"><tbody>\n";
+  std::string out = "<h2>Provenance</h2>\n<table class=\"facts\"><tbody>\n";
   out += fact("Program", "Faba " + info.version);
   out += fact("Duration",
               fmt::format("{} s, {} frames", three_digits(info.duration_s.value_or(m.duration_s)), m.frames));
@@ -181,7 +180,7 @@ std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {
   if (info.arena) out += fact("Arena", info.arena->type);
   if (info.um_per_px) out += fact("Picture scale", fmt::format("{:.4g} µm per px", *info.um_per_px));
   out += fact("Seed", info.seed);
-  out += fact("Threads", info.threads.empty() ? "" : info.threads + " (the result does not depend on it)");
+  out += fact("Threads", info.threads.empty() ? "" : info.threads + " (without effect on the result)");
   out += fact("Computing time", computing_time(m, info));
   out += fact("Scenario hash", info.scenario_hash);
   out += fact("State hash", info.state_hash);
@@ -189,10 +188,10 @@ std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {
   if (!scenario) return out;
   const std::string command =
       "faba run scenario.toml" + (info.seed.empty() ? "" : " --seed " + info.seed) + " --out repeated";
-  out += fmt::format("<p>To repeat it, in this directory:</p>\n<pre><code>{}</code></pre>\n",
+  out += fmt::format("<p>To reproduce the run, execute in this directory:</p>\n<pre><code>{}</code></pre>\n",
                      escape_markup(command));
   if (!info.state_hash.empty()) {
-    out += fmt::format("<p class=\"note\">The same version gives the same state hash, {}.</p>\n",
+    out += fmt::format("<p class=\"note\">The same version of Faba gives the same state hash, {}.</p>\n",
                        escape_markup(info.state_hash));
   }
   return out;
@@ -209,25 +208,26 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
   const std::string scenario = existing_text(run_dir / "scenario.toml");
   std::error_code ignored;
   const bool video = std::filesystem::is_regular_file(run_dir / "video.mp4", ignored);
-  const std::string seen =
+  const std::string media =
       (video ? video_figure(info) : "") + frame_strip(run_dir / (video ? "video.mp4" : "video.avi"));
 
-  const RunInWords words = run_in_words(m, info);
+  const RunSummary summary = run_summary(m, info);
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(title),
-                                escape_markup(words.outcome));
-  if (!words.details.empty())
-    out += fmt::format("<p class=\"details\">{}</p>\n", escape_markup(words.details));
+                                escape_markup(summary.outcome));
+  if (!summary.details.empty())
+    out += fmt::format("<p class=\"details\">{}</p>\n", escape_markup(summary.details));
   for (const std::string& note : info.notes)
     out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note));
   if (!info.um_per_px)
     out += "<p class=\"note\">The run has no picture scale, so lengths are in pixels only.</p>\n";
   if (!info.complete)
-    out += "<p class=\"warning\">The run was stopped before its end; this is what was recorded.</p>\n";
+    out +=
+        "<p class=\"warning\">The run was stopped before its end; this report covers the recorded "
+        "part.</p>\n";
   if (series.last_line_cut()) {
     out +=
-        "<p class=\"warning\">The recording ends in the middle of a line, as when a run is stopped. That "
-        "last frame is "
-        "left out here.</p>\n";
+        "<p class=\"warning\">The recording ends in the middle of a line, as after an interruption. This "
+        "last frame is ignored.</p>\n";
   }
   out += cards(m, info);
   std::vector<Figure> figures = run_figures(series, m, info);
@@ -235,12 +235,12 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
   if (t.size() > 1)
     if (auto late = latency_figure(run_dir, (t.back() - t.front()) / double(t.size() - 1)))
       figures.push_back(*late);
-  if (!figures.empty() || !seen.empty()) out += figures_section(figures, seen);
+  if (!figures.empty() || !media.empty()) out += figures_section(figures, media);
   if (m.frames > 0) out += metrics_table(m, info);
   out += provenance(m, info, !scenario.empty());
   if (!scenario.empty()) {
     out += fmt::format(
-        "<details><summary>The scenario, scenario.toml</summary>\n<pre><code>{}</code></pre></details>\n",
+        "<details><summary>Scenario (scenario.toml)</summary>\n<pre><code>{}</code></pre></details>\n",
         escape_markup(scenario));
   }
   return out;
@@ -248,24 +248,24 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
 
 }  // namespace
 
-RunInWords run_in_words(const Metrics& m, const RunInfo& info) {
+RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   if (m.frames == 0) return {"No frame was recorded.", ""};
-  RunInWords words;
-  if (m.frames == 1) return {"One frame was recorded, the beginning of the run.", ""};
-  words.outcome = m.initial_error_px ? arrival_in_words(m, info)
-                                     : fmt::format("The swarm had no setpoint and was recorded for {}.",
-                                                   seconds(m.duration_s));
+  RunSummary summary;
+  if (m.frames == 1) return {"Only one frame was recorded, the start of the run.", ""};
+  summary.outcome = m.initial_error_px ? outcome_text(m, info)
+                                       : fmt::format("The swarm had no setpoint and was recorded for {}.",
+                                                     seconds(m.duration_s));
   if (m.cross_track_95_px) {
-    words.details =
-        fmt::format("From the second setpoint on it kept within {} of the route in 19 of 20 frames. ",
-                    length_in_words(*m.cross_track_95_px, info));
+    summary.details =
+        fmt::format("After the first setpoint, the swarm was within {} of the route in 95 % of the frames. ",
+                    length_text(*m.cross_track_95_px, info));
   }
-  const std::string spread = spread_in_words(m, info);
-  if (!spread.empty()) {
-    words.details +=
-        fmt::format("At the end its cells are spread over {}, standard deviations in x and y.", spread);
+  const std::string dispersion = dispersion_text(m, info);
+  if (!dispersion.empty()) {
+    summary.details += fmt::format(
+        "At the end, the standard deviations of the cell positions in x and y were {}.", dispersion);
   }
-  return words;
+  return summary;
 }
 
 void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series) {

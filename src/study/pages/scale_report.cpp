@@ -18,7 +18,7 @@ void add_ratios(Json& j, const ScaleRatios& r) {
   j["ratio_sem"] = r.sem;
 }
 
-// What every scale ends with.
+// Fields common to both kinds of scales.
 template <class Scale>
 void add_advice(Json& j, const Scale& s) {
   j["take"] = "regression";
@@ -34,18 +34,18 @@ std::string scale_note(const TableScale& s) {
                                         s.intercept_ci95_px[0], s.intercept_ci95_px[1]);
   if (s.edge_excess_significant())
     return fmt::format(
-        "every reading is {} too {}, whatever the width: edges, not scale. Take the regression; the mean of "
-        "the ratios is off by {:+.1f} %",
+        "the readings have a constant offset of {} (too {}), an edge effect independent of the width. Use "
+        "the regression; the mean of the ratios is biased by {:+.1f} %",
         range, s.intercept_px > 0 ? "wide" : "narrow", 100 * s.ratio_bias);
   return fmt::format(
-      "the constant part of the readings, {}, may be 0: both estimators are free of bias as far as "
-      "this table tells. Take the regression unless you know that edges do not matter",
+      "the constant offset of the readings, {}, is not significantly different from 0, so no bias of either "
+      "estimator is detected. Use the regression unless edge effects are excluded",
       range);
 }
 
 std::string scale_note(const PictureScale&) {
-  return "measured from mark to mark, so how wide the marks look plays no part; the interval is that of the "
-         "scatter alone: lens distortion and the ruler's own error come on top";
+  return "measured between the centres of the marks, so the width of the marks has no effect; the interval "
+         "includes only the scatter, not lens distortion or the tolerance of the ruler";
 }
 
 nlohmann::ordered_json scale_json(const TableScale& s) {

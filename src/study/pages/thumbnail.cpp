@@ -11,18 +11,18 @@
 namespace faba {
 namespace {
 
-constexpr double kMoment = 2;               // s from the beginning: the swarm has begun to move
-constexpr std::uint64_t kMostFrames = 60;   // of a fast camera
-constexpr std::uint64_t kMostCells = 2000;  // that are simulated for a picture
+constexpr double kThumbnailTime = 2;       // s after the start, when the swarm has started to move
+constexpr std::uint64_t kMaxFrames = 60;   // limit for fast cameras
+constexpr std::uint64_t kMaxCells = 2000;  // simulated for a picture
 constexpr std::uint64_t kSeed = 1;
 
-// What the picture shows is where cells are and what they are told to do.
-void make_cheap(Scenario& s) {
+// Reduces the cost of the simulation: fewer cells, no recording, no events.
+void reduce_cost(Scenario& s) {
   std::uint64_t all = 0;
   for (const Swarm& swarm : s.swarms) all += swarm.params.count;
   for (Swarm& swarm : s.swarms)
-    if (all > kMostCells)
-      swarm.params.count = std::max<std::uint64_t>(1, swarm.params.count * kMostCells / all);
+    if (all > kMaxCells)
+      swarm.params.count = std::max<std::uint64_t>(1, swarm.params.count * kMaxCells / all);
   s.record = {};
   s.events.clear();
 }
@@ -30,11 +30,11 @@ void make_cheap(Scenario& s) {
 }  // namespace
 
 void write_scene_thumbnail(Scenario s, const std::filesystem::path& png) {
-  make_cheap(s);
+  reduce_cost(s);
   Pool pool(1);
   Simulation simulation(s, kSeed, pool);
-  const std::uint64_t frames = std::clamp<std::uint64_t>(std::uint64_t(kMoment / s.frame_period()), 1,
-                                                         std::min(kMostFrames, s.frames()));
+  const std::uint64_t frames = std::clamp<std::uint64_t>(std::uint64_t(kThumbnailTime / s.frame_period()), 1,
+                                                         std::min(kMaxFrames, s.frames()));
   struct Last final : Sink {
     Vec2 target;
     void take(const Tick& t) override { target = t.target.position; }
@@ -51,7 +51,7 @@ void write_run_thumbnail(const std::filesystem::path& run, const std::filesystem
     VideoReader reader(run / name);
     RgbImage picture;
     double t_s = 0;
-    while (reader.read_colours(picture, t_s) && t_s < kMoment) {
+    while (reader.read_colours(picture, t_s) && t_s < kThumbnailTime) {
     }
     return write_png(png, picture);
   }

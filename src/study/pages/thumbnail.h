@@ -5,12 +5,11 @@
 
 namespace faba {
 
-/// Writes a PNG of how a scene looks a little after its beginning, as a recorded video would draw it. Takes a
-/// moment; large swarms have fewer cells in it. Throws Error(usage) when its parts do not fit together.
+/// Writes a PNG of a scene shortly after its start, drawn as in a recorded video. Runs a short simulation;
+/// large swarms are reduced to 2000 cells. Throws Error(usage) when the parts of the scene are incompatible.
 void write_scene_thumbnail(Scenario s, const std::filesystem::path& png);
 
-/// Writes a PNG of a recorded run: a frame from the first seconds of its video, or of its scene when it kept
-/// none.
+/// Writes a PNG of a recorded run: a frame of its video at 2 s, or of its scene when it has no video.
 void write_run_thumbnail(const std::filesystem::path& run, const std::filesystem::path& png);
 
 }  // namespace faba

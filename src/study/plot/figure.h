@@ -5,13 +5,13 @@
 
 namespace faba {
 
-/// A plot with the words that belong under it.
+/// A plot with heading and caption.
 struct Figure {
   std::string heading, caption;  ///< plain text
   Plot plot;
 };
 
-/// A <figure> element for a page; `number` stands before its caption, 0: none.
+/// <figure> element for a page. `number`: figure number before the caption; 0: none.
 std::string figure_markup(const Figure& figure, int number = 0);
 
 }  // namespace faba

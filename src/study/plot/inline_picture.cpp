@@ -12,23 +12,23 @@ namespace faba {
 namespace {
 
 std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? std::uint32_t(bytes[i + k]) : 0U; };
     const std::uint32_t word = byte(0) << 16 | byte(1) << 8 | byte(2);
     for (std::size_t k = 0; k < 4; ++k)
-      out += i + k > bytes.size() ? '=' : kLetters[word >> (18 - 6 * k) & 63];
+      out += i + k > bytes.size() ? '=' : kDigits[word >> (18 - 6 * k) & 63];
   }
   return out;
 }
 
 }  // namespace
 
-std::string inline_picture(const RgbImage& picture, std::string_view words) {
+std::string inline_picture(const RgbImage& picture, std::string_view alternative) {
   FrameEncoder encoder(FrameEncoder::Kind::png_colour, picture.width, picture.height, {}, "report");
   return fmt::format("<img style=\"width:100%;height:auto\" alt=\"{}\" src=\"data:image/png;base64,{}\" />\n",
-                     escape_markup(words), base64(encoder.encode(picture)));
+                     escape_markup(alternative), base64(encoder.encode(picture)));
 }
 
 }  // namespace faba

@@ -6,8 +6,7 @@
 
 namespace faba {
 
-/// A picture as markup that holds it: an <img> element with a PNG inside, as wide as its place. `words` stand
-/// for it where it cannot be seen.
-std::string inline_picture(const RgbImage& picture, std::string_view words);
+/// <img> element with an embedded PNG, as wide as its container. `alternative`: alternative text.
+std::string inline_picture(const RgbImage& picture, std::string_view alternative);
 
 }  // namespace faba

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-/// Length of the well-formed UTF-8 sequence at the start of `s`; 0 when there is none. Table 3-7 of the
+/// Length of the well-formed UTF-8 sequence at the start of `s`; 0 if it is not well-formed. Table 3-7 of the
 /// Unicode standard.
 std::size_t sequence_length(std::string_view s) {
   const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0U; };
@@ -25,7 +25,7 @@ std::size_t sequence_length(std::string_view s) {
   return length;
 }
 
-constexpr std::string_view kUnknown = "\xEF\xBF\xBD", kMinus = "\xE2\x88\x92";
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD", kMinus = "\xE2\x88\x92";
 
 }  // namespace
 
@@ -46,7 +46,7 @@ std::string escape_markup(std::string_view text) {
     else if (c == '\'')
       out += "&#39;";
     else if (length == 0 || c == '\x7F' || (length == 1 && c < ' ' && c != '\n' && c != '\t' && c != '\r')) {
-      out += kUnknown;
+      out += kReplacement;
     } else {
       out += text.substr(0, length);
     }
@@ -59,7 +59,7 @@ std::string three_digits(double value) {
   if (!std::isfinite(value)) return "\u2013";
   if (value == 0) return "0";
   const double size = std::abs(value);
-  std::string digits = fmt::format("{:.2e}", size);  // whose exponent is that of the rounded number
+  std::string digits = fmt::format("{:.2e}", size);  // the exponent of the rounded number
   const auto e = digits.find('e');
   const int exponent = std::stoi(digits.substr(e + 1));
   if (exponent < -3 || exponent >= 6)

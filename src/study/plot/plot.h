@@ -7,48 +7,48 @@
 
 namespace faba {
 
-/// Colours of the layers, after Okabe and Ito (Color Universal Design, 2008): told apart with any common
-/// colour vision. In dark mode blue and sky, vermillion and orange change places, so that the first ones keep
-/// their contrast. `automatic` takes the next colour that this plot has not used for an automatic layer.
+/// Colours of the layers, after Okabe and Ito (Color Universal Design, 2008), distinguishable with common
+/// colour vision deficiencies. Dark mode exchanges blue with sky and vermillion with orange for contrast.
+/// `automatic`: next colour not used for an automatic layer of this plot.
 enum class Ink { automatic, blue, vermillion, green, purple, orange, sky, text, muted };
 
-/// A curve through (x[i], y[i]) in the units of the axes. Non-finite points leave a gap. Any number of
-/// points: what is finer than the screen is dropped, except the minimum and maximum of every pixel column.
+/// A curve through (x[i], y[i]) in the units of the axes. Non-finite points leave a gap. Long curves are
+/// thinned to the screen resolution; the minimum and maximum of every pixel column are kept.
 struct Line {
-  std::vector<double> x, y;  ///< same length; what is longer is cut
+  std::vector<double> x, y;  ///< equal length; a longer one is truncated
   std::string label = {};    ///< legend entry; none when empty
   Ink ink = Ink::automatic;
   bool dashed = false;
-  bool held = false;   ///< each value holds until the next x (a staircase), as a command does
-  double width = 1.7;  ///< in units of the figure
+  bool stairs = false;  ///< each value is constant until the next x, as a command
+  double width = 1.7;   ///< in units of the figure
 };
 
-/// Points without connection.
+/// Unconnected points.
 struct Scatter {
   enum class Mark { dot, ring, cross };
-  std::vector<double> x, y;  ///< same length; non-finite points are left out
+  std::vector<double> x, y;  ///< equal length; non-finite points are omitted
   std::string label = {};
   Ink ink = Ink::automatic;
   Mark mark = Mark::dot;
   double size = 5;  ///< diameter in units of the figure
 };
 
-/// A shaded range of one axis, over the whole length of the other.
+/// A shaded range of one axis, over the full length of the other.
 struct Band {
   double lo = 0, hi = 0;
   std::string label = {};
-  bool of_x = false;  ///< the range is of x (a time span); otherwise of y
+  bool of_x = false;  ///< range of x (a time interval); otherwise of y
   Ink ink = Ink::muted;
 };
 
-/// The area between two curves over the same x: how far something goes up and down.
+/// The area between two curves over the same x, for example a range or an error band.
 struct Ribbon {
-  std::vector<double> x, lo, hi;  ///< same length; what is longer is cut; non-finite points are left out
+  std::vector<double> x, lo, hi;  ///< equal length; a longer one is truncated; non-finite points leave a gap
   std::string label = {};
   Ink ink = Ink::automatic;
 };
 
-/// A thin straight line across the plot at one value, with its words beside it.
+/// A thin straight line across the plot at one value, with its label beside it.
 struct Rule {
   double at = 0;
   std::string label = {};
@@ -74,36 +74,35 @@ struct Box {
 
 struct PlotAxis {
   std::string label = {};        ///< quantity and unit: "time (s)"
-  std::optional<double> lo, hi;  ///< ends of the range; from the data when empty; must be finite
-  bool reversed = false;         ///< small values at the right or on top, as the rows of a picture
-  /// Equal ratios are equally long; values that are not positive are left out, and lo and hi must be
-  /// positive. Not together with equal_aspect or a second scale.
+  std::optional<double> lo, hi;  ///< limits of the range, finite; empty: from the data
+  bool reversed = false;         ///< small values right or on top, as the rows of a picture
+  /// Logarithmic scale: values that are not positive are omitted; lo and hi must be positive. Cannot be
+  /// combined with equal_aspect or a second scale.
   bool logarithmic = false;
 };
 
-/// A second scale at the right, for the same curves in another unit.
+/// A second y axis at the right, for the same curves in another unit.
 struct SecondScale {
-  double per_unit = 1;  ///< its value where the left scale says 1
+  double per_unit = 1;  ///< its value at 1 of the left axis
   std::string label = {};
 };
 
-/// A figure: what is drawn, in this order, and its axes. A value: fill it in, copy it, pass it to svg().
-/// To give it another kind of layer, add a struct to `Layer` and its extent(), draw() and swatch() in
-/// plot_layers.cpp.
+/// A plot: layers in drawing order, and axes. To add a kind of layer, add a struct to `Layer` and its
+/// extent(), draw() and swatch() in plot_layers.cpp.
 struct Plot {
   using Layer = std::variant<Line, Scatter, Band, Ribbon, Rule, Ellipse, Box>;
 
-  std::string title = {};        ///< drawn on top; may be empty
-  std::string description = {};  ///< read out by screen readers instead of the picture; the title when empty
+  std::string title = {};        ///< above the plot; may be empty
+  std::string description = {};  ///< text for screen readers; empty: the title
   PlotAxis x = {}, y = {};
   std::optional<SecondScale> right = {};
-  bool equal_aspect = false;  ///< one unit is as long in x as in y; the height follows from the ranges
-  double width = 460;         ///< of the drawing, in its own units; text is 12 of them high
-  double height = 270;        ///< without legend and title, which come on top; ignored with equal_aspect
-  bool inlined = false;       ///< for the body of an HTML page: leaves out the XML namespace
+  bool equal_aspect = false;  ///< equal units in x and y; the height follows from the ranges
+  double width = 460;         ///< in figure units; the text height is 12
+  double height = 270;        ///< without legend and title; ignored with equal_aspect
+  bool inlined = false;       ///< for the body of an HTML page: without XML namespace
   std::vector<Layer> layers = {};
 
-  /// Appends a layer on top: `plot.add(Band{...}).add(Line{...})`.
+  /// Adds a layer on top: `plot.add(Band{...}).add(Line{...})`.
   template <class AnyLayer>
   Plot& add(AnyLayer layer) {
     layers.emplace_back(std::move(layer));

@@ -24,18 +24,17 @@ constexpr std::array<Shade, 8> kShades{{{"blue", "#0072b2", "#56b4e9"},
                                         {"sky", "#56b4e9", "#0072b2"},
                                         {"text", "#1d2329", "#e6e9ec"},
                                         {"muted", "#5c6670", "#a4adb6"}}};
-constexpr double kFarOut =
-    1e5;  // coordinates beyond this are as good as infinite, and renderers lose precision
+// Renderers lose precision at larger coordinates.
+constexpr double kMaxCoordinate = 1e5;
 
-double place(double share, bool flip, double size) {
-  return std::clamp((flip ? 1 - share : share) * size, -kFarOut, kFarOut);
+double coordinate(double fraction, bool flip, double size) {
+  return std::clamp((flip ? 1 - fraction : fraction) * size, -kMaxCoordinate, kMaxCoordinate);
 }
 
 }  // namespace
 
 const Shade& shade(Ink ink) { return kShades[ink == Ink::automatic ? 0 : std::size_t(ink) - 1]; }
-// The light colour is an attribute, which every reader of SVG understands; the class lets the style sheet
-// darken it.
+// The light colour is an attribute, which all SVG renderers support; the style sheet overrides it by class.
 std::string stroke(const Shade& s) { return fmt::format(R"(class="s-{}" stroke="{}")", s.name, s.light); }
 std::string fill(const Shade& s) { return fmt::format(R"(class="f-{}" fill="{}")", s.name, s.light); }
 
@@ -50,17 +49,17 @@ std::string style_sheet() {
   return css + "}";
 }
 
-double letters(std::string_view text) {
+double character_count(std::string_view text) {
   return double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-double Map::to_x(double v) const { return place((v - x.lo) / x.length(), flip_x, w); }
-double Map::to_y(double v) const { return place((v - y.lo) / y.length(), !flip_y, h); }
+double Map::to_x(double v) const { return coordinate((v - x.lo) / x.length(), flip_x, w); }
+double Map::to_y(double v) const { return coordinate((v - y.lo) / y.length(), !flip_y, h); }
 
-std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view words,
+std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view text,
                     const char* more) {
   return fmt::format(R"(<text {} x="{:.1f}" y="{:.1f}" text-anchor="{}"{}>{}</text>)", fill(s), p.x, p.y,
-                     anchor, more, escape_markup(words));
+                     anchor, more, escape_markup(text));
 }
 
 std::string rectangle(const std::string& look, PlotPoint a, PlotPoint b) {
@@ -115,7 +114,7 @@ std::vector<PlotPoint> thinned_by_column(const std::vector<PlotPoint>& all) {
   return kept;
 }
 
-/// A curve that turns back: drops what is nearer than half a unit to the point kept before.
+/// For a curve with non-monotonic x: drops points nearer than half a unit to the previous kept point.
 std::vector<PlotPoint> thinned_by_distance(const std::vector<PlotPoint>& all) {
   std::vector<PlotPoint> kept{all.front()};
   for (const PlotPoint& p : all) {
@@ -124,7 +123,7 @@ std::vector<PlotPoint> thinned_by_distance(const std::vector<PlotPoint>& all) {
   return kept;
 }
 
-/// Drops what lies left or right of a drawing area `w` wide, but for the neighbours that a line runs to.
+/// Drops points left and right of a drawing area of width `w`, except the neighbours of the visible points.
 void crop(std::vector<PlotPoint>& forward, double w) {
   const auto left_of = [](double edge) { return [edge](const PlotPoint& p) { return p.x < edge; }; };
   const auto end = std::partition_point(forward.begin(), forward.end(), left_of(w));
@@ -133,45 +132,45 @@ void crop(std::vector<PlotPoint>& forward, double w) {
   if (begin != forward.begin()) forward.erase(forward.begin(), begin - 1);
 }
 
-void append_stretch(std::string& path, std::vector<PlotPoint>& stretch, const Line& line, const Map& map) {
-  if (stretch.empty()) return;
+void append_section(std::string& path, std::vector<PlotPoint>& section, const Line& line, const Map& map) {
+  if (section.empty()) return;
   const auto back = [](PlotPoint a, PlotPoint b) { return b.x < a.x; };
-  const bool forward = std::adjacent_find(stretch.begin(), stretch.end(), back) == stretch.end();
-  if (forward) crop(stretch, map.w);
-  if (double(stretch.size()) > 4 * map.w) {
-    stretch = forward ? thinned_by_column(stretch) : thinned_by_distance(stretch);
+  const bool forward = std::adjacent_find(section.begin(), section.end(), back) == section.end();
+  if (forward) crop(section, map.w);
+  if (double(section.size()) > 4 * map.w) {
+    section = forward ? thinned_by_column(section) : thinned_by_distance(section);
   }
   const auto out = std::back_inserter(path);
-  fmt::format_to(out, "M{:.1f} {:.1f}", stretch[0].x, stretch[0].y);
-  if (stretch.size() == 1) path += "h0";  // with round caps, a dot
-  for (std::size_t i = 1; i < stretch.size(); ++i) {
-    if (line.held)
-      fmt::format_to(out, "H{:.1f}V{:.1f}", stretch[i].x, stretch[i].y);
+  fmt::format_to(out, "M{:.1f} {:.1f}", section[0].x, section[0].y);
+  if (section.size() == 1) path += "h0";  // with round caps, a dot
+  for (std::size_t i = 1; i < section.size(); ++i) {
+    if (line.stairs)
+      fmt::format_to(out, "H{:.1f}V{:.1f}", section[i].x, section[i].y);
     else
-      fmt::format_to(out, "L{:.1f} {:.1f}", stretch[i].x, stretch[i].y);
+      fmt::format_to(out, "L{:.1f} {:.1f}", section[i].x, section[i].y);
   }
-  stretch.clear();
+  section.clear();
 }
 
 std::string dashes(bool dashed) { return dashed ? R"( stroke-dasharray="6 5")" : ""; }
 
 std::string draw(const Line& line, Ink ink, const Map& map) {
   std::string path;
-  std::vector<PlotPoint> stretch;
+  std::vector<PlotPoint> section;
   for (std::size_t i = 0; i < std::min(line.x.size(), line.y.size()); ++i) {
     if (std::isfinite(line.x[i]) && std::isfinite(line.y[i])) {
-      stretch.push_back({map.to_x(line.x[i]), map.to_y(line.y[i])});
+      section.push_back({map.to_x(line.x[i]), map.to_y(line.y[i])});
     } else {
-      append_stretch(path, stretch, line, map);
+      append_section(path, section, line, map);
     }
   }
-  append_stretch(path, stretch, line, map);
+  append_section(path, section, line, map);
   if (path.empty()) return {};
   return fmt::format(R"(<path {} stroke-width="{}"{} d="{}"/>)", stroke(shade(ink)), line.width,
                      dashes(line.dashed), path);
 }
 
-/// One mark as path data; dots are strokes of no length with round caps.
+/// Path data of one mark; dots are zero-length strokes with round caps.
 std::string mark_at(const Scatter& s, PlotPoint p) {
   const double r = s.size / 2;
   switch (s.mark) {
@@ -189,7 +188,7 @@ std::string mark_at(const Scatter& s, PlotPoint p) {
 double mark_stroke(const Scatter& s) { return s.mark == Scatter::Mark::dot ? s.size : 2; }
 
 std::string draw(const Scatter& s, Ink ink, const Map& map) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> half_units;  // two marks nearer than that look like one
+  std::vector<std::pair<std::int64_t, std::int64_t>> half_units;  // duplicates at this resolution are dropped
   for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i) {
     if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
     half_units.emplace_back(std::llround(2 * map.to_x(s.x[i])), std::llround(2 * map.to_y(s.y[i])));
@@ -210,20 +209,21 @@ std::string draw(const Band& b, Ink ink, const Map& map) {
 }
 
 std::string draw(const Ribbon& r, Ink ink, const Map& map) {
-  std::string out, there, back;
+  std::string out, upper, lower;
   const auto close = [&] {
-    if (!there.empty())
-      out += fmt::format(R"(<polygon {} fill-opacity="0.25" points="{}{}"/>)", fill(shade(ink)), there, back);
-    there.clear();
-    back.clear();
+    if (!upper.empty())
+      out +=
+          fmt::format(R"(<polygon {} fill-opacity="0.25" points="{}{}"/>)", fill(shade(ink)), upper, lower);
+    upper.clear();
+    lower.clear();
   };
   for (std::size_t i = 0; i < std::min({r.x.size(), r.lo.size(), r.hi.size()}); ++i) {
     if (!std::isfinite(r.x[i] + r.lo[i] + r.hi[i])) {
       close();  // a gap, as in a line
       continue;
     }
-    there += fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.hi[i]));
-    back.insert(0, fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.lo[i])));
+    upper += fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.hi[i]));
+    lower.insert(0, fmt::format("{:.1f},{:.1f} ", map.to_x(r.x[i]), map.to_y(r.lo[i])));
   }
   close();
   return out;
@@ -236,12 +236,12 @@ std::string draw(const Rule& r, Ink ink, const Map& map) {
       R"(<path {} stroke-width="1.2" stroke-dasharray="3 3" d="M{:.1f} {:.1f}{}{:.1f}"/>)",
       stroke(shade(ink)), r.of_x ? at : 0, r.of_x ? 0 : at, r.of_x ? 'V' : 'H', r.of_x ? map.h : map.w);
   if (r.label.empty()) return out;
-  const bool leftwards = r.of_x && at + 6 + kTextWidth * letters(r.label) > map.w;
+  const bool label_left = r.of_x && at + 6 + kTextWidth * character_count(r.label) > map.w;
   const PlotPoint spot =
-      r.of_x ? PlotPoint{leftwards ? at - 5 : at + 5, 14} : PlotPoint{map.w - 4, at < 20 ? at + 14 : at - 5};
-  const char* halo = leftwards || !r.of_x ? "end" : "start";
+      r.of_x ? PlotPoint{label_left ? at - 5 : at + 5, 14} : PlotPoint{map.w - 4, at < 20 ? at + 14 : at - 5};
+  const char* anchor = label_left || !r.of_x ? "end" : "start";
   out += fmt::format(R"(<g class="s-paper" stroke="{}" stroke-width="4" paint-order="stroke">{}</g>)",
-                     kPaper.light, text_at(spot, halo, shade(ink), r.label));
+                     kPaper.light, text_at(spot, anchor, shade(ink), r.label));
   return out;
 }
 
@@ -251,8 +251,8 @@ std::string draw(const Ellipse& e, Ink ink, const Map& map) {
   const double rx = std::abs(e.radius_x) * map.w / map.x.length(),
                ry = std::abs(e.radius_y) * map.h / map.y.length();
   return fmt::format(R"(<ellipse {} stroke-width="1.5"{} cx="{:.1f}" cy="{:.1f}" rx="{:.1f}" ry="{:.1f}"/>)",
-                     stroke(shade(ink)), dashes(e.dashed), c.x, c.y, std::min(rx, kFarOut),
-                     std::min(ry, kFarOut));
+                     stroke(shade(ink)), dashes(e.dashed), c.x, c.y, std::min(rx, kMaxCoordinate),
+                     std::min(ry, kMaxCoordinate));
 }
 
 std::string draw(const Box& b, Ink ink, const Map& map) {
@@ -261,7 +261,7 @@ std::string draw(const Box& b, Ink ink, const Map& map) {
                    {map.to_x(b.x0), map.to_y(b.y0)}, {map.to_x(b.x1), map.to_y(b.y1)});
 }
 
-// What stands in the legend for a layer, around (0, 0).
+// Legend symbols of the layers, around (0, 0).
 std::string swatch(const Line& l, Ink ink) {
   return fmt::format(R"(<path {} stroke-width="{}"{} d="M-9 0h18"/>)", stroke(shade(ink)),
                      std::max(2.0, l.width), dashes(l.dashed));
@@ -276,7 +276,7 @@ std::string swatch(const Ribbon&, Ink ink) {
 std::string swatch(const Band&, Ink ink) {
   return rectangle(fill(shade(ink)) + R"( fill-opacity="0.3")", {-9, -5}, {9, 5});
 }
-std::string swatch(const Rule&, Ink) { return {}; }  // has its words beside it
+std::string swatch(const Rule&, Ink) { return {}; }  // has its label in the plot
 template <class Outline>
 std::string swatch(const Outline& o, Ink ink) {
   return fmt::format(R"(<path {} stroke-width="1.5"{} d="M-9 0h18"/>)", stroke(shade(ink)), dashes(o.dashed));

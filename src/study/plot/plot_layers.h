@@ -6,34 +6,34 @@
 
 #include "study/plot/plot.h"
 
-/// The inside of plot_svg.cpp: colours, coordinates and the drawing of one layer. Include plot_svg.h instead.
+/// Implementation details of plot_svg.cpp: colours, coordinates and the drawing of one layer. Include
+/// plot_svg.h instead.
 namespace faba::drawing {
 
-/// A colour by its class in the style sheet, on white and on a dark screen.
+/// A colour: class in the style sheet, value in light mode and in dark mode.
 struct Shade {
   const char *name, *light, *dark;
 };
 inline constexpr Shade kPaper{"paper", "#ffffff", "#171b1f"}, kGrid{"grid", "#e3e6e9", "#2d3339"};
 const Shade& shade(Ink ink);
 
-/// Attributes that give a stroke, or a filling, this colour.
+/// Attributes for a stroke or a fill of this colour.
 std::string stroke(const Shade& s);
 std::string fill(const Shade& s);
-/// The rules that make every Shade dark where the reader's system asks for it.
+/// CSS rules with the dark-mode value of every Shade.
 std::string style_sheet();
 
-/// Height of the text, and the mean advance of a letter of a sans-serif font, in units of the figure.
+/// Text height, and mean advance of a character of a sans-serif font, in figure units.
 inline constexpr double kText = 12, kTextWidth = 6.6;
-/// Number of letters of a UTF-8 text, for guessing its width.
-double letters(std::string_view text);
+/// Number of characters of a UTF-8 text, to estimate its width.
+double character_count(std::string_view text);
 
-/// A place in the figure: x right, y down.
+/// A point of the figure: x right, y down.
 struct PlotPoint {
   double x, y;
 };
 
-/// A range of data, empty until a value was taken in. What is not finite, or so large that differences of it
-/// would not be, is left out.
+/// A range of data, initially empty. Ignores non-finite values and values whose differences could overflow.
 struct Range {
   double lo = std::numeric_limits<double>::infinity(), hi = -lo;
   void take(double v) {
@@ -45,7 +45,7 @@ struct Range {
   double length() const { return hi - lo; }
 };
 
-/// From data to the drawing area, whose upper left corner is (0, 0) and whose size is (w, h).
+/// Transforms data to coordinates of the drawing area, with upper left corner (0, 0) and size (w, h).
 struct Map {
   Range x, y;
   bool flip_x = false, flip_y = false;
@@ -56,13 +56,12 @@ struct Map {
 };
 
 /// A <text> element; `anchor` is start, middle or end, `more` further attributes.
-std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view words,
+std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view text,
                     const char* more = "");
 /// A <rect> element between two opposite corners.
 std::string rectangle(const std::string& look, PlotPoint a, PlotPoint b);
 
-/// What a layer needs of the axes, its drawing, and its sign in the legend around (0, 0) (empty: it has
-/// none).
+/// Data range of a layer, its drawing, and its legend symbol around (0, 0) (empty: none).
 void layer_extent(const Plot::Layer& layer, Range& x, Range& y);
 std::string layer_drawing(const Plot::Layer& layer, Ink ink, const Map& map);
 std::string layer_swatch(const Plot::Layer& layer, Ink ink);

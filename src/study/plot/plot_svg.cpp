@@ -18,18 +18,18 @@ using namespace drawing;
 
 constexpr std::size_t kAutomaticInks = 6;
 constexpr double kLegendRow = 18, kSwatch = 20;
-constexpr double kDigit = 7.5;  // advance of a digit in a wide font: tick labels must never collide
+constexpr double kDigit = 7.5;  // advance of a digit in a wide font, so that tick labels never overlap
 
-constexpr double kLeastLength = 1e-200;  // well away from the numbers that lose their digits
+constexpr double kMinAxisLength = 1e-200;  // above the denormal numbers
 
-/// The range of an axis: as asked for, else the data's with a margin, and never without length.
+/// Range of an axis: as configured, else that of the data with a margin; its length is always positive.
 Range settled(Range data, const PlotAxis& axis, double margin) {
   if (data.empty()) data = {0, 1};
   Range r{axis.lo.value_or(data.lo), axis.hi.value_or(data.hi)};
   const double pad = margin * std::max(0.0, r.length());
   if (!axis.lo) r.lo -= pad;
   if (!axis.hi) r.hi += pad;
-  const double least = std::max(1e-9 * std::max(std::abs(r.lo), std::abs(r.hi)), kLeastLength);
+  const double least = std::max(1e-9 * std::max(std::abs(r.lo), std::abs(r.hi)), kMinAxisLength);
   if (!(r.length() > least)) {
     const double half = std::max(0.5, 0.05 * std::abs(r.lo));
     r = axis.lo ? Range{r.lo, r.lo + 2 * half} : Range{r.lo - half, r.lo + half};
@@ -59,15 +59,15 @@ Legend legend_of(const Plot& plot, const std::vector<Ink>& inks, double left, do
   for (std::size_t i = 0; i < inks.size(); ++i) {
     const std::string& label =
         std::visit([](const auto& l) -> const std::string& { return l.label; }, plot.layers[i]);
-    const std::string sign = layer_swatch(plot.layers[i], inks[i]);
-    if (label.empty() || sign.empty()) continue;
-    const double length = kSwatch + 5 + kTextWidth * letters(label);
+    const std::string symbol = layer_swatch(plot.layers[i], inks[i]);
+    if (label.empty() || symbol.empty()) continue;
+    const double length = kSwatch + 5 + kTextWidth * character_count(label);
     if (x > left && x + length > plot.width) {
       x = left;
       y += kLegendRow;
     }
     legend.drawing +=
-        fmt::format(R"svg(<g transform="translate({:.1f} {:.1f})">{}</g>)svg", x + kSwatch / 2, y, sign);
+        fmt::format(R"svg(<g transform="translate({:.1f} {:.1f})">{}</g>)svg", x + kSwatch / 2, y, symbol);
     legend.drawing += text_at({x + kSwatch + 5, y + 4}, "start", shade(Ink::text), label);
     legend.height = y + kLegendRow / 2 - top + 4;
     x += length + 16;
@@ -75,16 +75,17 @@ Legend legend_of(const Plot& plot, const std::vector<Ink>& inks, double left, do
   return legend;
 }
 
-/// Ticks with their words. Long or tiny numbers share a power of ten, which goes to the axis label.
+/// Ticks and their labels. Large and small numbers have a common power of ten, which is part of the axis
+/// label.
 struct Scale {
   std::vector<double> at;
-  std::vector<std::string> words;
+  std::vector<std::string> labels;
   std::string label;
   double width = 0;
 };
 
-Scale scale_of(Range r, int wanted, const std::string& label) {
-  Scale scale{tick_positions(r.lo, r.hi, wanted), {}, label};
+Scale scale_of(Range r, int tick_count, const std::string& label) {
+  Scale scale{tick_positions(r.lo, r.hi, tick_count), {}, label};
   if (scale.at.empty()) return scale;
   const double size = std::max(std::abs(r.lo), std::abs(r.hi));
   const int exponent = size >= 1e5 || size < 1e-2 ? int(std::floor(std::log10(size))) : 0;
@@ -92,21 +93,21 @@ Scale scale_of(Range r, int wanted, const std::string& label) {
   const double step = scale.at.size() > 1 ? (scale.at[1] - scale.at[0]) / unit : 1;
   const int decimals = std::clamp(int(std::ceil(-std::log10(step) - 1e-6)), 0, 9);
   for (const double v : scale.at) {
-    std::string words = fmt::format("{:.{}f}", std::abs(v) / unit, decimals);
-    if (v < -0.5 * step * unit) words.insert(0, "\u2212");
-    scale.width = std::max(scale.width, kDigit * letters(words));
-    scale.words.push_back(std::move(words));
+    std::string text = fmt::format("{:.{}f}", std::abs(v) / unit, decimals);
+    if (v < -0.5 * step * unit) text.insert(0, "\u2212");
+    scale.width = std::max(scale.width, kDigit * character_count(text));
+    scale.labels.push_back(std::move(text));
   }
   if (exponent != 0) scale.label += " \u00D7" + power_of_ten(exponent);
   return scale;
 }
 
-// Of an axis that was taken to logarithms: decades, with 2 and 5 between them where there is room.
-Scale decades_of(Range r, int wanted, const std::string& label) {
+// Ticks of a logarithmic axis: decades, with 2 and 5 between them if there is space.
+Scale decades_of(Range r, int tick_count, const std::string& label) {
   Scale scale{{}, {}, label};
   const int first = int(std::ceil(r.lo - 1e-9)), last = int(std::floor(r.hi + 1e-9));
-  const bool between = last - first + 1 < wanted / 2 + 1;
-  const int every = std::max(1, (last - first + 1 + wanted) / std::max(1, wanted));
+  const bool between = last - first + 1 < tick_count / 2 + 1;
+  const int every = std::max(1, (last - first + 1 + tick_count) / std::max(1, tick_count));
   for (int decade = first - 1; decade <= last; ++decade)
     for (const int lead : {1, 2, 5}) {
       const double at = decade + std::log10(lead);
@@ -117,20 +118,20 @@ Scale decades_of(Range r, int wanted, const std::string& label) {
                                 : lead == 1 ? power_of_ten(decade)
                                             : fmt::format("{}\u00B7{}", lead, power_of_ten(decade));
       scale.at.push_back(at);
-      scale.width = std::max(scale.width, kDigit * letters(plain));
-      scale.words.push_back(plain);
+      scale.width = std::max(scale.width, kDigit * character_count(plain));
+      scale.labels.push_back(plain);
     }
   return scale;
 }
 
-Scale scale_along(const PlotAxis& axis, Range r, int wanted) {
-  return axis.logarithmic ? decades_of(r, wanted, axis.label) : scale_of(r, wanted, axis.label);
+Scale scale_along(const PlotAxis& axis, Range r, int tick_count) {
+  return axis.logarithmic ? decades_of(r, tick_count, axis.label) : scale_of(r, tick_count, axis.label);
 }
 
 double logarithm(double v) { return v > 0 ? std::log10(v) : std::numeric_limits<double>::quiet_NaN(); }
 
-// The same figure with the values of its logarithmic axes taken to logarithms; the axes keep their flag.
-Plot in_logarithms(Plot plot) {
+// The plot with the values of its logarithmic axes replaced by their logarithms; the axes keep their flag.
+Plot with_logarithms(Plot plot) {
   const auto all = [](std::vector<double>& v) { std::transform(v.begin(), v.end(), v.begin(), logarithm); };
   const auto axis = [](PlotAxis& a) {
     if (!a.logarithmic) return;
@@ -168,35 +169,35 @@ Plot in_logarithms(Plot plot) {
   return plot;
 }
 
-std::string turned(PlotPoint p, const std::string& words) {
+std::string rotated_text(PlotPoint p, const std::string& text) {
   const std::string turn = fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})")svg", p.x, p.y);
-  return text_at(p, "middle", shade(Ink::text), words, turn.c_str());
+  return text_at(p, "middle", shade(Ink::text), text, turn.c_str());
 }
 
 std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, double per_unit, const Map& map) {
-  std::string grid, words;
+  std::string grid, text;
   const double bottom = map.top + map.h, end = map.left + map.w;
   for (std::size_t i = 0; i < x.at.size(); ++i) {
     const double at = map.left + map.to_x(x.at[i]);
     grid += fmt::format("M{:.1f} {:.1f}v{:.1f}", at, map.top, map.h);
-    words += text_at({at, bottom + 16}, "middle", shade(Ink::muted), x.words[i]);
+    text += text_at({at, bottom + 16}, "middle", shade(Ink::muted), x.labels[i]);
   }
   for (std::size_t i = 0; i < y.at.size(); ++i) {
     const double at = map.top + map.to_y(y.at[i]);
     grid += fmt::format("M{:.1f} {:.1f}h{:.1f}", map.left, at, map.w);
-    words += text_at({map.left - 6, at + 4}, "end", shade(Ink::muted), y.words[i]);
+    text += text_at({map.left - 6, at + 4}, "end", shade(Ink::muted), y.labels[i]);
   }
   for (std::size_t i = 0; i < right.at.size(); ++i) {
     const double at = map.top + map.to_y(right.at[i] / per_unit);
-    words += text_at({end + 6, at + 4}, "start", shade(Ink::muted), right.words[i]);
+    text += text_at({end + 6, at + 4}, "start", shade(Ink::muted), right.labels[i]);
   }
-  words += text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label);
-  words += turned({map.left - y.width - 14, map.top + map.h / 2}, y.label);
-  if (!right.label.empty()) words += turned({end + right.width + 21, map.top + map.h / 2}, right.label);
-  return fmt::format(R"(<path {} d="{}"/>)", stroke(kGrid), grid) + words;
+  text += text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label);
+  text += rotated_text({map.left - y.width - 14, map.top + map.h / 2}, y.label);
+  if (!right.label.empty()) text += rotated_text({end + right.width + 21, map.top + map.h / 2}, right.label);
+  return fmt::format(R"(<path {} d="{}"/>)", stroke(kGrid), grid) + text;
 }
 
-/// Makes the longer of the two scales the common one, by widening the range of the other about its middle.
+/// Gives both axes the same unit length by widening one range about its centre.
 void equalise(Map& map) {
   map.h = std::clamp(map.w * map.y.length() / map.x.length(), 0.4 * map.w, 1.2 * map.w);
   const double unit = std::max(map.x.length() / map.w, map.y.length() / map.h);
@@ -206,7 +207,7 @@ void equalise(Map& map) {
   }
 }
 
-/// Where everything goes.
+/// Positions of all parts of the figure.
 struct Layout {
   Map map;
   Scale left, right, below;
@@ -260,10 +261,10 @@ std::string opening(const Plot& plot, double height) {
 
 }  // namespace
 
-std::vector<double> tick_positions(double lo, double hi, int wanted) {
+std::vector<double> tick_positions(double lo, double hi, int tick_count) {
   std::vector<double> at;
   if (!(lo < hi) || !std::isfinite(hi - lo)) return at;
-  const double raw = (hi - lo) / std::max(1, wanted);
+  const double raw = (hi - lo) / std::max(1, tick_count);
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   const double lead = raw / power;
   const double step = power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
@@ -273,7 +274,7 @@ std::vector<double> tick_positions(double lo, double hi, int wanted) {
 }
 
 std::string svg(const Plot& given) {
-  const Plot plot = given.x.logarithmic || given.y.logarithmic ? in_logarithms(given) : given;
+  const Plot plot = given.x.logarithmic || given.y.logarithmic ? with_logarithms(given) : given;
   const Layout at = layout_of(plot);
   std::string out = opening(plot, at.height) + fmt::format("<style>{}</style>", style_sheet());
   out += rectangle(fill(kPaper), {0, 0}, {plot.width, at.height});
@@ -282,7 +283,7 @@ std::string svg(const Plot& given) {
                    R"( font-weight="600" font-size="14")");
   }
   out += at.legend.drawing + draw_axes(at.below, at.left, at.right, at.per_unit, at.map);
-  // An inner <svg> clips what it holds, without an id that could clash with another figure of the same page.
+  // A nested <svg> clips its content without an id, which could collide with another figure on the page.
   out += fmt::format(R"(<svg x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}">)", at.map.left, at.map.top,
                      at.map.w, at.map.h);
   for (std::size_t i = 0; i < at.inks.size(); ++i) out += layer_drawing(plot.layers[i], at.inks[i], at.map);

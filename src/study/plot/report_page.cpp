@@ -7,8 +7,7 @@
 namespace faba {
 namespace {
 
-// Light is the default, so that paper and old browsers get it; the colours of the dark screen are those of
-// the plots.
+// Light mode is the default for print and old browsers; dark-mode colours are those of the plots.
 constexpr std::string_view kStyle = R"css(
 :root{color-scheme:light dark;--paper:#fff;--ink:#1d2329;--muted:#5c6670;--line:#d9dde1;--soft:#f4f6f7;
 --link:#0072b2}

@@ -4,10 +4,10 @@
 
 namespace faba {
 
-/// A whole HTML page around `body` (markup; its text already escaped). Self-contained: the style sheet is
-/// inside, no script, nothing loaded from elsewhere. Readable on a phone, on paper, on light and dark
-/// screens. It is well-formed XML too, provided `body` is. Classes the style sheet knows: `lead` (opening
-/// sentence), `cards`, `figures`, `note`, `wide`, table classes `numbers` and `facts`.
+/// A complete HTML page with `body` (escaped markup). Self-contained: embedded style sheet, no scripts, no
+/// external resources. The layout adapts to phones, print, light and dark mode. The page is well-formed XML
+/// if `body` is. Classes of the style sheet: `lead` (opening sentence), `cards`, `figures`, `note`, `wide`,
+/// and `numbers` and `facts` for tables.
 std::string html_page(std::string_view title, std::string_view body);
 
 }  // namespace faba

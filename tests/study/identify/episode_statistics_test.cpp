@@ -1,4 +1,4 @@
-// What is measured of an episode, from positions that are known.
+// Statistics of an episode from known positions.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,14 +21,14 @@ CellView view() {
   return v;
 }
 
-// Cells in rows 20 px apart that go right at 2 px per frame in the first segment, and back in the second.
+// Cells on a grid of 20 px that move right at 2 px per frame in the first segment, and back in the second.
 std::vector<std::vector<Vec2>> seen_at(const std::vector<double>& times) {
   std::vector<std::vector<Vec2>> seen;
   for (const double t : times) {
     auto& one = seen.emplace_back();
-    const double gone = 20 * (t < 3 ? t : 6 - t);
+    const double shift = 20 * (t < 3 ? t : 6 - t);
     for (int r = 0; r < 10; ++r)
-      for (int c = 0; c < 5; ++c) one.push_back({40 + 20.0 * c + gone, 20 + 20.0 * r});
+      for (int c = 0; c < 5; ++c) one.push_back({40 + 20.0 * c + shift, 20 + 20.0 * r});
   }
   return seen;
 }
@@ -42,7 +42,7 @@ double value_of(const EpisodeStatistics& s, const std::vector<double>& numbers, 
 
 }  // namespace
 
-TEST_CASE("tracks: speeds along and across are those of the cells, in both directions") {
+TEST_CASE("episode statistics, tracks: velocities along and across both segments") {
   const auto s = make_statistics(Measure::tracks, kEpisode, view());
   const auto numbers = s->of_positions(seen_at(s->times_s()));
   REQUIRE(numbers.size() == s->numbers().size());
@@ -55,16 +55,16 @@ TEST_CASE("tracks: speeds along and across are those of the cells, in both direc
   }
 }
 
-TEST_CASE("density: the swarm's place is that of its cells, as a share of the view") {
+TEST_CASE("episode statistics, density: position of the swarm as a fraction of the view") {
   const auto s = make_statistics(Measure::density, kEpisode, view());
   const auto numbers = s->of_positions(seen_at(s->times_s()));
   REQUIRE(numbers.size() == s->numbers().size());
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto& n = s->numbers()[k];
-    const double gone = 20 * (n.t_s < 3 ? n.t_s : 6 - n.t_s);
-    // One in a hundred is spread over the view, and places are told to the bin, a pixel.
+    const double shift = 20 * (n.t_s < 3 ? n.t_s : 6 - n.t_s);
+    // 1 % of the signal is distributed over the view, and the bins are one pixel wide.
     if (n.what == "median along") {
-      const double middle = (80 + gone) / 321;
+      const double middle = (80 + shift) / 321;
       CHECK(std::fabs(numbers[k] - (n.segment == 0 ? middle : 1 - middle)) < 3.0 / 321);
     }
     if (n.what == "cells in view") CHECK(numbers[k] == doctest::Approx(std::log(1.02)));

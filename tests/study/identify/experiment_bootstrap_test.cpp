@@ -14,18 +14,18 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr int kExperiments = 8, kSets = 30;
-constexpr double kNoise = 0.12;  // of the one statistic of an experiment, which is the parameter itself
+constexpr double kNoise = 0.12;  // sd of the only statistic of an experiment, which is the parameter itself
 
-/// The width of the interval over that which chance inside of experiments makes, mean over many sets;
-/// `differ`: sd of the experiments' own truths.
-double width(double differ) {
+/// Width of the interval relative to that from the noise within experiments, mean over many sets;
+/// `between_sd`: sd of the true values between experiments.
+double relative_width(double between_sd) {
   std::vector<std::vector<Index>> experiments;
   for (Index e = 0; e < kExperiments; ++e) experiments.push_back({e});
   double sum = 0;
   for (int k = 0; k < kSets; ++k) {
     StudyRandom random(std::uint64_t(k), StudyDraws{4});
     VectorXd seen(kExperiments);
-    for (double& s : seen) s = 0.5 + differ * random.normal() + kNoise * random.normal();
+    for (double& s : seen) s = 0.5 + between_sd * random.normal() + kNoise * random.normal();
     const ParameterSearch s = searched(1, seen, std::uint64_t(k), [&](const VectorXd& u) {
       VectorXd out(kExperiments);
       for (double& x : out) x = u[0] + kNoise * random.normal();
@@ -41,16 +41,16 @@ double width(double differ) {
 
 }  // namespace
 
-// Of 8 numbers drawn anew the mean has sqrt(7/8) of its own sd, and 90 % of it are the narrower for being
-// from so few, by some 2 %; known to 1/sqrt(2 * 7 * 30) = 5 % from 30 sets. Slopes of the likelihood add
-// another few.
-TEST_CASE("experiments that agree give as much as chance does, those that differ as much as they differ") {
+// The bootstrap sd of the mean of 8 numbers is sqrt(7/8) of the true one, and the 90 % interval is narrower
+// by about 2 % for so few numbers; with 30 sets the accuracy is 1/sqrt(2 * 7 * 30) = 5 %. The slopes of the
+// likelihood add a few per cent.
+TEST_CASE("experiment bootstrap: the interval reflects the variation between experiments") {
   const double expected = std::sqrt(7.0 / 8);
-  CHECK(width(0) == doctest::Approx(expected).epsilon(0.15));
-  CHECK(width(2 * kNoise) == doctest::Approx(std::sqrt(5.0) * expected).epsilon(0.15));
+  CHECK(relative_width(0) == doctest::Approx(expected).epsilon(0.15));
+  CHECK(relative_width(2 * kNoise) == doctest::Approx(std::sqrt(5.0) * expected).epsilon(0.15));
 }
 
-TEST_CASE("two experiments are too few") {
+TEST_CASE("experiment bootstrap: no interval for two experiments") {
   const VectorXd seen = VectorXd::Constant(2, 0.5);
   StudyRandom random(1, StudyDraws{4});
   const ParameterSearch s = searched(1, seen, 1, [&](const VectorXd& u) {

@@ -1,4 +1,5 @@
-// Drives from the way a swarm goes: a triangle wave along a tilted line with noise, whose turns are known.
+// Field segments from the path of a swarm: a triangle wave along a tilted line with noise and known
+// reversals.
 #include "study/identify/found_segments.h"
 
 #include <doctest/doctest.h>
@@ -15,22 +16,22 @@ namespace {
 
 constexpr double kFrame = 1.0 / 15, kTilt = 25 * std::numbers::pi / 180;
 
-// Waits for 1 s, goes 90 px in 3 s, comes back, goes again; 10 s in all.
-double place_at(double t) {
+// Rests for 1 s, moves 90 px in 3 s, back in 3 s, and again 90 px in 3 s; 10 s in total.
+double position_at(double t) {
   if (t < 1) return 0;
   const double u = std::fmod(t - 1, 6.0);
   return 30 * (u < 3 ? u : 6 - u);
 }
 
-struct Way {
+struct Path {
   std::vector<double> t;
   std::vector<Vec2> at;
 };
-Way way(double noise_px) {
-  Way w;
+Path noisy_path(double noise_px) {
+  Path w;
   StudyRandom random(1, StudyDraws{1});
   for (int k = 0; k <= 150; ++k) {
-    const double t = k * kFrame, s = place_at(t);
+    const double t = k * kFrame, s = position_at(t);
     w.t.push_back(t);
     w.at.push_back({100 + s * std::cos(kTilt) + noise_px * random.normal(),
                     80 + s * std::sin(kTilt) + noise_px * random.normal()});
@@ -40,12 +41,12 @@ Way way(double noise_px) {
 
 }  // namespace
 
-TEST_CASE("turns are found to a frame, directions to a degree") {
-  Way w = way(0.3);
-  w.at[40] = {std::nan(""), std::nan("")};  // a frame in which nothing is seen
+TEST_CASE("field segments of a swarm: reversals within a frame, directions within a degree") {
+  Path w = noisy_path(0.3);
+  w.at[40] = {std::nan(""), std::nan("")};  // a frame without a visible swarm
   const auto segments = segments_of_swarm(w.t, w.at, 20);
   REQUIRE(segments.size() == 3);
-  // Noise of 0.3 px at 30 px/s moves the crossing of 5 % by 10 ms; extrapolating makes it half as much again.
+  // Noise of 0.3 px at 30 px/s shifts the crossing of 5 % by 10 ms; the extrapolation increases this by half.
   for (std::size_t k = 0; k < 3; ++k) {
     CHECK(std::fabs(segments[k].t0_s - (1 + 3 * double(k))) < kFrame);
     const double want = k % 2 == 0 ? 25 : 205;
@@ -55,11 +56,11 @@ TEST_CASE("turns are found to a frame, directions to a degree") {
   CHECK(segments[2].t1_s == doctest::Approx(10));
 }
 
-TEST_CASE("a run's record of its field has its segments, to the frame") {
+TEST_CASE("field segments of a recorded field: exact to the frame") {
   std::vector<std::vector<double>> columns(3);
   for (int k = 0; k <= 90; ++k) {
     const double t = k * kFrame;
-    // Commands at 0, 1, 3 and 3.2 s show in the rows after these; the world's y is up.
+    // Commands at 0, 1, 3 and 3.2 s appear in the following rows; the y axis of the world points up.
     const double late = t - 0.5 * kFrame, b = late < 0     ? 0
                                               : late < 1   ? -60
                                               : late < 3   ? 60
@@ -83,8 +84,8 @@ TEST_CASE("a run's record of its field has its segments, to the frame") {
   CHECK(segments_of_field(Series("series.csv", {"t_s"}, {{0, 1}}), false).empty());
 }
 
-TEST_CASE("a swarm that stays where it is has none") {
-  Way w = way(0.3);
+TEST_CASE("field segments of a swarm: none without motion") {
+  Path w = noisy_path(0.3);
   for (Vec2& at : w.at) at = {100 + 0.01 * at.x, 80 + 0.01 * at.y};
   CHECK(segments_of_swarm(w.t, w.at, 20).empty());
   CHECK(segments_of_swarm({}, {}, 20).empty());

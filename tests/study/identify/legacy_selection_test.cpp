@@ -1,5 +1,5 @@
-// Fieller's interval of the place where a line is zero, against the definition: the x at which the line's own
-// t-test does not tell it from zero.
+// Fieller interval of the zero of a line, against its definition: the values of x at which the fitted line is
+// not significantly different from zero (t-test).
 #include "study/identify/legacy_selection.h"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@
 
 using namespace faba;
 
-TEST_CASE("at the ends of the interval the line is two standard errors of its own from zero") {
+TEST_CASE("Fieller interval: at its limits the line is t standard errors from zero") {
   const std::vector<double> x{1, 5, 10, 15, 20}, y{0.21, 0.1, 0.02, -0.06, -0.2};
   const LineFit f = fit_line(x, y);
   const double mean_x = 10.2;
@@ -28,7 +28,7 @@ TEST_CASE("at the ends of the interval the line is two standard errors of its ow
   }
 }
 
-TEST_CASE("a line that may be flat crosses zero anywhere") {
+TEST_CASE("Fieller interval: unbounded for a slope that is not significant") {
   const std::vector<double> x{1, 5, 10, 15, 20}, y{0.2, 0.1, 0.3, 0.05, 0.24};
   CHECK_FALSE(zero_crossing_ci95(fit_line(x, y), 10.2));
 }

@@ -1,5 +1,4 @@
-// A model whose posterior is known in closed form: statistics that are linear in the parameters, with normal
-// noise.
+// A model with a known posterior: statistics that are linear in the parameters, with normal noise.
 #include "study/identify/parameter_search.h"
 
 #include <doctest/doctest.h>
@@ -23,7 +22,7 @@ constexpr int kParameters = 2, kStatistics = 7;
 
 struct LinearModel {
   MatrixXd a{kStatistics, kParameters};
-  MatrixXd root{kStatistics, kStatistics};  ///< of the noise's covariance
+  MatrixXd root{kStatistics, kStatistics};  ///< square root of the noise covariance
   LinearModel() {
     StudyRandom random(5, StudyDraws{1});
     for (Index i = 0; i < kStatistics; ++i) {
@@ -49,12 +48,12 @@ double quantile(VectorXd v, double p) {
 
 }  // namespace
 
-TEST_CASE("the posterior of a linear model: its mean, its spread, and how often intervals hold the truth") {
+TEST_CASE("parameter search: posterior mean, width and coverage for a linear model") {
   const LinearModel model;
   const VectorXd sd = model.precision().inverse().diagonal().cwiseSqrt();
-  REQUIRE(sd.maxCoeff() < 0.1);  // far from the ends of the ranges the prior does not show
+  REQUIRE(sd.maxCoeff() < 0.1);  // far from the limits of the ranges the prior has no effect
   constexpr int kSets = 40;
-  double off = 0, ratio = 0, held = 0, abc_held = 0;
+  double off = 0, ratio = 0, covered = 0, abc_covered = 0;
   for (int k = 0; k < kSets; ++k) {
     StudyRandom random(100 + std::uint64_t(k), StudyDraws{2});
     VectorXd truth(kParameters);
@@ -63,33 +62,33 @@ TEST_CASE("the posterior of a linear model: its mean, its spread, and how often 
     const ParameterSearch s = searched(kParameters, seen, std::uint64_t(k),
                                        [&](const VectorXd& u) { return model.simulate(u, random); });
     const MatrixXd draws = s.posterior({}, 600, 3);
-    const auto abc = s.by_distance();
+    const auto abc = s.abc_posterior();
     for (Index j = 0; j < kParameters; ++j) {
       const VectorXd u = draws.col(j);
       off += (u.mean() - exact[j]) / sd[j] / (kSets * kParameters);
       ratio += std::sqrt((u.array() - u.mean()).square().mean()) / sd[j] / (kSets * kParameters);
-      held +=
+      covered +=
           truth[j] >= quantile(u, 0.05) && truth[j] <= quantile(u, 0.95) ? 1.0 / (kSets * kParameters) : 0;
-      abc_held += (abc.u.col(j).array() < truth[j]).select(abc.weight, 0.0).sum() > 0.05 &&
-                          (abc.u.col(j).array() > truth[j]).select(abc.weight, 0.0).sum() > 0.05
-                      ? 1.0 / (kSets * kParameters)
-                      : 0;
+      abc_covered += (abc.u.col(j).array() < truth[j]).select(abc.weight, 0.0).sum() > 0.05 &&
+                             (abc.u.col(j).array() > truth[j]).select(abc.weight, 0.0).sum() > 0.05
+                         ? 1.0 / (kSets * kParameters)
+                         : 0;
     }
   }
-  // The mean is that of a regression with 6 terms on 200 simulations: off by sqrt(6 / 200) = 0.17 sd in each
-  // set, 0.02 in the mean of 80 numbers; four of these.
+  // The mean is that of a regression with 6 terms on 200 simulations: its error is sqrt(6 / 200) = 0.17 sd in
+  // each set, 0.02 sd in the mean of 80 values; the limit is four times this error.
   CHECK(std::fabs(off) < 0.08);
-  // Its variance is larger than the exact one by the leverage (3 %), by what the compression, made from some
-  // 240 other simulations, loses (7 / 240) and by Student's tails with 194 degrees of freedom (1 %): 1.04 in
-  // all as an sd, known to 0.05 / sqrt(80).
+  // The variance is larger than the exact one by the leverage (3 %), by the loss of the compression from
+  // about 240 other simulations (7 / 240) and by Student's tails with 194 degrees of freedom (1 %): the sd
+  // ratio is 1.04, with an accuracy of 0.05 / sqrt(80).
   CHECK(ratio > 1.0);
   CHECK(ratio < 1.08);
-  // 90 %, known to sqrt(0.9 0.1 / 80) = 3.4 %.
-  CHECK(held > 0.9 - 3 * 0.034);
-  CHECK(abc_held > 0.9 - 4 * 0.034);
+  // 90 % with an accuracy of sqrt(0.9 0.1 / 80) = 3.4 %.
+  CHECK(covered > 0.9 - 3 * 0.034);
+  CHECK(abc_covered > 0.9 - 4 * 0.034);
 }
 
-TEST_CASE("a parameter that does not show keeps its range") {
+TEST_CASE("parameter search: a parameter without effect keeps its prior range") {
   const LinearModel model;
   StudyRandom random(9, StudyDraws{2});
   const VectorXd truth = VectorXd::Constant(kParameters, 0.5), seen = model.simulate(truth, random);
@@ -102,7 +101,8 @@ TEST_CASE("a parameter that does not show keeps its range") {
   CHECK(std::fabs(draws.col(0).mean() - 0.5) < 0.3);
 }
 
-TEST_CASE("the same seed gives the same bits; failed simulations are left out, too many of them refused") {
+TEST_CASE(
+    "parameter search: reproducible for a seed; failed simulations are ignored, too many give an error") {
   const LinearModel model;
   StudyRandom truth(9, StudyDraws{2});
   const VectorXd seen = model.simulate(VectorXd::Constant(kParameters, 0.5), truth);

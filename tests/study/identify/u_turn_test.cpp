@@ -6,9 +6,9 @@
 
 using namespace faba;
 
-// Theory B2's table: moment, field, time of a U-turn by the logarithm of 2 mB/kT, and turning rate mB/f_r.
-// With the 2-D cut the logarithm is of twice that.
-TEST_CASE("a U-turn takes as long as its log law says, with the model's own drag") {
+// Table in theory B2: moment, field, U-turn time with the logarithm of 2 mB/kT, and turning rate mB/f_r. With
+// the 2-D cut-off the argument of the logarithm is twice as large.
+TEST_CASE("U-turn time: logarithmic law with the drag of the model") {
   const Json model{{"type", "dipole"}};
   struct Row {
     double moment, field_t, turn_s, rate;

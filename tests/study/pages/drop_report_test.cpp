@@ -6,7 +6,7 @@
 
 using namespace faba;
 
-TEST_CASE("the drop's report has exactly the documented fields, in order") {
+TEST_CASE("drop report: exactly the documented fields, in order") {
   DropEdge edge;
   edge.centre_image = {258.5, -12.25};
   edge.radius_px = 161;
@@ -21,7 +21,7 @@ TEST_CASE("the drop's report has exactly the documented fields, in order") {
         R"("arc_deg":90.0,"inside":[3.0,4.0],"image_size":[518,488]})");
 }
 
-TEST_CASE("a picture without a drop gives a circle to begin with, and why") {
+TEST_CASE("drop report: a picture without a drop gives a default circle and a reason") {
   const ProposedDrop drop = propose_drop(GrayF(200, 100), "grey.png");
   CHECK_FALSE(drop.found);
   CHECK_FALSE(drop.why.empty());

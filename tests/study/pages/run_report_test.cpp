@@ -34,8 +34,8 @@ constexpr const char* kManifest = R"json({
   "polarity": "south-seeking", "swarms": [{"model": "adapted", "count": 500}]
 })json";
 
-/// 60 frames at 15 per second: from 300 px away to the setpoint (320, 240) within 2 s, with all columns a run
-/// can have.
+/// 60 frames at 15 Hz, from a distance of 300 px to the setpoint (320, 240) within 2 s, with all columns of a
+/// run.
 std::string full_series() {
   std::string csv =
       "frame,t_s,true_centroid_x_px,true_centroid_y_px,true_sigma_x_px,true_sigma_y_px,true_rms_radius_px,"
@@ -45,9 +45,9 @@ std::string full_series() {
       "current_0_a,"
       "current_1_a,limited\n";
   for (int k = 0; k < 60; ++k) {
-    const double left = k < 30 ? 300.0 - 10 * k : 2, x = 320 - left;
-    for (const double v : {double(k), k / 15.0, x, 240.0, 20.0 + k, 30.0, 40.0 + k, left, 500.0 - k, 450.0, x,
-                           240.0, 320.0, 240.0, left / 10, -1.5, left / 300, -0.1}) {
+    const double distance = k < 30 ? 300.0 - 10 * k : 2, x = 320 - distance;
+    for (const double v : {double(k), k / 15.0, x, 240.0, 20.0 + k, 30.0, 40.0 + k, distance, 500.0 - k,
+                           450.0, x, 240.0, 320.0, 240.0, distance / 10, -1.5, distance / 300, -0.1}) {
       csv += std::to_string(v) + ",";
     }
     csv += k < 10 ? "1\n" : "0\n";
@@ -91,17 +91,18 @@ faba::Errc code_of(const TemporaryFolder& run, const std::string& where, const s
 
 }  // namespace
 
-TEST_CASE("run report: a full run has every figure, both units, its video and how to repeat it") {
+TEST_CASE(
+    "run report: a run with all data has every figure, both units, its video and the reproduction command") {
   const TemporaryFolder run("report");
   put(run.path() / "series.csv", full_series());
   put(run.path() / "manifest.json", kManifest);
   put(run.path() / "scenario.toml", "title = \"Hold <b>\"  # 1 < 2 & so on\n");
-  put(run.path() / "video.mp4", "not looked at");
+  put(run.path() / "video.mp4", "not a video");
   put(run.path() / "report.html", "an older one");
   const std::string html = report_of(run);
 
-  for (const char* heading : {"Distance to the setpoint", "Path in the picture", "Staying there",
-                              "Dispersion", "Magnetic field", "Coil currents", "Cells"}) {
+  for (const char* heading : {"Distance to the setpoint", "Path in the picture", "Steady error", "Dispersion",
+                              "Magnetic field", "Coil currents", "Cells"}) {
     CHECK_MESSAGE(has(html, std::string("<h3>") + heading + "</h3>"), heading);
   }
   for (const char* words :
@@ -115,7 +116,7 @@ TEST_CASE("run report: a full run has every figure, both units, its video and ho
   CHECK(has(html, "<title>Hold &lt;b&gt;&quot;still&quot;&lt;/b&gt; &amp; wait</title>"));
   CHECK_FALSE(has(html, "<b>\"still"));
   CHECK(has(html, "src=\"video.mp4\""));
-  CHECK_FALSE(has(html, "<h3>Frames</h3>"));  // of a video that cannot be read
+  CHECK_FALSE(has(html, "<h3>Frames</h3>"));  // the video cannot be read
   CHECK(has(html, "controls"));
   CHECK(has(html, "faba run scenario.toml --seed 42 --out repeated"));
   CHECK(has(html, "9f3c1a77be02d451"));
@@ -125,7 +126,7 @@ TEST_CASE("run report: a full run has every figure, both units, its video and ho
   CHECK_FALSE(std::filesystem::exists(run.path() / "report.html.tmp"));
 }
 
-TEST_CASE("run report: works with the least a run can have") {
+TEST_CASE("run report: a run with minimal data") {
   const TemporaryFolder run("report");
   put(run.path() / "series.csv",
       "frame,t_s,true_centroid_x_px,true_centroid_y_px,true_sigma_x_px,true_sigma_y_px,true_rms_radius_px,"
@@ -139,12 +140,12 @@ TEST_CASE("run report: works with the least a run can have") {
   CHECK(has(html, "<h3>Path in the picture</h3>"));
   CHECK(has(html, "<h3>Dispersion</h3>"));
   for (const char* absent : {"Distance to the setpoint</h3>", "Magnetic field</h3>", "Coil currents</h3>",
-                             "Cells</h3>", "<video", "<details", "To repeat it", "µm</td>", "State hash"}) {
+                             "Cells</h3>", "<video", "<details", "To reproduce", "µm</td>", "State hash"}) {
     CHECK_MESSAGE(!has(html, absent), absent);
   }
 }
 
-TEST_CASE("run report: no frames, and a recording cut off in the middle of a line") {
+TEST_CASE("run report: no frames, and a recording truncated in the middle of a line") {
   const TemporaryFolder run("report");
   const std::string head =
       "frame,t_s,true_centroid_x_px,true_centroid_y_px,true_sigma_x_px,true_sigma_y_px,true_rms_radius_px,"
@@ -155,11 +156,11 @@ TEST_CASE("run report: no frames, and a recording cut off in the middle of a lin
   put(run.path() / "series.csv", head + "0,0,10,20,3,4,5,80\n1,0.1,12,20,3,4,");
   const std::string html = report_of(run);
   CHECK(has(html, "in the middle of a line"));
-  CHECK(has(html, "One frame was recorded"));
+  CHECK(has(html, "Only one frame was recorded"));
   CHECK(has(html, "stopped before its end"));
 }
 
-TEST_CASE("run report: what is missing or wrong is named, and an older report stays") {
+TEST_CASE("run report: missing or invalid data give an error, and an older report is kept") {
   const TemporaryFolder run("report");
   put(run.path() / "report.html", "an older one");
   CHECK(code_of(run, "manifest.json", "") == faba::Errc::input);
@@ -190,7 +191,7 @@ TEST_CASE("run report: what is missing or wrong is named, and an older report st
   CHECK(get(run.path() / "report.html") == "an older one");
 }
 
-TEST_CASE("run report: a manifest is read as it is written") {
+TEST_CASE("run report: the fields of a manifest are read") {
   const TemporaryFolder run("report");
   put(run.path() / "manifest.json", kManifest);
   const RunInfo info = faba::read_run_info(run.path() / "manifest.json");
@@ -208,7 +209,7 @@ TEST_CASE("run report: a manifest is read as it is written") {
   CHECK(info.swarms[0] == "model adapted, count 500");
 }
 
-TEST_CASE("run report: the outcome in words fits what happened") {
+TEST_CASE("run report: the summary describes the outcome") {
   RunInfo info;
   info.um_per_px = 0.5;
   Metrics m;
@@ -221,69 +222,70 @@ TEST_CASE("run report: the outcome in words fits what happened") {
   m.sigma_y_px = 34.5;
 
   SUBCASE("never settled") {
-    const faba::RunInWords words = run_in_words(m, info);
-    CHECK(words.outcome ==
-          "The swarm did not settle at its setpoint: it started 300\u00A0px (150\u00A0µm) away and was "
-          "80.0\u00A0px "
-          "(40.0\u00A0µm) away at the end, after 30.0\u00A0s.");
-    CHECK(words.details ==
-          "At the end its cells are spread over 12.0\u00A0×\u00A034.5\u00A0px "
-          "(6.00\u00A0×\u00A017.2\u00A0µm), standard deviations in x and y.");
+    const faba::RunSummary summary = run_summary(m, info);
+    CHECK(summary.outcome ==
+          "The swarm did not settle at its setpoint: the distance was 300\u00A0px (150\u00A0µm) at the start "
+          "and "
+          "80.0\u00A0px (40.0\u00A0µm) at the end, after 30.0\u00A0s.");
+    CHECK(summary.details ==
+          "At the end, the standard deviations of the cell positions in x and y were "
+          "12.0\u00A0×\u00A034.5\u00A0px (6.00\u00A0×\u00A017.2\u00A0µm).");
   }
   SUBCASE("settled") {
     m.settling_time_s = 4.25;
     m.steady_rms_px = 2;
-    CHECK(run_in_words(m, info).outcome ==
+    CHECK(run_summary(m, info).outcome ==
           "The swarm reached its setpoint after 4.25\u00A0s and stayed within 2.00\u00A0px (1.00\u00A0µm) "
           "rms of it over "
           "the last third of the run.");
     info.um_per_px.reset();
-    CHECK(has(run_in_words(m, info).outcome, "within 2.00\u00A0px rms"));
+    CHECK(has(run_summary(m, info).outcome, "within 2.00\u00A0px rms"));
   }
-  SUBCASE("settled so late that the last third was the approach") {
+  SUBCASE("settled within the last third of the run") {
     m.settling_time_s = 29;
     m.steady_rms_px = 120;
-    const std::string outcome = run_in_words(m, info).outcome;
+    const std::string outcome = run_summary(m, info).outcome;
     CHECK(has(outcome, "only after 29.0\u00A0s"));
     CHECK_FALSE(has(outcome, "120"));
   }
-  SUBCASE("there from the start") {
+  SUBCASE("at the setpoint from the start") {
     m.settling_time_s = 0;
     m.steady_rms_px = 2;
-    CHECK(has(run_in_words(m, info).outcome, "was at its setpoint from the start and stayed"));
+    CHECK(has(run_summary(m, info).outcome, "was at its setpoint from the start and stayed"));
   }
   SUBCASE("a route") {
     m.setpoints = 4;
     m.settling_time_s = 12;
     m.steady_rms_px = 2;
     m.cross_track_95_px = 6;
-    const faba::RunInWords words = run_in_words(m, info);
-    CHECK(has(words.outcome, "reached the last of 4 setpoints after 12.0\u00A0s"));
-    CHECK(has(words.details, "within 6.00\u00A0px (3.00\u00A0µm) of the route in 19 of 20 frames"));
+    const faba::RunSummary summary = run_summary(m, info);
+    CHECK(has(summary.outcome, "reached the last of 4 setpoints after 12.0\u00A0s"));
+    CHECK(has(summary.details, "within 6.00\u00A0px (3.00\u00A0µm) of the route in 95 % of the frames"));
   }
-  SUBCASE("a route that was not finished") {
+  SUBCASE("an incomplete route") {
     info.setpoints = 6;
     m.setpoints = 4;
     m.settling_time_s = 12;
     m.steady_rms_px = 2;
     m.cross_track_95_px = 6;
     m.settling_band_px = 15;
-    CHECK(has(run_in_words(m, info).outcome, "was still on its way to setpoint 4 of 6, 80.0"));
+    CHECK(has(run_summary(m, info).outcome, "had not reached setpoint 4 of 6; the final distance was 80.0"));
     m.final_distance_px = 3;
-    CHECK(has(run_in_words(m, info).outcome, "had come to setpoint 4 of 6, 3.00"));
+    CHECK(has(run_summary(m, info).outcome, "had reached setpoint 4 of 6; the final distance was 3.00"));
     m.setpoints = 6;
     m.settling_time_s.reset();
-    CHECK(has(run_in_words(m, info).outcome, "did not settle at the last of 6 setpoints: it was 3.00"));
+    CHECK(has(run_summary(m, info).outcome,
+              "did not settle at the last of 6 setpoints: the distance was 3.00"));
   }
-  SUBCASE("a target that moves all the time") {
+  SUBCASE("a moving setpoint") {
     m.setpoints = 900;
     m.settling_time_s = 3;
     m.steady_rms_px = 9;
-    CHECK(has(run_in_words(m, info).outcome, "its moving setpoint"));
+    CHECK(has(run_summary(m, info).outcome, "its moving setpoint"));
   }
 }
 
-TEST_CASE("run report: a short approach is shown by itself, and only then") {
+TEST_CASE("run report: only a short approach has a separate figure") {
   const auto headings = [](int frames) {
     std::vector<double> t, d, zero(std::size_t(frames), 0.0);
     for (int k = 0; k < frames; ++k) {
@@ -302,7 +304,7 @@ TEST_CASE("run report: a short approach is shown by itself, and only then") {
   CHECK_FALSE(has(headings(90), "Approach;"));
 }
 
-TEST_CASE("run report: a command that switches too often to be read is shown by its mean and range") {
+TEST_CASE("run report: a command that switches too fast is plotted as mean and range") {
   const auto drawn = [](int half_period) {
     std::vector<double> t, current, zero(600, 0.0);
     for (int k = 0; k < 600; ++k) {
@@ -317,18 +319,18 @@ TEST_CASE("run report: a command that switches too often to be read is shown by 
       if (f.heading == "Coil currents") return f;
     return faba::Figure{};
   };
-  const faba::Figure calm = drawn(60), restless = drawn(1);
-  REQUIRE(calm.plot.layers.size() == 1);
-  CHECK(std::get<faba::Line>(calm.plot.layers[0]).y.size() == 600);
-  CHECK_FALSE(has(calm.caption, "faster"));
-  REQUIRE(restless.plot.layers.size() == 2);
-  const auto& range = std::get<faba::Ribbon>(restless.plot.layers[0]);
-  const auto& mean = std::get<faba::Line>(restless.plot.layers[1]);
+  const faba::Figure slow = drawn(60), fast = drawn(1);
+  REQUIRE(slow.plot.layers.size() == 1);
+  CHECK(std::get<faba::Line>(slow.plot.layers[0]).y.size() == 600);
+  CHECK_FALSE(has(slow.caption, "too fast"));
+  REQUIRE(fast.plot.layers.size() == 2);
+  const auto& range = std::get<faba::Ribbon>(fast.plot.layers[0]);
+  const auto& mean = std::get<faba::Line>(fast.plot.layers[1]);
   REQUIRE(range.x.size() == 60);
   for (std::size_t i = 0; i < 60; ++i) {
     CHECK(range.lo[i] == -1);
     CHECK(range.hi[i] == 1);
     CHECK(mean.y[i] == 0);
   }
-  CHECK(has(restless.caption, "means over 0.167 s"));
+  CHECK(has(fast.caption, "means over 0.167 s"));
 }

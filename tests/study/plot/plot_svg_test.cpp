@@ -19,9 +19,9 @@ using namespace faba;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// No std::regex on whole drawings: its recursion overflows the stack on long path data.
+// No std::regex on complete drawings: its recursion overflows the stack on long path data.
 
-/// What stands between `before` and `after` the first time; empty when it is not there.
+/// Text between the first `before` and the next `after`; empty without `before`.
 std::string between(const std::string& text, const std::string& before, const std::string& after) {
   const auto at = text.find(before);
   if (at == std::string::npos) return {};
@@ -37,7 +37,7 @@ std::string path_of(const std::string& svg, const std::string& look) {
 struct Corner {
   double x, y;
 };
-/// The points of path data made of M and L only.
+/// The points of path data that has only M and L.
 std::vector<Corner> corners(std::string path) {
   std::replace_if(
       path.begin(), path.end(), [](char c) { return c == 'M' || c == 'L'; }, ' ');
@@ -53,8 +53,8 @@ std::size_t count(const std::string& text, const std::string& what) {
   return n;
 }
 
-/// True when a number was printed as nan or inf. Words are letters on both sides, so "information" is none.
-bool mentions_no_number(const std::string& svg) {
+/// True when a number was printed as nan or inf; "information" is not one.
+bool has_nan_or_inf(const std::string& svg) {
   for (const char* word : {"nan", "inf"}) {
     for (auto at = svg.find(word); at != std::string::npos; at = svg.find(word, at + 1)) {
       const auto lower = [&](std::size_t i) {
@@ -68,10 +68,10 @@ bool mentions_no_number(const std::string& svg) {
 
 void check_sound(const std::string& svg) {
   CHECK(test::XmlCheck::complaint(svg) == "");
-  CHECK_FALSE(mentions_no_number(svg));
+  CHECK_FALSE(has_nan_or_inf(svg));
 }
 
-/// One of every layer.
+/// A plot with one layer of every kind.
 Plot everything() {
   Plot plot;
   plot.title = "All of it";
@@ -80,7 +80,7 @@ Plot everything() {
   plot.right = SecondScale{0.8, "distance (µm)"};
   plot.add(Band{0, 16, "band"});
   plot.add(Line{{0, 1, 2, 3}, {5, kNan, 40, 30}, "distance"});
-  plot.add(Line{{0, 1, 2, 3}, {1, 2, 3, 4}, "held", Ink::automatic, true, true});
+  plot.add(Line{{0, 1, 2, 3}, {1, 2, 3, 4}, "stairs", Ink::automatic, true, true});
   plot.add(Scatter{{0, 1, 2}, {3, kInfinite, 9}, "dots"});
   plot.add(Scatter{{0.5}, {3}, "ring", Ink::green, Scatter::Mark::ring});
   plot.add(Scatter{{0.7}, {3}, "cross", Ink::green, Scatter::Mark::cross});
@@ -91,10 +91,10 @@ Plot everything() {
 
 }  // namespace
 
-TEST_CASE("plot: one of everything is well-formed and has its words") {
+TEST_CASE("plot: a plot with every kind of layer is well-formed and has its labels") {
   const std::string drawing = svg(everything());
   check_sound(drawing);
-  for (const char* words : {"All of it", "time (s)", "distance (px)", "distance (µm)", ">band<", ">held<",
+  for (const char* words : {"All of it", "time (s)", "distance (px)", "distance (µm)", ">band<", ">stairs<",
                             ">settled<", ">level<", ">drop<", ">walls<", "prefers-color-scheme:dark"}) {
     CHECK_MESSAGE(drawing.find(words) != std::string::npos, words);
   }
@@ -102,18 +102,18 @@ TEST_CASE("plot: one of everything is well-formed and has its words") {
   CHECK(drawing.find("href") == std::string::npos);
 }
 
-TEST_CASE("plot: the checker of these tests can fail") {
+TEST_CASE("plot: the XML check of these tests detects errors") {
   for (const char* bad : {"<a>", "<a></b>", "<a b=c/>", "<a b=\"1\" b=\"2\"/>", "<a>x & y</a>", "<a/><b/>",
                           "<a b=\"<\"/>", "words", "<a b=\"1\"c=\"2\"/>", "<a"}) {
     CHECK_MESSAGE(test::XmlCheck::complaint(bad) != "", bad);
   }
   CHECK(test::XmlCheck::complaint("<a b=\"1\"><c/>x &amp; y</a>") == "");
-  CHECK(mentions_no_number("<path d=\"M1.0 nan\"/>"));
-  CHECK(mentions_no_number("<rect x=\"-inf\"/>"));
-  CHECK_FALSE(mentions_no_number("<text>information on nanometres</text>"));
+  CHECK(has_nan_or_inf("<path d=\"M1.0 nan\"/>"));
+  CHECK(has_nan_or_inf("<rect x=\"-inf\"/>"));
+  CHECK_FALSE(has_nan_or_inf("<text>information on nanometres</text>"));
 }
 
-TEST_CASE("plot: words are escaped wherever they go") {
+TEST_CASE("plot: all texts are escaped") {
   Plot plot = everything();
   const std::string hostile = "</text><script>alert(\"1\")</script>&'";
   plot.title = plot.description = plot.x.label = plot.y.label = plot.right->label = hostile;
@@ -124,7 +124,7 @@ TEST_CASE("plot: words are escaped wherever they go") {
   CHECK(count(drawing, "&lt;script&gt;") == 8);
 }
 
-TEST_CASE("plot: no data, one point, a constant, absurd numbers: still a sound drawing") {
+TEST_CASE("plot: no data, one point, constant and extreme values give a well-formed drawing") {
   check_sound(svg(Plot()));
   CHECK(svg(Plot()).find("no data") != std::string::npos);
   const std::vector<std::vector<double>> hostile{{},
@@ -153,14 +153,14 @@ TEST_CASE("plot: no data, one point, a constant, absurd numbers: still a sound d
         }
         const std::string drawing = svg(plot);
         REQUIRE(test::XmlCheck::complaint(drawing) == "");
-        REQUIRE_FALSE(mentions_no_number(drawing));
+        REQUIRE_FALSE(has_nan_or_inf(drawing));
         REQUIRE(drawing.size() < 30000);
       }
     }
   }
 }
 
-TEST_CASE("plot: ranges asked for are kept, even when they make no sense") {
+TEST_CASE("plot: configured ranges are kept; reversed limits give a well-formed drawing") {
   Plot plot;
   plot.add(Line{{0, 10}, {0, 5}});
   plot.y.lo = 8;
@@ -172,7 +172,7 @@ TEST_CASE("plot: ranges asked for are kept, even when they make no sense") {
   CHECK(drawing.find(">100<") != std::string::npos);
 }
 
-TEST_CASE("plot: gaps break the curve, and a point between two gaps is a dot") {
+TEST_CASE("plot: gaps interrupt the curve, and a point between two gaps is a dot") {
   Plot plot;
   plot.add(Line{{0, 1, 2, 3, 4, 5, 6}, {1, 2, kNan, 3, kNan, 2, 1}, "", Ink::blue});
   const std::string path = path_of(svg(plot), "blue");
@@ -201,7 +201,7 @@ TEST_CASE("plot: a long series keeps the minimum and maximum of every pixel colu
   CHECK(kept.size() <= 4 * std::size_t(plot.width));
   CHECK(kept.size() > 1000);
 
-  // The axes map 20 units to the height of the drawing area, which is its clip.
+  // The y axis maps 20 units to the height of the drawing area, the nested <svg>.
   const std::string clip = drawing.substr(drawing.find("<svg", 4));
   const double w = std::stod(between(clip, "width=\"", "\"")),
                h = std::stod(between(clip, "height=\"", "\""));
@@ -216,7 +216,7 @@ TEST_CASE("plot: a long series keeps the minimum and maximum of every pixel colu
   CHECK(std::is_sorted(kept.begin(), kept.end(), [](Corner a, Corner b) { return a.x < b.x; }));
 }
 
-TEST_CASE("plot: a curve that turns back is thinned by distance, and its ends stay") {
+TEST_CASE("plot: a curve with non-monotonic x is thinned by distance") {
   const std::size_t n = 100000;
   std::vector<double> x(n), y(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -234,7 +234,7 @@ TEST_CASE("plot: a curve that turns back is thinned by distance, and its ends st
   CHECK(kept <= std::size_t(15.9 * 2 * 3.1416 * 230 / 0.5) + 2);
 }
 
-TEST_CASE("plot: looking closely at a part of a long series draws that part and its neighbours only") {
+TEST_CASE("plot: an enlarged part of a long series draws only this part and its neighbours") {
   const std::size_t n = 100000;
   std::vector<double> x(n), y(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -249,12 +249,12 @@ TEST_CASE("plot: looking closely at a part of a long series draws that part and 
   const std::vector<Corner> part = corners(path_of(drawing, "blue"));
   REQUIRE(part.size() >= 12);
   CHECK(part.size() <= 13);
-  CHECK(part.front().x < 0);  // 499: the curve comes in from the left
+  CHECK(part.front().x < 0);  // 499: the line starts left of the visible range
   CHECK(part.back().x >=
         std::stod(between(drawing.substr(drawing.find("<svg", 4)), "width=\"", "\"")) - 0.11);
 }
 
-TEST_CASE("plot: y points up, or down for a picture; units are equally long when asked") {
+TEST_CASE("plot: y points up, or down for a picture; equal units with equal_aspect") {
   Plot plot;
   plot.equal_aspect = true;
   plot.add(Line{{0, 300}, {0, 100}, "", Ink::blue});
@@ -265,12 +265,12 @@ TEST_CASE("plot: y points up, or down for a picture; units are equally long when
   REQUIRE(down.size() == 2);
   CHECK(up[1].y < up[0].y);
   CHECK(down[1].y > down[0].y);
-  // Coordinates have one decimal, so each difference is off by 0.1 at most.
+  // Coordinates have one decimal, so the error of each difference is at most 0.1.
   const double per_unit_x = (up[1].x - up[0].x) / 300, per_unit_y = (up[0].y - up[1].y) / 100;
   CHECK(std::abs(per_unit_x - per_unit_y) <= 0.1 / 100 + 0.1 / 300);
 }
 
-TEST_CASE("plot: held lines are stairs") {
+TEST_CASE("plot: a line with stairs has horizontal and vertical parts only") {
   Plot plot;
   plot.add(Line{{0, 1, 2}, {0, 5, 5}, "", Ink::blue, false, true});
   const std::string path = path_of(svg(plot), "blue");
@@ -290,18 +290,18 @@ TEST_CASE("plot: ticks are round numbers inside the range") {
   for (double lo : {-1234.5, -1e-7, 0.0, 0.3, 98765.0}) {
     for (double length : {1e-9, 0.07, 1.0, 33.0, 4.4e8}) {
       const std::vector<double> ticks = tick_positions(lo, lo + length, 6);
-      // Steps of 1, 2, 5: never more than 1.5 times nor less than half the number asked for, give or take an
-      // end.
+      // With steps of 1, 2, 5 the number of ticks is between 0.5 and 1.5 times the requested one, plus or
+      // minus one.
       CHECK(ticks.size() >= 3);
       CHECK(ticks.size() <= 10);
-      // Ticks are multiples of a step, so they may lie outside by the rounding of lo / step.
+      // Ticks are multiples of a step, so rounding of lo / step can move them slightly outside.
       CHECK(ticks.front() >= lo - 1e-6 * length);
       CHECK(ticks.back() <= lo + length + 1e-6 * length);
     }
   }
 }
 
-TEST_CASE("plot: ticks of a scale share one number of decimals; large and small numbers a power of ten") {
+TEST_CASE("plot: ticks of an axis have equal decimals; large and small numbers have a common power of ten") {
   Plot plot;
   plot.x.label = "time (s)";
   plot.y.label = "field (T)";
@@ -313,7 +313,7 @@ TEST_CASE("plot: ticks of a scale share one number of decimals; large and small 
   CHECK(drawing.find(">0.2<") != std::string::npos);
 }
 
-TEST_CASE("plot: automatic colours differ, and figures of one page share no ids") {
+TEST_CASE("plot: automatic colours differ, and figures have no ids that could collide") {
   Plot plot;
   for (int i = 0; i < 6; ++i) plot.add(Line{{0, 1}, {0, double(i)}});
   const std::string drawing = svg(plot);
@@ -323,7 +323,7 @@ TEST_CASE("plot: automatic colours differ, and figures of one page share no ids"
   CHECK(drawing.find(" id=") == std::string::npos);
 }
 
-TEST_CASE("plot: a drawing for a page leaves out the namespace, a file has it") {
+TEST_CASE("plot: an inlined drawing has no XML namespace, a file has it") {
   Plot plot;
   CHECK(svg(plot).find("xmlns=\"http://www.w3.org/2000/svg\"") != std::string::npos);
   plot.inlined = true;

@@ -12,7 +12,7 @@ SwarmOutput::SwarmOutput(std::filesystem::path path, const TrackSurvey& survey, 
 }
 
 SwarmOutput::~SwarmOutput() {
-  if (whole_) return;
+  if (complete_) return;
   std::error_code ignored;
   std::filesystem::remove(temporary_name(path_), ignored);
 }
@@ -31,7 +31,7 @@ void SwarmOutput::complete() {
   file_.sync();
   file_.close();
   rename_complete(temporary_name(path_), path_);
-  whole_ = true;
+  complete_ = true;
 }
 
 }  // namespace faba

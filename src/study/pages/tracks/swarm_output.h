@@ -6,9 +6,9 @@
 
 namespace faba {
 
-/// What SwarmView sees, frame by frame, as CSV under a temporary name, which is gone unless complete() is
-/// called: `frame,t_s,signal,x_px,y_px,var_xx_px2,var_xy_px2,var_yy_px2`, the signal in grey px^2 of a scale
-/// of 255, image frame; places are empty where no swarm is seen.
+/// Writes the output of SwarmView for each frame as CSV: `frame,t_s,signal,x_px,y_px,var_xx_px2,var_xy_px2,
+/// var_yy_px2`, image frame, signal in grey px^2 on a scale of 255; positions and variances are empty without
+/// a visible swarm. The file has a temporary name until complete() is called, and is deleted otherwise.
 class SwarmOutput {
  public:
   SwarmOutput(std::filesystem::path path, const TrackSurvey& survey, int bits);
@@ -20,7 +20,7 @@ class SwarmOutput {
   std::filesystem::path path_;
   OutputFile file_;
   SwarmView view_;
-  bool whole_ = false;
+  bool complete_ = false;
 };
 
 }  // namespace faba

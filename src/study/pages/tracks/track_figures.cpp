@@ -13,20 +13,21 @@ namespace faba {
 namespace {
 
 struct Unit {
-  double length = 1;  // of a px
+  double length = 1;  // per px
   std::string name = "px";
 };
 
 Figure speed_figure(const TrackSummary& s, const Unit& unit) {
   Figure f{"Speeds",
            fmt::format(
-               "Displacement over {} s divided by that time, the localisation error taken off; {} of them.",
+               "Displacements over {} s divided by this interval, corrected for the localisation error; {} "
+               "displacements.",
                three_digits(s.interval_s), s.speed_count),
            {}};
   f.plot.description = "Distribution of speeds";
   f.plot.inlined = true;
   f.plot.x.label = fmt::format("speed ({}/s)", unit.name);
-  f.plot.y.label = "share of displacements (%)";
+  f.plot.y.label = "fraction of displacements (%)";
   f.plot.y.lo = 0;
   f.plot.x.lo = 0;
   Ribbon bars{{}, {}, {}, {}, Ink::blue};
@@ -48,10 +49,10 @@ Figure speed_figure(const TrackSummary& s, const Unit& unit) {
 
 Figure msd_figure(const TrackSummary& s, const Unit& unit) {
   const double area = unit.length * unit.length;
-  Figure f{
-      "Mean-square displacement",
-      "About the common drift, against lag. Shaded: two standard errors each way, from groups of tracks.",
-      {}};
+  Figure f{"Mean-square displacement",
+           "Relative to the common drift, against lag. Shaded: ± two standard errors (jackknife over groups "
+           "of tracks).",
+           {}};
   f.plot.description = "Mean-square displacement against lag";
   f.plot.inlined = true;
   f.plot.x.logarithmic = f.plot.y.logarithmic = true;
@@ -85,18 +86,17 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
           [&](double t) { return persistent_msd(s.persistent, t); });
   f.plot.add(points);
   if (s.diffusion.good)
-    f.caption += fmt::format(" The line is fitted to {} lags from {} s on.", s.diffusion.lags,
+    f.caption += fmt::format(" The diffusion law is fitted to {} lags from {} s.", s.diffusion.lags,
                              three_digits(s.msd.lag_s[s.diffusion.first]));
   return f;
 }
 
 Figure heading_figure(const TrackSummary& s) {
-  Figure f{
-      "Direction over time",
-      "Direction of the mean velocity in the picture (0 right, 90 degrees down), where the movement has "
-      "more in common than chance would give it. Line: what all have in common, from nothing at the bottom "
-      "to all moving alike at the top.",
-      {}};
+  Figure f{"Direction over time",
+           "Dots: direction of the mean velocity in the picture (0 right, 90 degrees down), at times with "
+           "significant common motion. Line: order parameter, the length of the mean displacement over the "
+           "mean length of the displacements, from 0 (bottom) to 1 (top).",
+           {}};
   f.plot.description = "Mean heading over time";
   f.plot.inlined = true;
   f.plot.x.label = "time (s)";
@@ -105,12 +105,12 @@ Figure heading_figure(const TrackSummary& s) {
   f.plot.y.hi = 180;
   Scatter heading{{}, {}, "heading", Ink::blue};
   heading.size = 4;
-  Line order{{}, {}, "in common (bottom: nothing, top: all)", Ink::orange};
+  Line order{{}, {}, "order parameter (bottom: 0, top: 1)", Ink::orange};
   order.width = 1.2;
   for (std::size_t i = 0; i < s.time_s.size(); ++i) {
     order.x.push_back(s.time_s[i]);
     order.y.push_back(360 * s.order_in_time[i] - 180);
-    // Directions at random leave 1 / sqrt(n) in common.
+    // n random directions have an order parameter of about 1 / sqrt(n).
     if (!(s.order_in_time[i] > std::max(0.2, 2.5 / std::sqrt(s.count_in_time[i])))) continue;
     heading.x.push_back(s.time_s[i]);
     heading.y.push_back(std::atan2(s.velocity_y_px_s[i], s.velocity_x_px_s[i]) * 180 / std::numbers::pi);

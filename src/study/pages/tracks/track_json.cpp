@@ -10,12 +10,12 @@
 namespace faba {
 namespace {
 
-// Two-sided 95 % of Student's t with 19 degrees of freedom: 20 groups in the jackknife.
-constexpr double kNineteenOfTwenty = 2.093;
+// Two-sided 95 % quantile of Student's t with 19 degrees of freedom: 20 groups in the jackknife.
+constexpr double kStudent95 = 2.093;
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
-// NAME_px_s, NAME_se..., and the same in um; `power` of the length in the unit.
+// Writes NAME_px_s with standard error and interval, and the same in um; `power`: of the length in the unit.
 struct Writer {
   Json json;
   double um_per_px = 0;
@@ -28,7 +28,7 @@ struct Writer {
   void one(const std::string& key, double scale, const Estimated& e) {
     json[key] = number(scale * e.value);
     json[key + "_se"] = number(scale * e.se);
-    const double half = kNineteenOfTwenty * e.se;
+    const double half = kStudent95 * e.se;
     json[key + "_ci95"] = {number(scale * (e.value - half)), number(scale * (e.value + half))};
   }
   void list(const std::string& px, const std::string& um, const std::vector<double>& v) {

@@ -5,9 +5,9 @@
 
 namespace faba {
 
-/// What `faba track --json` prints (docs/formats/cli.md): how spots were found and joined, mean-square
-/// displacement, drift, diffusion and persistent walk, speeds, turns, order. Values carry their standard
-/// error and 95 % interval; lengths are given in um, too, where the scale is known; null where there is none.
+/// Output of `faba track --json` (docs/formats/cli.md): parameters of detection and linking, mean-square
+/// displacement, drift, diffusion and persistent walk, speeds, turns, order. Values have their standard error
+/// and 95 % interval; lengths are also in um when the scale is known; unknown values are null.
 nlohmann::ordered_json track_json(const TrackMeasurement& tracks);
 
 /// "dark", "bright" or "both".

@@ -25,7 +25,7 @@ class CsvTracks final : public TrackOutput {
     file_.append("track,frame,t_s,x_px,y_px,mass,snr\n");
   }
   ~CsvTracks() override {
-    if (!whole_) remove_quietly(temporary_name(path_));
+    if (!complete_) remove_quietly(temporary_name(path_));
   }
   void write(const Track& track) override {
     std::string lines;
@@ -38,13 +38,13 @@ class CsvTracks final : public TrackOutput {
     file_.sync();
     file_.close();
     rename_complete(temporary_name(path_), path_);
-    whole_ = true;
+    complete_ = true;
   }
 
  private:
   std::filesystem::path path_;
   OutputFile file_;
-  bool whole_ = false;
+  bool complete_ = false;
 };
 
 class H5Tracks final : public TrackOutput {
@@ -53,7 +53,7 @@ class H5Tracks final : public TrackOutput {
       : path_(std::move(path)), file_(H5File::create(temporary_name(path_))) {
     constexpr std::uint64_t kRows = 4096;
     for (const char* name : {"track", "frame"})
-      whole_numbers_.push_back(file_.table<std::uint64_t>(name, {}, kRows, 1, true));
+      integers_.push_back(file_.table<std::uint64_t>(name, {}, kRows, 1, true));
     for (const char* name : {"t_s", "x_px", "y_px", "mass", "snr"})
       numbers_.push_back(file_.table<double>(name, {}, kRows, 1, true));
     file_.attribute("/", "format", std::string("faba tracked 1"));
@@ -63,30 +63,30 @@ class H5Tracks final : public TrackOutput {
     file_.begin_writing();
   }
   ~H5Tracks() override {
-    if (!whole_) remove_quietly(temporary_name(path_));
+    if (!complete_) remove_quietly(temporary_name(path_));
   }
   void write(const Track& track) override {
     for (const TrackPoint& p : track.points) {
-      whole_numbers_[0].append<std::uint64_t>({&track.number, 1});
-      whole_numbers_[1].append<std::uint64_t>({&p.frame, 1});
+      integers_[0].append<std::uint64_t>({&track.number, 1});
+      integers_[1].append<std::uint64_t>({&p.frame, 1});
       const double row[] = {p.t_s, p.x_px, p.y_px, p.mass, p.snr};
       for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i].append<double>({&row[i], 1});
     }
   }
   void complete() override {
     file_.sync();
-    whole_numbers_.clear();
+    integers_.clear();
     numbers_.clear();
     file_.close();
     rename_complete(temporary_name(path_), path_);
-    whole_ = true;
+    complete_ = true;
   }
 
  private:
   std::filesystem::path path_;
   H5File file_;
-  std::vector<H5Table> whole_numbers_, numbers_;
-  bool whole_ = false;
+  std::vector<H5Table> integers_, numbers_;
+  bool complete_ = false;
 };
 
 }  // namespace
@@ -94,7 +94,7 @@ class H5Tracks final : public TrackOutput {
 std::unique_ptr<TrackOutput> track_output(const std::filesystem::path& path, const TrackedVideo& video) {
   if (path.extension() == ".csv") return std::make_unique<CsvTracks>(path);
   if (path.extension() == ".h5") return std::make_unique<H5Tracks>(path, video);
-  throw Error(Errc::usage, path.string(), "must end in .csv or .h5, which is what is written");
+  throw Error(Errc::usage, path.string(), "must end in .csv or .h5");
 }
 
 }  // namespace faba

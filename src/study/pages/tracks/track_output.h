@@ -7,10 +7,10 @@
 
 namespace faba {
 
-/// A table of tracks being written under a temporary name, which is gone unless complete() is called.
-/// CSV: `track,frame,t_s,x_px,y_px,mass,snr`. HDF5: a table of each of these names, and attributes
-/// `format` = "faba tracked 1", `um_per_px` (when known), `width_px`, `height_px`. Rows of one piece of a
-/// track stand together.
+/// Writes a table of tracks. The file has a temporary name until complete() is called, and is deleted
+/// otherwise. CSV: `track,frame,t_s,x_px,y_px,mass,snr`. HDF5: one dataset for each of these columns, and
+/// attributes `format` = "faba tracked 1", `um_per_px` (when known), `width_px`, `height_px`. Rows of one
+/// part of a track are contiguous.
 class TrackOutput {
  public:
   virtual ~TrackOutput() = default;
@@ -18,14 +18,14 @@ class TrackOutput {
   virtual void complete() = 0;
 };
 
-/// What is said of the video in the head of an HDF5 file. um_per_px 0: not known.
+/// Properties of the video for the attributes of an HDF5 file. um_per_px 0: unknown.
 struct TrackedVideo {
   int width = 0, height = 0;
   double um_per_px = 0;
 };
 
-/// By the ending of `path`: .csv or .h5. Throws Error(Errc::usage) for another one, Error(Errc::internal)
-/// when it cannot be written.
+/// Creates the output for the extension of `path`: .csv or .h5. Throws Error(Errc::usage) for other
+/// extensions, Error(Errc::internal) when the file cannot be written.
 std::unique_ptr<TrackOutput> track_output(const std::filesystem::path& path, const TrackedVideo& video);
 
 }  // namespace faba

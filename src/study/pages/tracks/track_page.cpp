@@ -15,7 +15,7 @@
 namespace faba {
 namespace {
 
-// What lengths are given in.
+// Unit of lengths.
 struct LengthUnit {
   double per_px = 1;
   const char* name = "px";
@@ -31,9 +31,9 @@ std::string number(double v, const char* unit) {
 
 // "12.3 ± 0.4", `scale` times the value.
 std::string with_error(const Estimated& e, double scale) {
-  std::string words = three_digits(scale * e.value);
-  if (std::isfinite(scale * e.se)) words += " ± " + three_digits(scale * e.se);
-  return words;
+  std::string text = three_digits(scale * e.value);
+  if (std::isfinite(scale * e.se)) text += " ± " + three_digits(scale * e.se);
+  return text;
 }
 
 std::string estimate(const Estimated& e, double scale, const std::string& unit) {
@@ -79,20 +79,23 @@ std::string row(const std::string& name, const std::string& value) {
 }
 
 std::string localisation_card(const TrackSummary& s) {
-  if (s.msd.size() < 2) return value_card("Localisation", "–", "sd of an axis");
-  if (s.localisation_px == 0) return value_card("Localisation", "–", "too small to be told");
-  return value_card("Localisation", number(s.localisation_px, "\u00A0px"), "sd of an axis");
+  if (s.msd.size() < 2) return value_card("Localisation", "–", "sd per axis");
+  if (s.localisation_px == 0) return value_card("Localisation", "–", "too small to be measured");
+  return value_card("Localisation", number(s.localisation_px, "\u00A0px"), "sd per axis");
 }
 
 std::string cards(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
   const SupportedWalk walk = supported_walk(s);
   std::string out = "<dl class=\"cards\">\n";
-  out += value_card("Tracks", std::to_string(s.tracks),
-              fmt::format("{} in {}", counted(s.points, "place"), counted(std::uint64_t(m.frames), "frame")));
+  out += value_card(
+      "Tracks", std::to_string(s.tracks),
+      fmt::format("{} in {}", counted(s.points, "position"), counted(std::uint64_t(m.frames), "frame")));
   if (walk == SupportedWalk::diffusion) out += value_card("Diffusion", diffusion(m), "± standard error");
-  if (walk == SupportedWalk::persistent) out += value_card("Speed of the walk", walk_speed(m), "root mean square");
-  out += value_card("Mean speed", mean_speed(m), s.speed_count > 0 ? "over " + number(s.interval_s, " s") : "");
+  if (walk == SupportedWalk::persistent)
+    out += value_card("Persistent walk speed", walk_speed(m), "root mean square");
+  out +=
+      value_card("Mean speed", mean_speed(m), s.speed_count > 0 ? "over " + number(s.interval_s, " s") : "");
   return out + localisation_card(s) + "</dl>\n";
 }
 
@@ -100,39 +103,41 @@ std::string table(const TrackMeasurement& m) {
   const TrackDetection& d = m.detection;
   const TrackJoining& t = m.joining;
   const TrackSummary& s = m.summary;
-  std::string out = "<h2>Numbers</h2>\n<table class=\"facts\"><tbody>\n";
+  std::string out = "<h2>Results</h2>\n<table class=\"facts\"><tbody>\n";
   out += row("Video", fmt::format("{}, {}, {} s", m.video.string(), counted(std::uint64_t(m.frames), "frame"),
                                   number(m.duration_s, "")));
   out += row("Scale", m.um_per_px ? number(*m.um_per_px, " µm per px") : "not given");
-  out += row("Spots", fmt::format("{}, {} wide, signal-to-noise from {}; {} in a frame", word_of(d.polarity),
-                                  number(d.size_px, " px"), number(d.threshold_snr, ""),
+  out += row("Spots", fmt::format("{}, width {}, signal-to-noise ratio at least {}; {} per frame",
+                                  word_of(d.polarity), number(d.size_px, " px"), number(d.threshold_snr, ""),
                                   number(d.spots_per_frame, "")));
-  out += row("Background", d.temporal ? fmt::format("median of {} frames; {} still spots in it",
+  out += row("Background", d.temporal ? fmt::format("median of {} frames, with {} stationary spots",
                                                     d.background_frames, d.still_spots)
-                                      : "each frame, smoothed");
-  out += row("Joined", fmt::format("reach {}, by {}, {} frames of memory; {} tracks shorter than {} left out",
-                                   number(t.reach_px, " px"), word_of(t.motion), t.memory_frames,
-                                   t.unsure_tracks, t.least_points));
+                                      : "spatial, from each frame");
+  out += row(
+      "Linking",
+      fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
+                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.unsure_tracks,
+                  t.least_points));
   out += row("Drift", drift(m));
   out += row("Diffusion", diffusion(m));
-  out += row("Persistent walk", walk_speed(m) + ", direction kept for " + walk_time(m));
+  out += row("Persistent walk", walk_speed(m) + ", persistence time " + walk_time(m));
   out += row("Exponent α", std::isfinite(s.alpha.value) ? with_error(s.alpha, 1) : "–");
   if (s.turn_count > 0)
-    out += row("Turning", fmt::format("{} on average; localisation error alone makes {}",
+    out += row("Turning", fmt::format("mean {}; {} from the localisation error alone",
                                       number(s.turn_deg_s.value, "°/s"), number(s.turn_noise_deg_s, "°/s")));
   return out + "</tbody></table>\n";
 }
 
 std::string lead(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
-  if (s.tracks == 0) return "Nothing was tracked.";
+  if (s.tracks == 0) return "No tracks.";
   const std::string tracks = counted(s.tracks, "track");
   if (s.speed_count > 0 && s.order > 0.5)
-    return fmt::format("{}: they move together, at {} on average.", tracks, mean_speed(m));
+    return fmt::format("{}: collective motion, mean speed {}.", tracks, mean_speed(m));
   if (supported_walk(s) == SupportedWalk::persistent)
-    return fmt::format("{}: they swim, at {} on average.", tracks, mean_speed(m));
+    return fmt::format("{}: persistent motion, mean speed {}.", tracks, mean_speed(m));
   if (supported_walk(s) == SupportedWalk::diffusion)
-    return fmt::format("{}: no direction is kept from one frame to the next; D = {}.", tracks, diffusion(m));
+    return fmt::format("{}: diffusion without persistence of direction, D = {}.", tracks, diffusion(m));
   return tracks + ".";
 }
 

@@ -9,13 +9,13 @@
 
 namespace faba {
 
-/// The page of `faba track --report`: what was measured in words and numbers (what track_video() returns),
-/// the tracks on the first frame, the figures. Self-contained.
+/// The page of `faba track --report`: results of track_video(), the tracks on the first frame, the figures.
+/// Self-contained.
 std::string track_page(const TrackMeasurement& measured, const std::vector<Figure>& figures,
                        const RgbImage& tracks);
 
-/// tracks.svg (`paths`), speeds.svg, msd.svg and heading.svg in the folder `where`, made when it is not
-/// there.
+/// Writes tracks.svg (`paths`), speeds.svg, msd.svg and heading.svg into the folder `where`, which is created
+/// when it does not exist.
 void write_track_figures(const std::filesystem::path& where, const std::vector<Figure>& figures,
                          const Plot& paths);
 

@@ -19,12 +19,12 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kTail = 30;     // places behind each cell in the overlay
+constexpr std::size_t kTail = 30;     // positions behind each cell in the overlay
 constexpr double kRing = 5;           // px between a cell and the ring around it
-constexpr std::size_t kDrawn = 3000;  // tracks on the picture of all tracks: more cannot be told apart
+constexpr std::size_t kDrawn = 3000;  // tracks on the picture of all tracks; more are not distinguishable
 constexpr std::size_t kDrawnPoints = 300000;
 
-// Overlay video under a temporary name, which is gone unless complete() is called.
+// Overlay video under a temporary name; deleted unless complete() is called.
 class Overlay {
  public:
   Overlay(std::filesystem::path path, const TrackSurvey& s)
@@ -43,7 +43,7 @@ class Overlay {
     std::vector<TrackLine> lines;
     for (const Track* t : tracker.live()) {
       TrackLine line{t->number, {}, !t->points.empty() && t->points.back().frame == index};
-      // The last places, newest first, as far back as another cell would be met.
+      // The last positions, newest first, limited to the mean distance between cells.
       double length = 0;
       for (std::size_t i = t->points.size(); i-- > 0 && line.path.size() < kTail && length <= tail_px_;) {
         const Vec2 at{t->points[i].x_px, t->points[i].y_px};
@@ -69,7 +69,7 @@ class Overlay {
   bool complete_ = false;
 };
 
-// The files that are written frame by frame and track by track, and the paths for the pictures at the end.
+// The files that are written during tracking, and the paths for the pictures at the end.
 class TrackFiles final : public TrackListener {
  public:
   TrackFiles(const TrackOptions& o, const RunVideo& source, const TrackSurvey& s) {
@@ -113,7 +113,7 @@ TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progres
   std::int64_t total = 0;
   const auto tick = [&](std::int64_t done) {
     if (progress && !progress(done, total))
-      throw Error(Errc::interrupted, o.video.string(), "stopped before its end; nothing was written");
+      throw Error(Errc::interrupted, o.video.string(), "stopped before the end; no file was written");
   };
   const TrackSurvey survey = survey_tracks(o, source.file, [&](std::int64_t done, std::int64_t stated) {
     total = 2 * stated;

@@ -6,13 +6,13 @@
 
 namespace faba {
 
-/// Called between frames with the work done and to do (0: not known). When it gives false the work is broken
-/// off with Error(Errc::interrupted), and no file is left behind.
+/// Called between frames with the work done and the total (0: unknown). If it returns false, tracking is
+/// cancelled with Error(Errc::interrupted) and no file is written.
 using TrackProgress = std::function<bool(std::int64_t done, std::int64_t total)>;
 
-/// Detects and tracks what moves in a video and measures how it moves: two passes over the frames, the first
-/// for background, size and times. Writes the files that the options name, each when it is complete. Throws
-/// Error(Errc::input) for what cannot be read, and for a run directory whose video is a drawing.
+/// Detects and tracks moving spots in a video and measures their motion, in two passes over the frames; the
+/// first measures background, size and times. Writes the files of the options when they are complete. Throws
+/// Error(Errc::input) for unreadable files, and for a run directory whose video is a drawing.
 TrackMeasurement track_video(const TrackOptions& options, const TrackProgress& progress = {});
 
 }  // namespace faba

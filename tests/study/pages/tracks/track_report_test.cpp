@@ -25,7 +25,7 @@ void write_pgm(const std::filesystem::path& path, const GrayF& g) {
       path, fmt::format("P5\n{} {}\n255\n", b.width, b.height) + std::string(b.px.begin(), b.px.end()));
 }
 
-// A folder of frames of cells that swim straight, each its own way, `step` px per frame.
+// A folder of frames with cells that swim straight in random directions, `step` px per frame.
 void swimmers(const std::filesystem::path& folder, const cells::Look& l, int n, double step, int frames) {
   cells::Dice dice(77);
   std::vector<Vec2> at, v;
@@ -40,7 +40,7 @@ void swimmers(const std::filesystem::path& folder, const cells::Look& l, int n, 
   }
 }
 
-// Half the mean distance of a cell to its nearest neighbour, for cells at random.
+// Half the mean nearest-neighbour distance of cells at random positions.
 double half_spacing(const cells::Look& l, int n) {
   return 0.25 / std::sqrt(double(n) / (l.width * l.height));
 }
@@ -62,8 +62,8 @@ double tracked_speed(int n, double noise) {
 
 }  // namespace
 
-// Displacements of 0.9 of half the mean distance between neighbours: 2.8 px for 2000 cells, 8.8 px for 200.
-TEST_CASE("mean speed of tracked swimmers within 5 %") {
+// Displacements of 0.9 times half the mean nearest-neighbour distance: 2.8 px for 2000 cells, 8.8 px for 200.
+TEST_CASE("track: mean speed of swimming cells within 5 %") {
   for (const int n : {200, 600, 2000})
     for (const double noise : {1.0, 4.0, 8.0}) {
       CAPTURE(n);
@@ -72,7 +72,7 @@ TEST_CASE("mean speed of tracked swimmers within 5 %") {
     }
 }
 
-TEST_CASE("tables, overlay, picture, page and figures are written, whole and alike") {
+TEST_CASE("track: tables, overlay, picture, page and figures are complete and reproducible") {
   const media::ScratchFolder folder;
   std::filesystem::create_directories(folder / "frames");
   cells::Look l;
@@ -118,7 +118,7 @@ TEST_CASE("tables, overlay, picture, page and figures are written, whole and ali
   CHECK(again.dump() == j.dump());
 }
 
-TEST_CASE("hostile videos give a result or one clear line") {
+TEST_CASE("track: unusual videos give a result or an error message") {
   const media::ScratchFolder folder;
   const auto track = [&](const char* name) {
     TrackOptions o;
@@ -160,7 +160,7 @@ TEST_CASE("hostile videos give a result or one clear line") {
   CHECK_FALSE(std::filesystem::exists(folder / "t.csv.tmp"));
 }
 
-TEST_CASE("work that is broken off leaves nothing") {
+TEST_CASE("track: a cancelled measurement leaves no files") {
   const media::ScratchFolder folder;
   std::filesystem::create_directories(folder / "frames");
   swimmers(folder / "frames", {}, 20, 3, 8);
@@ -170,12 +170,12 @@ TEST_CASE("work that is broken off leaves nothing") {
   o.overlay = folder / "o.mp4";
   try {
     track_video(o, [](std::int64_t done, std::int64_t) { return done < 12; });
-    FAIL("not broken off");
+    FAIL("not cancelled");
   } catch (const Error& e) {
     CHECK(e.code() == Errc::interrupted);
   }
-  std::size_t left = 0;
+  std::size_t remaining = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
-    left += entry.path().filename() != "frames";
-  CHECK(left == 0);
+    remaining += entry.path().filename() != "frames";
+  CHECK(remaining == 0);
 }
