@@ -9,7 +9,7 @@
 namespace faba {
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(1);  // for a camera's thread to end
+constexpr auto kPatience = std::chrono::seconds(1);  // timeout for the end of a camera's thread
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace faba {
 namespace {
 
-/// A video, a TIFF stack or a folder of pictures in place of a camera: frames come when they would have come.
+/// A video, a TIFF stack or a folder of images in place of a camera, played in real time.
 class Playback final : public Camera {
  public:
   struct Params {
@@ -20,22 +20,20 @@ class Playback final : public Camera {
     bool fast = false;
   };
   static Schema<Params> schema() {
-    return Schema<Params>("playback", "A video or a folder of pictures, played as a camera")
-        .add("file", &Params::file,
-             {.doc = "Video, TIFF stack, folder of pictures, or pattern of their names"})
-        .add("fps", &Params::fps,
-             {.unit = "Hz", .min = 0, .max = 1e5, .doc = "Frames per second; 0: as the file states them"})
+    return Schema<Params>("playback", "A video or a folder of images, played as a camera")
+        .add("file", &Params::file, {.doc = "Video, TIFF stack, folder of images, or file name pattern"})
+        .add("fps", &Params::fps, {.unit = "Hz", .min = 0, .max = 1e5, .doc = "Frame rate; 0: from the file"})
         .add("fast", &Params::fast,
-             {.doc = "As fast as frames are taken, none left out, instead of at the file's own rate"})
-        .validity("At its own rate, frames whose time has passed are left out, as a camera's are.");
+             {.doc = "true: as fast as frames are processed, without skipping; false: in real time"})
+        .validity("In real time, late frames are skipped, as with a camera.");
   }
   static void settle(Params& p, const Node& n) {
-    if (p.file.empty()) n.fail("needs file = \"...\", the video to be played");
+    if (p.file.empty()) n.fail("needs file = \"...\", the video to play");
     p.file = std::filesystem::absolute(n.file(p.file)).lexically_normal().string();
   }
   Playback(const Params& p, const CameraContext&) : p_(p), video_(p.file, p.fps) {
     if (!(video_.reader().fps() > 0))
-      throw Error(Errc::input, p.file, "does not say how many frames a second it has; say it with fps");
+      throw Error(Errc::input, p.file, "the file has no frame rate; set it with fps");
   }
 
   bool read(CameraFrame& out) override {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 
@@ -8,7 +10,7 @@
 namespace faba {
 namespace {
 
-/// The camera of a simulated bench (`faba rig simulate`), in another process.
+/// The camera of a simulated bench (`faba rig simulate`), in a separate process.
 class SimulatedCamera final : public Camera {
  public:
   struct Params {
@@ -17,16 +19,17 @@ class SimulatedCamera final : public Camera {
   static constexpr std::array kTraits = {Trait::simulated};
   static Schema<Params> schema() {
     return Schema<Params>("simulated",
-                          "The microscope of a simulated bench, in another process and in real time")
+                          "The microscope of a simulated bench, in a separate process and in real time")
         .add("at", &Params::at,
-             {.doc = "Its socket, as given to `faba rig simulate --at`; when absent a bench is begun with "
-                     "the run"});
+             {.doc =
+                  "Socket of the bench, as given to `faba rig simulate --at`; when absent, the run starts a "
+                  "bench"});
   }
   SimulatedCamera(const Params& p, const CameraContext&)
       : at_(p.at), socket_(BenchSocket::connect(at_, BenchHello::Role::camera)) {
     if (socket_.read(&next_, sizeof next_, kFirst) != BenchSocket::Got::all)
       throw Error(Errc::device, at_,
-                  "the simulated bench gives no picture; another program may be looking through its camera");
+                  "the simulated bench sends no frames; another program may use its camera");
   }
 
   bool read(CameraFrame& out) override {
@@ -53,7 +56,8 @@ class SimulatedCamera final : public Camera {
   void set(const CameraControl& c) override {
     if (c.kind != ControlKind::gain) return Camera::set(c);
     if (!(c.value >= kLeastGain && c.value <= kMostGain))
-      throw Error(Errc::usage, control_name(c.kind), "of a simulated camera is from 0.1 to 10");
+      throw Error(Errc::usage, control_name(c.kind),
+                  fmt::format("{:g} is out of range; it must be between 0.1 and 10", c.value));
     gain_ = c.value;
   }
 
@@ -63,7 +67,7 @@ class SimulatedCamera final : public Camera {
 
   bool gone() const {
     if (over_) return false;
-    throw Error(Errc::device, at_, "the simulated bench is gone");
+    throw Error(Errc::device, at_, "simulated bench disconnected");
   }
 
   std::string at_;
@@ -71,7 +75,7 @@ class SimulatedCamera final : public Camera {
   BenchFrame next_;
   bool have_head_ = true;
   std::atomic<bool> over_ = false;
-  std::atomic<double> gain_ = 1;  ///< of greys that the microscope has rounded already
+  std::atomic<double> gain_ = 1;  ///< applied to the 8-bit grey values
 };
 
 }  // namespace

@@ -16,11 +16,11 @@
 namespace faba {
 namespace {
 
-volatile sig_atomic_t told_to_end = 0;
+volatile sig_atomic_t end_requested = 0;
 
-constexpr double kSensing = 0.01;   // s between looks at the inputs
-constexpr double kReporting = 0.1;  // s between reports when nobody asks for anything
-constexpr double kResting = 1;      // s for which a device that does not obey is told again
+constexpr double kSensing = 0.01;     // s between readings of the inputs
+constexpr double kReporting = 0.1;    // s between reports without a request
+constexpr double kDisablePeriod = 1;  // s during which a failing device is retried
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void GuardLoop::note(const std::string& what) {
     log_->append(fmt::format("{:.6f} {}\n", monotonic_now(), what));
   } catch (const Error& e) {
     log_failure_ = e.what();
-    log_.reset();  // a full disk must not keep the coils on
+    log_.reset();  // a full disk must not stop the guard
   }
 }
 
@@ -61,7 +61,7 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   const std::string why = guard_.state() == CoilGuard::State::disarmed ? driver_->unsafe() : guard_.reason();
   why.copy(r.reason.data(), r.reason.size() - 1);
   log_failure_.copy(r.log_failure.data(), r.log_failure.size() - 1);
-  // Who does not read misses reports; the coils do not wait for it.
+  // A client that does not read misses reports; the guard does not wait for it.
   (void)send(link_, &r, sizeof r, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
@@ -112,12 +112,12 @@ void GuardLoop::listen() {
     const ssize_t n = recv(link_, &m, sizeof m, MSG_DONTWAIT | MSG_TRUNC);
     const double now = monotonic_now();
     if (n == ssize_t(sizeof m)) {
-      guard_.look(now);  // what was late stays late, though the next word has come
+      guard_.check(now);  // a timeout before this message is still a fault
       obey(m, now);
     } else if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
       return;
     } else {
-      if (guard_.state() == CoilGuard::State::armed) guard_.fail(CoilGuard::Fault::closed, "", now);
+      if (guard_.state() == CoilGuard::State::armed) guard_.fail(CoilGuard::Fault::disconnected, "", now);
       over_ = true;
       return;
     }
@@ -136,33 +136,33 @@ void GuardLoop::serve(double now) {
     }
     sensed_at_ = now;
   }
-  guard_.look(now);
+  guard_.check(now);
   put_out(now);
   if (now - reported_ >= kReporting) report();
   if (guard_.state() == shown_) return;
   shown_ = guard_.state();
   note(shown_ == CoilGuard::State::faulted
            ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
-                         obeyed_ ? "" : "; could not be told to rest")
+                         obeyed_ ? "" : "; the coils could not be de-energised")
            : word(shown_));
   report();
 }
 
-bool GuardLoop::rest() {
+bool GuardLoop::deenergise() {
   const double began = monotonic_now();
   Status s;
   do {
     s = driver_->write(wiring_.neutral(), false);
     if (s) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  } while (monotonic_now() - began < kResting);
-  note("could not be brought to rest: " + s.trouble);
+  } while (monotonic_now() - began < kDisablePeriod);
+  note("the coils could not be de-energised: " + s.trouble);
   return false;
 }
 
 bool GuardLoop::run() {
   struct sigaction action {};
-  action.sa_handler = [](int) { told_to_end = 1; };
+  action.sa_handler = [](int) { end_requested = 1; };
   for (const int s : {SIGTERM, SIGINT, SIGHUP, SIGQUIT}) sigaction(s, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
   sigset_t closed, open;
@@ -180,7 +180,7 @@ bool GuardLoop::run() {
     const timespec timeout{time_t(wait), long(1e9 * (wait - std::floor(wait)))};
     pollfd ready{link_, POLLIN, 0};
     (void)ppoll(&ready, 1, &timeout, &open);
-    if (told_to_end) {
+    if (end_requested) {
       guard_.fail(CoilGuard::Fault::signal, "", monotonic_now());
       over_ = true;
     }
@@ -188,7 +188,7 @@ bool GuardLoop::run() {
     serve(monotonic_now());
   }
   report();
-  return rest();
+  return deenergise();
 }
 
 }  // namespace faba
