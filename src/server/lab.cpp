@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that only this user can read, gone at the end.
+/// A temporary folder that only this user can read; removed by the destructor.
 class PrivateFolder {
  public:
   PrivateFolder() {
     std::string name = (fs::temp_directory_path() / "faba-lab-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw Error(Errc::internal, name, "cannot be made");
+    if (!::mkdtemp(name.data())) throw Error(Errc::internal, name, "cannot create this folder");
     path_ = name;
   }
   ~PrivateFolder() {
@@ -37,13 +37,13 @@ class PrivateFolder {
   fs::path path_;
 };
 
-// Whoever watches may ask for these, too.
+// Requests that change the run; all pages may send the others.
 bool needs_steering(PageMessage::Do what) {
   using Do = PageMessage::Do;
   return what != Do::steer && what != Do::look && what != Do::ping;
 }
 
-/// Pages, the run that they watch, and who of them steers. Its handlers are called on the server's thread.
+/// Connected pages, the run that they display, and the page that steers. Handlers run on the server's thread.
 class Pages {
  public:
   Pages(LiveLab& lab, JobList& jobs, const Workspace& workspace)
@@ -75,7 +75,7 @@ class Pages {
     try {
       m = parse_page_message(text);
       if (needs_steering(m.what) && steering() != s->id())
-        throw Error(Errc::usage, "steer", "another page steers");
+        throw Error(Errc::usage, "steer", "another page is steering; take control first");
       carry_out(m, s);
     } catch (const Error& e) {
       s->say(Json{
@@ -126,8 +126,7 @@ class Pages {
     }
   }
 
-  // The recording is made from what was done, by a process of its own: the run that is watched does not wait
-  // for it.
+  // A separate process makes the recording from the recorded events: the live run does not wait for it.
   void save(const PageMessage& m, const LiveLab::Done& done) {
     std::string slug;
     for (const char c : m.name)
@@ -182,7 +181,7 @@ class Pages {
   const Workspace& workspace_;
   mutable std::mutex mutex_;
   std::map<std::uint64_t, PageSocketRef> sockets_;
-  std::uint64_t steering_ = 0;  ///< 0: nobody is there
+  std::uint64_t steering_ = 0;  ///< id of the steering page; 0: none
 };
 
 }  // namespace
@@ -195,7 +194,7 @@ void serve_lab(const LabOptions& o) {
 
   LiveLab live(o.threads);
   Pages* pages = nullptr;
-  std::mutex wiring;  // jobs may change before there is anybody to tell
+  std::mutex wiring;  // jobs may change before `pages` exists
   JobList jobs(o.program, workspace.root(), [&] {
     const std::lock_guard lock(wiring);
     if (pages) pages->jobs_changed();
@@ -218,7 +217,8 @@ void serve_lab(const LabOptions& o) {
     server.stop();
   });
   const std::string address = fmt::format("{}/?token={}", access.origin(), access.token());
-  // A browser is given a file that leads there: what is on a command line everybody on the machine can read.
+  // The browser opens a file that redirects to the URL: other users can read command lines, but not this
+  // file.
   const fs::path door = folder.path() / "open.html";
   write_file(door, fmt::format("<!doctype html><meta http-equiv=refresh content=\"0; url={}\">\n", address));
   fs::permissions(door, fs::perms::owner_read | fs::perms::owner_write);

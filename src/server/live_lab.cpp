@@ -8,10 +8,10 @@
 namespace faba {
 namespace {
 
-constexpr double kTellEvery = 0.5;  // s: how fast it really goes
-constexpr double kLate = 0.25;      // s: what a run may catch up with; the rest is given up
+constexpr double kStatePeriod = 0.5;  // s, interval of state messages
+constexpr double kLate = 0.25;        // s, maximum lag that is made up for
 
-std::uint64_t drawn_seed() {
+std::uint64_t random_seed() {
   std::random_device device;
   return (std::uint64_t{device()} << 32 | device()) & 0xFFFFFFFFFFFFull;
 }
@@ -29,7 +29,7 @@ LiveLab::~LiveLab() {
 }
 
 LiveRun& LiveLab::live() const {
-  if (!shown_) throw Error(Errc::usage, "run", "there is none; start a scenario");
+  if (!shown_) throw Error(Errc::usage, "run", "no run; start a scenario first");
   return shown_->live;
 }
 
@@ -41,7 +41,7 @@ void LiveLab::ask(std::function<Json()> what, Done done) {
   wake_.notify_all();
 }
 
-void LiveLab::do_asked(std::unique_lock<std::mutex>& lock) {
+void LiveLab::handle_requests(std::unique_lock<std::mutex>& lock) {
   while (!asked_.empty() && !next_) {
     const Asked a = std::move(asked_.front());
     asked_.pop_front();
@@ -64,7 +64,7 @@ void LiveLab::work(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     {
       std::unique_lock lock(mutex_);
-      do_asked(lock);
+      handle_requests(lock);
       if (!next_) {
         wake_.wait(lock, [&] { return stop.stop_requested() || !asked_.empty(); });
         continue;
@@ -72,8 +72,8 @@ void LiveLab::work(const std::stop_token& stop) {
       shown_ = std::move(next_);
     }
     ++run_;
-    due_ = told_ = Clock::now();
-    told_frame_ = 0;
+    due_ = reported_ = Clock::now();
+    reported_frame_ = 0;
     real_speed_ = 0;
     tell(run_news());
     tell(state());
@@ -85,18 +85,18 @@ void LiveLab::work(const std::stop_token& stop) {
   }
 }
 
-// Speed that is asked for, as long as the machine can; what it cannot is given up, not caught up with.
+// Runs at the requested speed if possible. Lag beyond kLate is not made up for.
 void LiveLab::keep_pace() {
   const auto now = Clock::now();
   const double period = shown_->live.scenario().frame_period() / speed_;
   due_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period));
   if (now - due_ > std::chrono::duration<double>(kLate)) due_ = now;
-  const double since = std::chrono::duration<double>(now - told_).count();
-  if (since < kTellEvery) return;
-  const std::uint64_t frames = shown_->live.frame() - told_frame_;
+  const double since = std::chrono::duration<double>(now - reported_).count();
+  if (since < kStatePeriod) return;
+  const std::uint64_t frames = shown_->live.frame() - reported_frame_;
   real_speed_ = double(frames) * shown_->live.scenario().frame_period() / since;
-  told_ = now;
-  told_frame_ = shown_->live.frame();
+  reported_ = now;
+  reported_frame_ = shown_->live.frame();
   tell(state());
 }
 
@@ -113,13 +113,13 @@ bool LiveLab::between_frames(const std::stop_token& stop) {
     lock.lock();
   }
   for (;;) {
-    do_asked(lock);
+    handle_requests(lock);
     if (next_ || stop.stop_requested()) return false;
     const auto woken = [&] { return stop.stop_requested() || !asked_.empty(); };
     if (paused_) {
       wake_.wait(lock, woken);
-      due_ = told_ = Clock::now();
-      told_frame_ = shown_->live.frame();
+      due_ = reported_ = Clock::now();
+      reported_frame_ = shown_->live.frame();
     } else if (!wake_.wait_until(lock, due_, woken)) {
       return true;
     }
@@ -229,7 +229,7 @@ Json LiveLab::begin(const Document& d, std::uint64_t seed) {
 }
 
 void LiveLab::start(Document d, std::optional<std::uint64_t> seed, Done done) {
-  ask([this, d = std::move(d), seed] { return begin(d, seed.value_or(drawn_seed())); }, std::move(done));
+  ask([this, d = std::move(d), seed] { return begin(d, seed.value_or(random_seed())); }, std::move(done));
 }
 
 void LiveLab::restart(Done done) {

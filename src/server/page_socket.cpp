@@ -17,9 +17,9 @@ using asio::ip::tcp;
 namespace {
 
 constexpr auto kHandshake = std::chrono::seconds(30);
-constexpr auto kIdle = std::chrono::seconds(20);           // of a page that does not answer pings
-constexpr std::size_t kMostUnread = 8u << 20;              // text that a page has not taken yet
-constexpr double kMessagesPerSecond = 200, kBurst = 1000;  // from a page; dragging sends sixty
+constexpr auto kIdle = std::chrono::seconds(20);           // timeout of pings
+constexpr std::size_t kMostUnread = 8u << 20;              // maximum size of unsent text
+constexpr double kMessagesPerSecond = 200, kBurst = 1000;  // limit per page; dragging sends sixty
 
 class Socket final : public PageSocket, public std::enable_shared_from_this<Socket> {
  public:
@@ -70,7 +70,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code ec, std::size_t) {
       if (ec) return self->close();
-      if (!self->may_speak()) return self->close();
+      if (!self->below_rate_limit()) return self->close();
       if (self->stream_.got_text()) {
         const auto data = self->buffer_.cdata();
         self->handlers_.heard(self, {static_cast<const char*>(data.data()), data.size()});
@@ -79,7 +79,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
       if (self->open_) self->read();
     });
   }
-  bool may_speak() {
+  bool below_rate_limit() {
     const auto now = std::chrono::steady_clock::now();
     tokens_ += std::chrono::duration<double>(now - heard_).count() * kMessagesPerSecond;
     tokens_ = std::min(tokens_, kBurst) - 1;

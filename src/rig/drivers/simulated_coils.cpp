@@ -95,7 +95,7 @@ class SimulatedCoils final : public CoilDriver {
       if (n.back() >= kBenchOutputs)
         throw Error(Errc::usage, "rig.coil",
                     fmt::format("channel {} is out of range; the simulated bench has at most {} channels",
-                                n.back(), kBenchOutputs)););
+                                n.back(), kBenchOutputs));
     }
     return n;
   }
