@@ -10,8 +10,8 @@ namespace faba {
 
 /// Result of a call to a device.
 struct Status {
-  std::string trouble;  ///< error in one line that names the device; empty: success
-  explicit operator bool() const { return trouble.empty(); }
+  std::string error;  ///< error in one line that names the device; empty: success
+  explicit operator bool() const { return error.empty(); }
 };
 
 /// A device with one analogue output per channel, used only in the guard's process. Construction, also
@@ -20,14 +20,14 @@ class CoilDriver {
  public:
   virtual ~CoilDriver() = default;
   /// Sets the outputs, V, one per channel. `enable`: keeps the enable line active; false drops it at once.
-  /// Called at least every beat(), also without a change.
+  /// Called at least every write_period(), also without a change.
   virtual Status write(std::span<const double> volts, bool enable) = 0;
   /// Reads the inputs, V, one per sense channel.
   virtual Status sense(std::span<double> volts) = 0;
   /// Why current could continue to flow if this computer fails; empty if the device de-energises by itself.
   virtual std::string unsafe() const = 0;
   /// Maximum time between two calls of write(), s: the device's heartbeat.
-  virtual double beat() const { return 0.01; }
+  virtual double write_period() const { return 0.01; }
 };
 
 /// Context for the construction of a driver.

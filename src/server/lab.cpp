@@ -55,11 +55,12 @@ class Pages {
       sockets_[s->id()] = s;
       if (steering_ == 0) steering_ = s->id();
     }
-    s->say(Json{{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", s->id()}}.dump());
-    tell_pages();
-    s->say(jobs_news());
-    lab_.watch(s->id(), {[s](std::shared_ptr<const std::string> bytes) { s->show(std::move(bytes)); },
-                         [s](const Json& j) { s->say(j.dump()); }});
+    s->send_text(
+        Json{{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", s->id()}}.dump());
+    broadcast_pages();
+    s->send_text(jobs_message());
+    lab_.watch(s->id(), {[s](std::shared_ptr<const std::string> bytes) { s->send_frame(std::move(bytes)); },
+                         [s](const Json& j) { s->send_text(j.dump()); }});
   }
   void closed(const PageSocketRef& s) {
     lab_.leave(s->id());
@@ -68,9 +69,9 @@ class Pages {
       sockets_.erase(s->id());
       if (steering_ == s->id()) steering_ = sockets_.empty() ? 0 : sockets_.begin()->first;
     }
-    tell_pages();
+    broadcast_pages();
   }
-  void heard(const PageSocketRef& s, std::string_view text) {
+  void received(const PageSocketRef& s, std::string_view text) {
     PageMessage m;
     try {
       m = parse_page_message(text);
@@ -78,19 +79,19 @@ class Pages {
         throw Error(Errc::usage, "steer", "another page is steering; take control first");
       carry_out(m, s);
     } catch (const Error& e) {
-      s->say(Json{
+      s->send_text(Json{
           {"id", m.id ? m.id : message_id(text)}, {"ok", false}, {"where", e.where()}, {"what", e.reason()}}
-                 .dump());
+                       .dump());
     }
   }
-  void jobs_changed() { tell(jobs_news()); }
+  void jobs_changed() { broadcast(jobs_message()); }
 
  private:
   void carry_out(const PageMessage& m, const PageSocketRef& s) {
     const LiveLab::Done done = [this, s, id = m.id](Json answer) {
       answer["id"] = id;
       if (answer.contains("where")) answer["where"] = workspace_.in_page(answer["where"]);
-      s->say(answer.dump());
+      s->send_text(answer.dump());
     };
     using Do = PageMessage::Do;
     switch (m.what) {
@@ -111,13 +112,13 @@ class Pages {
       case Do::restart:
         return lab_.restart(done);
       case Do::look:
-        lab_.wish(s->id(), {m.camera, m.rate});
+        lab_.set_view(s->id(), {m.camera, m.rate});
         return done(Json{{"ok", true}});
       case Do::steer: {
         const std::lock_guard lock(mutex_);
         steering_ = s->id();
       }
-        tell_pages();
+        broadcast_pages();
         return done(Json{{"ok", true}});
       case Do::ping:
         return done(Json{{"ok", true}});
@@ -158,22 +159,22 @@ class Pages {
     const std::lock_guard lock(mutex_);
     return steering_;
   }
-  std::string jobs_news() const {
+  std::string jobs_message() const {
     Json all = Json::array();
     for (const Job& j : jobs_.jobs()) all.push_back(job_json(j));
     return Json{{"say", "jobs"}, {"jobs", all}}.dump();
   }
-  void tell(const std::string& text) {
+  void broadcast(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    for (const auto& [_, s] : sockets_) s->say(text);
+    for (const auto& [_, s] : sockets_) s->send_text(text);
   }
-  void tell_pages() {
+  void broadcast_pages() {
     Json j;
     {
       const std::lock_guard lock(mutex_);
       j = {{"say", "pages"}, {"pages", sockets_.size()}, {"steering", steering_}};
     }
-    tell(j.dump());
+    broadcast(j.dump());
   }
 
   LiveLab& lab_;
@@ -225,7 +226,7 @@ void serve_lab(const LabOptions& o) {
   o.ready(address, door);
   server.run(access, {[&](const WebRequest& r) { return api.answer(r); },
                       [&](const PageSocketRef& s) { watchers.opened(s); },
-                      [&](const PageSocketRef& s, std::string_view text) { watchers.heard(s, text); },
+                      [&](const PageSocketRef& s, std::string_view text) { watchers.received(s, text); },
                       [&](const PageSocketRef& s) { watchers.closed(s); }});
   const std::lock_guard lock(wiring);
   pages = nullptr;

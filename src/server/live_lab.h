@@ -21,7 +21,7 @@ struct ShownRun;
 class LiveLab {
  public:
   /// View settings of a listener.
-  struct Wish {
+  struct View {
     bool camera = false;
     double rate = 60;  ///< maximum frame rate, Hz
   };
@@ -36,7 +36,7 @@ class LiveLab {
 
   /// Adds a listener, which first receives the present state.
   void watch(std::uint64_t who, Listener l);
-  void wish(std::uint64_t who, Wish w);
+  void set_view(std::uint64_t who, View w);
   void leave(std::uint64_t who);
 
   // Requests. `done` is called on the thread of the lab with the answer, without "id"; an Error becomes
@@ -54,16 +54,16 @@ class LiveLab {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void work(const std::stop_token& stop);
-  void ask(std::function<Json()> what, Done done);
+  void run_loop(const std::stop_token& stop);
+  void enqueue(std::function<Json()> what, Done done);
   void handle_requests(std::unique_lock<std::mutex>& lock);
   bool between_frames(const std::stop_token& stop);
   void keep_pace();
-  Json begin(const Document& d, std::uint64_t seed);
+  Json prepare_run(const Document& d, std::uint64_t seed);
   LiveRun& live() const;
   void publish(Clock::time_point now);
   std::shared_ptr<const std::string> frame(bool camera);
-  void tell(const Json& news);
+  void broadcast(const Json& news);
   Json state() const;
   Json run_news() const;
   Json parts_news() const;
@@ -80,14 +80,14 @@ class LiveLab {
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  struct Asked {
+  struct Request {
     std::function<Json()> what;
     Done done;
   };
-  std::deque<Asked> asked_;
+  std::deque<Request> requests_;
   struct Watcher {
     Listener listener;
-    Wish wish;
+    View view;
     Clock::time_point next;  ///< earliest time of the next frame
   };
   std::map<std::uint64_t, Watcher> watchers_;

@@ -37,9 +37,9 @@ class PageSocket {
   virtual ~PageSocket() = default;
   virtual std::uint64_t id() const = 0;
   /// Sends all texts in order. A page that does not read them is disconnected.
-  virtual void say(std::string text) = 0;
+  virtual void send_text(std::string text) = 0;
   /// Sends the newest frame: while one is being sent, only the latest of the next ones is kept.
-  virtual void show(std::shared_ptr<const std::string> bytes) = 0;
+  virtual void send_frame(std::shared_ptr<const std::string> bytes) = 0;
 };
 using PageSocketRef = std::shared_ptr<PageSocket>;
 
@@ -49,7 +49,7 @@ struct WebHandlers {
   std::function<WebResponse(const WebRequest&)> answer;
   // Called on the server's thread; must return quickly:
   std::function<void(const PageSocketRef&)> opened;
-  std::function<void(const PageSocketRef&, std::string_view text)> heard;
+  std::function<void(const PageSocketRef&, std::string_view text)> received;
   std::function<void(const PageSocketRef&)> closed;
 };
 

@@ -50,7 +50,7 @@ class Exclusion {
   Grid grid_;
   std::uint64_t seed_;
   TwoPhase two_phase_;
-  TwoPhase::Cells taken_;  ///< kFree or kTaken for every site
+  TwoPhase::Sites taken_;  ///< kFree or kTaken for every site
 };
 
 }  // namespace faba

@@ -39,7 +39,7 @@ TwoPhase::TwoPhase(const Grid& grid) : grid_(grid) {
 }
 
 void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::span<float> to_x,
-                       std::span<float> to_y, Cells& taken, std::uint64_t key, bool follows, Pool& pool) {
+                       std::span<float> to_y, Sites& taken, std::uint64_t key, bool follows, Pool& pool) {
   blocks_ = (x.size() + kWishes - 1) / kWishes;
   wish_.resize(x.size());
   left_.resize(x.size());
@@ -95,7 +95,7 @@ void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::spa
 
 // Counts the wishes per site; a single wish is granted, and only the others are compared. Loops over all
 // wishes have no branches, which would often be mispredicted.
-void TwoPhase::decide(std::size_t stripe, Cells& taken, std::uint64_t key) {
+void TwoPhase::decide(std::size_t stripe, Sites& taken, std::uint64_t key) {
   const auto first = std::int32_t(stripe << shift_);
   std::uint8_t* const cell = taken.data() + first;
   const Wish* const wish = wish_.data();
@@ -158,7 +158,7 @@ void TwoPhase::decide(std::size_t stripe, Cells& taken, std::uint64_t key) {
 
 // Repeated simultaneous sweeps. Two agents that would swap sites block each other. One thread: few agents are
 // affected.
-void TwoPhase::follow(Cells& taken, std::uint64_t key) {
+void TwoPhase::follow(Sites& taken, std::uint64_t key) {
   std::vector<Wish*> waiting, winners;
   for (const Segment& s : segment_)
     for (std::uint32_t i = 0; i < s.refused; ++i) waiting.push_back(&wish_[refused_[s.begin + i]]);

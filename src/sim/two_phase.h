@@ -24,12 +24,12 @@ class TwoPhase {
   static std::uint64_t priority(std::uint64_t key, std::int32_t cell, std::uint32_t agent);
 
   /// Occupancy of all sites, by index.
-  using Cells = std::vector<std::uint8_t>;
+  using Sites = std::vector<std::uint8_t>;
 
   /// Updates `taken` for granted moves from (x, y) to (to_x, to_y), and resets refused proposals to (x, y).
   /// With `follow`, refused agents try again after others have left their sites.
   void resolve(std::span<const float> x, std::span<const float> y, std::span<float> to_x,
-               std::span<float> to_y, Cells& taken, std::uint64_t key, bool follow, Pool& pool);
+               std::span<float> to_y, Sites& taken, std::uint64_t key, bool follow, Pool& pool);
 
  private:
   /// A proposed move to another site.
@@ -43,8 +43,8 @@ class TwoPhase {
   };
   void sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
             std::span<const float> to_y, std::size_t block);
-  void decide(std::size_t stripe, Cells& taken, std::uint64_t key);
-  void follow(Cells& taken, std::uint64_t key);
+  void decide(std::size_t stripe, Sites& taken, std::uint64_t key);
+  void follow(Sites& taken, std::uint64_t key);
 
   Segment& segment(std::size_t block, std::size_t stripe) { return segment_[block * stripes_ + stripe]; }
 

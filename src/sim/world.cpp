@@ -34,7 +34,7 @@ World::World(WorldParts parts, Pool& pool)
   state_.command = state_.current;
   for (std::size_t k = 0; k < parts_.field->coils(); ++k) {
     const double lag = parts_.field->circuit(k).lag;
-    follow_.push_back(lag > 0 ? 1 - portable::exp(-parts_.dt / lag) : 1.0);
+    current_gain_.push_back(lag > 0 ? 1 - portable::exp(-parts_.dt / lag) : 1.0);
   }
   place_all();
   exclusion_.occupy(state_);
@@ -76,12 +76,12 @@ void World::place_all() {
       response[i] = responds ? float(p.polarity) : 0.0f;
     }
     p.model->start(state_, p.begin, p.end, parts_.seed);
-    if (p.heading && state_.agents.has("ux")) head(p);
+    if (p.heading && state_.agents.has("ux")) set_headings(p);
     parts_.motility->start(state_, p.begin, p.end, parts_.seed);
   }
 }
 
-void World::head(const Population& p) {
+void World::set_headings(const Population& p) {
   auto ux = state_.agents["ux"], uy = state_.agents["uy"], response = state_.agents["response"];
   const auto along = portable::sincos(*p.heading);
   for (std::size_t i = p.begin; i < p.end; ++i)
@@ -115,7 +115,7 @@ void World::exchange_model(std::size_t population, std::shared_ptr<const AgentMo
 
 void World::advance_currents() {
   for (std::size_t k = 0; k < state_.current.size(); ++k)
-    state_.current[k] += follow_[k] * (state_.command[k] - state_.current[k]);
+    state_.current[k] += current_gain_[k] * (state_.command[k] - state_.current[k]);
 }
 
 void World::command(const std::vector<double>& current) {

@@ -59,14 +59,14 @@ class World {
 
  private:
   void place_all();
-  void head(const Population& p);
+  void set_headings(const Population& p);
   void advance_currents();
 
   WorldParts parts_;
   Pool& pool_;
   Exclusion exclusion_;
-  std::vector<double> follow_;      ///< per coil: 1 - exp(-dt / lag)
-  std::vector<float> to_x_, to_y_;  ///< proposed positions; unused without exclusion
+  std::vector<double> current_gain_;  ///< per coil: 1 - exp(-dt / lag)
+  std::vector<float> to_x_, to_y_;    ///< proposed positions; unused without exclusion
   State state_;
 };
 

@@ -140,7 +140,7 @@ TEST_CASE("limits and the guard of a bench agree: commands that pass the limits 
     t += kDt;
     Command c{a.current};
     limits.apply(c, kDt, a.age);
-    guard.beat(t);
+    guard.heartbeat(t);
     guard.take({++number, t, t, c.current}, t);
     REQUIRE_MESSAGE(guard.state() == CoilGuard::State::armed, guard.reason());
     CHECK(guard.current() == c.current);

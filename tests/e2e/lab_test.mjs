@@ -331,7 +331,7 @@ await step('a lab that was started again asks for its own token', async () => {
   await page.getByText('Connection lost').waitFor();
   await shot('lost');
   await serveAgain('--port', port);
-  await page.getByText('Open the address that faba lab prints').waitFor();
+  await page.getByText('Open the URL printed by faba lab').waitFor();
   await page.goto(address);
   await page.getByRole('heading', { name: 'Scenes' }).waitFor();
 });

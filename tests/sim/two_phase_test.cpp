@@ -13,7 +13,7 @@ namespace {
 
 struct Crowd {
   std::vector<float> x, y, to_x, to_y;
-  TwoPhase::Cells taken;
+  TwoPhase::Sites taken;
 };
 
 // One cell each on random sites, with proposals up to `reach` away.

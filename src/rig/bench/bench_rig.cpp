@@ -14,7 +14,7 @@ namespace faba {
 BenchRig::BenchRig(std::shared_ptr<Camera> camera, std::unique_ptr<GuardLink> coils, const Params& p)
     : p_(p), feed_(std::move(camera), p.keep), coils_(std::move(coils)) {
   if (!coils_) return;
-  coils_->on_answer = [this](const GuardReport& r) { answered(r); };
+  coils_->on_answer = [this](const GuardReport& r) { record_delay(r); };
   coils_->deenergise_when_late();
 }
 
@@ -22,9 +22,9 @@ BenchRig::~BenchRig() { safe(); }
 
 void BenchRig::begin() {
   safe();
-  began_.reset();
+  start_.reset();
   if (!feed_.camera().waits()) feed_.forget();
-  asked_.clear();
+  pending_.clear();
   delays_.clear();
   dropped_before_ = feed_.dropped();
 }
@@ -54,8 +54,9 @@ void BenchRig::check_guard() {
 }
 
 bool BenchRig::read(Observation& out) {
-  if (const double took = monotonic_now() - arrived_; armed_ && took > p_.camera_timeout)
-    throw Error(Errc::device, "rig", fmt::format("control cycle overran ({:.1f} s){}", took, coil_status()));
+  if (const double elapsed = monotonic_now() - arrived_; armed_ && elapsed > p_.camera_timeout)
+    throw Error(Errc::device, "rig",
+                fmt::format("control cycle overran ({:.1f} s){}", elapsed, coil_status()));
   CameraFrame frame;
   CameraFeed::Got got;
   try {
@@ -69,7 +70,7 @@ bool BenchRig::read(Observation& out) {
   if (got == CameraFeed::Got::end) return false;
   check_guard();
   if (got == CameraFeed::Got::nothing) {
-    const double behind = began_ ? 0 : feed_.behind();
+    const double behind = start_ ? 0 : feed_.behind();
     throw Error(
         Errc::device, "camera",
         behind > 0
@@ -80,12 +81,12 @@ bool BenchRig::read(Observation& out) {
   }
   arrived_ = monotonic_now();
   frame_t_ = frame.t;
-  if (!began_) {
-    began_ = frame.t;
-    first_ = frame.number;
+  if (!start_) {
+    start_ = frame.t;
+    first_number_ = frame.number;
   }
-  out.frame = frame.number - first_;
-  out.t = frame.t - *began_;
+  out.frame = frame.number - first_number_;
+  out.t = frame.t - *start_;
   out.age = feed_.camera().waits() ? 0 : std::max(0.0, arrived_ - frame.t);  // frames of a file have no age
   out.seen.clear();
   out.image = frame.image;
@@ -99,15 +100,15 @@ void BenchRig::write(const Command& c) {
   if (!coils_ || !armed_) return;
   check_guard();
   if (const auto number = coils_->request(c.current, frame_t_))
-    asked_.push_back({*number, arrived_, delays_.size() - 1});
+    pending_.push_back({*number, arrived_, delays_.size() - 1});
 }
 
-void BenchRig::answered(const GuardReport& r) {
-  while (!asked_.empty() && asked_.front().number < r.number) asked_.pop_front();
-  if (asked_.empty() || asked_.front().number != r.number) return;
-  const Asked& a = asked_.front();
+void BenchRig::record_delay(const GuardReport& r) {
+  while (!pending_.empty() && pending_.front().number < r.number) pending_.pop_front();
+  if (pending_.empty() || pending_.front().number != r.number) return;
+  const Pending& a = pending_.front();
   if (a.frame < delays_.size()) delays_[a.frame].command = r.done - a.arrived;
-  asked_.pop_front();
+  pending_.pop_front();
 }
 
 }  // namespace faba

@@ -38,28 +38,28 @@ class BenchRig final : public Rig {
   /// Delays of one frame, s.
   struct Delay {
     double arrival;  ///< from mid-exposure to arrival in the program
-    double command;  ///< from arrival until the device had the voltages; NaN if it never answered
+    double command;  ///< from arrival until the device had the voltages; NaN without an answer
   };
   const std::vector<Delay>& delays() const { return delays_; }
 
  private:
-  struct Asked {
+  struct Pending {
     std::uint64_t number;
     double arrived;     ///< s, monotonic
     std::size_t frame;  ///< index into delays_
   };
-  void answered(const GuardReport& r);
+  void record_delay(const GuardReport& r);
   void check_guard();
   std::string coil_status() const;  ///< suffix of an error message
 
   Params p_;
   CameraFeed feed_;
   std::unique_ptr<GuardLink> coils_;
-  std::optional<double> began_;  ///< s, monotonic, of the first frame
-  std::uint64_t first_ = 0;      ///< number of the first frame
-  double arrived_ = 0;           ///< s, monotonic, arrival of the newest frame
-  double frame_t_ = 0;           ///< s, monotonic, mid-exposure of the newest frame
-  std::deque<Asked> asked_;      ///< commands without an answer yet
+  std::optional<double> start_;     ///< s, monotonic, of the first frame
+  std::uint64_t first_number_ = 0;  ///< number of the first frame
+  double arrived_ = 0;              ///< s, monotonic, arrival of the newest frame
+  double frame_t_ = 0;              ///< s, monotonic, mid-exposure of the newest frame
+  std::deque<Pending> pending_;     ///< commands without an answer yet
   std::vector<Delay> delays_;
   std::uint64_t dropped_before_ = 0;
   bool armed_ = false, just_armed_ = false;

@@ -38,16 +38,16 @@ class CameraFeed {
  private:
   struct Shared {
     std::mutex mutex;
-    std::condition_variable came;
+    std::condition_variable changed;
     std::deque<CameraFrame> waiting;
     std::uint64_t lost = 0, taken = 0;
     double since = 0;   ///< monotonic_now(): frames before this time are discarded
     double behind = 0;  ///< s
     std::exception_ptr failure;
-    bool end = false, stop = false, left = false;
+    bool end = false, stop = false, exited = false;
   };
-  static void work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
-                   std::size_t most);
+  static void read_frames(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
+                          std::size_t most);
 
   std::shared_ptr<Camera> camera_;
   std::shared_ptr<Shared> shared_;

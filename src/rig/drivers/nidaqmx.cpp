@@ -54,7 +54,7 @@ class Daqmx {
                              std::int32_t*, std::uint32_t*) = nullptr;
 
   /// Error text of the last call that failed in this thread.
-  std::string trouble(std::int32_t code) const {
+  std::string error(std::int32_t code) const {
     std::string text(2048, '\0');
     if (error_text(text.data(), std::uint32_t(text.size())) < 0) text.clear();
     text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
@@ -119,7 +119,7 @@ class NiDaqmx final : public CoilDriver {
     }
     for (auto* groups : {&outputs_, &inputs_})
       for (auto& [device, g] : *groups) check(ni_.start(g.task));
-    if (const Status s = write(c.neutral, false); !s) throw Error(Errc::device, "nidaqmx", s.trouble);
+    if (const Status s = write(c.neutral, false); !s) throw Error(Errc::device, "nidaqmx", s.error);
   }
   ~NiDaqmx() override {
     for (auto* groups : {&outputs_, &inputs_})
@@ -130,7 +130,7 @@ class NiDaqmx final : public CoilDriver {
   Status write(std::span<const double> volts, bool enable) override {
     Status status;
     const auto check_call = [&](std::int32_t code) {
-      if (code < 0 && status) status.trouble = ni_.trouble(code);
+      if (code < 0 && status) status.error = ni_.error(code);
     };
     if (line_) {  // first, so that the current is cut off even if writing the outputs fails
       high_ = enable && !high_;
@@ -148,7 +148,7 @@ class NiDaqmx final : public CoilDriver {
       std::int32_t got = 0;
       const std::int32_t code = ni_.read(g.task, 1, p_.timeout, kByChannel, g.volts.data(),
                                          std::uint32_t(g.volts.size()), &got, nullptr);
-      if (code < 0) return {ni_.trouble(code)};
+      if (code < 0) return {ni_.error(code)};
       for (std::size_t i = 0; i < g.index.size(); ++i) volts[g.index[i]] = g.volts[i];
     }
     return {};
@@ -166,7 +166,7 @@ class NiDaqmx final : public CoilDriver {
     std::vector<double> volts;
   };
   void check(std::int32_t code) const {
-    if (code < 0) throw Error(Errc::device, "nidaqmx", ni_.trouble(code));
+    if (code < 0) throw Error(Errc::device, "nidaqmx", ni_.error(code));
   }
   Group& group(std::map<std::string, Group>& groups, const std::string& channel) const {
     Group& g = groups[channel.substr(0, channel.find('/'))];

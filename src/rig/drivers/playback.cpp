@@ -39,20 +39,20 @@ class Playback final : public Camera {
   bool read(CameraFrame& out) override {
     double t = 0;
     do {
-      if (over_ || !video_.read(grey_, t)) return false;
+      if (interrupted_ || !video_.read(grey_, t)) return false;
       if (began_ == 0) began_ = monotonic_now() - t;
       out.number = ++number_;
       out.t = began_ + t;
     } while (!p_.fast && monotonic_now() > out.t + 1 / rate());
     out.image = std::make_shared<Gray8>(rounded(grey_));
-    while (!p_.fast && !over_) {
+    while (!p_.fast && !interrupted_) {
       const double left = out.t - monotonic_now();
       if (left <= 0) break;
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.1)));
     }
     return true;
   }
-  void interrupt() noexcept override { over_ = true; }
+  void interrupt() noexcept override { interrupted_ = true; }
   int width() const override { return video_.width(); }
   int height() const override { return video_.height(); }
   double rate() const override { return video_.reader().fps(); }
@@ -65,7 +65,7 @@ class Playback final : public Camera {
   GrayF grey_;
   double began_ = 0;          ///< s, of the first frame
   std::uint64_t number_ = 0;  // the first frame is 1
-  std::atomic<bool> over_ = false;
+  std::atomic<bool> interrupted_ = false;
 };
 
 }  // namespace

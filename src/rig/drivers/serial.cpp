@@ -119,15 +119,15 @@ class Serial final : public CoilDriver {
     // Outputs without a coil get the neutral voltage of the first coil, the middle of the range in the
     // firmware.
     std::ranges::fill(microvolts_, to_microvolts(c.neutral.empty() ? 0 : c.neutral[0]));
-    const double until = monotonic_now() + kGreeting;
+    const double until = monotonic_now() + kOpenTimeout;
     while (!answered_) {  // some boards restart when the line is opened
-      if (const Status s = write(c.neutral, false); !s && monotonic_now() > until) fail(s.trouble);
+      if (const Status s = write(c.neutral, false); !s && monotonic_now() > until) fail(s.error);
       if (monotonic_now() > until)
         fail(
             "no answer; check that the board runs the firmware of firmware/, built with the same number of "
             "outputs");
       wait(0.02);
-      listen();
+      receive();
     }
   }
   ~Serial() override {
@@ -141,12 +141,12 @@ class Serial final : public CoilDriver {
     const std::string body = fmt::format("S {} {:d} {}", ++number_, enable, fmt::join(microvolts_, " "));
     const std::string line = fmt::format("${}*{:04X}\n", body, crc16(body));
     const double now = monotonic_now();
-    if (answered_ && asked_ && now - *asked_ > p_.timeout)
-      return {fmt::format("{}: no answer for {:.0f} ms", p_.port, 1e3 * (now - *asked_))};
-    if (!asked_) asked_ = now;
+    if (answered_ && requested_ && now - *requested_ > p_.timeout)
+      return {fmt::format("{}: no answer for {:.0f} ms", p_.port, 1e3 * (now - *requested_))};
+    if (!requested_) requested_ = now;
     if (const ssize_t n = ::write(descriptor_, line.data(), line.size()); n != ssize_t(line.size()))
       return {fmt::format("{}: {}", p_.port, n < 0 ? std::strerror(errno) : "output buffer is full")};
-    if (Status s = listen(); !s) return s;
+    if (Status s = receive(); !s) return s;
     if (enable && enabled_ && state_ > 1)
       return {fmt::format("{}: the board de-energised the coils ({})", p_.port,
                           state_ == 2 ? "command timeout" : "voltage out of range")};
@@ -155,7 +155,7 @@ class Serial final : public CoilDriver {
     return {};
   }
   Status sense(std::span<double> volts) override {
-    if (Status s = listen(); !s) return s;
+    if (Status s = receive(); !s) return s;
     for (std::size_t i = 0; i < volts.size(); ++i)
       volts[i] = senses_[i] < sensed_.size() ? sensed_[senses_[i]] : std::nan("");
     return {};
@@ -163,7 +163,7 @@ class Serial final : public CoilDriver {
   std::string unsafe() const override { return ""; }
 
  private:
-  static constexpr double kGreeting = 3;  // s
+  static constexpr double kOpenTimeout = 3;  // s
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(Errc::device, p_.port, what); }
   static std::int64_t to_microvolts(double v) { return std::llround(1e6 * v); }
@@ -185,7 +185,7 @@ class Serial final : public CoilDriver {
     pollfd ready{descriptor_, POLLIN, 0};
     (void)poll(&ready, 1, int(1e3 * s));
   }
-  Status listen() {
+  Status receive() {
     char bytes[512];
     for (;;) {
       const ssize_t n = ::read(descriptor_, bytes, sizeof bytes);
@@ -202,7 +202,7 @@ class Serial final : public CoilDriver {
           answered_number_ = a->number;
           state_ = a->state;
           sensed_ = a->volts;
-          asked_.reset();
+          requested_.reset();
         }
         line_.clear();
       }
@@ -214,7 +214,7 @@ class Serial final : public CoilDriver {
   std::vector<std::int64_t> microvolts_;
   int descriptor_ = -1;
   std::uint32_t number_ = 0, answered_number_ = 0, enabled_since_ = 1;
-  std::optional<double> asked_;  ///< s, time of the oldest command without an answer
+  std::optional<double> requested_;  ///< s, time of the oldest command without an answer
   bool answered_ = false, enabled_ = false;
   int state_ = 0;
   std::vector<double> sensed_;

@@ -28,10 +28,10 @@ class SimulatedCoils final : public CoilDriver {
         .validity("Channels are the indices of the coils, \"0\", \"1\" ...");
   }
   SimulatedCoils(const Params& p, const DriverContext& c)
-      : at_(p.at), outputs_(numbers(c.channels)), inputs_(numbers(c.senses)) {
+      : at_(p.at), outputs_(channel_indices(c.channels)), inputs_(channel_indices(c.senses)) {
     socket_ = BenchSocket::connect(at_, BenchHello::Role::coils);
     BenchDevice device;
-    if (socket_.read(&device, sizeof device, kPatience) != BenchSocket::Got::all)
+    if (socket_.read(&device, sizeof device, kMessageTimeout) != BenchSocket::Got::all)
       throw Error(Errc::device, at_, "no answer from the simulated bench; another program may use its coils");
     for (const auto& [list, key, what] :
          {std::tuple{&outputs_, "channel", "outputs"}, std::tuple{&inputs_, "sense", "inputs"}})
@@ -50,24 +50,25 @@ class SimulatedCoils final : public CoilDriver {
     BenchVolts m{.outputs = count_, .enable = enable, .set = 1};
     m.volts.fill(std::nan(""));
     for (std::size_t i = 0; i < volts.size(); ++i) m.volts[outputs_[i]] = volts[i];
-    if (!socket_.write(&m, sizeof m, kPatience)) return {at_ + ": simulated bench disconnected"};
+    if (!socket_.write(&m, sizeof m, kMessageTimeout)) return {at_ + ": simulated bench disconnected"};
     // The bench hangs: it does not execute what is sent to it.
-    if (asked_ && monotonic_now() - *asked_ > kSlowest) return {at_ + ": no answer from the simulated bench"};
+    if (requested_ && monotonic_now() - *requested_ > kAnswerTimeout)
+      return {at_ + ": no answer from the simulated bench"};
     return {};
   }
   // Sends a request and returns the previous answer: a slow bench does not block the guard.
   Status sense(std::span<double> volts) override {
     BenchSocket::Got got;
-    while ((got = socket_.read(&answer_, sizeof answer_, 0)) == BenchSocket::Got::all) asked_.reset();
+    while ((got = socket_.read(&answer_, sizeof answer_, 0)) == BenchSocket::Got::all) requested_.reset();
     const double now = monotonic_now();
-    if (got == BenchSocket::Got::closed || (asked_ && now - *asked_ > kSlowest))
+    if (got == BenchSocket::Got::closed || (requested_ && now - *requested_ > kAnswerTimeout))
       return {at_ + ": no answer from the simulated bench"};
-    if (!asked_) {
+    if (!requested_) {
       const BenchVolts ask{.outputs = count_, .tell = 1};
-      if (!socket_.write(&ask, sizeof ask, kPatience)) return {at_ + ": simulated bench disconnected"};
-      asked_ = now;
+      if (!socket_.write(&ask, sizeof ask, kMessageTimeout)) return {at_ + ": simulated bench disconnected"};
+      requested_ = now;
     }
-    const bool fresh = now - *asked_ < kFresh;
+    const bool fresh = now - *requested_ < kMaxAnswerAge;
     for (std::size_t i = 0; i < volts.size(); ++i)
       volts[i] = fresh ? answer_.volts[inputs_[i]] : std::nan("");
     return {};
@@ -79,11 +80,12 @@ class SimulatedCoils final : public CoilDriver {
   }
 
  private:
-  static constexpr double kPatience = 0.02;  // s, timeout of a message
-  static constexpr double kSlowest = 1;      // s, timeout of an answer; a later one is a device error
-  static constexpr double kFresh = 0.03;     // s, maximum age of an answer that counts as the present current
+  static constexpr double kMessageTimeout = 0.02;  // s, timeout of a message
+  static constexpr double kAnswerTimeout = 1;      // s, timeout of an answer; a later one is a device error
+  static constexpr double kMaxAnswerAge =
+      0.03;  // s, maximum age of an answer that counts as the present current
 
-  std::vector<std::size_t> numbers(const std::vector<std::string>& names) const {
+  std::vector<std::size_t> channel_indices(const std::vector<std::string>& names) const {
     std::vector<std::size_t> n;
     for (const std::string& name : names) {
       if (name.empty() || name.size() > 2 ||
@@ -106,7 +108,7 @@ class SimulatedCoils final : public CoilDriver {
   bool enable_line_ = true;
   BenchSocket socket_;
   BenchSense answer_;
-  std::optional<double> asked_;  ///< s, time of the request without an answer
+  std::optional<double> requested_;  ///< s, time of the request without an answer
 };
 
 }  // namespace

@@ -36,7 +36,7 @@ class GuardLink {
   std::optional<std::uint64_t> request(std::span<const double> current, double frame_t);
   /// From now on the coils are de-energised without a fault shortly before the guard's command timeout: for
   /// callers whose camera or control cycle may be slow.
-  void deenergise_when_late() { patient_ = true; }
+  void deenergise_when_late() { early_timeout_enabled_ = true; }
   /// True if the coils are off after a command timeout. Accepts requests again.
   bool clear_timeout();
   std::uint64_t command_timeouts() const { return command_timeouts_; }  ///< command timeouts so far
@@ -51,24 +51,24 @@ class GuardLink {
   bool send_message(ToGuard m) const;
   void send_heartbeats(const std::stop_token& stop, double pause);
   bool drain();
-  void lose(const char* why);
-  GuardReport wait_for(const std::function<bool(const GuardReport&)>& enough, double patience);
+  void mark_lost(const char* why);
+  GuardReport wait_for(const std::function<bool(const GuardReport&)>& condition, double patience);
   void close_link() noexcept;
 
   int link_ = -1;
   pid_t process_ = -1;
   std::uint64_t coils_;
-  double patience_;   ///< s, time from a request until the coils are de-energised
-  std::mutex mutex_;  ///< protects number_, flows_, coils_off_, asked_
+  double early_timeout_;  ///< s, time from a request until the coils are de-energised
+  std::mutex mutex_;      ///< protects number_, energised_, coils_off_, requested_
   std::uint64_t number_ = 0;
-  bool flows_ = false, coils_off_ = false;
-  double asked_ = 0;  ///< s, time of the last request
+  bool energised_ = false, coils_off_ = false;
+  double requested_ = 0;  ///< s, time of the last request
   std::atomic<std::uint64_t> command_timeouts_ = 0;
-  std::atomic<bool> patient_ = false;
+  std::atomic<bool> early_timeout_enabled_ = false;
   GuardReport last_;
-  double heard_ = 0;  ///< s, arrival of last_
-  bool gone_ = false;
-  std::jthread heart_;
+  double received_ = 0;  ///< s, arrival of last_
+  bool lost_ = false;
+  std::jthread heartbeat_;
 };
 
 }  // namespace faba

@@ -18,9 +18,9 @@ namespace {
 
 volatile sig_atomic_t end_requested = 0;
 
-constexpr double kSensing = 0.01;     // s between readings of the inputs
-constexpr double kReporting = 0.1;    // s between reports without a request
-constexpr double kDisablePeriod = 1;  // s during which a failing device is retried
+constexpr double kSensePeriod = 0.01;  // s between readings of the inputs
+constexpr double kStatusPeriod = 0.1;  // s between reports without a request
+constexpr double kDisablePeriod = 1;   // s during which a failing device is retried
 
 }  // namespace
 
@@ -31,11 +31,11 @@ GuardLoop::GuardLoop(int link, CoilGuard guard, CoilWiring wiring, std::unique_p
       wiring_(std::move(wiring)),
       driver_(std::move(driver)),
       log_(std::move(log)),
-      put_(wiring_.coils().size(), 0.0) {
+      written_current_(wiring_.coils().size(), 0.0) {
   sensed_.fill(std::nan(""));
 }
 
-void GuardLoop::note(const std::string& what) {
+void GuardLoop::log_event(const std::string& what) {
   if (!log_) return;
   try {
     log_->append(fmt::format("{:.6f} {}\n", monotonic_now(), what));
@@ -50,7 +50,7 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   GuardReport r;
   r.state = guard_.state();
   r.fault = guard_.fault();
-  r.obeyed = obeyed_;
+  r.obeyed = write_ok_;
   r.number = number;
   r.sent = sent;
   r.done = done_;
@@ -65,24 +65,26 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   (void)send(link_, &r, sizeof r, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
-void GuardLoop::put_out(double now) {
+void GuardLoop::write_outputs(double now) {
   const bool enable = guard_.state() == CoilGuard::State::armed;
-  if (guard_.current() == put_ && enable == armed_ && now - written_ < driver_->beat()) return;
+  if (guard_.current() == written_current_ && enable == written_enable_ &&
+      now - written_ < driver_->write_period())
+    return;
   const Status s = driver_->write(wiring_.volts(guard_.current()), enable);
-  obeyed_ = bool(s);
+  write_ok_ = bool(s);
   if (!s) {
-    guard_.fail(CoilGuard::Fault::device, s.trouble, now);
-    obeyed_ = bool(driver_->write(wiring_.neutral(), false));
+    guard_.fail(CoilGuard::Fault::device, s.error, now);
+    write_ok_ = bool(driver_->write(wiring_.neutral(), false));
   }
-  put_ = guard_.current();
-  armed_ = guard_.state() == CoilGuard::State::armed;
+  written_current_ = guard_.current();
+  written_enable_ = guard_.state() == CoilGuard::State::armed;
   written_ = monotonic_now();
 }
 
-void GuardLoop::obey(const ToGuard& m, double now) {
-  guard_.beat(now);
+void GuardLoop::execute(const ToGuard& m, double now) {
+  guard_.heartbeat(now);
   switch (m.kind) {
-    case ToGuard::Kind::beat:
+    case ToGuard::Kind::heartbeat:
       return;
     case ToGuard::Kind::arm:
       if (const std::string why = driver_->unsafe(); !why.empty())
@@ -101,34 +103,34 @@ void GuardLoop::obey(const ToGuard& m, double now) {
           {m.number, m.sent, m.frame_t, {m.current.data(), std::min<std::size_t>(m.coils, kMostCoils)}}, now);
       break;
   }
-  put_out(now);
+  write_outputs(now);
   done_ = monotonic_now();
   report(m.kind == ToGuard::Kind::request ? m.number : 0, m.sent);
 }
 
-void GuardLoop::listen() {
+void GuardLoop::receive() {
   ToGuard m;
   for (;;) {
     const ssize_t n = recv(link_, &m, sizeof m, MSG_DONTWAIT | MSG_TRUNC);
     const double now = monotonic_now();
     if (n == ssize_t(sizeof m)) {
       guard_.check(now);  // a timeout before this message is still a fault
-      obey(m, now);
+      execute(m, now);
     } else if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
       return;
     } else {
       if (guard_.state() == CoilGuard::State::armed) guard_.fail(CoilGuard::Fault::disconnected, "", now);
-      over_ = true;
+      stop_ = true;
       return;
     }
   }
 }
 
 void GuardLoop::serve(double now) {
-  if (!wiring_.senses().empty() && now - sensed_at_ >= kSensing) {
+  if (!wiring_.senses().empty() && now - sensed_at_ >= kSensePeriod) {
     std::vector<double> volts(wiring_.senses().size());
     if (const Status s = driver_->sense(volts); !s) {
-      guard_.fail(CoilGuard::Fault::device, s.trouble, now);
+      guard_.fail(CoilGuard::Fault::device, s.error, now);
     } else {
       const std::vector<double> amps = wiring_.sensed(volts);
       std::copy(amps.begin(), amps.end(), sensed_.begin());
@@ -137,14 +139,14 @@ void GuardLoop::serve(double now) {
     sensed_at_ = now;
   }
   guard_.check(now);
-  put_out(now);
-  if (now - reported_ >= kReporting) report();
-  if (guard_.state() == shown_) return;
-  shown_ = guard_.state();
-  note(shown_ == CoilGuard::State::faulted
-           ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
-                         obeyed_ ? "" : "; the coils could not be de-energised")
-           : word(shown_));
+  write_outputs(now);
+  if (now - reported_ >= kStatusPeriod) report();
+  if (guard_.state() == logged_state_) return;
+  logged_state_ = guard_.state();
+  log_event(logged_state_ == CoilGuard::State::faulted
+                ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
+                              write_ok_ ? "" : "; the coils could not be de-energised")
+                : word(logged_state_));
   report();
 }
 
@@ -156,7 +158,7 @@ bool GuardLoop::deenergise() {
     if (s) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   } while (monotonic_now() - began < kDisablePeriod);
-  note("the coils could not be de-energised: " + s.trouble);
+  log_event("the coils could not be de-energised: " + s.error);
   return false;
 }
 
@@ -169,12 +171,12 @@ bool GuardLoop::run() {
   sigfillset(&closed);
   sigprocmask(SIG_SETMASK, &closed, &open);
   sigemptyset(&open);
-  note("disarmed");
+  log_event("disarmed");
   report();
-  while (!over_) {
+  while (!stop_) {
     const double now = monotonic_now();
-    double wait = driver_->beat() - (now - written_);
-    if (!wiring_.senses().empty()) wait = std::min(wait, kSensing - (now - sensed_at_));
+    double wait = driver_->write_period() - (now - written_);
+    if (!wiring_.senses().empty()) wait = std::min(wait, kSensePeriod - (now - sensed_at_));
     if (guard_.state() == CoilGuard::State::armed) wait = std::min(wait, guard_.due() - now);
     wait = std::clamp(wait, 0.0, 1.0);
     const timespec timeout{time_t(wait), long(1e9 * (wait - std::floor(wait)))};
@@ -182,9 +184,9 @@ bool GuardLoop::run() {
     (void)ppoll(&ready, 1, &timeout, &open);
     if (end_requested) {
       guard_.fail(CoilGuard::Fault::signal, "", monotonic_now());
-      over_ = true;
+      stop_ = true;
     }
-    if (ready.revents) listen();
+    if (ready.revents) receive();
     serve(monotonic_now());
   }
   report();

@@ -20,12 +20,12 @@ class GuardLoop {
   bool run();
 
  private:
-  void listen();
-  void obey(const ToGuard& m, double now);
+  void receive();
+  void execute(const ToGuard& m, double now);
   void serve(double now);
-  void put_out(double now);
+  void write_outputs(double now);
   void report(std::uint64_t number = 0, double sent = 0);
-  void note(const std::string& what);
+  void log_event(const std::string& what);
   bool deenergise();
 
   int link_;
@@ -34,11 +34,11 @@ class GuardLoop {
   std::unique_ptr<CoilDriver> driver_;
   std::unique_ptr<OutputFile> log_;
   std::string log_failure_;  ///< why the log was closed
-  CoilGuard::State shown_ = CoilGuard::State::disarmed;
-  std::vector<double> put_;  ///< A, at the outputs
-  bool armed_ = false;       ///< enable state sent to the device
-  bool obeyed_ = true;       ///< the device accepted the last write
-  bool over_ = false;
+  CoilGuard::State logged_state_ = CoilGuard::State::disarmed;
+  std::vector<double> written_current_;  ///< A, at the outputs
+  bool written_enable_ = false;          ///< enable state sent to the device
+  bool write_ok_ = true;                 ///< the device accepted the last write
+  bool stop_ = false;
   double done_ = 0;  ///< s, when the device had the voltages of the last message
   double written_ = 0, sensed_at_ = 0, reported_ = 0;  ///< s
   std::array<double, kMostCoils> sensed_{};

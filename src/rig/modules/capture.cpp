@@ -62,7 +62,7 @@ class Capture final : public Camera {
 
   bool read(CameraFrame& out) override {
     while (!pending_) {
-      if (over_ || !take()) return false;
+      if (interrupted_ || !take()) return false;
     }
     pending_ = false;
     out.number = number_;
@@ -73,7 +73,7 @@ class Capture final : public Camera {
     out.image = std::move(image);
     return true;
   }
-  void interrupt() noexcept override { over_ = true; }
+  void interrupt() noexcept override { interrupted_ = true; }
   int width() const override { return grey_.cols; }
   int height() const override { return grey_.rows; }
   double rate() const override { return std::max(0.0, capture_.get(cv::CAP_PROP_FPS)); }
@@ -126,7 +126,7 @@ class Capture final : public Camera {
     if (!capture_.retrieve(colour_) || colour_.empty() || colour_.depth() != CV_8U) {
       ++corrupt_;
       ++number_;
-      return !over_;
+      return !interrupted_;
     }
     if (colour_.channels() == 1)
       colour_.copyTo(grey_);
@@ -145,7 +145,7 @@ class Capture final : public Camera {
   std::uint64_t number_ = 0;
   std::atomic<std::uint64_t> corrupt_ = 0;
   bool pending_ = false;
-  std::atomic<bool> over_ = false;
+  std::atomic<bool> interrupted_ = false;
 };
 
 }  // namespace

@@ -77,7 +77,7 @@ Schema<Amplifier::Params> Amplifier::schema() {
 Amplifier::Amplifier(const Params& p, std::size_t coils) : p_(p), current_(coils, 0.0), target_(coils, 0.0) {}
 
 double Amplifier::target(std::size_t k, double volts) const {
-  const bool broken = started_ && t_ - began_ >= p_.fault_after;
+  const bool broken = started_ && t_ - first_command_ >= p_.fault_after;
   if (broken && p_.fault == Fault::stuck) return target_[k];
   if (broken && p_.fault == Fault::open) return 0;
   const double step = (p_.most_volts - p_.least_volts) / (std::exp2(p_.bits) - 1);
@@ -90,11 +90,11 @@ double Amplifier::target(std::size_t k, double volts) const {
 void Amplifier::take(std::span<const double> volts, bool enable, double t) {
   at(t);
   if (!started_) {
-    began_ = t;
+    first_command_ = t;
     started_ = true;
   }
   enabled_ = enable || !p_.enable_line;
-  alive_ = t;
+  last_enable_ = t;
   for (std::size_t k = 0; k < target_.size() && k < volts.size(); ++k)
     if (!std::isnan(volts[k])) target_[k] = target(k, volts[k]);
 }
@@ -121,8 +121,8 @@ void Amplifier::advance(double t) {
 
 const std::vector<double>& Amplifier::at(double t) {
   if (!(t > t_)) return current_;
-  if (p_.enable_line && enabled_ && alive_ + p_.enable_time < t) {
-    advance(std::max(t_, alive_ + p_.enable_time));
+  if (p_.enable_line && enabled_ && last_enable_ + p_.enable_time < t) {
+    advance(std::max(t_, last_enable_ + p_.enable_time));
     enabled_ = false;
   }
   advance(t);

@@ -51,8 +51,8 @@ class Amplifier {
   void advance(double t);
 
   Params p_;
-  std::vector<double> current_, target_;  ///< A
-  double t_ = 0, alive_ = 0, began_ = 0;  ///< s
+  std::vector<double> current_, target_;                ///< A
+  double t_ = 0, last_enable_ = 0, first_command_ = 0;  ///< s
   bool enabled_ = false, started_ = false;
 };
 

@@ -13,7 +13,7 @@ constexpr double kWithin = 0.1, kFrames = 2;  // s and frames; all current must 
 constexpr double kReaction = 0.03;            // s, reaction time of the guard, its device and a coil's L/R
 constexpr double kRound = 1 + 1e-6;           // rounding of time differences, 5e-10 s after a month of uptime
 
-const char* sentence(CoilGuard::Fault f) {
+const char* fault_text(CoilGuard::Fault f) {
   using enum CoilGuard::Fault;
   switch (f) {
     case none:
@@ -95,15 +95,15 @@ CoilGuard::CoilGuard(const Params& p, std::vector<Bounds> coils, double frame_pe
 
 bool CoilGuard::arm(double now) {
   if (state_ != State::disarmed) return state_ == State::armed;
-  warm(now);
+  update_heat(now);
   state_ = State::armed;
-  fresh_ = beat_ = now;
+  last_command_ = last_heartbeat_ = now;
   last_frame_t_.reset();
   return true;
 }
 
 void CoilGuard::disarm(double now) {
-  put(std::vector<double>(coils_.size(), 0.0), now);
+  set_current(std::vector<double>(coils_.size(), 0.0), now);
   if (state_ == State::armed) state_ = State::disarmed;
 }
 
@@ -112,10 +112,10 @@ void CoilGuard::reset() {
   state_ = State::disarmed;
   fault_ = Fault::none;
   reason_.clear();
-  off_ = 0;
+  mismatches_ = 0;
 }
 
-CoilGuard::Fault CoilGuard::objection(const Request& r, double now, std::string& detail) const {
+CoilGuard::Fault CoilGuard::violation(const Request& r, double now, std::string& detail) const {
   if (last_number_ && r.number <= *last_number_) {
     detail = fmt::format("command {} after command {}", r.number, *last_number_);
     return Fault::out_of_order;
@@ -159,23 +159,23 @@ CoilGuard::Fault CoilGuard::objection(const Request& r, double now, std::string&
 void CoilGuard::take(const Request& r, double now) {
   if (state_ != State::armed) return;
   std::string detail;
-  if (const Fault f = objection(r, now, detail); f != Fault::none) {
+  if (const Fault f = violation(r, now, detail); f != Fault::none) {
     ++refused_;
     fail(f, detail, now);
     return;
   }
   ++passed_;
   last_number_ = r.number;
-  fresh_ = now;
+  last_command_ = now;
   if (std::isfinite(r.frame_t)) last_frame_t_ = r.frame_t;
-  put({r.current.begin(), r.current.end()}, now);
+  set_current({r.current.begin(), r.current.end()}, now);
 }
 
-void CoilGuard::put(std::vector<double> current, double now) {
-  warm(now);
+void CoilGuard::set_current(std::vector<double> current, double now) {
+  update_heat(now);
   if (current == current_) return;
-  while (lately_.size() > 1 && lately_[1].t < now - p_.sense_settling) lately_.pop_front();
-  lately_.push_back({now, current_});  // flowed until now
+  while (recent_.size() > 1 && recent_[1].t < now - p_.sense_settling) recent_.pop_front();
+  recent_.push_back({now, current_});  // flowed until now
   current_ = std::move(current);
 }
 
@@ -185,7 +185,7 @@ void CoilGuard::sensed(std::span<const double> current, double now) {
   for (std::size_t k = 0; k < coils_.size() && k < current.size(); ++k) {
     if (std::isnan(current[k])) continue;
     double low = current_[k], high = current_[k];
-    for (const Passed& p : lately_)
+    for (const Previous& p : recent_)
       if (p.t >= now - p_.sense_settling) {
         low = std::min(low, p.current[k]);
         high = std::max(high, p.current[k]);
@@ -194,13 +194,13 @@ void CoilGuard::sensed(std::span<const double> current, double now) {
     off = true;
     worst = k;
   }
-  off_ = off ? off_ + 1 : 0;
-  if (off_ >= p_.sense_samples)
+  mismatches_ = off ? mismatches_ + 1 : 0;
+  if (mismatches_ >= p_.sense_samples)
     fail(Fault::current_mismatch,
          fmt::format("coil {}: {:.3g} A instead of {:.3g} A", worst, current[worst], current_[worst]), now);
 }
 
-void CoilGuard::warm(double now) {
+void CoilGuard::update_heat(double now) {
   const double weight = -std::expm1(-std::max(0.0, now - now_) / p_.thermal_time);
   for (std::size_t k = 0; k < coils_.size(); ++k) heat_[k] += weight * (current_[k] * current_[k] - heat_[k]);
   now_ = std::max(now, now_);
@@ -220,12 +220,14 @@ std::size_t CoilGuard::warmest() const {
 double CoilGuard::heat() const { return coils_.empty() ? 0 : heat_of(warmest()); }
 
 void CoilGuard::check(double now) {
-  warm(now);
-  if (state_ != State::armed || !flows()) return;  // zero current needs no timeout
-  if (now - beat_ > p_.heartbeat_deadline)
-    fail(Fault::heartbeat_timeout, fmt::format("no heartbeat for {:.0f} ms", 1e3 * (now - beat_)), now);
-  else if (now - fresh_ > *p_.command_deadline)
-    fail(Fault::command_timeout, fmt::format("no new command for {:.0f} ms", 1e3 * (now - fresh_)), now);
+  update_heat(now);
+  if (state_ != State::armed || !energised()) return;  // zero current needs no timeout
+  if (now - last_heartbeat_ > p_.heartbeat_deadline)
+    fail(Fault::heartbeat_timeout, fmt::format("no heartbeat for {:.0f} ms", 1e3 * (now - last_heartbeat_)),
+         now);
+  else if (now - last_command_ > *p_.command_deadline)
+    fail(Fault::command_timeout, fmt::format("no new command for {:.0f} ms", 1e3 * (now - last_command_)),
+         now);
   else if (heat() > 1)
     fail(Fault::thermal_limit,
          fmt::format("coil {}: root mean square current over {:g} s is above {:g} A", warmest(),
@@ -233,21 +235,21 @@ void CoilGuard::check(double now) {
          now);
 }
 
-bool CoilGuard::flows() const {
+bool CoilGuard::energised() const {
   return std::any_of(current_.begin(), current_.end(), [](double i) { return i != 0; });
 }
 
 double CoilGuard::due() const {
-  if (!flows()) return std::numeric_limits<double>::infinity();
-  return std::min(beat_ + p_.heartbeat_deadline, fresh_ + *p_.command_deadline);
+  if (!energised()) return std::numeric_limits<double>::infinity();
+  return std::min(last_heartbeat_ + p_.heartbeat_deadline, last_command_ + *p_.command_deadline);
 }
 
 void CoilGuard::fail(Fault f, const std::string& detail, double now) {
-  put(std::vector<double>(coils_.size(), 0.0), now);
+  set_current(std::vector<double>(coils_.size(), 0.0), now);
   if (state_ == State::faulted) return;
   state_ = State::faulted;
   fault_ = f;
-  reason_ = detail.empty() ? sentence(f) : fmt::format("{} ({})", sentence(f), detail);
+  reason_ = detail.empty() ? fault_text(f) : fmt::format("{} ({})", fault_text(f), detail);
 }
 
 const char* word(CoilGuard::State s) {

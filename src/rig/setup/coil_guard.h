@@ -66,7 +66,7 @@ class CoilGuard {
   void disarm(double now);
   void reset();  ///< From tripped to disarmed.
   /// A heartbeat of the program.
-  void beat(double now) { beat_ = now; }
+  void heartbeat(double now) { last_heartbeat_ = now; }
   void take(const Request& r, double now);
   /// The sensed currents, A; NaN for coils without an input.
   void sensed(std::span<const double> current, double now);
@@ -88,16 +88,16 @@ class CoilGuard {
   std::uint64_t refused() const { return refused_; }  ///< refused requests; each trips the guard
 
  private:
-  struct Passed {
+  struct Previous {
     double t;  ///< s, until when these currents were commanded
     std::vector<double> current;
   };
-  Fault objection(const Request& r, double now, std::string& detail) const;
-  void warm(double now);
+  Fault violation(const Request& r, double now, std::string& detail) const;
+  void update_heat(double now);
   double heat_of(std::size_t coil) const;
   std::size_t warmest() const;
-  bool flows() const;
-  void put(std::vector<double> current, double now);
+  bool energised() const;
+  void set_current(std::vector<double> current, double now);
 
   Params p_;
   std::vector<Bounds> coils_;
@@ -107,11 +107,11 @@ class CoilGuard {
   std::string reason_;
   std::vector<double> current_;  ///< A
   std::vector<double> heat_;     ///< A^2, of each coil: square of its current, averaged over thermal_time
-  std::deque<Passed> lately_;    ///< previous commands that may still be settling, oldest first
+  std::deque<Previous> recent_;  ///< previous commands that may still be settling, oldest first
   std::optional<std::uint64_t> last_number_;
   std::optional<double> last_frame_t_;
-  double fresh_ = 0, beat_ = 0, now_ = 0;  ///< s
-  int off_ = 0;                            ///< consecutive samples with a current mismatch
+  double last_command_ = 0, last_heartbeat_ = 0, now_ = 0;  ///< s
+  int mismatches_ = 0;                                      ///< consecutive samples with a current mismatch
   std::uint64_t passed_ = 0, refused_ = 0;
 };
 

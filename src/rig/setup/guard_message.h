@@ -14,8 +14,8 @@ inline constexpr std::size_t kMostCoils = 16;
 inline constexpr int kGuardDescriptor = 3;  ///< descriptor of the socket in the guard's process
 
 struct ToGuard {
-  enum class Kind : std::uint32_t { beat, arm, disarm, reset, request };
-  Kind kind = Kind::beat;
+  enum class Kind : std::uint32_t { heartbeat, arm, disarm, reset, request };
+  Kind kind = Kind::heartbeat;
   std::uint32_t coils = 0;
   std::uint64_t number = 0;
   double sent = 0, frame_t = 0;              ///< s

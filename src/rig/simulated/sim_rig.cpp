@@ -8,7 +8,7 @@
 namespace faba {
 namespace {
 
-constexpr double kMostJitter = 0.4;  // frames: keeps the times in order
+constexpr double kMaxJitter = 0.4;  // frames: keeps the times in order
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::uint64_t SimRig::step_of(std::uint64_t frame) const {
   const auto word =
       draw(world_.parts().seed, kFrameDraws, std::uint32_t(FrameDraw::time), std::uint32_t(frame));
   const double late = p_.jitter / p_.frame_period * double(normals(word[0], word[1])[0]);
-  const double shift = std::clamp(late, -kMostJitter, kMostJitter) * double(n);
+  const double shift = std::clamp(late, -kMaxJitter, kMaxJitter) * double(n);
   return std::uint64_t(std::int64_t(frame * n) + std::int64_t(std::floor(shift + 0.5)));
 }
 
@@ -33,7 +33,7 @@ double SimRig::time_of(std::uint64_t frame) const {
                        : double(frame) * p_.frame_period;
 }
 
-std::vector<Detection> SimRig::look() const {
+std::vector<Detection> SimRig::detections() const {
   const auto x = world_.state().agents["x"], y = world_.state().agents["y"];
   std::vector<Detection> seen(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -85,7 +85,7 @@ bool SimRig::read(Observation& out) {
   if (p_.frames)
     latest.image = picture();
   else
-    latest.cells = look();
+    latest.cells = detections();
   if (seen_.size() > std::size_t(p_.delay_frames) + 1) seen_.pop_front();
   out.frame = now;
   // Frames before frame 0 have regular times.

@@ -54,7 +54,7 @@ class SimRig final : public Rig {
   };
   std::uint64_t step_of(std::uint64_t frame) const;
   bool step_to(std::uint64_t frame);
-  std::vector<Detection> look() const;
+  std::vector<Detection> detections() const;
   Exposure exposure();
   void archive_cells(Archive& a, std::vector<Detection>& cells) const;
 

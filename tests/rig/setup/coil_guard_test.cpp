@@ -20,13 +20,13 @@ struct Bench {
       : guard(p, {{max_current, max_rms}, {max_current, max_rms}}, kPeriod) {}
 
   void request(std::vector<double> current, double age = 0) {
-    guard.beat(now);
+    guard.heartbeat(now);
     guard.take({++number, now - age, now, current}, now);
   }
   // Advances the clock by `s` seconds, with heartbeats.
   void pass(double s) {
     for (const double until = now + s; now < until; now += 1e-3) {
-      guard.beat(now);
+      guard.heartbeat(now);
       guard.check(now);
     }
   }
@@ -107,7 +107,7 @@ TEST_CASE("command timeout: coils off within 100 ms, or within two frames if the
     guard.take({1, now, now, one}, now);
     double flowed_until = now;
     for (; now < 5 + 3 * within; now += 1e-3) {
-      guard.beat(now);
+      guard.heartbeat(now);
       guard.check(now);
       if (guard.current()[0] != 0) flowed_until = now;
     }
