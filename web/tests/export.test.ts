@@ -18,7 +18,7 @@ describe('a plot as SVG', () => {
     const svg = svgOf('Field', 'uT', [[0, 1, 2], [0, undefined, 4], [undefined, 2, undefined]], kLine);
     expect(paths(svg)[0]).toBe('M70.0 276.0L628.0 30.0');
     expect(svg.match(/stroke-dasharray/g)).toHaveLength(1);
-    expect(svg).toContain('Bx (earlier)');
+    expect(svg).toContain('Bx (previous run)');
   });
   test('ticks are round numbers within the axes', () => {
     const labels = tickLabels(svgOf('Field', 'uT', [[0, 10], [0, 0.7]], kLine));

@@ -48,7 +48,7 @@ export function svgOf(title: string, unit: string, data: ArrayLike<ArrayLike<num
         pen = true;
       }
     }
-    out += `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"${c > lines.length ? ' stroke-dasharray="4 4"' : ''}/><text x="${w - right - 4}" y="${top + 14 * c}" text-anchor="end" fill="${l.colour}">${escaped(l.label)}${c > lines.length ? ' (earlier)' : ''}</text>`;
+    out += `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"${c > lines.length ? ' stroke-dasharray="4 4"' : ''}/><text x="${w - right - 4}" y="${top + 14 * c}" text-anchor="end" fill="${l.colour}">${escaped(l.label)}${c > lines.length ? ' (previous run)' : ''}</text>`;
   }
   return out + '</svg>\n';
 }
