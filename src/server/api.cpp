@@ -57,7 +57,7 @@ std::uint64_t number(const WebRequest& r, const char* key, std::uint64_t fallbac
 
 Json body_of(const WebRequest& r) {
   Json j = Json::parse(r.body, nullptr, false);
-  if (!j.is_object()) throw Error(Errc::usage, "request", "invalid request: not a JSON object");
+  if (!j.is_object()) throw Error(Errc::usage, "invalid request", "not a JSON object");
   return j;
 }
 
@@ -108,7 +108,7 @@ WebResponse Api::answer(const WebRequest& r) {
   } catch (const Error& e) {
     return failure(e.code() == Errc::input ? 404 : e.code() == Errc::usage ? 422 : 500, e);
   } catch (const Json::exception&) {
-    return failure(422, {Errc::usage, "request", "invalid request: a value has the wrong type"});
+    return failure(422, {Errc::usage, "invalid request", "a value has the wrong type"});
   } catch (const std::exception& e) {
     return failure(500, {Errc::internal, "", e.what()});
   }

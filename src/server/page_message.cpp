@@ -32,11 +32,11 @@ Error bad(const std::string& where, const std::string& what) { return {Errc::usa
 // Limits the nesting depth, because documents are processed recursively.
 Json parse(std::string_view text) {
   const auto deep = [](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) throw bad("message", "invalid message: nesting is too deep");
+    if (depth > kDeepest) throw bad("invalid message", "nesting is too deep");
     return true;
   };
   Json j = Json::parse(text, deep, false);
-  if (!j.is_object()) throw bad("message", "invalid message: not a JSON object");
+  if (!j.is_object()) throw bad("invalid message", "not a JSON object");
   return j;
 }
 
