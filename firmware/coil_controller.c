@@ -26,7 +26,7 @@ void coil_begin(struct coil_controller* c, struct coil_hal hal, uint32_t now_ms)
   c->last_ms = now_ms;
   c->bad_lines = 0;
   c->length = 0;
-  deenergise(c, COIL_REST);
+  deenergise(c, COIL_OFF);
 }
 
 /* Parses a decimal number at *at and moves *at behind it and one space. Returns 0 if invalid or too long. */
@@ -115,7 +115,7 @@ static int command(struct coil_controller* c, const char* at, const char* end, u
   c->number = (uint32_t)to_number;
   c->last_ms = now_ms;
   if (!enable) {
-    deenergise(c, COIL_REST);
+    deenergise(c, COIL_OFF);
     c->ready = 1;
   } else if (!in_range) {
     deenergise(c, COIL_RANGE);
@@ -161,5 +161,5 @@ void coil_receive(struct coil_controller* c, char byte, uint32_t now_ms) {
 }
 
 void coil_tick(struct coil_controller* c, uint32_t now_ms) {
-  if (c->state == COIL_ON && now_ms - c->last_ms > COIL_DEADLINE_MS) deenergise(c, COIL_SILENCE);
+  if (c->state == COIL_ON && now_ms - c->last_ms > COIL_DEADLINE_MS) deenergise(c, COIL_TIMEOUT);
 }

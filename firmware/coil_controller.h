@@ -16,9 +16,9 @@
 
 /* State; sent with every answer. */
 enum coil_state {
-  COIL_REST = 0,    /* de-energised: initial state, or enable 0 */
+  COIL_OFF = 0,     /* de-energised: initial state, or enable 0 */
   COIL_ON = 1,      /* executes commands */
-  COIL_SILENCE = 2, /* de-energised: command timeout */
+  COIL_TIMEOUT = 2, /* de-energised: command timeout */
   COIL_RANGE = 3    /* de-energised: command out of the output range */
 };
 
