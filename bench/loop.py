@@ -30,7 +30,7 @@ def faba(program, *arguments, one_core=False):
     before = ["taskset", "-c", "0"] if one_core else []
     for _ in range(6):
         done = subprocess.run([*before, str(program), *map(str, arguments), "--json", "--force"], capture_output=True, text=True, cwd=ROOT)
-        if done.returncode != 4 or not any(what in done.stderr for what in ("in time", "sign of life", "too old")):
+        if done.returncode != 4 or not any(what in done.stderr for what in ("command timeout", "heartbeat timeout", "stale command")):
             break
         LATE.append(done.stderr.strip())
     if done.returncode != 0:

@@ -1,8 +1,8 @@
 #include "coil_controller.h"
 
-static void rest(struct coil_controller* c, enum coil_state why) {
+static void deenergise(struct coil_controller* c, enum coil_state why) {
   int i;
-  c->hal.enable(0); /* first: it needs no converter */
+  c->hal.enable(0); /* first: does not depend on the converter */
   for (i = 0; i < COIL_CHANNELS; ++i) c->hal.put(i, COIL_NEUTRAL_UV);
   c->state = why;
   c->ready = 0;
@@ -26,10 +26,10 @@ void coil_begin(struct coil_controller* c, struct coil_hal hal, uint32_t now_ms)
   c->last_ms = now_ms;
   c->bad_lines = 0;
   c->length = 0;
-  rest(c, COIL_REST);
+  deenergise(c, COIL_OFF);
 }
 
-/* A decimal number at *at, which moves behind it and one blank. 0 when there is none or it is too long. */
+/* Parses a decimal number at *at and moves *at behind it and one space. Returns 0 if invalid or too long. */
 static int number(const char** at, const char* end, int64_t* value) {
   int negative = 0, digits = 0;
   int64_t v = 0;
@@ -96,7 +96,7 @@ static void answer(struct coil_controller* c, uint32_t to_number) {
   c->hal.send(text, (int)(p - text));
 }
 
-/* "S number enable v0 v1 ...": 1 when it was a command. */
+/* Executes "S number enable v0 v1 ...". Returns 1 if it was a valid command. */
 static int command(struct coil_controller* c, const char* at, const char* end, uint32_t now_ms) {
   int64_t to_number, enable, volts[COIL_CHANNELS];
   int i, in_range = 1;
@@ -108,17 +108,17 @@ static int command(struct coil_controller* c, const char* at, const char* end, u
     if (volts[i] < COIL_LEAST_UV || volts[i] > COIL_MOST_UV) in_range = 0;
   }
   if (at != end || to_number < 0 || to_number > 0xFFFFFFFFLL) return 0;
-  /* One that came twice, or after a later one, counts for nothing; half of all numbers lie ahead. One that brings rest
-   * is always taken: with it a host that was begun anew begins its numbers anew. */
+  /* Ignores repeated and out-of-order commands; half of all numbers are ahead. A command with enable 0 is always
+   * accepted: a restarted host restarts its numbers with it. */
   if (enable && c->any && (int32_t)((uint32_t)to_number - c->number) <= 0) return 0;
   c->any = 1;
   c->number = (uint32_t)to_number;
   c->last_ms = now_ms;
   if (!enable) {
-    rest(c, COIL_REST);
+    deenergise(c, COIL_OFF);
     c->ready = 1;
   } else if (!in_range) {
-    rest(c, COIL_RANGE);
+    deenergise(c, COIL_RANGE);
   } else if (c->state == COIL_ON || c->ready) {
     for (i = 0; i < COIL_CHANNELS; ++i) c->hal.put(i, (int32_t)volts[i]);
     if (c->state != COIL_ON) c->hal.enable(1);
@@ -131,7 +131,7 @@ static int command(struct coil_controller* c, const char* at, const char* end, u
 static void take_line(struct coil_controller* c, uint32_t now_ms) {
   const char* line = c->line;
   const int n = c->length;
-  uint16_t said = 0;
+  uint16_t stated = 0;
   int i;
   if (n < 7 || n > COIL_LINE || line[0] != '$' || line[n - 5] != '*') {
     ++c->bad_lines;
@@ -142,9 +142,9 @@ static void take_line(struct coil_controller* c, uint32_t now_ms) {
       ++c->bad_lines;
       return;
     }
-    said = (uint16_t)(said << 4 | hex_digit(line[i]));
+    stated = (uint16_t)(stated << 4 | hex_digit(line[i]));
   }
-  if (said != coil_crc(line + 1, n - 6) || !command(c, line + 1, line + n - 5, now_ms)) ++c->bad_lines;
+  if (stated != coil_crc(line + 1, n - 6) || !command(c, line + 1, line + n - 5, now_ms)) ++c->bad_lines;
 }
 
 void coil_receive(struct coil_controller* c, char byte, uint32_t now_ms) {
@@ -161,5 +161,5 @@ void coil_receive(struct coil_controller* c, char byte, uint32_t now_ms) {
 }
 
 void coil_tick(struct coil_controller* c, uint32_t now_ms) {
-  if (c->state == COIL_ON && now_ms - c->last_ms > COIL_DEADLINE_MS) rest(c, COIL_SILENCE);
+  if (c->state == COIL_ON && now_ms - c->last_ms > COIL_DEADLINE_MS) deenergise(c, COIL_TIMEOUT);
 }

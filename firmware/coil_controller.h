@@ -1,9 +1,10 @@
-/* A coil driver's firmware without the board: lines come in byte by byte, outputs and answers go out through
- * the functions of coil_hal. docs/formats/coil-serial.md describes the lines. C99, no heap, no library but
+/* Board-independent firmware of a coil driver: receives lines byte by byte, and writes outputs and answers
+ * through the functions of coil_hal. docs/formats/coil-serial.md describes the protocol. C99, no heap, only
  * <stdint.h>.
  *
- * It begins at rest. A command with enable 1 is obeyed only after one with enable 0 since the beginning, or
- * since it went to rest by itself: current never comes back without being asked for anew. */
+ * The coils are de-energised at the start. A command with enable 1 is executed only after one with enable 0
+ * since the start, or since the coils were de-energised by a fault: current never returns without a new
+ * request. */
 #ifndef COIL_CONTROLLER_H
 #define COIL_CONTROLLER_H
 
@@ -11,20 +12,20 @@
 
 #include "coil_config.h"
 
-#define COIL_LINE 160 /* longest line, letters */
+#define COIL_LINE 160 /* maximum line length, characters */
 
-/* Why it is at rest; sent with every answer. */
+/* State; sent with every answer. */
 enum coil_state {
-  COIL_REST = 0,    /* as it begins, or told so */
-  COIL_ON = 1,      /* obeys */
-  COIL_SILENCE = 2, /* no good command came in time */
-  COIL_RANGE = 3    /* a command asked for what the outputs do not give */
+  COIL_OFF = 0,     /* de-energised: initial state, or enable 0 */
+  COIL_ON = 1,      /* executes commands */
+  COIL_TIMEOUT = 2, /* de-energised: command timeout */
+  COIL_RANGE = 3    /* de-energised: command out of the output range */
 };
 
-/* The board. Filled in by whoever builds for one. */
+/* Functions of the board. */
 struct coil_hal {
   void (*put)(int channel, int32_t microvolt); /* an analogue output */
-  void (*enable)(int on);                      /* the line of the relay or of the amplifiers' enable inputs */
+  void (*enable)(int on);                      /* enable line of the relay or of the amplifiers */
   int32_t (*sense)(int channel);               /* an analogue input, microvolt */
   void (*send)(const char* text, int length);  /* to the host */
 };
@@ -32,21 +33,21 @@ struct coil_hal {
 struct coil_controller {
   struct coil_hal hal;
   enum coil_state state;
-  int ready;          /* a command with enable 0 has come since it went to rest */
-  int any;            /* a good command has come at all */
-  uint32_t number;    /* of the last good command */
-  uint32_t last_ms;   /* when that came */
-  uint32_t bad_lines; /* that were not understood */
+  int ready;          /* a command with enable 0 was received since the coils were de-energised */
+  int any;            /* a valid command was received */
+  uint32_t number;    /* number of the last valid command */
+  uint32_t last_ms;   /* time of the last valid command */
+  uint32_t bad_lines; /* number of invalid lines */
   char line[COIL_LINE];
-  int length; /* of what has come of a line; beyond COIL_LINE for one that is too long */
+  int length; /* received characters of the line; above COIL_LINE if it is too long */
 };
 
 void coil_begin(struct coil_controller* c, struct coil_hal hal, uint32_t now_ms);
 void coil_receive(struct coil_controller* c, char byte, uint32_t now_ms);
-/* To be called every few milliseconds. */
+/* Must be called every few milliseconds. */
 void coil_tick(struct coil_controller* c, uint32_t now_ms);
 
-/* CRC-16 with polynomial 0x1021 and beginning 0xFFFF. */
+/* CRC-16 with polynomial 0x1021 and initial value 0xFFFF. */
 uint16_t coil_crc(const char* text, int length);
 
 #endif

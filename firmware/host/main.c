@@ -1,7 +1,7 @@
 /* The firmware on a computer, behind a pseudo-terminal, with a log in place of coils:
  *   coil-firmware LINK LOG
- * makes LINK a name of the terminal, and writes a line "time_s enable v0 v1 ..." to LOG at every change of the outputs,
- * time on the clock CLOCK_MONOTONIC. It works until its input is ended by a signal. */
+ * creates LINK as a symbolic link to the terminal, and writes a line "time_s enable v0 v1 ..." to LOG at every change
+ * of the outputs, time on CLOCK_MONOTONIC. Runs until ended by a signal. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -46,7 +46,7 @@ static void enable(int on) {
   write_log();
 }
 
-/* What a shunt at each output would tell. */
+/* Reading of a shunt at each output. */
 static int32_t sense(int channel) { return enabled ? outputs[channel] : COIL_NEUTRAL_UV; }
 
 static void send_text(const char* text, int length) {
@@ -56,7 +56,7 @@ static void send_text(const char* text, int length) {
       text += n;
       length -= (int)n;
     } else if (errno != EINTR) {
-      return; /* nobody listens, or the line is full: an answer is lost, as on a wire */
+      return; /* not connected, or buffer full: the answer is lost, as on a wire */
     }
   }
 }

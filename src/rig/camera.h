@@ -12,14 +12,14 @@
 
 namespace faba {
 
-/// One picture of a camera.
+/// One frame of a camera.
 struct CameraFrame {
-  std::uint64_t number = 0;  ///< counts what the camera took; gaps are frames that were lost on the way
+  std::uint64_t number = 0;  ///< counts frames taken by the camera; gaps are frames lost in transfer
   double t = 0;              ///< s, mid-exposure, on the clock of monotonic_now()
   ImageRef image;
 };
 
-/// What can be set at a camera while it works.
+/// Camera controls that can be set during operation.
 enum class ControlKind : std::size_t { exposure, gain, white_balance };
 
 /// The names of camera controls in scenarios, messages and JSON, in the order of the enum.
@@ -27,7 +27,7 @@ inline constexpr std::array kControlNames = {"exposure", "gain", "white_balance"
 
 inline const char* control_name(ControlKind k) { return kControlNames.at(std::size_t(k)); }
 
-/// None when no camera control has that name.
+/// Empty if no camera control has this name.
 inline std::optional<ControlKind> control_kind(std::string_view name) {
   for (std::size_t i = 0; i < kControlNames.size(); ++i)
     if (name == kControlNames.at(i)) return ControlKind(i);
@@ -37,35 +37,36 @@ inline std::optional<ControlKind> control_kind(std::string_view name) {
 /// A camera control and its value.
 struct CameraControl {
   ControlKind kind = ControlKind::exposure;
-  double value = 0;                   ///< in the camera's own unit
-  std::optional<bool> automatically;  ///< the camera sets it by itself; none when it cannot
+  double value = 0;                   ///< in the unit of the camera
+  std::optional<bool> automatically;  ///< automatic mode is on; empty if the camera has no automatic mode
 };
 
 /// The error for a control that a camera does not have.
 [[noreturn]] inline void refuse_control(const std::string& name) {
-  throw Error(Errc::usage, name, "cannot be set at this camera");
+  throw Error(Errc::usage, name, "this camera has no such control");
 }
 
-/// A stream of pictures, all of one size. Made, it is open and its first picture known to be there.
+/// A stream of frames of one size. After construction it is open and the first frame is available.
 class Camera {
  public:
   virtual ~Camera() = default;
-  /// Waits for the next picture. False when there are no more. Throws Error(device) when the camera fails.
-  /// Called by one thread, while others may call all else.
+  /// Waits for the next frame. False at the end of the stream. Throws Error(device) if the camera fails.
+  /// Called by one thread; all other functions may be called by other threads at the same time.
   virtual bool read(CameraFrame& out) = 0;
-  /// Makes a read() that waits return soon, with false; may be beyond a device's power.
+  /// Makes a waiting read() return false soon; not every device supports this.
   virtual void interrupt() noexcept = 0;
-  virtual int width() const = 0;                       ///< px
-  virtual int height() const = 0;                      ///< px
-  virtual double rate() const = 0;                     ///< Hz; 0 when it does not tell
-  virtual bool waits() const { return false; }         ///< nothing is lost while nobody reads, as with a file
-  virtual std::uint64_t corrupt() const { return 0; }  ///< frames so far that came damaged and were left out
+  virtual int width() const = 0;                ///< px
+  virtual int height() const = 0;               ///< px
+  virtual double rate() const = 0;              ///< Hz; 0 if unknown
+  virtual bool waits() const { return false; }  ///< no frame is lost while nobody reads, as with a file
+  virtual std::uint64_t corrupt() const { return 0; }  ///< damaged frames skipped so far
   virtual std::vector<CameraControl> controls() { return {}; }
-  /// Throws Error(usage), with the control's name, for what the camera does not have or will not take.
+  /// Throws Error(usage), with the control's name, if the camera does not have the control or rejects the
+  /// value.
   virtual void set(const CameraControl& c) { refuse_control(control_name(c.kind)); }
 };
 
-/// What a camera is made for.
+/// Context for the construction of a camera.
 struct CameraContext {};
 using CameraRegistry = Registry<Camera, CameraContext>;
 

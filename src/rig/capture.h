@@ -6,7 +6,7 @@
 
 namespace faba {
 
-/// What is asked of OpenCV's VideoCapture.
+/// Parameters of OpenCV's VideoCapture.
 struct CaptureParams {
   enum class Interface { any, v4l2, firewire, gstreamer, ffmpeg };
   std::string device = "0";
@@ -16,8 +16,8 @@ struct CaptureParams {
   std::optional<double> exposure, gain, white_balance;
 };
 
-/// The function faba_open_capture of the module faba-capture.so, which is of the same build as the program.
-/// The camera is the caller's to delete. Throws Error(device).
+/// Type of the function faba_open_capture in the module faba-capture.so, which comes from the same build as
+/// the program. The caller owns the returned camera. Throws Error(device).
 using OpenCapture = Camera*(const CaptureParams& p);
 
 }  // namespace faba

@@ -4,17 +4,17 @@
 
 namespace faba {
 
-/// The seam between software and world: eyes and hands. The rig owns time: read() blocks until the next
-/// frame, whether that means waiting for a camera or stepping a simulation.
+/// Interface between the control loop and the experiment: observations in, commands out. The rig owns time:
+/// read() blocks until the next frame, by waiting for a camera or by stepping a simulation.
 class Rig {
  public:
   virtual ~Rig() = default;
-  /// The next frame; false when there are no more.
+  /// The next frame; false at the end.
   virtual bool read(Observation& out) = 0;
   virtual void write(const Command& c) = 0;
-  /// All currents to zero. Must work at any moment and not throw.
+  /// Sets all currents to zero. May be called at any time.
   virtual void safe() noexcept = 0;
-  virtual void archive(Archive&) {}  ///< its memory, for checkpoints
+  virtual void archive(Archive&) {}  ///< state for checkpoints
 };
 
 }  // namespace faba

@@ -44,30 +44,30 @@ const char* type_of(const fs::path& file) {
   return it == kTypes.end() ? "application/octet-stream" : it->second;
 }
 
-// The rest of a path below a folder of addresses; none for another one.
+// The path without its prefix; empty if the path does not start with the prefix.
 std::optional<std::string> below(const std::string& path, std::string_view prefix) {
   if (!path.starts_with(prefix)) return {};
   return path.substr(prefix.size());
 }
 
-std::uint64_t number(const WebRequest& r, const char* key, std::uint64_t usual) {
+std::uint64_t number(const WebRequest& r, const char* key, std::uint64_t fallback) {
   const auto it = r.query.find(key);
-  return it == r.query.end() ? usual : std::strtoull(it->second.c_str(), nullptr, 10);
+  return it == r.query.end() ? fallback : std::strtoull(it->second.c_str(), nullptr, 10);
 }
 
 Json body_of(const WebRequest& r) {
   Json j = Json::parse(r.body, nullptr, false);
-  if (!j.is_object()) throw Error(Errc::usage, "request", "is not a JSON object");
+  if (!j.is_object()) throw Error(Errc::usage, "invalid request", "not a JSON object");
   return j;
 }
 
 std::string text_of(const Json& j, const char* key) {
   if (!j.contains(key) || !j[key].is_string() || j[key].get<std::string>().empty())
-    throw Error(Errc::usage, key, "is missing");
+    throw Error(Errc::usage, key, "missing; it must be a non-empty string");
   return j[key];
 }
 
-// The comment on top of a scene: what it is for.
+// The comment at the top of a scene.
 std::string about(const fs::path& scene) {
   std::string text;
   std::istringstream in(read_file(scene));
@@ -76,8 +76,8 @@ std::string about(const fs::path& scene) {
   return text;
 }
 
-// One entry of the list of runs. Throws Json::exception for a manifest that is not JSON or has another kind
-// of value.
+// One entry of the list of runs. Throws Json::exception for a manifest that is not JSON or has a value of the
+// wrong type.
 Json run_card(const std::string& name, const fs::path& dir) {
   const Json m = Json::parse(read_file(dir / run_files::kManifest));
   Json files = Json::array();
@@ -108,7 +108,7 @@ WebResponse Api::answer(const WebRequest& r) {
   } catch (const Error& e) {
     return failure(e.code() == Errc::input ? 404 : e.code() == Errc::usage ? 422 : 500, e);
   } catch (const Json::exception&) {
-    return failure(422, {Errc::usage, "request", "has a value of another kind than expected"});
+    return failure(422, {Errc::usage, "invalid request", "a value has the wrong type"});
   } catch (const std::exception& e) {
     return failure(500, {Errc::internal, "", e.what()});
   }
@@ -137,10 +137,10 @@ WebResponse Api::route(const WebRequest& r) {
       return run(r, p.substr(std::min(p.size(), std::size_t(10))));
     if (const auto rest = below(p, "/api/uploads/")) {
       const fs::path file = pictures_ / fs::path(*rest).filename();
-      if (!fs::exists(file)) throw Error(Errc::input, *rest, "is not there any more");
+      if (!fs::exists(file)) throw Error(Errc::input, *rest, "file not found");
       return {.type = type_of(file), .body = {}, .file = file};
     }
-    if (const auto rest = below(p, "/runs/")) {  // pages that jobs have written
+    if (const auto rest = below(p, "/runs/")) {  // pages written by jobs
       const fs::path file = workspace_.existing("runs/" + *rest);
       return {.type = type_of(file), .body = {}, .file = file, .keep = false, .report = true};
     }
@@ -154,20 +154,20 @@ WebResponse Api::route(const WebRequest& r) {
   }
   if (r.method == "DELETE")
     if (const auto rest = below(p, "/api/jobs/")) {
-      if (!jobs_.cancel(std::atoi(rest->c_str()))) throw Error(Errc::input, *rest, "there is no such job");
+      if (!jobs_.cancel(std::atoi(rest->c_str()))) throw Error(Errc::input, *rest, "job not found");
       return json_answer(Json::object());
     }
-  throw Error(Errc::input, p, "there is nothing here");
+  throw Error(Errc::input, p, "not found");
 }
 
 WebResponse Api::page_file(Rest name) {
   if (!pages_.empty()) {
     const fs::path file = pages_ / fs::path(name).filename();
-    if (!fs::is_regular_file(file)) throw Error(Errc::input, name, "there is nothing here");
+    if (!fs::is_regular_file(file)) throw Error(Errc::input, name, "not found");
     return {.type = type_of(file), .body = {}, .file = file};
   }
   const auto content = embedded_page(name);
-  if (!content) throw Error(Errc::input, name, "there is nothing here");
+  if (!content) throw Error(Errc::input, name, "not found");
   return {.type = type_of(name), .body = std::string(*content)};
 }
 
@@ -202,11 +202,11 @@ WebResponse Api::scene(Rest rest) {
                         {"toml", read_file(file)},
                         {"scenario", s.resolved()}});
   }
-  if (rest.substr(slash + 1) != "picture.png") throw Error(Errc::input, rest, "there is nothing here");
+  if (rest.substr(slash + 1) != "picture.png") throw Error(Errc::input, rest, "not found");
   return {.type = "image/png", .body = {}, .file = picture_of(file), .keep = true};
 }
 
-// Rendered once, and again when the scene has changed.
+// Rendered again only if the scene file has changed.
 fs::path Api::picture_of(const fs::path& scene) {
   const auto changed = fs::last_write_time(scene).time_since_epoch().count();
   fs::path file = pictures_ / fmt::format("scene-{}-{}.png", scene.stem().string(), changed);
@@ -223,14 +223,14 @@ WebResponse Api::run(const WebRequest& r, Rest rest) {
       const fs::path dir = workspace_.existing("runs/" + name);
       try {
         all.push_back(run_card(name, dir));
-      } catch (const Json::exception&) {  // one manifest that is wrong must not hide the other runs
+      } catch (const Json::exception&) {  // an invalid manifest must not hide the other runs
         continue;
       }
     }
     return json_answer(all);
   }
   const auto slash = rest.find('/');
-  if (slash == std::string::npos) throw Error(Errc::input, rest, "there is nothing here");
+  if (slash == std::string::npos) throw Error(Errc::input, rest, "not found");
   const std::string name = rest.substr(0, slash), what = rest.substr(slash + 1);
   const fs::path dir = workspace_.existing("runs/" + name);
   if (what == "about") return json_answer(describe_run(dir));
@@ -248,7 +248,7 @@ WebResponse Api::run(const WebRequest& r, Rest rest) {
     return {.type = "image/png", .body = {}, .file = file, .keep = true};
   }
   const fs::path file = workspace_.existing("runs/" + name + "/" + what);
-  if (fs::is_directory(file)) throw Error(Errc::input, what, "is a folder");
+  if (fs::is_directory(file)) throw Error(Errc::input, what, "is a folder, not a file");
   return {
       .type = type_of(file), .body = {}, .file = file, .keep = false, .report = file.extension() == ".html"};
 }
@@ -261,7 +261,7 @@ Json Api::check(const Json& asked) const {
     else if (asked.contains("scenario") && asked["scenario"].is_object())
       d = workspace_.page_document(asked["scenario"]);
     else
-      throw Error(Errc::usage, "scenario", "is missing");
+      throw Error(Errc::usage, "scenario", "missing; it must be an object");
     workspace_.check_files(d.root);
     const Scenario s = read_scenario(d, parts_);
     Pool pool(1);
@@ -287,11 +287,11 @@ Json Api::take_upload(const WebRequest& r) {
     return j;
   } catch (const Error& e) {
     if (e.code() != Errc::input) throw;
-    throw Error(Errc::usage, name, e.reason());  // it knows the file by the name that it has here only
+    throw Error(Errc::usage, name, e.reason());  // replaces the name of the temporary file
   }
 }
 
-// The camera of a bench.
+// Requests for the camera of a bench.
 Json Api::bench(const Json& asked, Rest what) {
   if (what == "open") {
     const std::string name = text_of(asked, "scene");
@@ -308,34 +308,37 @@ Json Api::bench(const Json& asked, Rest what) {
   } else if (what == "ruler") {
     return measure_ruler(asked);
   } else {
-    throw Error(Errc::input, what, "there is nothing here");
+    throw Error(Errc::input, what, "not found");
   }
   return bench_.state();
 }
 
-// The picture that the camera gives now, of a ruler: the scale of this objective, kept in calibrations/.
+// Measures the image scale of an objective in the present camera image of a ruler; saved in calibrations/.
 Json Api::measure_ruler(const Json& asked) {
   static std::atomic<unsigned> number{0};
   const std::string objective = text_of(asked, "objective");
   constexpr const char* kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_. ";
   if (objective.find_first_not_of(kAllowed) != std::string::npos || objective.front() == '.')
     throw Error(Errc::usage, "objective",
-                "is a name of letters, digits, spaces, dots and dashes, such as 10x");
+                "invalid name; it must consist of letters, digits, spaces, dots, underscores and dashes, "
+                "such as 10x");
   const double tick_um = asked.value("tick_um", 0.0);
   if (!(tick_um >= 1e-3 && tick_um <= 1e6))
-    throw Error(Errc::usage, "tick_um", "is the distance of neighbouring marks, in micrometres");
+    throw Error(
+        Errc::usage, "tick_um",
+        fmt::format("{:g} is out of range; the tick spacing must be between 0.001 and 1e6 um", tick_um));
   const std::string name = "calibrations/" + objective;
   const fs::path picture = workspace_.inside(name + ".png"), file = workspace_.inside(name + ".toml");
   const std::string shown = fmt::format("ruler-{}.png", ++number);
   fs::create_directories(picture.parent_path());
   const fs::path taken = pictures_ / fmt::format("ruler-taken-{}.png", number.load());
   const std::string now = bench_.picture();
-  if (now.empty()) throw Error(Errc::input, "bench", "no camera gives a picture");
+  if (now.empty()) throw Error(Errc::input, "bench", "no image from the camera");
   write_file(taken, now);
   const PictureScale scale = report_scale_picture(taken, 1e-6 * tick_um, pictures_ / shown);
   Json j = scale_json(scale);
   j["url"] = "/api/uploads/" + shown;
-  if (scale.quality == MarkQuality::poor) return j;  // shown, and not kept
+  if (scale.quality == MarkQuality::poor) return j;  // displayed, but not saved
   fs::copy_file(taken, picture, fs::copy_options::overwrite_existing);
   Calibration c = calibration_of(scale);
   c.source = picture.filename().string();
@@ -350,7 +353,7 @@ Json Api::start_job(const Json& asked) {
   const std::string stamp = fmt::format("{:%Y%m%d-%H%M%S}-{}", fmt::localtime(std::time(nullptr)), ++number);
   const auto file = [&](const char* key) {
     const std::string name = text_of(asked, key);
-    (void)workspace_.existing(name);  // and nothing that begins with a dash, which would be an option
+    (void)workspace_.existing(name);  // a leading dash would be an option
     return "./" + name;
   };
   const auto page = [&](const std::string& what) { return fmt::format("runs/{}-{}.html", what, stamp); };
@@ -362,7 +365,7 @@ Json Api::start_job(const Json& asked) {
     words = {"activity", file("video"), "--report", out, "--json"};
     if (const std::string d = asked.value("direction", ""); !d.empty()) {
       if (d.find_first_not_of("0123456789.-+") != std::string::npos)
-        throw Error(Errc::usage, "direction", "must be a number of degrees");
+        throw Error(Errc::usage, "direction", "must be a number, in degrees");
       words.insert(words.begin() + 2, {"--direction", d});
     }
   } else if (verb == "compare") {
@@ -378,11 +381,14 @@ Json Api::start_job(const Json& asked) {
     words = {"field", "map", file("rig"), "--picture", out, "--json"};
     if (const std::string c = asked.value("current", ""); !c.empty()) {
       if (c.find_first_not_of("0123456789.-+e, ") != std::string::npos)
-        throw Error(Errc::usage, "current", "must be numbers with commas between them");
+        throw Error(Errc::usage, "current", "must be numbers separated by commas");
       words.insert(words.begin() + 3, "--current=" + c);
     }
   } else {
-    throw Error(Errc::usage, "verb", "is none that the lab starts");
+    throw Error(
+        Errc::usage, "verb",
+        fmt::format("\"{}\" is not one of activity, compare, identify, compare-controllers, field map",
+                    verb));
   }
   const std::string& about = verb == "field map" ? words[2] : words[1];
   const std::string title = fmt::format("{}: {}", verb, fs::path(about).filename().string());

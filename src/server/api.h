@@ -9,14 +9,14 @@
 
 namespace faba {
 
-/// What the lab answers to requests of its page; web/protocol.md lists the addresses. Thread-safe.
+/// HTTP interface of the lab; see web/protocol.md. Thread-safe.
 class Api {
  public:
-  /// `pictures`: a folder of the lab's own for what it renders and is sent. `pages`: a folder that the page's
-  /// files are read from while they are worked on; empty: those in the program.
+  /// `pictures`: a private folder for rendered images and uploads. `pages`: folder with the files of the
+  /// page, for development; empty: the files embedded in the program.
   Api(const Workspace& workspace, JobList& jobs, std::filesystem::path pictures, std::filesystem::path pages);
 
-  /// Never throws: errors become answers with a status and {"where", "what"}.
+  /// Never throws: errors become responses with a status and {"where", "what"}.
   WebResponse answer(const WebRequest& r);
 
  private:

@@ -4,7 +4,7 @@
 
 namespace faba {
 
-/// A file of the lab's page as it was built into the program (web/dist); none for other names.
+/// A file of the page (web/dist) embedded in the program; empty if there is no such file.
 std::optional<std::string_view> embedded_page(std::string_view name);
 
 }  // namespace faba

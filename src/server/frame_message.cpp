@@ -11,11 +11,11 @@ namespace faba {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "the message is little-endian, and written as it lies");
+              "the message is little-endian and copied from memory");
 
 constexpr double kFinest = 0.1;     // px
-constexpr double kSteps = 65535;    // of 16 bits
-constexpr double kTurnParts = 255;  // so that a whole turn and none are told by the same byte's two ends
+constexpr double kSteps = 65535;    // 16 bits
+constexpr double kTurnParts = 255;  // 0 and 255 both mean heading 0
 
 enum Bit : std::uint16_t { kCells = 1, kFloats = 2, kHeadings = 4, kPicture = 8 };
 
@@ -29,8 +29,8 @@ void put_all(std::string& out, std::span<const T> v) {
   out.append(reinterpret_cast<const char*>(v.data()), v.size_bytes());
 }
 
-// The message may be half a megabyte sixty times a second: one pass, no test within.
-void put_places(std::string& out, const FrameMessage& m, bool floats) {
+// Up to 0.5 MB at 60 Hz: one pass without branches.
+void put_positions(std::string& out, const FrameMessage& m, bool floats) {
   const std::size_t n = m.x.size(), at = out.size();
   const auto scale = float(1 / m.view.m_per_px);
   const auto cx = float(m.view.centre_image.x), cy = float(m.view.centre_image.y);
@@ -45,7 +45,7 @@ void put_places(std::string& out, const FrameMessage& m, bool floats) {
   out.resize(at + n * 2 * sizeof(std::uint16_t));
   const auto left = float(m.box.left), top = float(m.box.top);
   const auto kx = float(kSteps / (m.box.right - m.box.left)), ky = float(kSteps / (m.box.bottom - m.box.top));
-  // Towards the nearest, by cutting off: what is not below zero needs no more.
+  // Rounds to nearest by truncation, valid because the values are not negative.
   constexpr float kHalf = 0.5F;
   const auto part = [](float v) {
     const float shifted = std::clamp(v, 0.0F, float(kSteps)) + kHalf;
@@ -85,7 +85,7 @@ std::string encode_frame(const FrameMessage& m) {
   put(out, m.t);
   put_all(out, m.rows);
   put_all(out, m.field);
-  put_places(out, m, floats);
+  put_positions(out, m, floats);
   if (headings)
     for (std::size_t i = 0; i < n; ++i) {
       const double turn = std::atan2(double(m.uy[i]), double(m.ux[i])) / (2 * portable::kPi);

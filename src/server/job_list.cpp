@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::size_t kMostOutput = 16u << 20;
 constexpr int kPollMs = 100;
-constexpr double kTellEvery = 0.2;  // s
-constexpr double kKillAfter = 5;     // s that a job may take to stop before it is killed
+constexpr double kReportPeriod = 0.2;  // s
+constexpr double kPatience = 5;        // s, timeout between SIGINT and SIGKILL
 constexpr int kProgressFd = 3;
-constexpr std::size_t kKept = 100;  // jobs that are remembered
+constexpr std::size_t kKept = 100;  // maximum length of the job list
 
 constexpr std::array<const char*, 5> kStates = {"waiting", "running", "done", "failed", "cancelled"};
 
-/// Both ends of a pipe, closed when it goes.
+/// Both ends of a pipe, closed by the destructor.
 struct Pipe {
   int read_end = -1, write_end = -1;
   Pipe() {
@@ -45,7 +45,7 @@ struct Pipe {
     if (write_end >= 0) ::close(write_end);
     write_end = -1;
   }
-  /// Appends what is there; false at the end.
+  /// Appends all available data; false at the end of the stream.
   bool drain(std::string& into) const {
     std::array<char, 65536> buffer;
     for (;;) {
@@ -57,7 +57,7 @@ struct Pipe {
   }
 };
 
-// The last whole line of the progress: "simulating 40 300".
+// The last complete line of the progress, such as "simulating 40 300".
 void read_progress(std::string& text, Job& job) {
   const auto end = text.rfind('\n');
   if (end == std::string::npos) return;
@@ -71,7 +71,7 @@ void read_progress(std::string& text, Job& job) {
   job.of = std::strtoull(line.c_str() + total + 1, nullptr, 10);
 }
 
-// What a verb says when it fails is the last line of its standard error.
+// The error message of a verb is the last line of its standard error.
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   const auto cut = text.rfind('\n');
@@ -89,7 +89,7 @@ Json job_json(const Job& j) {
           {"seconds", j.seconds}, {"error", j.error}, {"result", j.result}};
 }
 
-/// A call of the program with three pipes: answer, complaints, progress.
+/// A process of the program with three pipes: standard output, standard error, progress.
 struct JobList::Process {
   Pipe out, err, progress;
   pid_t pid = -1;
@@ -102,11 +102,11 @@ struct JobList::Process {
     argv.reserve(all.size() + 1);
     for (std::string& w : all) argv.push_back(w.data());
     argv.push_back(nullptr);
-    std::string say = "FABA_PROGRESS_FD=" + std::to_string(kProgressFd);
+    std::string variable = "FABA_PROGRESS_FD=" + std::to_string(kProgressFd);
     std::size_t inherited = 0;
     while (environ[inherited]) ++inherited;
     std::vector<char*> env(environ, environ + inherited);
-    env.push_back(say.data());
+    env.push_back(variable.data());
     env.push_back(nullptr);
 
     posix_spawn_file_actions_t files;
@@ -115,12 +115,12 @@ struct JobList::Process {
     posix_spawn_file_actions_adddup2(&files, out.write_end, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, err.write_end, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&files, progress.write_end, kProgressFd);
-    // Nothing of the lab's is the job's: a port would stay taken as long as the job runs.
+    // Jobs inherit no descriptors of the lab: otherwise the port would stay in use while the job runs.
     posix_spawn_file_actions_addclosefrom_np(&files, kProgressFd + 1);
     posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
     posix_spawnattr_t how;
     posix_spawnattr_init(&how);
-    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP);  // Ctrl-C is the lab's to pass on
+    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP);  // only the lab handles Ctrl-C
     const int wrong = posix_spawn(&pid, program.c_str(), &files, &how, argv.data(), env.data());
     posix_spawnattr_destroy(&how);
     posix_spawn_file_actions_destroy(&files);
@@ -227,7 +227,7 @@ void JobList::carry_out(Job& job, const std::stop_token& stop) {
     return std::chrono::duration<double>(Clock::now() - t).count();
   };
   std::optional<Clock::time_point> asked;
-  auto told = began;
+  auto reported = began;
   std::string out, err, progress;
   bool killed = false;
   for (bool open = true; open;) {
@@ -244,12 +244,12 @@ void JobList::carry_out(Job& job, const std::stop_token& stop) {
       asked = Clock::now();
       ::kill(process.pid, SIGINT);
     }
-    if (asked && !killed && since(*asked) > kKillAfter) {
+    if (asked && !killed && since(*asked) > kPatience) {
       killed = true;
       ::kill(process.pid, SIGKILL);
     }
-    if (since(told) > kTellEvery) {
-      told = Clock::now();
+    if (since(reported) > kReportPeriod) {
+      reported = Clock::now();
       report(job);
     }
     if (!more_out && more_err) ::usleep(kPollMs * 1000 / 10);  // poll() returns at once on a closed pipe
@@ -266,8 +266,7 @@ void JobList::carry_out(Job& job, const std::stop_token& stop) {
     job.state = Job::State::done;
   } else {
     job.state = Job::State::failed;
-    job.error =
-        WIFEXITED(status) ? last_line(err) : "was killed by signal " + std::to_string(WTERMSIG(status));
+    job.error = WIFEXITED(status) ? last_line(err) : "killed by signal " + std::to_string(WTERMSIG(status));
   }
 }
 

@@ -12,34 +12,34 @@
 
 namespace faba {
 
-/// Long work that a page asked for: one call of the program, in a process of its own, so that it can be
-/// stopped at any moment and takes nobody with it.
+/// A job started by a page: one call of the program in a separate process, so that it can be stopped at any
+/// time and cannot crash the lab.
 struct Job {
   enum class State { waiting, running, done, failed, cancelled };
   int id = 0;
   std::string title;                ///< "Record steer"
-  std::vector<std::string> words;   ///< what follows the program's name, as one would type it
-  std::filesystem::path page, out;  ///< what it writes, below the workspace: to be looked at, and kept
+  std::vector<std::string> words;   ///< command-line arguments
+  std::filesystem::path page, out;  ///< result page and output directory, relative to the workspace
   State state = State::waiting;
   std::string doing;              ///< "simulating"
-  std::uint64_t did = 0, of = 0;  ///< of: 0 when it is not known
-  double seconds = 0;             ///< that it has run
-  std::string error;              ///< why it failed
-  Json result;                    ///< what --json said
+  std::uint64_t did = 0, of = 0;  ///< progress; of: total, 0 if unknown
+  double seconds = 0;             ///< run time
+  std::string error;              ///< error message
+  Json result;                    ///< output of --json
 };
 Json job_json(const Job& j);
 
-/// Does jobs one after the other. Thread-safe.
+/// Runs jobs one after the other. Thread-safe.
 class JobList {
  public:
-  /// `changed` is called on the list's thread, a few times a second at most.
+  /// `changed` is called on the thread of the list, at most a few times per second.
   JobList(std::filesystem::path program, std::filesystem::path workspace, std::function<void()> changed);
-  /// Stops what is running, and waits until it has come to an end.
+  /// Stops the running job and waits for its end.
   ~JobList();
 
   int add(std::string title, std::vector<std::string> words, std::filesystem::path page,
           std::filesystem::path out);
-  /// Asks a job to stop, or takes it from the list when it has not begun. False when there is none.
+  /// Stops a running job, or cancels a queued one. False if there is no such job.
   bool cancel(int id);
   std::vector<Job> jobs() const;
 
@@ -55,7 +55,7 @@ class JobList {
   std::condition_variable wake_;
   std::vector<Job> jobs_;
   int next_ = 1;
-  std::atomic<int> cancel_{0};  ///< id of the running job that is to stop
+  std::atomic<int> cancel_{0};  ///< id of the running job to stop
   std::jthread thread_;
 };
 

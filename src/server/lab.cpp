@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that only this user can read, gone at the end.
+/// A temporary folder that only this user can read; removed by the destructor.
 class PrivateFolder {
  public:
   PrivateFolder() {
     std::string name = (fs::temp_directory_path() / "faba-lab-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw Error(Errc::internal, name, "cannot be made");
+    if (!::mkdtemp(name.data())) throw Error(Errc::internal, name, "cannot create this folder");
     path_ = name;
   }
   ~PrivateFolder() {
@@ -37,13 +37,13 @@ class PrivateFolder {
   fs::path path_;
 };
 
-// Whoever watches may ask for these, too.
+// Requests that change the run; all pages may send the others.
 bool needs_steering(PageMessage::Do what) {
   using Do = PageMessage::Do;
   return what != Do::steer && what != Do::look && what != Do::ping;
 }
 
-/// Pages, the run that they watch, and who of them steers. Its handlers are called on the server's thread.
+/// Connected pages, the run that they display, and the page that steers. Handlers run on the server's thread.
 class Pages {
  public:
   Pages(LiveLab& lab, JobList& jobs, const Workspace& workspace)
@@ -55,11 +55,12 @@ class Pages {
       sockets_[s->id()] = s;
       if (steering_ == 0) steering_ = s->id();
     }
-    s->say(Json{{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", s->id()}}.dump());
-    tell_pages();
-    s->say(jobs_news());
-    lab_.watch(s->id(), {[s](std::shared_ptr<const std::string> bytes) { s->show(std::move(bytes)); },
-                         [s](const Json& j) { s->say(j.dump()); }});
+    s->send_text(
+        Json{{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", s->id()}}.dump());
+    broadcast_pages();
+    s->send_text(jobs_message());
+    lab_.watch(s->id(), {[s](std::shared_ptr<const std::string> bytes) { s->send_frame(std::move(bytes)); },
+                         [s](const Json& j) { s->send_text(j.dump()); }});
   }
   void closed(const PageSocketRef& s) {
     lab_.leave(s->id());
@@ -68,29 +69,29 @@ class Pages {
       sockets_.erase(s->id());
       if (steering_ == s->id()) steering_ = sockets_.empty() ? 0 : sockets_.begin()->first;
     }
-    tell_pages();
+    broadcast_pages();
   }
-  void heard(const PageSocketRef& s, std::string_view text) {
+  void received(const PageSocketRef& s, std::string_view text) {
     PageMessage m;
     try {
       m = parse_page_message(text);
       if (needs_steering(m.what) && steering() != s->id())
-        throw Error(Errc::usage, "steer", "another page steers");
+        throw Error(Errc::usage, "steer", "another page is steering; take control first");
       carry_out(m, s);
     } catch (const Error& e) {
-      s->say(Json{
+      s->send_text(Json{
           {"id", m.id ? m.id : message_id(text)}, {"ok", false}, {"where", e.where()}, {"what", e.reason()}}
-                 .dump());
+                       .dump());
     }
   }
-  void jobs_changed() { tell(jobs_news()); }
+  void jobs_changed() { broadcast(jobs_message()); }
 
  private:
   void carry_out(const PageMessage& m, const PageSocketRef& s) {
     const LiveLab::Done done = [this, s, id = m.id](Json answer) {
       answer["id"] = id;
       if (answer.contains("where")) answer["where"] = workspace_.in_page(answer["where"]);
-      s->say(answer.dump());
+      s->send_text(answer.dump());
     };
     using Do = PageMessage::Do;
     switch (m.what) {
@@ -111,13 +112,13 @@ class Pages {
       case Do::restart:
         return lab_.restart(done);
       case Do::look:
-        lab_.wish(s->id(), {m.camera, m.rate});
+        lab_.set_view(s->id(), {m.camera, m.rate});
         return done(Json{{"ok", true}});
       case Do::steer: {
         const std::lock_guard lock(mutex_);
         steering_ = s->id();
       }
-        tell_pages();
+        broadcast_pages();
         return done(Json{{"ok", true}});
       case Do::ping:
         return done(Json{{"ok", true}});
@@ -126,8 +127,7 @@ class Pages {
     }
   }
 
-  // The recording is made from what was done, by a process of its own: the run that is watched does not wait
-  // for it.
+  // A separate process makes the recording from the recorded events: the live run does not wait for it.
   void save(const PageMessage& m, const LiveLab::Done& done) {
     std::string slug;
     for (const char c : m.name)
@@ -159,22 +159,22 @@ class Pages {
     const std::lock_guard lock(mutex_);
     return steering_;
   }
-  std::string jobs_news() const {
+  std::string jobs_message() const {
     Json all = Json::array();
     for (const Job& j : jobs_.jobs()) all.push_back(job_json(j));
     return Json{{"say", "jobs"}, {"jobs", all}}.dump();
   }
-  void tell(const std::string& text) {
+  void broadcast(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    for (const auto& [_, s] : sockets_) s->say(text);
+    for (const auto& [_, s] : sockets_) s->send_text(text);
   }
-  void tell_pages() {
+  void broadcast_pages() {
     Json j;
     {
       const std::lock_guard lock(mutex_);
       j = {{"say", "pages"}, {"pages", sockets_.size()}, {"steering", steering_}};
     }
-    tell(j.dump());
+    broadcast(j.dump());
   }
 
   LiveLab& lab_;
@@ -182,7 +182,7 @@ class Pages {
   const Workspace& workspace_;
   mutable std::mutex mutex_;
   std::map<std::uint64_t, PageSocketRef> sockets_;
-  std::uint64_t steering_ = 0;  ///< 0: nobody is there
+  std::uint64_t steering_ = 0;  ///< id of the steering page; 0: none
 };
 
 }  // namespace
@@ -195,7 +195,7 @@ void serve_lab(const LabOptions& o) {
 
   LiveLab live(o.threads);
   Pages* pages = nullptr;
-  std::mutex wiring;  // jobs may change before there is anybody to tell
+  std::mutex wiring;  // jobs may change before `pages` exists
   JobList jobs(o.program, workspace.root(), [&] {
     const std::lock_guard lock(wiring);
     if (pages) pages->jobs_changed();
@@ -218,14 +218,15 @@ void serve_lab(const LabOptions& o) {
     server.stop();
   });
   const std::string address = fmt::format("{}/?token={}", access.origin(), access.token());
-  // A browser is given a file that leads there: what is on a command line everybody on the machine can read.
+  // The browser opens a file that redirects to the URL: other users can read command lines, but not this
+  // file.
   const fs::path door = folder.path() / "open.html";
   write_file(door, fmt::format("<!doctype html><meta http-equiv=refresh content=\"0; url={}\">\n", address));
   fs::permissions(door, fs::perms::owner_read | fs::perms::owner_write);
   o.ready(address, door);
   server.run(access, {[&](const WebRequest& r) { return api.answer(r); },
                       [&](const PageSocketRef& s) { watchers.opened(s); },
-                      [&](const PageSocketRef& s, std::string_view text) { watchers.heard(s, text); },
+                      [&](const PageSocketRef& s, std::string_view text) { watchers.received(s, text); },
                       [&](const PageSocketRef& s) { watchers.closed(s); }});
   const std::lock_guard lock(wiring);
   pages = nullptr;

@@ -6,22 +6,22 @@
 
 namespace faba {
 
-/// How `faba lab` is called.
+/// Options of `faba lab`.
 struct LabOptions {
-  std::filesystem::path workspace = ".";  ///< that it reads and writes in
-  std::filesystem::path scenes;           ///< the gallery of a workspace without one
-  std::filesystem::path program;          ///< that does the jobs
-  std::filesystem::path scene;            ///< to begin with; empty: none
-  std::filesystem::path pages;  ///< page's files, while they are worked on; empty: those in the program
-  unsigned short port = 0;      ///< 0: any that is free
+  std::filesystem::path workspace = ".";  ///< folder for input and output files
+  std::filesystem::path scenes;           ///< gallery, used if the workspace has none
+  std::filesystem::path program;          ///< program that runs the jobs
+  std::filesystem::path scene;            ///< initial scene; empty: none
+  std::filesystem::path pages;            ///< files of the page, for development; empty: embedded files
+  unsigned short port = 0;                ///< 0: any free port
   unsigned threads = 0;
-  /// Called once, when it can be opened: the address with the token, and a file that leads a browser there.
+  /// Called once when the server is ready: the URL with the token, and a file that redirects a browser to it.
   std::function<void(const std::string& address, const std::filesystem::path& door)> ready;
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Serves the live lab until asked to stop. Throws Error(usage) for a port that is taken or a scene that is
-/// wrong, before it serves anything.
+/// Serves the live lab until `stop` is true. Throws Error(usage), before serving, if the port is in use or
+/// the scene is invalid.
 void serve_lab(const LabOptions& o);
 
 }  // namespace faba

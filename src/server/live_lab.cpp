@@ -8,15 +8,15 @@
 namespace faba {
 namespace {
 
-constexpr double kSpeedEvery = 0.5;  // s: how fast it really goes
-constexpr double kLate = 0.25;      // s: what a run may catch up with; the rest is given up
+constexpr double kStatePeriod = 0.5;  // s, interval of state messages
+constexpr double kLate = 0.25;        // s, maximum lag that is made up for
 
 Json box_json(const PictureBox& b) { return {b.left, b.top, b.right, b.bottom}; }
 
 }  // namespace
 
 LiveLab::LiveLab(unsigned threads)
-    : parts_(builtin_parts()), pool_(threads), thread_([this](const std::stop_token& s) { work(s); }) {}
+    : parts_(builtin_parts()), pool_(threads), thread_([this](const std::stop_token& s) { run_loop(s); }) {}
 
 LiveLab::~LiveLab() {
   thread_.request_stop();
@@ -24,22 +24,22 @@ LiveLab::~LiveLab() {
 }
 
 LiveRun& LiveLab::live() const {
-  if (!shown_) throw Error(Errc::usage, "run", "there is none; start a scenario");
+  if (!shown_) throw Error(Errc::usage, "run", "no run; start a scenario first");
   return shown_->live;
 }
 
-void LiveLab::ask(std::function<Json()> what, Done done) {
+void LiveLab::enqueue(std::function<Json()> what, Done done) {
   {
     const std::lock_guard lock(mutex_);
-    asked_.push_back({std::move(what), std::move(done)});
+    requests_.push_back({std::move(what), std::move(done)});
   }
   wake_.notify_all();
 }
 
-void LiveLab::do_asked(std::unique_lock<std::mutex>& lock) {
-  while (!asked_.empty() && !next_) {
-    const Asked a = std::move(asked_.front());
-    asked_.pop_front();
+void LiveLab::handle_requests(std::unique_lock<std::mutex>& lock) {
+  while (!requests_.empty() && !next_) {
+    const Request a = std::move(requests_.front());
+    requests_.pop_front();
     lock.unlock();
     Json answer;
     try {
@@ -55,44 +55,44 @@ void LiveLab::do_asked(std::unique_lock<std::mutex>& lock) {
   }
 }
 
-void LiveLab::work(const std::stop_token& stop) {
+void LiveLab::run_loop(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     {
       std::unique_lock lock(mutex_);
-      do_asked(lock);
+      handle_requests(lock);
       if (!next_) {
-        wake_.wait(lock, [&] { return stop.stop_requested() || !asked_.empty(); });
+        wake_.wait(lock, [&] { return stop.stop_requested() || !requests_.empty(); });
         continue;
       }
       shown_ = std::move(next_);
     }
     ++run_;
-    due_ = told_ = Clock::now();
-    told_frame_ = 0;
+    due_ = reported_ = Clock::now();
+    reported_frame_ = 0;
     real_speed_ = 0;
-    tell(run_news());
-    tell(state());
+    broadcast(run_news());
+    broadcast(state());
     try {
       shown_->live.run([&] { return between_frames(stop); });
     } catch (const Error& e) {
-      tell({{"say", "stopped"}, {"where", e.where()}, {"what", e.reason()}});
+      broadcast({{"say", "stopped"}, {"where", e.where()}, {"what", e.reason()}});
     }
   }
 }
 
-// Speed that is asked for, as long as the machine can; what it cannot is given up, not caught up with.
+// Runs at the requested speed if possible. Lag beyond kLate is not made up for.
 void LiveLab::keep_pace() {
   const auto now = Clock::now();
   const double period = shown_->live.scenario().frame_period() / speed_;
   due_ += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period));
   if (now - due_ > std::chrono::duration<double>(kLate)) due_ = now;
-  const double since = std::chrono::duration<double>(now - told_).count();
-  if (since < kSpeedEvery) return;
-  const std::uint64_t frames = shown_->live.frame() - told_frame_;
+  const double since = std::chrono::duration<double>(now - reported_).count();
+  if (since < kStatePeriod) return;
+  const std::uint64_t frames = shown_->live.frame() - reported_frame_;
   real_speed_ = double(frames) * shown_->live.scenario().frame_period() / since;
-  told_ = now;
-  told_frame_ = shown_->live.frame();
-  tell(state());
+  reported_ = now;
+  reported_frame_ = shown_->live.frame();
+  broadcast(state());
 }
 
 bool LiveLab::between_frames(const std::stop_token& stop) {
@@ -104,17 +104,17 @@ bool LiveLab::between_frames(const std::stop_token& stop) {
     paused_ = true;
     const Json news = state();
     lock.unlock();
-    tell(news);
+    broadcast(news);
     lock.lock();
   }
   for (;;) {
-    do_asked(lock);
+    handle_requests(lock);
     if (next_ || stop.stop_requested()) return false;
-    const auto woken = [&] { return stop.stop_requested() || !asked_.empty(); };
+    const auto woken = [&] { return stop.stop_requested() || !requests_.empty(); };
     if (paused_) {
       wake_.wait(lock, woken);
-      due_ = told_ = Clock::now();
-      told_frame_ = shown_->live.frame();
+      due_ = reported_ = Clock::now();
+      reported_frame_ = shown_->live.frame();
     } else if (!wake_.wait_until(lock, due_, woken)) {
       return true;
     }
@@ -127,14 +127,14 @@ void LiveLab::publish(Clock::time_point now) {
   for (auto& [who, w] : watchers_) {
     if (now < w.next && !paused_) continue;
     w.next =
-        now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / w.wish.rate));
-    auto& message = w.wish.camera ? camera : plain;
-    if (!message) message = shown_->message(run_, w.wish.camera);
+        now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / w.view.rate));
+    auto& message = w.view.camera ? camera : plain;
+    if (!message) message = shown_->message(run_, w.view.camera);
     w.listener.frame(message);
   }
 }
 
-void LiveLab::tell(const Json& news) {
+void LiveLab::broadcast(const Json& news) {
   const std::lock_guard lock(mutex_);
   for (const auto& [who, w] : watchers_) w.listener.news(news);
 }
@@ -185,7 +185,7 @@ Json LiveLab::parts_news() const {
 }
 
 void LiveLab::watch(std::uint64_t who, Listener l) {
-  ask(
+  enqueue(
       [this, who, l = std::move(l)] {
         if (shown_) l.news(run_news());
         l.news(state());
@@ -197,13 +197,13 @@ void LiveLab::watch(std::uint64_t who, Listener l) {
       [](const Json&) {});
 }
 
-void LiveLab::wish(std::uint64_t who, Wish w) {
-  ask(
+void LiveLab::set_view(std::uint64_t who, View w) {
+  enqueue(
       [this, who, w] {
         std::unique_lock lock(mutex_);
         const auto it = watchers_.find(who);
         if (it == watchers_.end()) return Json::object();
-        it->second.wish = w;
+        it->second.view = w;
         if (paused_ && shown_ && shown_->live.frame() > 0)
           it->second.listener.frame(shown_->message(run_, w.camera));
         return Json::object();
@@ -216,7 +216,7 @@ void LiveLab::leave(std::uint64_t who) {
   watchers_.erase(who);
 }
 
-Json LiveLab::begin(const Document& d, std::uint64_t seed) {
+Json LiveLab::prepare_run(const Document& d, std::uint64_t seed) {
   next_ = std::make_unique<ShownRun>(d, seed, parts_, pool_);
   paused_ = false;
   pause_at_ = 0;
@@ -224,66 +224,67 @@ Json LiveLab::begin(const Document& d, std::uint64_t seed) {
 }
 
 void LiveLab::start(Document d, std::optional<std::uint64_t> seed, Done done) {
-  ask([this, d = std::move(d), seed] { return begin(d, seed.value_or(random_seed())); }, std::move(done));
+  enqueue([this, d = std::move(d), seed] { return prepare_run(d, seed.value_or(random_seed())); },
+          std::move(done));
 }
 
 void LiveLab::restart(Done done) {
-  ask(
+  enqueue(
       [this] {
         const std::uint64_t seed = live().seed();
-        return begin(shown_->document, seed);
+        return prepare_run(shown_->document, seed);
       },
       std::move(done));
 }
 
 void LiveLab::exchange(Json event, Done done) {
-  ask(
+  enqueue(
       [this, event = std::move(event)] {
         live().exchange(event);
-        tell(parts_news());
+        broadcast(parts_news());
         return Json::object();
       },
       std::move(done));
 }
 
 void LiveLab::pause(bool paused, Done done) {
-  ask(
+  enqueue(
       [this, paused] {
         live();
         paused_ = paused;
         pause_at_ = 0;
         due_ = Clock::now();
-        tell(state());
+        broadcast(state());
         return Json{{"frame", live().frame()}};
       },
       std::move(done));
 }
 
 void LiveLab::step(std::uint64_t frames, Done done) {
-  ask(
+  enqueue(
       [this, frames] {
         pause_at_ = live().frame() + frames;
         paused_ = false;
         due_ = Clock::now();
-        tell(state());
+        broadcast(state());
         return Json{{"frame", pause_at_}};
       },
       std::move(done));
 }
 
 void LiveLab::speed(double factor, Done done) {
-  ask(
+  enqueue(
       [this, factor] {
         speed_ = factor;
         due_ = Clock::now();
-        tell(state());
+        broadcast(state());
         return Json::object();
       },
       std::move(done));
 }
 
 void LiveLab::recorded(std::function<void(const Scenario&, std::string)> take, Done done) {
-  ask(
+  enqueue(
       [this, take = std::move(take)] {
         take(live().recorded(), live().state_hash());
         return Json::object();

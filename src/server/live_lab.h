@@ -15,31 +15,31 @@ namespace faba {
 
 struct ShownRun;
 
-/// The run that pages watch and steer. It has a thread of its own that keeps pace with the clock; whatever is
-/// asked of it happens there, between two frames. Frames go out through a slot of one: whoever is slow misses
-/// some, and the run waits for nobody.
+/// The run that pages display and steer. It runs in real time in its own thread, which handles requests
+/// between two frames. Only the newest frame is kept for each page: slow pages miss frames, and the run does
+/// not wait for them.
 class LiveLab {
  public:
-  /// What somebody who watches wants to see.
-  struct Wish {
+  /// View settings of a listener.
+  struct View {
     bool camera = false;
-    double rate = 60;  ///< frames per second at most
+    double rate = 60;  ///< maximum frame rate, Hz
   };
   struct Listener {
     std::function<void(std::shared_ptr<const std::string>)> frame;  ///< binary
     std::function<void(const Json&)> news;                          ///< JSON messages without an id
   };
 
-  /// `threads`: that a run computes with; 0: all of the machine's.
+  /// `threads`: number of threads of a run; 0: all of the machine.
   explicit LiveLab(unsigned threads);
   ~LiveLab();
 
-  /// From then on the listener is told of everything, beginning with how things stand.
+  /// Adds a listener, which first receives the present state.
   void watch(std::uint64_t who, Listener l);
-  void wish(std::uint64_t who, Wish w);
+  void set_view(std::uint64_t who, View w);
   void leave(std::uint64_t who);
 
-  // Requests. `done` is called on the lab's thread with the answer, without "id"; an Error becomes
+  // Requests. `done` is called on the thread of the lab with the answer, without "id"; an Error becomes
   // {"ok": false, "where", "what"}.
   using Done = std::function<void(Json answer)>;
   void start(Document d, std::optional<std::uint64_t> seed, Done done);
@@ -48,47 +48,47 @@ class LiveLab {
   void step(std::uint64_t frames, Done done);
   void speed(double factor, Done done);
   void restart(Done done);
-  /// The whole scenario until now, for a recording.
+  /// The scenario with all events up to now, for a recording.
   void recorded(std::function<void(const Scenario&, std::string state_hash)> take, Done done);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void work(const std::stop_token& stop);
-  void ask(std::function<Json()> what, Done done);
-  void do_asked(std::unique_lock<std::mutex>& lock);
+  void run_loop(const std::stop_token& stop);
+  void enqueue(std::function<Json()> what, Done done);
+  void handle_requests(std::unique_lock<std::mutex>& lock);
   bool between_frames(const std::stop_token& stop);
   void keep_pace();
-  Json begin(const Document& d, std::uint64_t seed);
+  Json prepare_run(const Document& d, std::uint64_t seed);
   LiveRun& live() const;
   void publish(Clock::time_point now);
   std::shared_ptr<const std::string> frame(bool camera);
-  void tell(const Json& news);
+  void broadcast(const Json& news);
   Json state() const;
   Json run_news() const;
   Json parts_news() const;
 
   Parts parts_;
   Pool pool_;
-  std::unique_ptr<ShownRun> shown_, next_;  ///< next_: takes the place of shown_ as soon as that has stopped
+  std::unique_ptr<ShownRun> shown_, next_;  ///< next_: replaces shown_ after it has stopped
   std::uint32_t run_ = 0;
   bool paused_ = false;
   std::uint64_t pause_at_ = 0;  ///< frame; 0: none
   double speed_ = 1, real_speed_ = 0;
-  Clock::time_point due_, told_;
-  std::uint64_t told_frame_ = 0;
+  Clock::time_point due_, reported_;
+  std::uint64_t reported_frame_ = 0;
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  struct Asked {
+  struct Request {
     std::function<Json()> what;
     Done done;
   };
-  std::deque<Asked> asked_;
+  std::deque<Request> requests_;
   struct Watcher {
     Listener listener;
-    Wish wish;
-    Clock::time_point next;  ///< before then it wants no frame
+    View view;
+    Clock::time_point next;  ///< earliest time of the next frame
   };
   std::map<std::uint64_t, Watcher> watchers_;
   std::jthread thread_;

@@ -24,26 +24,27 @@ constexpr std::array<std::pair<const char*, PageMessage::Do>, 11> kWords = {{
     {"save", PageMessage::Do::save},
     {"ping", PageMessage::Do::ping},
 }};
-constexpr int kDeepest = 32;  // a scenario has five levels
+constexpr int kDeepest = 32;  // scenarios have five levels
 constexpr std::uint64_t kMostSeed = 1ull << 53;
 
 Error bad(const std::string& where, const std::string& what) { return {Errc::usage, where, what}; }
 
-// Nested too deep for those who walk through it by recursion.
+// Limits the nesting depth, because documents are processed recursively.
 Json parse(std::string_view text) {
   const auto deep = [](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) throw bad("message", "is nested too deep");
+    if (depth > kDeepest) throw bad("invalid message", "nesting is too deep");
     return true;
   };
   Json j = Json::parse(text, deep, false);
-  if (!j.is_object()) throw bad("message", "is not a JSON object");
+  if (!j.is_object()) throw bad("invalid message", "not a JSON object");
   return j;
 }
 
 double number(const Json& j, const char* key, double low, double high) {
   if (!j.contains(key) || !j[key].is_number()) throw bad(key, "must be a number");
   const double v = j[key];
-  if (!(v >= low && v <= high)) throw bad(key, fmt::format("must lie between {:g} and {:g}", low, high));
+  if (!(v >= low && v <= high))
+    throw bad(key, fmt::format("{:g} is out of range; it must be between {:g} and {:g}", v, low, high));
   return v;
 }
 
@@ -58,10 +59,10 @@ PageMessage parse_page_message(std::string_view text) {
   const Json j = parse(text);
   PageMessage m;
   m.id = std::int64_t(number(j, "id", 0, 9e15));
-  if (!j.contains("do") || !j["do"].is_string()) throw bad("do", "must be a word");
+  if (!j.contains("do") || !j["do"].is_string()) throw bad("do", "must be a string");
   const auto word = j["do"].get<std::string>();
   const auto it = std::find_if(kWords.begin(), kWords.end(), [&](const auto& w) { return word == w.first; });
-  if (it == kWords.end()) throw bad("do", "there is no \"" + word.substr(0, 40) + "\"");
+  if (it == kWords.end()) throw bad("do", "unknown request \"" + word.substr(0, 40) + "\"");
   m.what = it->second;
   using Do = PageMessage::Do;
   switch (m.what) {
@@ -83,7 +84,7 @@ PageMessage parse_page_message(std::string_view text) {
       if (j.contains("rate")) m.rate = number(j, "rate", 0.1, 240);
       break;
     case Do::save:
-      if (!j.contains("name") || !j["name"].is_string()) throw bad("name", "must be text");
+      if (!j.contains("name") || !j["name"].is_string()) throw bad("name", "must be a string");
       m.name = j["name"];
       m.as_seen = j.value("as_seen", Json(false)) == true;
       break;

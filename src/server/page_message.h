@@ -6,7 +6,7 @@
 
 namespace faba {
 
-/// What a page may ask of the live lab; web/protocol.md.
+/// A request of a page to the live lab; see web/protocol.md.
 struct PageMessage {
   enum class Do { start, exchange, pause, go, step, speed, restart, steer, look, save, ping };
   Do what = Do::pause;
@@ -22,9 +22,9 @@ struct PageMessage {
   bool as_seen = false;               ///< save
 };
 
-/// Throws Error(usage) for anything that is not a message: any bytes may come.
+/// Parses any bytes. Throws Error(usage) if they are not a valid message.
 PageMessage parse_page_message(std::string_view text);
-/// The id of a message that cannot be read further; 0 when it has none.
+/// The id of an invalid message; 0 if it has none.
 std::int64_t message_id(std::string_view text);
 
 }  // namespace faba

@@ -17,9 +17,9 @@ using asio::ip::tcp;
 namespace {
 
 constexpr auto kHandshake = std::chrono::seconds(30);
-constexpr auto kIdle = std::chrono::seconds(20);           // of a page that does not answer pings
-constexpr std::size_t kMostUnread = 8u << 20;              // text that a page has not taken yet
-constexpr double kMessagesPerSecond = 200, kBurst = 1000;  // from a page; dragging sends sixty
+constexpr auto kIdle = std::chrono::seconds(20);           // timeout of pings
+constexpr std::size_t kMostUnread = 8u << 20;              // maximum size of unsent text
+constexpr double kMessagesPerSecond = 200, kBurst = 1000;  // limit per page; dragging sends sixty
 
 class Socket final : public PageSocket, public std::enable_shared_from_this<Socket> {
  public:
@@ -48,7 +48,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   }
 
   std::uint64_t id() const override { return id_; }
-  void say(std::string text) override {
+  void send_text(std::string text) override {
     asio::post(stream_.get_executor(), [self = shared_from_this(),
                                         t = std::make_shared<const std::string>(std::move(text))]() mutable {
       if (!self->open_) return;
@@ -58,7 +58,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
       self->write();
     });
   }
-  void show(std::shared_ptr<const std::string> bytes) override {
+  void send_frame(std::shared_ptr<const std::string> bytes) override {
     asio::post(stream_.get_executor(), [self = shared_from_this(), b = std::move(bytes)]() mutable {
       if (!self->open_) return;
       self->frame_ = std::move(b);
@@ -70,20 +70,20 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code ec, std::size_t) {
       if (ec) return self->close();
-      if (!self->may_speak()) return self->close();
+      if (!self->below_rate_limit()) return self->close();
       if (self->stream_.got_text()) {
         const auto data = self->buffer_.cdata();
-        self->handlers_.heard(self, {static_cast<const char*>(data.data()), data.size()});
+        self->handlers_.received(self, {static_cast<const char*>(data.data()), data.size()});
       }
       self->buffer_.consume(self->buffer_.size());
       if (self->open_) self->read();
     });
   }
-  bool may_speak() {
+  bool below_rate_limit() {
     const auto now = std::chrono::steady_clock::now();
-    tokens_ += std::chrono::duration<double>(now - heard_).count() * kMessagesPerSecond;
+    tokens_ += std::chrono::duration<double>(now - last_message_).count() * kMessagesPerSecond;
     tokens_ = std::min(tokens_, kBurst) - 1;
-    heard_ = now;
+    last_message_ = now;
     return tokens_ > 0;
   }
   void write() {
@@ -125,7 +125,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   std::size_t unread_ = 0;
   std::shared_ptr<const std::string> frame_, sent_;
   double tokens_ = kBurst;
-  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_message_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace

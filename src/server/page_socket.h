@@ -7,8 +7,8 @@
 
 namespace faba {
 
-/// Makes a page's socket of a connection that asked for one and may have it, and tells `handlers` what
-/// becomes of it. They outlive it; `counted` goes when it goes.
+/// Upgrades an authorised connection to a WebSocket and reports its events to `handlers`, which must outlive
+/// it. `counted` is released at its end.
 void open_page_socket(boost::asio::ip::tcp::socket connection,
                       const boost::beast::http::request<boost::beast::http::empty_body>& request,
                       const WebHandlers& handlers, std::uint64_t id, std::shared_ptr<void> counted);

@@ -11,7 +11,7 @@
 namespace faba {
 namespace {
 
-// What the page cannot do without.
+// Data required by the page.
 struct RecordedScene {
   RunInfo run;
   Vec2 view_px;
@@ -22,17 +22,18 @@ RecordedScene scene_of(const std::filesystem::path& dir) {
   const auto file = dir / run_files::kManifest;
   RunInfo run = read_run_info(file);
   if (!run.view_px || !run.arena)
-    throw Error(Errc::input, file.string(), "must have view_px and arena with centre_px");
+    throw Error(Errc::input, file.string(), "needs view_px, and arena with centre_px");
   return {run, *run.view_px, *run.arena};
 }
 
 H5File tracks_of(const std::filesystem::path& dir) {
   if (!std::filesystem::exists(dir / "tracks.h5"))
-    throw Error(Errc::input, dir.filename().string(), "kept no tracks; its video can be looked at");
+    throw Error(Errc::input, dir.filename().string(),
+                "the run has no tracks.h5; only its video can be displayed");
   return H5File::open(dir / "tracks.h5");
 }
 
-// Where its cells can be, px.
+// Bounding box of the cells, px.
 PictureBox box_of(const RecordedScene& s) {
   if (!s.arena.radius_px) return {-0.5, -0.5, s.view_px.x - 0.5, s.view_px.y - 0.5};
   const double x = s.arena.centre_px.x, y = s.arena.centre_px.y, r = *s.arena.radius_px;
@@ -70,25 +71,25 @@ Json describe_run(const std::filesystem::path& dir) {
 std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std::uint64_t count) {
   const RecordedScene scene = scene_of(dir);
   const H5File f = tracks_of(dir);
-  const H5Table places = f.table("position_px"), times = f.table("t_s"), numbers = f.table("frame");
-  const bool silent = f.has("responding");
-  const std::size_t n = places.row_size() / 2;
+  const H5Table positions = f.table("position_px"), times = f.table("t_s"), numbers = f.table("frame");
+  const bool has_response = f.has("responding");
+  const std::size_t n = positions.row_size() / 2;
   std::vector<float> xy(2 * n), x(n), y(n), response(n, 1.0F);
-  std::vector<std::uint8_t> responding(silent ? n : 0);
+  std::vector<std::uint8_t> responding(has_response ? n : 0);
   std::string out;
-  const std::uint64_t end = std::min(places.rows(), from + std::min(count, kMostRunFrames));
+  const std::uint64_t end = std::min(positions.rows(), from + std::min(count, kMostRunFrames));
   for (std::uint64_t k = from; k < end; ++k) {
     FrameMessage frame;
-    places.read(k, std::span<float>(xy));
+    positions.read(k, std::span<float>(xy));
     times.read(k, std::span<double>(&frame.t, 1));
     numbers.read(k, std::span<std::uint64_t>(&frame.frame, 1));
-    // The message takes positions in the world: here a world of one metre per pixel about the corner.
+    // The message needs world positions: 1 m per pixel, origin at the corner of the image.
     frame.view = {1, int(scene.view_px.x), int(scene.view_px.y), {0, 0}};
     for (std::size_t i = 0; i < n; ++i) {
       x[i] = xy[2 * i];
       y[i] = -xy[2 * i + 1];
     }
-    if (silent) {
+    if (has_response) {
       f.table("responding").read(k, std::span<std::uint8_t>(responding));
       for (std::size_t i = 0; i < n; ++i) response[i] = float(responding[i]);
     }

@@ -7,12 +7,12 @@
 
 namespace faba {
 
-/// What the page needs to show a recorded run: its view, outline, swarms and how many frames were kept.
-/// Throws Error(input) for runs without tracks.
+/// View, outline, swarms and number of recorded frames of a run, for the page. Throws Error(input) for runs
+/// without tracks.
 Json describe_run(const std::filesystem::path& dir);
 
-/// Some of its frames as the live lab sends them (web/protocol.md), each after its length in bytes (uint32).
-/// `from` counts kept frames. At most kMostRunFrames.
+/// Frames in the format of the live lab (web/protocol.md), each after its length in bytes (uint32). `from` is
+/// an index of recorded frames. Returns at most kMostRunFrames frames.
 inline constexpr std::uint64_t kMostRunFrames = 64;
 std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std::uint64_t count);
 

@@ -7,9 +7,9 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kRows = 32;  // of the series in a message; a page knows most of them already
+constexpr std::size_t kRows = 32;  // rows of the series per message; pages that missed messages need several
 constexpr int kFieldColumns = 17, kFieldRows = 13;
-constexpr std::size_t kMostHeadings = 20000;  // more cells are too small to show where they head
+constexpr std::size_t kMostHeadings = 20000;  // headings are not visible for more cells
 
 }  // namespace
 
@@ -53,18 +53,18 @@ void ShownRun::take(const Tick& t) {
 double ShownRun::mean_speed(double dt) {
   const auto& agents = live.simulation().world().state().agents;
   const std::span<const float> x = agents["x"], y = agents["y"];
-  double way = 0;
+  double distance = 0;
   const bool first = before_x.empty();
   if (first) {
     before_x.resize(x.size());
     before_y.resize(x.size());
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
-    way += std::hypot(double(x[i]) - double(before_x[i]), double(y[i]) - double(before_y[i]));
+    distance += std::hypot(double(x[i]) - double(before_x[i]), double(y[i]) - double(before_y[i]));
     before_x[i] = x[i];
     before_y[i] = y[i];
   }
-  return first || !(dt > 0) ? std::numeric_limits<double>::quiet_NaN() : way / (double(x.size()) * dt);
+  return first || !(dt > 0) ? std::numeric_limits<double>::quiet_NaN() : distance / (double(x.size()) * dt);
 }
 
 std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool camera) {

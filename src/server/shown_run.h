@@ -10,24 +10,24 @@
 
 namespace faba {
 
-/// The run that the live lab shows, and what is kept of it for those who watch.
+/// The run displayed by the live lab, with the data for its messages.
 struct ShownRun final : Sink {
   ShownRun(const Document& document, std::uint64_t seed, const Parts& parts, Pool& pool);
   void take(const Tick& t) override;
-  /// Mean speed of all cells since the frame before, m/s: what the activity of a video is a measure of.
+  /// Mean speed of all cells since the previous frame, m/s; the activity of a video is a measure of it.
   double mean_speed(double dt);
-  /// The newest frame as a FrameMessage, with the camera's picture if `camera`.
+  /// The newest frame as a FrameMessage, with the camera image if `camera`.
   std::shared_ptr<const std::string> message(std::uint32_t run, bool camera);
 
   Document document;
   LiveRun live;
   SeriesRow row;
   std::vector<std::string> columns;
-  std::vector<double> rows;  ///< the newest kRows
+  std::vector<double> rows;  ///< the newest kRows rows
   double time = 0;
-  std::vector<float> before_x, before_y;  ///< m, in the frame before
+  std::vector<float> before_x, before_y;  ///< m, positions in the previous frame
   PictureBox box;
-  std::vector<float> field_x, field_y;  ///< where the field is shown, m, world
+  std::vector<float> field_x, field_y;  ///< m, world, points of the displayed field
   int field_columns = 1, field_rows = 1;
 };
 

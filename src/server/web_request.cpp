@@ -13,7 +13,7 @@ int hex_digit(char c) {
   return -1;
 }
 
-// "a%20b" -> "a b"; none for broken escapes and control characters.
+// "a%20b" -> "a b"; empty for invalid escapes and control characters.
 std::optional<std::string> decoded(std::string_view s, bool plus_is_space) {
   std::string out;
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -33,7 +33,7 @@ std::optional<std::string> decoded(std::string_view s, bool plus_is_space) {
   return out;
 }
 
-bool leads_astray(std::string_view path) {
+bool is_unsafe(std::string_view path) {
   if (!path.starts_with('/') || path.find('\\') != std::string_view::npos) return true;
   for (std::size_t at = 1; at < path.size();) {
     const auto end = std::min(path.find('/', at), path.size());
@@ -51,7 +51,7 @@ std::optional<WebTarget> parse_target(std::string_view target) {
   if (target.size() > kMost) return {};
   const auto question = target.find('?');
   const auto path = decoded(target.substr(0, question), false);
-  if (!path || leads_astray(*path)) return {};
+  if (!path || is_unsafe(*path)) return {};
   WebTarget t;
   t.path = *path;
   if (question == std::string_view::npos) return t;
@@ -82,7 +82,7 @@ std::optional<ByteRange> parse_range(std::string_view header, std::uint64_t size
   };
   const std::string_view first = header.substr(0, dash), last = header.substr(dash + 1);
   const auto from = number(first), to = number(last);
-  if (first.empty()) {  // the last so many
+  if (first.empty()) {  // suffix range
     if (!to || *to == 0) return {};
     return ByteRange{size - std::min(*to, size), size};
   }

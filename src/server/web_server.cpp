@@ -29,15 +29,15 @@ using asio::ip::tcp;
 namespace {
 
 constexpr std::size_t kMostHeader = 16u << 10;
-constexpr auto kRequestTimeout = std::chrono::seconds(30);  // for a request, and for an answer to be taken
-constexpr std::uint64_t kMostOfRange = 8u << 20;      // of a file in one answer
+constexpr auto kPatience = std::chrono::seconds(30);  // timeout of a request and of a response
+constexpr std::uint64_t kMostOfRange = 8u << 20;      // maximum size of a range response
 
-// No script but the page's own file, nothing from elsewhere.
+// Only scripts and resources of this server.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; media-src 'self' "
     "blob:; connect-src 'self'; font-src 'self'; frame-src 'self'; manifest-src 'self'; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'self'";
-// Pages that the program wrote: style in the page, no script at all.
+// Reports written by the program: inline style, no script.
 constexpr const char* kReportPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; img-src 'self' data:; media-src 'self' data:; base-uri "
     "'none'; form-action 'none'; frame-ancestors 'self'";
@@ -68,7 +68,7 @@ Credentials credentials_of(const Header& h, const std::optional<WebTarget>& targ
 }
 
 template <class Body>
-void dress(http::response<Body>& r, const std::string& type, bool keep, bool report = false) {
+void set_headers(http::response<Body>& r, const std::string& type, bool keep, bool report = false) {
   r.set(http::field::content_type, type);
   r.set(http::field::server, "faba");
   r.set(http::field::cache_control, keep ? "private, max-age=3600" : "no-store");
@@ -85,9 +85,9 @@ struct WebServer::Impl {
   std::filesystem::path uploads;
   const Access* access = nullptr;
   WebHandlers handlers;
-  std::atomic<std::size_t> connections = 0;  // one that waited for a worker ends in its thread
+  std::atomic<std::size_t> connections = 0;  // atomic: the last reference may be released by a worker thread
   std::uint64_t next_page = 1;
-  // Last, so that connections which wait in it still find the above when it goes.
+  // Declared last: pending connections use the members above until io is destroyed.
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::thread_pool workers{2};
@@ -95,7 +95,7 @@ struct WebServer::Impl {
   void accept();
 };
 
-/// A client's connection: requests one after the other, or the beginning of a socket.
+/// A connection of a client: a sequence of requests, or the handshake of a WebSocket.
 class Connection final : public std::enable_shared_from_this<Connection> {
  public:
   Connection(tcp::socket s, WebServer::Impl& server) : server_(server), stream_(std::move(s)) {
@@ -107,16 +107,16 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     head_.emplace();
     head_->header_limit(kMostHeader);
     head_->body_limit(
-        std::numeric_limits<std::uint64_t>::max());  // depends on the address, which is not known yet
-    stream_.expires_after(kRequestTimeout);
+        std::numeric_limits<std::uint64_t>::max());  // the limit depends on the path, which is unknown here
+    stream_.expires_after(kPatience);
     http::async_read_header(
         stream_, buffer_, *head_, [self = shared_from_this()](beast::error_code ec, std::size_t) {
           if (!ec) return self->judge();
-          if (ec == http::error::header_limit) return self->refuse(431, "the request's header is too large");
-          const bool gone = ec == http::error::end_of_stream ||
-                            ec.category() != http::make_error_code(http::error::bad_value).category();
-          if (gone) return self->close();
-          self->refuse(400, "is not a request: " + ec.message());
+          if (ec == http::error::header_limit) return self->refuse(431, "request header is too large");
+          const bool disconnected = ec == http::error::end_of_stream ||
+                                    ec.category() != http::make_error_code(http::error::bad_value).category();
+          if (disconnected) return self->close();
+          self->refuse(400, "invalid request: " + ec.message());
         });
   }
 
@@ -126,22 +126,23 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     target_ = parse_target({h.target().data(), h.target().size()});
     const Access::Verdict verdict = server_.access->judge(credentials_of(h, target_));
     if (verdict.status != 200) return refuse(verdict.status, verdict.why);
-    if (!target_) return refuse(400, "no such address");
+    if (!target_) return refuse(400, "invalid request: malformed target");
     if (beast::iequals(h[http::field::upgrade], "websocket")) return open_socket();
     const std::string method(h.method_string());
     if (method != "GET" && method != "HEAD" && method != "POST" && method != "DELETE")
-      return refuse(405, "not a method of this server");
-    // From here on the cookie stands for the token, so that it does not stay in the address line.
+      return refuse(405, "method not allowed; use GET, HEAD, POST or DELETE");
+    // Replaces the token by the cookie, so that the token does not remain in the address bar.
     if (verdict.by_token && target_->path == "/" && method == "GET") return exchange();
     if (target_->path == "/api/upload")
-      return method == "POST" ? take_file() : refuse(405, "POST a file here");
+      return method == "POST" ? take_file() : refuse(405, "method not allowed; use POST");
     auto parser = std::make_shared<http::request_parser<http::string_body>>(std::move(*head_));
     parser->body_limit(WebServer::kMostBody);
     if (parser->content_length() && *parser->content_length() > WebServer::kMostBody)
-      return refuse(413, "is too large");
+      return refuse(413, "request body is too large");
     http::async_read(stream_, buffer_, *parser,
                      [self = shared_from_this(), parser](beast::error_code ec, std::size_t) {
-                       if (ec == http::error::body_limit) return self->refuse(413, "is too large");
+                       if (ec == http::error::body_limit)
+                         return self->refuse(413, "request body is too large");
                        if (ec) return self->close();
                        self->answer(std::move(parser->get().body()), {}, parser->get().base());
                      });
@@ -149,18 +150,19 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
   void open_socket() {
     const auto request = head_->get();
-    if (target_->path != "/ws") return refuse(404, "the socket is at /ws");
-    if (!beast::websocket::is_upgrade(request)) return refuse(400, "is not a WebSocket's request");
+    if (target_->path != "/ws") return refuse(404, "not found; the WebSocket is at /ws");
+    if (!beast::websocket::is_upgrade(request)) return refuse(400, "invalid WebSocket request");
     auto offered = http::token_list(request[http::field::sec_websocket_protocol]);
     if (!offered.exists(kPageProtocol))
-      return refuse(400, fmt::format("speaks another protocol than {}; load the page again", kPageProtocol));
+      return refuse(
+          400, fmt::format("unsupported WebSocket protocol; it must be {}; reload the page", kPageProtocol));
     stream_.expires_never();
     open_page_socket(stream_.release_socket(), request, server_.handlers, server_.next_page++, counted_);
   }
 
   void exchange() {
     auto r = std::make_shared<http::response<http::string_body>>(http::status::see_other, 11);
-    dress(*r, "text/plain; charset=utf-8", false);
+    set_headers(*r, "text/plain; charset=utf-8", false);
     r->set(http::field::set_cookie, server_.access->cookie());
     r->set(http::field::location, "/");
     send(r);
@@ -172,17 +174,17 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     auto parser = std::make_shared<http::request_parser<http::file_body>>(std::move(*head_));
     parser->body_limit(WebServer::kMostUpload);
     if (parser->content_length() && *parser->content_length() > WebServer::kMostUpload)
-      return refuse(413, "is too large");
+      return refuse(413, "request body is too large");
     beast::error_code ec;
     parser->get().body().open(file.c_str(), beast::file_mode::write, ec);
-    if (ec) return refuse(500, "the upload cannot be kept: " + ec.message());
+    if (ec) return refuse(500, "cannot store the upload: " + ec.message());
     take_more(parser, file);
   }
-  // By and by, so that patience counts from the last bytes and not from the first.
+  // Reads in parts, so that the timeout restarts with every part.
   void take_more(const std::shared_ptr<http::request_parser<http::file_body>>& parser,
                  const std::filesystem::path& file) {
-    if (parser->is_done()) return answer({}, file, parser->get().base());  // there is nothing in it
-    stream_.expires_after(kRequestTimeout);
+    if (parser->is_done()) return answer({}, file, parser->get().base());  // empty body
+    stream_.expires_after(kPatience);
     http::async_read_some(stream_, buffer_, *parser,
                           [self = shared_from_this(), parser, file](beast::error_code ec, std::size_t) {
                             if (!ec && !parser->is_done()) return self->take_more(parser, file);
@@ -190,7 +192,8 @@ class Connection final : public std::enable_shared_from_this<Connection> {
                             if (!ec) return self->answer({}, file, parser->get().base());
                             std::error_code ignored;
                             std::filesystem::remove(file, ignored);
-                            if (ec == http::error::body_limit) return self->refuse(413, "is too large");
+                            if (ec == http::error::body_limit)
+                              return self->refuse(413, "request body is too large");
                             self->close();
                           });
   }
@@ -204,7 +207,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     request->body = std::move(body);
     request->upload = upload;
     const std::string range(header[http::field::range]);
-    stream_.expires_never();  // work may take as long as it takes
+    stream_.expires_never();  // no timeout while the handler runs
     asio::post(server_.workers, [self = shared_from_this(), request, range] {
       auto response = std::make_shared<WebResponse>(self->server_.handlers.answer(*request));
       std::error_code ignored;
@@ -218,7 +221,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   void deliver(const WebResponse& w, const std::string& range, bool head_only) {
     if (!w.file.empty()) return deliver_file(w, range, head_only);
     auto r = std::make_shared<http::response<http::string_body>>(http::status(unsigned(w.status)), 11);
-    dress(*r, w.type, w.keep, w.report);
+    set_headers(*r, w.type, w.keep, w.report);
     if (head_only)
       r->content_length(w.body.size());
     else
@@ -230,33 +233,33 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     beast::error_code ec;
     http::file_body::value_type file;
     file.open(w.file.c_str(), beast::file_mode::scan, ec);
-    if (ec) return refuse(404, "cannot be read");
+    if (ec) return refuse(404, "cannot read the file");
     const auto part = parse_range(range, file.size());
     if (!part) {
       auto r = std::make_shared<http::response<http::file_body>>(
           std::piecewise_construct, std::make_tuple(std::move(file)), std::make_tuple(http::status::ok, 11));
-      dress(*r, w.type, w.keep, w.report);
+      set_headers(*r, w.type, w.keep, w.report);
       r->set(http::field::accept_ranges, "bytes");
       return send(r, head_only);
     }
     const std::uint64_t end = std::min(part->end, part->begin + kMostOfRange);
     auto r = std::make_shared<http::response<http::string_body>>(http::status::partial_content, 11);
-    dress(*r, w.type, w.keep, w.report);
+    set_headers(*r, w.type, w.keep, w.report);
     r->set(http::field::accept_ranges, "bytes");
     r->set(http::field::content_range, fmt::format("bytes {}-{}/{}", part->begin, end - 1, file.size()));
     std::ifstream in(w.file, std::ios::binary);
     r->body().resize(std::size_t(end - part->begin));
     in.seekg(std::streamoff(part->begin));
     in.read(r->body().data(), std::streamsize(r->body().size()));
-    if (!in) return refuse(404, "cannot be read");
+    if (!in) return refuse(404, "cannot read the file");
     send(r, head_only);
   }
 
   void refuse(int status, const std::string& why) {
     auto r = std::make_shared<http::response<http::string_body>>(http::status(unsigned(status)), 11);
-    dress(*r, "text/plain; charset=utf-8", false);
+    set_headers(*r, "text/plain; charset=utf-8", false);
     r->body() = "faba: " + why + "\n";
-    r->keep_alive(false);  // what else was sent is not read
+    r->keep_alive(false);  // the rest of the request is not read
     send(r);
   }
 
@@ -264,7 +267,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   void send(const std::shared_ptr<Response>& r, bool head_only = false) {
     if (!head_only) r->prepare_payload();
     const bool again = !r->need_eof();
-    stream_.expires_after(kRequestTimeout);
+    stream_.expires_after(kPatience);
     const auto sent = [self = shared_from_this(), r, again](beast::error_code ec, std::size_t) {
       if (ec || !again) return self->close();
       self->read();
@@ -282,7 +285,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   }
 
   WebServer::Impl& server_;
-  std::shared_ptr<void> counted_;  ///< goes with the connection, or with the socket that it becomes
+  std::shared_ptr<void> counted_;  ///< released with the connection, or with its WebSocket
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{kMostHeader + (64u << 10)};
   std::optional<http::request_parser<http::empty_body>> head_;
@@ -292,7 +295,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 void WebServer::Impl::accept() {
   acceptor.async_accept([this](beast::error_code ec, tcp::socket s) {
     if (ec == asio::error::operation_aborted) return;
-    // Beyond the bound a connection is closed at once.
+    // Connections above the limit are closed at once.
     if (!ec && connections < kMostConnections) {
       beast::error_code ignored;
       s.set_option(tcp::no_delay(true), ignored);
@@ -312,7 +315,8 @@ WebServer::WebServer(unsigned short port, std::filesystem::path uploads) : impl_
   if (!ec) impl_->acceptor.listen(asio::socket_base::max_listen_connections, ec);
   if (ec)
     throw Error(Errc::usage, fmt::format("--port {}", port),
-                fmt::format("cannot be served: {}; choose another, or 0 for any that is free", ec.message()));
+                fmt::format("cannot listen on this port: {}; choose another port, or 0 for any free port",
+                            ec.message()));
 }
 
 WebServer::~WebServer() { impl_->workers.join(); }

@@ -17,7 +17,7 @@ constexpr std::size_t kMostFiles = 500;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
 
 Error out_of_reach(std::string_view name) {
-  return {Errc::usage, std::string(name.substr(0, 80)), "is not in the folder that the lab works in"};
+  return {Errc::usage, std::string(name.substr(0, 80)), "outside of the workspace of the lab"};
 }
 
 std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view extension) {
@@ -49,7 +49,7 @@ fs::path Workspace::inside(std::string_view name) const {
     throw out_of_reach(name);
   for (const fs::path& part : asked)
     if (part == ".." || part.string().starts_with('.')) throw out_of_reach(name);
-  // Links are followed before it is looked at where they lead.
+  // Links are resolved before the check.
   std::error_code ec;
   fs::path real = fs::weakly_canonical(root_ / asked, ec);
   const auto [at, _] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
@@ -61,7 +61,7 @@ fs::path Workspace::existing(std::string_view name) const {
   fs::path path = inside(name);
   std::error_code ec;
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
-    throw Error(Errc::input, std::string(name), "no such file in the folder that the lab works in");
+    throw Error(Errc::input, std::string(name), "file not found in the workspace of the lab");
   return path;
 }
 
@@ -78,24 +78,24 @@ std::string Workspace::in_page(const std::string& where) const {
 }
 
 void Workspace::check_files(const Json& scenario) const {
-  constexpr std::array<std::string_view, 2> kNaming = {"file",
-                                                       "background"};  // keys whose text is a file's name
+  constexpr std::array<std::string_view, 2> kNaming = {"file", "background"};  // keys with a file name
   const auto lies_below = [](const fs::path& folder, const fs::path& file) {
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
   };
-  const fs::path project = gallery_.parent_path();  // scenes speak of rigs beside their folder
+  const fs::path project = gallery_.parent_path();  // scenes refer to ../rigs
   for (const auto& [key, value] : scenario.items()) {
     if (value.is_structured()) check_files(value);
     if (!value.is_string() || std::find(kNaming.begin(), kNaming.end(), key) == kNaming.end()) continue;
     const std::string name = value.get<std::string>();
-    if (name.empty()) continue;  // a resolved scenario names every key: "" stands for no file
-    // As a scenario looks for it: beside itself, else from where the program was called.
+    if (name.empty()) continue;  // a resolved scenario has every key: "" means no file
+    // Search order of a scenario: its folder, then the working directory.
     std::error_code ec;
     const bool beside = fs::exists(gallery_ / name, ec);
     const fs::path real = fs::weakly_canonical((beside ? gallery_ : root_) / name, ec);
     if (ec || (!lies_below(root_, real) && (project.empty() || !lies_below(project, real))))
       throw out_of_reach(name);
-    if (fs::exists(real, ec) && !fs::is_regular_file(real, ec)) throw Error(Errc::usage, name, "is no file");
+    if (fs::exists(real, ec) && !fs::is_regular_file(real, ec))
+      throw Error(Errc::usage, name, "is not a file");
   }
 }
 
@@ -104,7 +104,7 @@ std::vector<fs::path> Workspace::scenes() const { return sorted_files(gallery_, 
 fs::path Workspace::scene(std::string_view name) const {
   for (const fs::path& file : scenes())
     if (file.stem() == fs::path(name)) return file;
-  throw Error(Errc::input, std::string(name.substr(0, 80)), "there is no such scene");
+  throw Error(Errc::input, std::string(name.substr(0, 80)), "scene not found");
 }
 
 std::vector<std::string> Workspace::runs() const {
@@ -129,7 +129,7 @@ Json Workspace::files() const {
     try {
       if (has_camera_video(root_ / "runs" / run)) videos.push_back("runs/" + run);
     } catch (const Error&) {
-      continue;  // damaged, or still being written
+      continue;  // damaged or incomplete
     }
   }
   std::error_code ec;
@@ -145,7 +145,7 @@ Json Workspace::files() const {
                                                                                  : "activity";
       studies.push_back({{"file", "studies/" + f.filename().string()}, {"verb", verb}});
     } catch (const Error&) {
-      continue;  // no study, or one that is being written
+      continue;  // not a study, or incomplete
     }
   }
   for (const fs::path& f : sorted_files(root_ / "rigs", ".toml"))

@@ -8,37 +8,35 @@
 
 namespace faba {
 
-/// The folder that the lab works in: where it was called. Pages name files by their way from there, and
-/// nothing else can be reached, whatever a page asks for.
+/// The working folder of the lab. Pages use paths relative to it and cannot access files outside.
 class Workspace {
  public:
-  /// `scenes`: the gallery where the workspace has no folder scenes/ of its own; may be absent, too.
+  /// `scenes`: the gallery if the workspace has no folder scenes/; need not exist.
   Workspace(const std::filesystem::path& root, const std::filesystem::path& scenes);
   const std::filesystem::path& root() const { return root_; }
 
-  /// The file that a relative name stands for, which need not exist. Throws Error(usage) for names that lead
-  /// out of the workspace, also by links, and for hidden files.
+  /// Absolute path of a relative name; the file need not exist. Throws Error(usage) for names outside of the
+  /// workspace, also through links, and for hidden files.
   std::filesystem::path inside(std::string_view name) const;
-  /// The same, and it must be a file or a folder that is there; else Error(input).
+  /// The same for an existing file or folder; otherwise throws Error(input).
   std::filesystem::path existing(std::string_view name) const;
 
-  /// A scenario that a page sent; files that it names are looked for beside the gallery's.
+  /// A scenario sent by a page; its file names are relative to the gallery.
   Document page_document(Json scenario) const;
-  /// Where something is wrong in it, without the name that it has here only.
+  /// The location of an error without the name of the page document.
   std::string in_page(const std::string& where) const;
-  /// Throws Error(usage) when a scenario that a page sent names a file that is neither in the workspace nor
-  /// beside the gallery, or something else than a file.
+  /// Throws Error(usage) if a scenario sent by a page refers to a file that is neither in the workspace nor
+  /// in the folder of the gallery's project, or to a path that is not a file.
   void check_files(const Json& scenario) const;
 
-  const std::filesystem::path& gallery() const { return gallery_; }  ///< folder of its scenes
-  /// Its scenario files, sorted.
+  const std::filesystem::path& gallery() const { return gallery_; }  ///< folder of the scenes
+  /// Scenario files of the gallery, sorted.
   std::vector<std::filesystem::path> scenes() const;
-  /// The file of one of them. Throws Error(input) when there is none of that name.
+  /// Scenario file with this stem. Throws Error(input) if not found.
   std::filesystem::path scene(std::string_view name) const;
-  /// Names of the directories below runs/ that hold a recorded run, newest first.
+  /// Names of the directories below runs/ with a recorded run, newest first.
   std::vector<std::string> runs() const;
-  /// What the analyses take: videos and runs recorded as a camera sees them, studies with the verb that takes
-  /// them, rigs.
+  /// Inputs of the analyses: videos and runs with a camera video, studies with their verb, rigs.
   Json files() const;
 
  private:

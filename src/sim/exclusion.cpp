@@ -15,26 +15,28 @@ constexpr std::size_t kCopyBlock = 8192;
 }  // namespace
 
 Schema<Exclusion::Params> Exclusion::schema() {
-  return Schema<Params>("exclusion", "At most one cell per grid cell (one pixel)")
+  return Schema<Params>("exclusion", "At most one cell per site of the occupancy grid (one pixel)")
       .add("order", &Params::order,
-           {.doc = "Who moves first: all at once, the thesis's sequential loop, or cells may overlap",
+           {.doc = "Update order: simultaneous, the sequential loop of the thesis, or no exclusion (cells "
+                   "overlap)",
             .source = "published: A2; two-phase: D4(iii)",
             .choices = {"two-phase", "published", "none"}})
       .add("follow", &Params::follow,
-           {.doc = "two-phase: a grid cell that its owner leaves in this step may be entered"})
+           {.doc = "two-phase: a site that becomes free in this step may be entered"})
       .add("collision", &Params::collision,
-           {.doc = "published: a blocked cell stays, goes as far as the way is free, or tries one axis",
-            .source = "assumed stay: the thesis does not say (A2)",
+           {.doc =
+                "published: a blocked cell stays, moves as far as the path is free, or moves along one axis",
+            .source = "assumed stay: not specified in the thesis (A2)",
             .choices = {"stay", "last-free", "axis-split"}})
       .add("integer_positions", &Params::integer_positions,
-           {.doc = "Cells stand on pixel centres only, as in the published simulator (A1)"});
+           {.doc = "Cells are at pixel centres only, as in the published simulator (A1)"});
 }
 
 Exclusion::Exclusion(const Params& p, const Arena& arena, std::uint64_t seed)
     : p_(p), grid_(arena.grid()), seed_(seed), two_phase_(grid_) {
   if (!active()) return;
   taken_.assign(std::size_t(grid_.columns) * std::size_t(grid_.rows), kFree);
-  if (p_.integer_positions)  // a cell snapped to a pixel centre must not stand outside the edge
+  if (p_.integer_positions)  // a cell at a pixel centre must not be outside the edge
     for (std::size_t i = 0; i < taken_.size(); ++i)
       if (arena.depth(grid_.centre(std::int32_t(i))) < 0) taken_[i] = kTaken;
 }
@@ -55,7 +57,7 @@ void Exclusion::occupy(const State& s) {
 }
 
 std::int32_t Exclusion::last_free(std::int32_t from, std::int32_t to) const {
-  // Bresenham's line from `from` to `to`; the last grid cell before the first closed one.
+  // Bresenham's line from `from` to `to`; returns the last site before the first occupied one.
   int cx = from % grid_.columns, cy = from / grid_.columns;
   const int tx = to % grid_.columns, ty = to / grid_.columns;
   const int dx = std::abs(tx - cx), dy = -std::abs(ty - cy), sx = cx < tx ? 1 : -1, sy = cy < ty ? 1 : -1;

@@ -9,15 +9,13 @@
 
 namespace faba {
 
-/// At most one cell per grid cell, a grid cell being one camera pixel (theory A1, A2, D4).
-/// - `two-phase` (default): all cells propose from the state at the beginning of the step; a grid cell
-/// occupied then is
-///   closed (with `follow`, open again once its owner has left, up to eight sweeps); of several that want a
-///   free one the smallest hash(seed, step, grid cell, agent) wins, the others stay. Independent of order and
-///   thread count.
-/// - `published`: the thesis's loop: ascending agent number, in place, one thread; a grid cell left in this
-/// iteration is
-///   free for later agents. `collision` says what a blocked agent does.
+/// At most one cell per site of the occupancy grid; a site is one camera pixel (theory A1, A2, D4).
+/// - `two-phase` (default): all cells propose moves from the state at the start of the step. Sites occupied
+///   then are closed (with `follow`, open after their cell has left, up to eight sweeps). If several cells
+///   propose the same free site, the one with the smallest hash(seed, step, site, agent) moves, the others
+///   stay. Independent of order and number of threads.
+/// - `published`: the loop of the thesis: in ascending order of agents, in place, one thread. A site left in
+///   this iteration is free for later agents. `collision` determines the move of a blocked agent.
 /// - `none`: cells overlap.
 class Exclusion {
  public:
@@ -35,13 +33,13 @@ class Exclusion {
 
   bool active() const { return p_.order != Order::none; }
   const Params& params() const { return p_; }
-  /// Takes the grid cell at `p_world` for one agent; false when it is not free.
+  /// Occupies the site at `p_world` for one agent; false if it is not free.
   bool place(Vec2 p_world);
-  /// Where a cell at `p_world` really stands: the centre of its grid cell with integer_positions.
+  /// Position of a cell placed at `p_world`: the centre of its site with integer_positions.
   Vec2 snapped(Vec2 p_world) const;
-  /// Reads who stands where from the state; call once before the first resolve() and after a restart.
+  /// Marks the sites of all agents as occupied; call once before the first resolve() and after a restore.
   void occupy(const State& s);
-  /// Moves every agent to its proposal or lets it stay; x and y columns are updated.
+  /// Accepts or refuses the proposal of every agent; updates the x and y columns.
   void resolve(State& s, std::span<float> to_x, std::span<float> to_y, Pool& pool);
 
  private:
@@ -52,7 +50,7 @@ class Exclusion {
   Grid grid_;
   std::uint64_t seed_;
   TwoPhase two_phase_;
-  TwoPhase::Cells taken_;  ///< kFree or kTaken for every grid cell
+  TwoPhase::Sites taken_;  ///< kFree or kTaken for every site
 };
 
 }  // namespace faba

@@ -25,11 +25,11 @@ std::span<float> Columns::operator[](std::string_view name) {
 }
 
 std::span<const float> Columns::operator[](std::string_view name) const {
-  return const_cast<Columns&>(*this)[name];  // the same search; nothing is changed
+  return const_cast<Columns&>(*this)[name];  // does not modify
 }
 
 std::string State::hash() const {
-  std::vector<const Column*> sorted;  // so that the order in which parts declare columns does not matter
+  std::vector<const Column*> sorted;  // sorted, so that the order of declaration does not matter
   for (const Column& c : agents.all()) sorted.push_back(&c);
   std::sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->name < b->name; });
   Hash h;

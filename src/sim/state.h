@@ -16,18 +16,18 @@ struct Column {
   void archive(Archive& a) { a& name& data; }
 };
 
-/// What agents remember, one column per quantity. `x` and `y` (m, world frame) and `response` (+1
-/// north-seeking, -1 south-seeking, 0 no longer responding to the field) are always there; models and
-/// motility laws declare the rest.
+/// State of the agents, one column per quantity. `x` and `y` (m, world frame) and `response` (+1
+/// north-seeking, -1 south-seeking, 0 not responding to the field) always exist; models and motility laws
+/// declare the others.
 class Columns {
  public:
   Columns() : Columns(0) {}
   explicit Columns(std::size_t agents);
   std::size_t size() const { return size_; }
-  /// Adds a column of zeros unless it is there already.
+  /// Adds a column of zeros unless it exists.
   void add(std::string_view name);
   bool has(std::string_view name) const;
-  /// Throws Error(internal) when nobody declared it.
+  /// Throws Error(internal) if the column does not exist.
   std::span<float> operator[](std::string_view name);
   std::span<const float> operator[](std::string_view name) const;
   const std::vector<Column>& all() const { return columns_; }
@@ -38,16 +38,16 @@ class Columns {
   std::vector<Column> columns_;
 };
 
-/// All that changes during a run. Copy it and you have a snapshot.
+/// Everything that changes during a run; a copy is a snapshot.
 struct State {
   std::uint64_t step = 0;
   double t = 0;  ///< s
   Columns agents;
-  std::vector<double> current;  ///< flowing in each coil, A
-  std::vector<double> command;  ///< asked of each coil, A; `current` follows it with the coil's lag
+  std::vector<double> current;  ///< current in each coil, A
+  std::vector<double>
+      command;  ///< commanded current of each coil, A; `current` follows with the lag of the coil
 
-  /// Hash of everything above, as sixteen hexadecimal digits; equal states have equal hashes on every
-  /// machine.
+  /// State hash, sixteen hexadecimal digits; equal on all machines for equal states.
   std::string hash() const;
   void archive(Archive& a) { a& step& t& agents& current& command; }
 };

@@ -9,10 +9,10 @@ namespace faba {
 namespace {
 
 constexpr std::int32_t kGranted = -1;
-constexpr std::size_t kWishes = 4096;  // agents whose wishes are sorted together
+constexpr std::size_t kWishes = 4096;  // agents per block of sorted wishes
 constexpr int kSweeps = 8;             // of follow()
-// A stripe, a byte per grid cell, stays in the first cache. Stripes are larger when there would be too many
-// for a block to sort its wishes into.
+// A stripe, one byte per site, fits into the L1 cache. Stripes are larger if their number would exceed
+// kMostStripes.
 constexpr unsigned kStripeShift = 15;
 constexpr std::size_t kMostStripes = 256;
 
@@ -39,7 +39,7 @@ TwoPhase::TwoPhase(const Grid& grid) : grid_(grid) {
 }
 
 void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::span<float> to_x,
-                       std::span<float> to_y, Cells& taken, std::uint64_t key, bool follows, Pool& pool) {
+                       std::span<float> to_y, Sites& taken, std::uint64_t key, bool follows, Pool& pool) {
   blocks_ = (x.size() + kWishes - 1) / kWishes;
   wish_.resize(x.size());
   left_.resize(x.size());
@@ -47,11 +47,11 @@ void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::
   segment_.resize(blocks_ * stripes_);
   const auto each = [&](std::size_t n, auto&& job) {
     if (blocks_ > 1) return pool.run(n, job);
-    for (std::size_t i = 0; i < n; ++i) job(i);  // not worth waking anybody
+    for (std::size_t i = 0; i < n; ++i) job(i);  // too small for threads
   };
   each(blocks_, [&](std::size_t b) { sort(x, y, to_x, to_y, b); });
   each(stripes_, [&](std::size_t k) { decide(k, taken, key); });
-  each(stripes_, [&](std::size_t k) {  // only now: what was taken was closed to every wish
+  each(stripes_, [&](std::size_t k) {  // after decide(): occupied sites are closed to all wishes
     for (std::size_t b = 0; b < blocks_; ++b) {
       const Segment& s = segment(b, k);
       for (std::uint32_t i = 0; i < s.granted; ++i) taken[std::size_t(left_[s.begin + i])] = kFree;
@@ -71,8 +71,8 @@ void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::
   });
 }
 
-// Agents that stay in their grid cell count as one more stripe, which nobody reads: a branch on who stays
-// would be mispredicted too often.
+// Agents that stay on their site are sorted into an additional stripe that is not read: this avoids a branch
+// that is often mispredicted.
 void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
                     std::span<const float> to_y, std::size_t block) {
   const std::size_t first = block * kWishes, n = std::min(kWishes, x.size() - first);
@@ -82,7 +82,7 @@ void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::spa
   const auto stripe = [&from, &to, none = stripes_, shift = shift_](std::size_t i) {
     return from[i] == to[i] ? none : std::size_t(to[i]) >> shift;
   };
-  std::array<std::uint32_t, kMostStripes + 2> next{};  // counts, one entry late, then places
+  std::array<std::uint32_t, kMostStripes + 2> next{};  // counts, shifted by one entry, then positions
   for (std::size_t i = 0; i < n; ++i) ++next[stripe(i) + 1];
   next[0] = std::uint32_t(first);
   for (std::size_t k = 0; k < stripes_; ++k) {
@@ -93,9 +93,9 @@ void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::spa
   for (std::size_t i = 0; i < n; ++i) wish[next[stripe(i)]++] = {std::uint32_t(first + i), from[i], to[i]};
 }
 
-// Everybody is counted where they want to go; who is alone there goes, and few are left to be compared. Loops
-// over all wishes have no branches, which would be mispredicted too often.
-void TwoPhase::decide(std::size_t stripe, Cells& taken, std::uint64_t key) {
+// Counts the wishes per site; a single wish is granted, and only the others are compared. Loops over all
+// wishes have no branches, which would often be mispredicted.
+void TwoPhase::decide(std::size_t stripe, Sites& taken, std::uint64_t key) {
   const auto first = std::int32_t(stripe << shift_);
   std::uint8_t* const cell = taken.data() + first;
   const Wish* const wish = wish_.data();
@@ -119,7 +119,7 @@ void TwoPhase::decide(std::size_t stripe, Cells& taken, std::uint64_t key) {
     std::uint32_t* const others = &refused_[s.begin];
     std::uint32_t granted = 0;
     for (std::uint32_t i = s.begin, end = s.end, k = 0; i < end;
-         ++i, ++k) {  // both lists get every wish, one keeps it
+         ++i, ++k) {  // written to both lists; only one index advances
       std::uint8_t& wanted = cell[wish[i].to - first];
       const bool alone = wanted == 1;
       left[granted] = wish[i].from;
@@ -156,9 +156,9 @@ void TwoPhase::decide(std::size_t stripe, Cells& taken, std::uint64_t key) {
   }
 }
 
-// Sweep by sweep, each again all at once. Two that want to swap places block each other for good. One thread:
-// the pile-ups where it matters are thin.
-void TwoPhase::follow(Cells& taken, std::uint64_t key) {
+// Repeated simultaneous sweeps. Two agents that would swap sites block each other. One thread: few agents are
+// affected.
+void TwoPhase::follow(Sites& taken, std::uint64_t key) {
   std::vector<Wish*> waiting, winners;
   for (const Segment& s : segment_)
     for (std::uint32_t i = 0; i < s.refused; ++i) waiting.push_back(&wish_[refused_[s.begin + i]]);

@@ -8,53 +8,53 @@
 
 namespace faba {
 
-/// What a grid cell is to those who want to enter it.
+/// State of a site.
 enum Occupancy : std::uint8_t { kFree = 0, kTaken = 255 };
 
-/// All agents propose at once, and each grid cell that was free takes the best of those who want it (theory
-/// D4): the one of smallest hash(key, grid cell, agent). In four passes over wishes, none of which depends on
-/// order or thread count: wishes are sorted by the stripe of the grid that they concern; each stripe is
-/// decided by one thread on its own, in its cache and without atomics; those who go leave their grid cells;
-/// the others are kept back. 24 bytes per agent.
+/// Simultaneous exclusion (theory D4): all agents propose a move ("wish"), and each free site accepts the
+/// wish with the smallest hash(key, site, agent). Four passes, independent of order and number of threads:
+/// wishes are sorted by the stripe of the grid that contains their target; each stripe is decided by one
+/// thread, in its cache and without atomics; granted agents leave their sites; the proposals of the others
+/// are reset. 24 bytes per agent.
 class TwoPhase {
  public:
   explicit TwoPhase(const Grid& grid);
 
-  /// Who goes first where several want to go: the smallest.
+  /// Priority of a wish; the smallest value is granted.
   static std::uint64_t priority(std::uint64_t key, std::int32_t cell, std::uint32_t agent);
 
-  /// The grid cells that are taken, by index.
-  using Cells = std::vector<std::uint8_t>;
+  /// Occupancy of all sites, by index.
+  using Sites = std::vector<std::uint8_t>;
 
-  /// Moves agents from (x, y) to (to_x, to_y) on `taken`, or sets their proposal back to where they are. With
-  /// `follow` those who were refused try again after those before them have left.
+  /// Updates `taken` for granted moves from (x, y) to (to_x, to_y), and resets refused proposals to (x, y).
+  /// With `follow`, refused agents try again after others have left their sites.
   void resolve(std::span<const float> x, std::span<const float> y, std::span<float> to_x,
-               std::span<float> to_y, Cells& taken, std::uint64_t key, bool follow, Pool& pool);
+               std::span<float> to_y, Sites& taken, std::uint64_t key, bool follow, Pool& pool);
 
  private:
-  /// An agent that wants to leave its grid cell for another one.
+  /// A proposed move to another site.
   struct Wish {
     std::uint32_t agent;
-    std::int32_t from, to;  ///< `to` is kGranted for those that follow() lets go
+    std::int32_t from, to;  ///< `to` is kGranted for moves granted by follow()
   };
-  /// The wishes of one block of agents that concern one stripe.
+  /// The wishes of one block of agents for one stripe.
   struct Segment {
     std::uint32_t begin = 0, end = 0, granted = 0, refused = 0;
   };
   void sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
             std::span<const float> to_y, std::size_t block);
-  void decide(std::size_t stripe, Cells& taken, std::uint64_t key);
-  void follow(Cells& taken, std::uint64_t key);
+  void decide(std::size_t stripe, Sites& taken, std::uint64_t key);
+  void follow(Sites& taken, std::uint64_t key);
 
   Segment& segment(std::size_t block, std::size_t stripe) { return segment_[block * stripes_ + stripe]; }
 
   Grid grid_;
-  unsigned shift_ = 0;  ///< grid cells of equal index >> shift_ are a stripe
+  unsigned shift_ = 0;  ///< sites with equal index >> shift_ form a stripe
   std::size_t stripes_ = 0, blocks_ = 0;
-  std::vector<Wish> wish_;              ///< by block of agents, in it by stripe
-  std::vector<Segment> segment_;        ///< of them, in the same order
-  std::vector<std::int32_t> left_;      ///< per segment: grid cells that those leave who go
-  std::vector<std::uint32_t> refused_;  ///< per segment: wishes of those who do not
+  std::vector<Wish> wish_;              ///< sorted by block of agents, then by stripe
+  std::vector<Segment> segment_;        ///< segments of wish_, in the same order
+  std::vector<std::int32_t> left_;      ///< per segment: sites left by granted agents
+  std::vector<std::uint32_t> refused_;  ///< per segment: refused wishes
 };
 
 }  // namespace faba

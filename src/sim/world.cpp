@@ -10,9 +10,8 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kBlock = 2048;  // field, headings and positions of a block stay in the first cache
-constexpr std::uint32_t kAttempts =
-    20000;  // to find a free place; reached only when the start region is full
+constexpr std::size_t kBlock = 2048;        // field, headings and positions of a block fit into the L1 cache
+constexpr std::uint32_t kAttempts = 20000;  // per cell; reached only if the start region is full
 
 }  // namespace
 
@@ -23,11 +22,10 @@ World::World(WorldParts parts, Pool& pool)
   const Grid g = parts_.arena->grid();
   const auto cells = std::size_t(g.columns) * std::size_t(g.rows);
   if (exclusion_.active() && n > cells)
-    throw Error(
-        Errc::usage, "swarm",
-        fmt::format("{} cells do not fit into {} grid cells, one each; fewer cells, a larger arena, or "
-                    "exclusion.order = \"none\"",
-                    n, cells));
+    throw Error(Errc::usage, "swarm",
+                fmt::format("{} cells do not fit into {} sites; use fewer cells, a larger arena, or "
+                            "exclusion.order = \"none\"",
+                            n, cells));
   state_.agents = Columns(n);
   for (const auto& p : parts_.populations)
     for (const auto& c : p.model->columns()) state_.agents.add(c.name);
@@ -36,7 +34,7 @@ World::World(WorldParts parts, Pool& pool)
   state_.command = state_.current;
   for (std::size_t k = 0; k < parts_.field->coils(); ++k) {
     const double lag = parts_.field->circuit(k).lag;
-    follow_.push_back(lag > 0 ? 1 - portable::exp(-parts_.dt / lag) : 1.0);
+    current_gain_.push_back(lag > 0 ? 1 - portable::exp(-parts_.dt / lag) : 1.0);
   }
   place_all();
   exclusion_.occupy(state_);
@@ -50,17 +48,17 @@ void World::place_all() {
   auto x = state_.agents["x"], y = state_.agents["y"], response = state_.agents["response"];
   for (std::size_t k = 0; k < parts_.populations.size(); ++k) {
     const Population& p = parts_.populations[k];
-    bool within = false;  // the arena, some candidate was
+    bool within = false;  // some candidate was inside the arena
     for (std::size_t i = p.begin; i < p.end; ++i) {
       const auto id = std::uint32_t(i);
       for (std::uint32_t attempt = 0;; ++attempt) {
         if (attempt == kAttempts)
           throw Error(
               Errc::usage, fmt::format("swarm[{}].start", k),
-              within ? fmt::format("no free place found for cell {} of {}: the region is too small or too "
-                                   "crowded; fewer cells, another start, or exclusion.order = \"none\"",
+              within ? fmt::format("no free site found for cell {} of {}: the region is too small; use fewer "
+                                   "cells, a larger region, or exclusion.order = \"none\"",
                                    i - p.begin + 1, p.end - p.begin)
-                     : "the region lies outside of the arena; move it, or use another start");
+                     : "the region is outside of the arena; move it, or use another start");
         const auto w = draw(parts_.seed, kPlaceDraws, id, attempt);
         const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
         const auto candidate = p.start->place({{u(0), u(1), u(2)}, i - p.begin, attempt});
@@ -78,12 +76,12 @@ void World::place_all() {
       response[i] = responds ? float(p.polarity) : 0.0f;
     }
     p.model->start(state_, p.begin, p.end, parts_.seed);
-    if (p.heading && state_.agents.has("ux")) head(p);
+    if (p.heading && state_.agents.has("ux")) set_headings(p);
     parts_.motility->start(state_, p.begin, p.end, parts_.seed);
   }
 }
 
-void World::head(const Population& p) {
+void World::set_headings(const Population& p) {
   auto ux = state_.agents["ux"], uy = state_.agents["uy"], response = state_.agents["response"];
   const auto along = portable::sincos(*p.heading);
   for (std::size_t i = p.begin; i < p.end; ++i)
@@ -108,7 +106,7 @@ void World::exchange_model(std::size_t population, std::shared_ptr<const AgentMo
   for (const auto& c : model->columns()) state_.agents.add(c.name);
   model->start(state_, p.begin, p.end, parts_.seed);
   for (std::size_t i = 0; i < ux.size(); ++i) {
-    if (ux[i] == 0 && uy[i] == 0) continue;  // its law had no heading
+    if (ux[i] == 0 && uy[i] == 0) continue;  // its model had no heading
     state_.agents["ux"][p.begin + i] = ux[i];
     state_.agents["uy"][p.begin + i] = uy[i];
   }
@@ -117,14 +115,13 @@ void World::exchange_model(std::size_t population, std::shared_ptr<const AgentMo
 
 void World::advance_currents() {
   for (std::size_t k = 0; k < state_.current.size(); ++k)
-    state_.current[k] += follow_[k] * (state_.command[k] - state_.current[k]);
+    state_.current[k] += current_gain_[k] * (state_.command[k] - state_.current[k]);
 }
 
 void World::command(const std::vector<double>& current) {
   if (current.size() != parts_.field->coils())
-    throw Error(
-        Errc::usage, "command",
-        fmt::format("has {} currents; the field has {} coils", current.size(), parts_.field->coils()));
+    throw Error(Errc::usage, "command",
+                fmt::format("{} currents for {} coils", current.size(), parts_.field->coils()));
   state_.command = current;
 }
 
@@ -161,8 +158,8 @@ void World::check_finite() const {
         throw Error(
             Errc::internal, fmt::format("agent {}", i),
             fmt::format(
-                "position is not finite after step {}; the parameters of swarm[{}].model are out of its "
-                "range of validity",
+                "position is not finite after step {}; the parameters of swarm[{}].model are outside the "
+                "range of validity of the model",
                 state_.step, &p - parts_.populations.data()));
 }
 
@@ -170,7 +167,7 @@ void World::restore(State saved) {
   if (saved.agents.size() != state_.agents.size() ||
       saved.agents.all().size() != state_.agents.all().size() ||
       saved.current.size() != state_.current.size())
-    throw Error(Errc::input, "checkpoint", "does not belong to this scenario");
+    throw Error(Errc::input, "checkpoint", "belongs to another scenario");
   state_ = std::move(saved);
   exclusion_ = Exclusion(parts_.exclusion, *parts_.arena, parts_.seed);
   exclusion_.occupy(state_);

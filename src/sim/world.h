@@ -11,20 +11,21 @@
 
 namespace faba {
 
-/// One kind of cell among those in the drop: agents [begin, end).
+/// One type of cell in the drop: agents [begin, end).
 struct Population {
   std::size_t begin = 0, end = 0;
-  int polarity = -1;              ///< +1 north-seeking: swims along B; -1 south-seeking
-  double responding = 1;          ///< fraction that feels the field at all
-  std::optional<double> heading;  ///< in which these head at first, rad, world frame; any when absent
+  int polarity = -1;      ///< +1 north-seeking: swims along B; -1 south-seeking
+  double responding = 1;  ///< initial responsive fraction
+  std::optional<double>
+      heading;  ///< initial heading of responsive cells, rad, world frame; uniform when absent
   std::shared_ptr<const AgentModel> model;
   std::shared_ptr<const Start> start;
 };
 
-/// Everything about a run that does not change while it runs.
+/// Constants of a run.
 struct WorldParts {
   std::shared_ptr<const Field> field;
-  std::optional<FieldTable> table;  ///< of `field` over the arena; empty for one that is the same everywhere
+  std::optional<FieldTable> table;  ///< of `field` over the arena; empty for a homogeneous field
   std::shared_ptr<const Arena> arena;
   std::shared_ptr<const Motility> motility;
   std::vector<Population> populations;
@@ -33,40 +34,39 @@ struct WorldParts {
   std::uint64_t seed = 1;
 };
 
-/// A swarm under coils: constants plus one State. Equal parts, seed and commands give equal bits for any
-/// pool.
+/// A swarm in the field of coils: constants plus one State. The same parts, seed and commands give bitwise
+/// equal results for any pool.
 class World {
  public:
-  /// Places every cell and draws what it is born with. Throws Error(usage) when a swarm does not fit its
-  /// start.
+  /// Places every cell and draws its initial values. Throws Error(usage) if a swarm does not fit into its
+  /// start region.
   World(WorldParts parts, Pool& pool);
 
   /// Advances time by dt: currents -> field -> motility -> agents -> arena -> exclusion -> time.
   void step();
-  /// Throws Error(internal) naming agent, step and model when a position is not finite.
+  /// Throws Error(internal) with agent, step and model if a position is not finite.
   void check_finite() const;
-  /// Continues from a saved state of a world made of the same parts.
+  /// Resumes from a saved state of a world with the same parts.
   void restore(State saved);
 
   const State& state() const { return state_; }
   const WorldParts& parts() const { return parts_; }
-  /// Currents for the coils, A, one per coil. Throws Error(usage) for another number of them.
+  /// Sets the commanded currents, A, one per coil. Throws Error(usage) for a wrong number of currents.
   void command(const std::vector<double>& current);
-  /// From now on a population obeys another law. Its cells stay where they are and head where they do;
-  /// everything else is drawn as for newborn ones.
+  /// Replaces the model of a population. Cells keep position and heading; all other values are drawn again.
   void exchange_model(std::size_t population, std::shared_ptr<const AgentModel> model);
-  std::uint64_t responding() const;  ///< cells that still feel the field
+  std::uint64_t responding() const;  ///< number of responsive cells
 
  private:
   void place_all();
-  void head(const Population& p);
+  void set_headings(const Population& p);
   void advance_currents();
 
   WorldParts parts_;
   Pool& pool_;
   Exclusion exclusion_;
-  std::vector<double> follow_;      ///< per coil: fraction of the way to the command covered in dt
-  std::vector<float> to_x_, to_y_;  ///< proposals; unused without exclusion
+  std::vector<double> current_gain_;  ///< per coil: 1 - exp(-dt / lag)
+  std::vector<float> to_x_, to_y_;    ///< proposed positions; unused without exclusion
   State state_;
 };
 

@@ -9,8 +9,8 @@
 
 namespace faba::contract {
 
-/// What is wrong with a part, a sentence each. The tests of this folder expect none of every part of the
-/// program, and some of parts that are wrong on purpose.
+/// Violations of the contract of a part, one sentence each. The tests of this folder expect none for every
+/// part of the program, and some for deliberately faulty parts.
 using Findings = std::vector<std::string>;
 
 inline const Parts& parts() {
@@ -18,7 +18,7 @@ inline const Parts& parts() {
   return all;
 }
 
-/// A part from its table, as a scenario gives it, or from its name alone. Throws Error(usage).
+/// A part from its table, as in a scenario, or from its name. Throws Error(usage).
 template <class R>
 typename R::PartType resolved(const R& registry, const Json& table) {
   Document d;
@@ -28,7 +28,7 @@ typename R::PartType resolved(const R& registry, const Json& table) {
 
 }  // namespace faba::contract
 
-#define CHECK_NOTHING_WRONG(findings)                                          \
+#define CHECK_NO_FINDINGS(findings)                                            \
   do {                                                                         \
     const faba::contract::Findings found_ = findings;                          \
     CHECK_MESSAGE(found_.empty(), fmt::format("{}", fmt::join(found_, "\n"))); \

@@ -1,4 +1,4 @@
-// Controllers without the limits that the loop puts behind them.
+// Controllers without the limits of the control loop.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,16 +18,16 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kFrame = 1.0 / 15;  // s
 constexpr Target kTarget{{2e-4, -1e-4}, 0, false};
 
-Estimate believed(Vec2 at, double visible = 100) {
+Estimate estimate_at(Vec2 at, double visible = 100) {
   Estimate e;
   e.centroid = at;
   e.visible = visible;
   return e;
 }
-const Estimate kGood = believed({-1e-4, 5e-5});
+const Estimate kGood = estimate_at({-1e-4, 5e-5});
 
-/// In the uniform field, or among the four coils of the reference rig, which have zeros of the field.
-ControlContext among(const std::string& field) {
+/// Context with a uniform field, or with the four coils of the reference rig, which have field zeros.
+ControlContext context_for(const std::string& field) {
   ControlContext c;
   const std::string rig = "[f]\ntype = 'rig'\nearth = { field = ['18 uT', '-9 uT', 0] }\n" +
                           reference_coils("f.coil", {0, 90, 180, 270});
@@ -52,12 +52,12 @@ bool zero(const Command& c) {
   return std::all_of(c.current.begin(), c.current.end(), [](double i) { return i == 0; });
 }
 
-/// An estimate and a target that no loop should see, but some will.
+/// Invalid or extreme estimates and targets.
 struct Hostile {
   std::string what;
   Estimate estimate;
   Target target = kTarget;
-  bool unseen = false;  ///< rests on no cells, or is no place
+  bool unseen = false;  ///< based on no cells, or not a finite position
 };
 
 std::vector<Hostile> hostile_inputs() {
@@ -66,10 +66,10 @@ std::vector<Hostile> hostile_inputs() {
     for (const Vec2 at : {Vec2{bad, -bad}, Vec2{bad, 0}, Vec2{0, bad}, Vec2{bad, bad}}) {
       const std::string where = fmt::format("({}, {})", at.x, at.y);
       for (const double visible : {0.0, 1e-300, 100.0, 1e300, kInf, kNan})
-        all.push_back({fmt::format("centroid {}, visible {}", where, visible), believed(at, visible), kTarget,
-                       !(visible > 0) || !std::isfinite(bad)});
+        all.push_back({fmt::format("centroid {}, visible {}", where, visible), estimate_at(at, visible),
+                       kTarget, !(visible > 0) || !std::isfinite(bad)});
       all.push_back({"target " + where, kGood, {at, 0, false}});
-      all.push_back({"target and centroid " + where, believed(at), {at, 0, false}});
+      all.push_back({"target and centroid " + where, estimate_at(at), {at, 0, false}});
       Estimate e = kGood;
       e.velocity = at;
       e.cov = {bad, bad, bad};
@@ -80,66 +80,66 @@ std::vector<Hostile> hostile_inputs() {
 
 using ControllerPart = ControllerRegistry::PartType;
 
-/// A controller that has seen a good estimate. Its answer to that is its last command.
-struct Begun {
+/// A controller after an update with a valid estimate; `last` is its last command.
+struct Started {
   std::unique_ptr<Controller> controller;
   Command last;
-  Begun(const ControllerPart& part, const ControlContext& c) : controller(part.make(c)) { take(kGood); }
+  Started(const ControllerPart& part, const ControlContext& c) : controller(part.make(c)) { take(kGood); }
   Command take(const Estimate& e, const Target& target = kTarget) {
     return last = controller->update(e, target, kFrame);
   }
 };
 
-Findings wrong_with_command(const Command& c, const ControlContext& context) {
+Findings faults_of_command(const Command& c, const ControlContext& context) {
   if (c.current.size() != context.field->coils())
     return {fmt::format("{} currents for {} coils", c.current.size(), context.field->coils())};
   if (!finite(c)) return {fmt::format("currents {}", fmt::join(c.current, ", "))};
   return {};
 }
 
-/// Feedback: nothing to go by must not move the swarm, and is forgotten.
-Findings wrong_when_unseen(const ControllerPart& part, const ControlContext& context, const Hostile& h) {
+/// Feedback: an estimate without cells must not move the swarm, and must not have an effect later.
+Findings faults_when_unseen(const ControllerPart& part, const ControlContext& context, const Hostile& h) {
   Findings found;
-  Begun begun(part, context), blind(part, context);
-  const Command before = begun.last, now = begun.take(h.estimate, h.target);
+  Started started(part, context), blind(part, context);
+  const Command before = started.last, now = started.take(h.estimate, h.target);
   if (part.has(Trait::seeks_null) ? now.current != before.current : !zero(now))
     found.push_back(fmt::format("moves the swarm: currents {} after {}", fmt::join(now.current, ", "),
                                 fmt::join(before.current, ", ")));
-  blind.take(believed(kGood.centroid, 0));
+  blind.take(estimate_at(kGood.centroid, 0));
   for (int i = 0; i < 5; ++i) {
-    const Estimate e = believed((1 - 0.1 * i) * kGood.centroid);
-    if (begun.take(e).current == blind.take(e).current) continue;
-    found.push_back(fmt::format("remembers it {} frames later", i + 1));
+    const Estimate e = estimate_at((1 - 0.1 * i) * kGood.centroid);
+    if (started.take(e).current == blind.take(e).current) continue;
+    found.push_back(fmt::format("has an effect {} frames later", i + 1));
     break;
   }
   return found;
 }
 
-/// What is wrong with a controller in a field, in front of whatever estimates and targets there are.
-Findings wrong_with_controller(const ControllerPart& part, const ControlContext& context) {
+/// Contract violations of a controller for all hostile estimates and targets.
+Findings faults_of_controller(const ControllerPart& part, const ControlContext& context) {
   Findings found;
   const auto add = [&](const std::string& when, const Findings& more) {
     for (const std::string& f : more) found.push_back(fmt::format("{}: {}", when, f));
   };
   for (const Hostile& h : hostile_inputs()) {
     add(h.what + ", at once",
-        wrong_with_command(part.make(context)->update(h.estimate, h.target, kFrame), context));
-    Begun begun(part, context);
-    add(h.what, wrong_with_command(begun.take(h.estimate, h.target), context));
-    add("a good estimate after " + h.what, wrong_with_command(begun.take(kGood), context));
-    if (h.unseen && part.has(Trait::feedback)) add(h.what, wrong_when_unseen(part, context, h));
+        faults_of_command(part.make(context)->update(h.estimate, h.target, kFrame), context));
+    Started started(part, context);
+    add(h.what, faults_of_command(started.take(h.estimate, h.target), context));
+    add("a valid estimate after " + h.what, faults_of_command(started.take(kGood), context));
+    if (h.unseen && part.has(Trait::feedback)) add(h.what, faults_when_unseen(part, context, h));
   }
   return found;
 }
 
-/// The part with its defaults, and with each of its choices and range ends where these are allowed.
+/// The part with its defaults, and with each permitted choice and range end.
 std::vector<ControllerPart> variants(const std::string& name) {
   const auto& registry = contract::parts().controller;
   std::vector<ControllerPart> all{contract::resolved(registry, name)};
   const auto add = [&](const std::string& key, const Json& value) {
     try {
       all.push_back(contract::resolved(registry, Json{{"type", name}, {key, value}}));
-    } catch (const Error&) {  // rules over several keys; ranges_test.cpp lists them
+    } catch (const Error&) {  // rules over several keys; listed in ranges_test.cpp
     }
   };
   for (const auto& [key, field] : registry.json_schema(name)["properties"].items()) {
@@ -151,29 +151,29 @@ std::vector<ControllerPart> variants(const std::string& name) {
   return all;
 }
 
-/// Wrong on purpose: not a number where the others command nothing.
+/// Deliberately faulty: NaN where other controllers command zero.
 struct NanController final : Controller {
   struct Params {};
   static constexpr std::array kTraits = {Trait::feedback};
-  static Schema<Params> schema() { return {"nan", "Not a number for an estimate that is none"}; }
+  static Schema<Params> schema() { return {"nan", "NaN for an invalid estimate"}; }
   NanController(const Params&, const ControlContext& c) : coils(c.field->coils()) {}
   Command update(const Estimate& e, const Target&, double) override {
     return {std::vector<double>(coils, std::isfinite(e.centroid.x) ? 0.0 : kNan)};
   }
   std::size_t coils;
 };
-/// Wrong on purpose: goes on when there is nothing to go by.
+/// Deliberately faulty: non-zero current without a valid estimate.
 struct BlindController final : Controller {
   struct Params {};
   static constexpr std::array kTraits = {Trait::feedback};
-  static Schema<Params> schema() { return {"blind", "Commands the same whatever it sees"}; }
+  static Schema<Params> schema() { return {"blind", "Constant command, independent of the estimate"}; }
   BlindController(const Params&, const ControlContext& c) : coils(c.field->coils()) {}
   Command update(const Estimate&, const Target&, double) override {
     return {std::vector<double>(coils, 0.1)};
   }
   std::size_t coils;
 };
-/// Wrong on purpose: one current too few.
+/// Deliberately faulty: one current too few.
 struct ShortController final : Controller {
   struct Params {};
   static Schema<Params> schema() { return {"short", "One current too few"}; }
@@ -185,39 +185,40 @@ struct ShortController final : Controller {
 };
 
 template <class T>
-ControllerPart deliberately_wrong() {
-  ControllerRegistry registry("controller", "Wrong on purpose");
+ControllerPart deliberately_faulty() {
+  ControllerRegistry registry("controller", "Deliberately faulty");
   registry.add<T>();
   return contract::resolved(registry, registry.names().front());
 }
 
 }  // namespace
 
-TEST_CASE("every controller: one finite current for each coil; unseen or impossible estimates move nothing") {
+TEST_CASE("every controller: one finite current for each coil; no current for unseen or invalid estimates") {
   for (const std::string field : {"uniform", "rig"}) {
-    const ControlContext context = among(field);
+    const ControlContext context = context_for(field);
     for (const auto& name : contract::parts().controller.names())
       for (const ControllerPart& part : variants(name)) {
         INFO(field, ": ", part.resolved.dump());
-        CHECK_NOTHING_WRONG(wrong_with_controller(part, context));
+        CHECK_NO_FINDINGS(faults_of_controller(part, context));
       }
   }
 }
 
-TEST_CASE("every controller with feedback acts on a good estimate, so that the checks above mean something") {
+TEST_CASE("every controller with feedback acts on a valid estimate (validity of the checks above)") {
   for (const auto& name : contract::parts().controller.names_with(Trait::feedback)) {
     INFO(name);
-    CHECK_FALSE(zero(Begun(contract::resolved(contract::parts().controller, name), among("rig")).last));
+    CHECK_FALSE(
+        zero(Started(contract::resolved(contract::parts().controller, name), context_for("rig")).last));
   }
 }
 
-TEST_CASE("controllers that are wrong on purpose are found out") {
+TEST_CASE("deliberately faulty controllers are detected") {
   const auto found = [](const ControllerPart& part, const std::string& what) {
-    const Findings all = wrong_with_controller(part, among("uniform"));
+    const Findings all = faults_of_controller(part, context_for("uniform"));
     return std::any_of(all.begin(), all.end(),
                        [&](const std::string& f) { return f.find(what) != std::string::npos; });
   };
-  CHECK(found(deliberately_wrong<NanController>(), "visible 100: currents nan, nan"));
-  CHECK(found(deliberately_wrong<BlindController>(), "visible 0: moves the swarm"));
-  CHECK(found(deliberately_wrong<ShortController>(), "1 currents for 2 coils"));
+  CHECK(found(deliberately_faulty<NanController>(), "visible 100: currents nan, nan"));
+  CHECK(found(deliberately_faulty<BlindController>(), "visible 0: moves the swarm"));
+  CHECK(found(deliberately_faulty<ShortController>(), "1 currents for 2 coils"));
 }

@@ -1,4 +1,4 @@
-// The limits between every controller and the coils, at the cycle of a camera.
+// The limits between controllers and coils, with the period of a camera.
 #include "app/loop/limits.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using contract::Findings;
 
 namespace {
 
-constexpr double kDt = 1.0 / 15;  // s, of a control cycle
+constexpr double kDt = 1.0 / 15;  // s, control cycle
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
@@ -30,15 +30,15 @@ bool all_zero(const std::vector<double>& current) {
   return std::all_of(current.begin(), current.end(), [](double i) { return i == 0; });
 }
 
-/// What a controller may ask for, two coils, and how old its picture is.
-struct Asked {
+/// A command for two coils, and the age of its frame.
+struct Requested {
   std::vector<double> current;
   double age = 0;  ///< s
 };
 
-/// Commands of a run: large and small ones, impossible ones, and pictures that are too old in between.
-std::vector<Asked> run_of_commands() {
-  std::vector<Asked> all;
+/// Commands of a run: large, small and invalid ones, and old frames in between.
+std::vector<Requested> run_of_commands() {
+  std::vector<Requested> all;
   for (int i = 0; i < 40; ++i) all.push_back({{0.9, -0.9}});
   for (const double bad : {kNan, kInf, -kInf, 1e300, -1e300, 5.0, 1e-300})
     for (const double other : {0.9, -0.9, bad})
@@ -49,21 +49,21 @@ std::vector<Asked> run_of_commands() {
   return all;
 }
 
-/// What is wrong with limits whose rules are p. `L` has the functions of Limits.
+/// Contract violations of limits with parameters p. `L` has the interface of Limits.
 template <class L>
-Findings wrong_with_limits(L&& limits, const Limits::Params& p) {
+Findings faults_of_limits(L&& limits, const Limits::Params& p) {
   Findings found;
-  const auto add = [&](const Asked& a, const std::string& what, const Command& c) {
+  const auto add = [&](const Requested& a, const std::string& what, const Command& c) {
     found.push_back(fmt::format("{} A, {} s old: {}: {} A", fmt::join(a.current, ", "), a.age, what,
                                 fmt::join(c.current, ", ")));
   };
   std::vector<double> last(2, 0.0);
-  for (const Asked& a : run_of_commands()) {
+  for (const Requested& a : run_of_commands()) {
     Command c{a.current};
     const bool changed = limits.apply(c, kDt, a.age);
-    if (changed != (c.current != a.current)) add(a, "says the wrong thing about a change", c);
+    if (changed != (c.current != a.current)) add(a, "wrong return value", c);
     const bool old = !(a.age <= p.max_frame_age);
-    if (old && !all_zero(c.current)) add(a, "current flows on an old picture", c);
+    if (old && !all_zero(c.current)) add(a, "current for an old frame", c);
     for (std::size_t k = 0; k < 2; ++k) {
       const double i = c.current[k];
       if (!(std::fabs(i) <= p.max_current)) add(a, "above the limit", c);
@@ -75,11 +75,11 @@ Findings wrong_with_limits(L&& limits, const Limits::Params& p) {
   return found;
 }
 
-/// Wrong on purpose: lets everything through.
+/// Deliberately faulty: no limits.
 struct OpenLimits {
   bool apply(Command&, double, double) { return false; }
 };
-/// Wrong on purpose: goes to zero no faster than max_slew on an old picture.
+/// Deliberately faulty: applies max_slew also for an old frame.
 struct RampLimits {
   Limits inner;
   bool apply(Command& c, double dt, double age) {
@@ -97,25 +97,25 @@ bool mentions(const Findings& all, const std::string& what) {
 
 }  // namespace
 
-TEST_CASE("limits: within current and slew, zero at once on old pictures, whatever is asked") {
+TEST_CASE("limits: current and slew rate are limited, and old frames give zero at once, for all requests") {
   for (const std::optional<double> slew : {std::optional<double>{}, std::optional<double>{0.5}}) {
     INFO("max_slew ", slew.value_or(0));
-    CHECK_NOTHING_WRONG(wrong_with_limits(Limits(rules(slew)), rules(slew)));
+    CHECK_NO_FINDINGS(faults_of_limits(Limits(rules(slew)), rules(slew)));
   }
 }
 
-TEST_CASE("limits that are wrong on purpose are found out") {
-  const Findings open = wrong_with_limits(OpenLimits{}, rules(0.5));
-  for (const char* what : {"above the limit", "faster than max_slew", "current flows on an old picture"}) {
+TEST_CASE("deliberately faulty limits are detected") {
+  const Findings open = faults_of_limits(OpenLimits{}, rules(0.5));
+  for (const char* what : {"above the limit", "faster than max_slew", "current for an old frame"}) {
     INFO(what);
     CHECK(mentions(open, what));
   }
-  const Findings ramp = wrong_with_limits(RampLimits{Limits(rules(0.5))}, rules(0.5));
-  CHECK(mentions(ramp, "current flows on an old picture"));
+  const Findings ramp = faults_of_limits(RampLimits{Limits(rules(0.5))}, rules(0.5));
+  CHECK(mentions(ramp, "current for an old frame"));
   CHECK_FALSE(mentions(ramp, "above the limit"));
 }
 
-TEST_CASE("limits: an old picture takes one cycle to zero, and the way back is slow again") {
+TEST_CASE("limits: zero within one cycle after an old frame, then the slew rate limit applies again") {
   Limits limits(rules(0.3));
   Command c;
   for (int i = 0; i < 60; ++i) limits.apply(c = {{0.9, -0.6}}, kDt, 0);
@@ -127,9 +127,7 @@ TEST_CASE("limits: an old picture takes one cycle to zero, and the way back is s
   CHECK(c.current[1] == doctest::Approx(-0.3 * kDt));
 }
 
-TEST_CASE(
-    "limits and the guard of a bench agree: what passes the one, old pictures included, trips the other "
-    "never") {
+TEST_CASE("limits and the guard of a bench agree: commands that pass the limits never trip the guard") {
   const Limits::Params p = rules(0.5);
   CoilGuard::Params g;
   g.max_slew = p.max_slew;
@@ -138,11 +136,11 @@ TEST_CASE(
   guard.arm(0);
   double t = 0;
   std::uint64_t number = 0;
-  for (const Asked& a : run_of_commands()) {
+  for (const Requested& a : run_of_commands()) {
     t += kDt;
     Command c{a.current};
     limits.apply(c, kDt, a.age);
-    guard.beat(t);
+    guard.heartbeat(t);
     guard.take({++number, t, t, c.current}, t);
     REQUIRE_MESSAGE(guard.state() == CoilGuard::State::armed, guard.reason());
     CHECK(guard.current() == c.current);

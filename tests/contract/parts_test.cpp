@@ -1,4 +1,4 @@
-// What every registered part must keep, whoever wrote it.
+// Contract of every registered part.
 #include "tests/contract/contract.h"
 #include "tests/swarm.h"
 
@@ -25,7 +25,7 @@ std::string stepped(const std::string& toml, unsigned threads, int steps = 40) {
 
 }  // namespace
 
-TEST_CASE("every part: defaults are valid, every parameter is documented, what it writes it reads back") {
+TEST_CASE("every part: defaults are valid, every parameter is documented, output can be read back") {
   each_kind(kParts, [&](const char* kind, const auto& registry) {
     for (const auto& name : registry.names()) {
       INFO(std::string(kind), " ", name);
@@ -50,7 +50,7 @@ TEST_CASE("every part: defaults are valid, every parameter is documented, what i
   });
 }
 
-TEST_CASE("every model: same bits for any thread count, finite in no field and in a strong one") {
+TEST_CASE("every model: bitwise equal for any number of threads, finite in zero and in strong fields") {
   for (const auto& name : kParts.model.names()) {
     INFO(name);
     const std::string scene = model_scene("'" + name + "'");
@@ -65,7 +65,7 @@ TEST_CASE("every model: same bits for any thread count, finite in no field and i
   }
 }
 
-TEST_CASE("R4, every model: what an agent does depends on its number, not on who else is there") {
+TEST_CASE("R4, every model: the motion of an agent depends on its index, not on the other agents") {
   for (const auto& name : kParts.model.names()) {
     INFO(name);
     TestSwarm many(model_scene("'" + name + "'"));
@@ -82,7 +82,7 @@ TEST_CASE("R4, every model: what an agent does depends on its number, not on who
   }
 }
 
-TEST_CASE("every arena: whoever is pushed out stays in, whatever the push") {
+TEST_CASE("every arena: cells stay inside for any proposed move") {
   for (const auto& name : kParts.arena.names()) {
     INFO(name);
     TestSwarm t("exclusion = { order = 'none' }\narena = '" + name +

@@ -1,4 +1,4 @@
-// The ends of the range of every number of every part, those in tables within parts included.
+// Range ends of every number of every part, including nested tables.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,10 +12,10 @@ using namespace faba;
 
 namespace {
 
-/// A range end that a part refuses by a rule over several keys, the others having their defaults.
+/// A range end that a part refuses because of a rule over several keys, with defaults for the others.
 struct Refused {
-  std::string at;      ///< "kind part key end"; holds for a coil of a coil system too
-  std::string phrase;  ///< of the message: the rule
+  std::string at;      ///< "kind part key end"; also for a coil of a coil system
+  std::string phrase;  ///< part of the error message
 };
 const std::vector<Refused> kRefused{
     {"model dipole speed maximum", "speed is above speed_max"},
@@ -32,7 +32,7 @@ const std::vector<Refused> kRefused{
     {"controller fuzzy far_px minimum", "near_px is beyond far_px"},
 };
 
-/// The key by which the tables here know a number: a coil of a coil system has the rules of the coil alone.
+/// The key of a number in the tables of this file: a coil of a coil system has the rules of the coil part.
 std::string listed_at(const std::string& key) {
   const std::string list = "field rig coil[";
   if (!key.starts_with(list)) return key;
@@ -42,7 +42,7 @@ std::string listed_at(const std::string& key) {
   return coil;
 }
 
-/// What must stand in a table beside the number that is looked at, for the table to be complete.
+/// Other keys that a table needs to be complete.
 Json beside(const std::string& table) {
   static const std::map<std::string, Json> all{
       {"field rig", {{"coil", Json::array({"loop"})}}},
@@ -56,14 +56,14 @@ Json beside(const std::string& table) {
   return it == all.end() ? Json::object() : it->second;
 }
 
-/// How many numbers a list of numbers holds.
+/// Length of a list of numbers.
 std::size_t count_of(const std::string& key, const Json& schema) {
   if (key.ends_with(".coefficients")) return 3;
   if (key.ends_with(".trapezoid_px")) return 4;
   return schema.value("minItems", std::size_t{1});
 }
 
-/// The number of a part: its schema, and how the part's table looks with a value of it.
+/// A number of a part: its schema, and the table of the part with a value of it.
 struct Number {
   std::string key;  ///< as in "field rig coil[loop].position"
   const Json& schema;
@@ -74,7 +74,7 @@ using VisitNumber = std::function<void(const Number&)>;
 
 void each_number(const std::string& key, const Json& schema, const Wrap& table, const VisitNumber& visit);
 
-/// The numbers of a table; `start`: what is in it anyway.
+/// Visits the numbers of a table; `start`: its other keys.
 void each_number_within(const std::string& at, const std::string& separator, const Json& properties,
                         const Json& start, const Wrap& table, const VisitNumber& visit) {
   for (const auto& item : properties.items()) {
@@ -89,13 +89,13 @@ void each_number_within(const std::string& at, const std::string& separator, con
   }
 }
 
-/// Visits all numbers of what a schema describes; `table` makes the part's table of its value.
+/// Visits all numbers of a schema; `table` makes the table of the part from a value.
 void each_number(const std::string& key, const Json& schema, const Wrap& table, const VisitNumber& visit) {
   if (schema.contains("minimum") || schema.contains("maximum")) {
     visit({key, schema, table});
   } else if (schema.contains("oneOf")) {
     for (const Json& one : schema["oneOf"]) {
-      if (!one.contains("properties")) continue;  // a name alone
+      if (!one.contains("properties")) continue;  // a name without parameters
       const Json& type = one["properties"]["type"]["const"];
       const std::string at = fmt::format("{}[{}]", key, type.get<std::string>());
       Json start = beside(at);
@@ -126,7 +126,7 @@ void each_number_of_parts(Visit&& visit) {
   });
 }
 
-/// Why a table is refused; empty when it is not.
+/// Error message for a table; empty if it is accepted.
 template <class R>
 std::string refusal(const R& registry, const Json& table) {
   try {
@@ -160,12 +160,13 @@ TEST_CASE("every number of every part: its range ends are accepted, or refused b
   });
   CHECK(numbers > 100);
   for (const Refused& r : kRefused) {
-    INFO(r.at, " is accepted now, or there is no such number: take it out of the table");
+    INFO(r.at, " is accepted, or does not exist: remove it from the table");
     CHECK(used.count(r.at) == 1);
   }
 }
 
-TEST_CASE("every number of every part: beyond its range, and what is no number, is refused for that reason") {
+TEST_CASE(
+    "every number of every part: values out of range and non-finite values are refused with the reason") {
   each_number_of_parts([&](const auto& registry, const Number& n) {
     INFO(n.key);
     for (const std::string end : {"minimum", "maximum"}) {

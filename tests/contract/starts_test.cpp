@@ -1,4 +1,4 @@
-// Starts, asked for places directly: World does not stand between and draw again what is outside the arena.
+// Starts, called directly: without World, which draws again for positions outside the arena.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -13,20 +13,20 @@ using contract::Findings;
 
 namespace {
 
-/// A start that proposes some places outside the arena, which its contract allows (sim/start.h): the caller
-/// draws these again.
+/// A start that proposes some positions outside the arena, as permitted (sim/start.h): the caller draws
+/// again.
 struct Partly {
   std::string at;  ///< "start in arena"
-  double inside;   ///< least fraction of places that are in the arena
+  double inside;   ///< minimum fraction of positions inside the arena
 };
-/// A round drop fills pi/4 of the square that `uniform` draws from. A box ends at the centres of its border
-/// pixels (A2), and the two starts draw from whole pixels.
+/// A round drop has pi/4 of the area of the square of `uniform`. A box ends at the centres of its border
+/// pixels (A2), but the two starts draw from complete pixels.
 const std::vector<Partly> kPartly{
     {"uniform in drop", 0.75}, {"uniform in box", 0.99}, {"visible in box", 0.99}};
 
 using StartPart = StartRegistry::PartType;
 
-/// Draws as World makes them, and those at the ends of the range of its uniform numbers.
+/// Draws like those of World, and draws at the range ends of the uniform numbers.
 std::vector<PlaceDraw> place_draws() {
   constexpr double kLeast = 0.5 * 0x1p-32;
   std::vector<PlaceDraw> all;
@@ -46,16 +46,16 @@ std::vector<PlaceDraw> place_draws() {
   return all;
 }
 
-/// What is wrong with the places of a start: they are finite, in the arena (or as many as `inside` says), and
-/// with Trait::in_view in view.
-Findings wrong_with_start(const StartPart& part, const Arena& arena, double inside = 1) {
+/// Contract violations of a start: positions must be finite, inside the arena (at least the fraction
+/// `inside`), and in view with Trait::in_view.
+Findings faults_of_start(const StartPart& part, const Arena& arena, double inside = 1) {
   const auto start = part.make({&arena});
   const Frame frame = arena.frame();
-  int places = 0, not_finite = 0, outside = 0, out_of_view = 0;
+  int positions = 0, not_finite = 0, outside = 0, out_of_view = 0;
   for (const PlaceDraw& d : place_draws()) {
     const auto at = start->place(d);
     if (!at) continue;
-    ++places;
+    ++positions;
     if (!std::isfinite(norm(*at)))
       ++not_finite;
     else if (arena.depth(*at) < 0)
@@ -63,30 +63,31 @@ Findings wrong_with_start(const StartPart& part, const Arena& arena, double insi
     if (!frame.in_view(frame.image_from_world(*at))) ++out_of_view;
   }
   Findings found;
-  if (places == 0) found.push_back("no place at all");
-  if (not_finite > 0) found.push_back(fmt::format("{} of {} places are not finite", not_finite, places));
-  if (outside > (1 - inside) * places)
-    found.push_back(fmt::format("{} of {} places are outside the arena", outside, places));
+  if (positions == 0) found.push_back("no position");
+  if (not_finite > 0)
+    found.push_back(fmt::format("{} of {} positions are not finite", not_finite, positions));
+  if (outside > (1 - inside) * positions)
+    found.push_back(fmt::format("{} of {} positions are outside the arena", outside, positions));
   if (part.has(Trait::in_view) && out_of_view > 0)
-    found.push_back(fmt::format("{} of {} places are out of view", out_of_view, places));
+    found.push_back(fmt::format("{} of {} positions are out of view", out_of_view, positions));
   return found;
 }
 
-/// Wrong on purpose: beyond the edge of every arena.
+/// Deliberately faulty: outside of every arena.
 struct OutsideStart final : Start {
   struct Params {};
   static constexpr std::array kTraits = {Trait::in_view};
-  static Schema<Params> schema() { return {"outside", "Beyond the edge"}; }
+  static Schema<Params> schema() { return {"outside", "Outside of the edge"}; }
   OutsideStart(const Params&, const StartContext& c) : grid(c.arena->grid()) {}
   std::optional<Vec2> place(const PlaceDraw& d) const override {
     return Vec2{double(grid.left) - double(grid.cell) * (1 + d.u[0]), 0};
   }
   Grid grid;
 };
-/// Wrong on purpose: not a number for some of the draws.
+/// Deliberately faulty: NaN for some of the draws.
 struct NowhereStart final : Start {
   struct Params {};
-  static Schema<Params> schema() { return {"nowhere", "Not a number"}; }
+  static Schema<Params> schema() { return {"nowhere", "NaN"}; }
   NowhereStart(const Params&, const StartContext&) {}
   std::optional<Vec2> place(const PlaceDraw& d) const override {
     return Vec2{1e-6 * std::sqrt(d.u[0] - 0.01), 0};
@@ -94,15 +95,15 @@ struct NowhereStart final : Start {
 };
 
 template <class T>
-StartPart wrong_start() {
-  StartRegistry registry("start", "Wrong on purpose");
+StartPart faulty_start() {
+  StartRegistry registry("start", "Deliberately faulty");
   registry.add<T>();
   return contract::resolved(registry, registry.names().front());
 }
 
 }  // namespace
 
-TEST_CASE("every start in every arena: its places are finite, in the arena, and in view where it says so") {
+TEST_CASE("every start in every arena: positions are finite, in the arena, and in view with Trait::in_view") {
   const Scale scale;
   std::set<std::string> used;
   for (const auto& arena_name : contract::parts().arena.names()) {
@@ -114,24 +115,24 @@ TEST_CASE("every start in every arena: its places are finite, in the arena, and 
       const auto partly =
           std::find_if(kPartly.begin(), kPartly.end(), [&](const Partly& p) { return p.at == here; });
       if (partly == kPartly.end()) {
-        CHECK_NOTHING_WRONG(wrong_with_start(part, *arena));
+        CHECK_NO_FINDINGS(faults_of_start(part, *arena));
         continue;
       }
-      if (!wrong_with_start(part, *arena).empty()) used.insert(here);
-      CHECK_NOTHING_WRONG(wrong_with_start(part, *arena, partly->inside));
+      if (!faults_of_start(part, *arena).empty()) used.insert(here);
+      CHECK_NO_FINDINGS(faults_of_start(part, *arena, partly->inside));
     }
   }
   for (const Partly& p : kPartly) {
-    INFO(p.at, " is never outside now, or does not exist: take it out of the table");
+    INFO(p.at, " is never outside, or does not exist: remove it from the table");
     CHECK(used.count(p.at) == 1);
   }
 }
 
-TEST_CASE("starts that are wrong on purpose are found out") {
+TEST_CASE("deliberately faulty starts are detected") {
   const auto box = contract::resolved(contract::parts().arena, "box").make({Scale{}});
-  CHECK(wrong_with_start(wrong_start<OutsideStart>(), *box) ==
-        Findings{"4008 of 4008 places are outside the arena", "4008 of 4008 places are out of view"});
-  const Findings nowhere = wrong_with_start(wrong_start<NowhereStart>(), *box);
+  CHECK(faults_of_start(faulty_start<OutsideStart>(), *box) ==
+        Findings{"4008 of 4008 positions are outside the arena", "4008 of 4008 positions are out of view"});
+  const Findings nowhere = faults_of_start(faulty_start<NowhereStart>(), *box);
   REQUIRE(nowhere.size() == 1);
   CHECK(nowhere[0].find("are not finite") != std::string::npos);
 }

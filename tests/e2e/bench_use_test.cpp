@@ -71,7 +71,7 @@ TEST_CASE("a coil that does not get what was asked for: the sensed current says 
     OnBench b(std::string("fault = '") + fault + "'\nfault_after = '1 s'\n", kPatient);
     if (!b.steer()) return;
     CHECK(b.program->wait() == 4);
-    CHECK(b.err().find("is not what was asked for") != std::string::npos);
+    CHECK(b.err().find("differs from commanded current") != std::string::npos);
     CHECK_FALSE(b.flows());
   }
 }

@@ -38,7 +38,7 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
            Bad{"negative", swarm + "model = { type = 'dipole', speed = '-1 um/s' }\n", "out of range"},
            Bad{"a million in a thousand",
                "[arena]\ntype = 'box'\nsize_px = [40, 25]\n[[swarm]]\ncount = 1000000\n",
-               "do not fit into 1000 grid cells"},
+               "do not fit into 1000 sites"},
            Bad{"1e18 cells", "[[swarm]]\ncount = 1000000000000000000\n", "out of range"},
            Bad{"unknown part", swarm + "model = 'dipol'\n",
                "there is no agent model \"dipol\"; did you mean \"dipole\"?"},
@@ -52,7 +52,7 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
            Bad{"a key of the top level below a table", "[camera]\nrate = 20\nduration = '2 s'\n" + swarm,
                "s.toml:3: camera.duration: belongs to the whole scenario"},
            Bad{"a start outside", swarm + "start = { type = 'disc', centre_px = [5000, 0] }\n",
-               "lies outside of the arena"},
+               "is outside of the arena"},
            Bad{"a binary file",
                std::string("\x7f"
                            "ELF\0\0",

@@ -267,7 +267,7 @@ await step('through the camera of a bench: its picture, its gain, and a ruler', 
   await until(async () => Math.abs((await mean()) - before / 2) < 3, 'half as bright');
   await page.getByLabel('Gain').fill('99');
   await page.getByLabel('Gain').press('Enter');
-  await page.getByRole('alert').getByText('from 0.1 to 10').waitFor();
+  await page.getByRole('alert').getByText('between 0.1 and 10').waitFor();
   complaints.length = 0; // the browser's word on the refusal
   await page.getByLabel('Gain').fill('1');
   await page.getByLabel('Gain').press('Enter');
@@ -309,7 +309,7 @@ await step('a lost connection is said and heals', async () => {
 await step('Portuguese, dark, a phone, 200 %', async () => {
   await page.getByLabel('Language').selectOption('pt');
   await page.getByRole('button', { name: 'Pausar' }).waitFor();
-  await page.getByLabel('Claro ou escuro').click();
+  await page.getByLabel('Tema claro ou escuro').click();
   assert.equal(await page.locator('html').getAttribute('lang'), 'pt-BR');
   await shot('dark-pt');
   await page.setViewportSize({ width: 390, height: 844 });
@@ -331,7 +331,7 @@ await step('a lab that was started again asks for its own token', async () => {
   await page.getByText('Connection lost').waitFor();
   await shot('lost');
   await serveAgain('--port', port);
-  await page.getByText('Open the address that faba lab prints').waitFor();
+  await page.getByText('Open the URL printed by faba lab').waitFor();
   await page.goto(address);
   await page.getByRole('heading', { name: 'Scenes' }).waitFor();
 });

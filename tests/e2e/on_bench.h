@@ -30,7 +30,7 @@ inline const std::string kPatient =
 // have noticed yet that the run before is over.
 inline bool was_late(const std::string& err) {
   for (const char* what :
-       {"came in time", "sign of life", "too old when it came", "has not answered", "bench is gone"})
+       {"command timeout", "heartbeat timeout", "stale command", "no answer for", "bench disconnected"})
     if (err.find(what) != std::string::npos) return true;
   return false;
 }

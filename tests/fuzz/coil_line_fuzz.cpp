@@ -1,7 +1,6 @@
-// libFuzzer target: whatever comes over the serial line, and whenever, the board's outputs stay in their
-// range, and current is allowed only while it obeys good commands that come in time. In the input a 0 is
-// followed by how many milliseconds go by, and a 1 stands for the check and the end of the line since the
-// last $: no fuzzer guesses those.
+// libFuzzer target: for any input on the serial line, the outputs of the board stay in range, and current
+// flows only after valid commands within the timeout. In the input, a byte 0 is followed by a delay in ms,
+// and a byte 1 stands for the checksum and the end of the line since the last $, which a fuzzer cannot guess.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -38,8 +37,8 @@ void send(const char* text, int length) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   coil_controller c;
-  std::memset(&c, 0xA5, sizeof c);  // a board's memory holds anything
-  std::uint32_t now = 0xFFFFFF00u;  // milliseconds run over soon
+  std::memset(&c, 0xA5, sizeof c);  // uninitialised memory of a board
+  std::uint32_t now = 0xFFFFFF00u;  // close to the overflow of the millisecond counter
   coil_begin(&c, {put, enable, sense, send}, now);
   std::string body;
   const auto receive = [&](char byte) {

@@ -1,5 +1,5 @@
-// libFuzzer target: whatever bytes a page sends, they are a message or one Error(usage); and the scenario or
-// the event in it is read without harm.
+// libFuzzer target: any bytes from a page give a valid message or one Error(usage); the scenario or event in
+// a message is read without a crash.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const faba::Parts parts = faba::builtin_parts();
-  static const faba::Scenario usual = [] {
+  static const faba::Scenario base = [] {
     return faba::read_scenario(faba::parse_toml("[[swarm]]\n", "fuzz.toml"), parts);
   }();
   const std::string_view text(reinterpret_cast<const char*>(data), size);
@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     if (m.what == faba::PageMessage::Do::exchange) {
       d.root = m.event;
-      faba::Scenario now = usual;
+      faba::Scenario now = base;
       faba::read_event(faba::Node(d), now, parts);
     }
   } catch (const faba::Error& e) {

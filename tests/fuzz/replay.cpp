@@ -1,4 +1,4 @@
-// Gives every file of the folders named to the fuzz target: what was once found stays mended.
+// Runs the fuzz target on every file of the given folders, as a regression test.
 #include <cstdio>
 #include <filesystem>
 
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
     for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
       if (!entry.is_regular_file()) continue;
-      std::puts(entry.path().c_str());  // before it may crash
+      std::puts(entry.path().c_str());  // before a possible crash
       const std::string text = faba::read_file(entry.path());
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
       ++files;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the fuzzers (clang, with address and undefined-behaviour sanitizers) and runs each for N seconds (60): scenario
-# files, messages of the lab's page, and the serial line of a coil board. A finding is left in build/fuzz/ and belongs, once mended, into the corpus
-# beside this file.
+# files, messages of the lab's page, and the serial line of a coil board. Findings are written to build/fuzz/; add them to
+# the corpus in this folder after the fix.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 cmake --preset fuzz --log-level=WARNING > /dev/null

@@ -1,6 +1,5 @@
-// libFuzzer target: whatever bytes are given as a scenario, the loader answers with a scenario or with one
-// Error(usage). Built and run for a bounded time by `make fuzz`; the corpus is scenes/ plus
-// tests/fuzz/corpus/.
+// libFuzzer target: for any bytes the loader returns a scenario or throws one Error(usage). Built and run for
+// a limited time by `make fuzz`; the corpus is scenes/ plus tests/fuzz/corpus/.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -15,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const faba::Document d =
         faba::parse_toml(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz.toml");
     const faba::Scenario s = faba::read_scenario(d, parts);
-    // What was accepted must survive being written and read again.
+    // An accepted scenario must be unchanged after writing and reading.
     const faba::Document again = faba::parse_toml(faba::to_toml(s.resolved()), "again.toml");
     if (faba::read_scenario(again, parts).resolved() != s.resolved()) std::abort();
   } catch (const faba::Error& e) {

@@ -1,6 +1,6 @@
-// Same scenario and seed: the same bytes of a rendered frame on any x86-64 machine, for any thread count and
-// at any optimisation level. The hashes are literal; when a change is meant to change them, say so in
-// CHANGELOG.md and write the new ones. tests/CMakeLists.txt builds this file also with -mavx2 -mfma,
+// The same scenario and seed give bitwise equal rendered frames on any x86-64 machine, for any number of
+// threads and any optimisation level. The hashes are literal; a change that alters them on purpose must
+// update them and be reported in CHANGELOG.md. tests/CMakeLists.txt builds this file also with -mavx2 -mfma,
 // and `make dev` with -O0.
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@ using namespace faba;
 
 namespace {
 
-// Keeps the pictures that the loop saw at two frames.
+// Hashes of the images of two frames.
 struct Pictures final : Sink {
   std::string hashes;
   void take(const Tick& t) override {

@@ -4,10 +4,10 @@
 
 namespace faba {
 
-/// A scene's state hash after some frames, with seed 1.
+/// State hash of a scene after a number of frames, with seed 1.
 struct Golden {
   std::string scene;
-  std::uint64_t frames;  // how many; all scenes are long enough
+  std::uint64_t frames;  // number of frames, below the length of the scene
   std::string hash;
 };
 inline const Golden kGolden[] = {

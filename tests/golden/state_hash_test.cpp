@@ -1,7 +1,7 @@
-// Same scenario, seed and version: same bits on any x86-64 machine, for any thread count and at any
-// optimisation level. The hashes are literal. When a change of a model is meant to change them, say so in
-// CHANGELOG.md and write the new ones. tests/CMakeLists.txt builds this file also with -mavx2 -mfma,
-// and `make dev` with -O0.
+// The same scenario, seed and version give bitwise equal states on any x86-64 machine, for any number of
+// threads and any optimisation level. The hashes are literal; a change of a model that alters them on purpose
+// must update them and be reported in CHANGELOG.md. tests/CMakeLists.txt builds this file also with
+// -mavx2 -mfma, and `make dev` with -O0.
 #include <doctest/doctest.h>
 
 #include "app/scenario/read_scenario.h"
@@ -31,7 +31,7 @@ TEST_CASE("literal state hashes, 1, 2, 3 and 7 threads") {
     }
 }
 
-TEST_CASE("another seed gives another state") {
+TEST_CASE("different seeds give different states") {
   const Scenario s = read_scenario(read_toml(std::string(FABA_SCENES) + "/corner.toml"), builtin_parts());
   Pool pool(1);
   Simulation a(s, 1, pool), b(s, 2, pool);

@@ -1,5 +1,5 @@
-// Laws of the magnetic dipole swimmer against closed forms (theory B3). Tolerances are standard errors of the
-// sample, times four (one false alarm in 16 000), plus the integrator's stated bias where that is larger.
+// The magnetic dipole model compared with closed forms (theory B3). Tolerances are four standard errors of
+// the sample (one false alarm in 16 000), plus the documented bias of the integrator if it is larger.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -12,9 +12,9 @@ using namespace faba;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPerTesla = 1000;  // rad/(s T) of the test cells: moment / drag of the model text below
+constexpr double kPerTesla = 1000;  // rad/(s T), m / f_r of the test cells
 
-// v = 1e-4 m/s for all, D_t = 0, given D_r; m / f_r = 1000 rad/(s T) by choice of the drag factor
+// v = 1e-4 m/s for all cells, D_t = 0, given D_r; the drag factor gives m / f_r = 1000 rad/(s T)
 std::string swimmer(double d_r) {
   // f_r = factor 8 pi 1e-3 (1e-6)^3 = 1e-18 N m s; moment = 1e-15 A m^2
   return "type = 'dipole', moment = 1e-15, viscosity = 1e-3, radius = 1e-6, drag_factor = " +
@@ -44,7 +44,7 @@ TEST_CASE("T3: stationary alignment is I1(kappa)/I0(kappa)") {
   }
 }
 
-TEST_CASE("T4: mean square displacement of a free active Brownian particle") {
+TEST_CASE("T4: mean-square displacement of a free active Brownian particle") {
   // oracle: theory B3.4, v = D_r = 1, d = 2
   const double dt = 0.01;
   TestSwarm t(free_space(swimmer(1), dt, 40000));
@@ -58,14 +58,14 @@ TEST_CASE("T4: mean square displacement of a free active Brownian particle") {
       return px * px + py * py;
     });
     INFO("t ", time, " msd ", s.mean, " expected ", expected);
-    // moving along the mean of both headings loses D_r dt / 6 of the variance of one step's turn: below 0.2 %
+    // motion along the mean of both headings loses D_r dt / 6 of the variance of one step: below 0.2 %
     // here
     CHECK(std::fabs(s.mean - expected) < 4 * s.standard_error + 0.002 * expected);
   }
 }
 
-TEST_CASE("T4: the effective diffusion constant falls with the reversal rate") {
-  // run-reverse at rate lambda: D_r -> D_r + 2 lambda in the heading's decay; D = v^2 / (2 (D_r + 2 lambda))
+TEST_CASE("T4: the effective diffusion constant decreases with the reversal rate") {
+  // run-reverse at rate lambda: the heading decays with D_r + 2 lambda; D = v^2 / (2 (D_r + 2 lambda))
   const double dt = 0.01, lambda = 2, time = 20;
   TestSwarm t(free_space(swimmer(1) + ", reversal_rate = 2", dt, 20000));
   for (int i = 0; i < int(time / dt); ++i) t.world().step();
@@ -87,7 +87,7 @@ TEST_CASE("T5: a U-turn is pi v / w_B wide") {
     for (int i = 0; i < int(40 / w / dt); ++i) t.world().step();
     const auto y = t.column("y"), y0 = before.agents["y"], uy = before.agents["uy"];
     for (std::size_t i = 0; i < y.size(); ++i) {
-      if (std::fabs(uy[i]) < 1e-7f) continue;  // exactly antiparallel in float: it never turns without noise
+      if (std::fabs(uy[i]) < 1e-7f) continue;  // exactly antiparallel in float: does not turn without noise
       const double width = std::fabs(double(y[i]) - double(y0[i])), expected = kPi * 1e-4 / w;
       CHECK(width == doctest::Approx(expected).epsilon(1e-3));
     }
@@ -125,7 +125,7 @@ TEST_CASE("T5: mean time of a U-turn under noise") {
   }
 }
 
-TEST_CASE("T6: mean rotation in a rotating field, locked and beyond step-out") {
+TEST_CASE("T6: mean rotation in a rotating field, below and above step-out") {
   // oracle: theory B3.6 (Stratonovich), kappa = 10, Omega and result in units of D_r
   const std::array<std::array<double, 2>, 4> oracle{
       {{5, 4.991297}, {9, 6.898902}, {12, 5.025426}, {20, 2.666121}}};
@@ -177,8 +177,8 @@ TEST_CASE("T8: a swarm held by a rotating field diffuses with v^2 D_r / (2 w_B^2
     const Sample sx = Sample::of(x.size(), [&](std::size_t i) { return (double(x[i]) - x0[i]) / v; });
     const Sample sy = Sample::of(y.size(), [&](std::size_t i) { return (double(y[i]) - y0[i]) / v; });
     if (bias == 0.0) {
-      // both ends of the interval see the heading's own spread 1/kappa on the circle of radius v / Omega; its
-      // contribution 2 / (kappa Omega^2) to the variance is not diffusion and is taken off
+      // at both ends of the interval, the spread 1/kappa of headings on the circle of radius v / Omega adds
+      // 2 / (kappa Omega^2) to the variance; this is not diffusion and is subtracted
       const double diffusion = ((sx.variance + sy.variance) / 2 - 1 / (30.0 * omega * omega)) / (2 * time);
       INFO("D ", diffusion, " expected ", 1 / (2 * w * w));
       CHECK(diffusion == doctest::Approx(1 / (2 * w * w)).epsilon(0.05));
@@ -191,7 +191,7 @@ TEST_CASE("T8: a swarm held by a rotating field diffuses with v^2 D_r / (2 w_B^2
   }
 }
 
-TEST_CASE("the integrator keeps the stationary state at any w dt") {
+TEST_CASE("the integrator has the correct stationary state for any w dt") {
   // D1: error of 1 - <cos> at kappa = 200, "exact drift + OU noise": 0.4 % at w dt = 3
   for (const double wdt : {0.1, 1.0, 3.0}) {
     const double w = 200, dt = wdt / w;
@@ -206,7 +206,7 @@ TEST_CASE("the integrator keeps the stationary state at any w dt") {
   }
 }
 
-TEST_CASE("south-seeking cells swim against the field, silent ones do not care") {
+TEST_CASE("south-seeking cells swim against the field, unresponsive cells are not affected") {
   TestSwarm t(free_space(swimmer(0.5), 0.01, 3000));
   t.alter([](State& s) {
     auto r = s.agents["response"];
@@ -223,16 +223,16 @@ TEST_CASE("south-seeking cells swim against the field, silent ones do not care")
   CHECK(std::fabs(mean(2000).mean) < 4 * mean(2000).standard_error);
 }
 
-TEST_CASE("cells that feel the field begin along `heading`, the others in any direction") {
+TEST_CASE("responsive cells start along `heading`, the others in random directions") {
   TestSwarm s(
       "[[swarm]]\ncount = 4000\nresponding = 0.5\nheading = '60 deg'\nmodel = 'dipole'\n"
       "[exclusion]\norder = 'none'\n");
   const auto ux = s.column("ux"), uy = s.column("uy"), response = s.column("response");
-  Vec2 rest;
+  Vec2 sum;
   std::size_t n = 0;
   for (std::size_t i = 0; i < ux.size(); ++i) {
     if (response[i] == 0) {
-      rest = rest + Vec2{double(ux[i]), double(uy[i])};
+      sum = sum + Vec2{double(ux[i]), double(uy[i])};
       ++n;
       continue;
     }
@@ -240,6 +240,6 @@ TEST_CASE("cells that feel the field begin along `heading`, the others in any di
     CHECK(uy[i] == doctest::Approx(std::sqrt(0.75)).epsilon(1e-6));
   }
   REQUIRE(n > 1000);
-  // The square of a random walk's end is exponential: e^-9 of seeds are beyond three steps' roots.
-  CHECK(norm(rest) < 3 * std::sqrt(double(n)));
+  // The squared displacement of a random walk is exponential: a fraction e^-9 of seeds is above 3 sqrt(n).
+  CHECK(norm(sum) < 3 * std::sqrt(double(n)));
 }

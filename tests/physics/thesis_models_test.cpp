@@ -1,5 +1,5 @@
-// The published models: moments (theory A4, A5; T9), the controller experiment (A21; T20) and what order of
-// moving does (D4; T19).
+// The published models: moments (theory A4, A5; T9), the controller experiment (A21; T20) and the effect of
+// the update order (D4; T19).
 #include <doctest/doctest.h>
 
 #include <numeric>
@@ -27,7 +27,7 @@ struct Outcome {
   double rms = 0, sigma_x = 0, sigma_y = 0;
 };
 
-// Runs the scene's closed loop and measures as A21 does.
+// Runs the control loop of the scene and measures the figures of A21.
 Outcome controlled(const Scenario& s, std::uint64_t seed) {
   struct Probe final : Sink {
     const World* world = nullptr;
@@ -74,10 +74,11 @@ TEST_CASE("T9: Basic, mean, variance and correlation of the velocity") {
   const Sample sy = Sample::of(vy.size(), [&](std::size_t i) { return vy[i]; });
   CHECK(std::fabs(sx.mean - 3) < 4 * sx.standard_error);
   CHECK(std::fabs(sy.mean + 2) < 4 * sy.standard_error);
-  // variance n(n+1)/3; its standard error for a discrete uniform law, kurtosis below 1.8: sqrt(0.8/N)
+  // variance n(n+1)/3; its standard error for a discrete uniform distribution, kurtosis below 1.8:
+  // sqrt(0.8/N)
   CHECK(sx.variance == doctest::Approx(n * (n + 1) / 3.0).epsilon(4 * std::sqrt(0.8 / 40000)));
   for (const float v : vx) CHECK_MESSAGE((std::fabs(v - 3) < 8.01f), "bounded by n");
-  // held for two iterations, then drawn anew
+  // held for two iterations, then drawn again
   const std::vector<float> first(vx.begin(), vx.end());
   t.world().step();
   CHECK(std::equal(first.begin(), first.end(), t.column("vx").begin()));
@@ -97,7 +98,7 @@ TEST_CASE("T9: Basic, the hold of two doubles the diffusion: Var = 2 n(n+1)/3 t"
   CHECK(s.variance == doctest::Approx(9600).epsilon(4 * std::sqrt(2.0 / 20000)));  // Gaussian: s.e. sqrt(2/N)
 }
 
-TEST_CASE("Adapted: innate speeds 0..n, drift n/2 whatever the field, up without a field") {
+TEST_CASE("Adapted: innate speeds 0..n, drift n/2 independent of the field, upwards without a field") {
   TestSwarm t(pixels("type = 'adapted', max_speed = 9", 40000));
   const auto drift = [&] {
     const auto x = t.column("x");
@@ -107,7 +108,8 @@ TEST_CASE("Adapted: innate speeds 0..n, drift n/2 whatever the field, up without
     return Sample::of(before.size(),
                       [&](std::size_t i) { return (double(after[i]) - before[i]) / (2 * kPx); });
   };
-  for (const double units : {100.0, 1000.0}) {  // so strong that the Earth's unit does not tilt the direction
+  for (const double units :
+       {100.0, 1000.0}) {  // strong fields: the direction is not affected by the Earth's field of one unit
     t.world().command({units * 23e-6, 0});
     const Sample s = drift();
     CHECK(std::fabs(s.mean - 4.5) < 4 * s.standard_error + 0.001);
@@ -147,7 +149,7 @@ TEST_CASE("T20: the controller experiment of the thesis over 20 seeds (A21)") {
   }
 }
 
-TEST_CASE("the corner experiment: at rest in the corner after 3.5 to 4.6 s (A21)") {
+TEST_CASE("the corner experiment: the swarm stops in the corner after 3.5 to 4.6 s (A21)") {
   const Scenario s = scene("corner");
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Pool pool(1);
@@ -164,11 +166,11 @@ TEST_CASE("the corner experiment: at rest in the corner after 3.5 to 4.6 s (A21)
     probe.world = &sim.world();
     sim.loop().sinks.push_back(&probe);
     run(sim.loop(), s.frames(), [] { return true; });
-    const Vec2 rest = probe.at.back();
-    CHECK(rest.x < -250);  // in the corner, up to the pile along the upper wall
-    CHECK(rest.y > 200);
+    const Vec2 final = probe.at.back();
+    CHECK(final.x < -250);  // in the corner, up to the accumulation along the upper wall
+    CHECK(final.y > 200);
     std::size_t k = 0;
-    while (norm(probe.at[k] - rest) > 30) ++k;
+    while (norm(probe.at[k] - final) > 30) ++k;
     INFO("seed ", seed, ": ", double(k) / 15, " s");
     CHECK(double(k) / 15 >= 3.5);
     CHECK(double(k) / 15 <= 4.6);
@@ -176,7 +178,7 @@ TEST_CASE("the corner experiment: at rest in the corner after 3.5 to 4.6 s (A21)
 }
 
 TEST_CASE("T19: two-phase and published order give the same statistics at low density") {
-  // Paired over 20 seeds: the mean difference of each figure stays within four standard errors of itself.
+  // Paired over 20 seeds: the mean difference of each figure is below four standard errors.
   const Scenario two = scene("thesis-basic"),
                  published = scene("thesis-basic", {{"exclusion.order", "published"}});
   std::vector<Outcome> a, b;

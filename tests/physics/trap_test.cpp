@@ -1,4 +1,4 @@
-// T7: swarms at zeros of the field of real coils against closed forms (theory B3.9 and C6).
+// T7: swarms at field zeros of real coils compared with closed forms (theory B3.9 and C6).
 #include <doctest/doctest.h>
 
 #include "tests/reference_rig.h"
@@ -40,21 +40,21 @@ Sample along(TestSwarm& t, const char* axis) {
 }  // namespace
 
 TEST_CASE("T7: at a four-coil zero the cloud is Gaussian of variance v f_r / (m g), shifted by B_E / g") {
-  const double g = 0.019404;  // T/m in the plane at 0.5 A: C6, and null_test holds it
+  const double g = 0.019404;  // T/m in the plane at 0.5 A: C6, tested in null_test
   const double variance = kSpeed / (kPerTesla * g), shift = 5e-6 / g;
   constexpr int kCells = 40000;
   TestSwarm t(at_rig("north", "['5 uT', 0, 0]", kCells));
-  // The centre relaxes as m'' + D_r m' + (v m g / 2 f_r) m = 0, with D_r = 1/s at a rate of 0.11/s: after 100
-  // s 2e-5 of the shift is missing.
+  // The centre relaxes as m'' + D_r m' + (v m g / 2 f_r) m = 0, with D_r = 1/s at a rate of 0.11/s: 2e-5 of
+  // the shift remains after 100 s.
   run_for(t, {0.5, 0.5, 0.5, 0.5}, 100);
   const Sample x = along(t, "x"), y = along(t, "y");
   INFO("variance ", x.variance / variance, " ", y.variance / variance, ", shift ", x.mean / shift);
-  // Sampling: sqrt(2 / n) = 0.7 % of a variance; the issue allows 2 %. The rig's own curvature over a cloud
-  // of 0.23 mm at 15 mm adds (0.23 / 15)^2.
+  // Sampling: sqrt(2 / n) = 0.7 % of a variance; tolerance 2 %. The curvature of the field over a cloud of
+  // 0.23 mm at 15 mm adds (0.23 / 15)^2.
   CHECK(std::fabs(0.5 * (x.variance + y.variance) / variance - 1) < 0.02);
   CHECK(std::fabs(x.mean - shift) < 4 * x.standard_error + 0.002 * shift);
   CHECK(std::fabs(y.mean) < 4 * y.standard_error);
-  // Gaussian: the share within one standard deviation of the centre is 1 - exp(-1/2) in the plane.
+  // Gaussian: the fraction within one standard deviation of the centre is 1 - exp(-1/2) in the plane.
   const auto px = t.column("x"), py = t.column("y");
   const Sample inside = Sample::of(px.size(), [&](std::size_t i) {
     const double dx = double(px[i]) - shift, dy = double(py[i]);
@@ -63,15 +63,15 @@ TEST_CASE("T7: at a four-coil zero the cloud is Gaussian of variance v f_r / (m 
   CHECK(std::fabs(inside.mean - 0.393469) < 4 * inside.standard_error + 0.004);
 }
 
-TEST_CASE("two opposed coils hold a swarm along their axis and let it escape across it") {
+TEST_CASE("two opposed coils confine a swarm along their axis and not across it") {
   const double g = 0.03881;
   TestSwarm t(at_rig("north", "[0, 0, 0]", 4000));
   run_for(t, {0.5, 0, 0.5, 0}, 60);
   const Sample x = along(t, "x"), y = along(t, "y");
-  // Cells carried away along y are drawn less towards the axis there, so x is only about as wide as in the
+  // The confinement is weaker for cells far along y, so the width in x is only approximately that of the
   // trap.
   CHECK(x.variance < 4 * kSpeed / (kPerTesla * g));
-  CHECK(std::sqrt(y.variance) > 2e-3);  // and on its way to the drop's edge, 6 mm away
+  CHECK(std::sqrt(y.variance) > 2e-3);  // on the way to the edge of the drop at 6 mm
 }
 
 TEST_CASE("south-seeking cells need the opposite sign") {
@@ -88,15 +88,14 @@ TEST_CASE("south-seeking cells need the opposite sign") {
   }
 }
 
-TEST_CASE("the gradient controllers: open loop is off by an unknown B_E / g, feedback is not") {
+TEST_CASE("the gradient controllers: an unknown B_E shifts open-loop control by B_E / g, but not feedback") {
   const double shift = 5e-6 / 0.019404;
   struct Case {
     const char* controller;
-    double expected, allowed;  // of the shift
+    double expected, allowed;  // relative to the shift
   };
-  // The mean of the cloud over the last 100 s: 4000 cells and some ten relaxation times of 9 s leave a
-  // standard error of 0.23 mm / sqrt(4000 * 10) = 1 um, below 1 % of the shift. Feedback still relaxes by a
-  // share of it.
+  // Mean of the cloud over the last 100 s: 4000 cells and about ten relaxation times of 9 s give a standard
+  // error of 0.23 mm / sqrt(4000 * 10) = 1 um, below 1 % of the shift. Feedback has not relaxed completely.
   for (const Case& c : {Case{"type = 'gradient', earth = false", 1, 0.03}, Case{"type = 'gradient'", 0, 0.03},
                         Case{"type = 'gradient_feedback', earth = false", 0, 0.05}}) {
     TestSwarm t("controller = { " + std::string(c.controller) + " }\nlimits = { max_current = 0.5 }\n" +

@@ -1,4 +1,4 @@
-// Cameras and the thread that reads them: a video played as a camera, and a camera that tests make up.
+// Cameras and the thread that reads them: a video played as a camera, and a camera controlled by the test.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -16,16 +16,16 @@ using namespace faba;
 
 namespace {
 
-// A camera that gives frames when a test says so.
+// A camera that gives frames on command of the test.
 struct HandCamera final : Camera {
-  std::atomic<std::uint64_t> allowed = 0;  // frames that may have been taken
+  std::atomic<std::uint64_t> allowed = 0;  // number of frames that may be taken
   std::atomic<bool> over = false, fails = false;
   std::atomic<std::uint64_t> number = 0;
   std::atomic<double> began = monotonic_now();
 
   bool read(CameraFrame& out) override {
     while (number >= allowed && !over) {
-      if (fails) throw Error(Errc::device, "hand", "was pulled out");
+      if (fails) throw Error(Errc::device, "hand", "unplugged");
       std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
     if (over) return false;
@@ -40,12 +40,12 @@ struct HandCamera final : Camera {
   double rate() const override { return 1; }
 };
 
-// 12 frames of 20 per second; frame k is of grey 10 k.
-std::filesystem::path film(const std::filesystem::path& folder) {
+// 12 frames at 20 Hz; frame k has grey value 10 k.
+std::filesystem::path test_video(const std::filesystem::path& folder) {
   VideoWriter w(folder / "part", VideoFormat::lossless_avi, 32, 24, 20, 0, VideoPixels::grey8);
   for (int k = 0; k < 12; ++k) w.write(Gray8(32, 24, std::uint8_t(10 * k)));
-  w.finish(folder / "film.avi");
-  return folder / "film.avi";
+  w.finish(folder / "video.avi");
+  return folder / "video.avi";
 }
 
 std::shared_ptr<Camera> playback(const std::filesystem::path& file, bool fast) {
@@ -56,7 +56,7 @@ std::shared_ptr<Camera> playback(const std::filesystem::path& file, bool fast) {
 
 }  // namespace
 
-TEST_CASE("who is late gets the newest frame, and the ones between are counted") {
+TEST_CASE("a late consumer gets the newest frame, and dropped frames are counted") {
   auto camera = std::make_shared<HandCamera>();
   CameraFeed feed(camera, CameraFeed::Keep::newest);
   CameraFrame f;
@@ -74,7 +74,7 @@ TEST_CASE("who is late gets the newest frame, and the ones between are counted")
   CHECK(feed.dropped() == 3);
 }
 
-TEST_CASE("for a recorder all frames wait") {
+TEST_CASE("Keep::all queues all frames") {
   auto camera = std::make_shared<HandCamera>();
   CameraFeed feed(camera, CameraFeed::Keep::all);
   camera->allowed = 40;
@@ -87,8 +87,7 @@ TEST_CASE("for a recorder all frames wait") {
   CHECK(feed.dropped() == 0);
 }
 
-TEST_CASE(
-    "a run begins with a frame that comes after it has begun, and what was lost before is not its own") {
+TEST_CASE("a run starts with a frame taken after its start, and does not count frames dropped before") {
   auto camera = std::make_shared<HandCamera>();
   BenchRig rig(camera, nullptr, {.camera_timeout = 5});
   camera->allowed = 4;
@@ -98,7 +97,7 @@ TEST_CASE(
   Observation o;
   std::jthread later([&] {
     const double now = camera->began;
-    camera->began = now - 1000;  // one that was on its way
+    camera->began = now - 1000;  // a frame taken before the start
     camera->allowed = 5;
     while (camera->number < 5) std::this_thread::yield();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -112,36 +111,36 @@ TEST_CASE(
   CHECK(rig.dropped() == 0);
 }
 
-TEST_CASE("a camera that falls ever further behind is said to") {
+TEST_CASE("old frames are reported as an error") {
   auto camera = std::make_shared<HandCamera>();
   camera->began -= 1000;
   BenchRig rig(camera, nullptr, {.camera_timeout = 0.2});
   rig.begin();
   camera->allowed = 3;
   Observation o;
-  CHECK_THROWS_WITH_AS(rig.read(o), doctest::Contains("gives frames that are 99"), Error);
+  CHECK_THROWS_WITH_AS(rig.read(o), doctest::Contains("frames are 99"), Error);
 }
 
-TEST_CASE("a camera that fails says why to who reads it") {
+TEST_CASE("the error of a camera reaches the reader") {
   auto camera = std::make_shared<HandCamera>();
   BenchRig rig(camera, nullptr, {.camera_timeout = 5});
   camera->allowed = 1;
   Observation o;
   REQUIRE(rig.read(o));
   camera->fails = true;
-  CHECK_THROWS_WITH_AS(rig.read(o), "hand: was pulled out", Error);
+  CHECK_THROWS_WITH_AS(rig.read(o), "hand: unplugged", Error);
 }
 
-TEST_CASE("a camera that hangs does not hold its reader") {
+TEST_CASE("a camera that hangs does not block its reader") {
   auto camera = std::make_shared<HandCamera>();
   BenchRig rig(camera, nullptr, {.camera_timeout = 0.1});
   Observation o;
   CHECK_THROWS_AS(rig.read(o), Error);
 }
 
-TEST_CASE("a video is played at its own rate: times as in the file, frames when their time has come") {
+TEST_CASE("a video is played in real time, with the times of the file") {
   const test::TemporaryFolder folder("playback");
-  const auto camera = playback(film(folder.path()), false);
+  const auto camera = playback(test_video(folder.path()), false);
   CHECK(camera->width() == 32);
   CHECK(camera->rate() == doctest::Approx(20));
   BenchRig rig(camera, nullptr, {});
@@ -155,12 +154,12 @@ TEST_CASE("a video is played at its own rate: times as in the file, frames when 
     ++frames;
   }
   CHECK(frames + rig.feed().dropped() == 12);
-  CHECK(monotonic_now() - began > 11.0 / 20 - 0.01);  // cannot be over sooner
+  CHECK(monotonic_now() - began > 11.0 / 20 - 0.01);  // not faster than real time
 }
 
-TEST_CASE("as fast as frames are taken: every frame, however slow the reader") {
+TEST_CASE("fast playback: no frame is dropped, also with a slow reader") {
   const test::TemporaryFolder folder("playback");
-  const auto camera = playback(film(folder.path()), true);
+  const auto camera = playback(test_video(folder.path()), true);
   BenchRig rig(camera, nullptr, {.camera_timeout = 2, .keep = CameraFeed::Keep::each});
   Observation o;
   for (std::uint64_t k = 0; k < 12; ++k) {
@@ -174,7 +173,7 @@ TEST_CASE("as fast as frames are taken: every frame, however slow the reader") {
   CHECK(rig.feed().dropped() == 0);
 }
 
-TEST_CASE("what cannot be played is said") {
+TEST_CASE("a missing file and a missing option are errors") {
   const test::TemporaryFolder folder("playback");
   CHECK_THROWS_AS(playback(folder.path() / "none.avi", true), Error);
   Document d;

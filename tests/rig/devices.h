@@ -20,15 +20,14 @@ namespace faba {
 
 inline constexpr double kNeutral = 2.5;  // V
 
-inline constexpr double kWithin = 0.1;  // s after whatever ends or stops a program, no current flows
+inline constexpr double kWithin = 0.1;  // s after the end or stop of a program, the current must be zero
 
-/// A machine that stood still for longer than this, s, proves nothing about a guard: with an allowance as
-/// long as the guard's own deadline a guard that misses one deadline and acts at the next one would still
-/// pass.
+/// Maximum stall of the machine, s, in a valid attempt. With a larger allowance, a guard that misses one
+/// deadline and acts at the next one would still pass.
 inline const double kMostLate = CoilGuard::Params{}.heartbeat_deadline;
 
-/// Checks that what took `s` was over `within`, or later only by what the machine stood still. False when it
-/// was not and the machine stood still for longer than kMostLate: nothing is checked then.
+/// Checks s < within + stall of the machine. Returns false, without a check, if s >= within and the machine
+/// stalled for longer than kMostLate.
 [[nodiscard]] inline bool checked_in_time(double s, double within, const StandStill& machine) {
   const double late = machine.longest();
   if (s >= within && late > kMostLate) return false;
@@ -36,19 +35,18 @@ inline const double kMostLate = CoilGuard::Params{}.heartbeat_deadline;
   return true;
 }
 
-/// Makes attempts until the machine was not late in one, which then returns true. The test case is skipped,
-/// not passed, when the machine was late in all of them.
+/// Repeats the attempt until it returns true: the machine did not stall. The test case is skipped, not
+/// passed, if the machine stalled in all attempts.
 inline void until_in_time(const std::function<bool()>& attempt) {
   constexpr int kAttempts = 6;
   for (int i = 0; i < kAttempts; ++i) {
     INFO("attempt ", i);
     if (attempt()) return;
   }
-  test::skip(std::to_string(kAttempts) + " attempts, and the machine was late in each");
+  test::skip(std::to_string(kAttempts) + " attempts, and the machine stalled in each");
 }
 
-/// The library that stands for NI-DAQmx, for the guards that are begun while this exists. It keeps a log of
-/// all that it is told.
+/// A mock of NI-DAQmx for the guards that are started while this object exists. It logs all outputs.
 struct NiDevice {
   explicit NiDevice(int fail_at = 0) : folder("ni") {
     setenv("FAKE_NI_LOG", (folder.path() / "log").c_str(), 1);
@@ -71,7 +69,7 @@ struct NiDevice {
       if (l.channel == channel) v = l.value;
     return v;
   }
-  // When the enable line toggled for the last time.
+  // Time of the last toggle of the enable line.
   double last_toggle() const {
     double t = 0, level = 0;
     for (const Line& l : log())
@@ -96,7 +94,7 @@ struct Firmware {
     REQUIRE(soon([&] { return std::filesystem::is_symlink(folder.path() / "port"); }));
   }
   Json driver() const { return {{"type", "serial"}, {"port", (folder.path() / "port").string()}}; }
-  // Whether the enable line is up, and the furthest an output is from neutral, V; when that came to be.
+  // Time, enable line, and maximum deviation of an output from neutral, V.
   struct Line {
     double t = 0;
     int enable = 0;
@@ -123,8 +121,8 @@ struct Firmware {
   StandStill machine;
 };
 
-/// A guard for coils of 0.2 A/V about 2.5 V on these channels. A busy machine may stand still for longer than
-/// the deadlines of a tenth of a second, which is not what is tested where it is `patient`.
+/// A guard for coils of 0.2 A/V about 2.5 V on these channels. `patient`: timeouts of 1 s, for tests that do
+/// not test the timeouts: a busy machine may stall for longer than 100 ms.
 inline GuardSetup coils_on(const Json& driver, const std::vector<std::string>& channels,
                            const std::vector<std::string>& senses = {}, bool patient = true) {
   GuardSetup s;
@@ -145,7 +143,7 @@ inline GuardSetup coils_on(const Json& driver, const std::vector<std::string>& c
   return s;
 }
 
-/// Asks for currents as a loop does, for so long.
+/// Requests currents like a control loop, for `s` seconds.
 inline void steer(GuardLink& g, double s, double current = 0.3) {
   for (const double until = monotonic_now() + s; monotonic_now() < until;) {
     g.request(std::vector<double>(g.coils(), current), monotonic_now());

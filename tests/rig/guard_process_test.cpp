@@ -1,15 +1,15 @@
-// The guard's process with real drivers: the library that stands for NI-DAQmx and the firmware behind a
-// pseudo-terminal. Their own logs say what was put out when ("Safety" of docs/guide/bench.md).
+// The guard's process with real drivers: a mock of NI-DAQmx, and the firmware behind a pseudo-terminal. Their
+// logs record the outputs and times ("Safety" of docs/guide/bench.md).
 #include "tests/rig/devices.h"
 
 using namespace faba;
 
-TEST_CASE("NI: voltages as the wiring says, channels of two devices, the enable line toggles while armed") {
+TEST_CASE("NI: voltages follow the wiring, channels of two devices, the enable line toggles while armed") {
   const StandStill machine;
   NiDevice ni;
   GuardLink g(coils_on(ni.driver(), {"Dev1/ao0", "Dev1/ao1", "Dev2/ao0"}, {"Dev1/ai0", "Dev1/ai1"}),
               FABA_GUARD);
-  CHECK(ni.last("Dev1/ao0") == kNeutral);  // not 0 V, which would be half an ampere
+  CHECK(ni.last("Dev1/ao0") == kNeutral);  // not 0 V, which would be 0.5 A
   CHECK(ni.last("Dev2/ao0") == kNeutral);
   CHECK(ni.last_toggle() == 0);
   g.arm();
@@ -17,7 +17,7 @@ TEST_CASE("NI: voltages as the wiring says, channels of two devices, the enable 
   CHECK(ni.last("Dev1/ao0") == doctest::Approx(kNeutral + 0.3 / 0.2));
   CHECK(ni.last("Dev2/ao0") == doctest::Approx(kNeutral + 0.3 / 0.2));
   if (!checked_in_time(monotonic_now() - ni.last_toggle(), 0.05, machine))
-    test::skip("the machine was late: how often the enable line toggles was not checked");
+    test::skip("the machine stalled: the toggle period of the enable line was not checked");
   CHECK(g.report().sensed[0] == doctest::Approx(0.3));
   g.disarm();
   CHECK(ni.last("Dev1/ao0") == kNeutral);
@@ -25,7 +25,7 @@ TEST_CASE("NI: voltages as the wiring says, channels of two devices, the enable 
   CHECK(ni.last("Dev1/port0/line0") == 0);
 }
 
-TEST_CASE("NI: without an enable line it is said that the device cannot be made safe, and it is not armed") {
+TEST_CASE("NI: without an enable line the guard refuses to arm") {
   NiDevice ni;
   GuardLink g(coils_on(ni.driver(false), {"Dev1/ao0"}), FABA_GUARD);
   try {
@@ -33,13 +33,13 @@ TEST_CASE("NI: without an enable line it is said that the device cannot be made 
     FAIL("armed");
   } catch (const Error& e) {
     CHECK(e.code() == Errc::device);
-    CHECK(std::string(e.what()).find("cannot be made safe") != std::string::npos);
+    CHECK(std::string(e.what()).find("no enable line") != std::string::npos);
   }
   steer(g, 0.05);
   CHECK(ni.last("Dev1/ao0") == kNeutral);
 }
 
-TEST_CASE("the control thread hangs while the program lives: no current when the deadline is over") {
+TEST_CASE("the control thread hangs while the program runs: coils off after the command timeout") {
   until_in_time([] {
     Firmware f;
     GuardLink g(coils_on(f.driver(), {"0", "1"}, {"0", "1"}, false), FABA_GUARD);
@@ -49,12 +49,12 @@ TEST_CASE("the control thread hangs while the program lives: no current when the
     f.machine.begin();
     const double t = monotonic_now();
     if (!checked_in_time(f.rest_after(t), kWithin, f.machine)) return false;
-    CHECK(g.report().fault == CoilGuard::Fault::late);
+    CHECK(g.report().fault == CoilGuard::Fault::command_timeout);
     return true;
   });
 }
 
-TEST_CASE("a decision that takes too long: the coils rest without a fault, and go on when they are woken") {
+TEST_CASE("a control cycle that overruns: coils off without a fault, until clear_timeout()") {
   Firmware f;
   GuardLink g(coils_on(f.driver(), {"0", "1"}, {}, false), FABA_GUARD);
   g.deenergise_when_late();
@@ -66,14 +66,14 @@ TEST_CASE("a decision that takes too long: the coils rest without a fault, and g
   REQUIRE(soon([&] { return !flows(); }, 5));
   CHECK(g.command_timeouts() == 1);
   CHECK(g.report().state == CoilGuard::State::armed);
-  CHECK_FALSE(g.request(std::vector<double>(2, 0.3), monotonic_now()));  // decided before the coils were off
-  CHECK(g.wake());
-  CHECK_FALSE(g.wake());
+  CHECK_FALSE(g.request(std::vector<double>(2, 0.3), monotonic_now()));  // from a frame before the timeout
+  CHECK(g.clear_timeout());
+  CHECK_FALSE(g.clear_timeout());
   CHECK(g.request(std::vector<double>(2, 0.3), monotonic_now()));
   CHECK(soon(flows, 5));
 }
 
-TEST_CASE("serial: the guard is killed or stopped, the line goes: the board comes to rest by itself") {
+TEST_CASE("serial: the guard is killed or stopped: the board de-energises the coils by itself") {
   for (const int signal : {SIGKILL, SIGSTOP})
     until_in_time([signal] {
       Firmware f;
@@ -86,17 +86,18 @@ TEST_CASE("serial: the guard is killed or stopped, the line goes: the board come
       ::kill(g.process(), signal);
       const bool checked = checked_in_time(f.rest_after(t), kWithin, f.machine);
       CHECK(f.log().back().furthest < 1e-6);
-      // And the program learns of it, and does not wait for ever for one that stands still.
+      // The program detects it, and does not wait for ever for a guard that hangs.
       CHECK(soon([&] { return g.report().state == CoilGuard::State::faulted; }, 5));
       const std::string reason = g.report().reason.data();
-      CHECK_MESSAGE(reason.find(signal == SIGKILL ? "gone" : "stands still") != std::string::npos, reason);
+      CHECK_MESSAGE(reason.find(signal == SIGKILL ? "has ended" : "does not respond") != std::string::npos,
+                    reason);
       CHECK(g.report().obeyed == (signal == SIGKILL));
       CHECK_THROWS_AS(g.arm(), Error);
       return checked;
     });
 }
 
-TEST_CASE("serial: a board that is unplugged or hangs: the guard faults and says which line") {
+TEST_CASE("serial: a board is unplugged or hangs: the guard trips and names the port") {
   for (const int signal : {SIGKILL, SIGSTOP}) {
     Firmware f;
     GuardLink g(coils_on(f.driver(), {"0"}), FABA_GUARD);
@@ -106,11 +107,11 @@ TEST_CASE("serial: a board that is unplugged or hangs: the guard faults and says
     for (int i = 0; i < 20 && g.report().state != CoilGuard::State::faulted; ++i) steer(g, 0.02);
     const std::string reason = g.report().reason.data();
     CHECK_MESSAGE(reason.find("port") != std::string::npos, reason);
-    CHECK_FALSE(g.report().obeyed);  // nobody may say that these coils are at rest
+    CHECK_FALSE(g.report().obeyed);  // the state of these coils is unknown
   }
 }
 
-TEST_CASE("serial: after a fault it goes on when armed anew by hand, and a new host is understood") {
+TEST_CASE("serial: after a fault and a reset the guard can be armed again, and a new client is accepted") {
   Firmware f;
   {
     GuardLink g(coils_on(f.driver(), {"0"}), FABA_GUARD);
@@ -132,7 +133,7 @@ TEST_CASE("serial: after a fault it goes on when armed anew by hand, and a new h
   CHECK(f.log().back().enable == 1);
 }
 
-TEST_CASE("serial: nobody there") {
+TEST_CASE("serial: not a serial line, missing device") {
   CHECK_THROWS_AS(GuardLink(coils_on({{"type", "serial"}, {"port", "/dev/null"}}, {"0"}), FABA_GUARD), Error);
   CHECK_THROWS_AS(GuardLink(coils_on({{"type", "serial"}, {"port", "/nonexistent"}}, {"0"}), FABA_GUARD),
                   Error);

@@ -31,7 +31,7 @@ struct Swarm {
   }
 };
 
-// A view of 200 x 100 px, 2 um each, in an arena that reaches 50 px beyond it on all sides.
+// A view of 200 x 100 px, 2 um per px, in an arena that extends 50 px beyond it on all sides.
 FrameMessage message(const Swarm& s, const std::vector<double>& rows, const std::vector<float>& field) {
   FrameMessage m;
   m.run = 3;
@@ -54,7 +54,7 @@ FrameMessage message(const Swarm& s, const std::vector<double>& rows, const std:
 
 }  // namespace
 
-TEST_CASE("a frame is what the protocol says, byte by byte") {
+TEST_CASE("a frame message follows the protocol byte by byte") {
   const Swarm s(11, 2.9e-4, 1.9e-4);
   const std::vector<double> rows = {1, 2, 3, 4, 5, 6};
   const std::vector<float> field = {1e-4F, 0, 2e-4F, -1e-4F};
@@ -71,23 +71,23 @@ TEST_CASE("a frame is what the protocol says, byte by byte") {
   CHECK(at<double>(b, 40) == 2.75);
   CHECK(at<double>(b, 48 + 5 * 8) == 6);
   CHECK(at<float>(b, 48 + 48 + 3 * 4) == -1e-4F);
-  const std::size_t places = 48 + 48 + 16;
-  // A step of uint16 over the longest side of the box is 300 / 65535 px: half of it is the largest error.
+  const std::size_t positions = 48 + 48 + 16;
+  // The uint16 step over the longest side of the box is 300 / 65535 px; the maximum error is half a step.
   const double tolerance = 0.5 * 300 / 65535 + 1e-4;
   for (std::size_t i = 0; i < 11; ++i) {
-    const double px = -50 + at<std::uint16_t>(b, places + 4 * i) * 300.0 / 65535;
-    const double py = -50 + at<std::uint16_t>(b, places + 4 * i + 2) * 200.0 / 65535;
+    const double px = -50 + at<std::uint16_t>(b, positions + 4 * i) * 300.0 / 65535;
+    const double py = -50 + at<std::uint16_t>(b, positions + 4 * i + 2) * 200.0 / 65535;
     CHECK(std::fabs(px - (99.5 + double(s.x[i]) / 2e-6)) < tolerance);
     CHECK(std::fabs(py - (49.5 - double(s.y[i]) / 2e-6)) < tolerance);
-    const double turn = std::uint8_t(b[places + 44 + i]) / 255.0 * 2 * std::acos(-1.0);
+    const double turn = std::uint8_t(b[positions + 44 + i]) / 255.0 * 2 * std::acos(-1.0);
     CHECK(std::cos(turn - std::atan2(double(s.uy[i]), double(s.ux[i]))) >
           std::cos(0.5 / 255 * 2 * std::acos(-1.0)) - 1e-6);
-    CHECK(((std::uint8_t(b[places + 55 + i / 8]) >> (i % 8)) & 1) == (i % 3 ? 1 : 0));
+    CHECK(((std::uint8_t(b[positions + 55 + i / 8]) >> (i % 8)) & 1) == (i % 3 ? 1 : 0));
   }
-  CHECK(b.size() == places + 44 + 11 + 2);
+  CHECK(b.size() == positions + 44 + 11 + 2);
 }
 
-TEST_CASE("a box so large that 16 bits are a tenth of a pixel takes floats") {
+TEST_CASE("a box with 16-bit steps above 0.1 px is sent as floats") {
   CHECK(quantised({0, 0, 6553.5, 100}));
   CHECK_FALSE(quantised({0, 0, 6553.6, 100}));
   const Swarm s(5, 1e-3, 1e-3);
@@ -102,7 +102,7 @@ TEST_CASE("a box so large that 16 bits are a tenth of a pixel takes floats") {
   CHECK(b.size() == 48 + 40 + 1);
 }
 
-TEST_CASE("a picture comes last") {
+TEST_CASE("the camera image is last") {
   const Swarm s(3, 1e-4, 1e-4);
   FrameMessage m = message(s, {}, {});
   m.field_columns = m.field_rows = 0;

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A program that stands in for faba: a shell script.
+/// A mock of the program: a shell script.
 fs::path script(const fs::path& folder, const std::string& text) {
   const fs::path file = folder / "program";
   write_file(file, "#!/bin/sh\n" + text);
@@ -27,14 +27,14 @@ Job wait_for(const JobList& list, int id, const std::function<bool(const Job&)>&
       if (j.id == id && done(j)) return j;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  FAIL("the job never came so far");
+  FAIL("timeout: the job did not reach the expected state");
   return {};
 }
 bool is_over(const Job& j) { return j.state > Job::State::running; }
 
 }  // namespace
 
-TEST_CASE("a job: words, folder, progress, answer") {
+TEST_CASE("a job: arguments, working folder, progress, result") {
   test::TemporaryFolder folder("jobs");
   const fs::path program = script(folder.path(),
                                   "pwd > where; printf '%s|' \"$@\" > words\n"
@@ -59,7 +59,7 @@ TEST_CASE("a job: words, folder, progress, answer") {
   CHECK(job_json(j)["state"] == "done");
 }
 
-TEST_CASE("what fails says why, and the next one is done") {
+TEST_CASE("a failed job has an error message, and the next job runs") {
   test::TemporaryFolder folder("jobs");
   const fs::path program =
       script(folder.path(), "echo 'faba: note: x' >&2; echo \"faba: error: $1: is wrong\" >&2; exit $2\n");
@@ -71,24 +71,24 @@ TEST_CASE("what fails says why, and the next one is done") {
   CHECK(wait_for(none, none.add("", {}, "", ""), is_over).state == Job::State::failed);
 }
 
-TEST_CASE("jobs are stopped: the one that runs by Ctrl-C and, when it does not listen, by force") {
+TEST_CASE("cancel stops the running job with SIGINT and, after a timeout, with SIGKILL") {
   test::TemporaryFolder folder("jobs");
   const fs::path program = script(folder.path(),
                                   "trap 'echo stopped > stopped; exit 130' INT\n"
-                                  "[ \"$1\" = deaf ] && trap '' INT\n"
-                                  "echo > begun\nfor i in $(seq 1000); do sleep 0.05; done\n");
+                                  "[ \"$1\" = ignores ] && trap '' INT\n"
+                                  "echo > started\nfor i in $(seq 1000); do sleep 0.05; done\n");
   JobList list(program, folder.path(), [] {});
   const int first = list.add("", {"x"}, "", ""), waiting = list.add("", {"y"}, "", "");
-  wait_for(list, first, [&](const Job&) { return fs::exists(folder.path() / "begun"); });
+  wait_for(list, first, [&](const Job&) { return fs::exists(folder.path() / "started"); });
   CHECK(list.cancel(waiting));
   CHECK(list.cancel(first));
   CHECK_FALSE(list.cancel(99));
   CHECK(wait_for(list, first, is_over).state == Job::State::cancelled);
   CHECK(wait_for(list, waiting, is_over).state == Job::State::cancelled);
   CHECK(fs::exists(folder.path() / "stopped"));
-  fs::remove(folder.path() / "begun");
-  const int deaf = list.add("", {"deaf"}, "", "");
-  wait_for(list, deaf, [&](const Job&) { return fs::exists(folder.path() / "begun"); });
-  list.cancel(deaf);
-  CHECK(wait_for(list, deaf, is_over).state == Job::State::cancelled);
+  fs::remove(folder.path() / "started");
+  const int ignores = list.add("", {"ignores"}, "", "");
+  wait_for(list, ignores, [&](const Job&) { return fs::exists(folder.path() / "started"); });
+  list.cancel(ignores);
+  CHECK(wait_for(list, ignores, is_over).state == Job::State::cancelled);
 }

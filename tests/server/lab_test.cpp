@@ -1,4 +1,4 @@
-// The whole server as attackers and clumsy clients meet it: what RELIABILITY's list calls S1 to S9.
+// The complete server with malicious and faulty clients: S1 to S9 of RELIABILITY.
 #include "server/lab.h"
 
 #include <doctest/doctest.h>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A lab that is served while this exists.
+/// A lab server, stopped by the destructor.
 class Served {
  public:
   Served() : folder_("lab") {
@@ -29,7 +29,7 @@ class Served {
     write_file(
         folder_.path() / "scenes/one.toml",
         "# A small one.\ntitle = 'One'\n[arena]\ntype = 'drop'\nradius_px = 100\n[[swarm]]\ncount = 10\n");
-    write_file(folder_.path() / "secret.txt", "nobody may read this");
+    write_file(folder_.path() / "secret.txt", "confidential content");
     std::promise<void> ready;
     LabOptions o;
     o.workspace = folder_.path();
@@ -55,7 +55,7 @@ class Served {
     thread_.join();
   }
 
-  /// Header lines of the page itself, which has the cookie.
+  /// Header lines of the lab's page, with the cookie.
   std::string own() const {
     return fmt::format(
         "Host: 127.0.0.1:{0}\r\nCookie: faba-{0}={1}\r\nOrigin: http://127.0.0.1:{0}\r\nSec-Fetch-Site: "
@@ -94,7 +94,7 @@ std::size_t resident() {
 
 }  // namespace
 
-TEST_CASE("the lab answers its own page") {
+TEST_CASE("the lab answers requests of its page") {
   const Served lab;
   CHECK(status_of(lab.get("/api/about")) == 200);
   const Json scenes = Json::parse(test::body_of(lab.get("/api/scenes")));
@@ -111,13 +111,13 @@ TEST_CASE("the lab answers its own page") {
   const Json wrong = Json::parse(test::body_of(checked));
   CHECK(wrong["ok"] == false);
   CHECK(wrong["where"] == "swarm[0].model.sped");
-  // The token is exchanged for the cookie at once and does not stay in the address.
+  // The token is replaced by the cookie and does not remain in the address.
   const std::string first =
       lab.ask("GET /?token=" + lab.token, fmt::format("Host: 127.0.0.1:{}\r\n", lab.port));
   CHECK(status_of(first) == 303);
   CHECK(first.find("Location: /\r\n") != std::string::npos);
   CHECK(first.find("HttpOnly; SameSite=Strict") != std::string::npos);
-  // One connection takes several requests.
+  // One connection serves several requests.
   RawClient c(lab.port);
   for (int i = 0; i < 3; ++i) {
     c.send("GET /api/about HTTP/1.1\r\n" + lab.own() + "\r\n");
@@ -125,7 +125,7 @@ TEST_CASE("the lab answers its own page") {
   }
 }
 
-TEST_CASE("S1: bound to the loopback address and nothing else") {
+TEST_CASE("S1: bound to the loopback address only") {
   const Served lab;
   int listening = 0;
   for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
@@ -142,7 +142,7 @@ TEST_CASE("S1: bound to the loopback address and nothing else") {
   CHECK(listening == 1);
 }
 
-TEST_CASE("S2: without the token no address answers, neither files nor the socket") {
+TEST_CASE("S2: without the token every path is refused, also files and the WebSocket") {
   const Served lab;
   const std::string host = fmt::format("Host: 127.0.0.1:{0}\r\nOrigin: http://127.0.0.1:{0}\r\n", lab.port);
   for (const char* line :
@@ -156,7 +156,7 @@ TEST_CASE("S2: without the token no address answers, neither files nor the socke
   CHECK(status_of(lab.ask("GET /api/about?token=" + std::string(32, '0'), host)) == 401);
 }
 
-TEST_CASE("S3: other hosts") {
+TEST_CASE("S3: other hosts are refused") {
   const Served lab;
   const std::string cookie = fmt::format("Cookie: faba-{}={}\r\n", lab.port, lab.token);
   const std::string right = fmt::format("Host: 127.0.0.1:{}\r\n", lab.port);
@@ -169,27 +169,27 @@ TEST_CASE("S3: other hosts") {
   }
 }
 
-TEST_CASE("S4: sockets of other pages") {
+TEST_CASE("S4: WebSockets of other pages are refused") {
   const Served lab;
   const std::string with =
       fmt::format("Host: 127.0.0.1:{0}\r\nCookie: faba-{0}={1}\r\n", lab.port, lab.token) + kUpgrade;
-  const std::string speaks = "Sec-WebSocket-Protocol: faba.1\r\n";
+  const std::string protocol = "Sec-WebSocket-Protocol: faba.1\r\n";
   for (const std::string& origin :
        {fmt::format("Origin: http://127.0.0.1:{}\r\n", lab.port + 1), std::string("Origin: null\r\n"),
         std::string("Origin: http://1.2.3.4\r\n"), fmt::format("Origin: http://1.2.3.4:{}\r\n", lab.port),
         std::string("Origin: file://\r\n"), std::string()}) {
     INFO(origin);
-    CHECK(status_of(lab.ask("GET /ws", with + speaks + origin)) == 403);
+    CHECK(status_of(lab.ask("GET /ws", with + protocol + origin)) == 403);
   }
   const std::string own = fmt::format("Origin: http://127.0.0.1:{}\r\n", lab.port);
-  CHECK(status_of(lab.ask("GET /ws", with + own)) == 400);  // another protocol, or none
+  CHECK(status_of(lab.ask("GET /ws", with + own)) == 400);  // missing or unknown protocol
   CHECK(status_of(lab.ask("GET /ws", with + own + "Sec-WebSocket-Protocol: faba.9\r\n")) == 400);
-  const std::string open = lab.ask("GET /ws", with + own + speaks);
+  const std::string open = lab.ask("GET /ws", with + own + protocol);
   CHECK(status_of(open) == 101);
   CHECK(open.find("Sec-WebSocket-Protocol: faba.1") != std::string::npos);
 }
 
-TEST_CASE("S5: what another page's form can send") {
+TEST_CASE("S5: content types of HTML forms are refused") {
   const Served lab;
   for (const char* type :
        {"text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"}) {
@@ -199,7 +199,7 @@ TEST_CASE("S5: what another page's form can send") {
   }
 }
 
-TEST_CASE("S6: nothing but the workspace's runs and scenes can be read") {
+TEST_CASE("S6: only runs and scenes of the workspace can be read") {
   const Served lab;
   fs::create_directories(lab.folder() / "runs/a");
   write_file(lab.folder() / "runs/a/series.csv", "frame\n");
@@ -215,7 +215,7 @@ TEST_CASE("S6: nothing but the workspace's runs and scenes can be read") {
     const std::string a = lab.get(path);
     CHECK(status_of(a) >= 400);
     CHECK(status_of(a) < 500);
-    CHECK(a.find("nobody may read this") == std::string::npos);
+    CHECK(a.find("confidential content") == std::string::npos);
     CHECK(a.find("root:") == std::string::npos);
   }
   CHECK(status_of(lab.get("/api/runs/" + std::string(7000, 'a') + "/x")) >= 400);
@@ -242,11 +242,10 @@ TEST_CASE("a run with a damaged manifest does not hide the other runs") {
   CHECK(runs[0]["name"] == "good");
 }
 
-TEST_CASE("S7: slow, many, huge: bounded, and others are served meanwhile") {
+TEST_CASE("S7: slow, many and large requests are limited, and other clients are served") {
   const Served lab;
   const std::size_t before = resident();
-  // Half requests that never end, ten thousand in all and far more at a time than there is room for; the ones
-  // beyond are closed at once.
+  // Ten thousand incomplete requests, 500 at the same time; connections above the limit are closed at once.
   for (int round = 0; round < 20; ++round) {
     std::vector<std::unique_ptr<RawClient>> slow;
     for (int i = 0; i < 500; ++i) {
@@ -255,12 +254,12 @@ TEST_CASE("S7: slow, many, huge: bounded, and others are served meanwhile") {
     }
     CHECK(slow.back()->is_closed());
   }
-  // The places come free as soon as those clients have gone.
+  // Connections become available when those clients have disconnected.
   int served = 0;
   for (int i = 0; i < 200 && served != 200; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(25)))
     served = status_of(lab.get("/api/about"));
   CHECK(served == 200);
-  // A body that claims a gigabyte is refused before it is read.
+  // A body with a declared length of 1 GiB is refused before it is read.
   CHECK(status_of(lab.ask(
             "POST /api/check",
             lab.own() + "Content-Type: application/json\r\nX: y\r\nContent-Length: 1073741824\r\nZ: ")) >=
@@ -269,13 +268,13 @@ TEST_CASE("S7: slow, many, huge: bounded, and others are served meanwhile") {
   big.send("POST /api/check HTTP/1.1\r\n" + lab.own() +
            "Content-Type: application/json\r\nContent-Length: 1073741824\r\n\r\n");
   CHECK(status_of(big.answer()) == 413);
-  // A frame of a socket that claims a gigabyte ends the socket.
+  // A WebSocket frame with a declared length of 1 GiB closes the socket.
   RawClient socket(lab.port);
   socket.send("GET /ws HTTP/1.1\r\n" + lab.own() + kUpgrade + "Sec-WebSocket-Protocol: faba.1\r\n\r\n");
   CHECK(status_of(socket.answer()) == 101);
   socket.send(std::string("\x81\xff\x00\x00\x00\x00\x40\x00\x00\x00mask", 14));
   CHECK(socket.is_closed());
-  // Compression is not spoken, so there are no bombs: the answer does not accept it.
+  // Compression is not accepted, so decompression bombs are impossible.
   RawClient squeezed(lab.port);
   squeezed.send("GET /ws HTTP/1.1\r\n" + lab.own() + kUpgrade +
                 "Sec-WebSocket-Protocol: faba.1\r\nSec-WebSocket-Extensions: permessage-deflate\r\n\r\n");
@@ -284,7 +283,7 @@ TEST_CASE("S7: slow, many, huge: bounded, and others are served meanwhile") {
   CHECK(resident() < before + (64u << 20));
 }
 
-TEST_CASE("S8: the token is the user's alone") {
+TEST_CASE("S8: only the user can read the token") {
   const Served lab;
   CHECK(lab.token.size() == 32);
   CHECK(lab.door_mode == (fs::perms::owner_read | fs::perms::owner_write));
@@ -294,7 +293,7 @@ TEST_CASE("S8: the token is the user's alone") {
   CHECK(page.find("Referrer-Policy: no-referrer") != std::string::npos);
 }
 
-TEST_CASE("S9: every answer says what a browser may do with it") {
+TEST_CASE("S9: every response has security headers") {
   const Served lab;
   fs::create_directories(lab.folder() / "runs/a");
   write_file(lab.folder() / "runs/a/report.html", "<p>");
@@ -305,13 +304,13 @@ TEST_CASE("S9: every answer says what a browser may do with it") {
     CHECK(a.find("Content-Security-Policy: default-src 'none'") != std::string::npos);
     CHECK(a.find("script-src 'unsafe") == std::string::npos);
   }
-  // A report of a run brings its style along; scripts it may not have.
+  // A report has inline style, but no scripts.
   const std::string report = lab.get("/runs/a/report.html");
   CHECK(report.find("style-src 'unsafe-inline'") != std::string::npos);
   CHECK(report.find("script-src") == std::string::npos);
 }
 
-TEST_CASE("a port that is taken, a scene that is wrong: said before anything is served") {
+TEST_CASE("a port in use and an invalid scene are errors before the server starts") {
   const Served lab;
   LabOptions o;
   o.workspace = lab.folder();

@@ -18,7 +18,7 @@ const char* kScene =
     "[arena]\ntype = 'drop'\nradius_px = 200\n[[swarm]]\ncount = 60\nstart = { type = 'disc', radius_px = 40 "
     "}\n";
 
-/// Asks, and waits for the answer.
+/// Sends a request and waits for the answer.
 template <class Ask>
 Json answer(Ask ask) {
   std::promise<Json> given;
@@ -28,14 +28,14 @@ Json answer(Ask ask) {
   return f.get();
 }
 
-/// A page: what it was told and shown.
+/// A page that stores all messages and frames.
 class Page {
  public:
   LiveLab::Listener listener() {
     return {[this](const std::shared_ptr<const std::string>& b) { take([&] { frames_.push_back(b); }); },
             [this](const Json& j) { take([&] { news_.push_back(j); }); }};
   }
-  /// Waits until it was told something of this kind for which `right` holds.
+  /// Waits for a message of this kind for which `right` is true.
   Json news(
       const std::string& say,
       const std::function<bool(const Json&)>& right = [](const Json&) { return true; }) {
@@ -78,7 +78,7 @@ class Page {
 
 }  // namespace
 
-TEST_CASE("every scene of the gallery starts as the page sends it: resolved") {
+TEST_CASE("every resolved scene of the gallery can be started by the page") {
   const Workspace workspace(std::filesystem::path(FABA_SCENES).parent_path(), {});
   const std::vector<std::filesystem::path> scenes = workspace.scenes();
   REQUIRE(scenes.size() >= 18);
@@ -92,15 +92,15 @@ TEST_CASE("every scene of the gallery starts as the page sends it: resolved") {
   }
 }
 
-TEST_CASE("a run is begun, watched, steered, paused, stepped, and recorded as it was") {
+TEST_CASE("a run is started, displayed, steered, paused, stepped and recorded with the same state hash") {
   Page page;
   LiveLab lab(2);
   lab.watch(1, page.listener());
   CHECK(page.news("state")["running"] == false);
-  CHECK(answer([&](auto done) { lab.pause(true, done); })["ok"] == false);  // nothing runs yet
-  const Json begun = answer([&](auto done) { lab.start(parse_toml(kScene, "test"), 9, done); });
-  CHECK(begun["ok"] == true);
-  CHECK(begun["seed"] == 9);
+  CHECK(answer([&](auto done) { lab.pause(true, done); })["ok"] == false);  // no run yet
+  const Json started = answer([&](auto done) { lab.start(parse_toml(kScene, "test"), 9, done); });
+  CHECK(started["ok"] == true);
+  CHECK(started["seed"] == 9);
   const Json run = page.news("run");
   CHECK(run["populations"][0]["end"] == 60);
   CHECK(run["outline"]["radius_px"] == 200);
@@ -148,7 +148,7 @@ TEST_CASE("a run is begun, watched, steered, paused, stepped, and recorded as it
   page.news("run", [](const Json& j) { return j["run"] == 2; });
 }
 
-TEST_CASE("a scenario that is wrong leaves the one that runs") {
+TEST_CASE("an invalid scenario does not stop the running one") {
   Page page;
   LiveLab lab(1);
   lab.watch(1, page.listener());

@@ -7,7 +7,7 @@
 using namespace faba;
 using Do = PageMessage::Do;
 
-TEST_CASE("messages of the page") {
+TEST_CASE("valid messages of the page") {
   CHECK(parse_page_message(R"({"id":1,"do":"pause"})").what == Do::pause);
   const PageMessage s = parse_page_message(R"({"id":2,"do":"start","scenario":{"swarm":[]},"seed":7})");
   CHECK(s.what == Do::start);
@@ -22,7 +22,7 @@ TEST_CASE("messages of the page") {
   CHECK(parse_page_message(R"({"id":3,"do":"look","camera":true})").camera);
 }
 
-TEST_CASE("anything else is refused in words") {
+TEST_CASE("invalid messages throw an error") {
   const std::string deep =
       R"({"id":1,"do":"start","scenario":)" + std::string(100000, '[') + std::string(100000, ']') + "}";
   for (const std::string& bad : {std::string(),

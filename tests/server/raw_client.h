@@ -11,7 +11,7 @@
 
 namespace faba::test {
 
-/// A connection that says whatever one wants, also what no browser would.
+/// A connection that sends arbitrary bytes.
 class RawClient {
  public:
   explicit RawClient(unsigned short port) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -29,7 +29,7 @@ class RawClient {
   RawClient& operator=(const RawClient&) = delete;
 
   bool connected() const { return connected_; }
-  /// False when the other side has had enough.
+  /// False if the server has closed the connection.
   bool send(std::string_view text) {
     while (!text.empty()) {
       const ssize_t n = ::send(fd_, text.data(), text.size(), MSG_NOSIGNAL);
@@ -38,7 +38,7 @@ class RawClient {
     }
     return true;
   }
-  /// Header and body of one answer, or what came before the connection was closed.
+  /// Header and body of one response, or the bytes received before the connection was closed.
   std::string answer() {
     std::string text;
     char buffer[65536];
@@ -54,7 +54,7 @@ class RawClient {
       text.append(buffer, std::size_t(n));
     }
   }
-  /// Whether the other side closes within the client's patience.
+  /// True if the server closes the connection before the timeout.
   bool is_closed() {
     char buffer[4096];
     for (;;) {
@@ -69,7 +69,7 @@ class RawClient {
   bool connected_ = false;
 };
 
-/// The status of an answer; 0 when there is none.
+/// The status code of a response; 0 if it has none.
 inline int status_of(const std::string& answer) {
   return answer.starts_with("HTTP/1.1 ") ? std::atoi(answer.c_str() + 9) : 0;
 }

@@ -4,7 +4,7 @@
 
 using namespace faba;
 
-TEST_CASE("a target is taken apart") {
+TEST_CASE("a target is parsed") {
   const auto t = parse_target("/api/runs/my%20run/series.csv?from=3&name=a+b%26c&token=x");
   REQUIRE(t);
   CHECK(t->path == "/api/runs/my run/series.csv");
@@ -15,7 +15,7 @@ TEST_CASE("a target is taken apart") {
   CHECK(parse_target("/?")->query.empty());
 }
 
-TEST_CASE("S6: ways that lead upwards, broken escapes, control characters, over-long") {
+TEST_CASE("S6: parent folders, invalid escapes, control characters and overlong targets are refused") {
   for (const char* bad : {"",
                           "api",
                           "http://evil.example/",
@@ -42,7 +42,7 @@ TEST_CASE("S6: ways that lead upwards, broken escapes, control characters, over-
   CHECK_FALSE(parse_target("/" + std::string(9000, 'a')));
 }
 
-TEST_CASE("ranges of a file") {
+TEST_CASE("byte ranges") {
   const auto is = [](const char* header, std::uint64_t begin, std::uint64_t end) {
     const auto r = parse_range(header, 1000);
     return r && r->begin == begin && r->end == end;

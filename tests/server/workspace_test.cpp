@@ -9,7 +9,7 @@
 using namespace faba;
 namespace fs = std::filesystem;
 
-TEST_CASE("S6: nothing outside of the workspace can be named") {
+TEST_CASE("S6: names outside of the workspace are refused") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path() / "work";
   fs::create_directories(root / "runs" / "one");
@@ -25,7 +25,7 @@ TEST_CASE("S6: nothing outside of the workspace can be named") {
 
   CHECK(w.existing("runs/one/series.csv") == fs::canonical(root / "runs/one/series.csv"));
   CHECK(w.existing("runs/same/series.csv") ==
-        fs::canonical(root / "runs/one/series.csv"));  // a link that stays within
+        fs::canonical(root / "runs/one/series.csv"));  // a link inside the workspace
   for (const std::string& bad :
        {std::string(), std::string("../secret.txt"), std::string("runs/../../secret.txt"),
         std::string("/etc/passwd"), (folder.path() / "secret.txt").string(), std::string("runs/link.txt"),
@@ -39,7 +39,7 @@ TEST_CASE("S6: nothing outside of the workspace can be named") {
   CHECK_NOTHROW(w.inside("runs/two"));
 }
 
-TEST_CASE("S6: a scenario of a page names no file outside either") {
+TEST_CASE("S6: a scenario of a page cannot refer to files outside of the workspace") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path() / "work";
   fs::create_directories(root / "scenes");
@@ -51,9 +51,9 @@ TEST_CASE("S6: a scenario of a page names no file outside either") {
     return Json{{"field", {{"type", "rig"}, {"file", file}}}};
   };
   CHECK_NOTHROW(w.check_files(field("rigs/r.toml")));
-  CHECK_NOTHROW(w.check_files(field("../rigs/r.toml")));  // as the gallery's scenes have it
+  CHECK_NOTHROW(w.check_files(field("../rigs/r.toml")));  // as in the scenes of the gallery
   CHECK_NOTHROW(w.check_files(field((fs::canonical(root) / "rigs/r.toml").string())));
-  CHECK_NOTHROW(w.check_files(field("rigs/absent.toml")));  // the loader will say so
+  CHECK_NOTHROW(w.check_files(field("rigs/absent.toml")));  // the loader reports it
   for (const char* bad : {"/etc/passwd", "../secret.toml", "../../secret.toml", "../../../etc/passwd",
                           "/dev/zero", "../rigs", "."}) {
     INFO(bad);
@@ -63,7 +63,7 @@ TEST_CASE("S6: a scenario of a page names no file outside either") {
   }
 }
 
-TEST_CASE("the gallery, runs and files that the pages offer") {
+TEST_CASE("scenes, runs and files of the workspace") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path();
   for (const char* dir : {"scenes", "studies", "rigs", "videos", "runs/a", "runs/drawn", "runs/broken",
@@ -100,7 +100,7 @@ TEST_CASE("the gallery, runs and files that the pages offer") {
   CHECK(files["studies"][2]["verb"] == "activity");
 }
 
-TEST_CASE("where there are no scenes the gallery is that of the program") {
+TEST_CASE("without scenes in the workspace, the gallery of the program is used") {
   test::TemporaryFolder folder("workspace"), program("program");
   write_file(program.path() / "s.toml", "");
   CHECK(Workspace(folder.path(), program.path()).scene("s") == program.path() / "s.toml");

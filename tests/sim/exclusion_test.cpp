@@ -8,13 +8,13 @@ using namespace faba;
 
 namespace {
 
-// A crowded box: 2000 cells on 60 x 50 pixels, all pushed into one corner.
+// A dense box: 2000 cells on 60 x 50 pixels, all driven into one corner.
 std::string crowd(const std::string& exclusion) {
   return "arena = { type = 'box', size_px = [60, 50] }\nexclusion = { " + exclusion +
          " }\n[[swarm]]\ncount = 2000\nstart = 'uniform'\nmodel = { type = 'basic', max_speed = 3 }\n";
 }
 
-std::size_t distinct_cells(TestSwarm& t) {
+std::size_t distinct_sites(TestSwarm& t) {
   const Grid g = t.world().parts().arena->grid();
   const auto x = t.column("x"), y = t.column("y");
   std::set<std::int32_t> cells;
@@ -24,7 +24,7 @@ std::size_t distinct_cells(TestSwarm& t) {
 
 }  // namespace
 
-TEST_CASE("T15: never two cells in one grid cell, never one lost") {
+TEST_CASE("T15: each site has at most one cell, and the number of cells is constant") {
   for (const char* exclusion :
        {"order = 'two-phase'", "order = 'two-phase', follow = true", "order = 'published'",
         "order = 'published', collision = 'last-free'", "order = 'published', collision = 'axis-split'",
@@ -34,12 +34,12 @@ TEST_CASE("T15: never two cells in one grid cell, never one lost") {
     for (int i = 0; i < 60; ++i) {
       t.world().step();
       INFO(exclusion, " step ", i);
-      REQUIRE(distinct_cells(t) == 2000);
+      REQUIRE(distinct_sites(t) == 2000);
     }
   }
 }
 
-TEST_CASE("T14, T15: the same bits for any number of threads") {
+TEST_CASE("T14, T15: bitwise equal results for any number of threads") {
   for (const char* exclusion : {"order = 'two-phase'", "order = 'two-phase', follow = true"}) {
     std::string first;
     for (const unsigned threads : {1u, 2u, 3u, 7u}) {
@@ -53,8 +53,9 @@ TEST_CASE("T14, T15: the same bits for any number of threads") {
   }
 }
 
-TEST_CASE("two-phase: a grid cell occupied at the beginning is closed, with follow it opens when left") {
-  // Two cells in a row moving right by one pixel per step: without follow the second waits, with it both go.
+TEST_CASE("two-phase: a site occupied at the start of a step is closed; with follow it opens when left") {
+  // Two neighbouring cells move right by one pixel per step: without follow the second waits, with it both
+  // move.
   for (const bool follow : {false, true}) {
     TestSwarm t(std::string("arena = { type = 'box', size_px = [20, 5] }\nexclusion = { follow = ") +
                 (follow ? "true" : "false") +
@@ -73,8 +74,8 @@ TEST_CASE("two-phase: a grid cell occupied at the beginning is closed, with foll
   }
 }
 
-TEST_CASE("two-phase: of many that want one grid cell exactly one gets it, and each agent wins its share") {
-  // Agents left and right of an empty pixel both step into it. Over many seeds each wins half the time.
+TEST_CASE("two-phase: exactly one of several cells moves to a site, and each wins with equal probability") {
+  // Agents left and right of an empty site both propose it. Over many seeds each wins in half of the trials.
   int left_wins = 0;
   const int trials = 400;
   for (int seed = 1; seed <= trials; ++seed) {
@@ -99,7 +100,7 @@ TEST_CASE("two-phase: of many that want one grid cell exactly one gets it, and e
   CHECK(std::abs(left_wins - trials / 2) < 4 * std::sqrt(trials) / 2);  // binomial, four standard deviations
 }
 
-TEST_CASE("published: a grid cell left in this iteration is free for later agents") {
+TEST_CASE("published: a site left in this iteration is free for later agents") {
   TestSwarm t(
       "arena = { type = 'box', size_px = [20, 5] }\nexclusion = { order = 'published' }\n"
       "[[swarm]]\ncount = 2\npolarity = 'north'\nmodel = { type = 'basic', max_speed = 0 }\n");
@@ -114,17 +115,15 @@ TEST_CASE("published: a grid cell left in this iteration is free for later agent
     t.world().step();
     return std::pair{double(t.column("x")[0]) / px, double(t.column("x")[1]) / px};
   };
-  CHECK(after(-2.5, -3.5).second == doctest::Approx(-2.5));  // agent 0 ahead: goes first, agent 1 follows
-  CHECK(after(-3.5, -2.5).first ==
-        doctest::Approx(-3.5));  // agent 0 behind: still blocked when its turn comes
+  CHECK(after(-2.5, -3.5).second == doctest::Approx(-2.5));  // agent 0 ahead: moves first, agent 1 follows
+  CHECK(after(-3.5, -2.5).first == doctest::Approx(-3.5));   // agent 0 behind: still blocked at its turn
 }
 
-TEST_CASE("a swarm that cannot fit is refused before anything moves") {
+TEST_CASE("a swarm that does not fit is refused before the start") {
   CHECK_THROWS_WITH_AS(
       TestSwarm("arena = { type = 'box', size_px = [40, 25] }\n[[swarm]]\ncount = 1000000\n"),
-      "swarm: 1000000 cells do not fit into 1000 grid cells, one each; fewer cells, a larger arena, or "
-      "exclusion.order = "
-      "\"none\"",
+      "swarm: 1000000 cells do not fit into 1000 sites; use fewer cells, a larger arena, or "
+      "exclusion.order = \"none\"",
       Error);
   CHECK_THROWS_AS(TestSwarm("[[swarm]]\ncount = 1000\nstart = { type = 'disc', radius_px = 3 }\n"), Error);
 }

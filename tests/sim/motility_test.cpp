@@ -13,7 +13,7 @@ TEST_CASE("Bessel functions against the standard library") {
   }
 }
 
-TEST_CASE("oxygen obeys the diffusion equation, is 1 at the edge, and fills the drop") {
+TEST_CASE("oxygen satisfies the diffusion equation, is 1 at the edge, and saturates the drop") {
   const double r_max = 1e-3, d = 2e-9;
   const OxygenProfile p(r_max, d);
   CHECK(p.concentration(r_max, 1) == doctest::Approx(1).epsilon(1e-6));
@@ -26,13 +26,13 @@ TEST_CASE("oxygen obeys the diffusion equation, is 1 at the edge, and fills the 
           (p.concentration(r + h, t) - 2 * p.concentration(r, t) + p.concentration(r - h, t)) / (h * h) +
           (p.concentration(r + h, t) - p.concentration(r - h, t)) / (2 * h * r);
       CHECK(rate ==
-            doctest::Approx(d * lap).epsilon(2e-3));  // second differences: (h/R)^2 and (k/t)^2 of the value
+            doctest::Approx(d * lap).epsilon(2e-3));  // error of second differences: (h/R)^2 and (k/t)^2
       const double dose = (p.dose(r, t + k) - p.dose(r, t - k)) / (2 * k);
       CHECK(dose == doctest::Approx(p.concentration(r, t)).epsilon(1e-4));
     }
 }
 
-TEST_CASE("the table that steps use agrees with the series") {
+TEST_CASE("the interpolation table agrees with the series") {
   const OxygenProfile p(1e-3, 2e-9);
   float nodes[OxygenProfile::kNodes];
   for (const double t : {5.0, 33.0, 120.0, 400.0, 1e4}) {
@@ -43,8 +43,7 @@ TEST_CASE("the table that steps use agrees with the series") {
 }
 
 TEST_CASE(
-    "thesis law: slower by 1/(1 + 0.00524 t), edge cells silenced first, next to none responding after 700 "
-    "s") {
+    "thesis law: speed factor 1/(1 + 0.00524 t), loss of response first at the edge, below 3 % after 700 s") {
   const auto scene = [](double exposure) {
     return "exposure = " + std::to_string(exposure) +
            "\nmotility = 'thesis'\nexclusion = { order = 'none' }\narena = { type = 'drop', radius_px = 1000 "
@@ -70,7 +69,7 @@ TEST_CASE(
   CHECK(edge / edge_n < middle / middle_n - 0.1);
 }
 
-TEST_CASE("exposure before the run equals exposure during the run") {
+TEST_CASE("air exposure before the run has the same effect as during the run") {
   const std::string scene =
       "motility = 'thesis'\nexclusion = { order = 'none' }\ncamera = { rate = 1 }\nsimulation = { step = 1 "
       "}\n"

@@ -13,10 +13,10 @@ namespace {
 
 struct Crowd {
   std::vector<float> x, y, to_x, to_y;
-  TwoPhase::Cells taken;
+  TwoPhase::Sites taken;
 };
 
-// One cell each on random grid cells, all wanting to go up to `reach` away.
+// One cell each on random sites, with proposals up to `reach` away.
 Crowd crowd(const Grid& g, std::size_t agents, float reach, std::uint64_t seed) {
   Crowd c;
   c.taken.assign(std::size_t(g.columns) * std::size_t(g.rows), kFree);
@@ -36,8 +36,8 @@ Crowd crowd(const Grid& g, std::size_t agents, float reach, std::uint64_t seed) 
   return c;
 }
 
-// The rule of D4 word for word: everybody looks at the grid as it was, the best of each grid cell goes.
-void by_the_book(const Grid& g, Crowd& c, std::uint64_t key, bool follow) {
+// Reference implementation of D4: all proposals see the same grid; the best proposal per site is granted.
+void reference_resolve(const Grid& g, Crowd& c, std::uint64_t key, bool follow) {
   const std::size_t n = c.x.size();
   std::vector<bool> settled(n, false);
   for (int sweep = 0; sweep < (follow ? 8 : 1); ++sweep) {
@@ -63,13 +63,13 @@ void by_the_book(const Grid& g, Crowd& c, std::uint64_t key, bool follow) {
 
 }  // namespace
 
-TEST_CASE("who goes and who stays is D4's rule word for word, on one stripe of the grid and on many") {
+TEST_CASE("granted and refused moves follow the rule of D4, with one stripe and with many") {
   struct Case {
     Grid grid;
     std::size_t agents;
     float reach;
   };
-  const std::vector<Case> cases{{{40, 30, 1, 0, 0}, 900, 1.5f},      // crowded
+  const std::vector<Case> cases{{{40, 30, 1, 0, 0}, 900, 1.5f},      // dense
                                 {{40, 30, 1, 0, 0}, 100, 50.0f},     // far moves, many of them to the border
                                 {{700, 500, 1, 0, 0}, 60000, 2.0f},  // many stripes, many blocks
                                 {{1, 1, 1, 0, 0}, 1, 3.0f}};
@@ -78,7 +78,7 @@ TEST_CASE("who goes and who stays is D4's rule word for word, on one stripe of t
       for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         Crowd expected = crowd(k.grid, k.agents, k.reach, seed);
         const Crowd begin = expected;
-        by_the_book(k.grid, expected, seed, follow);
+        reference_resolve(k.grid, expected, seed, follow);
         for (const unsigned threads : {1u, 3u}) {
           INFO("grid ", k.grid.columns, " follow ", follow, " seed ", seed, " threads ", threads);
           Crowd c = begin;

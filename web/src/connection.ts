@@ -1,4 +1,4 @@
-// The socket to the lab: requests with answers, news, frames; heals by itself.
+// WebSocket to the lab: requests with answers, news, frames; reconnects automatically.
 
 export type News = { say: string } & Record<string, any>;
 export interface Answer {
@@ -10,13 +10,13 @@ export interface Answer {
 export interface Listener {
   news(n: News): void;
   frame(b: ArrayBuffer): void;
-  /** `lost`: seconds until the next attempt; `null`: connected. `refused`: the server speaks another protocol or wants the token. */
+  /** `refused`: the server does not accept the token of this page. */
   state(s: { connected: boolean; refused: boolean }): void;
 }
 
 const kFirstWait = 250, kLongestWait = 4000; // ms
-const kPatience = 15000; // ms for an answer
-const kQuiet = 3000, kSilent = 8000; // ms without a word: then it is asked, then it is taken for lost
+const kPatience = 15000; // ms, timeout of an answer
+const kQuiet = 3000, kSilent = 8000; // ms without a message: send a ping; reconnect
 
 export class Connection {
   private socket: WebSocket | null = null;
@@ -25,7 +25,7 @@ export class Connection {
   private wait = kFirstWait;
   private timer = 0;
   private refused = false;
-  /** ms that the newest answer took. */
+  /** Round-trip time of the newest answer, ms. */
   roundTrip = 0;
   private heard = 0;
 
@@ -64,12 +64,12 @@ export class Connection {
     this.socket = null;
     for (const give of this.waiting.values()) give({ ok: false, where: '', what: 'connection' });
     this.waiting.clear();
-    void this.tell();
+    void this.reportLost();
     this.timer = window.setTimeout(() => this.open(), this.wait);
     this.wait = Math.min(this.wait * 2, kLongestWait);
   }
 
-  // A program that hangs closes nothing.
+  // Heartbeat: a program that hangs does not close the connection.
   private listen() {
     const socket = this.socket;
     if (!socket || socket.readyState !== WebSocket.OPEN) return;
@@ -82,21 +82,21 @@ export class Connection {
     }
   }
 
-  // A refused socket says nothing of why: an ordinary request does.
-  private async tell() {
+  // A refused WebSocket has no status code; a normal request does.
+  private async reportLost() {
     this.listener.state({ connected: false, refused: this.refused });
     this.refused = await fetch('/api/about').then((r) => r.status === 401, () => false);
     if (this.socket?.readyState !== WebSocket.OPEN) this.listener.state({ connected: false, refused: this.refused });
   }
 
-  /** Tries at once instead of waiting. */
+  /** Reconnects at once. */
   again() {
     if (this.socket) return;
     clearTimeout(this.timer);
     this.open();
   }
 
-  /** What the lab answers; never rejects. */
+  /** Sends a request and returns the answer of the lab; never rejects. */
   ask(what: string, values: Record<string, unknown> = {}): Promise<Answer> {
     const socket = this.socket;
     if (!socket || socket.readyState !== WebSocket.OPEN)
@@ -105,7 +105,7 @@ export class Connection {
     return new Promise((resolve) => {
       const late = window.setTimeout(() => {
         this.waiting.delete(id);
-        resolve({ ok: false, where: '', what: 'late' });
+        resolve({ ok: false, where: '', what: `timeout: no answer within ${kPatience / 1000} s` });
       }, kPatience);
       this.waiting.set(id, (a) => {
         clearTimeout(late);
@@ -138,7 +138,7 @@ async function answer(r: Response) {
   try {
     j = JSON.parse(text);
   } catch {
-    // plain words
+    // plain text
   }
   if (!r.ok) throw new Error(j?.what ? (j.where ? `${j.where}: ${j.what}` : j.what) : text.trim() || r.statusText);
   return j;

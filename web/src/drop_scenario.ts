@@ -1,4 +1,4 @@
-// The scenario for a drop that was found in a picture.
+// The scenario for a drop detected in an image.
 
 import { variant, type Schema } from './form/schema';
 import { findPart, sectionOf } from './part_traits';
@@ -21,7 +21,7 @@ export function dropScenario(schema: Schema | null, d: Drop): Record<string, any
   };
 }
 
-/** The first model with presets, with the first of them; empty when there is none, which gives the default model. */
+/** The first model with presets, with its first preset; empty if no model has presets: the default model. */
 function presetModel(schema: Schema | null): { model?: { type: string; preset: string } } {
   const section = sectionOf(schema, 'swarm')?.items?.properties?.model;
   const type = findPart(section, { property: 'preset' });

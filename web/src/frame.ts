@@ -53,8 +53,8 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
   const rows = new Float64Array(buffer.slice(take(rowCount * columns * 8), at));
   const field = new Float32Array(buffer.slice(take(gx * gy * 8), at));
   const floats = (bits & 2) !== 0;
-  const places = take(cells * (floats ? 8 : 4));
-  const xy = floats ? new Float32Array(buffer, places, cells * 2) : new Uint16Array(buffer, places, cells * 2);
+  const positions = take(cells * (floats ? 8 : 4));
+  const xy = floats ? new Float32Array(buffer, positions, cells * 2) : new Uint16Array(buffer, positions, cells * 2);
   const headings = bits & 4 ? new Uint8Array(buffer, take(cells), cells) : null;
   const responding = new Uint8Array(buffer, take(Math.ceil(cells / 8)), Math.ceil(cells / 8));
   const picture = bits & 8 ? { width, height, grey: new Uint8Array(buffer, take(width * height), width * height) } : null;
@@ -70,5 +70,5 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
   };
 }
 
-/** Whether a cell feels the field. */
+/** Whether a cell responds to the field. */
 export const responds = (f: Frame, i: number) => (f.responding[i >> 3] >> (i & 7)) & 1;

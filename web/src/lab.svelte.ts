@@ -1,4 +1,4 @@
-// What the page knows of the lab: one object that all of its parts look at.
+// State of the lab in the page: one object shared by all components.
 
 import { Connection, get, type Answer, type News } from './connection';
 import type { Schema } from './form/schema';
@@ -36,8 +36,8 @@ export class Lab {
   connected = $state(false);
   refused = $state(false);
   everConnected = $state(false);
-  /** Has heard how things stand: a run is told of before its state. */
-  told = $state(false);
+  /** A state message was received; the message of a run comes before it. */
+  hasState = $state(false);
   page = $state(0);
   steering = $state(0);
   pages = $state(1);
@@ -47,14 +47,14 @@ export class Lab {
   events = $state(0);
   run = $state.raw<RunNews | null>(null);
   scene = $state.raw<Scene | null>(null);
-  /** As it stands now, resolved. */
+  /** Present scenario, resolved. */
   scenario = $state.raw<Record<string, any>>({});
   jobs = $state.raw<Job[]>([]);
   /** JSON Schema of a scenario; null until the program has sent it. */
   schema = $state.raw<Schema | null>(null);
   trouble = $state.raw<Trouble | null>(null);
   stopped = $state.raw<Trouble | null>(null);
-  /** Counts frames that came; what draws looks at it. */
+  /** Number of received frames; triggers drawing. */
   ticks = $state(0);
 
   // Not reactive: they change sixty times a second.
@@ -66,8 +66,8 @@ export class Lab {
 
   constructor() {
     this.link = new Connection({
-      news: (n) => this.hear(n),
-      frame: (b) => this.see(b),
+      news: (n) => this.onNews(n),
+      frame: (b) => this.onFrame(b),
       state: (s) => {
         this.connected = s.connected;
         this.refused = s.refused;
@@ -78,7 +78,7 @@ export class Lab {
     });
   }
 
-  /** Asks, and says what was wrong. */
+  /** Sends a request and shows its error. */
   async ask(what: string, values: Record<string, unknown> = {}): Promise<Answer> {
     const a = await this.link.ask(what, values);
     if (!a.ok && a.what !== 'connection') this.trouble = { where: a.where ?? '', what: a.what ?? '' };
@@ -98,7 +98,7 @@ export class Lab {
     }
   }
 
-  private hear(n: News) {
+  private onNews(n: News) {
     switch (n.say) {
       case 'hello':
         this.page = n.page;
@@ -120,7 +120,7 @@ export class Lab {
         if (this.scene) this.scene = { ...this.scene, setpoints: n.setpoints };
         break;
       case 'state':
-        this.told = true;
+        this.hasState = true;
         this.running = n.running;
         this.speed = n.speed;
         this.realSpeed = n.real_speed;
@@ -139,9 +139,9 @@ export class Lab {
     }
   }
 
-  private see(b: ArrayBuffer) {
+  private onFrame(b: ArrayBuffer) {
     if (!this.run) return;
-    // The server sends JSON before frames that wait: the last frame of a run can follow the news of the next one.
+    // The server sends JSON before queued frames: the last frame of a run can arrive after the news of the next run.
     if (runOf(b) !== this.run.run) return;
     const f = decodeFrame(b, this.run.columns.length);
     this.frame = f;

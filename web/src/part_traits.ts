@@ -1,8 +1,8 @@
-// Finds parts in the JSON Schema of a scenario by their traits and properties, so that the page knows no part by its name.
+// Finds parts in the JSON Schema of a scenario by traits and properties; the page does not depend on names of parts.
 
 import { variant, variants, type Schema } from './form/schema';
 
-/** What a part must have: a trait, a property, or both. */
+/** Required trait, property, or both. */
 export interface Wanted {
   trait?: string;
   property?: string;
@@ -17,7 +17,7 @@ export function typeOf(value: any): string | undefined {
   return typeof type === 'string' ? type : undefined;
 }
 
-/** The part that the program takes when a scenario does not give the section. */
+/** The part used if a scenario does not give the section. */
 export const defaultPart = (section: Schema | undefined): string | undefined => typeOf(section?.default);
 
 function matches(part: Schema | undefined, wanted: Wanted): boolean {
@@ -26,22 +26,22 @@ function matches(part: Schema | undefined, wanted: Wanted): boolean {
   return wanted.property === undefined || Object.hasOwn(part.properties ?? {}, wanted.property);
 }
 
-/** The first part that has everything that is wanted; undefined when there is none. */
+/** The first part that matches; undefined if not found. */
 export function findPart(section: Schema | undefined, wanted: Wanted): string | undefined {
   if (!section) return undefined;
   return variants(section).find((name) => matches(variant(section, name), wanted));
 }
 
-/** Whether the part in `value`, or the default when the scenario gives none, has the trait. */
+/** Whether the part in `value`, or the default part if undefined, has the trait. */
 export function hasTrait(section: Schema | undefined, value: any, trait: string): boolean {
   const type = value === undefined ? defaultPart(section) : typeOf(value);
   return section !== undefined && type !== undefined && matches(variant(section, type), { trait });
 }
 
-/** Whether a controller follows a schedule or the hand, without feedback. */
+/** Whether a controller is open-loop: a schedule or manual control. */
 export const isOpenLoop = (schema: Schema | null, controller: any) => hasTrait(sectionOf(schema, 'controller'), controller, 'open_loop');
 
-/** The controller that applies the field which the hand gives. */
+/** The controller for manual control of the field. */
 export const handController = (schema: Schema | null) => findPart(sectionOf(schema, 'controller'), { trait: 'open_loop', property: 'field' });
 
 /** The reference with one setpoint. */

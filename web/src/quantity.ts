@@ -1,7 +1,7 @@
-// Numbers with units, as scenarios have them: "186 um/s".
+// Quantities with units, as in scenarios: "186 um/s".
 
 type Dim = number[]; // m, kg, s, A, K, mol, px
-/** A unit is factor * 10^ten. With the power of ten kept apart, "7 um" becomes the same double as 7e-6, as in the program. */
+/** A unit is factor * 10^ten. The separate power of ten makes "7 um" the same double as 7e-6, as in the program. */
 export interface Factor {
   factor: number;
   ten: number;
@@ -44,7 +44,7 @@ function named(name: string): Factor | null {
   return { ...unit, ten: unit.ten + prefix };
 }
 
-/** A unit such as "um/s", "A m^2" or "1/(T s)"; null for what is none. */
+/** A unit such as "um/s", "A m^2" or "1/(T s)"; null if invalid. */
 export function parseUnit(text: string): Factor | null {
   let at = 0;
   const skip = () => {
@@ -88,7 +88,7 @@ export function parseUnit(text: string): Factor | null {
   return f && at === text.length ? f : null;
 }
 
-/** The number in `unit` (the schema's), or what is wrong: 'number', 'unit'. A bare number is in `unit`; a comma is a decimal comma. */
+/** The number in `unit` (of the schema), or the invalid part: 'number', 'unit'. A bare number is in `unit`; a comma is a decimal separator. */
 export function parseQuantity(text: string, unit: string): number | 'number' | 'unit' {
   const m = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/.exec(text.replace(',', '.'));
   if (!m) return 'number';
@@ -100,18 +100,18 @@ export function parseQuantity(text: string, unit: string): number | 'number' | '
   return converted(value, own, wanted);
 }
 
-// Units in which people of the field think.
-const kUsual: Record<string, string[]> = {
+// Common units of the field for display.
+const kDisplayUnits: Record<string, string[]> = {
   'm/s': ['um/s', 'mm/s'], m: ['um', 'mm', 'nm', 'cm'], T: ['uT', 'mT', 'nT'], s: ['s', 'ms', 'us'], A: ['A', 'mA', 'uA'], rad: ['deg'],
   'T/m': ['T/m', 'mT/m'], H: ['mH', 'uH', 'H'],
 };
 const kMu: Record<string, string> = { um: 'µm', 'um/s': 'µm/s', uT: 'µT', us: 'µs', uA: 'µA', uH: 'µH' };
 
-/** As a person would write it: "186 µm/s" for 0.000186 in m/s. */
+/** Formats a value for display: "186 µm/s" for 0.000186 in m/s. */
 export function showQuantity(value: number, unit: string): string {
   let best = unit, scaled = value;
   if (value !== 0)
-    for (const u of kUsual[unit] ?? []) {
+    for (const u of kDisplayUnits[unit] ?? []) {
       const v = converted(value, parseUnit(unit)!, parseUnit(u)!);
       if (Math.abs(v) >= 0.1 && Math.abs(v) < 1000) {
         best = u;

@@ -1,11 +1,11 @@
-// A scenario as JSON: differences, commands, what can change while it runs.
+// Scenarios as JSON: differences, commands, changes during a run.
 
 type Json = any;
 
-/** Parts that may be exchanged while a run goes on. */
+/** Parts that can be exchanged during a run. */
 export const kLive = ['controller', 'reference', 'estimator'] as const;
 
-/** Leaves that differ, as `path=value` of --set; null when a list has another length: then only a file will do. */
+/** Different leaves, as `path=value` for --set; null if --set cannot express the difference and a file is needed. */
 export function differences(from: Json, to: Json, path = ''): [string, Json][] | null {
   const out: [string, Json][] = [];
   for (const key of new Set([...Object.keys(from ?? {}), ...Object.keys(to ?? {})])) {
@@ -32,7 +32,7 @@ export function differences(from: Json, to: Json, path = ''): [string, Json][] |
 
 const isTable = (v: Json) => typeof v === 'object' && v !== null && !Array.isArray(v);
 
-/** As TOML has it on one line. */
+/** Formats a value as TOML on one line. */
 export function inline(v: Json): string {
   if (Array.isArray(v)) return `[${v.map(inline).join(', ')}]`;
   if (isTable(v)) return `{ ${Object.entries(v).map(([k, x]) => `${k} = ${inline(x)}`).join(', ')} }`;
@@ -41,19 +41,19 @@ export function inline(v: Json): string {
 
 const quoted = (s: string) => (/^[\w@%+=:,./[\]-]+$/.test(s) && !/[[\]]/.test(s) ? s : `'${s.replaceAll("'", `'\\''`)}'`);
 
-// --set takes whatever is a TOML value as that value, so a string that could be one needs quotes. A quantity such as "5 um" is none.
+// --set parses TOML values, so a string that is also a TOML value needs quotes. A quantity such as "5 um" does not.
 const kQuantity = /^[-+]?[\d.]+(?:[eE][-+]?\d+)? [a-zA-Zµμ%]/;
 const isPlain = (s: string) => kQuantity.test(s) || (/^[^\s\d+\-.'"[{#]/.test(s) && !/^(true|false|inf|nan)\b/.test(s));
 const setValue = (v: Json) => (typeof v === 'string' && isPlain(v) ? v : inline(v));
 
-/** The line that does the same in a terminal; null when it takes a file of its own. */
+/** The equivalent command line; null if a file is needed. */
 export function command(file: string, from: Json, to: Json, seed: number): string | null {
   const sets = differences({ ...from, seed: undefined }, { ...to, seed: undefined });
   if (!sets) return null;
   return ['faba run', quoted(file), `--seed ${seed}`, ...sets.map(([p, v]) => `--set ${quoted(`${p}=${setValue(v)}`)}`)].join(' ');
 }
 
-/** The events that take one scenario to another while it runs; null when only a restart does, as when a section is removed. */
+/** The events that change a running scenario into another; null if a restart is needed, for example for a removed section. */
 export function event(from: Json, to: Json): Json[] | null {
   const events: Json[] = [], parts: Json = {};
   for (const key of new Set([...Object.keys(from), ...Object.keys(to)])) {

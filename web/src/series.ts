@@ -1,4 +1,4 @@
-// What is recorded of every frame: columns of numbers that grow as the run goes on.
+// Time series of a run: columns with one row per frame.
 
 const kMostLive = 30000; // rows of a live run
 const kFirstCapacity = 1024; // rows
@@ -23,7 +23,7 @@ export class Series {
     this.length = 0;
     this.last = -1;
   }
-  /** Rows of a message, of which most may be known already. Returns whether there were new ones. */
+  /** Adds the rows of a message, except those already known. Returns whether there were new rows. */
   take(rows: Float64Array, count: number): boolean {
     const n = this.names.length, before = this.length;
     for (let r = 0; r < count; ++r) {
@@ -46,8 +46,8 @@ export class Series {
     return i < 0 || !this.length ? NaN : this.columns[i][this.length - 1];
   }
   /**
-   * The column of a quantity of the swarm such as `centroid_x_px`: the simulated truth where the run has it, else the
-   * estimate; a run of version 0.1 has it without a prefix.
+   * The column of a quantity of the swarm such as `centroid_x_px`: the simulated truth if available, otherwise the
+   * estimate; runs of version 0.1 have no prefix.
    */
   swarmColumn(quantity: string): string {
     return swarmColumn(quantity, (name) => this.names.includes(name));
@@ -82,7 +82,7 @@ export class Series {
   }
 }
 
-/** The series of a recorded run; null when there is none. */
+/** The series of a recorded run; null if not available. */
 export async function recordedSeries(run: string): Promise<Series | null> {
   const r = await fetch(`/api/runs/${encodeURIComponent(run)}/series.csv`).catch(() => null);
   return r?.ok ? parseCsv(await r.text()) : null;

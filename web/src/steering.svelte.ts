@@ -1,4 +1,4 @@
-// The user's hands: field by pointer, keys and gamepad; goals and routes.
+// Manual control: field by pointer, keys and gamepad; setpoints and routes.
 
 import type { Lab } from './lab.svelte';
 import { defaultPart, handController, isOpenLoop, routeReference, sectionOf, setpointReference } from './part_traits';
@@ -6,26 +6,26 @@ import { defaultPart, handController, isOpenLoop, routeReference, sectionOf, set
 export const kWeakest = 5e-6, kStrongest = 5e-3; // T
 
 export class Steering {
-  /** T, of a full pull. */
+  /** Field strength at full deflection, T. */
   strength = $state(115e-6);
-  /** Points of a route that is being drawn, px. */
+  /** Points of the route in the editor, px. */
   sketch = $state.raw<[number, number][]>([]);
-  /** Way in which the swarm is pulled now, in the picture's directions, length 0 to 1. */
-  way = $state.raw<[number, number]>([0, 0]);
-  /** A goal that was clicked and not yet answered, px. */
+  /** Present swimming direction under manual control, image axes, length 0 to 1. */
+  direction = $state.raw<[number, number]>([0, 0]);
+  /** Requested setpoint without an answer yet, px. */
   asked = $state.raw<[number, number] | null>(null);
-  /** What steered before the hand did. */
+  /** Controller and estimator before manual control. */
   private before: Record<string, any> | null = null;
   private sending = false;
   private wanted: [number, number] | null = null;
 
   constructor(private lab: Lab) {}
 
-  /** Whether the hand steers, not a controller with feedback. */
+  /** Whether the present controller is open-loop, without feedback. */
   get byHand() {
     return isOpenLoop(this.lab.schema, this.lab.scenario.controller);
   }
-  /** Whether the program has the part for steering by hand, to a goal and along a route. None is known without a schema. */
+  /** Whether the program has parts for manual control, setpoints and routes. False without a schema. */
   get mayPull() {
     return handController(this.lab.schema) !== undefined;
   }
@@ -36,19 +36,19 @@ export class Steering {
     return routeReference(this.lab.schema) !== undefined;
   }
 
-  /** A drag over the picture, px: a third of the view is a full pull. */
+  /** A drag in the image, px: a third of the view height is full deflection. */
   drag(pull: [number, number] | null) {
-    if (!pull) return; // the field stays until told otherwise
+    if (!pull) return; // the field does not change at the end of a drag
     const size = (this.lab.scene?.view.height ?? 480) / 3, l = Math.hypot(...pull) / size;
     const k = l > 1 ? 1 / (l * size) : 1 / size;
     this.pull([pull[0] * k, pull[1] * k]);
   }
-  /** Newest wins while one is on its way. */
-  pull(way: [number, number]) {
+  /** While a request is pending, only the newest direction is kept. */
+  pull(direction: [number, number]) {
     const hand = handController(this.lab.schema);
     if (hand === undefined) return;
-    this.way = way;
-    this.wanted = way;
+    this.direction = direction;
+    this.wanted = direction;
     if (!this.sending) void this.send(hand);
   }
   private async send(hand: string) {
@@ -60,8 +60,8 @@ export class Steering {
     while (this.wanted) {
       const [x, y] = this.wanted;
       this.wanted = null;
-      // What draws the swarm along: the field along the way for north-seeking cells, against it for the others;
-      // the world's y points up.
+      // The field is along the swimming direction for north-seeking cells and against it for south-seeking cells. The
+      // world y axis points up.
       const b = this.strength * this.lab.polarity;
       await this.lab.exchange({ controller: { type: hand, field: [`${(b * x).toPrecision(6)} T`, `${(-b * y).toPrecision(6)} T`] } });
     }
@@ -70,19 +70,19 @@ export class Steering {
   stop() {
     this.pull([0, 0]);
   }
-  /** The step response: the same field the other way. */
+  /** Field reversal. */
   reverse() {
-    this.pull([-this.way[0], -this.way[1]]);
+    this.pull([-this.direction[0], -this.direction[1]]);
   }
 
-  /** Another run: what steered the one before is nothing to it. */
+  /** Resets the state for a new run. */
   begin() {
-    this.way = [0, 0];
+    this.direction = [0, 0];
     this.sketch = [];
     this.before = null;
   }
 
-  /** The parts that take over from the hand: those that steered before it, or else the default controller. */
+  /** Parts that replace manual control: those before it, or the default controller. */
   private controller() {
     if (!this.byHand) return {};
     return this.before ?? { controller: { type: defaultPart(sectionOf(this.lab.schema, 'controller')) } };
@@ -90,7 +90,7 @@ export class Steering {
   async goal(at: [number, number]) {
     const type = setpointReference(this.lab.schema);
     if (type === undefined) return;
-    this.way = [0, 0];
+    this.direction = [0, 0];
     this.asked = at;
     await this.lab.exchange({ ...this.controller(), reference: { type, setpoint_px: at.map((v) => Math.round(v * 10) / 10) } });
     if (this.asked === at) this.asked = null;
@@ -119,7 +119,7 @@ export class Steering {
     return true;
   }
   private stick: [number, number] = [0, 0];
-  /** The left stick of the first gamepad; called for every picture. */
+  /** Reads the left stick of the first gamepad; called periodically. */
   poll() {
     const pad = navigator.getGamepads?.().find((g) => g?.connected);
     if (!pad) return;

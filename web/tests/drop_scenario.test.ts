@@ -4,7 +4,7 @@ import { sampleSchema } from './sample_schema';
 
 const drop = { picture: 'uploads/3/my drop.png', url: '/x', image_size: [640, 480] as [number, number], center_px: [320, 231] as [number, number], radius_px: 150, um_per_px: 0.9, found: true };
 
-test('the arena with a radius takes the edge of the drop, and the swarm the first preset', () => {
+test('the arena has the edge of the drop, and the swarm the first preset', () => {
   expect(dropScenario(sampleSchema, drop)).toMatchObject({
     title: 'my drop.png',
     scale: { um_per_px: 0.9 },
@@ -12,11 +12,11 @@ test('the arena with a radius takes the edge of the drop, and the swarm the firs
     swarm: [{ model: { type: 'rod', preset: 'first' }, start: { type: 'seen' } }],
   });
 });
-test('without a model that has presets the swarm has the default model', () => {
+test('the swarm has the default model if no model has presets', () => {
   const { arena } = sampleSchema.properties!;
   expect(dropScenario({ properties: { arena } }, drop)!.swarm[0]).not.toHaveProperty('model');
 });
-test('there is none without a circular arena or a schema', () => {
+test('returns null without a circular arena or a schema', () => {
   expect(dropScenario({ properties: {} }, drop)).toBeNull();
   expect(dropScenario(null, drop)).toBeNull();
 });

@@ -10,15 +10,15 @@ describe('a plot as SVG', () => {
     const svg = svgOf('Field', 'uT', [[0, 1, 2], [-5, 0, 5]], kLine);
     expect(paths(svg)).toEqual(['M70.0 276.0L349.0 153.0L628.0 30.0']);
   });
-  test('a value that was not measured interrupts the line', () => {
+  test('a missing value interrupts the line', () => {
     const svg = svgOf('Field', 'uT', [[0, 1, 2, 3, 4], [0, 1, null, 3, 4]], kLine);
     expect(paths(svg)[0].match(/M/g)).toHaveLength(2);
   });
-  test('times of another run do not interrupt it, and the other run is dashed', () => {
+  test('times of another run do not interrupt the line, and the other run is dashed', () => {
     const svg = svgOf('Field', 'uT', [[0, 1, 2], [0, undefined, 4], [undefined, 2, undefined]], kLine);
     expect(paths(svg)[0]).toBe('M70.0 276.0L628.0 30.0');
     expect(svg.match(/stroke-dasharray/g)).toHaveLength(1);
-    expect(svg).toContain('Bx (earlier)');
+    expect(svg).toContain('Bx (previous run)');
   });
   test('ticks are round numbers within the axes', () => {
     const labels = tickLabels(svgOf('Field', 'uT', [[0, 10], [0, 0.7]], kLine));

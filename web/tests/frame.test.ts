@@ -1,4 +1,4 @@
-// Messages are built byte by byte after the table in web/protocol.md, independently of src/frame.ts.
+// Messages are built byte by byte from the table in web/protocol.md, independently of src/frame.ts.
 import { describe, expect, test } from 'vitest';
 import { decodeFrame, responds, runOf } from '../src/frame';
 
@@ -69,7 +69,7 @@ const kFull: Message = {
   picture: { width: 3, height: 2, grey: [0, 1, 2, 253, 254, 255] },
 };
 
-describe('a frame written out as bytes', () => {
+describe('a frame as literal bytes', () => {
   // prettier-ignore
   const bytes = [
     0x46, 0x41, 0x42, 0x41, 0x01, 0x00, 0x05, 0x00, // FABA, version 1, cells and headings
@@ -102,13 +102,13 @@ describe('a frame written out as bytes', () => {
   });
 });
 
-describe('a frame with everything', () => {
+describe('a frame with all parts', () => {
   const f = decodeFrame(encode(kFull), 3);
 
   test('header', () => {
     expect([f.run, f.frame, f.t, f.cells, f.rowCount]).toEqual([9, 12, 0.4, 11, 2]);
   });
-  test('rows of the series, with a value that was not measured', () => {
+  test('rows of the series, with a missing value', () => {
     expect([...f.rows]).toEqual([11, 1.5, NaN, 12, -2.5, 4]);
   });
   test('grid of the field', () => {
@@ -119,7 +119,7 @@ describe('a frame with everything', () => {
     expect(f.xy).toBeInstanceOf(Uint16Array);
     expect([f.xy[20], f.xy[21], f.headings![10]]).toEqual([10000, 65525, 200]);
   });
-  test('response bits: lowest first, the ninth cell opens the second byte', () => {
+  test('response bits: lowest first, the ninth cell is in the second byte', () => {
     expect(Array.from({ length: 11 }, (_, i) => responds(f, i))).toEqual([1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0]);
     expect(f.responding).toHaveLength(2);
   });
@@ -151,36 +151,36 @@ describe('optional parts', () => {
   });
 });
 
-describe('messages that are refused', () => {
-  const whole = encode(kFull);
+describe('invalid messages', () => {
+  const complete = encode(kFull);
 
   test.each([0, 3, 4, 47])('%i bytes are too few for a header', (n) => {
-    expect(() => decodeFrame(whole.slice(0, n), 3)).toThrow('not a frame');
+    expect(() => decodeFrame(complete.slice(0, n), 3)).toThrow('not a frame');
   });
-  test('every truncated message', () => {
-    for (let n = 48; n < whole.byteLength; ++n) {
-      expect(() => decodeFrame(whole.slice(0, n), 3), `${n} bytes`).toThrow('truncated');
+  test('truncated messages', () => {
+    for (let n = 48; n < complete.byteLength; ++n) {
+      expect(() => decodeFrame(complete.slice(0, n), 3), `${n} bytes`).toThrow('truncated');
     }
   });
-  test('a message with bytes left over', () => {
-    const longer = new Uint8Array(whole.byteLength + 1);
-    longer.set(new Uint8Array(whole));
+  test('a message with extra bytes', () => {
+    const longer = new Uint8Array(complete.byteLength + 1);
+    longer.set(new Uint8Array(complete));
     expect(() => decodeFrame(longer.buffer, 3)).toThrow('its header gives');
   });
   test('rows with another number of columns', () => {
-    expect(() => decodeFrame(whole, 2)).toThrow('its header gives');
-    expect(() => decodeFrame(whole, 4)).toThrow();
+    expect(() => decodeFrame(complete, 2)).toThrow('its header gives');
+    expect(() => decodeFrame(complete, 4)).toThrow();
   });
-  test('a count that no message can hold', () => {
-    const v = new DataView(whole.slice(0));
+  test('a count above the length of the message', () => {
+    const v = new DataView(complete.slice(0));
     v.setUint32(12, 0xffffffff, true);
     expect(() => decodeFrame(v.buffer as ArrayBuffer, 3)).toThrow('truncated');
   });
-  test('another magic number, also the same one in the other byte order', () => {
+  test('a wrong magic number, and a swapped byte order', () => {
     expect(() => decodeFrame(encode({ ...kFull, magic: 'FABB' }), 3)).toThrow('not a frame');
     expect(() => decodeFrame(encode({ ...kFull, magic: 'ABAF' }), 3)).toThrow('not a frame');
   });
-  test('another version, also 1 in the other byte order', () => {
+  test('another version, and a swapped byte order', () => {
     expect(() => decodeFrame(encode({ ...kFull, version: 2 }), 3)).toThrow('version 2');
     expect(() => decodeFrame(encode({ ...kFull, version: 256 }), 3)).toThrow('version 256');
   });
@@ -190,7 +190,7 @@ describe('the run of a message', () => {
   test('is read without the columns of the rows', () => {
     expect(runOf(encode({ run: 0xfffffffe, rows: [[1, 2, 3]] }))).toBe(0xfffffffe);
   });
-  test('is refused like a frame', () => {
+  test('is validated like a frame', () => {
     expect(() => runOf(new ArrayBuffer(8))).toThrow('not a frame');
     expect(() => runOf(encode({ version: 3 }))).toThrow('version 3');
   });

@@ -8,8 +8,8 @@ const sources = Object.entries(import.meta.glob<string>('../src/**/*.{ts,svelte}
   ([path]) => !path.endsWith('/i18n.ts'),
 );
 const text = sources.map(([, source]) => source).join('\n');
-/** Beginnings of keys that are put together, as in say(`tab.${t}`). */
-const beginnings = [...new Set([...text.matchAll(/`([a-z_]+\.)\$\{/g)].map((m) => m[1]))];
+/** Prefixes of composed keys, as in say(`tab.${t}`). */
+const prefixes = [...new Set([...text.matchAll(/`([a-z_]+\.)\$\{/g)].map((m) => m[1]))];
 
 describe('both languages', () => {
   test('have the same keys', () => {
@@ -17,7 +17,7 @@ describe('both languages', () => {
       expect(Object.keys(kWords[l]).sort(), l).toEqual([...kKeys].sort());
     }
   });
-  test('have a text for each key, without spaces around it', () => {
+  test('have a trimmed text for each key', () => {
     for (const l of kLanguages) {
       for (const key of kKeys) {
         expect(kWords[l][key], `${l} ${key}`).not.toBe('');
@@ -32,7 +32,7 @@ describe('both languages', () => {
       }
     }
   });
-  test('no sentence was left in English', () => {
+  test('all sentences are translated', () => {
     const sentences = kKeys.filter((key) => kWords.en[key].split(' ').length > 2);
     expect(sentences.length).toBeGreaterThan(30);
     expect(sentences.filter((key) => kWords.pt[key] === kWords.en[key])).toEqual([]);
@@ -42,7 +42,7 @@ describe('both languages', () => {
 describe('the sources', () => {
   test('are read', () => {
     expect(sources.length).toBeGreaterThan(20);
-    expect(beginnings).toContain('tab.');
+    expect(prefixes).toContain('tab.');
   });
   test('use only keys that exist', () => {
     const used = [...text.matchAll(/\bsay\(\s*'([^']+)'/g)].map((m) => m[1]);
@@ -50,10 +50,10 @@ describe('the sources', () => {
     expect(used.filter((key) => !(kKeys as string[]).includes(key))).toEqual([]);
   });
   test('use every key', () => {
-    const unused = kKeys.filter((key) => !text.includes(`'${key}'`) && !beginnings.some((b) => key.startsWith(b)));
+    const unused = kKeys.filter((key) => !text.includes(`'${key}'`) && !prefixes.some((b) => key.startsWith(b)));
     expect(unused).toEqual([]);
   });
-  test('keys that are put together exist', () => {
+  test('composed keys exist', () => {
     const states = ['waiting', 'running', 'done', 'failed', 'cancelled'].map((s) => `job.${s}`);
     const layers = /kLayers = \[([^\]]+)\]/.exec(text)![1].match(/\w+/g)!.map((l) => `layer.${l}`);
     const tabs = /kTabs = \[([^\]]+)\]/.exec(text)![1].match(/\w+/g)!.map((t) => `tab.${t}`);
@@ -65,7 +65,7 @@ describe('the sources', () => {
 });
 
 describe('filling in', () => {
-  test('placeholders take numbers and strings; unknown ones stay', () => {
+  test('placeholders accept numbers and strings; unknown ones are unchanged', () => {
     const say = words('en');
     expect(say('form.range', { low: 1, high: '2 m' })).toBe('from 1 to 2 m');
     expect(say('form.range', { low: 1 })).toBe('from 1 to {high}');
@@ -74,7 +74,7 @@ describe('filling in', () => {
   test('values are not read as placeholders or patterns', () => {
     expect(words('en')('form.range', { low: '{high}', high: '$&' })).toBe('from {high} to $&');
   });
-  test('in the language that was asked for', () => {
+  test('in the requested language', () => {
     expect(words('pt')('run.pause')).toBe(kWords.pt['run.pause']);
     expect(words('pt')('run.pause')).not.toBe(words('en')('run.pause'));
   });

@@ -1,4 +1,4 @@
-// The page's state and its connection, with a socket and a server that the test plays.
+// State and connection of the page, with a mock WebSocket and server.
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
 import { Lab } from '../src/lab.svelte';
 import { sampleSchema } from './sample_schema';
@@ -69,7 +69,7 @@ function connected(): Lab {
 }
 
 describe('frames', () => {
-  test('of the run that is shown are kept and their rows appended', () => {
+  test('of the present run are stored and their rows appended', () => {
     const lab = connected();
     newest().show(frame(1, 0, [0, 5])); // no run is known yet
     newest().say(run(1, ['frame', 'x']));
@@ -77,7 +77,7 @@ describe('frames', () => {
     newest().show(frame(1, 5, [5, 8]));
     expect([lab.frame!.frame, lab.ticks, lab.series.length, lab.series.newest('x')]).toEqual([5, 2, 2, 8]);
   });
-  test('of the run before, with another number of columns, are ignored', () => {
+  test('of the previous run, with another number of columns, are ignored', () => {
     const lab = connected();
     newest().say(run(1, ['frame']));
     newest().say(run(2, ['frame', 'x', 'y']));
@@ -128,7 +128,7 @@ describe('the schema', () => {
 });
 
 describe('requests', () => {
-  test('are answered by their number, in whatever order', async () => {
+  test('are answered by their id, in any order', async () => {
     const lab = connected();
     const first = lab.link.ask('step', { frames: 1 }), second = lab.link.ask('pause');
     expect(newest().sent).toEqual([{ id: 1, do: 'step', frames: 1 }, { id: 2, do: 'pause' }]);
@@ -147,16 +147,16 @@ describe('requests', () => {
     await next;
     expect(lab.trouble).toBeNull();
   });
-  test('without an answer end after 15 s', async () => {
+  test('without an answer time out after 15 s', async () => {
     const lab = connected(), asked = lab.link.ask('pause');
     newest().say({ say: 'pages', pages: 1, steering: 1 });
     for (let s = 0; s < 15; ++s) {
-      newest().say({ say: 'pages', pages: 1, steering: 1 }); // the connection lives
+      newest().say({ say: 'pages', pages: 1, steering: 1 }); // the connection is alive
       await vi.advanceTimersByTimeAsync(1000);
     }
-    expect(await asked).toMatchObject({ ok: false, what: 'late' });
+    expect(await asked).toMatchObject({ ok: false, what: 'timeout: no answer within 15 s' });
   });
-  test('end when the connection is lost, and are refused while it is', async () => {
+  test('fail when the connection is lost, and while it is lost', async () => {
     const lab = connected(), asked = lab.link.ask('pause');
     newest().close();
     expect(await asked).toMatchObject({ ok: false, what: 'connection' });
@@ -169,7 +169,7 @@ describe('the connection', () => {
     connected();
     expect([newest().url, newest().protocol]).toEqual(['ws://localhost:1/ws', 'faba.1']);
   });
-  test('is tried again after 250 ms, then after twice as long each time, 4 s at most', async () => {
+  test('is retried after 250 ms, then with doubled delay up to 4 s', async () => {
     connected();
     for (const wait of [250, 500, 1000, 2000, 4000, 4000]) {
       const before = FakeSocket.all.length;
@@ -180,7 +180,7 @@ describe('the connection', () => {
       expect(FakeSocket.all.length, `${wait} ms`).toBe(before + 1);
     }
   });
-  test('is lost when the server sends nothing for 8 s, not even the answer to a ping', async () => {
+  test('is lost if the server sends nothing for 8 s, not even the answer to a ping', async () => {
     const lab = connected();
     await vi.advanceTimersByTimeAsync(5000);
     expect(newest().sent[0]).toMatchObject({ do: 'ping' });
@@ -189,7 +189,7 @@ describe('the connection', () => {
     expect(lab.connected).toBe(false);
     expect(FakeSocket.all.length).toBe(2);
   });
-  test('a refused token is told apart from a program that is away', async () => {
+  test('a refused token is distinguished from a stopped program', async () => {
     const lab = connected();
     newest().close();
     await vi.advanceTimersByTimeAsync(0);

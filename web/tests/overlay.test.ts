@@ -35,14 +35,14 @@ describe('zeros of the field', () => {
     found.forEach((q, i) => q.forEach((v, k) => expect(v).toBeCloseTo(wanted[i][k], 5)));
   };
 
-  test('a linear field has one, between the points of the grid', () => {
+  test('a linear field has one zero, between the points of the grid', () => {
     near(zeros(grid(5, 4, (c, r) => [c - 1.25, r - 2.6])), [[1.25, 2.6]]);
     near(zeros(grid(5, 4, (c, r) => [r - 0.7 + (c - 3.2), r - 0.7 - (c - 3.2)])), [[3.2, 0.7]]);
   });
-  test('one at a point of the grid, where six triangles meet, is given once', () => {
+  test('a zero at a point of the grid, where six triangles meet, is returned once', () => {
     near(zeros(grid(5, 4, (c, r) => [c - 2, 1 - r])), [[2, 1]]);
   });
-  test('a field that is the same everywhere has none', () => {
+  test('a homogeneous field has none', () => {
     expect(zeros(grid(6, 6, () => [1e-4, 0]))).toEqual([]);
     expect(zeros(grid(1, 1, () => [0, 0]))).toEqual([]);
   });
@@ -62,7 +62,7 @@ describe('marks of a recorded row', () => {
     const row = { true_centroid_x_px: 1, true_centroid_y_px: 2, true_sigma_x_px: 3, true_sigma_y_px: 4, estimated_centroid_x_px: 9, setpoint_x_px: 5, setpoint_y_px: 6 };
     expect(recordedMarks(of(row))).toEqual({ centroid: [1, 2], sigma: [3, 4], setpoint: [5, 6] });
   });
-  test('a pair with a missing value is no mark', () => {
+  test('a pair with a missing value gives null', () => {
     expect(recordedMarks(of({ centroid_x_px: 1, sigma_y_px: 4 }))).toEqual({ centroid: null, sigma: null, setpoint: null });
   });
 });

@@ -40,7 +40,7 @@ describe('traits', () => {
     expect(hasTrait(sectionOf(sampleSchema, 'reference'), undefined, 'no_target')).toBe(true);
     expect(hasTrait(sectionOf(sampleSchema, 'estimator'), undefined, 'no_estimate')).toBe(false);
   });
-  test('of an unknown part, an unknown section and an old schema there are none', () => {
+  test('unknown parts, unknown sections and old schemas have none', () => {
     expect(hasTrait(controllers, 'omega', 'feedback')).toBe(false);
     expect(hasTrait(controllers, null, 'feedback')).toBe(false);
     expect(hasTrait(undefined, 'alpha', 'feedback')).toBe(false);
@@ -54,17 +54,17 @@ describe('finding a part', () => {
     expect(findPart(controllers, { property: 'field' })).toBe('alpha');
     expect(findPart(controllers, { trait: 'open_loop', property: 'field' })).toBe('gamma');
   });
-  test('no part has all of it', () => {
+  test('no part matches', () => {
     expect(findPart(controllers, { trait: 'seeks_null', property: 'field' })).toBeUndefined();
     expect(findPart(controllers, { property: 'toString' })).toBeUndefined();
     expect(findPart(undefined, {})).toBeUndefined();
   });
-  test('the list of names in a section is not taken for a part', () => {
+  test('the list of names in a section is not a part', () => {
     expect(findPart(controllers, {})).toBe('alpha');
   });
 });
 
-describe('what steers', () => {
+describe('parts for steering', () => {
   test('open loop is a trait of the current controller', () => {
     expect(isOpenLoop(sampleSchema, { type: 'beta' })).toBe(true);
     expect(isOpenLoop(sampleSchema, 'gamma')).toBe(true);
@@ -72,14 +72,14 @@ describe('what steers', () => {
     expect(isOpenLoop(sampleSchema, undefined)).toBe(false);
     expect(isOpenLoop(null, { type: 'beta' })).toBe(false);
   });
-  test('the hand needs an open-loop controller with a field', () => {
+  test('manual control needs an open-loop controller with a field', () => {
     expect(handController(sampleSchema)).toBe('gamma');
   });
-  test('references are told apart by one setpoint and several', () => {
+  test('references are distinguished by one or several setpoints', () => {
     expect(setpointReference(sampleSchema)).toBe('spot');
     expect(routeReference(sampleSchema)).toBe('path');
   });
-  test('without a schema there is nothing', () => {
+  test('nothing is found without a schema', () => {
     expect([handController(null), setpointReference(null), routeReference(null)]).toEqual([undefined, undefined, undefined]);
     expect(handController(schemaWithoutTraits)).toBeUndefined();
   });

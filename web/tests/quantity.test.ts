@@ -44,7 +44,7 @@ describe('units', () => {
     expect(size(`${kMicro}T`)).toBe(1e-6);
     expect(size(`${kMu}T`)).toBe(1e-6);
   });
-  test.each(['', 'parsec', 'um/', '/s', 'm)', '(m', 'm^', 'm^x', 'm^12', 'u', 'um1', '1s', 'k1', '%m', 'constructor', 'm//s'])('%j is no unit', (text) => {
+  test.each(['', 'parsec', 'um/', '/s', 'm)', '(m', 'm^', 'm^x', 'm^12', 'u', 'um1', '1s', 'k1', '%m', 'constructor', 'm//s'])('%j is not a unit', (text) => {
     expect(parseUnit(text)).toBeNull();
   });
 });
@@ -84,14 +84,14 @@ describe('reading a quantity', () => {
   test.each(['', '   ', 'um', 'abc', '--3', '- 3', '.', 'e5', 'NaN', 'Infinity'])('%j has no number', (text) => {
     expect(parseQuantity(text, 'm')).toBe('number');
   });
-  test('a number beyond the range of a double is no number', () => {
+  test('a number out of the range of a double is invalid', () => {
     expect(parseQuantity('1e999', '')).toBe('number');
     expect(parseQuantity('-1e999 um', 'm')).toBe('number');
   });
   test.each(['3 bananas', '3 s', '3 m/s', '3 m m', '1.2.3', '3 px', '5e', '3 %'])('%j has the wrong unit for a length', (text) => {
     expect(parseQuantity(text, 'm')).toBe('unit');
   });
-  test('a unit where the schema has none', () => {
+  test('a unit is invalid if the schema has none', () => {
     expect(parseQuantity('3 m', '')).toBe('unit');
     expect(parseQuantity('3 m/m', '')).toBe(3);
   });
@@ -118,7 +118,7 @@ describe('showing a quantity', () => {
     expect(showQuantity(1.23456789e-4, 'm')).toBe(`123.457 ${kMicro}m`);
     expect(showQuantity(9.99999999e-4, 'm')).toBe(`1000 ${kMicro}m`);
   });
-  test('what is shown is read as the same value', () => {
+  test('a displayed quantity is parsed as the same value', () => {
     for (const unit of ['m', 'm/s', 'T', 's', 'A', 'rad', 'T/m', 'H', 'px', '']) {
       for (const value of [0, 3.2e-9, 4.25e-7, 7e-6, 1.15e-4, 0.0123, 0.1, 1, 999, 123456, -6e-6]) {
         const back = parseQuantity(showQuantity(value, unit), unit) as number;

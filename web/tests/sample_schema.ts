@@ -1,4 +1,4 @@
-// A JSON Schema as /api/schema sends it, with part names that no program has: the page must not depend on names.
+// A JSON Schema as sent by /api/schema, with fictitious part names: the page must not depend on names.
 import type { Schema } from '../src/form/schema';
 
 const part = (type: string, traits: string[] | undefined, properties: Record<string, Schema> = {}): Schema => ({
@@ -43,5 +43,5 @@ export const sampleSchema: Schema = {
   },
 };
 
-/** The schema of a program that sends neither traits nor defaults. */
+/** A schema without traits and defaults. */
 export const schemaWithoutTraits: Schema = JSON.parse(JSON.stringify(sampleSchema, (key, value) => (key === 'x-traits' || key === 'default' ? undefined : value)));

@@ -20,7 +20,7 @@ const changed = (change: (s: Scenario) => void): Scenario => {
 };
 
 describe('differences', () => {
-  test('of equal scenarios there are none', () => {
+  test('equal scenarios have none', () => {
     expect(differences(base(), base())).toEqual([]);
   });
   test('leaves are named by their path', () => {
@@ -31,7 +31,7 @@ describe('differences', () => {
     });
     expect(differences(base(), to)).toEqual([['title', 'Another'], ['arena.radius_px', 90], ['swarm[1].model.speed', '0.0003 m/s']]);
   });
-  test('another part is given in full, since the keys of the first one do not apply to it', () => {
+  test('a different part is given completely, because the keys of the first one do not apply to it', () => {
     const controller = { type: 'hand', field: ['0 T', '0 T'] };
     expect(differences(base(), changed((s) => (s.controller = controller)))).toEqual([['controller', controller]]);
   });
@@ -69,7 +69,7 @@ describe('the command', () => {
   test('gives file and seed; the seed of the scenario is not set', () => {
     expect(command('scenes/a.toml', base(), changed((s) => (s.seed = 9)), 4)).toBe('faba run scenes/a.toml --seed 4');
   });
-  test('quotes what a shell would change', () => {
+  test('quotes special characters of the shell', () => {
     expect(command("my scene's.toml", {}, {}, 1)).toBe("faba run 'my scene'\\''s.toml' --seed 1");
     expect(command('a$(b).toml', {}, {}, 1)).toBe("faba run 'a$(b).toml' --seed 1");
     expect(command('a.toml', base(), changed((s) => (s.swarm[0].count = 5)), 1)).toBe("faba run a.toml --seed 1 --set 'swarm[0].count=5'");
@@ -80,7 +80,7 @@ describe('the command', () => {
     expect(set('0.0003 m/s')).toBe("'title=0.0003 m/s'");
     expect(set('-5e-6 T')).toBe("'title=-5e-6 T'");
   });
-  test('a string is set without quotes where it cannot be another TOML value', () => {
+  test('a string is set without quotes if it cannot be another TOML value', () => {
     expect(set('abc')).toBe('title=abc');
     expect(set('Truely a swarm')).toBe("'title=Truely a swarm'");
   });
@@ -90,7 +90,7 @@ describe('the command', () => {
       expect(set(text)).toBe(`'title=${JSON.stringify(text).replaceAll("'", `'\\''`)}'`);
     },
   );
-  test('there is none when a key was removed', () => {
+  test('returns null if a key was removed', () => {
     expect(command('a.toml', base(), changed((s) => delete s.arena), 1)).toBeNull();
   });
 });
@@ -108,7 +108,7 @@ describe('events of a running scenario', () => {
     });
     expect(event(base(), to)).toEqual([{ controller: to.controller, estimator: to.estimator }]);
   });
-  test('each changed model is an event of its own, after the parts', () => {
+  test('each changed model is a separate event, after the parts', () => {
     const to = changed((s) => {
       s.swarm[0].model.speed = '0.0003 m/s';
       s.swarm[1].model.speed = '0.0004 m/s';
@@ -116,7 +116,7 @@ describe('events of a running scenario', () => {
     });
     expect(event(base(), to)).toEqual([{ controller: to.controller }, { swarm: 0, model: to.swarm[0].model }, { swarm: 1, model: to.swarm[1].model }]);
   });
-  test('anything else needs a restart', () => {
+  test('all other changes need a restart', () => {
     expect(event(base(), changed((s) => (s.title = 'x')))).toBeNull();
     expect(event(base(), changed((s) => (s.swarm[0].count = 11)))).toBeNull();
     expect(event(base(), changed((s) => s.swarm.pop()))).toBeNull();

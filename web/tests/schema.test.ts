@@ -12,7 +12,7 @@ describe('the kind of a value', () => {
     ['a part', { oneOf: [{ const: 'x' }] }, 'part'],
     ['a choice', { type: 'string', enum: ['a', 'b'] }, 'choice'],
     ['a flag', { type: 'boolean' }, 'flag'],
-    ['a whole number', { type: 'integer' }, 'whole'],
+    ['an integer', { type: 'integer' }, 'integer'],
     ['a number', number, 'number'],
     ['a quantity', { type: ['number', 'string'], 'x-unit': 'm' }, 'number'],
     ['a text', { type: 'string' }, 'text'],
@@ -27,8 +27,8 @@ describe('the kind of a value', () => {
   });
 });
 
-describe('checking what was typed', () => {
-  test('a quantity goes into the scenario in the unit of the schema, as the program would read it', () => {
+describe('checking input', () => {
+  test('a quantity is converted to the unit of the schema, with the same value as in the program', () => {
     expect(check('186 um/s', speed)).toEqual({ value: '0.000186 m/s' });
     expect(check('7 um/s', speed)).toEqual({ value: '0.000007 m/s' });
     expect(check('0.0002', speed)).toEqual({ value: '0.0002 m/s' });
@@ -37,21 +37,21 @@ describe('checking what was typed', () => {
     expect(check('12', count)).toEqual({ value: 12 });
     expect(check('50 %', fraction)).toEqual({ value: 0.5 });
   });
-  test('nothing typed is the default, unless a value is required', () => {
+  test('empty input is the default, unless a value is required', () => {
     expect(check(' ', speed)).toEqual({});
     expect(check('', speed, true)).toEqual({ wrong: ['form.number', {}] });
   });
-  test('what is wrong', () => {
+  test('invalid input', () => {
     expect(check('fast', speed)).toEqual({ wrong: ['form.number', {}] });
     expect(check('3 bananas', speed)).toEqual({ wrong: ['form.unit', { unit: 'm/s' }] });
     expect(check('3 um', fraction)).toEqual({ wrong: ['form.number', {}] });
-    expect(check('1.5', count)).toEqual({ wrong: ['form.whole', {}] });
+    expect(check('1.5', count)).toEqual({ wrong: ['form.integer', {}] });
     expect(check('-5 um/s', speed)).toEqual({ wrong: ['form.least', { limit: '7 µm/s' }] });
     expect(check('0', count)).toEqual({ wrong: ['form.least', { limit: '1' }] });
     expect(check('321 um/s', speed)).toEqual({ wrong: ['form.most', { limit: '320 µm/s' }] });
     expect(check('1e999', { type: 'number' })).toEqual({ wrong: ['form.number', {}] });
   });
-  test('a limit is permitted as it is shown', () => {
+  test('a displayed limit is permitted', () => {
     for (let n = 1; n < 1000; ++n) {
       const limit = Number(`${n}e-6`), s: Schema = { type: ['number', 'string'], 'x-unit': 'm', minimum: limit, maximum: limit };
       expect(check(shown(limit, s), s).wrong, `${n} um`).toBeUndefined();
@@ -67,14 +67,14 @@ describe('values of a scenario', () => {
     expect(amount([3], 'm')).toBeNull();
     expect(amount(undefined, 'm')).toBeNull();
   });
-  test('are shown with a common unit, others as they are', () => {
+  test('are displayed with a common unit, others unchanged', () => {
     expect(shown('0.000186 m/s', speed)).toBe('186 µm/s');
     expect(shown(0.5, fraction)).toBe('0.5');
     expect(shown('north', { type: 'string' })).toBe('north');
     expect(shown(undefined, speed)).toBe('');
     expect(shown(null, speed)).toBe('');
   });
-  test('are the same in whatever unit they are written', () => {
+  test('are equal independent of their units', () => {
     expect(same('186 um/s', '0.000186 m/s', speed)).toBe(true);
     expect(same('186 um/s', 0.000186, speed)).toBe(true);
     expect(same('186 um/s', '187 um/s', speed)).toBe(false);

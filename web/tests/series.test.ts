@@ -22,7 +22,7 @@ describe('taking rows', () => {
     expect(s.length).toBe(2);
     expect([...s.of('centroid_x_px')]).toEqual([0, 10]);
   });
-  test('takes each frame once although messages overlap', () => {
+  test('takes each frame once if messages overlap', () => {
     const s = filled(0);
     s.take(rows(row(1), row(2)), 2);
     expect(s.take(rows(row(1), row(2), row(3)), 3)).toBe(true);
@@ -34,7 +34,7 @@ describe('taking rows', () => {
     s.take(rows(row(1), row(2)), 1);
     expect(frames(s)).toEqual([1]);
   });
-  test('keeps values that are not a number', () => {
+  test('keeps NaN values', () => {
     const s = filled(0);
     s.take(rows(row(1, NaN), row(2)), 2);
     expect([...s.of('centroid_x_px')]).toEqual([NaN, 20]);
@@ -52,7 +52,7 @@ describe('taking rows', () => {
     expect(frames(s).every((f, i) => f === i)).toBe(true);
     expect(s.newest('centroid_x_px')).toBe(49990);
   });
-  test('starts again from nothing', () => {
+  test('is empty after begin()', () => {
     const s = filled(10);
     s.begin(['frame', 'other']);
     expect(s.length).toBe(0);
@@ -141,7 +141,7 @@ describe('CSV', () => {
     answers('frame,t_s\n');
     expect((await recordedSeries('empty'))!.length).toBe(0);
   });
-  test('there is none: an error of the server or of the network', async () => {
+  test('returns null after an error of the server or of the network', async () => {
     answers(null);
     expect(await recordedSeries('x')).toBeNull();
     vi.stubGlobal('fetch', () => Promise.reject(new TypeError('network')));
@@ -149,7 +149,7 @@ describe('CSV', () => {
   });
 });
 
-test('a quantity of the swarm is the truth where there is one, else the estimate, else the column of version 0.1', () => {
+test('a quantity of the swarm is the truth if available, otherwise the estimate, otherwise the column of version 0.1', () => {
   const named = (...names: string[]) => {
     const s = new Series();
     s.begin(names);

@@ -3,7 +3,7 @@ import type { Lab } from '../src/lab.svelte';
 import { Steering } from '../src/steering.svelte';
 import { sampleSchema } from './sample_schema';
 
-/** What Steering needs of the lab; an exchange changes the scenario as the server would. */
+/** A mock of Lab; an exchange changes the scenario like the server. */
 class FakeLab {
   schema: typeof sampleSchema | null = sampleSchema;
   scenario: Record<string, any> = { controller: { type: 'alpha', gain: 2 }, estimator: { type: 'guess' } };
@@ -28,7 +28,7 @@ beforeEach(() => {
 const settled = () => new Promise((r) => setTimeout(r));
 const field = (event: Record<string, any>) => event.controller.field.map((v: string) => Number.parseFloat(v));
 
-describe('the hand', () => {
+describe('manual control', () => {
   test('sends the open-loop controller with a field, the world y axis up', async () => {
     steering.pull([0.6, 0.8]);
     await settled();
@@ -41,15 +41,15 @@ describe('the hand', () => {
     await settled();
     expect(field(lab.sent[0])[1]).toBeCloseTo(115e-6, 10);
   });
-  test('a drag of a third of the view is a full pull, and a longer one no more', () => {
+  test('a drag of a third of the view or longer is full deflection', () => {
     steering.drag([80, 0]);
-    expect(steering.way).toEqual([0.5, 0]);
+    expect(steering.direction).toEqual([0.5, 0]);
     steering.drag([0, -480]);
-    expect(steering.way).toEqual([0, -1]);
+    expect(steering.direction).toEqual([0, -1]);
     steering.drag(null);
-    expect(steering.way).toEqual([0, -1]);
+    expect(steering.direction).toEqual([0, -1]);
   });
-  test('while an exchange is on its way only the newest pull waits', async () => {
+  test('only the newest direction is kept while an exchange is pending', async () => {
     [0.1, 0.2, 0.3, 1].forEach((x) => steering.pull([x, 0]));
     await settled();
     expect(lab.sent.map((e) => field(e)[0])).toEqual([11.5e-6, 115e-6]);
@@ -57,7 +57,7 @@ describe('the hand', () => {
   test('reverses and stops', async () => {
     steering.pull([1, -0.5]);
     steering.reverse();
-    expect(steering.way).toEqual([-1, 0.5]);
+    expect(steering.direction).toEqual([-1, 0.5]);
     steering.stop();
     await settled();
     expect(field(lab.sent.at(-1)!).map(Math.abs)).toEqual([0, 0]);
@@ -67,8 +67,8 @@ describe('the hand', () => {
     expect(key('a', true)).toBe(false);
     expect(key('ArrowRight', true)).toBe(true);
     key('ArrowUp', true);
-    expect(steering.way[0]).toBeCloseTo(Math.SQRT1_2, 12);
-    expect(steering.way[1]).toBeCloseTo(-Math.SQRT1_2, 12);
+    expect(steering.direction[0]).toBeCloseTo(Math.SQRT1_2, 12);
+    expect(steering.direction[1]).toBeCloseTo(-Math.SQRT1_2, 12);
     await settled();
     const sent = lab.sent.length;
     expect(key('ArrowUp', true)).toBe(true);
@@ -76,31 +76,31 @@ describe('the hand', () => {
     expect(lab.sent).toHaveLength(sent);
     key('ArrowUp', false);
     key('ArrowRight', false);
-    expect(steering.way).toEqual([0, 0]);
+    expect(steering.direction).toEqual([0, 0]);
   });
   test('the left stick of a gamepad, with a dead zone', () => {
     const pad = { connected: true, axes: [0.1, 0.05] };
     vi.stubGlobal('navigator', { getGamepads: () => [null, pad] });
     steering.poll();
-    expect(steering.way).toEqual([0, 0]);
+    expect(steering.direction).toEqual([0, 0]);
     pad.axes = [0.9, -0.9];
     steering.poll();
-    expect(Math.hypot(...steering.way)).toBeCloseTo(1, 12);
+    expect(Math.hypot(...steering.direction)).toBeCloseTo(1, 12);
   });
 });
 
-describe('a goal', () => {
+describe('a setpoint', () => {
   test('is the reference with one setpoint, to a tenth of a pixel; the controller stays', async () => {
     await steering.goal([12.34, 56.78]);
     expect(lab.sent).toEqual([{ reference: { type: 'spot', setpoint_px: [12.3, 56.8] } }]);
   });
-  test('is marked until it is answered', async () => {
+  test('is marked until the answer', async () => {
     const answered = steering.goal([1, 2]);
     expect(steering.asked).toEqual([1, 2]);
     await answered;
     expect(steering.asked).toBeNull();
   });
-  test('after the hand the parts before it steer again, with their parameters', async () => {
+  test('replaces manual control by the previous parts, with their parameters', async () => {
     steering.pull([1, 0]);
     await settled();
     steering.pull([0, 1]);
@@ -108,14 +108,14 @@ describe('a goal', () => {
     await steering.goal([1, 2]);
     expect(lab.sent.at(-1)).toMatchObject({ controller: { type: 'alpha', gain: 2 }, estimator: { type: 'guess' } });
     expect(steering.byHand).toBe(false);
-    expect(steering.way).toEqual([0, 0]);
+    expect(steering.direction).toEqual([0, 0]);
   });
-  test('when the scenario began with an open-loop controller the default one steers', async () => {
+  test('uses the default controller if the scenario started with an open-loop one', async () => {
     lab.scenario = { controller: { type: 'beta' } };
     await steering.goal([1, 2]);
     expect(lab.sent[0].controller).toEqual({ type: 'zeta' });
   });
-  test('in another run the parts of the run before are forgotten', async () => {
+  test('does not use the parts of a previous run', async () => {
     steering.pull([1, 0]);
     await settled();
     steering.begin();
@@ -135,7 +135,7 @@ describe('a route', () => {
     expect(lab.sent).toEqual([{ reference: { type: 'path', setpoints_px: [[1, 2], [5, 6.1]] } }]);
     expect(steering.sketch).toEqual([]);
   });
-  test('stays when the program refuses it', async () => {
+  test('remains after a refusal', async () => {
     lab.accepts = false;
     steering.point([1, 2], null);
     await steering.route();
@@ -144,7 +144,7 @@ describe('a route', () => {
 });
 
 describe('without a schema', () => {
-  test('nothing is sent and nothing is marked', async () => {
+  test('nothing is sent or marked', async () => {
     lab.schema = null;
     expect([steering.mayPull, steering.mayHold, steering.mayRoute, steering.byHand]).toEqual([false, false, false, false]);
     steering.pull([1, 0]);
@@ -152,7 +152,7 @@ describe('without a schema', () => {
     steering.point([1, 2], null);
     await steering.route();
     expect(lab.sent).toEqual([]);
-    expect([steering.way, steering.asked]).toEqual([[0, 0], null]);
+    expect([steering.direction, steering.asked]).toEqual([[0, 0], null]);
     expect(steering.sketch).toHaveLength(1);
   });
 });

@@ -23,9 +23,8 @@ sockaddr_un address(const std::filesystem::path& path) {
   a.sun_family = AF_UNIX;
   const std::string name = path.string();
   if (name.size() >= sizeof a.sun_path)
-    throw Error(
-        Errc::device, name,
-        fmt::format("is too long for the name of a socket, {} letters are the most", sizeof a.sun_path - 1));
+    throw Error(Errc::device, name,
+                fmt::format("socket path is too long; at most {} characters", sizeof a.sun_path - 1));
   std::memcpy(a.sun_path, name.c_str(), name.size() + 1);
   return a;
 }
@@ -62,20 +61,21 @@ BenchSocket BenchSocket::connect(const std::filesystem::path& path, BenchHello::
   if (!s || connect_to(s.descriptor_, a) != 0)
     throw Error(
         Errc::device, path.string(),
-        fmt::format("no simulated bench is there ({}); begin one with `faba rig simulate SCENE.toml --at {}`",
+        fmt::format("no simulated bench found ({}); start one with `faba rig simulate SCENE.toml --at {}`",
                     std::strerror(errno), path.string()));
   const BenchHello hello{kBenchVersion, role};
-  if (!s.write(&hello, sizeof hello, kHelloTime)) throw Error(Errc::device, path.string(), "does not listen");
+  if (!s.write(&hello, sizeof hello, kHelloTime))
+    throw Error(Errc::device, path.string(), "the simulated bench does not respond");
   return s;
 }
 
 BenchSocket BenchSocket::listen(const std::filesystem::path& path) {
-  // Who sees the name may connect: it is given only once somebody listens.
+  // Clients connect as soon as the name exists: the socket gets its final name only after listen().
   const std::string early = path.string() + ".new";
   const sockaddr_un a = address(early);
   unlink(early.c_str());
   BenchSocket s(local_socket());
-  // One that was killed leaves its name, to which nobody listens any more.
+  // A killed bench leaves a stale socket file, on which no process listens.
   if (std::error_code ec; std::filesystem::is_socket(path, ec)) {
     const sockaddr_un old = address(path);
     const BenchSocket knock(local_socket());
@@ -87,8 +87,8 @@ BenchSocket BenchSocket::listen(const std::filesystem::path& path) {
   unlink(early.c_str());
   if (!listens)
     throw Error(Errc::device, path.string(),
-                why == EEXIST ? "is there already: a bench that runs, or another file; choose another name"
-                              : fmt::format("cannot be listened on: {}", std::strerror(why)));
+                why == EEXIST ? "already exists (a running bench or another file); choose another name"
+                              : fmt::format("cannot listen on this socket: {}", std::strerror(why)));
   return s;
 }
 

@@ -6,9 +6,9 @@
 
 namespace faba {
 
-// The simulated bench is a process of its own that listens on a local socket; camera and coil driver are its
-// clients, each on a connection that begins with a BenchHello. All processes are of one build and one
-// machine.
+// The simulated bench is a separate process that listens on a local socket. Camera and coil driver are its
+// clients, each with one connection that starts with a BenchHello. All processes come from one build and run
+// on one machine.
 
 inline constexpr std::uint32_t kBenchVersion = 1;
 inline constexpr std::size_t kBenchOutputs = 16;
@@ -23,8 +23,8 @@ struct BenchVolts {
   std::uint32_t outputs = 0;
   std::uint32_t enable = 0;
   std::uint32_t tell = 0;                     ///< answer with a BenchSense
-  std::uint32_t set = 0;                      ///< the voltages below are to be put out
-  std::array<double, kBenchOutputs> volts{};  ///< not a number: stays as it is
+  std::uint32_t set = 0;                      ///< set the outputs to the voltages below
+  std::array<double, kBenchOutputs> volts{};  ///< NaN: unchanged
 };
 /// Bench to driver.
 struct BenchSense {
@@ -37,13 +37,13 @@ struct BenchDevice {
 };
 /// Bench to camera, before the width * height bytes of each frame.
 struct BenchFrame {
-  std::uint64_t number = 0;  ///< counts all that were taken; gaps are frames that nobody fetched in time
+  std::uint64_t number = 0;  ///< counts all frames taken; gaps are frames that no client fetched in time
   double t = 0;              ///< s, mid-exposure
   std::int32_t width = 0, height = 0;
   double rate = 0;  ///< Hz
 };
 
-/// A connection; closes itself. Every call gives up after `patience` s.
+/// A connection, closed by the destructor. Every call times out after `patience` s.
 class BenchSocket {
  public:
   BenchSocket() = default;
@@ -51,19 +51,19 @@ class BenchSocket {
   BenchSocket(BenchSocket&& other) noexcept;
   BenchSocket& operator=(BenchSocket&& other) noexcept;
   ~BenchSocket();
-  /// Connects and says hello. Throws Error(device, path).
+  /// Connects and sends a BenchHello. Throws Error(device, path).
   static BenchSocket connect(const std::filesystem::path& path, BenchHello::Role role);
-  /// A socket that listens; the name must be free. Throws Error(device, path).
+  /// A listening socket; `path` must not exist. Throws Error(device, path).
   static BenchSocket listen(const std::filesystem::path& path);
-  /// The next connection; an empty one after `patience` s.
+  /// The next connection; an empty one on timeout.
   BenchSocket accept(double patience);
 
   enum class Got { all, nothing, closed };
-  /// All of `bytes`, or nothing when none came in time; a message that stops half-way counts as closed.
+  /// all: `bytes` were read; nothing: timeout; closed: connection closed, or message incomplete.
   Got read(void* to, std::size_t bytes, double patience);
   bool write(const void* from, std::size_t bytes, double patience);
 
-  bool hung_up() const;  ///< the other end is gone, whatever may still be there to read
+  bool hung_up() const;  ///< the peer disconnected; unread data may remain
 
   explicit operator bool() const { return descriptor_ >= 0; }
   void close();

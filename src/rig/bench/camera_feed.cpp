@@ -9,24 +9,24 @@
 namespace faba {
 namespace {
 
-constexpr auto kEndTimeout = std::chrono::seconds(1);  // for a camera's thread to end
+constexpr auto kThreadExitTimeout = std::chrono::seconds(1);  // timeout for the end of a camera's thread
 
 }  // namespace
 
 CameraFeed::CameraFeed(std::shared_ptr<Camera> camera, Keep keep, std::size_t most)
     : camera_(std::move(camera)),
       shared_(std::make_shared<Shared>()),
-      thread_([c = camera_, s = shared_, keep, most] { work(c, s, keep, most); }) {}
+      thread_([c = camera_, s = shared_, keep, most] { read_frames(c, s, keep, most); }) {}
 
 CameraFeed::~CameraFeed() {
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->stop = true;
-    shared_->came.notify_all();
+    shared_->changed.notify_all();
   }
   camera_->interrupt();
   std::unique_lock lock(shared_->mutex);
-  const bool ended = shared_->came.wait_for(lock, kEndTimeout, [&] { return shared_->left; });
+  const bool ended = shared_->changed.wait_for(lock, kThreadExitTimeout, [&] { return shared_->exited; });
   lock.unlock();
   if (ended)
     thread_.join();
@@ -34,8 +34,8 @@ CameraFeed::~CameraFeed() {
     thread_.detach();
 }
 
-void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
-                      std::size_t most) {
+void CameraFeed::read_frames(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s,
+                             Keep keep, std::size_t most) {
   const Urgent urgent;
   std::optional<std::uint64_t> last;
   std::exception_ptr failure;
@@ -59,27 +59,27 @@ void CameraFeed::work(const std::shared_ptr<Camera>& camera, const std::shared_p
       else
         s->waiting.push_back(std::move(frame));
       frame = {};
-      s->came.notify_all();
-      if (keep == Keep::each) s->came.wait(lock, [&] { return s->waiting.empty() || s->stop; });
+      s->changed.notify_all();
+      if (keep == Keep::each) s->changed.wait(lock, [&] { return s->waiting.empty() || s->stop; });
     }
   } catch (...) {
     failure = std::current_exception();
   }
   const std::lock_guard lock(s->mutex);
   s->failure = failure;
-  s->end = s->left = true;
-  s->came.notify_all();
+  s->end = s->exited = true;
+  s->changed.notify_all();
 }
 
 CameraFeed::Got CameraFeed::next(CameraFrame& out, double until) {
   std::unique_lock lock(shared_->mutex);
   const std::chrono::duration<double> left(until - monotonic_now());
-  shared_->came.wait_for(lock, left, [&] { return !shared_->waiting.empty() || shared_->end; });
+  shared_->changed.wait_for(lock, left, [&] { return !shared_->waiting.empty() || shared_->end; });
   if (!shared_->waiting.empty()) {
     out = std::move(shared_->waiting.front());
     shared_->waiting.pop_front();
     ++shared_->taken;
-    shared_->came.notify_all();
+    shared_->changed.notify_all();
     return Got::frame;
   }
   if (!shared_->end) return Got::nothing;

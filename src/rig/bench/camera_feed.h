@@ -10,14 +10,14 @@
 
 namespace faba {
 
-/// Reads a camera in a thread of its own, so that whoever takes the frames never waits longer than it wants
-/// to, and counts what was lost. A device that hangs is left alone, thread and all.
+/// Reads a camera in a separate thread, so that the consumer of the frames waits at most until its own
+/// timeout, and counts dropped frames. If the device hangs, its thread is detached.
 class CameraFeed {
  public:
   enum class Keep {
-    newest,  ///< who is late misses frames: for control
-    all,     ///< frames wait in memory until they are taken, the oldest `most` of them: for recording
-    each     ///< the camera waits until its frame was taken: for one that can, such as a video
+    newest,  ///< only the newest frame is kept; a late consumer misses frames: for control
+    all,     ///< frames are queued in memory, at most `most` of them: for recording
+    each     ///< the camera waits until its frame was taken: for sources that can wait, such as a video
   };
   enum class Got { frame, nothing, end };
 
@@ -26,29 +26,28 @@ class CameraFeed {
   CameraFeed(const CameraFeed&) = delete;
   CameraFeed& operator=(const CameraFeed&) = delete;
 
-  /// The next frame, waiting for it until time `until` (monotonic_now()). Throws what the camera threw.
+  /// The next frame; waits until time `until` (monotonic_now()). Rethrows the exception of the camera.
   Got next(CameraFrame& out, double until);
-  /// The next frame is one that the camera takes from now on: what waits, here or on its way, was never
-  /// taken.
+  /// Discards all frames taken before now, queued or on their way.
   void forget();
-  std::uint64_t taken() const;    ///< frames that next() gave
-  double behind() const;          ///< s, how old the last frame was that came and was forgotten; 0: none was
-  std::uint64_t dropped() const;  ///< that the camera took and next() never gave, as far as is known
+  std::uint64_t taken() const;    ///< frames returned by next()
+  double behind() const;          ///< s, age of the last frame discarded because of forget(); 0: none was
+  std::uint64_t dropped() const;  ///< known frames of the camera that next() did not return
   Camera& camera() { return *camera_; }
 
  private:
   struct Shared {
     std::mutex mutex;
-    std::condition_variable came;
+    std::condition_variable changed;
     std::deque<CameraFrame> waiting;
     std::uint64_t lost = 0, taken = 0;
-    double since = 0;   ///< monotonic_now(): frames of before are forgotten
+    double since = 0;   ///< monotonic_now(): frames before this time are discarded
     double behind = 0;  ///< s
     std::exception_ptr failure;
-    bool end = false, stop = false, left = false;
+    bool end = false, stop = false, exited = false;
   };
-  static void work(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
-                   std::size_t most);
+  static void read_frames(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s, Keep keep,
+                          std::size_t most);
 
   std::shared_ptr<Camera> camera_;
   std::shared_ptr<Shared> shared_;

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names in a folder that begin with a word, in order.
+// Sorted paths in a folder whose names start with `begin`.
 std::vector<fs::path> entries(const fs::path& folder, const std::string& begin) {
   std::vector<fs::path> found;
   std::error_code ec;

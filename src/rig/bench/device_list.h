@@ -4,14 +4,14 @@
 
 namespace faba {
 
-/// Something that a [rig] can name.
+/// A device that can be used in [rig].
 struct Device {
   std::string kind;  ///< "camera", "serial line" or "output device"
-  std::string name;  ///< as [rig] wants it
-  std::string what;  ///< what it says of itself; may be empty
+  std::string name;  ///< as written in [rig]
+  std::string what;  ///< description given by the device; may be empty
 };
 
-/// What this machine has: V4L2 and FireWire cameras, serial lines, and National Instruments devices where
+/// Devices of this machine: V4L2 and FireWire cameras, serial lines, and National Instruments devices if
 /// their library is installed. Opens none of them.
 std::vector<Device> device_list(const std::string& ni_library = "libnidaqmx.so.1");
 

@@ -13,8 +13,8 @@ ReplayRig::ReplayRig(const std::filesystem::path& video, const std::filesystem::
     : video_(video) {
   const Table table = read_table(commands, LastLine::drop);
   const auto t = table.column("t_s"), age = table.column("age_s"),
-             coils_off = table.column(table.has("rested") ? "rested"
-                                                          : "coils_off");  // its name in the version before
+             coils_off = table.column(
+                 table.has("rested") ? "rested" : "coils_off");  // column name of the previous version
   std::vector<std::span<const double>> current;
   for (std::size_t k = 0;; ++k) {
     const auto one = table.find(fmt::format("current_{}_a", k));
@@ -25,7 +25,9 @@ ReplayRig::ReplayRig(const std::filesystem::path& video, const std::filesystem::
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (frame[i] != double(i))
       throw Error(Errc::input, commands.string(),
-                  fmt::format("row {} is of frame {:g}: it is not as it was recorded", i + 1, frame[i]));
+                  fmt::format("row {} has frame {:g}; rows must have frames 0, 1, 2 ...: the file was "
+                              "modified after recording",
+                              i + 1, frame[i]));
     Row& row = rows_.emplace_back(Row{t[i], age[i], coils_off[i] != 0, {}});
     for (const auto& coil : current) row.current.push_back(coil[i]);
   }

@@ -7,21 +7,23 @@
 
 namespace faba {
 
-/// A recorded run in place of a bench: its pictures, with the times, ages and rests that were recorded beside
-/// them. What is commanded goes nowhere but is compared with what was commanded then.
+/// A recorded run in place of a bench: its images with the recorded times, ages and "coils off" flags.
+/// Commands are not executed but compared with the recorded ones.
 class ReplayRig final : public Rig {
  public:
   /// `video` must be lossless; `commands`: the commands.csv of the run. Throws Error(input).
   ReplayRig(const std::filesystem::path& video, const std::filesystem::path& commands);
 
   bool read(Observation& out) override;
-  bool more();  ///< pictures than commands
+  bool more();  ///< the video has more frames than the run has commands
   void write(const Command& c) override;
   void safe() noexcept override {}
 
   std::uint64_t frames() const { return rows_.size(); }
-  std::uint64_t equal() const { return equal_; }  ///< commands so far that are the recorded ones, bit for bit
-  /// The first frame of which they are not.
+  std::uint64_t equal() const {
+    return equal_;
+  }  ///< commands so far that are bitwise equal to the recorded ones
+  /// The first frame whose command differs.
   const std::optional<std::uint64_t>& first_other() const { return first_other_; }
 
  private:

@@ -8,22 +8,23 @@
 namespace faba {
 namespace {
 
-// What is used of NI-DAQmx's C interface (NI-DAQmx C Reference Help): its types and the values of its names.
+// Types and constants of the NI-DAQmx C interface (NI-DAQmx C Reference Help).
 using Task = void*;
 constexpr std::int32_t kVolts = 10348;         // DAQmx_Val_Volts
 constexpr std::int32_t kDefaultTerminal = -1;  // DAQmx_Val_Cfg_Default
 constexpr std::int32_t kAllLines = 1;          // DAQmx_Val_ChanForAllLines
 constexpr std::uint32_t kByChannel = 0;        // DAQmx_Val_GroupByChannel
 
-/// The library as it was found when the driver was asked for: the program itself does without.
+/// The library, loaded at run time: the program does not link to it.
 class Daqmx {
  public:
   explicit Daqmx(const std::string& library) : library_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (!library_)
-      throw Error(Errc::device, "nidaqmx",
-                  fmt::format("{} cannot be loaded ({}); install NI-DAQmx for Linux, or say where it is with "
-                              "rig.driver.library",
-                              library, dlerror()));
+      throw Error(
+          Errc::device, "nidaqmx",
+          fmt::format("cannot load {} ({}); install NI-DAQmx for Linux, or set the path of the library in "
+                      "rig.driver.library",
+                      library, dlerror()));
     find(create_task, "DAQmxCreateTask");
     find(create_output, "DAQmxCreateAOVoltageChan");
     find(create_input, "DAQmxCreateAIVoltageChan");
@@ -35,7 +36,7 @@ class Daqmx {
     find(write_line, "DAQmxWriteDigitalLines");
     find(error_text, "DAQmxGetExtendedErrorInfo");
   }
-  // Never unloaded: it has threads of its own.
+  // Never unloaded: the library runs its own threads.
 
   std::int32_t (*create_task)(const char*, Task*) = nullptr;
   std::int32_t (*create_output)(Task, const char*, const char*, double, double, std::int32_t,
@@ -52,8 +53,8 @@ class Daqmx {
   std::int32_t (*write_line)(Task, std::int32_t, std::uint32_t, double, std::uint32_t, const std::uint8_t*,
                              std::int32_t*, std::uint32_t*) = nullptr;
 
-  /// What the last call that failed in this thread says of itself.
-  std::string trouble(std::int32_t code) const {
+  /// Error text of the last call that failed in this thread.
+  std::string error(std::int32_t code) const {
     std::string text(2048, '\0');
     if (error_text(text.data(), std::uint32_t(text.size())) < 0) text.clear();
     text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
@@ -66,7 +67,7 @@ class Daqmx {
   template <class Function>
   void find(Function& f, const char* name) {
     f = reinterpret_cast<Function>(dlsym(library_, name));
-    if (!f) throw Error(Errc::device, "nidaqmx", fmt::format("the library has no {}", name));
+    if (!f) throw Error(Errc::device, "nidaqmx", fmt::format("the library has no function {}", name));
   }
   std::int32_t (*error_text)(char*, std::uint32_t) = nullptr;
   void* library_;
@@ -83,20 +84,21 @@ class NiDaqmx final : public CoilDriver {
   };
   static Schema<Params> schema() {
     return Schema<Params>("nidaqmx",
-                          "National Instruments devices, by the NI-DAQmx library where it is installed")
-        .add("library", &Params::library, {.doc = "The library, a name for the loader or a path"})
+                          "National Instruments devices, through the NI-DAQmx library if installed")
+        .add("library", &Params::library, {.doc = "Name or path of the library"})
         .add("enable_line", &Params::enable_line,
-             {.doc = "Digital line such as \"Dev1/port0/line0\" that toggles while the guard lives; current "
-                     "must flow "
-                     "only while it does"})
+             {.doc = "Digital line such as \"Dev1/port0/line0\" that toggles while the guard runs; the "
+                     "electronics must permit current only while it toggles"})
         .add("timeout", &Params::timeout,
-             {.unit = "s", .min = 1e-3, .max = 1, .doc = "A device that takes longer counts as broken"})
+             {.unit = "s",
+              .min = 1e-3,
+              .max = 1,
+              .doc = "Timeout of a call to the device; a longer call is a device error"})
         .validity(
-            "Channels are named as NI names them: \"Dev1/ao0\", inputs \"Dev1/ai0\". Tried against a library "
-            "of the "
-            "same functions that is built in the tests, never on a device. A USB-6009 keeps its last voltage "
-            "when the "
-            "computer dies and has no watchdog: without an enable line the guard will not arm.");
+            "Channels have NI names: outputs \"Dev1/ao0\", inputs \"Dev1/ai0\". Tested with a mock of the "
+            "library, not tested on hardware. A USB-6009 keeps its last voltage if the computer fails and "
+            "has "
+            "no watchdog: without an enable line the guard does not arm.");
   }
   NiDaqmx(const Params& p, const DriverContext& c) : p_(p), ni_(p.library) {
     for (std::size_t i = 0; i < c.channels.size(); ++i) {
@@ -117,7 +119,7 @@ class NiDaqmx final : public CoilDriver {
     }
     for (auto* groups : {&outputs_, &inputs_})
       for (auto& [device, g] : *groups) check(ni_.start(g.task));
-    if (const Status s = write(c.neutral, false); !s) throw Error(Errc::device, "nidaqmx", s.trouble);
+    if (const Status s = write(c.neutral, false); !s) throw Error(Errc::device, "nidaqmx", s.error);
   }
   ~NiDaqmx() override {
     for (auto* groups : {&outputs_, &inputs_})
@@ -127,17 +129,17 @@ class NiDaqmx final : public CoilDriver {
 
   Status write(std::span<const double> volts, bool enable) override {
     Status status;
-    const auto tried = [&](std::int32_t code) {
-      if (code < 0 && status) status.trouble = ni_.trouble(code);
+    const auto check_call = [&](std::int32_t code) {
+      if (code < 0 && status) status.error = ni_.error(code);
     };
-    if (line_) {  // first, so that current goes at once where the outputs fail
+    if (line_) {  // first, so that the current is cut off even if writing the outputs fails
       high_ = enable && !high_;
       const std::uint8_t level = high_;
-      tried(ni_.write_line(line_, 1, 0, p_.timeout, kByChannel, &level, nullptr, nullptr));
+      check_call(ni_.write_line(line_, 1, 0, p_.timeout, kByChannel, &level, nullptr, nullptr));
     }
     for (auto& [device, g] : outputs_) {
       for (std::size_t i = 0; i < g.index.size(); ++i) g.volts[i] = volts[g.index[i]];
-      tried(ni_.write(g.task, 1, 0, p_.timeout, kByChannel, g.volts.data(), nullptr, nullptr));
+      check_call(ni_.write(g.task, 1, 0, p_.timeout, kByChannel, g.volts.data(), nullptr, nullptr));
     }
     return status;
   }
@@ -146,16 +148,15 @@ class NiDaqmx final : public CoilDriver {
       std::int32_t got = 0;
       const std::int32_t code = ni_.read(g.task, 1, p_.timeout, kByChannel, g.volts.data(),
                                          std::uint32_t(g.volts.size()), &got, nullptr);
-      if (code < 0) return {ni_.trouble(code)};
+      if (code < 0) return {ni_.error(code)};
       for (std::size_t i = 0; i < g.index.size(); ++i) volts[g.index[i]] = g.volts[i];
     }
     return {};
   }
   std::string unsafe() const override {
     if (line_) return "";
-    return "the device keeps its last voltage when this computer fails, so that it cannot be made safe from "
-           "here; name "
-           "a digital line in rig.driver.enable_line, which lets current flow only while it toggles";
+    return "no enable line: the device keeps its last voltage if this computer fails; set "
+           "rig.driver.enable_line to a digital line, and permit current only while it toggles";
   }
 
  private:
@@ -165,7 +166,7 @@ class NiDaqmx final : public CoilDriver {
     std::vector<double> volts;
   };
   void check(std::int32_t code) const {
-    if (code < 0) throw Error(Errc::device, "nidaqmx", ni_.trouble(code));
+    if (code < 0) throw Error(Errc::device, "nidaqmx", ni_.error(code));
   }
   Group& group(std::map<std::string, Group>& groups, const std::string& channel) const {
     Group& g = groups[channel.substr(0, channel.find('/'))];
@@ -177,7 +178,7 @@ class NiDaqmx final : public CoilDriver {
   Params p_;
   Daqmx ni_;
   std::map<std::string, Group> outputs_,
-      inputs_;  ///< by device: a task of one cannot hold channels of another
+      inputs_;  ///< by device: the channels of a task must belong to one device
   Task line_ = nullptr;
   bool high_ = false;
 };

@@ -6,13 +6,13 @@
 namespace faba {
 namespace {
 
-/// No device at all: for those who look and do not touch.
+/// No device: for observation without actuation.
 class NoCoils final : public CoilDriver {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::no_current};
   static Schema<Params> schema() {
-    return Schema<Params>("none", "Nothing: commands are made, recorded and go nowhere");
+    return Schema<Params>("none", "No device: commands are computed and recorded, but not executed");
   }
   NoCoils(const Params&, const DriverContext&) {}
   Status write(std::span<const double>, bool) override { return {}; }

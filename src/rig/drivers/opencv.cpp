@@ -8,35 +8,35 @@
 namespace faba {
 namespace {
 
-/// Whatever OpenCV's VideoCapture opens: V4L2 and FireWire cameras, GStreamer pipelines, network streams. The
-/// library takes a tenth of a second to load, so that it is a module of its own that only this camera asks
-/// for.
+/// Cameras and streams that OpenCV's VideoCapture opens: V4L2, FireWire, GStreamer pipelines, network. The
+/// library takes 0.1 s to load; therefore it is in a separate module that only this camera loads.
 class OpenCvCamera final : public Camera {
  public:
   using Params = CaptureParams;
   static Schema<Params> schema() {
     return Schema<Params>("opencv", "A camera that OpenCV opens: V4L2, FireWire, GStreamer, network")
         .add("device", &Params::device,
-             {.doc = "Number of the camera (\"0\"), a path such as \"/dev/video0\", an address, or a "
+             {.doc = "Index of the camera (\"0\"), a path such as \"/dev/video0\", a URL, or a "
                      "GStreamer pipeline"})
         .add("interface", &Params::interface,
-             {.doc = "How it is opened; any: as OpenCV finds best",
+             {.doc = "Capture backend of OpenCV; any: chosen by OpenCV",
               .choices = {"any", "v4l2", "firewire", "gstreamer", "ffmpeg"}})
         .add("width", &Params::width,
-             {.unit = "px", .min = 0, .max = 65535, .doc = "Asked of it; 0: its own"})
+             {.unit = "px", .min = 0, .max = 65535, .doc = "Requested image width; 0: camera default"})
         .add("height", &Params::height,
-             {.unit = "px", .min = 0, .max = 65535, .doc = "Asked of it; 0: its own"})
-        .add("rate", &Params::rate, {.unit = "Hz", .min = 0, .max = 1e5, .doc = "Asked of it; 0: its own"})
+             {.unit = "px", .min = 0, .max = 65535, .doc = "Requested image height; 0: camera default"})
+        .add("rate", &Params::rate,
+             {.unit = "Hz", .min = 0, .max = 1e5, .doc = "Requested frame rate; 0: camera default"})
         .add("exposure", &Params::exposure,
-             {.min = -1e6, .max = 1e9, .doc = "In the camera's own unit; set by itself when absent"})
+             {.min = -1e6, .max = 1e9, .doc = "Exposure in the unit of the camera; unchanged when absent"})
         .add("gain", &Params::gain,
-             {.min = -1e6, .max = 1e9, .doc = "In the camera's own unit; set by itself when absent"})
+             {.min = -1e6, .max = 1e9, .doc = "Gain in the unit of the camera; unchanged when absent"})
         .add("white_balance", &Params::white_balance,
-             {.unit = "K", .min = 0, .max = 1e5, .doc = "Colour temperature; set by itself when absent"})
+             {.unit = "K", .min = 0, .max = 1e5, .doc = "Colour temperature; unchanged when absent"})
         .validity(
-            "Time stamps are the driver's where it gives them on the monotonic clock (V4L2), else the time "
-            "when the "
-            "frame arrived. Tried with videos in place of a camera, never with a camera.");
+            "Time stamps come from the driver if it uses the monotonic clock (V4L2); otherwise they are "
+            "arrival "
+            "times. Tested with videos in place of a camera, not tested on hardware.");
   }
   OpenCvCamera(const Params& p, const CameraContext&) : camera_(load()(p)) {}
 
@@ -55,10 +55,11 @@ class OpenCvCamera final : public Camera {
     const auto own = std::filesystem::read_symlink("/proc/self/exe", ec).parent_path();
     const std::string module = (own / "faba-capture.so").string();
     void* library = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!library)
-      throw Error(Errc::device, "opencv", fmt::format("{} cannot be loaded: {}", module, dlerror()));
+    if (!library) throw Error(Errc::device, "opencv", fmt::format("cannot load {}: {}", module, dlerror()));
     auto* open = reinterpret_cast<OpenCapture*>(dlsym(library, "faba_open_capture"));
-    if (!open) throw Error(Errc::device, "opencv", fmt::format("{} is of another version", module));
+    if (!open)
+      throw Error(Errc::device, "opencv",
+                  fmt::format("{} comes from another version of Faba; reinstall it", module));
     return open;
   }
   std::unique_ptr<Camera> camera_;

@@ -19,7 +19,7 @@
 namespace faba {
 namespace {
 
-// CRC-16 with polynomial 0x1021 and beginning 0xFFFF.
+// CRC-16 with polynomial 0x1021 and initial value 0xFFFF.
 std::uint16_t crc16(std::string_view text) {
   std::uint16_t crc = 0xFFFF;
   for (const char byte : text) {
@@ -35,7 +35,7 @@ struct Answer {
   std::vector<double> volts;
 };
 
-// "$A number state bad_lines v0 v1 ...*CRC", microvolts; none when it is damaged.
+// "$A number state bad_lines v0 v1 ...*CRC", microvolts; empty if it is damaged.
 std::optional<Answer> parse_answer(std::string_view line) {
   if (line.size() < 8 || line.front() != '$' || line[line.size() - 5] != '*') return {};
   const std::string_view body = line.substr(1, line.size() - 6), tail = line.substr(line.size() - 4);
@@ -65,14 +65,16 @@ speed_t baud(int rate) {
                                                 {460800, B460800}, {921600, B921600}, {1000000, B1000000}};
   const auto at = kRates.find(rate);
   if (at == kRates.end())
-    throw Error(Errc::usage, "rig.driver.baud", fmt::format("{} is no usual rate", rate));
+    throw Error(
+        Errc::usage, "rig.driver.baud",
+        fmt::format("{} is not one of 9600, 19200, 38400, 57600, 115200, 230400, 460800, 921600, 1000000",
+                    rate));
   return at->second;
 }
 
-/// A microcontroller behind a serial line that understands docs/formats/coil-serial.md, such as one with the
-/// firmware in firmware/. It takes the current away by itself when commands stay away, so that nothing else
-/// is needed.
-// termios: libserialport opens no pseudo-terminals, which the tests and the simulated board use.
+/// A microcontroller on a serial line with the protocol of docs/formats/coil-serial.md, such as one with the
+/// firmware in firmware/. It de-energises the coils by itself when commands stop: no enable line is needed.
+// termios, because libserialport does not open pseudo-terminals, which the tests and the simulated board use.
 class Serial final : public CoilDriver {
  public:
   struct Params {
@@ -82,18 +84,21 @@ class Serial final : public CoilDriver {
     double timeout = 0.05;
   };
   static Schema<Params> schema() {
-    return Schema<Params>("serial", "A microcontroller behind a serial line, with the firmware of firmware/")
+    return Schema<Params>("serial", "A microcontroller on a serial line, with the firmware of firmware/")
         .add("port", &Params::port,
-             {.doc = "The line, such as \"/dev/ttyACM0\" or a name in /dev/serial/by-id"})
-        .add("baud", &Params::baud,
-             {.min = 9600, .max = 1000000, .doc = "Bits per second; of no matter over USB"})
-        .add("outputs", &Params::outputs, {.min = 1, .max = 16, .doc = "That the firmware was built with"})
+             {.doc = "Serial device, such as \"/dev/ttyACM0\" or a path in /dev/serial/by-id"})
+        .add("baud", &Params::baud, {.min = 9600, .max = 1000000, .doc = "Baud rate; ignored over USB"})
+        .add("outputs", &Params::outputs,
+             {.min = 1, .max = 16, .doc = "Number of outputs that the firmware was built with"})
         .add("timeout", &Params::timeout,
-             {.unit = "s", .min = 5e-3, .max = 1, .doc = "Commands not answered for as long count as broken"})
+             {.unit = "s",
+              .min = 5e-3,
+              .max = 1,
+              .doc = "Timeout of an answer; a later answer is a device error"})
         .validity(
-            "Channels and inputs are numbers, \"0\", \"1\" ... Tried with the firmware on a computer behind "
+            "Channels and inputs are numbers, \"0\", \"1\" ... Tested with the firmware on a computer behind "
             "a "
-            "pseudo-terminal, never on a board.");
+            "pseudo-terminal, not tested on hardware.");
   }
   Serial(const Params& p, const DriverContext& c)
       : p_(p),
@@ -102,24 +107,27 @@ class Serial final : public CoilDriver {
         microvolts_(std::size_t(p.outputs)) {
     descriptor_ = open(p.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (descriptor_ < 0) fail(std::strerror(errno));
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("is in use by another program");
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) fail("in use by another program");
     (void)ioctl(descriptor_, TIOCEXCL);
     termios t{};
-    if (tcgetattr(descriptor_, &t) != 0) fail("is no serial line");
+    if (tcgetattr(descriptor_, &t) != 0) fail("not a serial line");
     cfmakeraw(&t);
     cfsetspeed(&t, baud(p.baud));
     t.c_cflag |= CLOCAL | CREAD;
     if (tcsetattr(descriptor_, TCSANOW, &t) != 0) fail(std::strerror(errno));
     tcflush(descriptor_, TCIOFLUSH);
-    // Coils that nothing is stated of stay at the range's middle, which is where the firmware's neutral is.
+    // Outputs without a coil get the neutral voltage of the first coil, the middle of the range in the
+    // firmware.
     std::ranges::fill(microvolts_, to_microvolts(c.neutral.empty() ? 0 : c.neutral[0]));
-    const double until = monotonic_now() + kGreeting;
-    while (!answered_) {  // a board may begin anew when its line is opened, and takes its time
-      if (const Status s = write(c.neutral, false); !s && monotonic_now() > until) fail(s.trouble);
+    const double until = monotonic_now() + kOpenTimeout;
+    while (!answered_) {  // some boards restart when the line is opened
+      if (const Status s = write(c.neutral, false); !s && monotonic_now() > until) fail(s.error);
       if (monotonic_now() > until)
-        fail("does not answer; is the firmware of firmware/ on it, with as many outputs?");
+        fail(
+            "no answer; check that the board runs the firmware of firmware/, built with the same number of "
+            "outputs");
       wait(0.02);
-      listen();
+      receive();
     }
   }
   ~Serial() override {
@@ -133,22 +141,21 @@ class Serial final : public CoilDriver {
     const std::string body = fmt::format("S {} {:d} {}", ++number_, enable, fmt::join(microvolts_, " "));
     const std::string line = fmt::format("${}*{:04X}\n", body, crc16(body));
     const double now = monotonic_now();
-    if (answered_ && asked_ && now - *asked_ > p_.timeout)
-      return {fmt::format("{}: has not answered for {:.0f} ms", p_.port, 1e3 * (now - *asked_))};
-    if (!asked_) asked_ = now;
+    if (answered_ && requested_ && now - *requested_ > p_.timeout)
+      return {fmt::format("{}: no answer for {:.0f} ms", p_.port, 1e3 * (now - *requested_))};
+    if (!requested_) requested_ = now;
     if (const ssize_t n = ::write(descriptor_, line.data(), line.size()); n != ssize_t(line.size()))
-      return {fmt::format("{}: {}", p_.port, n < 0 ? std::strerror(errno) : "takes no more")};
-    if (Status s = listen(); !s) return s;
+      return {fmt::format("{}: {}", p_.port, n < 0 ? std::strerror(errno) : "output buffer is full")};
+    if (Status s = receive(); !s) return s;
     if (enable && enabled_ && state_ > 1)
-      return {
-          fmt::format("{}: the board went to rest by itself ({})", p_.port,
-                      state_ == 2 ? "it heard nothing in time" : "more was asked for than its outputs give")};
+      return {fmt::format("{}: the board de-energised the coils ({})", p_.port,
+                          state_ == 2 ? "command timeout" : "voltage out of range")};
     enabled_ = enable && answered_number_ >= enabled_since_;
     if (!enable) enabled_since_ = number_ + 1;
     return {};
   }
   Status sense(std::span<double> volts) override {
-    if (Status s = listen(); !s) return s;
+    if (Status s = receive(); !s) return s;
     for (std::size_t i = 0; i < volts.size(); ++i)
       volts[i] = senses_[i] < sensed_.size() ? sensed_[senses_[i]] : std::nan("");
     return {};
@@ -156,7 +163,7 @@ class Serial final : public CoilDriver {
   std::string unsafe() const override { return ""; }
 
  private:
-  static constexpr double kGreeting = 3;  // s
+  static constexpr double kOpenTimeout = 3;  // s
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(Errc::device, p_.port, what); }
   static std::int64_t to_microvolts(double v) { return std::llround(1e6 * v); }
@@ -166,9 +173,10 @@ class Serial final : public CoilDriver {
       int n = -1;
       const auto [end, wrong] = std::from_chars(name.data(), name.data() + name.size(), n);
       if (wrong != std::errc() || end != name.data() + name.size() || n < 0 || n >= p_.outputs)
-        throw Error(Errc::usage, "rig.coil",
-                    fmt::format("a channel of the serial driver is a number from 0 to {}, not \"{}\"",
-                                p_.outputs - 1, name));
+        throw Error(
+            Errc::usage, "rig.coil",
+            fmt::format("\"{1}\" is not a channel of the serial driver; it must be an integer from 0 to {0}",
+                        p_.outputs - 1, name));
       all.push_back(std::size_t(n));
     }
     return all;
@@ -177,11 +185,11 @@ class Serial final : public CoilDriver {
     pollfd ready{descriptor_, POLLIN, 0};
     (void)poll(&ready, 1, int(1e3 * s));
   }
-  Status listen() {
+  Status receive() {
     char bytes[512];
     for (;;) {
       const ssize_t n = ::read(descriptor_, bytes, sizeof bytes);
-      if (n == 0) return {p_.port + ": the line is gone"};
+      if (n == 0) return {p_.port + ": disconnected"};
       if (n < 0)
         return errno == EAGAIN || errno == EINTR ? Status{} : Status{p_.port + ": " + std::strerror(errno)};
       for (ssize_t i = 0; i < n; ++i) {
@@ -194,7 +202,7 @@ class Serial final : public CoilDriver {
           answered_number_ = a->number;
           state_ = a->state;
           sensed_ = a->volts;
-          asked_.reset();
+          requested_.reset();
         }
         line_.clear();
       }
@@ -206,7 +214,7 @@ class Serial final : public CoilDriver {
   std::vector<std::int64_t> microvolts_;
   int descriptor_ = -1;
   std::uint32_t number_ = 0, answered_number_ = 0, enabled_since_ = 1;
-  std::optional<double> asked_;  ///< s, of the first command that is not answered yet
+  std::optional<double> requested_;  ///< s, time of the oldest command without an answer
   bool answered_ = false, enabled_ = false;
   int state_ = 0;
   std::vector<double> sensed_;

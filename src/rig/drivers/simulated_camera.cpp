@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 
@@ -8,7 +10,7 @@
 namespace faba {
 namespace {
 
-/// The camera of a simulated bench (`faba rig simulate`), in another process.
+/// The camera of a simulated bench (`faba rig simulate`), in a separate process.
 class SimulatedCamera final : public Camera {
  public:
   struct Params {
@@ -17,27 +19,30 @@ class SimulatedCamera final : public Camera {
   static constexpr std::array kTraits = {Trait::simulated};
   static Schema<Params> schema() {
     return Schema<Params>("simulated",
-                          "The microscope of a simulated bench, in another process and in real time")
+                          "The microscope of a simulated bench, in a separate process and in real time")
         .add("at", &Params::at,
-             {.doc = "Its socket, as given to `faba rig simulate --at`; when absent a bench is begun with "
-                     "the run"});
+             {.doc =
+                  "Socket of the bench, as given to `faba rig simulate --at`; when absent, the run starts a "
+                  "bench"});
   }
   SimulatedCamera(const Params& p, const CameraContext&)
       : at_(p.at), socket_(BenchSocket::connect(at_, BenchHello::Role::camera)) {
-    if (socket_.read(&next_, sizeof next_, kFirst) != BenchSocket::Got::all)
+    if (socket_.read(&next_, sizeof next_, kFrameTimeout) != BenchSocket::Got::all)
       throw Error(Errc::device, at_,
-                  "the simulated bench gives no picture; another program may be looking through its camera");
+                  "the simulated bench sends no frames; another program may use its camera");
   }
 
   bool read(CameraFrame& out) override {
-    if (!have_head_) {
+    if (!have_header_) {
       BenchSocket::Got got = BenchSocket::Got::nothing;
-      while (got == BenchSocket::Got::nothing && !over_) got = socket_.read(&next_, sizeof next_, kSlice);
-      if (got != BenchSocket::Got::all) return gone();
+      while (got == BenchSocket::Got::nothing && !interrupted_)
+        got = socket_.read(&next_, sizeof next_, kPollPeriod);
+      if (got != BenchSocket::Got::all) return disconnected();
     }
-    have_head_ = false;
+    have_header_ = false;
     auto image = std::make_shared<Gray8>(next_.width, next_.height);
-    if (socket_.read(image->px.data(), image->px.size(), kFirst) != BenchSocket::Got::all) return gone();
+    if (socket_.read(image->px.data(), image->px.size(), kFrameTimeout) != BenchSocket::Got::all)
+      return disconnected();
     if (const double gain = gain_; gain != 1)
       for (std::uint8_t& g : image->px) g = std::uint8_t(std::min(255.0, gain * g + 0.5));
     out.number = next_.number;
@@ -45,7 +50,7 @@ class SimulatedCamera final : public Camera {
     out.image = std::move(image);
     return true;
   }
-  void interrupt() noexcept override { over_ = true; }
+  void interrupt() noexcept override { interrupted_ = true; }
   int width() const override { return next_.width; }
   int height() const override { return next_.height; }
   double rate() const override { return next_.rate; }
@@ -53,25 +58,26 @@ class SimulatedCamera final : public Camera {
   void set(const CameraControl& c) override {
     if (c.kind != ControlKind::gain) return Camera::set(c);
     if (!(c.value >= kLeastGain && c.value <= kMostGain))
-      throw Error(Errc::usage, control_name(c.kind), "of a simulated camera is from 0.1 to 10");
+      throw Error(Errc::usage, control_name(c.kind),
+                  fmt::format("{:g} is out of range; it must be between 0.1 and 10", c.value));
     gain_ = c.value;
   }
 
  private:
-  static constexpr double kFirst = 10, kSlice = 0.1;  // s
+  static constexpr double kFrameTimeout = 10, kPollPeriod = 0.1;  // s
   static constexpr double kLeastGain = 0.1, kMostGain = 10;
 
-  bool gone() const {
-    if (over_) return false;
-    throw Error(Errc::device, at_, "the simulated bench is gone");
+  bool disconnected() const {
+    if (interrupted_) return false;
+    throw Error(Errc::device, at_, "simulated bench disconnected");
   }
 
   std::string at_;
   BenchSocket socket_;
   BenchFrame next_;
-  bool have_head_ = true;
-  std::atomic<bool> over_ = false;
-  std::atomic<double> gain_ = 1;  ///< of greys that the microscope has rounded already
+  bool have_header_ = true;
+  std::atomic<bool> interrupted_ = false;
+  std::atomic<double> gain_ = 1;  ///< applied to the 8-bit grey values
 };
 
 }  // namespace

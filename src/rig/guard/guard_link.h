@@ -12,63 +12,63 @@
 
 namespace faba {
 
-/// Where the guard's program is: beside this one.
+/// Path of the guard's program, in the folder of this program.
 std::filesystem::path guard_program();
 
-/// The program's end of the guard: begins its process, tells it that the program lives, hands it currents.
-/// When this goes, however it goes, the coils come to rest.
+/// Client of the guard: starts its process, sends heartbeats and requested currents. The guard de-energises
+/// the coils when this object is destroyed or the program ends in any way.
 class GuardLink {
  public:
-  /// Throws Error(device) when the process cannot be begun or the device not be opened. The device is
+  /// Throws Error(device) if the process cannot be started or the device cannot be opened. The guard starts
   /// disarmed.
   explicit GuardLink(const GuardSetup& setup, const std::filesystem::path& guard = guard_program());
   ~GuardLink();
   GuardLink(const GuardLink&) = delete;
   GuardLink& operator=(const GuardLink&) = delete;
 
-  /// Each waits for the guard's word. arm() throws Error(device) with the guard's reason when it will not.
+  /// Each waits for the guard's answer. arm() throws Error(device) with the guard's reason if it refuses.
   void arm();
   void disarm() noexcept;
   void reset();
-  /// Hands on currents, A, one per coil. Does not wait; what becomes of them a later report tells.
-  /// Returns its number, by which a report answers it; none, and nothing is handed on, while the coils rest
-  /// as deenergise_when_late() says.
+  /// Requests currents, A, one per coil. Does not wait; a later report has the result.
+  /// Returns the number of the request, which the report repeats. Empty, without a request, while the coils
+  /// are off after a command timeout; see deenergise_when_late().
   std::optional<std::uint64_t> request(std::span<const double> current, double frame_t);
-  /// From now on the coils come to rest shortly before the guard would find that no command came in time,
-  /// which is a fault: for who may wait for a camera, or think, for longer.
-  void deenergise_when_late() { patient_ = true; }
-  /// Whether they rest; from now on requests are handed on again.
-  bool wake();
-  std::uint64_t command_timeouts() const { return command_timeouts_; }  ///< how often they came to rest so
+  /// From now on the coils are de-energised without a fault shortly before the guard's command timeout: for
+  /// callers whose camera or control cycle may be slow.
+  void deenergise_when_late() { early_timeout_enabled_ = true; }
+  /// True if the coils are off after a command timeout. Accepts requests again.
+  bool clear_timeout();
+  std::uint64_t command_timeouts() const { return command_timeouts_; }  ///< command timeouts so far
   /// The newest report.
   GuardReport report();
-  /// Called with every report of a request as report() or request() comes across it: for latencies.
+  /// Called by report() and request() for every report that answers a request: for latencies.
   std::function<void(const GuardReport&)> on_answer;
   pid_t process() const { return process_; }
   std::size_t coils() const { return coils_; }
 
  private:
-  bool tell(ToGuard m) const;
-  void live(const std::stop_token& stop, double pause);
+  bool send_message(ToGuard m) const;
+  void send_heartbeats(const std::stop_token& stop, double pause);
   bool drain();
-  void lose(const char* why);
-  GuardReport wait_for(const std::function<bool(const GuardReport&)>& enough, double patience);
+  void mark_lost(const char* why);
+  GuardReport wait_for(const std::function<bool(const GuardReport&)>& condition, double patience);
   void close_link() noexcept;
 
   int link_ = -1;
   pid_t process_ = -1;
   std::uint64_t coils_;
-  double patience_;   ///< s after a request until the coils come to rest
-  std::mutex mutex_;  ///< of what both threads touch: number_, flows_, coils_off_, asked_
+  double early_timeout_;  ///< s, time from a request until the coils are de-energised
+  std::mutex mutex_;      ///< protects number_, energised_, coils_off_, requested_
   std::uint64_t number_ = 0;
-  bool flows_ = false, coils_off_ = false;
-  double asked_ = 0;  ///< s, when the last request was made
+  bool energised_ = false, coils_off_ = false;
+  double requested_ = 0;  ///< s, time of the last request
   std::atomic<std::uint64_t> command_timeouts_ = 0;
-  std::atomic<bool> patient_ = false;
+  std::atomic<bool> early_timeout_enabled_ = false;
   GuardReport last_;
-  double heard_ = 0;  ///< s, when it came
-  bool gone_ = false;
-  std::jthread heart_;
+  double received_ = 0;  ///< s, arrival of last_
+  bool lost_ = false;
+  std::jthread heartbeat_;
 };
 
 }  // namespace faba

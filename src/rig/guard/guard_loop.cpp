@@ -16,11 +16,11 @@
 namespace faba {
 namespace {
 
-volatile sig_atomic_t told_to_end = 0;
+volatile sig_atomic_t end_requested = 0;
 
-constexpr double kSensing = 0.01;   // s between looks at the inputs
-constexpr double kReporting = 0.1;  // s between reports when nobody asks for anything
-constexpr double kResting = 1;      // s for which a device that does not obey is told again
+constexpr double kSensePeriod = 0.01;  // s between readings of the inputs
+constexpr double kStatusPeriod = 0.1;  // s between reports without a request
+constexpr double kDisablePeriod = 1;   // s during which a failing device is retried
 
 }  // namespace
 
@@ -31,17 +31,17 @@ GuardLoop::GuardLoop(int link, CoilGuard guard, CoilWiring wiring, std::unique_p
       wiring_(std::move(wiring)),
       driver_(std::move(driver)),
       log_(std::move(log)),
-      put_(wiring_.coils().size(), 0.0) {
+      written_current_(wiring_.coils().size(), 0.0) {
   sensed_.fill(std::nan(""));
 }
 
-void GuardLoop::note(const std::string& what) {
+void GuardLoop::log_event(const std::string& what) {
   if (!log_) return;
   try {
     log_->append(fmt::format("{:.6f} {}\n", monotonic_now(), what));
   } catch (const Error& e) {
     log_failure_ = e.what();
-    log_.reset();  // a full disk must not keep the coils on
+    log_.reset();  // a full disk must not stop the guard
   }
 }
 
@@ -50,7 +50,7 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   GuardReport r;
   r.state = guard_.state();
   r.fault = guard_.fault();
-  r.obeyed = obeyed_;
+  r.obeyed = write_ok_;
   r.number = number;
   r.sent = sent;
   r.done = done_;
@@ -61,28 +61,30 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   const std::string why = guard_.state() == CoilGuard::State::disarmed ? driver_->unsafe() : guard_.reason();
   why.copy(r.reason.data(), r.reason.size() - 1);
   log_failure_.copy(r.log_failure.data(), r.log_failure.size() - 1);
-  // Who does not read misses reports; the coils do not wait for it.
+  // A client that does not read misses reports; the guard does not wait for it.
   (void)send(link_, &r, sizeof r, MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
-void GuardLoop::put_out(double now) {
+void GuardLoop::write_outputs(double now) {
   const bool enable = guard_.state() == CoilGuard::State::armed;
-  if (guard_.current() == put_ && enable == armed_ && now - written_ < driver_->beat()) return;
+  if (guard_.current() == written_current_ && enable == written_enable_ &&
+      now - written_ < driver_->write_period())
+    return;
   const Status s = driver_->write(wiring_.volts(guard_.current()), enable);
-  obeyed_ = bool(s);
+  write_ok_ = bool(s);
   if (!s) {
-    guard_.fail(CoilGuard::Fault::device, s.trouble, now);
-    obeyed_ = bool(driver_->write(wiring_.neutral(), false));
+    guard_.fail(CoilGuard::Fault::device, s.error, now);
+    write_ok_ = bool(driver_->write(wiring_.neutral(), false));
   }
-  put_ = guard_.current();
-  armed_ = guard_.state() == CoilGuard::State::armed;
+  written_current_ = guard_.current();
+  written_enable_ = guard_.state() == CoilGuard::State::armed;
   written_ = monotonic_now();
 }
 
-void GuardLoop::obey(const ToGuard& m, double now) {
-  guard_.beat(now);
+void GuardLoop::execute(const ToGuard& m, double now) {
+  guard_.heartbeat(now);
   switch (m.kind) {
-    case ToGuard::Kind::beat:
+    case ToGuard::Kind::heartbeat:
       return;
     case ToGuard::Kind::arm:
       if (const std::string why = driver_->unsafe(); !why.empty())
@@ -101,34 +103,34 @@ void GuardLoop::obey(const ToGuard& m, double now) {
           {m.number, m.sent, m.frame_t, {m.current.data(), std::min<std::size_t>(m.coils, kMostCoils)}}, now);
       break;
   }
-  put_out(now);
+  write_outputs(now);
   done_ = monotonic_now();
   report(m.kind == ToGuard::Kind::request ? m.number : 0, m.sent);
 }
 
-void GuardLoop::listen() {
+void GuardLoop::receive() {
   ToGuard m;
   for (;;) {
     const ssize_t n = recv(link_, &m, sizeof m, MSG_DONTWAIT | MSG_TRUNC);
     const double now = monotonic_now();
     if (n == ssize_t(sizeof m)) {
-      guard_.look(now);  // what was late stays late, though the next word has come
-      obey(m, now);
+      guard_.check(now);  // a timeout before this message is still a fault
+      execute(m, now);
     } else if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
       return;
     } else {
-      if (guard_.state() == CoilGuard::State::armed) guard_.fail(CoilGuard::Fault::closed, "", now);
-      over_ = true;
+      if (guard_.state() == CoilGuard::State::armed) guard_.fail(CoilGuard::Fault::disconnected, "", now);
+      stop_ = true;
       return;
     }
   }
 }
 
 void GuardLoop::serve(double now) {
-  if (!wiring_.senses().empty() && now - sensed_at_ >= kSensing) {
+  if (!wiring_.senses().empty() && now - sensed_at_ >= kSensePeriod) {
     std::vector<double> volts(wiring_.senses().size());
     if (const Status s = driver_->sense(volts); !s) {
-      guard_.fail(CoilGuard::Fault::device, s.trouble, now);
+      guard_.fail(CoilGuard::Fault::device, s.error, now);
     } else {
       const std::vector<double> amps = wiring_.sensed(volts);
       std::copy(amps.begin(), amps.end(), sensed_.begin());
@@ -136,59 +138,59 @@ void GuardLoop::serve(double now) {
     }
     sensed_at_ = now;
   }
-  guard_.look(now);
-  put_out(now);
-  if (now - reported_ >= kReporting) report();
-  if (guard_.state() == shown_) return;
-  shown_ = guard_.state();
-  note(shown_ == CoilGuard::State::faulted
-           ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
-                         obeyed_ ? "" : "; could not be told to rest")
-           : word(shown_));
+  guard_.check(now);
+  write_outputs(now);
+  if (now - reported_ >= kStatusPeriod) report();
+  if (guard_.state() == logged_state_) return;
+  logged_state_ = guard_.state();
+  log_event(logged_state_ == CoilGuard::State::faulted
+                ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
+                              write_ok_ ? "" : "; the coils could not be de-energised")
+                : word(logged_state_));
   report();
 }
 
-bool GuardLoop::rest() {
+bool GuardLoop::deenergise() {
   const double began = monotonic_now();
   Status s;
   do {
     s = driver_->write(wiring_.neutral(), false);
     if (s) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  } while (monotonic_now() - began < kResting);
-  note("could not be brought to rest: " + s.trouble);
+  } while (monotonic_now() - began < kDisablePeriod);
+  log_event("the coils could not be de-energised: " + s.error);
   return false;
 }
 
 bool GuardLoop::run() {
   struct sigaction action {};
-  action.sa_handler = [](int) { told_to_end = 1; };
+  action.sa_handler = [](int) { end_requested = 1; };
   for (const int s : {SIGTERM, SIGINT, SIGHUP, SIGQUIT}) sigaction(s, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
   sigset_t closed, open;
   sigfillset(&closed);
   sigprocmask(SIG_SETMASK, &closed, &open);
   sigemptyset(&open);
-  note("disarmed");
+  log_event("disarmed");
   report();
-  while (!over_) {
+  while (!stop_) {
     const double now = monotonic_now();
-    double wait = driver_->beat() - (now - written_);
-    if (!wiring_.senses().empty()) wait = std::min(wait, kSensing - (now - sensed_at_));
+    double wait = driver_->write_period() - (now - written_);
+    if (!wiring_.senses().empty()) wait = std::min(wait, kSensePeriod - (now - sensed_at_));
     if (guard_.state() == CoilGuard::State::armed) wait = std::min(wait, guard_.due() - now);
     wait = std::clamp(wait, 0.0, 1.0);
     const timespec timeout{time_t(wait), long(1e9 * (wait - std::floor(wait)))};
     pollfd ready{link_, POLLIN, 0};
     (void)ppoll(&ready, 1, &timeout, &open);
-    if (told_to_end) {
+    if (end_requested) {
       guard_.fail(CoilGuard::Fault::signal, "", monotonic_now());
-      over_ = true;
+      stop_ = true;
     }
-    if (ready.revents) listen();
+    if (ready.revents) receive();
     serve(monotonic_now());
   }
   report();
-  return rest();
+  return deenergise();
 }
 
 }  // namespace faba

@@ -9,37 +9,37 @@
 
 namespace faba {
 
-/// The guard's process: owns the device, does what CoilGuard says, and puts the coils at rest on every way
-/// out: when the other end of the link is gone, on a signal, when the driver fails.
+/// Main loop of the guard's process: owns the device, applies the currents of CoilGuard, and de-energises the
+/// coils on every exit: when the client disconnects, on a signal, or when the driver fails.
 class GuardLoop {
  public:
-  /// `link`: a datagram socket. `log`: lines with times, of everything but ordinary requests; may be null.
+  /// `link`: a datagram socket. `log`: time-stamped events except accepted requests; may be null.
   GuardLoop(int link, CoilGuard guard, CoilWiring wiring, std::unique_ptr<CoilDriver> driver,
             std::unique_ptr<OutputFile> log);
-  /// Returns when it is over and the outputs are at rest, or could not be brought there: then false.
+  /// Returns at the end; false if the coils could not be de-energised.
   bool run();
 
  private:
-  void listen();
-  void obey(const ToGuard& m, double now);
+  void receive();
+  void execute(const ToGuard& m, double now);
   void serve(double now);
-  void put_out(double now);
+  void write_outputs(double now);
   void report(std::uint64_t number = 0, double sent = 0);
-  void note(const std::string& what);
-  bool rest();
+  void log_event(const std::string& what);
+  bool deenergise();
 
   int link_;
   CoilGuard guard_;
   CoilWiring wiring_;
   std::unique_ptr<CoilDriver> driver_;
   std::unique_ptr<OutputFile> log_;
-  std::string log_failure_;  ///< why there is no log any more
-  CoilGuard::State shown_ = CoilGuard::State::disarmed;
-  std::vector<double> put_;  ///< A, at the outputs
-  bool armed_ = false;       ///< as the device was told
-  bool obeyed_ = true;       ///< the device took what it was told last
-  bool over_ = false;
-  double done_ = 0;  ///< s, when the device had what the last message asked for
+  std::string log_failure_;  ///< why the log was closed
+  CoilGuard::State logged_state_ = CoilGuard::State::disarmed;
+  std::vector<double> written_current_;  ///< A, at the outputs
+  bool written_enable_ = false;          ///< enable state sent to the device
+  bool write_ok_ = true;                 ///< the device accepted the last write
+  bool stop_ = false;
+  double done_ = 0;  ///< s, when the device had the voltages of the last message
   double written_ = 0, sensed_at_ = 0, reported_ = 0;  ///< s
   std::array<double, kMostCoils> sensed_{};
 };

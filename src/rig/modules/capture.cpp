@@ -16,7 +16,7 @@
 namespace faba {
 namespace {
 
-constexpr double kPlausible = 1;  // s: a time stamp further back is of another clock
+constexpr double kPlausible = 1;  // s: an older time stamp comes from another clock
 
 int backend(CaptureParams::Interface i) {
   using enum CaptureParams::Interface;
@@ -38,7 +38,7 @@ int backend(CaptureParams::Interface i) {
 class Capture final : public Camera {
  public:
   explicit Capture(const CaptureParams& p) : name_(p.device) {
-    // Errors are ours to say.
+    // OpenCV's messages are suppressed; errors are thrown as Error.
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     const bool number =
         !p.device.empty() && p.device.size() < 4 &&
@@ -47,7 +47,7 @@ class Capture final : public Camera {
                                : capture_.open(p.device, backend(p.interface));
     if (!opened)
       throw Error(Errc::device, fmt::format("camera \"{}\"", p.device),
-                  "no camera can be opened there; see `faba rig list`");
+                  "cannot open the camera; `faba rig list` lists the cameras of this machine");
     ask(cv::CAP_PROP_FRAME_WIDTH, p.width);
     ask(cv::CAP_PROP_FRAME_HEIGHT, p.height);
     ask(cv::CAP_PROP_FPS, p.rate);
@@ -57,12 +57,12 @@ class Capture final : public Camera {
           std::pair{ControlKind::white_balance, p.white_balance}})
       if (value) set({kind, *value, false});
     while (!pending_)
-      if (!take()) throw Error(Errc::device, p.device, "gives no picture");
+      if (!take()) throw Error(Errc::device, p.device, "the camera sends no frames");
   }
 
   bool read(CameraFrame& out) override {
     while (!pending_) {
-      if (over_ || !take()) return false;
+      if (interrupted_ || !take()) return false;
     }
     pending_ = false;
     out.number = number_;
@@ -73,7 +73,7 @@ class Capture final : public Camera {
     out.image = std::move(image);
     return true;
   }
-  void interrupt() noexcept override { over_ = true; }
+  void interrupt() noexcept override { interrupted_ = true; }
   int width() const override { return grey_.cols; }
   int height() const override { return grey_.rows; }
   double rate() const override { return std::max(0.0, capture_.get(cv::CAP_PROP_FPS)); }
@@ -94,11 +94,11 @@ class Capture final : public Camera {
   void set(const CameraControl& c) override {
     if (!accepts(c))
       throw Error(Errc::usage, control_name(c.kind),
-                  fmt::format("cannot be set to {:g} at camera {}", c.value, name_));
+                  fmt::format("camera {} rejected the value {:g}", name_, c.value));
   }
 
  private:
-  static constexpr double kAutomaticExposure = 3, kManualExposure = 1;  // as V4L2 numbers them
+  static constexpr double kAutomaticExposure = 3, kManualExposure = 1;  // values of V4L2
 
   bool accepts(const CameraControl& c) {
     const bool automatic = c.automatically.value_or(false);
@@ -126,7 +126,7 @@ class Capture final : public Camera {
     if (!capture_.retrieve(colour_) || colour_.empty() || colour_.depth() != CV_8U) {
       ++corrupt_;
       ++number_;
-      return !over_;
+      return !interrupted_;
     }
     if (colour_.channels() == 1)
       colour_.copyTo(grey_);
@@ -145,7 +145,7 @@ class Capture final : public Camera {
   std::uint64_t number_ = 0;
   std::atomic<std::uint64_t> corrupt_ = 0;
   bool pending_ = false;
-  std::atomic<bool> over_ = false;
+  std::atomic<bool> interrupted_ = false;
 };
 
 }  // namespace

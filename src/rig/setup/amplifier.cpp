@@ -8,9 +8,9 @@ namespace {
 
 std::string wrong_volts(const Amplifier::Params& p) {
   if (p.least_volts >= p.most_volts) return "least_volts must be below most_volts";
-  if (p.gain == 0) return "gain must not be 0: no voltage would give a current";
+  if (p.gain == 0) return "gain must not be 0";
   if (p.reference < p.least_volts || p.reference > p.most_volts)
-    return "reference must be between least_volts and most_volts: no current flows there";
+    return "reference must be between least_volts and most_volts";
   return "";
 }
 
@@ -25,26 +25,27 @@ Schema<Amplifier::Params> Amplifier::schema() {
             .doc = "Voltage at which no current flows",
             .source = "assumed"})
       .add("gain", &Params::gain,
-           {.unit = "A/V", .min = -1e4, .max = 1e4, .doc = "Current per volt beyond it", .source = "assumed"})
-      .add("saturation", &Params::saturation,
-           {.unit = "A",
-            .min = 1e-6,
-            .max = 1e3,
-            .doc = "Largest current of either direction",
+           {.unit = "A/V",
+            .min = -1e4,
+            .max = 1e4,
+            .doc = "Current per volt relative to the reference",
             .source = "assumed"})
+      .add("saturation", &Params::saturation,
+           {.unit = "A", .min = 1e-6, .max = 1e3, .doc = "Maximum absolute current", .source = "assumed"})
       .add("rise_time", &Params::rise_time,
            {.unit = "s",
             .min = 1e-6,
             .max = 10,
-            .doc = "Time constant of a current that grows, L/R",
+            .doc = "Time constant of a rising current, L/R",
             .source = "typical, 1 to 10 ms (C4)"})
       .add("fall_time", &Params::fall_time,
            {.unit = "s",
             .min = 1e-6,
             .max = 10,
-            .doc = "The same of one that falls: through the free-wheel diodes",
+            .doc = "Time constant of a falling current, through the free-wheel diodes",
             .source = "assumed"})
-      .add("bits", &Params::bits, {.min = 1, .max = 24, .doc = "Of the converter", .source = "USB-6009: 12"})
+      .add("bits", &Params::bits,
+           {.min = 1, .max = 24, .doc = "Resolution of the converter", .source = "USB-6009: 12"})
       .add("least_volts", &Params::least_volts,
            {.unit = "V",
             .min = -1e3,
@@ -61,24 +62,22 @@ Schema<Amplifier::Params> Amplifier::schema() {
            {.unit = "s",
             .min = 1e-3,
             .max = 10,
-            .doc = "The relay opens when its line has not been kept alive for as long",
+            .doc = "Timeout of the enable line, after which the relay opens",
             .source = "assumed"})
-      .add(
-          "enable_line", &Params::enable_line,
-          {.doc =
-               "false: there is no relay, and the last voltages stay when nobody sets others, as with a bare "
-               "USB-6009"})
+      .add("enable_line", &Params::enable_line,
+           {.doc =
+                "false: no relay; the last voltages remain until new ones are set, as with a bare USB-6009"})
       .add("fault", &Params::fault,
-           {.doc = "What is broken, to try the guard out", .choices = {"none", "stuck", "open", "weak"}})
+           {.doc = "Simulated fault, to test the guard", .choices = {"none", "stuck", "open", "weak"}})
       .add("fault_after", &Params::fault_after,
-           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time after the first command when it breaks"})
+           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time from the first command to the fault"})
       .check(wrong_volts);
 }
 
 Amplifier::Amplifier(const Params& p, std::size_t coils) : p_(p), current_(coils, 0.0), target_(coils, 0.0) {}
 
 double Amplifier::target(std::size_t k, double volts) const {
-  const bool broken = begun_ && t_ - began_ >= p_.fault_after;
+  const bool broken = started_ && t_ - first_command_ >= p_.fault_after;
   if (broken && p_.fault == Fault::stuck) return target_[k];
   if (broken && p_.fault == Fault::open) return 0;
   const double step = (p_.most_volts - p_.least_volts) / (std::exp2(p_.bits) - 1);
@@ -90,12 +89,12 @@ double Amplifier::target(std::size_t k, double volts) const {
 
 void Amplifier::take(std::span<const double> volts, bool enable, double t) {
   at(t);
-  if (!begun_) {
-    began_ = t;
-    begun_ = true;
+  if (!started_) {
+    first_command_ = t;
+    started_ = true;
   }
   enabled_ = enable || !p_.enable_line;
-  alive_ = t;
+  last_enable_ = t;
   for (std::size_t k = 0; k < target_.size() && k < volts.size(); ++k)
     if (!std::isnan(volts[k])) target_[k] = target(k, volts[k]);
 }
@@ -105,7 +104,7 @@ void Amplifier::advance(double t) {
     double left = t - t_;
     const double to = enabled_ ? target_[k] : 0;
     double& i = current_[k];
-    if (i * to < 0) {  // down to zero first, in the falling time
+    if (i * to < 0) {  // first down to zero, with the fall time
       const double falling = p_.fall_time * std::log((i - to) / -to);
       if (falling >= left) {
         i = to + (i - to) * std::exp(-left / p_.fall_time);
@@ -122,8 +121,8 @@ void Amplifier::advance(double t) {
 
 const std::vector<double>& Amplifier::at(double t) {
   if (!(t > t_)) return current_;
-  if (p_.enable_line && enabled_ && alive_ + p_.enable_time < t) {
-    advance(std::max(t_, alive_ + p_.enable_time));
+  if (p_.enable_line && enabled_ && last_enable_ + p_.enable_time < t) {
+    advance(std::max(t_, last_enable_ + p_.enable_time));
     enabled_ = false;
   }
   advance(t);

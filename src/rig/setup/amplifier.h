@@ -8,20 +8,20 @@
 
 namespace faba {
 
-/// The electronics of one rig (theory C4, thesis 3.2): a converter of few bits, an amplifier that compares
-/// its voltage with a reference, is saturated, and drives coils whose current lags; free-wheel diodes make it
-/// fall in another time than it rises; a relay that opens when nobody keeps its line alive. One voltage per
-/// coil.
+/// Electronics of a simulated bench (theory C4, thesis 3.2): a D/A converter with finite resolution; an
+/// amplifier with reference voltage and saturation; coils whose current lags, with different time constants
+/// for rising and falling current (free-wheel diodes); and a relay that opens when its enable line times out.
+/// One voltage per coil.
 ///
-///   target = gain * (quantised voltage - reference), at most the saturation; zero while the relay is open
+///   target = gain * (quantised voltage - reference), clipped at the saturation; zero while the relay is open
 ///   dI/dt  = (target - I) / rise_time, or / fall_time while |I| falls
 class Amplifier {
  public:
   enum class Fault : std::uint32_t {
     none,
-    stuck,  ///< the output stays where it is, whatever is asked for
+    stuck,  ///< the output does not change
     open,   ///< no current flows in the coil
-    weak    ///< half of the current flows
+    weak    ///< the current is halved
   };
   struct Params {
     double reference = 2.5;
@@ -38,12 +38,11 @@ class Amplifier {
   static Schema<Params> schema();
 
   Amplifier(const Params& p, std::size_t coils);
-  /// Takes voltages at time t, s; one that is not a number stays. `enable`: the line of the relay was kept
-  /// alive.
+  /// Sets the voltages at time t, s; NaN leaves an output unchanged. `enable`: keeps the relay closed.
   void take(std::span<const double> volts, bool enable, double t);
-  /// The currents at time t, A; t never goes back.
+  /// The currents at time t, A; t must not decrease.
   const std::vector<double>& at(double t);
-  /// What the inputs would read, V: as far from the reference as the current says.
+  /// Voltages of the sense inputs, V: reference + current / gain.
   std::vector<double> sensed() const;
   bool enabled() const { return enabled_; }  ///< the relay is closed
 
@@ -52,9 +51,9 @@ class Amplifier {
   void advance(double t);
 
   Params p_;
-  std::vector<double> current_, target_;  ///< A
-  double t_ = 0, alive_ = 0, began_ = 0;  ///< s
-  bool enabled_ = false, begun_ = false;
+  std::vector<double> current_, target_;                ///< A
+  double t_ = 0, last_enable_ = 0, first_command_ = 0;  ///< s
+  bool enabled_ = false, started_ = false;
 };
 
 }  // namespace faba

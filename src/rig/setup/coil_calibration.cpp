@@ -8,15 +8,15 @@
 namespace faba {
 namespace {
 
-// Straight between the points and beyond the first and last two; `points` has x rising, at least two.
-double straight(std::span<const Vec2> points, double x) {
+// Linear interpolation, with linear extrapolation beyond the ends; at least two points with increasing x.
+double interpolate_volts(std::span<const Vec2> points, double x) {
   std::size_t i = 1;
   while (i + 1 < points.size() && x > points[i].x) ++i;
   const Vec2 a = points[i - 1], b = points[i];
   return a.y + (x - a.x) * (b.y - a.y) / (b.x - a.x);
 }
 
-std::vector<Vec2> turned(const std::vector<Vec2>& table) {
+std::vector<Vec2> swap_axes(const std::vector<Vec2>& table) {
   std::vector<Vec2> t;
   t.reserve(table.size());
   for (const Vec2 p : table) t.push_back({p.y, p.x});
@@ -26,19 +26,19 @@ std::vector<Vec2> turned(const std::vector<Vec2>& table) {
 
 std::string wrong_with(const WiredCoil& c) {
   if (c.polarity != 1 && c.polarity != -1) return "polarity must be 1 or -1";
-  if (c.gain == 0) return "gain must not be 0: no voltage would give a current";
-  if (c.sense_gain == 0) return "sense_gain must not be 0: no current could be told";
+  if (c.gain == 0) return "gain must not be 0";
+  if (c.sense_gain == 0) return "sense_gain must not be 0";
   if (c.least_volts >= c.most_volts) return "least_volts must be below most_volts";
   if (c.table.size() == 1) return "table needs at least two pairs of V and A";
   for (std::size_t i = 1; i < c.table.size(); ++i) {
-    if (!(c.table[i].x > c.table[i - 1].x)) return "the voltages of table must rise";
+    if (!(c.table[i].x > c.table[i - 1].x)) return "the voltages of table must increase";
     const bool up = c.table[1].y > c.table[0].y;
     if (c.table[i].y == c.table[i - 1].y || (c.table[i].y > c.table[i - 1].y) != up)
-      return "the currents of table must rise all the way, or fall all the way";
+      return "the currents of table must be strictly monotonic";
   }
   const double zero = c.volts(0);
   if (zero < c.least_volts || zero > c.most_volts)
-    return fmt::format("no current flows at {:g} V, which the output ({:g} to {:g} V) cannot give", zero,
+    return fmt::format("the voltage of zero current, {:g} V, is out of the output range {:g} to {:g} V", zero,
                        c.least_volts, c.most_volts);
   return "";
 }
@@ -55,17 +55,17 @@ constexpr std::size_t kNone = std::size_t(-1);
 }  // namespace
 
 Schema<WiredCoil> WiredCoil::schema() {
-  return Schema<WiredCoil>("coil", "How one coil of the field is wired to the driver")
+  return Schema<WiredCoil>("coil", "Wiring and calibration of one coil")
       .add("channel", &WiredCoil::channel,
-           {.doc = "Output of the driver; coils with the same one are wired together"})
+           {.doc = "Output of the driver; coils with the same output are wired together"})
       .add("gain", &WiredCoil::gain,
            {.unit = "A/V", .min = -1e4, .max = 1e4, .doc = "Current per volt at the output"})
       .add("neutral", &WiredCoil::neutral,
            {.unit = "V", .min = -1e3, .max = 1e3, .doc = "Voltage at which no current flows"})
       .add("polarity", &WiredCoil::polarity,
-           {.min = -1, .max = 1, .doc = "-1 when the coil is wired the other way round"})
+           {.min = -1, .max = 1, .doc = "-1 if the coil is wired in reverse"})
       .add("table", &WiredCoil::table,
-           {.doc = "Measured pairs [V, A], voltage rising, instead of gain and neutral"})
+           {.doc = "Measured pairs [V, A] with increasing voltage, instead of gain and neutral"})
       .add(
           "least_volts", &WiredCoil::least_volts,
           {.unit = "V", .min = -1e3, .max = 1e3, .doc = "Lowest voltage of the output", .source = "USB-6009"})
@@ -79,15 +79,15 @@ Schema<WiredCoil> WiredCoil::schema() {
            {.unit = "A",
             .min = 1e-6,
             .max = 1e3,
-            .doc = "The guard faults on a larger one",
+            .doc = "Current limit; the guard trips above it",
             .source = "assumed"})
       .add("max_rms", &WiredCoil::max_rms,
            {.unit = "A",
             .min = 1e-6,
             .max = 1e3,
-            .doc = "Root mean square current that the coil bears without end; the guard faults above it",
+            .doc = "Maximum continuous root mean square current; the guard trips above it",
             .source = "assumed"})
-      .add("sense", &WiredCoil::sense, {.doc = "Input of the driver that tells the current"})
+      .add("sense", &WiredCoil::sense, {.doc = "Input of the driver that senses the current"})
       .add("sense_gain", &WiredCoil::sense_gain,
            {.unit = "A/V", .min = -1e4, .max = 1e4, .doc = "Current per volt at that input"})
       .add("sense_neutral", &WiredCoil::sense_neutral,
@@ -97,11 +97,11 @@ Schema<WiredCoil> WiredCoil::schema() {
 
 double WiredCoil::volts(double current) const {
   const double wanted = polarity * current;
-  return table.empty() ? neutral + wanted / gain : straight(turned(table), wanted);
+  return table.empty() ? neutral + wanted / gain : interpolate_volts(swap_axes(table), wanted);
 }
 
 double WiredCoil::current(double volts) const {
-  return polarity * (table.empty() ? gain * (volts - neutral) : straight(table, volts));
+  return polarity * (table.empty() ? gain * (volts - neutral) : interpolate_volts(table, volts));
 }
 
 double WiredCoil::reach() const {

@@ -10,18 +10,18 @@
 
 namespace faba {
 
-/// The last word on what the coils get. It begins disarmed, is armed by hand, and passes currents on while
-/// they come in time and stay within what the coils bear. At anything else all currents go to zero and it is
-/// faulted until reset by hand, after which it is disarmed again. It knows no clock and no device: times are
-/// handed in, s on one clock that never goes back, and what it says is carried out by others (guard_loop.h).
+/// Safety logic of the coils. It starts disarmed, is armed by hand, and passes currents on while commands
+/// arrive in time and stay within the limits of the coils. Otherwise it sets all currents to zero and is
+/// tripped (fault latched) until reset by hand, then disarmed again. It uses no clock and no device: the
+/// caller passes times, s on a monotonic clock, and applies current() (guard_loop.h).
 class CoilGuard {
  public:
-  /// What one coil bears.
+  /// Limits of one coil.
   struct Bounds {
     double max_current = 0;  ///< A
     double max_rms = 0;      ///< A, over the thermal time
   };
-  /// Of [rig.guard].
+  /// The table [rig.guard].
   struct Params {
     std::optional<double> command_deadline = {};  ///< s
     double heartbeat_deadline = 0.07;             ///< s
@@ -36,68 +36,68 @@ class CoilGuard {
   enum class State : std::uint32_t { disarmed, armed, faulted };
   enum class Fault : std::uint32_t {
     none,
-    not_finite,    ///< a current is not a number
-    over_current,  ///< one is larger than the coil bears
-    over_slew,     ///< one changes faster than allowed
-    too_warm,      ///< a coil has had its heat
-    stale,         ///< a command was too old when it came
-    disorder,      ///< a command came twice, or after a later one
-    late,          ///< no fresh command in time, while current was asked for
-    silent,        ///< the program gave no sign of life in time, while current was asked for
-    closed,        ///< the program is gone
-    signal,        ///< the guard was told to end
-    sensed,        ///< a coil's current is not what was asked for
-    device         ///< the driver reported an error
+    not_finite,         ///< a current or frame time is not finite, or the number of currents is wrong
+    over_current,       ///< a current is above the limit of its coil
+    over_slew,          ///< a current changes faster than max_slew
+    thermal_limit,      ///< mean square current above max_rms squared
+    stale,              ///< a command was too old on arrival
+    out_of_order,       ///< a command arrived twice, or after a later one
+    command_timeout,    ///< no new command in time while current flows
+    heartbeat_timeout,  ///< no heartbeat in time while current flows
+    disconnected,       ///< the client disconnected
+    signal,             ///< the guard received a signal to end
+    current_mismatch,   ///< a sensed current differs from the commanded one
+    device              ///< the driver reported an error
   };
-  /// The currents asked for, as of one frame.
+  /// The currents requested for one frame.
   struct Request {
-    std::uint64_t number = 0;  ///< rises with every request
+    std::uint64_t number = 0;  ///< increases with every request
     double sent = 0;           ///< s, when the program sent it
-    double frame_t = 0;        ///< s, of the frame that it answers: slew is reckoned by these
+    double frame_t = 0;        ///< s, time of the frame that the command responds to: defines the slew rate
     std::span<const double> current;
   };
 
-  /// `frame_period`, s: a command is expected in each.
+  /// `frame_period`, s: one command is expected per period.
   CoilGuard(const Params& p, std::vector<Bounds> coils, double frame_period);
   double command_deadline() const { return *p_.command_deadline; }  ///< s
 
-  /// From disarmed to armed; what is asked for then counts. False when faulted.
+  /// From disarmed to armed. False if tripped.
   bool arm(double now);
   void disarm(double now);
-  void reset();  ///< From faulted to disarmed.
-  /// A sign of life of the program.
-  void beat(double now) { beat_ = now; }
+  void reset();  ///< From tripped to disarmed.
+  /// A heartbeat of the program.
+  void heartbeat(double now) { last_heartbeat_ = now; }
   void take(const Request& r, double now);
-  /// The currents as the inputs tell them, A; not a number where nothing is told.
+  /// The sensed currents, A; NaN for coils without an input.
   void sensed(std::span<const double> current, double now);
-  /// Looks at deadlines and heat; to be called before due().
-  void look(double now);
-  /// Zero from now on; the first reason stays. `detail` is added to it in words.
+  /// Checks timeouts and thermal limits; must be called again before due().
+  void check(double now);
+  /// Trips: all currents are zero. The first fault is kept; `detail` is appended to its reason.
   void fail(Fault f, const std::string& detail, double now);
 
-  /// What the coils shall get now, A; zeros unless armed.
+  /// Currents to apply now, A; zeros unless armed.
   const std::vector<double>& current() const { return current_; }
   State state() const { return state_; }
   Fault fault() const { return fault_; }
-  const std::string& reason() const { return reason_; }  ///< in a sentence; empty unless faulted
-  /// When look() is to be called at the latest, s; infinite while nothing flows.
+  const std::string& reason() const { return reason_; }  ///< empty unless tripped
+  /// Latest time for the next check(), s; infinite while no current flows.
   double due() const;
-  /// Heat of the warmest coil, 1 at its bound.
+  /// Thermal load of the warmest coil, relative to its limit.
   double heat() const;
-  std::uint64_t passed() const { return passed_; }    ///< requests that went through
-  std::uint64_t refused() const { return refused_; }  ///< and that did not, a fault each unless disarmed
+  std::uint64_t passed() const { return passed_; }    ///< accepted requests
+  std::uint64_t refused() const { return refused_; }  ///< refused requests; each trips the guard
 
  private:
-  struct Passed {
-    double t;  ///< s, since when
+  struct Previous {
+    double t;  ///< s, until when these currents were commanded
     std::vector<double> current;
   };
-  Fault objection(const Request& r, double now, std::string& detail) const;
-  void warm(double now);
+  Fault violation(const Request& r, double now, std::string& detail) const;
+  void update_heat(double now);
   double heat_of(std::size_t coil) const;
   std::size_t warmest() const;
-  bool flows() const;
-  void put(std::vector<double> current, double now);
+  bool energised() const;
+  void set_current(std::vector<double> current, double now);
 
   Params p_;
   std::vector<Bounds> coils_;
@@ -106,12 +106,12 @@ class CoilGuard {
   Fault fault_ = Fault::none;
   std::string reason_;
   std::vector<double> current_;  ///< A
-  std::vector<double> heat_;     ///< A^2, of each coil: its square current, averaged over thermal_time
-  std::deque<Passed> lately_;    ///< what the coils may still have by now, oldest first
+  std::vector<double> heat_;     ///< A^2, of each coil: square of its current, averaged over thermal_time
+  std::deque<Previous> recent_;  ///< previous commands that may still be settling, oldest first
   std::optional<std::uint64_t> last_number_;
   std::optional<double> last_frame_t_;
-  double fresh_ = 0, beat_ = 0, now_ = 0;  ///< s
-  int off_ = 0;                            ///< samples in a row that told another current
+  double last_command_ = 0, last_heartbeat_ = 0, now_ = 0;  ///< s
+  int mismatches_ = 0;                                      ///< consecutive samples with a current mismatch
   std::uint64_t passed_ = 0, refused_ = 0;
 };
 

@@ -36,7 +36,8 @@ GuardSetup GuardSetup::read(const Json& j, const CoilDriverRegistry& drivers) {
   Document d;
   d.root = j;
   const Node root(d);
-  if (j.value("version", "") != FABA_VERSION) root.fail("comes from another version of the program");
+  if (j.value("version", "") != FABA_VERSION)
+    root.fail("comes from another version of Faba; reinstall faba-coil-guard");
   GuardSetup s;
   s.driver = drivers.resolve(root.child("driver"));
   for (std::size_t i = 0; i < j.at("coil").size(); ++i)

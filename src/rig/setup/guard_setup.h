@@ -7,7 +7,7 @@
 
 namespace faba {
 
-/// All that the guard's process must know; goes to it as text.
+/// Configuration of the guard's process, sent to it as JSON text.
 struct GuardSetup {
   CoilDriverRegistry::PartType driver;
   std::vector<WiredCoil> coils;

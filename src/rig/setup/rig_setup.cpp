@@ -9,14 +9,14 @@
 namespace faba {
 namespace {
 
-// A simulated device whose bench was not named.
+// A simulated device without `at`.
 template <class Part>
-bool unnamed(const Part& p) {
+bool lacks_bench(const Part& p) {
   return p.has(Trait::simulated) && p.resolved.value("at", "").empty();
 }
 
-// As many coils as the field has, wired one after the other to a simulated bench's outputs.
-std::vector<WiredCoil> wired_alike(std::size_t coils, const Amplifier::Params& a) {
+// Coil k of the field wired to output k of a simulated bench.
+std::vector<WiredCoil> default_wiring(std::size_t coils, const Amplifier::Params& a) {
   std::vector<WiredCoil> all(coils);
   for (std::size_t k = 0; k < coils; ++k) {
     WiredCoil& c = all[k];
@@ -31,19 +31,20 @@ std::vector<WiredCoil> wired_alike(std::size_t coils, const Amplifier::Params& a
 }
 
 std::vector<WiredCoil> read_coils(const Node& list, std::size_t coils) {
-  if (!list.json->is_array()) list.fail("write [[rig.coil]], once for each coil of the field");
+  if (!list.json->is_array())
+    list.fail("must be a list of tables [[rig.coil]], one for each coil of the field");
   if (list.json->size() != coils)
-    list.fail(fmt::format("has {} entries, and the field has {} coils", list.json->size(), coils));
+    list.fail(fmt::format("has {} entries, but the field has {} coils", list.json->size(), coils));
   std::vector<WiredCoil> all;
   for (std::size_t k = 0; k < coils; ++k) {
     const Node n = list.item(k);
     const WiredCoil c = WiredCoil::schema().parse(n);
-    if (c.channel.empty()) n.fail("needs channel = \"...\", the output of the driver that it hangs on");
+    if (c.channel.empty()) n.fail("needs channel = \"...\", an output of the driver");
     for (const WiredCoil& other : all)
       if (other.channel == c.channel && (other.volts(0) != c.volts(0) || other.least_volts != c.least_volts ||
                                          other.most_volts != c.most_volts))
         n.fail(fmt::format(
-            "shares channel \"{}\" with another coil, but not the voltage of zero current or the range",
+            "coils of the same channel \"{}\" must have the same voltage of zero current and output range",
             c.channel));
     all.push_back(c);
   }
@@ -53,41 +54,38 @@ std::vector<WiredCoil> read_coils(const Node& list, std::size_t coils) {
 }  // namespace
 
 Schema<BenchParams> BenchParams::schema() {
-  return Schema<BenchParams>("bench", "A simulated bench: its electronics, and how it fails")
+  return Schema<BenchParams>("bench", "Electronics and simulated faults of a simulated bench")
       .include(&BenchParams::amplifier, Amplifier::schema())
       .add("freeze_after", &BenchParams::freeze_after,
-           {.unit = "s",
-            .min = 0,
-            .max = 1e6,
-            .doc = "The camera gives no more frames from then on; never when absent"});
+           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time at which the camera hangs; never when absent"});
 }
 
 Schema<StepResponseParams> StepResponseParams::schema() {
   using P = StepResponseParams;
-  return Schema<P>("step_response", "How step responses are recorded")
-      .add(
-          "direction", &P::direction,
-          {.unit = "deg",
-           .min = -360,
-           .max = 360,
-           .doc = "Where the cells are driven before the field is reversed: 0 right, 90 down in the picture"})
-      .add("field", &P::field, {.unit = "T", .min = 0, .max = 0.1, .doc = "Magnitude of the field"})
+  return Schema<P>("step_response", "Recording of step responses")
+      .add("direction", &P::direction,
+           {.unit = "deg",
+            .min = -360,
+            .max = 360,
+            .doc = "Swimming direction before the field reversal: 0 right, 90 down in the image"})
+      .add("field", &P::field, {.unit = "T", .min = 0, .max = 0.1, .doc = "Field strength"})
       .add("gather", &P::gather,
-           {.unit = "s", .min = 0.1, .max = 1e5, .doc = "For how long they are driven there, unrecorded"})
+           {.unit = "s", .min = 0.1, .max = 1e5, .doc = "Time in the initial direction without recording"})
       .add("before", &P::before,
-           {.unit = "s", .min = 0, .max = 1e4, .doc = "For how long they still are, recorded"})
+           {.unit = "s", .min = 0, .max = 1e4, .doc = "Recorded time before the field reversal"})
       .add("record", &P::record,
            {.unit = "s",
             .min = 0.1,
             .max = 1e5,
-            .doc = "For how long is recorded from the reversal on",
+            .doc = "Recorded time after the field reversal",
             .source = "thesis 3.4.1: 6 s"})
-      .add("repeat", &P::repeat, {.min = 1, .max = 1e5, .doc = "How many are recorded"})
+      .add("repeat", &P::repeat, {.min = 1, .max = 1e5, .doc = "Number of step responses"})
       .add("every", &P::every,
            {.unit = "s",
             .min = 0,
             .max = 1e6,
-            .doc = "From the beginning of one to that of the next; without a pause when they take longer"});
+            .doc = "Interval between the starts of consecutive recordings; no pause if a recording takes "
+                   "longer"});
 }
 
 Schema<RigSetup::Params> RigSetup::Params::schema() {
@@ -96,13 +94,14 @@ Schema<RigSetup::Params> RigSetup::Params::schema() {
            {.unit = "s",
             .min = 0.1,
             .max = 1e4,
-            .doc = "The run ends when no frame has come for as long; the currents are gone long before"})
+            .doc = "Timeout after which a run without frames ends; the coils are de-energised much earlier"})
       .add("delay", &Params::delay,
            {.unit = "s",
             .min = 0,
             .max = 10,
-            .doc = "From mid-exposure of a picture to the command that answers it, for controllers that "
-                   "reckon with it; measured before a run when absent"});
+            .doc =
+                "Delay from mid-exposure of a frame to its command, for controllers that compensate for it; "
+                "measured before a run when absent"});
 }
 
 RigSetup RigSetup::read(const Node& n, std::size_t coils, const CameraRegistry& cameras,
@@ -118,13 +117,13 @@ RigSetup RigSetup::read(const Node& n, std::size_t coils, const CameraRegistry& 
   if (n.has("step_response")) s.step_response = StepResponseParams::schema().parse(n.child("step_response"));
   if (n.has("bench")) s.bench = BenchParams::schema().parse(n.child("bench"));
   if (coils > kMostCoils)
-    n.fail(fmt::format("a bench has {} coils at most, the field has {}", kMostCoils, coils));
+    n.fail(fmt::format("a bench has at most {} coils, but the field has {}", kMostCoils, coils));
   if (n.has("coil"))
     s.coils = read_coils(n.child("coil"), coils);
   else if (s.driver.has(Trait::simulated) || s.driver.has(Trait::no_current))
-    s.coils = wired_alike(coils, s.bench.amplifier);
+    s.coils = default_wiring(coils, s.bench.amplifier);
   else
-    n.fail("needs [[rig.coil]], once for each coil of the field: its channel, and current per volt");
+    n.fail("needs a table [[rig.coil]] for each coil of the field, with channel and gain");
   return s;
 }
 
@@ -160,15 +159,15 @@ std::vector<double> RigSetup::max_current() const {
   return most;
 }
 
-bool RigSetup::needs_bench() const { return unnamed(camera) || unnamed(driver); }
+bool RigSetup::needs_bench() const { return lacks_bench(camera) || lacks_bench(driver); }
 
 RigSetup RigSetup::at(const std::string& socket, const CameraRegistry& cameras,
                       const CoilDriverRegistry& drivers) const {
   RigSetup s = *this;
   Document d;
   d.root = {{"camera", camera.resolved}, {"driver", driver.resolved}};
-  if (unnamed(camera)) d.root["camera"]["at"] = socket;
-  if (unnamed(driver)) d.root["driver"]["at"] = socket;
+  if (lacks_bench(camera)) d.root["camera"]["at"] = socket;
+  if (lacks_bench(driver)) d.root["driver"]["at"] = socket;
   s.camera = cameras.resolve(Node(d).child("camera"));
   s.driver = drivers.resolve(Node(d).child("driver"));
   return s;

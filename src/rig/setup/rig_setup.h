@@ -7,17 +7,17 @@
 
 namespace faba {
 
-/// The table [rig.bench]: what a simulated bench is made of, and how it fails.
+/// The table [rig.bench]: electronics and simulated faults of a simulated bench.
 struct BenchParams {
   Amplifier::Params amplifier;
   std::optional<double> freeze_after;  ///< s
   static Schema<BenchParams> schema();
 };
 
-/// The table [rig.step_response]: how step responses are recorded (theory A14; 3.4.1 and 3.4.2 of the
+/// The table [rig.step_response]: recording of step responses (theory A14; 3.4.1 and 3.4.2 of the
 /// thesis).
 struct StepResponseParams {
-  double direction = 180;                      ///< deg, in the picture
+  double direction = 180;                      ///< deg, in the image
   double field = 1e-3;                         ///< T
   double gather = 20, before = 1, record = 6;  ///< s
   int repeat = 1;
@@ -25,7 +25,7 @@ struct StepResponseParams {
   static Schema<StepResponseParams> schema();
 };
 
-/// The table [rig]: the bench that a scenario can be run on.
+/// The table [rig]: the bench for a scenario.
 struct RigSetup {
   struct Params {
     double camera_timeout = 2;    ///< s
@@ -35,7 +35,7 @@ struct RigSetup {
   Params params;
   CameraRegistry::PartType camera;
   CoilDriverRegistry::PartType driver;
-  std::vector<WiredCoil> coils;  ///< as many as the field has
+  std::vector<WiredCoil> coils;  ///< one per coil of the field
   CoilGuard::Params guard;
   BenchParams bench;
   StepResponseParams step_response;
@@ -44,13 +44,13 @@ struct RigSetup {
   static RigSetup read(const Node& n, std::size_t coils, const CameraRegistry& cameras,
                        const CoilDriverRegistry& drivers);
   Json resolved() const;
-  static Json json_schema();  ///< but for camera and driver
+  static Json json_schema();  ///< without camera and driver
   GuardSetup guard_setup(double frame_period, const std::filesystem::path& log) const;
-  /// Largest current of each coil that wiring and guard allow, A.
+  /// Maximum current of each coil permitted by wiring and guard, A.
   std::vector<double> max_current() const;
-  /// The simulated bench that camera or driver are to be found at was not named: one must be begun.
+  /// Camera or driver are simulated without `at`: a simulated bench must be started.
   bool needs_bench() const;
-  /// The same with that bench named.
+  /// A copy that uses the simulated bench at `socket`.
   RigSetup at(const std::string& socket, const CameraRegistry& cameras,
               const CoilDriverRegistry& drivers) const;
 };

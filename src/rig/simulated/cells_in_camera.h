@@ -7,24 +7,23 @@
 
 namespace faba {
 
-/// The cells of a simulation as a camera meets them: where they are at mid-exposure, how rods lie, and how
-/// far each moves while the shutter is open. The way is a straight line, from the displacement since the
-/// moment that remember() was last called.
+/// Cells of a simulation as seen by a camera: positions at mid-exposure, orientations of rods, and
+/// displacements during the exposure, assumed linear, from the velocity since the last remember().
 class CellsInCamera {
  public:
   explicit CellsInCamera(const Frame& frame) : frame_(frame) {}
 
-  /// Keeps the positions as they are now; the next look() reckons velocities from them.
+  /// Stores the present positions; the next look() computes velocities from them.
   void remember(const State& s);
-  /// Forgets them: the next look() finds all cells at rest.
+  /// Clears the stored positions: the next look() returns zero velocities.
   void forget() { x_.clear(); }
-  /// Image frame, px, in the order of the cells; valid until the next call. `exposure_time` s. Rods lie along
-  /// the columns ux, uy where a model has them.
+  /// Cells in the image frame, px, in order; valid until the next call. `exposure_time` in s. Orientations
+  /// come from the columns ux, uy if the model has them.
   const std::vector<CameraCell>& look(const State& s, double exposure_time);
 
  private:
   Frame frame_;
-  double t_ = 0;              ///< s, when positions were remembered
+  double t_ = 0;              ///< s, time of the stored positions
   std::vector<float> x_, y_;  ///< m, world
   std::vector<CameraCell> cells_;
 };

@@ -8,14 +8,14 @@
 namespace faba {
 namespace {
 
-constexpr double kMostJitter = 0.4;  // frames: times stay in order
+constexpr double kMaxJitter = 0.4;  // frames: keeps the times in order
 
 }  // namespace
 
 SimRig::SimRig(World& world, const Params& p)
     : world_(world), p_(p), frame_(world.parts().arena->frame()), camera_(frame_) {
-  if (p_.microscope && !p_.pool) throw Error(Errc::internal, "camera", "renders without threads");
-  if (p_.frames && !p_.microscope) throw Error(Errc::internal, "camera", "makes frames without a microscope");
+  if (p_.microscope && !p_.pool) throw Error(Errc::internal, "camera", "a microscope needs a thread pool");
+  if (p_.frames && !p_.microscope) throw Error(Errc::internal, "camera", "frames need a microscope");
 }
 
 std::uint64_t SimRig::step_of(std::uint64_t frame) const {
@@ -24,8 +24,8 @@ std::uint64_t SimRig::step_of(std::uint64_t frame) const {
   const auto word =
       draw(world_.parts().seed, kFrameDraws, std::uint32_t(FrameDraw::time), std::uint32_t(frame));
   const double late = p_.jitter / p_.frame_period * double(normals(word[0], word[1])[0]);
-  const double share = std::clamp(late, -kMostJitter, kMostJitter) * double(n);
-  return std::uint64_t(std::int64_t(frame * n) + std::int64_t(std::floor(share + 0.5)));
+  const double shift = std::clamp(late, -kMaxJitter, kMaxJitter) * double(n);
+  return std::uint64_t(std::int64_t(frame * n) + std::int64_t(std::floor(shift + 0.5)));
 }
 
 double SimRig::time_of(std::uint64_t frame) const {
@@ -33,7 +33,7 @@ double SimRig::time_of(std::uint64_t frame) const {
                        : double(frame) * p_.frame_period;
 }
 
-std::vector<Detection> SimRig::look() const {
+std::vector<Detection> SimRig::detections() const {
   const auto x = world_.state().agents["x"], y = world_.state().agents["y"];
   std::vector<Detection> seen(x.size());
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -41,8 +41,8 @@ std::vector<Detection> SimRig::look() const {
   return seen;
 }
 
-// Steps the world to a frame. Positions are remembered half an exposure before it, or one step before it when
-// steps are longer.
+// Steps the world to a frame. Positions are stored half an exposure before it, or one step before it if steps
+// are longer.
 bool SimRig::step_to(std::uint64_t frame) {
   const std::uint64_t steps = step_of(frame) - step_of(frame - 1);
   std::uint64_t since = 1;
@@ -85,10 +85,10 @@ bool SimRig::read(Observation& out) {
   if (p_.frames)
     latest.image = picture();
   else
-    latest.cells = look();
+    latest.cells = detections();
   if (seen_.size() > std::size_t(p_.delay_frames) + 1) seen_.pop_front();
   out.frame = now;
-  // The frames before the first one were taken at regular times.
+  // Frames before frame 0 have regular times.
   out.t = p_.jitter > 0 && now >= std::uint64_t(p_.delay_frames)
               ? seen_.front().t
               : (double(now) - p_.delay_frames) * p_.frame_period;
@@ -101,7 +101,7 @@ bool SimRig::read(Observation& out) {
 void SimRig::safe() noexcept {
   try {
     world_.command(std::vector<double>(world_.parts().field->coils(), 0.0));
-  } catch (...) {  // out of memory while stopping a simulation: there is no coil to harm
+  } catch (...) {  // out of memory while stopping a simulation: no real coil is affected
     return;
   }
 }

@@ -10,22 +10,22 @@
 
 namespace faba {
 
-/// A simulated microscope: steps the world from frame to frame and hands out what the camera saw `delay`
-/// frames ago, as positions or as pictures. Frame 0 is the world as it was placed. Before that the swarm is
-/// taken to have been at rest, so that the first frames of a delayed camera show it where it started.
+/// A simulated microscope: steps the world from frame to frame and returns the observation of `delay_frames`
+/// frames ago, as positions or as images. Frame 0 is the initial state. The first frames of a delayed camera
+/// show the initial positions.
 class SimRig final : public Rig {
  public:
   struct Params {
     int steps_per_frame = 1;
     double frame_period = 1.0 / 15;  ///< s
     int delay_frames = 0;
-    double jitter = 0;  ///< s, sd of the frames' times about the regular ones; cut at 0.4 frames
-    /// Observations hold pictures and no positions: a camera knows no cells. Needs a microscope.
+    double jitter = 0;  ///< s, standard deviation of the frame times; truncated at 0.4 frames
+    /// Observations contain images and no positions. Needs a microscope.
     bool frames = false;
-    std::shared_ptr<Microscope> microscope = {};  ///< null: no pictures
-    Pool* pool = nullptr;  ///< that renders; outlives the rig; needed with a microscope
+    std::shared_ptr<Microscope> microscope = {};  ///< null: no images
+    Pool* pool = nullptr;  ///< renders the images; must outlive the rig; needed with a microscope
   };
-  /// `world` outlives the rig.
+  /// `world` must outlive the rig.
   SimRig(World& world, const Params& p);
 
   bool read(Observation& out) override;
@@ -33,20 +33,20 @@ class SimRig final : public Rig {
   void safe() noexcept override;
   void archive(Archive& a) override;
   const World& world() const { return world_; }
-  /// Asked before each step: when it says no read() gives up the frame it is at, and with it the run.
+  /// Called before each step; if it returns false, read() stops and returns false.
   void before_steps(std::function<bool()> keep_running) { keep_running_ = std::move(keep_running); }
 
-  /// Time of a frame, s, whether it was made already or not: a whole number of steps.
+  /// Time of any past or future frame, s: an integer number of steps.
   double time_of(std::uint64_t frame) const;
-  /// The newest frame as the camera sees it, before any delay; rendered once. Needs a microscope.
+  /// Image of the newest frame, without the delay; rendered once. Needs a microscope.
   ImageRef picture();
-  /// Bits of the camera's grey values; needs a microscope.
+  /// Bit depth of the grey values; needs a microscope.
   int bits() const { return p_.microscope->bits(); }
-  /// The same in 16 bits, rendered at every call.
+  /// The same image in 16 bits, rendered at every call.
   const Image<std::uint16_t>& deep_picture();
 
  private:
-  /// What the camera saw in one frame.
+  /// Observation of one frame.
   struct Seen {
     double t = 0;  ///< s
     std::vector<Detection> cells;
@@ -54,7 +54,7 @@ class SimRig final : public Rig {
   };
   std::uint64_t step_of(std::uint64_t frame) const;
   bool step_to(std::uint64_t frame);
-  std::vector<Detection> look() const;
+  std::vector<Detection> detections() const;
   Exposure exposure();
   void archive_cells(Archive& a, std::vector<Detection>& cells) const;
 
@@ -63,9 +63,9 @@ class SimRig final : public Rig {
   Frame frame_;
   CellsInCamera camera_;
   std::function<bool()> keep_running_;
-  std::uint64_t next_ = 0;  ///< frame that read() will make
+  std::uint64_t next_ = 0;  ///< next frame of read()
   std::deque<Seen> seen_;   ///< the last delay + 1 frames, oldest first
-  ImageRef newest_;         ///< picture(), once somebody asked for it
+  ImageRef newest_;         ///< cache of picture()
   Image<std::uint16_t> deep_;
 };
 

@@ -13,10 +13,10 @@ namespace {
 ///   v = s u + k,   u = b / |b|,   b = response B / unit + (0, earth)
 /// with an innate speed s drawn once per cell from {0, ..., n}, n = round(max_speed), and k uniform on the
 /// integers
-/// {-a, ..., a} per axis, drawn anew every `hold` iterations. The field sets the direction only.
-/// Known to fail: the noise is as large as the speed unless noise_amplitude says less; the drift n/2 does not
-/// depend on the field's magnitude; the spread of innate speeds alone, 0.64 of their mean for n = 9, spreads
-/// a swarm by 0.64 of the way it goes (0.58 with continuous_speed).
+/// {-a, ..., a} per axis, drawn again every `hold` iterations. The field determines the direction only.
+/// Limitations: by default the noise is as large as the speed; the drift n/2 does not depend on the field
+/// strength; the standard deviation of innate speeds, 0.64 of their mean for n = 9, spreads a swarm by 0.64
+/// of its travelled distance (0.58 with continuous_speed).
 class Adapted final : public AgentModel {
  public:
   struct Params {
@@ -51,7 +51,7 @@ FABA_VECTORISED void redraw(const Block& b, const PhiloxRow& row, std::size_t n,
   float* __restrict vx = b.vx, * __restrict vy = b.vy;
   const std::uint32_t count = 2 * noise + 1;
   for (std::size_t i = 0; i < n; ++i) {
-    // A cell that no longer responds does not feel the Earth's field either.
+    // Cells that do not respond to the field do not respond to the Earth's field either.
     const float r = response[i], m = r * per_tesla;
     const float ux = m * bx[i], uy = m * by[i] + earth * r * r;
     const float length = std::sqrt(ux * ux + uy * uy);
@@ -63,11 +63,11 @@ FABA_VECTORISED void redraw(const Block& b, const PhiloxRow& row, std::size_t n,
 
 Schema<Adapted::Params> Adapted::schema() {
   return Schema<Params>("adapted",
-                        "The thesis's Adapted model: innate speeds along the field plus 'inertia' noise")
+                        "Adapted model of the thesis: innate speeds along the field, plus 'inertia' noise")
       .add("max_speed", &Params::max_speed,
            {.min = 0,
             .max = 1000,
-            .doc = "Largest innate speed in px per iteration, rounded to a whole number",
+            .doc = "Maximum innate speed in px per iteration, rounded to an integer",
             .source = "thesis: 8.9937 fitted (Fig. 4.16)"})
       .add("noise_amplitude", &Params::noise_amplitude,
            {.min = 0,
@@ -85,9 +85,9 @@ Schema<Adapted::Params> Adapted::schema() {
             .doc = "Iterations for which a drawn velocity is kept",
             .source = "thesis 3.3.3 (A3)"})
       .add("continuous_speed", &Params::continuous_speed,
-           {.doc = "Draw innate speeds from all of [0, max_speed] instead of whole numbers"})
+           {.doc = "Innate speeds are real numbers in [0, max_speed] instead of integers"})
       .validity(
-          "No turning time; the drift does not depend on the field's strength; one cell in n+1 has speed "
+          "No turning time; the drift does not depend on the field strength; one of n+1 cells has speed "
           "zero.");
 }
 

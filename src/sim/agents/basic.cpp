@@ -11,10 +11,10 @@ namespace {
 /// The Basic model of the thesis (theory A4, eq. 3.1, with the hold of A3). Per axis, in pixels per
 /// iteration,
 ///   v = k + m,   k uniform on the integers {-n, ..., n},  n = round(max_speed),
-/// drawn anew every `hold` iterations; m is the drift that the field commands, in field units.
+/// drawn again every `hold` iterations; m is the drift due to the field, in field units.
 /// Var[v] = n(n+1)/3 per axis; long-time diffusion hold n(n+1)/6 px^2 per iteration.
-/// Known to fail: `max_speed` is the amplitude of a noise, not a swimming speed; the swarm drifts with m
-/// whatever it is.
+/// Limitations: `max_speed` is the amplitude of the noise, not a swimming speed; the drift m does not depend
+/// on it.
 class Basic final : public AgentModel {
  public:
   struct Params {
@@ -25,7 +25,8 @@ class Basic final : public AgentModel {
   Basic(const Params& p, const ModelContext& c);
 
   std::vector<ColumnSpec> columns() const override { return Iterations::columns(); }
-  void start(State&, std::size_t, std::size_t, std::uint64_t) const override {}  // born at rest, all alike
+  void start(State&, std::size_t, std::size_t, std::uint64_t) const override {
+  }  // all cells start with zero velocity
   void step(State& s, const StepContext& c) const override;
   double longest_step(double) const override { return scale_.iteration; }
 
@@ -54,12 +55,12 @@ FABA_VECTORISED void redraw(const Block& b, const PhiloxRow& row, std::size_t n,
 }
 
 Schema<Basic::Params> Basic::schema() {
-  return Schema<Params>("basic",
-                        "The thesis's Basic model: commanded drift plus uniform integer noise, eq. 3.1")
+  return Schema<Params>(
+             "basic", "Basic model of the thesis: drift due to the field plus uniform integer noise, eq. 3.1")
       .add("max_speed", &Params::max_speed,
            {.min = 0,
             .max = 1000,
-            .doc = "Amplitude of the noise in px per iteration, rounded to a whole number",
+            .doc = "Amplitude of the noise in px per iteration, rounded to an integer",
             .source = "thesis: 8.1181 fitted (Fig. 4.15)"})
       .add("hold", &Params::hold,
            {.min = 1,

@@ -16,11 +16,10 @@ namespace {
 ///   f_r = drag_factor 8 pi eta R^3,  f_t = 6 pi eta R,  D_r = kT / f_r,  D_t = kT / f_t.
 /// theta is the direction of the moment times polarity. Integrated by the exact solution of the torque
 /// followed by Ornstein-Uhlenbeck noise (D1), which stays within 2 % for any w_B dt; positions by the mean of
-/// both headings. Run-reverse cells change the sign of their speed while the moment stays where the field put
-/// it; a tumble turns the heading. Speeds are normal, cut off to [0, speed_max]; moments lognormal. Known to
-/// fail: helical paths, flagella that limit turning at strong fields, cell-cell hydrodynamics (below about 1
-/// % volume fraction they are small), the force (m.grad)B (0.05 % of the thrust at 1 T/m), and anything in
-/// depth.
+/// both headings. Run-reverse cells change the sign of their speed; the moment keeps its direction. A tumble
+/// turns the heading. Speeds have a normal distribution truncated to [0, speed_max], moments a lognormal one.
+/// Not modelled: helical paths, flagella that limit turning in strong fields, hydrodynamic interactions
+/// (small below about 1 % volume fraction), the force (m.grad)B (0.05 % of the thrust at 1 T/m), and depth.
 class Dipole final : public AgentModel {
  public:
   struct Params {
@@ -50,7 +49,7 @@ class Dipole final : public AgentModel {
 
   /// f_r, N m s.
   static double rotational_drag(const Params& p);
-  /// D_r in 1/s and D_t in m^2/s after the overrides.
+  /// D_r in 1/s and D_t in m^2/s, including overrides.
   static double rotational_diffusion(const Params& p);
   static double translational_diffusion(const Params& p);
 
@@ -88,7 +87,7 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
     const auto move_angle =
         portable::sincos(float(std::int32_t(row.w3[i]) >> 8) * (portable::kPiF * 0x1p-23f));
 
-    // Direction h that the heading u is drawn to: along the field, or against it for south-seeking cells.
+    // Direction h to which the heading u turns: along the field, or against it for south-seeking cells.
     const float b2 = bx[i] * bx[i] + by[i] * by[i];
     const float length = std::sqrt(b2), sign = response[i] < 0.0f ? -1.0f : 1.0f;
     const bool none = !(b2 > 0.0f);
@@ -96,9 +95,9 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
     const float hx = none ? 1.0f : bx[i] * inverse, hy = none ? 0.0f : by[i] * inverse;
     const float w = turning[i] * length * (sign * response[i]);
 
-    // Exact torque: with delta the angle from h to u, tan(delta / 2) -> e^(-w dt) tan(delta / 2). Of its two
-    // forms sin / (1 + cos) and (1 - cos) / sin the one that does not cancel is taken, so that cells near
-    // antiparallel turn correctly.
+    // Exact torque: with delta the angle from h to u, tan(delta / 2) -> e^(-w dt) tan(delta / 2). Uses the
+    // form sin / (1 + cos) or (1 - cos) / sin without cancellation, so that nearly antiparallel cells turn
+    // correctly.
     const float cos0 = ux[i] * hx + uy[i] * hy, sin0 = hx * uy[i] - hy * ux[i];
     const float big = 1.0f + std::fabs(cos0);
     const float wdt = w * k.dt;
@@ -131,7 +130,7 @@ FABA_VECTORISED void swim(const Block& b, const Constants& c, const PhiloxRow& r
 using DipoleSchema = Schema<Dipole::Params>;
 using DipoleParams = Dipole::Params;
 
-// What decides how a cell turns with the field, and how it diffuses.
+// Parameters of turning and diffusion.
 void describe_body(DipoleSchema& s) {
   s.add("moment", &DipoleParams::moment,
         {.unit = "A m^2",
@@ -143,18 +142,18 @@ void describe_body(DipoleSchema& s) {
       .add("moment_spread", &DipoleParams::moment_spread,
            {.min = 0,
             .max = 2,
-            .doc = "Standard deviation of the moment's logarithm between cells",
+            .doc = "Standard deviation of the logarithm of the moment between cells",
             .source = "assumed"})
       .add("radius", &DipoleParams::radius,
            {.unit = "m",
             .min = 1e-8,
             .max = 1e-4,
-            .doc = "Radius of the sphere with the cell's drag",
+            .doc = "Radius of the sphere with the same drag as the cell",
             .source = "thesis: 1.4 um across"})
       .add("drag_factor", &DipoleParams::drag_factor,
            {.min = 0.1,
             .max = 1e4,
-            .doc = "Rotational drag over that of the bare sphere, 8 pi eta R^3; flagella add 1-3",
+            .doc = "Rotational drag relative to the bare sphere, 8 pi eta R^3; flagella add 1-3",
             .source = "assumed 1 (B1)"})
       .add("viscosity", &DipoleParams::viscosity,
            {.unit = "Pa s",
@@ -170,7 +169,7 @@ void describe_body(DipoleSchema& s) {
            {.unit = "m^2/s", .min = 0, .max = 1e-6, .doc = "D_t instead of kT / f_t"});
 }
 
-// The speeds of cells, and what turns them at random.
+// Parameters of speeds and random turning.
 void describe_swimming(DipoleSchema& s) {
   s.add("speed", &DipoleParams::speed,
         {.unit = "m/s", .min = 0, .max = 1e-2, .doc = "Mean swimming speed", .source = "thesis: 186 um/s"})
@@ -178,30 +177,30 @@ void describe_swimming(DipoleSchema& s) {
            {.unit = "m/s",
             .min = 0,
             .max = 1e-2,
-            .doc = "Standard deviation of speed between cells, before the cut-off",
+            .doc = "Standard deviation of speed between cells, before truncation",
             .source = "assumed: 300 um/s is then the 99.5 % point (B4)"})
       .add("speed_max", &DipoleParams::speed_max,
            {.unit = "m/s",
             .min = 0,
             .max = 1e-2,
-            .doc = "Largest speed; the normal law is cut off to [0, speed_max]",
+            .doc = "Maximum speed; the normal distribution is truncated to [0, speed_max]",
             .source = "assumed (B4)"})
       .add("motile", &DipoleParams::motile,
            {.min = 0,
             .max = 1,
-            .doc = "Share of the cells that swim; the others turn with the field and diffuse where they are",
+            .doc = "Fraction of motile cells; the others turn with the field and diffuse, but do not swim",
             .source = "assumed"})
       .add("reversal_rate", &DipoleParams::reversal_rate,
            {.unit = "1/s",
             .min = 0,
             .max = 1e3,
-            .doc = "Rate at which a cell turns its motor round and swims backwards"})
+            .doc = "Rate at which a cell reverses its motor and swims backwards"})
       .add("tumble_rate", &DipoleParams::tumble_rate,
            {.unit = "1/s", .min = 0, .max = 1e3, .doc = "Rate of tumbles"})
       .add("tumble_sd", &DipoleParams::tumble_sd,
            {.min = 0,
             .max = 100,
-            .doc = "Standard deviation of a tumble's turn in rad; any direction when absent"});
+            .doc = "Standard deviation of the tumble angle in rad; uniform when absent"});
 }
 
 void add_strains(DipoleSchema& s) {
@@ -245,8 +244,7 @@ Schema<Dipole::Params> Dipole::schema() {
    })
       .validity(
           "Planar; no helical paths, no flagellar limit of turning, no hydrodynamic interaction, no "
-          "field-gradient "
-          "force (0.05 % of the thrust at 1 T/m).");
+          "field-gradient force (0.05 % of the thrust at 1 T/m).");
   return s;
 }
 
@@ -292,8 +290,8 @@ void Dipole::start(State& s, std::size_t begin, std::size_t end, std::uint64_t s
       } while ((v < 0 || v > p_.speed_max) && attempt < 1000);
       v = std::clamp(v, 0.0, p_.speed_max);
     }
-    const double luck = (double(w[3]) + 0.5) * 0x1p-32;
-    speed[i] = luck < p_.motile ? float(v) : 0.0F;
+    const double draw_motile = (double(w[3]) + 0.5) * 0x1p-32;
+    speed[i] = draw_motile < p_.motile ? float(v) : 0.0F;
   }
 }
 
@@ -315,7 +313,7 @@ void Dipole::step(State& s, const StepContext& c) const {
            });
 }
 
-// Reversals and tumbles are rare: a loop of its own keeps their branches out of the vectorised one.
+// Reversals and tumbles are rare: a separate loop keeps their branches out of the vectorised one.
 void Dipole::reorient(State& s, const StepContext& c) const {
   auto ux = s.agents["ux"], uy = s.agents["uy"], speed = s.agents["speed"];
   // an odd number of reversals within dt changes the sign
@@ -335,7 +333,7 @@ void Dipole::reorient(State& s, const StepContext& c) const {
 }
 
 double Dipole::longest_step(double b_max) const {
-  // Half a radian of turning (bias 0.1 %, D1) and 0.02 rad^2 of diffusion per step: with weak alignment the
+  // At most 0.5 rad of turning (bias 0.1 %, D1) and 0.02 rad^2 of diffusion per step: with weak alignment the
   // splitting of torque and noise costs 0.3 D_r dt of 1 - <cos>.
   double longest = 0.1;
   if (turning_ * b_max > 0) longest = std::min(longest, 0.5 / (turning_ * b_max));

@@ -18,15 +18,14 @@ FABA_VECTORISED void advance(const float* x, const float* __restrict v, float* t
 }  // namespace
 
 Iterations::Iterations(const ModelContext& c, int hold) : hold_(std::uint64_t(hold)) {
-  const double ratio = c.scale.iteration / c.step, whole = std::floor(ratio + 0.5);
-  if (whole < 1 || std::fabs(ratio - whole) > 1e-6)
-    throw Error(
-        Errc::usage, "simulation.step",
-        fmt::format(
-            "an iteration of the published models ({} s) must be a whole number of steps ({} s); change "
-            "scale.iteration or simulation.step",
-            c.scale.iteration, c.step));
-  steps_ = std::uint64_t(whole);
+  const double ratio = c.scale.iteration / c.step, steps = std::floor(ratio + 0.5);
+  if (steps < 1 || std::fabs(ratio - steps) > 1e-6)
+    throw Error(Errc::usage, "simulation.step",
+                fmt::format("an iteration of the published models ({} s) must be an integer multiple of the "
+                            "step ({} s); change "
+                            "scale.iteration or simulation.step",
+                            c.scale.iteration, c.step));
+  steps_ = std::uint64_t(steps);
 }
 
 void Iterations::move(State& s, const StepContext& c, float m_per_px) const {

@@ -3,11 +3,11 @@
 
 namespace faba {
 
-/// The clock of the published models (theory A3): they move once per iteration, a whole number of the
-/// world's steps, and draw a new velocity every `hold` iterations, which the thesis calls inertia.
+/// Clock of the published models (theory A3): they move once per iteration, which is an integer number of
+/// steps, and draw a new velocity every `hold` iterations, which the thesis calls inertia.
 class Iterations {
  public:
-  /// Throws Error(usage) unless an iteration is a whole number of steps.
+  /// Throws Error(usage) unless an iteration is an integer number of steps.
   Iterations(const ModelContext& c, int hold);
 
   bool moves(std::uint64_t step) const { return step % steps_ == 0; }

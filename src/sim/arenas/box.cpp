@@ -10,9 +10,9 @@
 namespace faba {
 namespace {
 
-/// The thesis's constrained simulation (theory A12): a rectangle, all of it in view, that nobody
-/// leaves. Limits act on the centres of the border pixels (A2): `clamp` puts each coordinate back on the
-/// border, `reflect` mirrors it, `reject` undoes the whole move.
+/// The constrained simulation of the thesis (theory A12): a closed rectangle, completely in view. Limits
+/// apply to the centres of the border pixels (A2): `clamp` sets each coordinate to the border, `reflect`
+/// mirrors it, `reject` undoes the complete move.
 class Box final : public Arena {
  public:
   enum class Limits { clamp, reflect, reject };
@@ -39,17 +39,17 @@ class Box final : public Arena {
 };
 
 Schema<Box::Params> Box::schema() {
-  return Schema<Params>("box", "A rectangle, all of it in view, that nobody leaves")
+  return Schema<Params>("box", "A closed rectangle, completely in view")
       .add("size_px", &Params::size_px,
-           {.unit = "px", .min = 2, .max = 65536, .doc = "Width and height, whole pixels"})
+           {.unit = "px", .min = 2, .max = 65536, .doc = "Width and height, integers"})
       .add("limits", &Params::limits,
-           {.doc = "What happens to a move across the border",
+           {.doc = "Treatment of a move across the border",
             .source = "clamp: the thesis's accumulation on edges (A2)",
             .choices = {"clamp", "reflect", "reject"}})
       .add("wall_alignment", &Params::wall_alignment, WallAlignment::field_info())
       .check([](const Params& p) -> std::string {
         if (p.size_px.x != std::floor(p.size_px.x) || p.size_px.y != std::floor(p.size_px.y))
-          return "size_px must be whole numbers of pixels";
+          return "size_px must be integers";
         return {};
       })
       .validity("A real drop is round and larger than the view: use `drop` to compare with a video.");
@@ -61,7 +61,7 @@ Box::Box(const Params& p, const ArenaContext& c)
       half_x_(float((p.size_px.x - 1) / 2 * c.scale.m_per_px)),
       half_y_(float((p.size_px.y - 1) / 2 * c.scale.m_per_px)) {}
 
-// Most agents touch no wall: a row of them is cleared by one vectorised look.
+// Most agents do not touch a wall: one vectorised test per row of agents.
 FABA_VECTORISED bool all_inside(const float* x, const float* y, std::size_t n, float half_x, float half_y) {
   std::uint32_t outside = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -77,7 +77,7 @@ FABA_VECTORISED void clamp(float* __restrict v, std::size_t n, float half) {
 }
 
 void Box::confine(State& s, const StepContext& c) const {
-  if (p_.limits == Limits::clamp && p_.wall_alignment == 0) {  // nothing to know about who is at a wall
+  if (p_.limits == Limits::clamp && p_.wall_alignment == 0) {  // contacts with the wall are not needed
     clamp(&c.to_x[c.begin], c.end - c.begin, half_x_);
     clamp(&c.to_y[c.begin], c.end - c.begin, half_y_);
     return;

@@ -9,9 +9,9 @@
 namespace faba {
 namespace {
 
-/// A drop with a circular edge, seen through a camera that may show only part of it (theory A13). Cells
-/// swim out of view and back, and slide along the edge without ever crossing it (B6). Known to fail: pinned
-/// drops that are not round.
+/// A drop with a circular edge, of which the camera may show only a part (theory A13). Cells leave and enter
+/// the view, and slide along the edge without crossing it (B6). Not modelled: pinned drops that are not
+/// round.
 class Drop final : public Arena {
  public:
   struct Params {
@@ -37,29 +37,29 @@ class Drop final : public Arena {
 };
 
 Schema<Drop::Params> Drop::schema() {
-  return Schema<Params>("drop", "A round drop, usually larger than the view")
+  return Schema<Params>("drop", "A round drop, typically larger than the view")
       .add("view_px", &Params::view_px,
-           {.unit = "px", .min = 1, .max = 65536, .doc = "Width and height of the picture"})
+           {.unit = "px", .min = 1, .max = 65536, .doc = "Width and height of the image"})
       .add("centre_px", &Params::centre_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Centre of the drop in the picture, y down; may lie outside"})
+            .doc = "Centre of the drop in the image, y down; may be outside"})
       .add("radius_px", &Params::radius_px,
            {.unit = "px", .min = 1, .max = 16384, .doc = "Radius of the drop"})
       .add("wall_alignment", &Params::wall_alignment, WallAlignment::field_info())
       .check([](const Params& p) -> std::string {
         if (p.view_px.x != std::floor(p.view_px.x) || p.view_px.y != std::floor(p.view_px.y))
-          return "view_px must be whole numbers of pixels";
+          return "view_px must be integers";
         return {};
       })
-      .validity("Round drops only; the liquid is a plane, depth is ignored.");
+      .validity("Round drops only; two-dimensional, without depth.");
 }
 
 Drop::Drop(const Params& p, const ArenaContext& c)
     : p_(p), m_per_px_(c.scale.m_per_px), radius_(float(p.radius_px * c.scale.m_per_px)) {}
 
-// Most agents touch no wall: a row of them is cleared by one vectorised look.
+// Most agents do not touch a wall: one vectorised test per row of agents.
 FABA_VECTORISED bool all_inside(const float* x, const float* y, std::size_t n, float r2_max) {
   std::uint32_t outside = 0;
   for (std::size_t i = 0; i < n; ++i) outside |= std::uint32_t(x[i] * x[i] + y[i] * y[i] > r2_max);
@@ -78,7 +78,7 @@ void Drop::confine(State& s, const StepContext& c) const {
       if (r2 <= r2_max) continue;
       const float r = std::sqrt(r2), back = radius_ * kInside / r;
       wall.touch(i, x / r, y / r);
-      c.to_x[i] = x * back;  // only the outward part of the move is lost: the cell slides
+      c.to_x[i] = x * back;  // removes only the outward component of the move: the cell slides
       c.to_y[i] = y * back;
     }
   }
@@ -86,8 +86,8 @@ void Drop::confine(State& s, const StepContext& c) const {
 
 double Drop::depth(Vec2 p) const { return double(radius_) - norm(p); }
 
-// Cells that swim along `direction` keep their distance `across` from the drop's axis along it, and end on
-// the edge.
+// Cells that swim along `direction` keep their distance `across` from the axis of the drop in that direction,
+// and stop at the edge.
 Vec2 Drop::wall_point(double direction, double across, double depth) const {
   const auto d = portable::sincos(direction);
   const double forward = std::sqrt(std::max(0.0, 1 - across * across)), r = double(radius_) - depth;

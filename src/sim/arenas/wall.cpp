@@ -13,7 +13,7 @@ FieldInfo WallAlignment::field_info() {
   return {.unit = "1/s",
           .min = 0,
           .max = 1000,
-          .doc = "Rate at which a wall turns the cells that push against it along it",
+          .doc = "Rate at which a wall turns cells that push against it to swim along it",
           .source = "assumed 0: not measured for these cells (B6)"};
 }
 

@@ -4,7 +4,7 @@
 
 namespace faba {
 
-/// Turns the headings of cells that push against a wall towards the wall (theory B6):
+/// Turns the headings of cells that push against a wall parallel to the wall (theory B6):
 ///   d delta / dt = -rate sin(2 delta), delta the angle between heading and wall.
 /// Does nothing for models without a heading (columns ux, uy).
 class WallAlignment {

@@ -3,13 +3,13 @@
 namespace faba {
 namespace {
 
-/// Air does nothing: every cell keeps its speed and its response.
+/// No effect of air: cells keep speed and response.
 class MotilityNone final : public Motility {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::inert};
   static Schema<Params> schema() {
-    return Schema<Params>("none", "Air does nothing: cells keep speed and response");
+    return Schema<Params>("none", "No effect of air: cells keep speed and response");
   }
   MotilityNone(const Params&, const MotilityContext&) {}
   std::vector<ColumnSpec> columns() const override { return {}; }

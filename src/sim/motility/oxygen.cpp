@@ -49,18 +49,18 @@ OxygenProfile::OxygenProfile(double radius, double diffusivity)
   fill_table();
 }
 
-// concentration() at all nodes, with what depends on the place only, and on the time only, worked out once.
+// concentration() at all nodes; the factors that depend on position or time only are computed once.
 void OxygenProfile::fill_table() {
   std::vector<double> in_space;
   for (int i = 0; i < kNodes; ++i)
     for (const Term& n : terms_)
       in_space.push_back(n.weight * bessel_j0(n.root * std::min(radius_ * i / (kNodes - 1) / radius_, 1.0)));
   table_.assign(std::size_t(kTimes) * kNodes, 0.0F);
-  table_[kNodes - 1] = 1;  // in the beginning there is oxygen at the edge only
+  table_[kNodes - 1] = 1;  // at t = 0 there is oxygen at the edge only
   std::array<double, kTerms> in_time{};
   for (int j = 1; j < kTimes; ++j) {
     const double s = double(j) / (kTimes - 1),
-                 t = s * s * kRelaxed / rate_;  // the steep beginning gets most nodes
+                 t = s * s * kRelaxed / rate_;  // more nodes at the steep start
     for (std::size_t n = 0; n < kTerms; ++n)
       in_time[n] = portable::exp(-(terms_[n].root * terms_[n].root * rate_) * t);
     for (int i = 0; i < kNodes; ++i) {

@@ -8,12 +8,12 @@
 namespace faba {
 namespace {
 
-/// Loss of motility in air (theory A16, B5). With t the time in air, exposure before the run included:
+/// Loss of motility in air (theory A16, B5). With t the air exposure time, including the time before the run:
 ///   speed(t) = speed(0) / (1 + slowdown t);
-/// a cell's dose grows as dX/dt = max(c - tolerated, 0), c the local oxygen as a fraction of saturation
-/// (diffusion from the drop's edge; 1 in a box), and a cell whose dose exceeds its own lognormal tolerance no
-/// longer feels the field. The dose before the run is that of the place where the cell starts. Known to fail:
-/// the cells' own oxygen uptake and evaporation are neglected.
+/// the dose of a cell increases as dX/dt = max(c - tolerated, 0), c the local oxygen as a fraction of
+/// saturation (diffusion from the edge of the drop; 1 in a box). A cell whose dose exceeds its lognormal
+/// tolerance does not respond to the field any more. The dose before the run is that at the start position.
+/// Not modelled: oxygen uptake by the cells, and evaporation.
 class MotilityThesis final : public Motility {
  public:
   struct Params {
@@ -39,21 +39,20 @@ class MotilityThesis final : public Motility {
 
 Schema<MotilityThesis::Params> MotilityThesis::schema() {
   return Schema<Params>("thesis",
-                        "Cells slow down in air and stop responding, those near the drop's edge first")
+                        "Cells slow down in air and stop responding, near the edge of the drop first")
       .add("slowdown", &Params::slowdown,
            {.unit = "1/s",
             .min = 0,
             .max = 1,
-            .doc = "Speed falls as 1 / (1 + slowdown t) with the time t in air",
+            .doc = "Speed decreases as 1 / (1 + slowdown t), t the air exposure time",
             .source = "eq. 4.1 of the thesis read as a travel time (A16)"})
-      .add(
-          "tolerance", &Params::tolerance,
-          {.unit = "s",
-           .min = 1,
-           .max = 1e6,
-           .doc = "Median dose, in seconds of saturated oxygen, that silences a cell",
-           .source =
-               "assumed: with the spread below 1 % respond at 660 s, as next to none did after 700 s in air"})
+      .add("tolerance", &Params::tolerance,
+           {.unit = "s",
+            .min = 1,
+            .max = 1e6,
+            .doc = "Median dose, in seconds at saturation, at which a cell stops responding",
+            .source =
+                "assumed: less than 1 % respond at 660 s; in the thesis, almost none after 700 s in air"})
       .add("tolerance_sigma", &Params::tolerance_sigma,
            {.min = 0,
             .max = 3,
@@ -68,10 +67,10 @@ Schema<MotilityThesis::Params> MotilityThesis::schema() {
       .add("tolerated", &Params::tolerated,
            {.min = 0,
             .max = 1,
-            .doc = "Oxygen, as a fraction of saturation, that does no harm",
+            .doc = "Oxygen, as a fraction of saturation, that does not increase the dose",
             .source = "assumed 0"})
       .validity(
-          "Fitted to one thesis; the cells' own uptake of oxygen, which protects dense drops, is neglected.");
+          "Fitted to one thesis; uptake of oxygen by the cells, which protects dense drops, is neglected.");
 }
 
 MotilityThesis::MotilityThesis(const Params& p, const MotilityContext& c) : p_(p), exposure_(c.exposure) {
@@ -81,7 +80,7 @@ MotilityThesis::MotilityThesis(const Params& p, const MotilityContext& c) : p_(p
 }
 
 std::vector<ColumnSpec> MotilityThesis::columns() const {
-  return {{"dose", "s", "harm done by oxygen, in seconds at saturation"},
+  return {{"dose", "s", "oxygen dose, in seconds at saturation"},
           {"tolerance", "s", "dose at which the cell stops responding"}};
 }
 
@@ -91,8 +90,7 @@ void MotilityThesis::start(State& s, std::size_t begin, std::size_t end, std::ui
   const auto x = a["x"], y = a["y"];
   for (std::size_t i = begin; i < end; ++i) {
     const double r = norm(Vec2{double(x[i]), double(y[i])});
-    // Below the tolerated level nothing happens; the series has no closed form for that, so its end value
-    // stands in.
+    // The dose above the tolerated level has no closed form: scaled from the total dose.
     const double before = oxygen_ ? oxygen_->dose(r, exposure_) : exposure_;
     dose[i] = float(before * (1 - p_.tolerated));
     const auto w = draw(seed, kToleranceDraws, std::uint32_t(i), 0);

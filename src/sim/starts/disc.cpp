@@ -4,7 +4,7 @@
 namespace faba {
 namespace {
 
-/// In a disc, all places alike.
+/// Uniform in a disc.
 class StartDisc final : public Start {
  public:
   struct Params {
@@ -27,12 +27,12 @@ class StartDisc final : public Start {
 };
 
 Schema<StartDisc::Params> StartDisc::schema() {
-  return Schema<Params>("disc", "In a disc, all places alike")
+  return Schema<Params>("disc", "Uniform in a disc")
       .add("centre_px", &Params::centre_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Centre in the picture, y down; the arena's centre when absent"})
+            .doc = "Centre in the image, y down; the centre of the arena when absent"})
       .add("radius_px", &Params::radius_px, {.unit = "px", .min = 0, .max = 1e5, .doc = "Radius"});
 }
 

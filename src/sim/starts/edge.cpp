@@ -4,8 +4,8 @@
 namespace faba {
 namespace {
 
-/// Piled up at the wall, as a swarm is after swimming along `direction` for long (theory A14, A21): uniform
-/// across that direction, exponential in depth.
+/// Accumulated at the wall, as after a long time of swimming along `direction` (theory A14, A21): uniform
+/// perpendicular to that direction, exponential in depth.
 class StartEdge final : public Start {
  public:
   struct Params {
@@ -26,11 +26,11 @@ class StartEdge final : public Start {
   }
 
  private:
-  // From the arena's centre to the middle of the view: there lies the part of the edge that a camera shows.
-  // Left when the view is centred.
+  // Direction from the centre of the arena to the centre of the view, which contains the visible part of the
+  // edge. Left if the view is centred.
   double towards_view() const {
     const Vec2 middle = frame_.world_from_image({(frame_.width - 1) / 2.0, (frame_.height - 1) / 2.0});
-    constexpr double kCentred = 0.1;  // of the view's width
+    constexpr double kCentred = 0.1;  // fraction of the view's width
     return norm(middle) < kCentred * frame_.width * frame_.m_per_px ? portable::kPi
                                                                     : portable::atan2(middle.y, middle.x);
   }
@@ -42,17 +42,20 @@ class StartEdge final : public Start {
 };
 
 Schema<StartEdge::Params> StartEdge::schema() {
-  return Schema<Params>("edge", "Piled up at the wall, as after swimming in one direction for long")
+  return Schema<Params>("edge", "Accumulated at the wall, as after a long time of swimming in one direction")
       .add("direction", &Params::direction,
            {.unit = "rad",
             .min = -10,
             .max = 10,
-            .doc = "Direction towards that wall, world frame: \"0 deg\" right, \"90 deg\" up; when absent "
-                   "towards "
-                   "the part of the edge in view, or left"})
+            .doc = "Direction towards the wall, world frame: \"0 deg\" right, \"90 deg\" up; when absent, "
+                   "towards the visible part of the edge, or left"})
       .add("depth_px", &Params::depth_px,
-           {.unit = "px", .min = 0, .max = 1e4, .doc = "Mean depth of the pile", .source = "assumed (A21)"})
-      .add("visible", &Params::visible, {.doc = "Only where the camera sees it"});
+           {.unit = "px",
+            .min = 0,
+            .max = 1e4,
+            .doc = "Mean distance from the wall",
+            .source = "assumed (A21)"})
+      .add("visible", &Params::visible, {.doc = "Only positions in view"});
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
-// Where cells were seen: the n-th cell at the n-th place, and from the first place on again when there are
-// more cells than places. A normal scatter about each place stands for how well it is known, and finds room
-// for cells that would share a pixel.
+// Start at listed positions: cell n at position n modulo the length of the list, with a normal scatter for
+// the uncertainty of positions. The scatter also separates cells that would share a pixel.
 #include <cmath>
 
 #include "core/portable_math.h"
@@ -13,11 +12,10 @@ namespace {
 
 constexpr double kCrowded = 10;  // attempts after which the scatter has doubled
 
-// A cell that is seen beyond the edge lies at it: the way to the middle of the arena is halved until the edge
-// is met.
+// Moves a position outside the edge to the edge, on the line to the centre of the arena, by bisection.
 Vec2 inside(const Arena& arena, Vec2 at) {
   if (arena.depth(at) >= 0) return at;
-  double in = 0, out = 1;  // shares of the way from the middle
+  double in = 0, out = 1;  // fractions of the distance from the centre
   for (int i = 0; i < 40; ++i) {
     const double middle = (in + out) / 2;
     (arena.depth(middle * at) >= 0 ? in : out) = middle;
@@ -25,7 +23,7 @@ Vec2 inside(const Arena& arena, Vec2 at) {
   return in * at;
 }
 
-/// At listed places of the picture.
+/// At listed positions in the image.
 class StartPlaces final : public Start {
  public:
   struct Params {
@@ -40,7 +38,7 @@ class StartPlaces final : public Start {
   }
   std::optional<Vec2> place(const PlaceDraw& d) const override {
     const auto a = portable::sincos(2 * portable::kPi * d.u[1]);
-    // Where it is crowded the scatter grows until there is room.
+    // The scatter increases until a free site is found.
     const double far = scatter_ * (1 + d.attempt / kCrowded) * std::sqrt(-2 * portable::log(d.u[0]));
     return places_[d.cell % places_.size()] + far * Vec2{a.cos, a.sin};
   }
@@ -51,17 +49,18 @@ class StartPlaces final : public Start {
 };
 
 Schema<StartPlaces::Params> StartPlaces::schema() {
-  return Schema<Params>("places", "At listed places of the picture, such as those where cells were seen")
+  return Schema<Params>("places", "At listed positions in the image, such as detected cells")
       .add("places_px", &Params::places_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Places in the picture, y down, which cells take in turn; the arena's centre when absent"})
+            .doc = "Positions in the image, y down, assigned to cells in turn; the centre of the arena when "
+                   "absent"})
       .add("scatter_px", &Params::scatter_px,
            {.unit = "px",
             .min = 0,
             .max = 1e4,
-            .doc = "Standard deviation about the place, in x and in y: how well places are known"});
+            .doc = "Standard deviation of the scatter in x and y: uncertainty of the positions"});
 }
 
 }  // namespace

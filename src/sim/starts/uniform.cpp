@@ -3,11 +3,11 @@
 namespace faba {
 namespace {
 
-/// Anywhere in the arena, all places alike.
+/// Uniform in the arena.
 class StartUniform final : public Start {
  public:
   struct Params {};
-  static Schema<Params> schema() { return {"uniform", "Anywhere in the arena, all places alike"}; }
+  static Schema<Params> schema() { return {"uniform", "Uniform in the arena"}; }
   StartUniform(const Params&, const StartContext& c) : grid_(c.arena->grid()) {}
   std::optional<Vec2> place(const PlaceDraw& d) const override {
     const auto& u = d.u;

@@ -3,12 +3,12 @@
 namespace faba {
 namespace {
 
-/// Anywhere in the part of the arena that the camera shows (theory A13, "start in visible area").
+/// Uniform in the visible part of the arena (theory A13, "start in visible area").
 class StartVisible final : public Start {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::in_view};
-  static Schema<Params> schema() { return {"visible", "Anywhere in the visible part of the arena"}; }
+  static Schema<Params> schema() { return {"visible", "Uniform in the visible part of the arena"}; }
   StartVisible(const Params&, const StartContext& c) : frame_(c.arena->frame()) {}
   std::optional<Vec2> place(const PlaceDraw& d) const override {
     const auto& u = d.u;

@@ -1,7 +1,7 @@
-/* A library with the functions of NI-DAQmx that are used, in place of National Instruments': devices that only write a
- * log. FAKE_NI_LOG names it; a line "time_s channel value" for each output, time on CLOCK_MONOTONIC. FAKE_NI_FAIL_AT=k
- * makes the k-th call after the outputs were started fail, and all after it. Outputs keep what they have when the
- * process ends, as those of a USB-6009 do: the log's last lines stand. */
+/* A mock of the NI-DAQmx library: devices that only write a log. FAKE_NI_LOG is the log file, with a line
+ * "time_s channel value" for each output, time on CLOCK_MONOTONIC. FAKE_NI_FAIL_AT=k makes the k-th call after the
+ * start of the outputs and all later calls fail. Outputs keep their values when the process ends, like those of a
+ * USB-6009: the last lines of the log remain valid. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>

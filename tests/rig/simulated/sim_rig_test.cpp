@@ -6,7 +6,7 @@
 
 using namespace faba;
 
-TEST_CASE("frame 0 is the placed state; a delayed camera shows what was, time stamps and age say so") {
+TEST_CASE("frame 0 is the initial state; a delayed camera returns earlier frames with their times and ages") {
   for (const int delay : {0, 3}) {
     TestSwarm t("camera = { delay_frames = " + std::to_string(delay) +
                 " }\n[[swarm]]\ncount = 20\nmodel = 'basic'\n");
@@ -24,7 +24,7 @@ TEST_CASE("frame 0 is the placed state; a delayed camera shows what was, time st
   }
 }
 
-TEST_CASE("the loop makes the rig safe on every way out, and limits what a controller asks") {
+TEST_CASE("the control loop makes the rig safe on every exit, and limits the commands of a controller") {
   TestSwarm t("limits = { max_current = '0.1 A' }\n[[swarm]]\ncount = 20\nmodel = 'basic'\n");
   struct Probe final : Sink {
     const World* world = nullptr;
@@ -41,7 +41,7 @@ TEST_CASE("the loop makes the rig safe on every way out, and limits what a contr
   CHECK(t.world().state().command == std::vector<double>{0, 0});
 }
 
-TEST_CASE("limits: clip, slew, not-a-number, stale pictures") {
+TEST_CASE("limits: clipping, slew rate, NaN, stale frames") {
   Limits::Params p;
   p.max_current = 1;
   p.max_slew = 2;
@@ -53,9 +53,9 @@ TEST_CASE("limits: clip, slew, not-a-number, stale pictures") {
   CHECK_FALSE(l.apply(c, 0.1, 0));
   c.current = {std::nan(""), -0.3};
   CHECK(l.apply(c, 0.1, 0));
-  CHECK(c.current[0] == doctest::Approx(0.1));  // towards zero, no faster than allowed
+  CHECK(c.current[0] == doctest::Approx(0.1));  // towards zero, within the slew rate
   c.current = {0.1, -0.3};
-  CHECK(l.apply(c, 1.0 / 15, 5));  // at once, in one cycle of the camera
+  CHECK(l.apply(c, 1.0 / 15, 5));  // at once, within one camera period
   CHECK(c.current == std::vector<double>{0, 0});
 }
 
@@ -77,7 +77,7 @@ std::string with_camera(const std::string& delay) {
 
 }  // namespace
 
-TEST_CASE("a camera with sensor = frames tells no positions; delayed pictures are those of earlier frames") {
+TEST_CASE("a camera with sensor = frames gives no positions; delayed images are those of earlier frames") {
   TestSwarm now(with_camera("delay_frames = 0")), late(with_camera("delay_frames = 2"));
   std::vector<ImageRef> pictures;
   for (int k = 0; k < 6; ++k) {
@@ -93,29 +93,29 @@ TEST_CASE("a camera with sensor = frames tells no positions; delayed pictures ar
     pictures.push_back(a.image);
     CHECK(b.image->px == pictures[std::size_t(std::max(0, k - 2))]->px);
     if (k > 0) CHECK(pictures[std::size_t(k)]->px != pictures[std::size_t(k - 1)]->px);
-    CHECK(late.simulation.rig().picture()->px == a.image->px);  // what is recorded is not delayed
+    CHECK(late.simulation.rig().picture()->px == a.image->px);  // the recorded image is not delayed
   }
 }
 
-TEST_CASE("a checkpoint keeps the pictures that are on their way") {
-  TestSwarm whole(with_camera("delay_frames = 3")), resumed(with_camera("delay_frames = 3"));
+TEST_CASE("a checkpoint contains the delayed images") {
+  TestSwarm uninterrupted(with_camera("delay_frames = 3")), resumed(with_camera("delay_frames = 3"));
   Observation o;
-  for (int k = 0; k < 7; ++k) REQUIRE(whole.simulation.rig().read(o));
+  for (int k = 0; k < 7; ++k) REQUIRE(uninterrupted.simulation.rig().read(o));
   Archive saved;
-  whole.simulation.archive(saved);
+  uninterrupted.simulation.archive(saved);
   Archive reading(saved.bytes());
   resumed.simulation.archive(reading);
   CHECK(reading.at_end());
   for (int k = 7; k < 13; ++k) {
     Observation a, b;
-    REQUIRE(whole.simulation.rig().read(a));
+    REQUIRE(uninterrupted.simulation.rig().read(a));
     REQUIRE(resumed.simulation.rig().read(b));
     CHECK(a.image->px == b.image->px);
     CHECK(a.t == b.t);
   }
 }
 
-TEST_CASE("cells are smeared along their way during the exposure, about where they are") {
+TEST_CASE("motion blur of cells is centred at their positions") {
   Frame frame;
   State s;
   s.agents = Columns(2);
@@ -135,7 +135,7 @@ TEST_CASE("cells are smeared along their way during the exposure, about where th
   CHECK(double(c.dy) == doctest::Approx(8).epsilon(1e-4));
 }
 
-TEST_CASE("jitter: frames at whole steps about the regular times, in order, with the sd asked for") {
+TEST_CASE("jitter: frame times are at integer steps, in order, with the given standard deviation") {
   TestSwarm t(
       "camera = { rate = \"20 Hz\", jitter = \"4 ms\", delay_frames = 1 }\nduration = 100\n"
       "[[swarm]]\ncount = 5\nmodel = 'dipole'\n");
@@ -145,7 +145,7 @@ TEST_CASE("jitter: frames at whole steps about the regular times, in order, with
   const Sample s = Sample::of(n, late);
   CHECK(std::fabs(s.mean) < 5 * s.standard_error);
   CHECK(std::fabs(std::sqrt(s.variance) / 0.004 - 1) <
-        5 / std::sqrt(2.0 * double(n)) + 0.01);  // and 1/4 sd steps
+        5 / std::sqrt(2.0 * double(n)) + 0.01);  // plus rounding to steps of 1/4 sd
   CHECK(rig.time_of(0) == 0);
   double before = -1;
   for (std::uint64_t k = 0; k < 40; ++k) {
@@ -165,7 +165,7 @@ TEST_CASE("jitter: frames at whole steps about the regular times, in order, with
                   Error);
 }
 
-TEST_CASE("estimators that need positions are refused where a camera tells none") {
+TEST_CASE("estimators that need positions are refused if the camera gives none") {
   for (const char* estimator : {"mean", "visible"}) {
     const std::string toml =
         "estimator = '" + std::string(estimator) + "'\n" + with_camera("delay_frames = 0");
@@ -179,6 +179,6 @@ TEST_CASE("estimators that need positions are refused where a camera tells none"
   }
 }
 
-TEST_CASE("a feedback controller is refused where nobody estimates") {
+TEST_CASE("a feedback controller is refused without an estimator") {
   CHECK_THROWS_AS(TestSwarm("estimator = 'none'\n[[swarm]]\nmodel = 'basic'\n"), Error);
 }

@@ -1,4 +1,4 @@
-// The JSON Schema that the program gives of a scenario, as forms need it.
+// The JSON Schema of a scenario, as used by the forms.
 
 import type { Say } from '../i18n';
 import { parseQuantity, showQuantity } from '../quantity';
@@ -17,7 +17,7 @@ export interface Schema {
   items?: Schema;
   properties?: Record<string, Schema>;
   oneOf?: Schema[];
-  /** What a part does, such as "open_loop": web/protocol.md. */
+  /** Traits of a part, such as "open_loop"; see web/protocol.md. */
   'x-traits'?: string[];
   'x-unit'?: string;
   'x-source'?: string;
@@ -25,20 +25,20 @@ export interface Schema {
   'x-values'?: Record<string, Record<string, any>>;
 }
 
-/** What every piece of a form is given. */
+/** Properties of every form component. */
 export interface Piece {
   name: string;
   schema: Schema;
-  /** As a scenario has it; undefined: the default. */
+  /** Value in the scenario; undefined: the default. */
   value: any;
   say: Say;
   onchange: (value: any) => void;
-  /** Counts what is wrong in the form. */
+  /** Reports whether the value at `path` is invalid. */
   onwrong: (path: string, wrong: boolean) => void;
   path: string;
 }
 
-export type Kind = 'flag' | 'choice' | 'number' | 'whole' | 'text' | 'vector' | 'numbers' | 'points' | 'tables' | 'part' | 'table';
+export type Kind = 'flag' | 'choice' | 'number' | 'integer' | 'text' | 'vector' | 'numbers' | 'points' | 'tables' | 'part' | 'table';
 
 const numeric = (s: Schema) => s.type === 'number' || s.type === 'integer' || (Array.isArray(s.type) && s.type.includes('number'));
 
@@ -46,7 +46,7 @@ export function kindOf(s: Schema): Kind {
   if (s.oneOf) return 'part';
   if (s.enum) return 'choice';
   if (s.type === 'boolean') return 'flag';
-  if (s.type === 'integer') return 'whole';
+  if (s.type === 'integer') return 'integer';
   if (numeric(s)) return 'number';
   if (s.type === 'array') {
     const of = s.items ?? {};
@@ -57,7 +57,7 @@ export function kindOf(s: Schema): Kind {
   return s.properties ? 'table' : 'text';
 }
 
-/** A number as a scenario has it, in the unit of its schema. */
+/** Converts a number or quantity of a scenario to the unit of its schema. */
 export function amount(v: any, unit: string): number | null {
   if (typeof v === 'number') return v;
   if (typeof v !== 'string') return null;
@@ -65,7 +65,7 @@ export function amount(v: any, unit: string): number | null {
   return typeof q === 'number' ? q : null;
 }
 
-/** As a person would write what a scenario has. */
+/** Formats a value of a scenario for display. */
 export function shown(v: any, s: Schema): string {
   if (v === undefined || v === null) return '';
   const a = amount(v, s['x-unit'] ?? '');
@@ -73,26 +73,26 @@ export function shown(v: any, s: Schema): string {
 }
 
 export interface Checked {
-  /** As it goes into a scenario; undefined: the default. */
+  /** Value for the scenario; undefined: the default. */
   value?: any;
-  /** What is wrong: a key of the dictionary, and what goes in. */
+  /** Error: key of the text in i18n.ts, and its values. */
   wrong?: [string, Record<string, string>];
 }
 
-/** Reads what somebody typed for one number. */
+/** Parses and checks the input for one number. */
 export function check(text: string, s: Schema, required = false): Checked {
   if (!text.trim()) return required ? { wrong: ['form.number', {}] } : {};
   const unit = s['x-unit'] ?? '';
   const q = parseQuantity(text, unit);
   if (q === 'number') return { wrong: ['form.number', {}] };
   if (q === 'unit') return { wrong: unit ? ['form.unit', { unit }] : ['form.number', {}] };
-  if (s.type === 'integer' && !Number.isInteger(q)) return { wrong: ['form.whole', {}] };
+  if (s.type === 'integer' && !Number.isInteger(q)) return { wrong: ['form.integer', {}] };
   if (s.minimum !== undefined && q < s.minimum) return { wrong: ['form.least', { limit: showQuantity(s.minimum, unit) }] };
   if (s.maximum !== undefined && q > s.maximum) return { wrong: ['form.most', { limit: showQuantity(s.maximum, unit) }] };
   return { value: unit ? `${q} ${unit}` : q };
 }
 
-/** Whether two values of a scenario are the same, whatever units they are written in. */
+/** Whether two values of a scenario are equal, independent of their units. */
 export function same(a: any, b: any, s: Schema): boolean {
   if (Array.isArray(a) && Array.isArray(b)) return a.length === b.length && a.every((v, i) => same(v, b[i], s.items ?? s));
   const p = amount(a, s['x-unit'] ?? ''), q = amount(b, s['x-unit'] ?? '');
@@ -100,6 +100,6 @@ export function same(a: any, b: any, s: Schema): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
 }
 
-/** The schema of a part by its name. */
+/** Schema of a part by its name. */
 export const variant = (s: Schema, name: string) => s.oneOf?.find((o) => o.properties?.type?.const === name);
 export const variants = (s: Schema) => (s.oneOf ?? []).map((o) => o.properties?.type?.const).filter((n): n is string => !!n);

@@ -1,4 +1,4 @@
-// Files that the page makes.
+// Exported files of the page.
 
 export function saveBlob(b: Blob, name: string) {
   const a = document.createElement('a');
@@ -10,7 +10,7 @@ export function saveBlob(b: Blob, name: string) {
 
 const escaped = (s: string) => s.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 
-/** A plot as vectors: lines over time with axes, for papers. */
+/** A plot as SVG: lines over time with axes, for publications. */
 export function svgOf(title: string, unit: string, data: ArrayLike<ArrayLike<number | null | undefined>>, lines: { label: string; colour: string }[]): string {
   const w = 640, h = 320, left = 70, right = 12, top = 30, bottom = 44;
   const t = data[0] as ArrayLike<number>;
@@ -48,7 +48,7 @@ export function svgOf(title: string, unit: string, data: ArrayLike<ArrayLike<num
         pen = true;
       }
     }
-    out += `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"${c > lines.length ? ' stroke-dasharray="4 4"' : ''}/><text x="${w - right - 4}" y="${top + 14 * c}" text-anchor="end" fill="${l.colour}">${escaped(l.label)}${c > lines.length ? ' (earlier)' : ''}</text>`;
+    out += `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"${c > lines.length ? ' stroke-dasharray="4 4"' : ''}/><text x="${w - right - 4}" y="${top + 14 * c}" text-anchor="end" fill="${l.colour}">${escaped(l.label)}${c > lines.length ? ' (previous run)' : ''}</text>`;
   }
   return out + '</svg>\n';
 }

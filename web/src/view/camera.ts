@@ -1,4 +1,4 @@
-// Where the picture lies on the page: zoom and pan.
+// View transform: zoom and pan.
 
 export interface Box {
   left: number;
@@ -7,10 +7,10 @@ export interface Box {
   bottom: number;
 }
 
-const kLargest = 60; // canvas px per picture px, unless the fitted scale is larger
-const kSmallest = 0.2; // of the fitted scale
+const kLargest = 60; // canvas px per image px, unless the fitted scale is larger
+const kSmallest = 0.2; // relative to the fitted scale
 
-/** Maps picture pixels to the canvas: canvas = scale * picture + offset. Sizes of the canvas are in device pixels. */
+/** Maps image pixels to the canvas: canvas = scale * image + offset. Canvas sizes are in device pixels. */
 export class Camera {
   scale = 1;
   x = 0;
@@ -20,7 +20,7 @@ export class Camera {
   private fitted: Box = { left: 0, top: 0, right: 640, bottom: 480 };
   private untouched = true;
 
-  /** Shows the whole of `box`, as large as it goes, until somebody zooms or moves. */
+  /** Fits `box` to the canvas; the fit follows resize() until the user zooms or pans. */
   fit(box: Box) {
     this.fitted = box;
     this.untouched = true;
@@ -38,7 +38,7 @@ export class Camera {
     this.x = width / 2 - this.scale * centre[0];
     this.y = height / 2 - this.scale * centre[1];
   }
-  /** About a point of the canvas, which stays where it is. */
+  /** Zooms about a point of the canvas, which does not move. */
   zoom(factor: number, cx: number, cy: number) {
     const fitting = this.fitting();
     const next = Math.min(Math.max(this.scale * factor, kSmallest * fitting), Math.max(kLargest, fitting));

@@ -1,23 +1,23 @@
-// Cells as dots: WebGL2, or by hand where WebGL itself is done by hand.
+// Draws cells as dots: with WebGL2, or pixel by pixel if WebGL is rendered in software.
 
 import { type Frame, responds } from '../frame';
 import type { Box, Camera } from './camera';
 
 export type Rgb = [number, number, number];
 export interface Style {
-  /** One colour for each swarm, then the one of cells that do not respond. */
+  /** Colours of the swarms; `mute`: colour of unresponsive cells. */
   colours: Rgb[];
   mute: Rgb;
   ground: Rgb;
-  /** Of a dot, picture px. */
+  /** Radius of a dot, image px. */
   radius: number;
   trails: boolean;
 }
 export interface CellView {
-  /** `ends`: number of the first cell after each swarm. */
+  /** `ends`: index of the first cell after each swarm. */
   draw(f: Frame, ends: number[], box: Box, camera: Camera, style: Style): void;
   readonly name: string;
-  /** Trails begin anew. */
+  /** Clears the trails. */
   clear(): void;
 }
 
@@ -49,9 +49,9 @@ function placing(f: Frame, box: Box, camera: Camera) {
   };
 }
 
-/** Which way cells swim can be seen of large ones only, and where there are not too many. */
+/** Headings are visible only for large dots, and are drawn only for a limited number of cells. */
 const shownAsRods = (f: Frame, radius: number) => radius >= 1.7 && f.cells <= 20000;
-const kTrail = 0.82; // of its light that a trail keeps from frame to frame
+const kTrail = 0.82; // decay factor of trails per frame
 
 class PixelCells implements CellView {
   readonly name = 'pixels';
@@ -80,7 +80,7 @@ class PixelCells implements CellView {
     this.g.putImageData(this.image, 0, 0);
   }
 
-  // Bytes go towards the ground's; two at a time, since this is a pass over the whole picture.
+  // Fades towards the background; processes two bytes at once, because this loop visits all pixels.
   private fade(ground: Rgb) {
     const px = this.px, keep = Math.round(kTrail * 256), rest = 256 - keep;
     const rb = (ground[0] | (ground[2] << 16)) >>> 0, g = ground[1];
@@ -114,7 +114,7 @@ class PixelCells implements CellView {
     }
   }
 
-  // A short line with a round head where the cell swims to.
+  // A short line, thicker at the front.
   private rod(x: number, y: number, angle: number, r: number, colour: number) {
     const w = this.image!.width, h = this.image!.height, px = this.px;
     const c = Math.cos(angle), s = -Math.sin(angle), length = 2 * r, n = Math.ceil(2 * length);
@@ -164,7 +164,7 @@ class WebglCells implements CellView {
   readonly name = 'webgl';
   private dots: WebGLProgram;
   private cover: WebGLProgram;
-  private places: WebGLBuffer;
+  private positionBuffer: WebGLBuffer;
   private headings: WebGLBuffer;
   private order: WebGLBuffer;
   private empty: WebGLVertexArrayObject;
@@ -174,7 +174,7 @@ class WebglCells implements CellView {
   constructor(private gl: WebGL2RenderingContext) {
     this.dots = program(gl, kVertex, kFragment);
     this.cover = program(gl, kCover, kPlain);
-    this.places = gl.createBuffer()!;
+    this.positionBuffer = gl.createBuffer()!;
     this.headings = gl.createBuffer()!;
     this.order = gl.createBuffer()!;
     this.empty = gl.createVertexArray()!;
@@ -209,7 +209,7 @@ class WebglCells implements CellView {
     gl.uniform2f(this.uniform(this.dots, 'size'), w, h);
     gl.uniform1f(this.uniform(this.dots, 'radius'), r);
     gl.uniform1i(this.uniform(this.dots, 'headed'), headed ? 1 : 0);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.places);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.positionBuffer);
     gl.bufferData(gl.ARRAY_BUFFER, f.xy, gl.DYNAMIC_DRAW);
     this.attribute('place', 2, f.xy instanceof Uint16Array ? gl.UNSIGNED_SHORT : gl.FLOAT, false);
     if (headed) {
@@ -219,7 +219,7 @@ class WebglCells implements CellView {
     } else {
       this.constant('heading');
     }
-    // By swarm, those that respond and those that do not: a list of numbers costs less than a test for each dot.
+    // One draw call per swarm for responsive and unresponsive cells: an index list is faster than a test per dot.
     let from = 0;
     ends.forEach((end, s) => {
       const [on, off] = sorted(f, from, end);

@@ -1,4 +1,4 @@
-// Everything that is drawn over the cells: edge, field, crosses, route, scale bar, clock.
+// Overlay on the cells: edge, field, crosses, route, scale bar, clock.
 
 import { swarmColumn } from '../series';
 import type { Frame } from '../frame';
@@ -23,12 +23,12 @@ export interface Marks {
   centroid: [number, number] | null;
   sigma: [number, number] | null;
   setpoint: [number, number] | null;
-  /** A setpoint that was asked for and not yet answered. */
+  /** Requested setpoint without an answer yet. */
   asked: [number, number] | null;
-  /** Being drawn by hand, px. */
+  /** Points of the route in the editor, px. */
   sketch: [number, number][];
 }
-/** The marks of one row of a run's series; `of` gives a column's value there. */
+/** The marks of one row of a series; `of` returns the value of a column. */
 export function recordedMarks(of: (name: string) => number): Pick<Marks, 'centroid' | 'sigma' | 'setpoint'> {
   const pair = (x: string, y: string): [number, number] | null => (Number.isFinite(of(x)) && Number.isFinite(of(y)) ? [of(x), of(y)] : null);
   const swarm = (quantity: string) => swarmColumn(quantity, (name) => Number.isFinite(of(name)));
@@ -42,7 +42,7 @@ export interface Palette {
   swarm: string;
   target: string;
   density: string;
-  /** Around words, so that they can be read on any picture. */
+  /** Outline of text, for contrast on any image. */
   halo: string;
 }
 
@@ -89,7 +89,7 @@ export class Overlay {
     g.globalAlpha = 1;
   }
 
-  // The drop, and what of it the camera sees: the rest is veiled.
+  // Edge of the arena, and view of the camera; the region outside the view is shaded.
   private edge(scene: Scene, camera: Camera, p: Palette, ratio: number) {
     const g = this.g, w = g.canvas.width, h = g.canvas.height, o = scene.outline;
     const [x0, y0] = camera.toCanvas(-0.5, -0.5);
@@ -124,7 +124,7 @@ export class Overlay {
     if (!(most > 0)) return;
     g.strokeStyle = g.fillStyle = p.field;
     if (columns * rows === 1) {
-      // The same everywhere: one arrow, in the corner, with its strength.
+      // Homogeneous field: one arrow in the corner, with the field strength.
       const at = 40 * ratio, length = 24 * ratio;
       this.arrow(at, at, (xy[0] / most) * length, (xy[1] / most) * length, 2 * ratio);
       this.words(p, tesla(most), 2 * at, at + 4 * ratio);
@@ -136,7 +136,7 @@ export class Overlay {
       for (let c = 0; c < columns; ++c) {
         const i = r * columns + c, b = Math.hypot(xy[2 * i], xy[2 * i + 1]);
         if (!(b > 0)) continue;
-        // The root: a field of coils spans orders of magnitude.
+        // Square root, because the field of coils spans orders of magnitude.
         const k = (length * Math.sqrt(b / most)) / b;
         const [x, y] = camera.toCanvas(c * cellX, r * cellY);
         g.globalAlpha = 0.35 + 0.45 * Math.sqrt(b / most);

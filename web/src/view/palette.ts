@@ -1,4 +1,4 @@
-// Colours of the microscope view, told apart also by the colour-blind (after Okabe and Ito), light and dark.
+// Colour-blind-safe colours of the microscope view (Okabe and Ito), light and dark.
 
 import type { Rgb, Style } from './cells';
 import type { Palette } from './overlay';
@@ -14,7 +14,7 @@ export const cellColours = (dark: boolean): Pick<Style, 'colours' | 'mute' | 'gr
   mute: dark ? [96, 104, 112] : [160, 166, 172],
   ground: dark ? [11, 16, 23] : [240, 243, 246],
 });
-/** Of a dot, picture px. */
+/** Radius of a dot, image px. */
 export const cellRadius = (umPerPx: number) => kCell / umPerPx;
 
 export const overlayColours = (dark: boolean): Palette =>
