@@ -4,8 +4,8 @@
 
 namespace faba {
 
-/// Mean, covariance (n - 1) and velocity of detections. Summed in index order by one thread: the same bits
-/// always.
+/// Mean, covariance (n - 1) and velocity of detections. Summed in index order by one thread, so that the
+/// result is bit-identical in every run.
 class Centroid {
  public:
   Estimate update(const Observation& o, bool only_visible);

@@ -7,20 +7,18 @@
 namespace faba {
 namespace {
 
-/// The swarm as the camera's picture shows it, without looking for single cells
-/// (vision/foreground/foreground.h): centroid and covariance of the light that cells take away or add.
-/// `groups` holds one group whose share is the signal now over the largest so far: how much of the swarm is
-/// in view.
+/// The swarm from the camera frame without detection of single cells (vision/foreground/foreground.h):
+/// centroid and covariance of the foreground signal. `groups` has one group; its share is the present signal
+/// over the largest so far, the visible fraction of the swarm.
 class EstimatorImage final : public Estimator {
  public:
   using Params = ForegroundParams;
   static constexpr std::array kTraits = {Trait::needs_pictures};
   static Schema<Params> schema() {
-    return foreground_schema("image", "Centroid, spread and visible share from the camera's picture")
+    return foreground_schema("image", "Centroid, spread and visible fraction from the camera frame")
         .validity(
-            "Needs camera.sensor = \"frames\". Cells on top of each other count as fewer. Counts cells to "
-            "some "
-            "30 % only. Dirt of the size of cells counts as cells until it is absorbed.");
+            "Needs camera.sensor = \"frames\". Overlapping cells are undercounted; the cell count has an "
+            "error of about 30 %. Dirt of the size of a cell counts as a cell until it is absorbed.");
   }
   EstimatorImage(const Params& p, const ControlContext& c) : frame_(c.frame), foreground_(p.options()) {}
 
