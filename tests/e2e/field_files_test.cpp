@@ -67,7 +67,7 @@ TEST_CASE(
   write_file(f.path / "one.csv", one_place);
   refused(f, "field fit drawn.toml --map one.csv", 3, "does not say where");
   write_file(f.path / "no-field.csv", "x_mm,y_mm,z_mm\n0,0,0\n");
-  refused(f, "field fit drawn.toml --map no-field.csv", 3, "needs columns for the field");
+  refused(f, "field fit drawn.toml --map no-field.csv", 3, "has no column for the field");
   write_file(f.path / "hole.csv", "x_mm,bz_mt\n0,\n");
   refused(f, "field fit drawn.toml --map hole.csv", 3, "hole.csv:2");
 }
@@ -143,7 +143,7 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
   refused(f, "field library " + four + " --levels 12 --out l.h5", 2, "already exists");
   refused(f, "run s.toml --seed 1 --out bad --set arena.radius_px=700", 2, "library: covers 2 x 2 mm");
   refused(f, "run s.toml --seed 1 --out bad --set field.file=" + kRigs + "thesis-two-coils.toml", 3,
-          "another rig");
+          "a different coil system");
   refused(f, "run s.toml --seed 1 --out bad --set controller.earth=false", 2, "earth");
   write_file(f.path / "no-library.toml", scene + "[controller]\ntype = 'gradient'\nsource = 'library'\n");
   refused(f, "run no-library.toml --seed 1 --out bad", 2, "there is no library");

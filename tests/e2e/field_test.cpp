@@ -183,8 +183,8 @@ TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in 
   };
   for (const Bad& b :
        {Bad{"file = 'none.toml'", "there is no none.toml"}, Bad{"file = 3", "in quotes"},
-        Bad{"", "needs at least one [[coil]]"},
-        Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "reaches into the sample"},
+        Bad{"", "add at least one [[coil]]"},
+        Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "inside the sample plane"},
         Bad{"coil = [{ type = 'loop', radius = '-1 mm' }]", "field.coil[0].radius"}}) {
     write_file(f.path / "bad.toml", "[field]\ntype = 'rig'\n" + std::string(b.field) + "\n" +
                                         "[arena]\ntype = 'drop'\nradius_px = 2000\n" + swarm);

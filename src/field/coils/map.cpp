@@ -105,8 +105,7 @@ class Map final : public Field {
     FieldData data = field_data(n.table(p.file));
     if (data.about_axis || !data.given[0] || !data.given[1])
       throw Error(Errc::input, data.source,
-                  "has no x, y, bx and by; a map needs these columns, and preferably z and bz, such as x_mm "
-                  "and bx_mt");
+                  "a map needs the columns x, y, bx and by, and preferably z and bz, such as x_mm and bx_mt");
     if (p.within) keep_within(data, *p.within);
     p.expansion = expanded(data, p.measured_current);
   }
