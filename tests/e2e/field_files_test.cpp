@@ -57,11 +57,11 @@ TEST_CASE(
   refused(f, "field fit drawn.toml --map m.csv --out m.csv --force", 2, "is what this command reads");
   refused(f, "field fit drawn.toml --map m.csv --out ./drawn.toml --force", 2, "is what this command reads");
   refused(f, "field map drawn.toml --picture /dev/null --force", 2, "is no file that could be replaced");
-  refused(f, "field map drawn.toml --current 1e300 --picture m.png", 2, "more than any coil bears");
+  refused(f, "field map drawn.toml --current 1e300 --picture m.png", 2, "out of range");
   refused(f, "field fit drawn.toml --map nothing.csv", 3, "nothing.csv");
-  refused(f, "field fit '" + kRigs + "thesis-four-coils.toml' --map m.csv", 2, "no current flows");
+  refused(f, "field fit '" + kRigs + "thesis-four-coils.toml' --map m.csv", 2, "all currents are zero");
   write_file(f.path / "few.csv", "x_mm,y_mm,z_mm,bz_mt\n0,0,0,1\n0,0,1,1.1\n");
-  refused(f, "field fit drawn.toml --map few.csv", 3, "2 values for 5 unknowns");
+  refused(f, "field fit drawn.toml --map few.csv", 3, "2 values for 5 parameters");
   std::string one_place = "x_mm,y_mm,z_mm,bz_mt\n";
   for (int i = 0; i < 20; ++i) one_place += "0,0,0,1\n";
   write_file(f.path / "one.csv", one_place);
