@@ -10,9 +10,10 @@ class ReferenceNone final : public Reference {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::no_target};
-  static Schema<Params> schema(){return Schema<Params>(
-      "none", "No setpoint; the default for the manual controller")} ReferenceNone(const Params&,
-                                                                                   const ControlContext&) {}
+  static Schema<Params> schema() {
+    return Schema<Params>("none", "No setpoint; the default for the manual controller");
+  }
+  ReferenceNone(const Params&, const ControlContext&) {}
   Target update(const Estimate&) override {
     constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
     return {{kNowhere, kNowhere}, 0, false};

@@ -64,7 +64,7 @@ TEST_CASE("flow of two pictures: a file of flows, a picture, the truth, and what
   refused(f, "flow a.pgm none.pgm", 3, "no such file");
   refused(f, "flow a.pgm b.pgm --alpha2 0", 2, "out of range");
   refused(f, "flow a.pgm b.pgm --solver gauss", 2, "solver");
-  refused(f, "flow a.pgm b.pgm --quality fast", 2, "is no parameter of method horn_schunck");
+  refused(f, "flow a.pgm b.pgm --quality fast", 2, "not a parameter of method horn_schunck");
   refused(f, "flow a.pgm b.pgm --overlay o.mp4", 2, "--picture");
   refused(f, "flow a.pgm", 3, "one frame only");
   write_file(f.path / "c.pgm", spot(41, 30, 18, 15));

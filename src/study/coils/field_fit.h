@@ -17,7 +17,7 @@ struct FieldFit {
   Values standard_error;  ///< NaN where nothing was fitted
   double rms = 0;         ///< of the residuals, T
   double rms_field = 0;   ///< of the measured values, T
-  std::string note;       ///< warning; empty if there is none
+  std::string note;       ///< warning; may be empty
 };
 
 /// Least-squares fit to measured values (FieldData) with the default currents of the coils; for data about an

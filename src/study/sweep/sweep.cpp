@@ -13,8 +13,8 @@
 namespace faba {
 namespace {
 
-// Tasks take and give back memory for pictures by the thousand. Given back to the system each time, that
-// costs more than the work done in it: pages come cleared, one by one.
+// Tasks allocate and free memory for frames thousands of times. Returning it to the system each time would
+// cost more than the tasks, because the system clears every page.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 64 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
@@ -40,16 +40,16 @@ bool sweep(ResultStore& store, std::span<const Task> tasks, const SweepOptions& 
   }
   std::atomic<std::size_t> next{0};
   std::atomic<bool> over{false};
-  std::mutex keeping;
+  std::mutex storing;
   std::uint64_t done = mine - todo.size();
   Pool pool(o.threads);
-  // Tasks are of different length: each thread takes the next one when it is free.
+  // Tasks have different durations: each thread takes the next task when it is free.
   if (!todo.empty())
     pool.run(pool.threads(), [&](std::size_t) {
       for (std::size_t i; !over && (i = next++) < todo.size();) {
         try {
           const std::vector<double> values = todo[i]->work();
-          const std::lock_guard lock(keeping);
+          const std::lock_guard lock(storing);
           store.add(todo[i]->key, values);
           o.progress(++done, mine);
           if (o.stop()) over = true;
@@ -59,7 +59,7 @@ bool sweep(ResultStore& store, std::span<const Task> tasks, const SweepOptions& 
         }
       }
     });
-  if (done < mine) throw Error(Errc::interrupted, "", "stopped; what is done is kept");
+  if (done < mine) throw Error(Errc::interrupted, "", "stopped; the completed tasks are stored");
   return std::all_of(tasks.begin(), tasks.end(), [&](const Task& t) { return store.find(t.key) != nullptr; });
 }
 

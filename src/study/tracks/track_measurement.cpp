@@ -164,7 +164,7 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
   m.joining = pass.joining();
   m.summary = pass.summary();
   m.notes = survey.notes;
-  if (is_run(o.video) && !is_whole(o.video))
+  if (is_run(o.video) && !is_complete(o.video))
     m.notes.emplace_back("the run was interrupted; this is what was recorded");
   if (pass.repeated_times() > 0)
     m.notes.push_back(fmt::format("{} at the time of the one before: not tracked",
