@@ -156,7 +156,7 @@ TEST_CASE("numbers, outputs and times that cannot be are refused before any work
   refused(f, "activity film --noise film --flow-threshold 0.1", 2, "--noise");
   refused(f, "activity film --report none/r.html", 2, "there is no folder none");
   refused(f, "track film --fps 15 --out a.csv --swarm a.csv", 2, "two outputs");
-  refused(f, "activity film --from 100", 3, "fewer than two frames in the time asked for");
+  refused(f, "activity film --from 100", 3, "fewer than two frames in the requested interval");
   CHECK_FALSE(std::filesystem::exists(f.path / "a.csv"));
 }
 
