@@ -9,12 +9,12 @@ namespace faba {
 class Centroid {
  public:
   Estimate update(const Observation& o, bool only_visible);
-  void archive(Archive& a) { a& at_& t_& seen_; }
+  void archive(Archive& a) { a& at_& t_& has_centroid_; }
 
  private:
   Vec2 at_;  ///< last centroid, m, world
   double t_ = 0;
-  bool seen_ = false;
+  bool has_centroid_ = false;
 };
 
 }  // namespace faba

@@ -39,8 +39,8 @@ class GradientFeedback final : public Controller {
              {.unit = "px", .min = 0, .max = 1e5, .doc = "Largest distance of the zero from the setpoint"})
         .include(&Params::trap, Trap::Params::schema())
         .validity(
-            "Slower than the relaxation of the swarm in the trap: about f_r / (m g) times swarm width over "
-            "swimming speed.");
+            "The response is limited by the relaxation of the swarm in the trap, which takes about the width "
+            "of the swarm over the swimming speed.");
   }
   GradientFeedback(const Params& p, const ControlContext& c)
       : p_(p), m_per_px_(c.scale.m_per_px), trap_(p.trap, c) {}

@@ -68,18 +68,18 @@ class EstimatorGroups final : public Estimator {
     e.t = o.t;
     e.centroid = at_;
     if (groups.empty()) return e;
-    const FuzzyGroup& mine = groups[chosen(groups)];
-    e.centroid = mine.centroid;
-    e.cov = mine.cov;
-    e.visible = cells * mine.share;
-    if (has_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
+    const FuzzyGroup& followed = groups[followed_group(groups)];
+    e.centroid = followed.centroid;
+    e.cov = followed.cov;
+    e.visible = cells * followed.share;
+    if (has_estimate_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
     at_ = e.centroid;
     t_ = o.t;
-    has_ = true;
+    has_estimate_ = true;
     for (const FuzzyGroup& g : groups) e.groups.push_back({g.centroid, g.share, g.cov});
     return e;
   }
-  void archive(Archive& a) override { a& foreground_& at_& t_& frame_t_& has_& looked_; }
+  void archive(Archive& a) override { a& foreground_& at_& t_& frame_t_& has_estimate_& has_frame_; }
 
  private:
   std::vector<WeightedPlace> from_cells(const Observation& o, double& cells) {
@@ -91,9 +91,9 @@ class EstimatorGroups final : public Estimator {
     return places_.size() > 2000 ? binned(places_, kBins) : places_;
   }
   std::vector<WeightedPlace> from_picture(const Observation& o, double& cells) {
-    foreground_.take(camera_picture(o, frame_), looked_ ? o.t - frame_t_ : 0);
+    foreground_.take(camera_picture(o, frame_), has_frame_ ? o.t - frame_t_ : 0);
     frame_t_ = o.t;
-    looked_ = true;
+    has_frame_ = true;
     cells = foreground_.moments().cells;
     places_.clear();
     if (cells == 0) return {};
@@ -124,9 +124,9 @@ class EstimatorGroups final : public Estimator {
       }
     }
   }
-  std::size_t chosen(const std::vector<FuzzyGroup>& groups) const {
-    if (!has_ && (!p_.near || p_.follow == Follow::largest)) return 0;
-    const Vec2 from = has_ ? at_ : *p_.near;
+  std::size_t followed_group(const std::vector<FuzzyGroup>& groups) const {
+    if (!has_estimate_ && (!p_.near || p_.follow == Follow::largest)) return 0;
+    const Vec2 from = has_estimate_ ? at_ : *p_.near;
     std::size_t nearest = 0;
     for (std::size_t k = 1; k < groups.size(); ++k)
       if (norm(groups[k].centroid - from) < norm(groups[nearest].centroid - from)) nearest = k;
@@ -140,7 +140,7 @@ class EstimatorGroups final : public Estimator {
   std::vector<WeightedPlace> places_;  ///< scratch buffer, reused
   Vec2 at_;                            ///< last centroid, m, world
   double t_ = 0, frame_t_ = 0;
-  bool has_ = false, looked_ = false;
+  bool has_estimate_ = false, has_frame_ = false;
 };
 
 }  // namespace

@@ -24,7 +24,7 @@ class EstimatorImage final : public Estimator {
 
   Estimate update(const Observation& o, const Command&) override {
     const Gray8& picture = camera_picture(o, frame_);
-    foreground_.take(picture, seen_ ? o.t - t_ : 0);
+    foreground_.take(picture, has_frame_ ? o.t - t_ : 0);
     const SwarmMoments m = foreground_.moments();
     Estimate e;
     e.t = o.t;
@@ -34,25 +34,27 @@ class EstimatorImage final : public Estimator {
       const double area = frame_.m_per_px * frame_.m_per_px;
       e.centroid = frame_.world_from_image(m.centroid_image);
       e.cov = {area * m.cov_px2.xx, -area * m.cov_px2.xy, area * m.cov_px2.yy};
-      if (has_place_ && o.t > place_t_) e.velocity = (1 / (o.t - place_t_)) * (e.centroid - at_);
+      if (has_centroid_ && o.t > centroid_t_) e.velocity = (1 / (o.t - centroid_t_)) * (e.centroid - at_);
       at_ = e.centroid;
-      place_t_ = o.t;
-      has_place_ = true;
-      most_ = std::max(most_, m.signal);
-      e.groups.push_back({e.centroid, m.signal / most_, e.cov});
+      centroid_t_ = o.t;
+      has_centroid_ = true;
+      largest_signal_ = std::max(largest_signal_, m.signal);
+      e.groups.push_back({e.centroid, m.signal / largest_signal_, e.cov});
     }
     t_ = o.t;
-    seen_ = true;
+    has_frame_ = true;
     return e;
   }
-  void archive(Archive& a) override { a& foreground_& at_& t_& place_t_& most_& seen_& has_place_; }
+  void archive(Archive& a) override {
+    a& foreground_& at_& t_& centroid_t_& largest_signal_& has_frame_& has_centroid_;
+  }
 
  private:
   Frame frame_;
   Foreground foreground_;
   Vec2 at_;  ///< last centroid, m, world
-  double t_ = 0, place_t_ = 0, most_ = 0;
-  bool seen_ = false, has_place_ = false;
+  double t_ = 0, centroid_t_ = 0, largest_signal_ = 0;
+  bool has_frame_ = false, has_centroid_ = false;
 };
 
 }  // namespace

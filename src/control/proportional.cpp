@@ -36,17 +36,17 @@ class Proportional final : public Controller {
   static Schema<Params> schema();
   Proportional(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
-  void archive(Archive& a) override { a& integral_& owed_& last_& seen_; }
+  void archive(Archive& a) override { a& integral_& duty_residual_& last_& has_last_; }
 
  private:
   Params p_;
   ControlContext c_;
-  double k_p_ = 0;      ///< drift per error, 1/frame
-  Vec2 integral_;       ///< px frames
-  double owed_ = 0;     ///< sigma-delta residual of the duty, in frames at full speed
-  double horizon_ = 0;  ///< extrapolation time of the centroid, s
-  Vec2 last_;           ///< centroid of the previous update, m
-  bool seen_ = false;   ///< last_ is valid
+  double k_p_ = 0;            ///< drift per error, 1/frame
+  Vec2 integral_;             ///< px frames
+  double duty_residual_ = 0;  ///< sigma-delta residual of the duty, in frames at full speed
+  double horizon_ = 0;        ///< extrapolation time of the centroid, s
+  Vec2 last_;                 ///< centroid of the previous update, m
+  bool has_last_ = false;     ///< last_ is valid
 };
 
 Schema<Proportional::Params> Proportional::schema() {
@@ -100,31 +100,31 @@ Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_
 }
 
 Command Proportional::update(const Estimate& e, const Target& target, double dt) {
-  const Vec2 moved = seen_ && dt > 0 ? (horizon_ / dt) * (e.centroid - last_) : Vec2{};
-  seen_ = e.visible > 0 && std::isfinite(norm(e.centroid));
+  const Vec2 moved = has_last_ && dt > 0 ? (horizon_ / dt) * (e.centroid - last_) : Vec2{};
+  has_last_ = e.visible > 0 && std::isfinite(norm(e.centroid));
   last_ = e.centroid;
   const Vec2 error_px = (1 / c_.scale.m_per_px) * (target.position - e.centroid - moved);
   const double distance = norm(error_px);  // not finite: no target or overflow
-  if (!seen_ || !std::isfinite(distance) || distance <= p_.dead_zone_px)
+  if (!has_last_ || !std::isfinite(distance) || distance <= p_.dead_zone_px)
     return field_command(c_, e.centroid, {});
 
   const bool duty = p_.actuation == Actuation::duty;
   // Largest drift of the plant, px per frame
-  const double most = duty ? p_.speed * c_.frame_period / c_.scale.m_per_px
-                           : p_.max_output * c_.frame_period / c_.scale.iteration;
+  const double max_drift = duty ? p_.speed * c_.frame_period / c_.scale.m_per_px
+                                : p_.max_output * c_.frame_period / c_.scale.iteration;
   const Vec2 summed = integral_ + error_px;
   const Vec2 wanted = k_p_ * (error_px + p_.integral_gain * summed);
   const double size = norm(wanted);
-  if (size <= most) integral_ = summed;
+  if (size <= max_drift) integral_ = summed;
   if (size == 0) return field_command(c_, e.centroid, {});
   const Vec2 along = (1 / size) * wanted;
-  const double fraction = std::min(size / most, 1.0);
+  const double fraction = std::min(size / max_drift, 1.0);
   if (!duty) return field_command(c_, e.centroid, (fraction * p_.max_output) * along);
 
   // Sigma-delta modulation: forwards while drift is owed, else backwards; the mean is the desired fraction.
-  owed_ = std::clamp(owed_ + fraction, -2.0, 2.0);
-  const double sign = owed_ >= 0 ? 1 : -1;
-  owed_ -= sign;
+  duty_residual_ = std::clamp(duty_residual_ + fraction, -2.0, 2.0);
+  const double sign = duty_residual_ >= 0 ? 1 : -1;
+  duty_residual_ -= sign;
   return field_command(c_, e.centroid, (sign * p_.max_output) * along);
 }
 

@@ -56,8 +56,9 @@ Schema<ReferenceRoute::Params> ReferenceRoute::schema() {
                 "Time after which the next setpoint is used even if this one is not reached; no timeout when "
                 "absent"})
       .check([](const Params& p) -> std::string {
-        return p.setpoints_px.empty() ? "setpoints_px is empty; specify at least one, such as [[100, 120]]"
-                                      : "";
+        return p.setpoints_px.empty()
+                   ? "setpoints_px is empty; specify at least one setpoint, such as [[100, 120]]"
+                   : "";
       });
 }
 
@@ -73,8 +74,8 @@ Target ReferenceRoute::update(const Estimate& e) {
   }
   const bool near = e.visible > 0 && norm(e.centroid - points_[index_]) < tolerance_;
   inside_ = near ? inside_ + 1 : 0;
-  const bool late = p_.timeout && e.t - since_ >= *p_.timeout;
-  if (inside_ >= p_.hold_frames || late) {
+  const bool timed_out = p_.timeout && e.t - since_ >= *p_.timeout;
+  if (inside_ >= p_.hold_frames || timed_out) {
     if (index_ + 1 < points_.size()) {
       ++index_;
       inside_ = 0;

@@ -30,7 +30,7 @@ Trap::Trap(const Params& p, const ControlContext& c) : p_(p), c_(c), current_(c.
 }
 
 Command Trap::at(Vec2 at) {
-  if ((known_ && at == at_) || !std::isfinite(norm(at))) return {current_};
+  if ((current_valid_ && at == at_) || !std::isfinite(norm(at))) return {current_};
   if (p_.source == Source::library) {
     if (const auto entry = c_.library->nearest(at, c_.polarity))
       current_ = c_.library->entries()[*entry].current;
@@ -38,7 +38,7 @@ Command Trap::at(Vec2 at) {
     const FieldNull n = null_at(*c_.field, at, c_.polarity, c_.max_current, p_.earth);
     if (n.reachable) current_ = n.current;
   }
-  known_ = true;
+  current_valid_ = true;
   at_ = at;
   return {current_};
 }

@@ -19,12 +19,12 @@ class Trap {
   Trap(const Params& p, const ControlContext& c);
   /// `at` in m, world frame.
   Command at(Vec2 at);
-  void archive(Archive& a) { a& known_& at_& current_; }
+  void archive(Archive& a) { a& current_valid_& at_& current_; }
 
  private:
   Params p_;
   ControlContext c_;
-  bool known_ = false;  ///< current_ belongs to at_
+  bool current_valid_ = false;  ///< current_ belongs to at_
   Vec2 at_;
   std::vector<double> current_;  ///< A
 };

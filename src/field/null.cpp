@@ -47,7 +47,7 @@ Vector strongest_slope(const Slope& c) {
 
 /// The largest s for which all currents of start + s direction are within their limits; negative when one of
 /// `start` is not.
-double room(const Vector& start, const Vector& direction) {
+double largest_step(const Vector& start, const Vector& direction) {
   double s = std::numeric_limits<double>::infinity();
   for (Eigen::Index k = 0; k < start.size(); ++k) {
     if (std::fabs(start[k]) > 1 + 1e-12) return -1;
@@ -77,12 +77,12 @@ Vector least_currents(const Matrix& a, const Eigen::Vector2d& wanted) {
 }
 
 /// Slope along the direction of the weakest trap; positive when the currents trap.
-double weakest(const Slope& c, const Vector& current) {
+double weakest_slope(const Slope& c, const Vector& current) {
   return c.mean.dot(current) - norm(Vec2{c.along.dot(current), c.across.dot(current)});
 }
 
-/// The currents start + free y within the limits for which weakest() is largest. It is a concave function of
-/// y and the limits are convex, so the maximum is unique. Newton's method on a barrier,
+/// The currents start + free y within the limits for which weakest_slope() is largest. It is a concave
+/// function of y and the limits are convex, so the maximum is unique. Newton's method on a barrier,
 ///   maximise  weight t + log((mean - t)^2 - along^2 - across^2) + sum of log(1 - current^2)  over y and t,
 /// with increasing weight. `start` is inside the limits.
 class BestTrap {
@@ -99,7 +99,7 @@ class BestTrap {
   Vector solve() const {
     constexpr int kDecades = 10;  // the distance from the maximum is about 10 / (final weight)
     Vector z = Vector::Zero(free_.cols() + 1);
-    z[z.size() - 1] = weakest(c_, start_) - 1;
+    z[z.size() - 1] = weakest_slope(c_, start_) - 1;
     double weight = 1;
     for (int decade = 0; decade <= kDecades; ++decade, weight *= 10)
       for (int i = 0; i < 50; ++i)
@@ -152,11 +152,11 @@ class BestTrap {
 };
 
 /// Eigenvalues of the in-plane part of the gradient, and dB_z/dz.
-struct Measured {
+struct LocalGradient {
   std::array<double, 2> in_plane;
   double along_z;
 };
-Measured measured(const Local& local, std::span<const double> current) {
+LocalGradient local_gradient(const Local& local, std::span<const double> current) {
   double xx = 0, xy = 0, yy = 0, zz = 0;
   for (std::size_t k = 0; k < current.size(); ++k) {
     xx += current[k] * local.g[k][0][0];
@@ -201,18 +201,18 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
   const bool zero = (a * start - wanted).norm() <= 1e-9 * (wanted.norm() + 1e-12);
   if (zero && free.cols() > 0) {
     const Slope combined{free.transpose() * c.mean, free.transpose() * c.along, free.transpose() * c.across};
-    const double inside = room(start, Vector::Zero(n));
+    const double inside = largest_step(start, Vector::Zero(n));
     if (inside > 0 && combined.size() > 0) {
       out.reachable = true;
       if (start.cwiseAbs().maxCoeff() < 1) current = BestTrap(c, start, free).solve();
-      if (!(weakest(c, current) > 0)) {  // no trap at this point within the limits
+      if (!(weakest_slope(c, current) > 0)) {  // no trap at this point within the limits
         const Vector direction = free * strongest_slope(combined);
-        current = start + room(start, direction) * direction;
+        current = start + largest_step(start, direction) * direction;
       }
     }
   }
   for (Eigen::Index k = 0; k < n; ++k) out.current.push_back(most[std::size_t(k)] * current[k]);
-  const Measured m = measured(local, out.current);
+  const LocalGradient m = local_gradient(local, out.current);
   out.gradient = m.in_plane;
   out.out_of_plane = m.along_z;
   // North-seeking cells swim along B: they gather where B points inwards.
@@ -221,7 +221,7 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
 }
 
 NullGradient null_gradient(const Field& field, std::span<const double> current, Vec2 at) {
-  return measured(Local(field, at), current).in_plane;
+  return local_gradient(Local(field, at), current).in_plane;
 }
 
 std::vector<double> current_limits(const Field& field) {
@@ -244,9 +244,9 @@ Vec2 find_null(const Field& field, std::span<const double> current, Vec2 from) {
       for (int r = 0; r < 2; ++r)
         for (int c = 0; c < 2; ++c) g(r, c) += current[k] * local.g[k][std::size_t(r)][std::size_t(c)];
     }
-    double made = 0;  // sum of the field magnitudes of the coils: scale for the tolerance of the zero
+    double field_scale = 0;  // sum of the field magnitudes of the coils: scale for the tolerance of the zero
     for (std::size_t k = 0; k < current.size(); ++k)
-      made += std::fabs(current[k]) * norm(Vec2{local.b[k].x, local.b[k].y});
+      field_scale += std::fabs(current[k]) * norm(Vec2{local.b[k].x, local.b[k].y});
     const Eigen::Vector2d step = g.fullPivLu().solve(b);
     // The gradient is not valid beyond the nearest coil: the step is limited to half the distance to it.
     const double most = 0.5 * field.clearance({from.x, from.y, 0});
@@ -254,7 +254,7 @@ Vec2 find_null(const Field& field, std::span<const double> current, Vec2 from) {
     if (!std::isfinite(length) || !(most > 0)) break;
     const double fraction = length > most ? most / length : 1;
     from = from - fraction * Vec2{step[0], step[1]};
-    if (length < 1e-12 && b.norm() < 1e-9 * made) return from;
+    if (length < 1e-12 && b.norm() < 1e-9 * field_scale) return from;
     if (length < 1e-12) break;
   }
   return {kNowhere, kNowhere};

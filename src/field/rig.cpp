@@ -98,7 +98,7 @@ class Rig final : public Field {
 // The coils are the parts registered before it.
 void add_rig(FieldRegistry& r) {
   const auto coils =
-      std::make_shared<const FieldRegistry>(r.only(Trait::coil, "coil", "A coil of a rig: [[coil]]"));
+      std::make_shared<const FieldRegistry>(r.only(Trait::coil, "coil", "A coil of a coil system: [[coil]]"));
   r.add<Rig>(Rig::schema(coils));
 }
 

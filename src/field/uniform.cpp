@@ -43,7 +43,7 @@ Schema<Uniform::Params> Uniform::schema() {
             .min = 1e-9,
             .max = 1,
             .doc = "Field per ampere of each pair",
-            .source = "two coils of the reference rig, 0.2966 mT/A each (C4)"})
+            .source = "two coils of the reference coil system, 0.2966 mT/A each (C4)"})
       .add("earth", &Params::earth,
            {.unit = "T", .min = -1e-3, .max = 1e-3, .doc = "Ambient field in the plane of the swarm"})
       .add("lag", &Params::lag,

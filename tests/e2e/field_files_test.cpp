@@ -65,7 +65,7 @@ TEST_CASE(
   std::string one_place = "x_mm,y_mm,z_mm,bz_mt\n";
   for (int i = 0; i < 20; ++i) one_place += "0,0,0,1\n";
   write_file(f.path / "one.csv", one_place);
-  refused(f, "field fit drawn.toml --map one.csv", 3, "does not say where");
+  refused(f, "field fit drawn.toml --map one.csv", 3, "does not determine");
   write_file(f.path / "no-field.csv", "x_mm,y_mm,z_mm\n0,0,0\n");
   refused(f, "field fit drawn.toml --map no-field.csv", 3, "has no column for the field");
   write_file(f.path / "hole.csv", "x_mm,bz_mt\n0,\n");

@@ -88,7 +88,7 @@ TEST_CASE("flow, activity and compare of a folder of frames and of its file of f
   CHECK(c.json()["runs"][0]["mean"] == 0);
   CHECK(c.json()["floor"].is_null());
   CHECK(c.json()["naive"].get<double>() > 0);
-  refused(f, "activity film.h5 --picture p.png --flow-threshold 0.05", 3, "give the video");
+  refused(f, "activity film.h5 --picture p.png --flow-threshold 0.05", 3, "the video");
   refused(f, "compare film none", 3, "no such file");
 }
 

@@ -172,7 +172,7 @@ TEST_CASE("invalid maps are refused with the reason") {
   written("1", true);
   refused(toml, "on one line");
   written("0", false);
-  refused(toml, "all values are 0");
+  refused(toml, "all field values are 0");
   written("1e300", false);
   refused(toml, "out of range");
   written("1", false);

@@ -66,7 +66,8 @@ class Map final : public Field {
         .add("file", &Params::file,
              {.doc =
                   "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz are "
-                  "optional), or HDF5 from `faba field map`; relative to the folder of the coil system, or "
+                  "optional), or HDF5 from `faba field map`; relative to the folder of the coil system file, "
+                  "or "
                   "to the current directory"})
         .add("measured_current", &Params::measured_current,
              {.unit = "A", .min = -1e4, .max = 1e4, .doc = "Current during the measurement"})
@@ -148,7 +149,7 @@ class Map final : public Field {
     d.b.resize(kept);
   }
   static Expansion expanded(const FieldData& data, double measured_current) {
-    constexpr double kTooFar = 0.05;  // assumed: the error of a Hall probe is about 1 %
+    constexpr double kLargestResidual = 0.05;  // assumed: the error of a Hall probe is about 1 %
     const HarmonicFit fit = fit_harmonics(data);
     Expansion e;
     e.centre = fit.field.centre;
@@ -160,7 +161,7 @@ class Map final : public Field {
     }
     e.residual = fit.rms / fit.rms_field;
     if (!(fit.rms_field > 0)) throw Error(Errc::input, data.source, "all field values are 0");
-    if (!(e.residual <= kTooFar))
+    if (!(e.residual <= kLargestResidual))
       throw Error(
           Errc::input, data.source,
           fmt::format(

@@ -44,10 +44,11 @@ Map computed(const Field& field, const std::vector<double>& current, const Field
 std::vector<Vec2> zeros_in(const Field& field, const std::vector<double>& current, const FieldMapOptions& o) {
   std::vector<Vec2> found;
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; })) return found;
-  constexpr int kTries = 21;
-  for (int i = 0; i < kTries; ++i)
-    for (int j = 0; j < kTries; ++j) {
-      const Vec2 from{o.width * ((i + 0.5) / kTries - 0.5), o.height * ((j + 0.5) / kTries - 0.5)};
+  constexpr int kStartsPerSide = 21;
+  for (int i = 0; i < kStartsPerSide; ++i)
+    for (int j = 0; j < kStartsPerSide; ++j) {
+      const Vec2 from{o.width * ((i + 0.5) / kStartsPerSide - 0.5),
+                      o.height * ((j + 0.5) / kStartsPerSide - 0.5)};
       const Vec2 at = find_null(field, current, from);
       if (!(std::fabs(at.x) <= o.width / 2 && std::fabs(at.y) <= o.height / 2)) continue;
       if (std::none_of(found.begin(), found.end(), [&](Vec2 f) { return norm(f - at) < 1e-3 * o.width; }))
@@ -61,12 +62,12 @@ const char* kind_of(const NullGradient& g) {
 }
 
 /// Deletes a file that was not renamed to its final name.
-struct Unfinished {
+struct PartialFile {
   std::filesystem::path file;
-  explicit Unfinished(std::filesystem::path f) : file(std::move(f)) {}
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-  ~Unfinished() {
+  explicit PartialFile(std::filesystem::path f) : file(std::move(f)) {}
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+  ~PartialFile() {
     std::error_code ec;
     if (!file.empty()) std::filesystem::remove(file, ec);
   }
@@ -74,7 +75,7 @@ struct Unfinished {
 
 void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vector<double>& current) {
   const std::filesystem::path part = file.string() + ".part";
-  Unfinished unfinished{part};
+  PartialFile partial{part};
   H5File h5 = H5File::create(part);
   const auto columns = std::uint64_t(m.width);
   H5Table b = h5.table<double>("b_t", {columns, 3}, 16, columns, true);
@@ -99,7 +100,7 @@ void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vect
   for (std::size_t c = 0; c < columns; ++c) x.append<double>({&m.at[c].x, 1});
   h5.close();
   rename_complete(part, file);
-  unfinished.file.clear();
+  partial.file.clear();
 }
 
 void draw(const FieldMapOptions& o, const Field& field, const Map& m,

@@ -261,41 +261,43 @@ class RepeatedRun {
 
 /// Mean distance between runs of one scenario with different seeds. The first such run is the reference.
 void find_floor(const CompareJob& job, Comparison& c) {
-  std::vector<std::filesystem::path> same;
+  std::vector<std::filesystem::path> same_scenario;
   std::string scenario;
   for (const auto& file : job.runs) {
     if (!is_run(file)) continue;
     const RunInfo info = read_run_info(file / run_files::kManifest);
-    if (same.empty()) scenario = info.scenario_hash;
-    if (info.scenario_hash == scenario) same.push_back(file);
+    if (same_scenario.empty()) scenario = info.scenario_hash;
+    if (info.scenario_hash == scenario) same_scenario.push_back(file);
   }
-  if (same.empty()) {
+  if (same_scenario.empty()) {
     c.floor_from = "unknown: no run directory was given, and a video cannot be repeated with another seed";
     return;
   }
   std::optional<RepeatedRun> repeated;
-  if (same.size() < 2) {
+  if (same_scenario.size() < 2) {
     if (!job.simulate_floor) {
       c.floor_from = "not computed, because of --no-floor";
       return;
     }
-    repeated.emplace(same.front(), job);
-    same.push_back(repeated->run());
-    c.floor_from = fmt::format("{} and a run of its scenario with another seed", same.front().string());
+    repeated.emplace(same_scenario.front(), job);
+    same_scenario.push_back(repeated->run());
+    c.floor_from =
+        fmt::format("{} and a run of its scenario with another seed", same_scenario.front().string());
   } else {
-    c.floor_from = fmt::format("{} runs of the same scenario", same.size());
+    c.floor_from = fmt::format("{} runs of the same scenario", same_scenario.size());
   }
-  CompareJob between = job;
-  between.reference = same.front();
-  Comparer comparer(between);
+  CompareJob floor_job = job;
+  floor_job.reference = same_scenario.front();
+  Comparer comparer(floor_job);
   double sum = 0;
-  for (std::size_t i = 1; i < same.size(); ++i) {
+  for (std::size_t i = 1; i < same_scenario.size(); ++i) {
     double t0 = 0;
     for (const ComparedRun& r : c.runs)
-      if (r.file == same.front()) t0 = r.t0_s;
-    sum += comparer.compare(same[i], t0, t0, c.filter).distance.mean;  // one scenario: equal field schedules
+      if (r.file == same_scenario.front()) t0 = r.t0_s;
+    sum += comparer.compare(same_scenario[i], t0, t0, c.filter)
+               .distance.mean;  // one scenario: equal field schedules
   }
-  c.floor = sum / double(same.size() - 1);
+  c.floor = sum / double(same_scenario.size() - 1);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ struct RulerReadings {
   std::vector<double> reading_px;
 };
 
-/// Reads a table of readings: one column of widths, whose name says `width` or `um` and ends with a unit of
+/// Reads a table of readings: one column of widths, whose name ends with a unit of
 /// length (`width_um`, `width (mm)`, `um`), and one or more columns of readings in pixels. When some names
 /// contain `px` or `pixel`, those columns are the readings, else all other columns. One row per width with
 /// its readings in several columns, or one row per reading. Throws Error(input) with file and line for a

@@ -44,8 +44,8 @@ StudyDirectory::~StudyDirectory() {
   fs::remove(dir_, ignored);  // fails when it contains other files
 }
 
-StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_hash, const std::string& again,
-                               bool force)
+StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_hash,
+                               const std::string& resume_command, bool force)
     : dir_(dir), study_hash_(study_hash) {
   std::error_code ec;
   if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
@@ -55,21 +55,21 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
   if (!fs::is_directory(dir))
     throw Error(Errc::internal, dir.string(),
                 fmt::format("the directory cannot be created: {}; choose another --out", ec.message()));
-  const auto there = hash_of_study_in(dir);
-  if (!there && !fs::is_empty(dir, ec))
+  const auto existing = hash_of_study_in(dir);
+  if (!existing && !fs::is_empty(dir, ec))
     throw Error(Errc::usage, dir.string(), "contains other files and no study; choose another --out");
-  const bool same = there == study_hash;
-  if (there && !same && !force)
+  const bool same = existing == study_hash;
+  if (existing && !same && !force)
     throw Error(Errc::usage, dir.string(),
                 "contains a different study; choose another --out, or --force to replace it");
   if (same && !fs::exists(dir / kMarker) && !force)
     throw Error(Errc::usage, dir.string(),
                 "the study is already complete; choose another --out, or --force to write its pages again");
-  lock_ =
-      FileLock(dir / kMarker, dir, fmt::format("This study is not complete. Resume it with: {}\n", again));
+  lock_ = FileLock(dir / kMarker, dir,
+                   fmt::format("This study is not complete. Resume it with: {}\n", resume_command));
   if (!same) {
     fs::remove(dir / kResults, ec);
-    if (there)
+    if (existing)
       for (const char* name : kWritten) fs::remove(dir / name, ec);
     write_file(dir / kStudy,
                nlohmann::ordered_json{{"study_hash", study_hash}, {"version", FABA_VERSION}}.dump(2) + "\n");
@@ -79,9 +79,9 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
 
 void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
   for (const fs::path& other : dirs) {
-    const auto there = hash_of_study_in(other);
-    if (!there) throw Error(Errc::input, other.string(), "contains no study");
-    if (*there != study_hash_) throw Error(Errc::usage, other.string(), "contains a different study");
+    const auto existing = hash_of_study_in(other);
+    if (!existing) throw Error(Errc::input, other.string(), "contains no study");
+    if (*existing != study_hash_) throw Error(Errc::usage, other.string(), "contains a different study");
     if (fs::weakly_canonical(other) != fs::weakly_canonical(dir_) && fs::exists(other / kResults))
       results_->merge(other / kResults);
   }

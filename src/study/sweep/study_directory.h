@@ -16,12 +16,12 @@ bool holds_complete_study(const std::filesystem::path& dir, const std::string& s
 /// a study that was stopped or killed is resumed from the stored results.
 class StudyDirectory {
  public:
-  /// Creates `dir`, or resumes the study in it. `study_hash` is the hash of all inputs of the study, `again`
-  /// the command that resumes it. Throws Error(usage) when the directory contains other files, a different
-  /// study or (without `force`) the complete study, and when another process uses it. With `force` the
-  /// results of a different study are deleted; those of the same study are used.
-  StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash, const std::string& again,
-                 bool force);
+  /// Creates `dir`, or resumes the study in it. `study_hash` is the hash of all inputs of the study,
+  /// `resume_command` the command that resumes it. Throws Error(usage) when the directory contains other
+  /// files, a different study or (without `force`) the complete study, and when another process uses it. With
+  /// `force` the results of a different study are deleted; those of the same study are used.
+  StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash,
+                 const std::string& resume_command, bool force);
   /// Deletes a directory that was created for a study without results.
   ~StudyDirectory();
   StudyDirectory(StudyDirectory&&) = default;

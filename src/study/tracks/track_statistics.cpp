@@ -47,7 +47,7 @@ std::vector<int> slots_of(const Track& track, double frame_s) {
 struct TrackStatistics::Impl {
   double frame_s;
   int interval = 0;
-  bool settled = false;
+  bool has_interval = false;
   double noise2 = 0;  // variance of a detected position per axis, px^2
   std::vector<int> lags;
   std::vector<TrackGroup> groups = std::vector<TrackGroup>(kGroups);
@@ -70,7 +70,7 @@ struct TrackStatistics::Impl {
 
   void add_displacements(const Track& t);
   void add_motion(const Track& t);
-  void settle();
+  void set_interval();
   LagSums all(std::size_t lag) const;
   Msd msd_without(const TrackGroup* left_out) const;
   Estimated product(std::size_t which, std::vector<ProductSums> TrackGroup::*list) const;
@@ -264,8 +264,8 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
              })};
 }
 
-void TrackStatistics::Impl::settle() {
-  settled = true;
+void TrackStatistics::Impl::set_interval() {
+  has_interval = true;
   TrackSummary s;
   fit(s);
   noise2 = s.localisation_px * s.localisation_px;
@@ -357,10 +357,10 @@ void TrackStatistics::take(const Track& track) {
     me.groups[track.number % kGroups].tracks += 1;
   }
   me.add_displacements(track);
-  if (me.settled) return me.add_motion(track);
+  if (me.has_interval) return me.add_motion(track);
   me.pilot.push_back(track);
   me.pilot_points += track.points.size();
-  if (me.pilot_points >= kPilotPoints) me.settle();
+  if (me.pilot_points >= kPilotPoints) me.set_interval();
 }
 
 TrackSummary TrackStatistics::summary() {
@@ -370,7 +370,7 @@ TrackSummary TrackStatistics::summary() {
   s.points = me.points;
   s.mean_points = me.track_count > 0 ? double(me.points) / me.track_count : 0;
   if (me.points == 0) return s;
-  if (!me.settled) me.settle();
+  if (!me.has_interval) me.set_interval();
   me.fit(s);
   me.motion(s);
   return s;
