@@ -38,9 +38,9 @@ class EstimatorGroups final : public Estimator {
                  "Smallest distance between two groups, relative to their spread along the line between them",
              .source = "H6"})
         .add("follow", &Params::follow,
-             {.doc = "Group used for the estimate: largest: the largest group, replaced when another is 25 % "
-                     "larger; first: always the group that is largest, or nearest to `near`, in the first "
-                     "frame",
+             {.doc =
+                  "Group used for the estimate: largest: the largest group, replaced when another is 25 % "
+                  "larger; first: always the group that is largest, or nearest to `near`, in the first frame",
               .choices = {"largest", "first"}})
         .add("near", &Params::near,
              {.unit = "m",

@@ -70,9 +70,8 @@ Schema<Proportional::Params> Proportional::schema() {
       .add("hold_frames", &Params::hold_frames,
            {.min = 1, .max = 100, .doc = "Frames for which a cell keeps its velocity", .source = "A3: 2"})
       .add("actuation", &Params::actuation,
-           {.doc =
-                "Actuation of slow drift: magnitude: weaker field; duty: full field, reversed in a fraction "
-                "of the frames",
+           {.doc = "Actuation of slow drift: magnitude: weaker field; duty: full field, reversed in a "
+                   "fraction of the frames",
             .choices = {"magnitude", "duty"}})
       .add("speed", &Params::speed,
            {.unit = "m/s",
@@ -89,8 +88,7 @@ Schema<Proportional::Params> Proportional::schema() {
             .source = "theory F2: ln(2 kappa) / w_B"})
       .validity(
           "Linear law for an integrator plant. Reorientation that takes longer than a frame adds a delay "
-          "that "
-          "is compensated only with `lead`.");
+          "that is compensated only with `lead`.");
 }
 
 Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_(c) {

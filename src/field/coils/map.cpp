@@ -64,11 +64,9 @@ class Map final : public Field {
   static Schema<Params> schema() {
     return Schema<Params>("map", "A measured field of a coil, or one computed by other software")
         .add("file", &Params::file,
-             {.doc =
-                  "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz are "
-                  "optional), or HDF5 from `faba field map`; relative to the folder of the coil system file, "
-                  "or "
-                  "to the current directory"})
+             {.doc = "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz "
+                     "are optional), or HDF5 from `faba field map`; relative to the folder of the coil "
+                     "system file, or to the current directory"})
         .add("measured_current", &Params::measured_current,
              {.unit = "A", .min = -1e4, .max = 1e4, .doc = "Current during the measurement"})
         .add("within", &Params::within,

@@ -51,9 +51,9 @@ RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity) {
       !n.reachable ? "the coils cannot make a zero of the field at this position within their current limits"
       : n.saddle && (polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0
           ? "the zero repels cells along all directions: no currents within the limits make a trap"
-      : n.saddle ? "the zero is a saddle: it attracts cells along one direction and repels them along the "
-                   "other"
-                 : "";
+      : n.saddle
+          ? "the zero is a saddle: it attracts cells along one direction and repels them along the other"
+          : "";
   return out;
 }
 

@@ -61,10 +61,9 @@ std::pair<std::string, double> width_column(const Table& table) {
     if (const auto unit = length_unit(name)) found.emplace_back(name, *unit);
   if (found.size() == 1) return found.front();
   if (found.empty())
-    throw Error(
-        Errc::input, table.source(),
-        "has no column of widths with a unit, such as width_um or width_mm; add one beside the readings in "
-        "px");
+    throw Error(Errc::input, table.source(),
+                "has no column of widths with a unit, such as width_um or width_mm; add one beside the "
+                "readings in px");
   throw Error(
       Errc::input, table.source(),
       fmt::format("has two columns of lengths, {} and {}; name the columns of readings px_1, px_2 ...",

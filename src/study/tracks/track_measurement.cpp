@@ -122,14 +122,12 @@ std::string speed_warning(const TrackSurvey& survey, const TrackPass& pass, cons
   const double step = s.speed_count > 0 ? s.mean_speed_px_s.value * survey.frame_s : 0;
   if (pass.crowded() || step > 0.3 * spacing)
     return "the displacement of cells between frames is similar to their distance: many tracks join "
-           "different "
-           "cells, and speeds are too small; use a higher frame rate or fewer cells";
+           "different cells, and speeds are too small; use a higher frame rate or fewer cells";
   // A persistence time below two frames is typical of steps to wrong cells.
   if (supported_walk(s) == SupportedWalk::persistent && !s.persistent.tau_open &&
       (!s.persistent.good || s.tau_s.value < 1.5 * survey.frame_s))
     return "the persistence time is below two frames: cells turn faster than the frame rate resolves, or "
-           "tracks "
-           "join different cells; speeds are too small";
+           "tracks join different cells; speeds are too small";
   return "";
 }
 
