@@ -36,12 +36,13 @@ class FlowSource {
   /// By default larger frames are shrunk until their longer side is at most this, px.
   static constexpr int kLongSide = 1024;
 
-  /// Throws Error(input) when `path` cannot be read, has fewer than two frames, or contains no frames where
-  /// these are needed; Error(usage) when `shrink` is too large for the frames.
+  /// Throws Error(input) when `path` cannot be read, is empty, or contains no frames where these are needed;
+  /// Error(usage) when `shrink` is too large for the frames.
   FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options, Pool& pool);
   ~FlowSource();
 
-  /// The next pair; false at the end. A truncated file ends with its last readable frame: see notes().
+  /// The next pair; false at the end. A truncated file ends with its last readable frame: see notes(). Throws
+  /// Error(input) at the end of a video with one frame only.
   bool next(FlowPair& pair);
 
   int width() const;   ///< of the flows, px
@@ -53,7 +54,8 @@ class FlowSource {
   std::optional<double> um_per_px() const;
   /// The flow method and its parameters, as JSON.
   const std::string& method() const;
-  /// Notes for the user: damage, shrinking, missing frame rate. Final when next() has returned false.
+  /// Notes for the user: damage, shrinking, grey scaling, missing frame rate. Final when next() has returned
+  /// false.
   std::vector<std::string> notes() const;
 
  private:

@@ -46,7 +46,7 @@ struct VideoActivity {
   Signature signature{0, 0};
   double threshold_px = 0;
   double direction_deg = 0;      ///< of the expected response
-  bool direction_given = false;  ///< else that of the longest segment, or of the total flow without segments
+  bool direction_given = false;  ///< else it is that of the longest segment, or of the total flow
   std::vector<MotionSegment> segments;
   std::vector<double> t_s, amount,
       along;  ///< per pair: amount() and along() of the signature in that direction
