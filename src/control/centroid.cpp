@@ -17,10 +17,10 @@ Estimate Centroid::update(const Observation& o, bool only_visible) {
   e.visible = n;
   if (n > 0) {
     e.centroid = {sx / n, sy / n};
-    if (seen_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
+    if (has_centroid_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
     at_ = e.centroid;
     t_ = o.t;
-    seen_ = true;
+    has_centroid_ = true;
   }
   if (n > 1) {
     for (const Detection& d : o.seen)

@@ -4,17 +4,17 @@
 
 namespace faba {
 
-/// Mean, covariance (n - 1) and velocity of detections. Summed in index order by one thread: the same bits
-/// always.
+/// Mean, covariance (n - 1) and velocity of detections. Summed in index order by one thread, so that the
+/// result is bit-identical in every run.
 class Centroid {
  public:
   Estimate update(const Observation& o, bool only_visible);
-  void archive(Archive& a) { a& at_& t_& seen_; }
+  void archive(Archive& a) { a& at_& t_& has_centroid_; }
 
  private:
   Vec2 at_;  ///< last centroid, m, world
   double t_ = 0;
-  bool seen_ = false;
+  bool has_centroid_ = false;
 };
 
 }  // namespace faba

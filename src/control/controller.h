@@ -12,15 +12,15 @@ namespace faba {
 
 class FieldLibrary;
 
-/// Turns what was seen into what is believed.
+/// Estimates the state of the swarm from observations.
 class Estimator {
  public:
   virtual ~Estimator() = default;
   virtual Estimate update(const Observation& o, const Command& last) = 0;
-  virtual void archive(Archive&) {}  ///< its memory, for checkpoints
+  virtual void archive(Archive&) {}  ///< internal state, for checkpoints
 };
 
-/// Says where the swarm should be.
+/// Generates the target position of the swarm.
 class Reference {
  public:
   virtual ~Reference() = default;
@@ -28,45 +28,45 @@ class Reference {
   virtual void archive(Archive&) {}
   /// All setpoints in order, world frame, m: for pictures and reports.
   virtual std::vector<Vec2> setpoints() const = 0;
-  /// Distance within which a setpoint counts as reached, px; empty where the reference does not look at it.
+  /// Distance within which a setpoint counts as reached, px; empty when the reference does not use one.
   virtual std::optional<double> tolerance_px() const { return std::nullopt; }
 };
 
-/// Feedback law. It sees an estimate and a target only; it cannot reach the simulator, a clock or a device,
-/// which is what lets the same object drive either.
+/// Feedback law. It receives an estimate and a target only and has no access to the simulator, a clock or a
+/// device; the same object therefore controls a simulation or a real setup.
 class Controller {
  public:
   virtual ~Controller() = default;
-  /// `dt` s since the last update. Called once per frame. The command has one current for each coil, and all
-  /// are finite whatever the estimate and the target are. With Trait::feedback, an estimate that rests on no
-  /// cells (`visible` 0) or whose centroid is not finite must not move the swarm: every current is zero, or
-  /// with Trait::seeks_null that of before as long as the target is the same, which leaves the zero of the
-  /// field where it is. Nor is such an estimate remembered.
+  /// `dt` is the time since the last update, s. Called once per frame. The command has one current for each
+  /// coil, and all currents are finite for any estimate and target. With Trait::feedback, an estimate without
+  /// cells (`visible` 0) or with a centroid that is not finite must not move the swarm: every current is
+  /// zero, or with Trait::seeks_null the previous current while the target is unchanged, which keeps the zero
+  /// of the field in place. Such an estimate does not change the internal state.
   virtual Command update(const Estimate& e, const Target& target, double dt) = 0;
   virtual void archive(Archive&) {}
 };
 
-/// What estimators, references and controllers may look at when they are built.
+/// Inputs available to the constructors of estimators, references and controllers.
 struct ControlContext {
   std::shared_ptr<const Field> field;
   Scale scale;
   Frame frame;
-  int polarity = -1;                     ///< of the cells to be steered: +1 north-seeking, -1 south-seeking
+  int polarity = -1;                     ///< of the steered cells: +1 north-seeking, -1 south-seeking
   double frame_period = 0;               ///< s
-  double delay_frames = 0;               ///< from mid-exposure of a picture to the command that answers it
+  double delay_frames = 0;               ///< from mid-exposure of a frame to the command computed from it
   std::vector<double> max_current = {};  ///< largest current of each coil, A; one per coil
-  std::shared_ptr<const FieldLibrary> library = {};  ///< of the field, when the scenario names one
+  std::shared_ptr<const FieldLibrary> library = {};  ///< of the field, when the scenario specifies one
 };
 using EstimatorRegistry = Registry<Estimator, ControlContext>;
 using ReferenceRegistry = Registry<Reference, ControlContext>;
 using ControllerRegistry = Registry<Controller, ControlContext>;
 
-/// From the estimated centroid to the target, px, world directions (x right, y up). Not a number without a
+/// Vector from the estimated centroid to the target, px, world directions (x right, y up). NaN without a
 /// target.
 Vec2 error_px(const ControlContext& c, const Estimate& e, const Target& target);
 
-/// Currents that make the cells want to swim along `drive` (field units, world frame) at `at` (m, world): the
-/// physical field is drive times the unit times polarity (theory A8), the Earth's field not counted.
-Command drive_command(const ControlContext& c, Vec2 at_world, Vec2 drive);
+/// Currents that make the cells swim along `u` (field units, world frame) at `at_world` (m): the physical
+/// field is u times the field unit times the polarity (theory A8). The Earth's field is not compensated.
+Command field_command(const ControlContext& c, Vec2 at_world, Vec2 u);
 
 }  // namespace faba

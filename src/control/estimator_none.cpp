@@ -5,15 +5,14 @@
 namespace faba {
 namespace {
 
-/// Believes nothing: the centroid is no number and rests on no cells. For schedules of fields, which need no
-/// estimate.
+/// No estimate: the centroid is NaN and no cells are visible. For field schedules, which need no estimate.
 class EstimatorNone final : public Estimator {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::no_estimate};
   static Schema<Params> schema() {
     return Schema<Params>("none", "No estimate, for runs without feedback")
-        .validity("A feedback controller does nothing without an estimate.");
+        .validity("A feedback controller commands zero current without an estimate.");
   }
   EstimatorNone(const Params&, const ControlContext&) {}
   Estimate update(const Observation& o, const Command&) override {

@@ -25,34 +25,35 @@ Schema<ForegroundParams> foreground_schema(const char* name, const char* summary
            {.unit = "px",
             .min = 1,
             .max = 20,
-            .doc = "Width of a cell in the picture at half its contrast",
+            .doc = "Full width at half maximum of a cell in the camera frame",
             .source = "assumed"})
       .add("cells", &P::cells,
-           {.doc = "Darker or brighter than the background; told by the first picture when automatic",
+           {.doc = "Cells darker or brighter than the background; automatic: determined from the first frame",
             .choices = {"automatic", "dark", "bright"}})
       .add("threshold_sd", &P::threshold_sd,
            {.min = 2,
             .max = 100,
-            .doc =
-                "Standard deviations of the smoothed noise from which on a place counts as covered by cells",
+            .doc = "Detection threshold for cells, in standard deviations of the smoothed noise",
             .source = "H5"})
       .add("absorb", &P::absorb,
            {.unit = "s",
             .min = 1,
             .max = 1e6,
-            .doc = "Time in which what stands still becomes background",
+            .doc = "Time constant with which stationary objects become background",
             .source = "assumed"})
-      .add("learn", &P::learn, {.doc = "false: the background is found in each picture anew"});
+      .add(
+          "learn", &P::learn,
+          {.doc = "true: the background is updated over time; false: it is estimated from each frame alone"});
 }
 
 const Image<std::uint8_t>& camera_picture(const Observation& o, const Frame& frame) {
   if (!o.image)
     throw Error(Errc::usage, "estimator",
-                "looks at pictures, and the camera gives none; set camera.sensor = \"frames\"");
+                "needs camera frames, but the camera provides none; set camera.sensor = \"frames\"");
   if (o.image->width != frame.width || o.image->height != frame.height)
     throw Error(Errc::usage, "estimator",
-                fmt::format("the camera's picture has {} x {} px, the view {} x {}", o.image->width,
-                            o.image->height, frame.width, frame.height));
+                fmt::format("the camera frame is {} x {} px; it must be {} x {} px, the size of the view",
+                            o.image->width, o.image->height, frame.width, frame.height));
   return *o.image;
 }
 

@@ -6,7 +6,7 @@
 
 namespace faba {
 
-/// What estimators that look at pictures let a scenario say.
+/// Scenario parameters of estimators that process camera frames.
 struct ForegroundParams {
   enum class Cells { automatic, dark, bright };
   double cell_px = 3;
@@ -18,11 +18,11 @@ struct ForegroundParams {
   ForegroundOptions options() const;
 };
 
-/// Schema of a part whose parameters are these.
+/// Schema of a part with these parameters.
 Schema<ForegroundParams> foreground_schema(const char* name, const char* summary);
 
-/// The picture of an observation. Throws Error(Errc::usage, "estimator") when there is none, and when its
-/// size is not that of the frame.
+/// The camera frame of an observation. Throws Error(Errc::usage, "estimator") when it is absent or its size
+/// differs from that of the view.
 const Image<std::uint8_t>& camera_picture(const Observation& o, const Frame& frame);
 
 }  // namespace faba

@@ -12,16 +12,15 @@ namespace {
 /// setpoint,
 ///   M = sum_k mu_k(d) M_k / sum_k mu_k(d),   mu(d; a, b, c, e) = clamp(min((d-a)/(b-a), 1, (e-d)/(e-c)), 0,
 ///   1),
-/// field command of strength M towards the setpoint. Sets, rules and outputs are scenario data: a fuzzy state
-/// more is a
-/// `[[controller.set]]` more. With no sets given, the thesis's two: near -> max/2, far -> max.
-/// The breakpoints 40 and 120 px are assumed: the thesis shows them in a figure only.
+/// and a field command of strength M towards the setpoint. Sets, rules and outputs are scenario data: each
+/// `[[controller.set]]` adds one fuzzy state. Without sets, the two of the thesis are used: near -> max/2,
+/// far -> max. The breakpoints 40 and 120 px are assumed: the thesis shows them in a figure only.
 /// Known to fail: the published sets never command zero, so the swarm circles its setpoint (rms 2.2 px with
-/// Basic, more with a camera delay); a set `at` with output 0 cures that, but no number of sets reduces
+/// Basic, more with a camera delay). A set `at` with output 0 prevents that, but sets cannot reduce
 /// dispersion (F1).
 class Fuzzy final : public Controller {
  public:
-  /// One fuzzy state and its rule: trapezoid corners in px, output in field units.
+  /// One fuzzy state and its rule: corners of the trapezoid in px, output in field units.
   struct Set {
     std::string name;
     std::vector<double> trapezoid_px;
@@ -40,7 +39,7 @@ class Fuzzy final : public Controller {
   Fuzzy(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
 
-  /// The strength of the command, field units, at a distance in px.
+  /// Strength of the command in field units at a distance in px.
   double strength(double distance_px) const;
 
  private:
@@ -50,7 +49,7 @@ class Fuzzy final : public Controller {
 
 constexpr double kFar = 1e9;  // px; where an open-ended trapezoid ends
 
-// A vertical edge has no slope to divide by: at the corner itself the set is fully true.
+// A vertical edge has no slope to divide by: membership at the corner itself is 1.
 double membership(const std::vector<double>& t, double d) {
   const double up = t[1] > t[0] ? (d - t[0]) / (t[1] - t[0]) : d >= t[0] ? 1.0 : 0.0;
   const double down = t[3] > t[2] ? (t[3] - d) / (t[3] - t[2]) : d <= t[3] ? 1.0 : 0.0;
@@ -60,47 +59,52 @@ double membership(const std::vector<double>& t, double d) {
 double sign(double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : 0.0; }
 
 Schema<Fuzzy::Set> Fuzzy::Set::schema() {
-  return Schema<Set>("set", "A fuzzy state of the distance and what it commands")
-      .add("name", &Set::name, {.doc = "What the state is called, such as \"near\""})
+  return Schema<Set>("set", "A fuzzy state: a range of distances and its command")
+      .add("name", &Set::name, {.doc = "Name of the state, such as \"near\""})
       .add("trapezoid_px", &Set::trapezoid_px,
            {.unit = "px",
             .min = -kFar,
             .max = kFar,
-            .doc = "Four corners: membership rises from the first to the second, "
-                   "falls from the third to the fourth"})
+            .doc = "Four corners: membership increases from the first to the second and decreases from the "
+                   "third to the fourth"})
       .add("output", &Set::output, {.min = 0, .max = 1000, .doc = "Command in field units"})
       .check([](const Set& s) -> std::string {
         if (s.trapezoid_px.size() != 4)
-          return fmt::format("trapezoid_px needs four corners, got {}", s.trapezoid_px.size());
-        if (!std::is_sorted(s.trapezoid_px.begin(), s.trapezoid_px.end())) return "trapezoid_px must rise";
+          return fmt::format("trapezoid_px has {} values; it must have 4", s.trapezoid_px.size());
+        if (!std::is_sorted(s.trapezoid_px.begin(), s.trapezoid_px.end()))
+          return "trapezoid_px must be in ascending order";
         return {};
       });
 }
 
 Schema<Fuzzy::Params> Fuzzy::schema() {
   return Schema<Params>("fuzzy",
-                        "The thesis's fuzzy controller: strength by distance, direction towards the setpoint")
+                        "Fuzzy controller of the thesis: strength from distance, direction to the setpoint")
       .add("max_output", &Params::max_output,
            {.min = 0,
             .max = 1000,
-            .doc = "Command far from the setpoint, in field units; near it half of that",
+            .doc = "Command far from the setpoint, in field units; half of it near the setpoint",
             .source = "thesis: 5"})
       .add("near_px", &Params::near_px,
            {.unit = "px",
             .min = 0,
             .max = 1e5,
-            .doc = "Up to here the swarm is near",
+            .doc = "Distance up to which the swarm is near",
             .source = "assumed (A9)"})
       .add("far_px", &Params::far_px,
-           {.unit = "px", .min = 0, .max = 1e5, .doc = "From here on it is far", .source = "assumed (A9)"})
-      .add("set", &Params::set,
-           {.doc = "Fuzzy states of your own instead of near and far: [[controller.set]]"})
+           {.unit = "px",
+            .min = 0,
+            .max = 1e5,
+            .doc = "Distance from which the swarm is far",
+            .source = "assumed (A9)"})
+      .add("set", &Params::set, {.doc = "Custom fuzzy states that replace near and far: [[controller.set]]"})
       .add("direction", &Params::direction,
-           {.doc = "Straight to the setpoint, the sign of each axis, or one fuzzy law per axis",
-            .source = "assumed vector: the thesis's rules give a strength only (A9)",
+           {.doc = "Direction of the command: vector: straight to the setpoint; axis-sign: sign of each "
+                   "component; per-axis: one fuzzy law per axis",
+            .source = "assumed vector: the rules of the thesis define a strength only (A9)",
             .choices = {"vector", "axis-sign", "per-axis"}})
       .check([](const Params& p) -> std::string {
-        return p.near_px > p.far_px ? "near_px is beyond far_px" : "";
+        return p.near_px > p.far_px ? "near_px must not be larger than far_px" : "";
       })
       .validity("The published sets never command zero: the swarm circles its setpoint.");
 }
@@ -118,26 +122,26 @@ double Fuzzy::strength(double d) const {
     weight += mu;
     sum += mu * s.output;
   }
-  return weight > 0 ? sum / weight : 0;  // no set claims this distance: no command
+  return weight > 0 ? sum / weight : 0;  // no set covers this distance: no command
 }
 
 Command Fuzzy::update(const Estimate& e, const Target& target, double) {
   const Vec2 error = target.position - e.centroid;
   const double d = norm(error), px = 1 / c_.scale.m_per_px;
-  Vec2 drive;
+  Vec2 u;
   if (e.visible > 0 && d > 0 && std::isfinite(d)) switch (p_.direction) {
       case Direction::vector:
-        drive = (strength(d * px) / d) * error;
+        u = (strength(d * px) / d) * error;
         break;
       case Direction::axis_sign:
-        drive = strength(d * px) * Vec2{sign(error.x), sign(error.y)};
+        u = strength(d * px) * Vec2{sign(error.x), sign(error.y)};
         break;
       case Direction::per_axis:
-        drive = {strength(std::fabs(error.x) * px) * sign(error.x),
-                 strength(std::fabs(error.y) * px) * sign(error.y)};
+        u = {strength(std::fabs(error.x) * px) * sign(error.x),
+             strength(std::fabs(error.y) * px) * sign(error.y)};
         break;
     }
-  return drive_command(c_, e.centroid, drive);
+  return field_command(c_, e.centroid, u);
 }
 
 }  // namespace

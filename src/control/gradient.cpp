@@ -3,8 +3,9 @@
 namespace faba {
 namespace {
 
-/// Open loop: a zero of the field is put at the setpoint, and the swarm gathers there by itself (theory C6).
-/// Fails with two coils, whose zero is a saddle, and by B_E / g where the Earth's field is not allowed for.
+/// Open loop: a zero of the field is placed at the setpoint and the swarm gathers there (theory C6).
+/// Fails with two coils, whose zero is a saddle. The swarm is offset by B_E / g when the Earth's field is not
+/// compensated.
 class Gradient final : public Controller {
  public:
   struct Params {
@@ -16,10 +17,9 @@ class Gradient final : public Controller {
                           "Open loop: a zero of the field at the setpoint gathers the swarm there")
         .include(&Params::trap, Trap::Params::schema())
         .validity(
-            "Two coils make a saddle, which drives cells away along one direction. Cells are drawn "
-            "to the zero from this side of the next zeros, some millimetres away, and driven off from "
-            "beyond, also "
-            "when the setpoint is that far; near it the cloud is as wide as sqrt(v f_r / (m g)).");
+            "Two coils make a saddle, which drives cells away along one direction. Cells are trapped only "
+            "within a few millimetres, up to the neighbouring zeros of the field; cells beyond them are "
+            "driven away. The swarm has a width of about sqrt(v f_r / (m g)).");
   }
   Gradient(const Params& p, const ControlContext& c) : trap_(p.trap, c) {}
   Command update(const Estimate&, const Target& target, double) override { return trap_.at(target.position); }

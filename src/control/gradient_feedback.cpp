@@ -7,9 +7,9 @@
 namespace faba {
 namespace {
 
-/// As `gradient`, with an outer proportional-integral loop that moves the zero until the swarm, not the zero,
-/// is at the setpoint (theory F3): the offset B_E / g of an unknown field goes away.
-///   zero = setpoint + gain e + sum of gain e dt / integral_time,  e = setpoint - swarm
+/// As `gradient`, with an outer proportional-integral loop that moves the zero until the swarm instead of the
+/// zero is at the setpoint (theory F3). It removes the offset B_E / g of an unknown field.
+///   zero = setpoint + gain e + integral of gain e dt / integral_time,  e = setpoint - swarm
 class GradientFeedback final : public Controller {
  public:
   struct Params {
@@ -21,26 +21,26 @@ class GradientFeedback final : public Controller {
   static constexpr std::array kTraits = {Trait::feedback, Trait::seeks_null};
   static Schema<Params> schema() {
     return Schema<Params>("gradient_feedback",
-                          "A zero of the field, moved until the swarm is at the setpoint")
+                          "A zero of the field, displaced by feedback until the swarm is at the setpoint")
         .add("gain", &Params::gain,
              {.min = 0,
               .max = 10,
-              .doc = "How far the zero leads, as a share of the swarm's error",
+              .doc = "Displacement of the zero from the setpoint, as a fraction of the error of the swarm",
               .source = "assumed"})
-        .add("integral_time", &Params::integral_time,
-             {.unit = "s",
-              .min = 1e-2,
-              .max = 1e6,
-              .doc = "Time in which a steady error moves the zero by as much again",
-              .source = "assumed"})
+        .add(
+            "integral_time", &Params::integral_time,
+            {.unit = "s",
+             .min = 1e-2,
+             .max = 1e6,
+             .doc =
+                 "Integral time: a constant error moves the zero by the proportional part once per this time",
+             .source = "assumed"})
         .add("most_px", &Params::most_px,
-             {.unit = "px",
-              .min = 0,
-              .max = 1e5,
-              .doc = "The zero is put no further than this from the setpoint"})
+             {.unit = "px", .min = 0, .max = 1e5, .doc = "Largest distance of the zero from the setpoint"})
         .include(&Params::trap, Trap::Params::schema())
         .validity(
-            "Slower than a swarm relaxes in the trap, about f_r / (m g) times its width over its speed.");
+            "The response is limited by the relaxation of the swarm in the trap, which takes about the width "
+            "of the swarm over the swimming speed.");
   }
   GradientFeedback(const Params& p, const ControlContext& c)
       : p_(p), m_per_px_(c.scale.m_per_px), trap_(p.trap, c) {}
@@ -49,8 +49,9 @@ class GradientFeedback final : public Controller {
     const Vec2 error = target.position - e.centroid;
     if (e.visible > 0 && std::isfinite(norm(error))) {
       lead_ = clipped(p_.gain * error + integral_);
-      // No winding up: the integral stops growing where the zero may not go further.
-      if (norm(lead_) < most()) integral_ = clipped(integral_ + (p_.gain * dt / p_.integral_time) * error);
+      // Anti-windup: the integral stops growing when the displacement is at its limit.
+      if (norm(lead_) < max_lead())
+        integral_ = clipped(integral_ + (p_.gain * dt / p_.integral_time) * error);
     }
     return trap_.at(target.position + lead_);
   }
@@ -60,8 +61,8 @@ class GradientFeedback final : public Controller {
   }
 
  private:
-  double most() const { return p_.most_px * m_per_px_; }
-  Vec2 clipped(Vec2 v) const { return norm(v) > most() ? (most() / norm(v)) * v : v; }
+  double max_lead() const { return p_.most_px * m_per_px_; }
+  Vec2 clipped(Vec2 v) const { return norm(v) > max_lead() ? (max_lead() / norm(v)) * v : v; }
 
   Params p_;
   double m_per_px_;

@@ -9,11 +9,11 @@
 namespace faba {
 namespace {
 
-constexpr int kBins = 32;         // across, for grouping: a thousand places say as much as a million cells
-constexpr double kLarger = 1.25;  // times the share of the followed group, from which on another is followed
+constexpr int kBins = 32;         // per axis, for clustering: a thousand bins replace a million cells
+constexpr double kLarger = 1.25;  // size relative to the followed group at which another group is followed
 
-/// Several swarms: the cells in view, or the light of the camera's picture where the rig gives no positions,
-/// put into groups by fuzzy c-means (vision/foreground/fuzzy_groups.h). The estimate is that of one group.
+/// Several swarms: the cells in view, or the foreground of the camera frame when no positions are available,
+/// clustered by fuzzy c-means (vision/foreground/fuzzy_groups.h). The estimate is that of one group.
 class EstimatorGroups final : public Estimator {
  public:
   enum class Follow { largest, first };
@@ -25,30 +25,32 @@ class EstimatorGroups final : public Estimator {
     std::optional<Vec2> near;
   };
   static Schema<Params> schema() {
-    return Schema<Params>("groups", "Several swarms by fuzzy clustering; steers by one of them")
+    return Schema<Params>("groups", "Several swarms by fuzzy clustering; one of them is steered")
         .add("count", &Params::count,
-             {.min = 0, .max = 10, .doc = "Number of groups; 0: found in every frame", .source = "H6"})
+             {.min = 0, .max = 10, .doc = "Number of groups; 0: determined in every frame", .source = "H6"})
         .add("most", &Params::most,
-             {.min = 1, .max = 10, .doc = "Most groups that are looked for", .source = "assumed"})
-        .add("separation", &Params::separation,
-             {.min = 1,
-              .max = 100,
-              .doc = "Least distance of two groups over their spread along the line between them",
-              .source = "H6"})
+             {.min = 1, .max = 10, .doc = "Largest number of groups when count is 0", .source = "assumed"})
+        .add(
+            "separation", &Params::separation,
+            {.min = 1,
+             .max = 100,
+             .doc =
+                 "Smallest distance between two groups, relative to their spread along the line between them",
+             .source = "H6"})
         .add("follow", &Params::follow,
-             {.doc = "Which group the estimate is about: the largest, changed when another is a quarter "
-                     "larger, or "
-                     "for good the first: the largest of the first frame, or the one nearest to `near`",
+             {.doc =
+                  "Group used for the estimate: largest: the largest group, replaced when another is 25 % "
+                  "larger; first: always the group that is largest, or nearest to `near`, in the first frame",
               .choices = {"largest", "first"}})
         .add("near", &Params::near,
              {.unit = "m",
               .min = -1,
               .max = 1,
-              .doc = "Where the group to follow for good is at first, world frame"})
+              .doc = "Initial position of the group to follow with follow = \"first\", world frame"})
         .include(&Params::foreground, foreground_schema("", ""))
         .validity(
-            "Groups that are not rounder than they are far apart are taken for one. A single cell or a few "
-            "are no group.");
+            "Groups whose distance is below `separation` times their spread are merged. Single cells and "
+            "groups of a few cells are ignored.");
   }
   EstimatorGroups(const Params& p, const ControlContext& c)
       : p_(p), frame_(c.frame), foreground_(p.foreground.options()) {}
@@ -66,18 +68,18 @@ class EstimatorGroups final : public Estimator {
     e.t = o.t;
     e.centroid = at_;
     if (groups.empty()) return e;
-    const FuzzyGroup& mine = groups[chosen(groups)];
-    e.centroid = mine.centroid;
-    e.cov = mine.cov;
-    e.visible = cells * mine.share;
-    if (has_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
+    const FuzzyGroup& followed = groups[followed_group(groups)];
+    e.centroid = followed.centroid;
+    e.cov = followed.cov;
+    e.visible = cells * followed.share;
+    if (has_estimate_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
     at_ = e.centroid;
     t_ = o.t;
-    has_ = true;
+    has_estimate_ = true;
     for (const FuzzyGroup& g : groups) e.groups.push_back({g.centroid, g.share, g.cov});
     return e;
   }
-  void archive(Archive& a) override { a& foreground_& at_& t_& frame_t_& has_& looked_; }
+  void archive(Archive& a) override { a& foreground_& at_& t_& frame_t_& has_estimate_& has_frame_; }
 
  private:
   std::vector<WeightedPlace> from_cells(const Observation& o, double& cells) {
@@ -89,17 +91,17 @@ class EstimatorGroups final : public Estimator {
     return places_.size() > 2000 ? binned(places_, kBins) : places_;
   }
   std::vector<WeightedPlace> from_picture(const Observation& o, double& cells) {
-    foreground_.take(camera_picture(o, frame_), looked_ ? o.t - frame_t_ : 0);
+    foreground_.take(camera_picture(o, frame_), has_frame_ ? o.t - frame_t_ : 0);
     frame_t_ = o.t;
-    looked_ = true;
+    has_frame_ = true;
     cells = foreground_.moments().cells;
     places_.clear();
     if (cells == 0) return {};
     add_pieces(foreground_.weights(), foreground_.runs());
     return binned(places_, kBins);
   }
-  // Pieces of rows of pixels: as long as a quarter of a bin, so that what is lost of their spread is little
-  // beside what a bin loses.
+  // Splits rows of pixels into pieces of a quarter of a bin, so that the loss of spread is small compared
+  // with that of the bins.
   void add_pieces(const GrayF& weights, const std::vector<PatchRun>& runs) {
     int low = weights.width, high = 0;
     for (const PatchRun& r : runs) {
@@ -122,9 +124,9 @@ class EstimatorGroups final : public Estimator {
       }
     }
   }
-  std::size_t chosen(const std::vector<FuzzyGroup>& groups) const {
-    if (!has_ && (!p_.near || p_.follow == Follow::largest)) return 0;
-    const Vec2 from = has_ ? at_ : *p_.near;
+  std::size_t followed_group(const std::vector<FuzzyGroup>& groups) const {
+    if (!has_estimate_ && (!p_.near || p_.follow == Follow::largest)) return 0;
+    const Vec2 from = has_estimate_ ? at_ : *p_.near;
     std::size_t nearest = 0;
     for (std::size_t k = 1; k < groups.size(); ++k)
       if (norm(groups[k].centroid - from) < norm(groups[nearest].centroid - from)) nearest = k;
@@ -135,10 +137,10 @@ class EstimatorGroups final : public Estimator {
   Params p_;
   Frame frame_;
   Foreground foreground_;
-  std::vector<WeightedPlace> places_;  ///< scratch that keeps its memory
+  std::vector<WeightedPlace> places_;  ///< scratch buffer, reused
   Vec2 at_;                            ///< last centroid, m, world
   double t_ = 0, frame_t_ = 0;
-  bool has_ = false, looked_ = false;
+  bool has_estimate_ = false, has_frame_ = false;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 namespace faba {
 namespace {
 
-/// One setpoint for the whole run.
+/// One constant setpoint.
 class ReferenceHold final : public Reference {
  public:
   struct Params {
@@ -20,12 +20,12 @@ class ReferenceHold final : public Reference {
 };
 
 Schema<ReferenceHold::Params> ReferenceHold::schema() {
-  return Schema<Params>("hold", "One setpoint for the whole run")
+  return Schema<Params>("hold", "One constant setpoint")
       .add("setpoint_px", &Params::setpoint_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Setpoint in the picture, y down; the arena's centre when absent"});
+            .doc = "Setpoint in image coordinates, y down; the centre of the arena when absent"});
 }
 
 }  // namespace

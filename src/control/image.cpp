@@ -7,26 +7,24 @@
 namespace faba {
 namespace {
 
-/// The swarm as the camera's picture shows it, without looking for single cells
-/// (vision/foreground/foreground.h): centroid and covariance of the light that cells take away or add.
-/// `groups` holds one group whose share is the signal now over the largest so far: how much of the swarm is
-/// in view.
+/// The swarm from the camera frame without detection of single cells (vision/foreground/foreground.h):
+/// centroid and covariance of the foreground signal. `groups` has one group; its share is the present signal
+/// over the largest so far, the visible fraction of the swarm.
 class EstimatorImage final : public Estimator {
  public:
   using Params = ForegroundParams;
   static constexpr std::array kTraits = {Trait::needs_pictures};
   static Schema<Params> schema() {
-    return foreground_schema("image", "Centroid, spread and visible share from the camera's picture")
+    return foreground_schema("image", "Centroid, spread and visible fraction from the camera frame")
         .validity(
-            "Needs camera.sensor = \"frames\". Cells on top of each other count as fewer. Counts cells to "
-            "some "
-            "30 % only. Dirt of the size of cells counts as cells until it is absorbed.");
+            "Needs camera.sensor = \"frames\". Overlapping cells are undercounted; the cell count has an "
+            "error of about 30 %. Dirt of the size of a cell counts as a cell until it is absorbed.");
   }
   EstimatorImage(const Params& p, const ControlContext& c) : frame_(c.frame), foreground_(p.options()) {}
 
   Estimate update(const Observation& o, const Command&) override {
     const Gray8& picture = camera_picture(o, frame_);
-    foreground_.take(picture, seen_ ? o.t - t_ : 0);
+    foreground_.take(picture, has_frame_ ? o.t - t_ : 0);
     const SwarmMoments m = foreground_.moments();
     Estimate e;
     e.t = o.t;
@@ -36,25 +34,27 @@ class EstimatorImage final : public Estimator {
       const double area = frame_.m_per_px * frame_.m_per_px;
       e.centroid = frame_.world_from_image(m.centroid_image);
       e.cov = {area * m.cov_px2.xx, -area * m.cov_px2.xy, area * m.cov_px2.yy};
-      if (has_place_ && o.t > place_t_) e.velocity = (1 / (o.t - place_t_)) * (e.centroid - at_);
+      if (has_centroid_ && o.t > centroid_t_) e.velocity = (1 / (o.t - centroid_t_)) * (e.centroid - at_);
       at_ = e.centroid;
-      place_t_ = o.t;
-      has_place_ = true;
-      most_ = std::max(most_, m.signal);
-      e.groups.push_back({e.centroid, m.signal / most_, e.cov});
+      centroid_t_ = o.t;
+      has_centroid_ = true;
+      largest_signal_ = std::max(largest_signal_, m.signal);
+      e.groups.push_back({e.centroid, m.signal / largest_signal_, e.cov});
     }
     t_ = o.t;
-    seen_ = true;
+    has_frame_ = true;
     return e;
   }
-  void archive(Archive& a) override { a& foreground_& at_& t_& place_t_& most_& seen_& has_place_; }
+  void archive(Archive& a) override {
+    a& foreground_& at_& t_& centroid_t_& largest_signal_& has_frame_& has_centroid_;
+  }
 
  private:
   Frame frame_;
   Foreground foreground_;
   Vec2 at_;  ///< last centroid, m, world
-  double t_ = 0, place_t_ = 0, most_ = 0;
-  bool seen_ = false, has_place_ = false;
+  double t_ = 0, centroid_t_ = 0, largest_signal_ = 0;
+  bool has_frame_ = false, has_centroid_ = false;
 };
 
 }  // namespace

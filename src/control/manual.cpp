@@ -11,7 +11,7 @@
 namespace faba {
 namespace {
 
-/// A schedule of field vectors, whatever the swarm does: constant fields, reversals (the step response,
+/// A schedule of field vectors, independent of the swarm: constant fields, reversals (the step response,
 /// theory A14), rotating fields with or without bias (B3.6-B3.8).
 ///   B(t) = field + rotating (cos 2 pi f (t - at), sin 2 pi f (t - at))
 class Manual final : public Controller {
@@ -35,7 +35,7 @@ class Manual final : public Controller {
   Command update(const Estimate& e, const Target& target, double dt) override;
   void archive(Archive& a) override { a& t_& started_; }
 
-  /// What holds at time t: a segment, or none before the first.
+  /// The segment active at time t; null before the first.
   const Segment* segment_at(double t) const;
   /// The scheduled field at time t, T, world frame.
   Vec2 field_at(double t) const;
@@ -43,45 +43,41 @@ class Manual final : public Controller {
  private:
   Params p_;
   ControlContext c_;
-  double t_ = 0;  ///< s since the first frame; the loop's own time, not the delayed picture's
+  double t_ = 0;  ///< s since the first frame, in control time; independent of the camera delay
   bool started_ = false;
 };
 
 FieldInfo currents_info() {
-  return {
-      .unit = "A",
-      .min = -1e4,
-      .max = 1e4,
-      .doc = "Currents themselves, one per coil, instead of a field: for coils that work against each other"};
+  return {.unit = "A",
+          .min = -1e4,
+          .max = 1e4,
+          .doc = "Coil currents, one per coil, instead of a field: for opposed coils"};
 }
 
 Schema<Manual::Segment> Manual::Segment::schema() {
-  return Schema<Segment>("segment", "The field from a moment on")
-      .add("at", &Segment::at, {.unit = "s", .min = 0, .max = 1e7, .doc = "From when on this segment holds"})
+  return Schema<Segment>("segment", "A field segment")
+      .add("at", &Segment::at, {.unit = "s", .min = 0, .max = 1e7, .doc = "Start time of the segment"})
       .add("field", &Segment::field,
            {.unit = "T", .min = -0.1, .max = 0.1, .doc = "Constant part, world frame: x right, y up"})
       .add("rotating", &Segment::rotating,
            {.unit = "T", .min = 0, .max = 0.1, .doc = "Magnitude of a rotating part"})
       .add("frequency", &Segment::frequency,
-           {.unit = "Hz",
-            .min = -1000,
-            .max = 1000,
-            .doc = "Turns per second of the rotating part, counter-clockwise"})
+           {.unit = "Hz", .min = -1000, .max = 1000, .doc = "Rotation frequency, counterclockwise positive"})
       .add("current", &Segment::current, currents_info());
 }
 
 Schema<Manual::Params> Manual::schema() {
-  return Schema<Params>("manual", "A schedule of field vectors, whatever the swarm does")
+  return Schema<Params>("manual", "A schedule of field vectors, independent of the swarm")
       .add("field", &Params::field,
            {.unit = "T",
             .min = -0.1,
             .max = 0.1,
             .doc = "Field before the first segment, world frame: x right, y up"})
       .add("current", &Params::current, currents_info())
-      .add("segment", &Params::segment, {.doc = "Segments in order of time: [[controller.segment]]"})
+      .add("segment", &Params::segment, {.doc = "Field segments by ascending time: [[controller.segment]]"})
       .check([](const Params& p) -> std::string {
         for (std::size_t i = 1; i < p.segment.size(); ++i)
-          if (p.segment[i].at <= p.segment[i - 1].at) return "segments must be in order of time";
+          if (p.segment[i].at <= p.segment[i - 1].at) return "segments must be in ascending order of `at`";
         return {};
       })
       .validity("Sampled once per frame: a rotating field needs a frame rate well above its frequency.");
@@ -90,15 +86,16 @@ Schema<Manual::Params> Manual::schema() {
 Manual::Manual(const Params& p, const ControlContext& c) : p_(p), c_(c) {
   const auto check = [&](const std::vector<double>& current) {
     if (!current.empty() && current.size() != c.field->coils())
-      throw Error(Errc::usage, "controller.current",
-                  fmt::format("has {} currents, the field has {} coils", current.size(), c.field->coils()));
+      throw Error(
+          Errc::usage, "controller.current",
+          fmt::format("has {} values; it must have {}, one per coil", current.size(), c.field->coils()));
   };
   check(p.current);
   for (const Segment& s : p.segment) check(s.current);
 }
 
 const Manual::Segment* Manual::segment_at(double t) const {
-  // Times are sums of frame periods: a segment due within a millionth of a frame is due.
+  // Times are sums of frame periods: the tolerance of 1e-6 frames absorbs rounding.
   const double now = t + 1e-6 * c_.frame_period;
   const Segment* s = nullptr;
   for (const Segment& candidate : p_.segment)
@@ -118,7 +115,7 @@ Command Manual::update(const Estimate& e, const Target&, double dt) {
   started_ = true;
   const Segment* s = segment_at(t_);
   if (const auto& current = s ? s->current : p_.current; !current.empty()) return {current};
-  // The estimator `none` knows no place: the field is then that in the middle of the arena.
+  // The estimator `none` gives no position: the field is then that at the centre of the arena.
   const Vec2 at = std::isfinite(norm(e.centroid)) ? e.centroid : Vec2{};
   return {allocate(*c_.field, {at.x, at.y, 0}, field_at(t_))};
 }

@@ -4,15 +4,15 @@
 namespace faba {
 namespace {
 
-/// The thesis's estimate: arithmetic mean of all cells, those outside the view included (theory A10).
-/// Only a simulation can do this; on a bench it equals `visible`.
+/// The thesis's estimate: arithmetic mean of all cells, including those outside the view (theory A10).
+/// Available in simulations only; on a real setup it equals `visible`.
 class EstimatorMean final : public Estimator {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::needs_positions};
   static Schema<Params> schema() {
-    return Schema<Params>("mean", "Mean of all cells, in view or not: the thesis's estimate")
-        .validity("A camera cannot see cells outside its view; use `visible` for what a bench would give.");
+    return Schema<Params>("mean", "Mean of all cells, in view or not, as in the thesis")
+        .validity("A camera cannot detect cells outside its view; use `visible` for a realistic estimate.");
   }
   EstimatorMean(const Params&, const ControlContext&) {}
   Estimate update(const Observation& o, const Command&) override { return centroid_.update(o, false); }

@@ -5,13 +5,13 @@
 namespace faba {
 namespace {
 
-/// No setpoint: the swarm is watched, not steered, and nothing is said about a distance.
+/// No setpoint: the swarm is observed, not steered; no distance to the target is reported.
 class ReferenceNone final : public Reference {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::no_target};
   static Schema<Params> schema() {
-    return Schema<Params>("none", "No setpoint; the default of the manual controller, which follows none");
+    return Schema<Params>("none", "No setpoint; the default for the manual controller");
   }
   ReferenceNone(const Params&, const ControlContext&) {}
   Target update(const Estimate&) override {

@@ -9,16 +9,15 @@ namespace {
 
 /// Proportional-integral law on the vector error (theory F3), delay-aware:
 ///   u = sat(k_p e + k_i integral e),  k_p = gain / (hold + delay) per frame,
-/// u in frames^-1 times px is the wanted drift in px per frame; gain 0.45 is the largest that stays well
-/// damped for an integrator plant with that delay. How the drift is had depends on the cells:
-/// - `magnitude`: the field's strength, one field unit per px/iteration (Basic);
-/// - `duty`: full strength along the wanted direction for a part of the frames and against it for the rest,
-/// so that the
-///   mean is the wanted drift: for cells that swim at their own speed whatever the strength (dipole, Adapted;
-///   F1 d).
-/// `lead` adds what a turn that is longer than a frame needs: e is that of the centroid so much later, at its
-/// present velocity (a derivative on the measurement; F3).
-/// Anti-windup by back-calculation: the integral does not grow while the command is saturated.
+/// u is the desired drift in px per frame. Gain 0.45 is the largest that stays well damped for an integrator
+/// plant with that delay. The drift is actuated in one of two modes:
+/// - `magnitude`: by the field strength, one field unit per px/iteration (Basic);
+/// - `duty`: full strength along the desired direction in a fraction of the frames and against it in the
+///   others, so that the mean is the desired drift: for cells whose swimming speed does not depend on the
+///   field strength (dipole, Adapted; F1 d).
+/// `lead` compensates reorientation that takes longer than a frame: e is computed from the centroid
+/// extrapolated with its present velocity (derivative action on the measurement; F3).
+/// Anti-windup: the integral does not grow while the command is saturated.
 class Proportional final : public Controller {
  public:
   enum class Actuation { magnitude, duty };
@@ -37,21 +36,22 @@ class Proportional final : public Controller {
   static Schema<Params> schema();
   Proportional(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
-  void archive(Archive& a) override { a& integral_& owed_& last_& seen_; }
+  void archive(Archive& a) override { a& integral_& duty_residual_& last_& has_last_; }
 
  private:
   Params p_;
   ControlContext c_;
-  double k_p_ = 0;      ///< px per frame of drift for each px of error
-  Vec2 integral_;       ///< px frames
-  double owed_ = 0;     ///< duty not yet given, in frames at full speed
-  double horizon_ = 0;  ///< s that the centroid is predicted ahead
-  Vec2 last_;           ///< centroid of the update before, m
-  bool seen_ = false;   ///< there is such a centroid
+  double k_p_ = 0;            ///< drift per error, 1/frame
+  Vec2 integral_;             ///< px frames
+  double duty_residual_ = 0;  ///< sigma-delta residual of the duty, in frames at full speed
+  double horizon_ = 0;        ///< extrapolation time of the centroid, s
+  Vec2 last_;                 ///< centroid of the previous update, m
+  bool has_last_ = false;     ///< last_ is valid
 };
 
 Schema<Proportional::Params> Proportional::schema() {
-  return Schema<Params>("proportional", "Proportional-integral law with a gain that knows the camera's delay")
+  return Schema<Params>("proportional",
+                        "Proportional-integral law with a gain that follows from the camera delay")
       .add("gain", &Params::gain,
            {.min = 0,
             .max = 10,
@@ -60,20 +60,18 @@ Schema<Proportional::Params> Proportional::schema() {
       .add("integral_gain", &Params::integral_gain,
            {.min = 0,
             .max = 10,
-            .doc = "Integral gain per frame, relative to the proportional one; against steady drifts"})
+            .doc = "Integral gain per frame, relative to the proportional gain; compensates steady drift"})
       .add("max_output", &Params::max_output,
            {.min = 0, .max = 1000, .doc = "Largest command in field units"})
       .add("dead_zone_px", &Params::dead_zone_px,
            {.unit = "px", .min = 0, .max = 1e4, .doc = "No command within this distance of the setpoint"})
       .add("delay_frames", &Params::delay_frames,
-           {.min = 0, .max = 1000, .doc = "Delay to design for, in frames; the camera's own when absent"})
+           {.min = 0, .max = 1000, .doc = "Design delay in frames; that of the camera when absent"})
       .add("hold_frames", &Params::hold_frames,
-           {.min = 1,
-            .max = 100,
-            .doc = "Frames for which the cells keep a velocity once drawn",
-            .source = "A3: 2"})
+           {.min = 1, .max = 100, .doc = "Frames for which a cell keeps its velocity", .source = "A3: 2"})
       .add("actuation", &Params::actuation,
-           {.doc = "How a slower drift is commanded: a weaker field, or full field for part of the time",
+           {.doc = "Actuation of slow drift: magnitude: weaker field; duty: full field, reversed in a "
+                   "fraction of the frames",
             .choices = {"magnitude", "duty"}})
       .add("speed", &Params::speed,
            {.unit = "m/s",
@@ -85,13 +83,12 @@ Schema<Proportional::Params> Proportional::schema() {
            {.unit = "s",
             .min = 0,
             .max = 10,
-            .doc =
-                "Steers where the swarm will be, at its present velocity, after the delay and so much more: "
-                "the time in which cells turn; where it is when absent",
+            .doc = "Prediction time beyond the delay, the reorientation time of the cells: the centroid is "
+                   "extrapolated with its present velocity; no prediction when absent",
             .source = "theory F2: ln(2 kappa) / w_B"})
       .validity(
-          "A linear law for an integrator plant: turning that takes longer than a frame adds delay it does "
-          "not know, unless `lead` tells it.");
+          "Linear law for an integrator plant. Reorientation that takes longer than a frame adds a delay "
+          "that is compensated only with `lead`.");
 }
 
 Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_(c) {
@@ -101,33 +98,32 @@ Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_
 }
 
 Command Proportional::update(const Estimate& e, const Target& target, double dt) {
-  const Vec2 moved = seen_ && dt > 0 ? (horizon_ / dt) * (e.centroid - last_) : Vec2{};
-  seen_ = e.visible > 0 && std::isfinite(norm(e.centroid));
+  const Vec2 moved = has_last_ && dt > 0 ? (horizon_ / dt) * (e.centroid - last_) : Vec2{};
+  has_last_ = e.visible > 0 && std::isfinite(norm(e.centroid));
   last_ = e.centroid;
   const Vec2 error_px = (1 / c_.scale.m_per_px) * (target.position - e.centroid - moved);
-  const double distance = norm(error_px);  // not finite: no target, or one out of all reason
-  if (!seen_ || !std::isfinite(distance) || distance <= p_.dead_zone_px)
-    return drive_command(c_, e.centroid, {});
+  const double distance = norm(error_px);  // not finite: no target or overflow
+  if (!has_last_ || !std::isfinite(distance) || distance <= p_.dead_zone_px)
+    return field_command(c_, e.centroid, {});
 
   const bool duty = p_.actuation == Actuation::duty;
-  // px per frame that the plant can do at most, and per field unit
-  const double most = duty ? p_.speed * c_.frame_period / c_.scale.m_per_px
-                           : p_.max_output * c_.frame_period / c_.scale.iteration;
+  // Largest drift of the plant, px per frame
+  const double max_drift = duty ? p_.speed * c_.frame_period / c_.scale.m_per_px
+                                : p_.max_output * c_.frame_period / c_.scale.iteration;
   const Vec2 summed = integral_ + error_px;
   const Vec2 wanted = k_p_ * (error_px + p_.integral_gain * summed);
   const double size = norm(wanted);
-  if (size <= most) integral_ = summed;
-  if (size == 0) return drive_command(c_, e.centroid, {});
+  if (size <= max_drift) integral_ = summed;
+  if (size == 0) return field_command(c_, e.centroid, {});
   const Vec2 along = (1 / size) * wanted;
-  const double fraction = std::min(size / most, 1.0);
-  if (!duty) return drive_command(c_, e.centroid, (fraction * p_.max_output) * along);
+  const double fraction = std::min(size / max_drift, 1.0);
+  if (!duty) return field_command(c_, e.centroid, (fraction * p_.max_output) * along);
 
-  // Sigma-delta: forwards while drift is owed, else backwards, so that the mean over frames is the wanted
-  // fraction.
-  owed_ = std::clamp(owed_ + fraction, -2.0, 2.0);
-  const double sign = owed_ >= 0 ? 1 : -1;
-  owed_ -= sign;
-  return drive_command(c_, e.centroid, (sign * p_.max_output) * along);
+  // Sigma-delta modulation: forwards while drift is owed, else backwards; the mean is the desired fraction.
+  duty_residual_ = std::clamp(duty_residual_ + fraction, -2.0, 2.0);
+  const double sign = duty_residual_ >= 0 ? 1 : -1;
+  duty_residual_ -= sign;
+  return field_command(c_, e.centroid, (sign * p_.max_output) * along);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 namespace faba {
 namespace {
 
-/// Setpoints one after the other (theory A10): the next one when the swarm has been within
-/// `tolerance_px` for `hold_frames` in a row, or after `timeout`. The last one is held.
+/// A sequence of setpoints (theory A10). It advances when the swarm has been within `tolerance_px` for
+/// `hold_frames` consecutive frames, or after `timeout`. The last setpoint is held.
 class ReferenceRoute final : public Reference {
  public:
   struct Params {
@@ -26,36 +26,39 @@ class ReferenceRoute final : public Reference {
   double tolerance_;  ///< m
   std::uint64_t index_ = 0;
   int inside_ = 0;
-  double since_ = 0;  ///< s, when the present setpoint was set
+  double since_ = 0;  ///< start time of the present setpoint, s
   bool started_ = false, finished_ = false;
 };
 
 Schema<ReferenceRoute::Params> ReferenceRoute::schema() {
-  return Schema<Params>("route", "Setpoints one after the other")
+  return Schema<Params>("route", "A sequence of setpoints")
       .add("setpoints_px", &Params::setpoints_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Setpoints in the picture, y down: [[100, 120], [300, 200]]"})
+            .doc = "Setpoints in image coordinates, y down: [[100, 120], [300, 200]]"})
       .add("tolerance_px", &Params::tolerance_px,
            {.unit = "px",
             .min = 0,
             .max = 1e4,
-            .doc = "Distance that counts as reached",
+            .doc = "Distance within which a setpoint counts as reached",
             .source = "assumed (A10)"})
       .add("hold_frames", &Params::hold_frames,
            {.min = 1,
             .max = 1e6,
-            .doc = "Frames in a row within the tolerance before the next setpoint",
+            .doc = "Consecutive frames within the tolerance before the next setpoint",
             .source = "assumed (A10)"})
       .add("timeout", &Params::timeout,
            {.unit = "s",
             .min = 0,
             .max = 1e6,
-            .doc = "Go on after this time even when not reached; never when absent"})
+            .doc =
+                "Time after which the next setpoint is used even if this one is not reached; no timeout when "
+                "absent"})
       .check([](const Params& p) -> std::string {
-        return p.setpoints_px.empty() ? "setpoints_px must list at least one setpoint, such as [[100, 120]]"
-                                      : "";
+        return p.setpoints_px.empty()
+                   ? "setpoints_px is empty; specify at least one setpoint, such as [[100, 120]]"
+                   : "";
       });
 }
 
@@ -71,8 +74,8 @@ Target ReferenceRoute::update(const Estimate& e) {
   }
   const bool near = e.visible > 0 && norm(e.centroid - points_[index_]) < tolerance_;
   inside_ = near ? inside_ + 1 : 0;
-  const bool late = p_.timeout && e.t - since_ >= *p_.timeout;
-  if (inside_ >= p_.hold_frames || late) {
+  const bool timed_out = p_.timeout && e.t - since_ >= *p_.timeout;
+  if (inside_ >= p_.hold_frames || timed_out) {
     if (index_ + 1 < points_.size()) {
       ++index_;
       inside_ = 0;

@@ -8,30 +8,29 @@
 namespace faba {
 
 Schema<Trap::Params> Trap::Params::schema() {
-  return Schema<Params>("trap", "Where the currents for a zero of the field come from")
+  return Schema<Params>("trap", "Currents for a zero of the field")
       .add("source", &Params::source,
-           {.doc = "solve: computed for the very place; library: the entry of [library] whose zero is "
-                   "nearest, as in "
-                   "the thesis (A7)",
+           {.doc = "solve: currents computed for the setpoint; library: entry of [library] with the nearest "
+                   "zero, as in the thesis (A7)",
             .choices = {"solve", "library"}})
-      .add(
-          "earth", &Params::earth,
-          {.doc = "Allow for the Earth's field; false: as on a rig where nobody does. A library always does"})
+      .add("earth", &Params::earth,
+           {.doc = "Compensate the Earth's field; must be true with source = \"library\", which always "
+                   "compensates it"})
       .check([](const Params& p) -> std::string {
-        return p.source == Source::library && !p.earth
-                   ? "a library allows for the Earth's field: leave out earth = false"
-                   : "";
+        return p.source == Source::library && !p.earth ? "earth = false is not possible with source = "
+                                                         "\"library\", which compensates the Earth's field"
+                                                       : "";
       });
 }
 
 Trap::Trap(const Params& p, const ControlContext& c) : p_(p), c_(c), current_(c.field->coils(), 0.0) {
   if (p.source == Source::library && !c.library)
     throw Error(Errc::usage, "controller.source",
-                "there is no library to take currents from; name its file: [library] file = \"library.h5\"");
+                "\"library\" needs a library file; set [library] file = \"library.h5\"");
 }
 
 Command Trap::at(Vec2 at) {
-  if ((known_ && at == at_) || !std::isfinite(norm(at))) return {current_};
+  if ((current_valid_ && at == at_) || !std::isfinite(norm(at))) return {current_};
   if (p_.source == Source::library) {
     if (const auto entry = c_.library->nearest(at, c_.polarity))
       current_ = c_.library->entries()[*entry].current;
@@ -39,7 +38,7 @@ Command Trap::at(Vec2 at) {
     const FieldNull n = null_at(*c_.field, at, c_.polarity, c_.max_current, p_.earth);
     if (n.reachable) current_ = n.current;
   }
-  known_ = true;
+  current_valid_ = true;
   at_ = at;
   return {current_};
 }

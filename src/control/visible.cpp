@@ -4,15 +4,15 @@
 namespace faba {
 namespace {
 
-/// Mean of the cells in view, as a camera gives it. With none in view the last estimate is kept and `visible`
-/// is 0.
+/// Mean of the cells in view, as measured by a camera. With none in view the last estimate is kept and
+/// `visible` is 0.
 class EstimatorVisible final : public Estimator {
  public:
   struct Params {};
   static constexpr std::array kTraits = {Trait::needs_positions};
   static Schema<Params> schema() {
     return Schema<Params>("visible", "Mean of the cells in view")
-        .validity("Biased towards the view's centre when part of the swarm is outside.");
+        .validity("Biased towards the centre of the view when part of the swarm is outside the view.");
   }
   EstimatorVisible(const Params&, const ControlContext&) {}
   Estimate update(const Observation& o, const Command&) override { return centroid_.update(o, true); }

@@ -4,18 +4,18 @@
 
 namespace faba {
 Schema<CircuitParams> CircuitParams::schema() {
-  return Schema<CircuitParams>("circuit", "What a coil is connected to")
-      .add("name", &CircuitParams::name, {.doc = "What reports call it"})
+  return Schema<CircuitParams>("circuit", "Electrical circuit of a coil")
+      .add("name", &CircuitParams::name, {.doc = "Name of the coil in reports"})
       .add("gain", &CircuitParams::gain,
            {.min = -1e3,
             .max = 1e3,
-            .doc = "Measured field over that of the formula, as `faba field fit` finds it",
+            .doc = "Ratio of the measured field to the calculated field, as determined by `faba field fit`",
             .role = Role::strength})
       .add("current", &CircuitParams::current,
            {.unit = "A",
             .min = -1e4,
             .max = 1e4,
-            .doc = "What flows when nothing commands it, as in `faba field`"})
+            .doc = "Default current, used where no current is commanded, as in `faba field`"})
       .add("max_current", &CircuitParams::max_current,
            {.unit = "A", .min = 0, .max = 1e4, .doc = "Largest current; unlimited when absent"})
       .add("resistance", &CircuitParams::resistance,
@@ -24,11 +24,13 @@ Schema<CircuitParams> CircuitParams::schema() {
            {.unit = "H",
             .min = 0,
             .max = 1e3,
-            .doc = "Inductance; with the resistance it makes the current lag by L/R",
+            .doc = "Inductance; requires resistance; the current lags its command with time constant L/R",
             .source = "L/R of 1-10 ms is typical (C4)"})
       .check([](const CircuitParams& p) -> std::string {
-        if (p.inductance && !p.resistance) return "inductance needs a resistance, for the time constant L/R";
-        if (p.max_current && std::fabs(p.current) > *p.max_current) return "current is above max_current";
+        if (p.inductance && !p.resistance)
+          return "inductance requires resistance, for the time constant L/R; specify both";
+        if (p.max_current && std::fabs(p.current) > *p.max_current)
+          return "current must not exceed max_current";
         return {};
       });
 }
@@ -44,17 +46,17 @@ Circuit CircuitParams::circuit() const {
 }
 
 Schema<PoseParams> PoseParams::schema() {
-  return Schema<PoseParams>("pose", "Where a coil stands")
+  return Schema<PoseParams>("pose", "Position and orientation of a coil")
       .add("position", &PoseParams::position,
            {.unit = "m",
             .min = -10,
             .max = 10,
-            .doc = "Its middle, world frame: x right, y up, z to the camera",
+            .doc = "Centre, world frame: x right, y up, z towards the camera",
             .role = Role::position})
       .add("axis", &PoseParams::axis,
            {.min = -1e6,
             .max = 1e6,
-            .doc = "Direction of its field inside for a positive current, of any length",
+            .doc = "Direction of the field in the coil for a positive current; its length is ignored",
             .role = Role::axis})
       .check([](const PoseParams& p) -> std::string {
         return p.axis == Vec3{} ? "axis must not be [0, 0, 0]" : "";
@@ -62,7 +64,8 @@ Schema<PoseParams> PoseParams::schema() {
 }
 
 Axis::Axis(Vec3 origin, Vec3 direction) : origin_(origin), direction_((1 / norm(direction)) * direction) {
-  // Any two directions across; the axis least along the coil's keeps them well defined.
+  // Any two perpendicular directions; starting from the axis least parallel to the coil's avoids
+  // cancellation.
   const Vec3 d{std::fabs(direction_.x), std::fabs(direction_.y), std::fabs(direction_.z)};
   const Vec3 other = d.x <= d.y && d.x <= d.z ? Vec3{1, 0, 0} : d.y <= d.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   across_ = cross(direction_, other);
@@ -70,7 +73,7 @@ Axis::Axis(Vec3 origin, Vec3 direction) : origin_(origin), direction_((1 / norm(
   third_ = cross(direction_, across_);
 }
 
-void Axis::places(std::span<const Vec3> at, std::span<double> rho, std::span<double> z) const {
+void Axis::cylindrical(std::span<const Vec3> at, std::span<double> rho, std::span<double> z) const {
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Vec3 r = at[i] - origin_;
     z[i] = dot(r, direction_);

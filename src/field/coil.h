@@ -9,7 +9,7 @@
 
 namespace faba {
 
-/// What a coil is connected to, and how strong it turned out to be: keys that all coils have.
+/// Circuit and calibration of a coil: parameters common to all coils.
 struct CircuitParams {
   std::string name;
   double gain = 1;
@@ -20,25 +20,25 @@ struct CircuitParams {
   Circuit circuit() const;
 };
 
-/// Where a coil with an axis stands.
+/// Position and orientation of a coil with an axis.
 struct PoseParams {
   Vec3 position;
   Vec3 axis{0, 0, 1};
   static Schema<PoseParams> schema();
 };
 
-/// From the world to cylindrical coordinates about an axis and back.
+/// Transformation between the world frame and cylindrical coordinates about an axis.
 class Axis {
  public:
-  /// `direction` of any length but 0; m, world.
+  /// Origin in m, world frame; `direction` is not zero and of any length.
   Axis(Vec3 origin, Vec3 direction);
-  /// rho and z of every point.
-  void places(std::span<const Vec3> at, std::span<double> rho, std::span<double> z) const;
+  /// Cylindrical coordinates rho and z of every point, m.
+  void cylindrical(std::span<const Vec3> at, std::span<double> rho, std::span<double> z) const;
   /// The vector with the components b_rho and b_z at `at`.
   Vec3 vector(Vec3 at, double b_rho, double b_z) const;
-  /// A circle about the axis, closed.
+  /// A closed circle about the axis.
   Field::Stroke circle(double radius, double z) const;
-  /// A line at the distance `rho` from the axis, on the side given by `turn` (rad), from z0 to z1.
+  /// A line at distance `rho` from the axis and azimuth `turn` (rad), from z0 to z1.
   Field::Stroke line(double rho, double turn, double z0, double z1) const;
 
  private:
@@ -46,9 +46,9 @@ class Axis {
 };
 
 /// A coil that is symmetric about its axis. `Source` is its shape:
-///   Source::Params and Source::schema(), with the parameters of the shape alone;
+///   Source::Params and Source::schema(), with the parameters of the shape only;
 ///   Source(Params);
-///   add(Places, Components): the field of 1 A through the coil;
+///   add(Places, Components): adds the field of 1 A through the coil;
 ///   clearance(rho, z): distance to the nearest winding, m;
 ///   outline(Axis): strokes.
 template <class Source>
@@ -74,14 +74,14 @@ class Coil final : public Field {
   std::size_t coils() const override { return 1; }
   void per_ampere(std::size_t, std::span<const Vec3> at, std::span<Vec3> b) const override {
     std::vector<double> rho(at.size()), z(at.size()), b_rho(at.size()), b_z(at.size());
-    axis_.places(at, rho, z);
+    axis_.cylindrical(at, rho, z);
     source_.add({rho, z}, {b_rho, b_z});
     for (std::size_t i = 0; i < at.size(); ++i) b[i] = circuit_.gain * axis_.vector(at[i], b_rho[i], b_z[i]);
   }
   Circuit circuit(std::size_t) const override { return circuit_.circuit(); }
   double clearance(Vec3 at) const override {
     double rho = 0, z = 0;
-    axis_.places({&at, 1}, {&rho, 1}, {&z, 1});
+    axis_.cylindrical({&at, 1}, {&rho, 1}, {&z, 1});
     return source_.clearance(rho, z);
   }
   std::vector<Stroke> outline() const override { return source_.outline(axis_); }

@@ -19,7 +19,7 @@ struct Unit {
   double in_si;
 };
 constexpr Unit kLengths[] = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
-constexpr double kLargest = 1e3;  // m and T
+constexpr double kLargestValue = 1e3;  // m and T
 constexpr Unit kFields[] = {{"t", 1}, {"mt", 1e-3}, {"ut", 1e-6}, {"nt", 1e-9}, {"gauss", 1e-4}};
 
 std::string lower(std::string s) {
@@ -34,7 +34,7 @@ struct Column {
   double operator[](std::size_t row) const { return values[row] * in_si; }
 };
 
-// The column of `quantity`, whose name is followed by one of the units.
+// The column of `quantity`; its name ends in one of the units.
 std::optional<Column> column_of(const Table& t, const std::string& quantity, std::span<const Unit> units) {
   for (const std::string& name : t.names()) {
     const std::string word = lower(name);
@@ -44,8 +44,9 @@ std::optional<Column> column_of(const Table& t, const std::string& quantity, std
       if (unit == u.name) return Column{t.column(name), u.in_si};
     std::vector<std::string> known;
     for (const Unit& u : units) known.push_back(quantity + "_" + u.name);
-    throw Error(Errc::input, t.source(),
-                fmt::format("column {} must say its unit: {}", name, fmt::join(known, ", ")));
+    throw Error(
+        Errc::input, t.source(),
+        fmt::format("column \"{}\" has no known unit; permitted names: {}", name, fmt::join(known, ", ")));
   }
   return std::nullopt;
 }
@@ -64,11 +65,12 @@ FieldData from_columns(const Table& t) {
   };
   if (d.about_axis && (place[1] || field[1]))
     throw Error(Errc::input, d.source,
-                "has rho, a distance from an axis, as well as y; give one or the other");
+                "has both rho, a distance from an axis, and a y component; specify one or the other");
   if (!any(place) || !any(field))
     throw Error(
         Errc::input, d.source,
-        fmt::format("needs columns for {}, such as {}; it has {}", any(place) ? "the field" : "the place",
+        fmt::format("has no column for the {}, such as {}; its columns are {}",
+                    any(place) ? "field" : "position",
                     any(place) ? "bx_mt, by_mt, bz_mt" : "x_mm, y_mm, z_mm", fmt::join(t.names(), ", ")));
   for (std::size_t i = 0; i < t.size(); ++i) {
     std::array<double, 3> p{}, b{};
@@ -76,8 +78,9 @@ FieldData from_columns(const Table& t) {
       if (place[k]) p[k] = (*place[k])[i];
       if (field[k]) b[k] = (*field[k])[i];
       if (std::isnan(p[k]) || std::isnan(b[k])) throw Error(Errc::input, t.place(i), "a value is missing");
-      if (std::fabs(p[k]) > kLargest || std::fabs(b[k]) > kLargest)
-        throw Error(Errc::input, t.place(i), "a value is beyond any laboratory's");
+      if (std::fabs(p[k]) > kLargestValue || std::fabs(b[k]) > kLargestValue)
+        throw Error(Errc::input, t.place(i),
+                    "a value is out of range; at most 1000 m and 1000 T are permitted");
     }
     d.at.push_back({p[0], p[1], p[2]});
     d.b.push_back({b[0], b[1], b[2]});

@@ -1,5 +1,7 @@
 #include "field/harmonics.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -13,19 +15,19 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kMostPoints = 8000;  // more only repeat what these say, and cost time at every start
-constexpr double kNoise = 1e-13;           // share of the largest pivot that is rounding
+constexpr std::size_t kMostPoints = 8000;  // more points do not improve the fit and take more time
+constexpr double kNoise = 1e-13;           // rounding error as a fraction of the largest pivot
 
 using Complex = std::complex<double>;
 
-// R_l^m = r^l P_l^m e^(i m phi) / (l + m)!, for which derivatives are neighbours:
+// R_l^m = r^l P_l^m e^(i m phi) / (l + m)!, whose derivatives are neighbouring terms:
 //   d/dz R_l^m = R_(l-1)^m,  (d/dx + i d/dy) R_l^m = -R_(l-1)^(m+1),  (d/dx - i d/dy) R_l^m = R_(l-1)^(m-1).
 struct Solid {
   static std::size_t place(int l, int m) { return std::size_t(l) * std::size_t(l + 1) / 2 + std::size_t(m); }
   std::vector<Complex> value;
   Complex of(int l, int m) const {
     if (std::abs(m) > l) return 0;
-    return m < 0 ? -std::conj(value[place(l, -m)]) : value[place(l, m)];  // only m = -1 is asked for
+    return m < 0 ? -std::conj(value[place(l, -m)]) : value[place(l, m)];  // only m = -1 is used
   }
   Solid(Vec3 at, int degree) : value(place(degree, degree) + 1) {
     const double r2 = at.x * at.x + at.y * at.y + at.z * at.z;
@@ -64,7 +66,7 @@ class Schmidt {
       factor_{};
 };
 
-/// Sums for least squares over some of the points.
+/// Normal equations of a least-squares fit over a part of the points.
 struct Normal {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd right;
@@ -88,7 +90,7 @@ struct Normal {
     count += o.count;
     return *this;
   }
-  /// Least squares up to `degree`; directions that the data say nothing about stay 0.
+  /// Least squares up to `degree`; coefficients that the data do not determine are 0.
   Eigen::VectorXd solve(int degree) const {
     const Eigen::Index terms = size(degree);
     Eigen::MatrixXd m = matrix.topLeftCorner(terms, terms).selfadjointView<Eigen::Lower>();
@@ -102,7 +104,7 @@ struct Normal {
   }
 };
 
-// At most kMostPoints of them, evenly.
+// Indices of at most kMostPoints points, evenly spaced.
 std::vector<std::size_t> chosen(std::size_t points) {
   const std::size_t step = std::max<std::size_t>(1, (points + kMostPoints - 1) / kMostPoints);
   std::vector<std::size_t> i;
@@ -110,7 +112,7 @@ std::vector<std::size_t> chosen(std::size_t points) {
   return i;
 }
 
-// Centre and radius of the box that holds the points.
+// Centre and radius of the bounding box of the points.
 void place(const std::vector<Vec3>& at, Harmonics& field) {
   Vec3 low = at[0], high = low;
   for (const Vec3& p : at) {
@@ -122,8 +124,8 @@ void place(const std::vector<Vec3>& at, Harmonics& field) {
   field.radius = norm(half);
 }
 
-// Whether the points are spread along two directions at least.
-bool in_a_plane(const std::vector<Vec3>& at) {
+// Whether the points extend along at least two directions.
+bool spans_a_plane(const std::vector<Vec3>& at) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Vec3& p : at) mean += Eigen::Vector3d(p.x, p.y, p.z) / double(at.size());
@@ -132,7 +134,7 @@ bool in_a_plane(const std::vector<Vec3>& at) {
     spread += d * d.transpose();
   }
   const Eigen::Vector3d size = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-  return size[1] > 1e-6 * size[2];  // a thousandth as wide as long
+  return size[1] > 1e-6 * size[2];  // width at least 1/1000 of the length
 }
 
 Normal normal(const FieldData& data, const std::vector<std::size_t>& points, const Harmonics& about,
@@ -189,25 +191,26 @@ HarmonicFit fit_harmonics(const FieldData& data) {
   const std::vector<std::size_t> points = chosen(data.at.size());
   const auto given = std::size_t(std::count(data.given.begin(), data.given.end(), true));
   if (points.size() < 8)
-    throw Error(Errc::input, data.source, "has too few points for a field; at least 8 are needed");
+    throw Error(Errc::input, data.source,
+                fmt::format("has {} points; a field needs at least 8", points.size()));
   HarmonicFit fit;
   place(data.at, fit.field);
-  if (!in_a_plane(data.at))
+  if (!spans_a_plane(data.at))
     throw Error(Errc::input, data.source,
-                "has all of its points on one line; a field needs a plane of points, or better a box");
+                "all points are on one line; a field needs points in a plane or, preferably, in a volume");
   int most = 1;
   while (most < kMostHarmonicDegree && 2 * harmonic_terms(most + 1) <= given * points.size()) ++most;
 
-  std::vector<std::size_t> learned, left_out;  // a fifth without a rhythm, which a regular map might share
+  std::vector<std::size_t> training, validation;  // hashed index: one fifth, not aligned with a regular map
   for (const std::size_t i : points)
-    ((std::uint32_t(i) * 2654435761u >> 8) % 5 == 0 ? left_out : learned).push_back(i);
-  Normal all = normal(data, learned, fit.field, most);
-  const Normal test = normal(data, left_out, fit.field, most);
+    ((std::uint32_t(i) * 2654435761u >> 8) % 5 == 0 ? validation : training).push_back(i);
+  Normal all = normal(data, training, fit.field, most);
+  const Normal test = normal(data, validation, fit.field, most);
   int best = 1;
   double least = std::numeric_limits<double>::infinity();
   for (int degree = 1; degree <= most; ++degree) {
     const double off = test.rms(all.solve(degree));
-    if (off < 0.95 * least) {  // a further degree must be worth its terms
+    if (off < 0.95 * least) {  // a higher degree must reduce the residual by 5 %
       least = off;
       best = degree;
     }

@@ -8,7 +8,7 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kTies = 16;  // entries with one zero that are looked through for the least power
+constexpr std::size_t kTies = 16;  // entries with equal zeros among which the least power is selected
 
 double power(const LibraryEntry& e) {
   double p = 0;
@@ -16,7 +16,7 @@ double power(const LibraryEntry& e) {
   return p;
 }
 
-/// Zeros as nanoflann wants to see them.
+/// Dataset interface of nanoflann.
 struct Zeros {
   std::vector<std::size_t> entry;
   std::vector<Vec2> at;
@@ -35,9 +35,9 @@ struct FieldLibrary::Tree {
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Zeros>, Zeros, 2> index;
   explicit Tree(Zeros z) : zeros(std::move(z)), index(2, zeros) { index.buildIndex(); }
 
-  // The entries that draw cells of a polarity together.
+  // The entries that trap cells of a polarity.
   static std::unique_ptr<Tree> of(const std::vector<LibraryEntry>& all, int polarity) {
-    // As seen by north-seekers, who come together where both gradients are negative.
+    // For north-seeking cells, which are trapped where both gradients are negative.
     const auto worst = [&](const LibraryEntry& e) { return polarity > 0 ? e.gradient[1] : -e.gradient[0]; };
     const auto sum = [&](const LibraryEntry& e) { return polarity * (e.gradient[0] + e.gradient[1]); };
     const bool traps =
@@ -63,7 +63,7 @@ FieldTable FieldLibrary::table(const Field& field, const std::string& coil_hash)
   const auto other = [&] {
     return Error(
         Errc::input, content_.source,
-        "was made for another rig; make it again for this one with `faba field library RIG.toml --out "
+        "was made for a different coil system; create it again with `faba field library RIG.toml --out "
         "FILE --force`");
   };
   if (content_.rig != coil_hash ||
@@ -73,8 +73,8 @@ FieldTable FieldLibrary::table(const Field& field, const std::string& coil_hash)
   for (const std::size_t i : {std::size_t(0), content_.entries.size() / 2, content_.entries.size() - 1}) {
     if (i >= content_.entries.size()) continue;
     table.set(content_.entries[i].current);
-    const std::vector<float> kept = content_.field(i);
-    if (!std::equal(kept.begin(), kept.end(), table.nodes().begin(), [](float a, float b) {
+    const std::vector<float> stored = content_.field(i);
+    if (!std::equal(stored.begin(), stored.end(), table.nodes().begin(), [](float a, float b) {
           return std::fabs(a - b) <= 1e-6f * std::max(std::fabs(a), 1e-6f);
         }))
       throw other();
@@ -90,7 +90,7 @@ std::optional<std::size_t> FieldLibrary::nearest(Vec2 at, int polarity) const {
   const std::size_t n = tree.index.knnSearch(query.data(), kTies, found.data(), square.data());
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < n; ++i) {
-    // Zeros within a nanometre are one.
+    // Zeros within 1 nm of each other are considered equal.
     if (std::sqrt(square[i]) > std::sqrt(square[0]) + 1e-9) break;
     const std::size_t entry = tree.zeros.entry[found[i]];
     if (!best || power(content_.entries[entry]) < power(content_.entries[*best])) best = entry;

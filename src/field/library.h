@@ -10,26 +10,24 @@
 
 namespace faba {
 
-/// One entry of a library: currents, the zero of the in-plane field that they make, and what it does to
-/// cells.
+/// One entry of a library: currents, the zero of the in-plane field that they make, and its gradient.
 struct LibraryEntry {
   std::vector<double> current;  ///< A, one per coil
   Vec2 zero;                    ///< m, world, z = 0
-  std::array<double, 2>
-      gradient{};  ///< eigenvalues of the in-plane gradient there, T/m, the smaller one first
+  /// Eigenvalues of the in-plane gradient at the zero, T/m, in ascending order.
+  std::array<double, 2> gradient{};
 };
 
-/// The library of the thesis (3.3.4.2): many sets of currents, each with the zero of the field that it makes
-/// and the field at the nodes of a grid. A controller takes the currents whose zero is nearest to where it
-/// wants one.
+/// The library of the thesis (3.3.4.2): many sets of currents, each with the zero of its field and the field
+/// at the nodes of a grid. A controller uses the currents whose zero is nearest to the desired position.
 class FieldLibrary {
  public:
   struct Content {
     std::string source;  ///< file name, for messages
-    std::string rig;     ///< hash of the coils that it was made for
+    std::string rig;     ///< hash of the coil system that it was made for
     TableGrid grid;
     std::vector<LibraryEntry> entries;
-    /// The field of an entry at all nodes, T: x and y of every node, row by row from below.
+    /// The field of an entry at all nodes, T: x and y of every node, row by row from the lowest.
     std::function<std::vector<float>(std::size_t entry)> field;
   };
   explicit FieldLibrary(Content content);
@@ -41,13 +39,13 @@ class FieldLibrary {
   const std::vector<LibraryEntry>& entries() const { return content_.entries; }
   /// As Content::field.
   std::vector<float> field(std::size_t entry) const { return content_.field(entry); }
-  /// The field of a rig at the nodes of the library's grid. Throws Error(input) unless this is the rig that
-  /// the library was made for: the hashes are equal, and so is the field of some of the entries.
+  /// The field of a coil system at the nodes of the library's grid. Throws Error(input) unless the library
+  /// was made for this coil system: the hashes and the fields of some of the entries must be equal.
   FieldTable table(const Field& field, const std::string& coil_hash) const;
 
   /// The entry whose zero is nearest to `at` (m) among those that trap cells of `polarity` (+1 north-seeking,
-  /// -1 south-seeking); of equally near ones that with the least power. Where none traps along both axes, as
-  /// with two coils, among those that trap more along one than they drive away along the other.
+  /// -1 south-seeking); among equally near ones that with the least power. When no entry traps along both
+  /// axes, as with two coils, among those whose trapping gradient exceeds the repelling one.
   std::optional<std::size_t> nearest(Vec2 at, int polarity) const;
 
  private:

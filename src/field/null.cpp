@@ -13,7 +13,7 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr double kRank = 1e-9;  // singular values below this share of the first are rounding
+constexpr double kRank = 1e-9;  // singular values below this fraction of the largest are rounding errors
 
 /// Field and gradient of every coil at a point.
 struct Local {
@@ -25,14 +25,14 @@ struct Local {
 };
 
 /// The in-plane gradient of a linear combination, as c(angle) = mean + along cos(2 angle) + across sin(2
-/// angle), the slope of B along a direction; each is a vector over what is combined.
+/// angle), the slope of B along a direction; each is a vector over the combined quantities.
 struct Slope {
   Vector mean, along, across;
   Vector at(double cos2, double sin2) const { return mean + cos2 * along + sin2 * across; }
   double size() const { return mean.norm() + along.norm() + across.norm(); }
 };
 
-// The steepest slope in any direction: what is left when nothing traps along both axes.
+// The steepest slope in any direction: used when nothing traps along both axes.
 Vector strongest_slope(const Slope& c) {
   Vector best = c.at(1, 0);
   for (int i = 1; i < 720; ++i) {
@@ -45,9 +45,9 @@ Vector strongest_slope(const Slope& c) {
 
 // Currents here are in units of each coil's limit, so that all limits are 1.
 
-/// The largest s for which no current of start + s direction is beyond its limit; negative when one of
-/// `start` is.
-double room(const Vector& start, const Vector& direction) {
+/// The largest s for which all currents of start + s direction are within their limits; negative when one of
+/// `start` is not.
+double largest_step(const Vector& start, const Vector& direction) {
   double s = std::numeric_limits<double>::infinity();
   for (Eigen::Index k = 0; k < start.size(); ++k) {
     if (std::fabs(start[k]) > 1 + 1e-12) return -1;
@@ -57,16 +57,16 @@ double room(const Vector& start, const Vector& direction) {
   return s;
 }
 
-/// Of all currents with a I = wanted those with the least sum of squares, or when these break a limit the
-/// ones whose largest is smallest, by Lawson's reweighting: who is near the limit counts more in the next
-/// sum.
+/// Of all currents with a I = wanted those with the least sum of squares or, when these exceed a limit, those
+/// with the smallest maximum, by Lawson's reweighting: currents near their limit get a larger weight in the
+/// next iteration.
 Vector least_currents(const Matrix& a, const Eigen::Vector2d& wanted) {
   Vector weight = Vector::Ones(a.cols()), best;
   for (int i = 0; i < 100; ++i) {
-    const Vector share = weight.cwiseSqrt().cwiseInverse();
-    Eigen::JacobiSVD<Matrix> svd(a * share.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Vector scale = weight.cwiseSqrt().cwiseInverse();
+    Eigen::JacobiSVD<Matrix> svd(a * scale.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
     svd.setThreshold(kRank);
-    const Vector now = share.asDiagonal() * svd.solve(wanted);
+    const Vector now = scale.asDiagonal() * svd.solve(wanted);
     const double most = now.cwiseAbs().maxCoeff();
     if (best.size() == 0 || most < best.cwiseAbs().maxCoeff()) best = now;
     if (most < 0.999) break;
@@ -76,16 +76,15 @@ Vector least_currents(const Matrix& a, const Eigen::Vector2d& wanted) {
   return best;
 }
 
-/// Slope along the direction in which currents trap least; positive when they trap.
-double weakest(const Slope& c, const Vector& current) {
+/// Slope along the direction of the weakest trap; positive when the currents trap.
+double weakest_slope(const Slope& c, const Vector& current) {
   return c.mean.dot(current) - norm(Vec2{c.along.dot(current), c.across.dot(current)});
 }
 
-/// The currents start + free y within the limits for which weakest() is largest. It is a concave function of
-/// y and the limits are convex, so that there is one largest value, and a path leads there through the
-/// inside: Newton's method on a barrier,
-///   largest  weight t + log((mean - t)^2 - along^2 - across^2) + sum of log(1 - current^2)  over y and t,
-/// with more and more weight. `start` is inside the limits.
+/// The currents start + free y within the limits for which weakest_slope() is largest. It is a concave
+/// function of y and the limits are convex, so the maximum is unique. Newton's method on a barrier,
+///   maximise  weight t + log((mean - t)^2 - along^2 - across^2) + sum of log(1 - current^2)  over y and t,
+/// with increasing weight. `start` is inside the limits.
 class BestTrap {
  public:
   BestTrap(const Slope& c, const Vector& start, const Matrix& free) : start_(start), free_(free) {
@@ -98,9 +97,9 @@ class BestTrap {
     across_.head(n - 1) = free.transpose() * c_.across;
   }
   Vector solve() const {
-    constexpr int kDecades = 10;  // the largest value is missed by some ten over the last weight
+    constexpr int kDecades = 10;  // the distance from the maximum is about 10 / (final weight)
     Vector z = Vector::Zero(free_.cols() + 1);
-    z[z.size() - 1] = weakest(c_, start_) - 1;
+    z[z.size() - 1] = weakest_slope(c_, start_) - 1;
     double weight = 1;
     for (int decade = 0; decade <= kDecades; ++decade, weight *= 10)
       for (int i = 0; i < 50; ++i)
@@ -110,7 +109,7 @@ class BestTrap {
 
  private:
   Vector current(const Vector& z) const { return start_ + free_ * z.head(free_.cols()); }
-  /// What is made small; infinite outside.
+  /// The function to minimise; infinite outside the limits.
   double barrier(double weight, const Vector& z) const {
     const Vector x = current(z), inside = 1 - x.array().square();
     const double r = c_.mean.dot(x) - z[z.size() - 1], a = c_.along.dot(x), b = c_.across.dot(x);
@@ -137,10 +136,10 @@ class BestTrap {
     const Vector p = -h.ldlt().solve(slope);
     const double gain = -slope.dot(p), before = barrier(weight, z);
     if (!(gain > 1e-9)) return false;
-    double share = 1;
-    for (int halving = 0; halving < 30; ++halving, share *= 0.5)
-      if (barrier(weight, z + share * p) < before - 0.1 * share * gain) {
-        z += share * p;
+    double fraction = 1;
+    for (int halving = 0; halving < 30; ++halving, fraction *= 0.5)
+      if (barrier(weight, z + fraction * p) < before - 0.1 * fraction * gain) {
+        z += fraction * p;
         return true;
       }
     return false;
@@ -153,11 +152,11 @@ class BestTrap {
 };
 
 /// Eigenvalues of the in-plane part of the gradient, and dB_z/dz.
-struct Measured {
+struct LocalGradient {
   std::array<double, 2> in_plane;
   double along_z;
 };
-Measured measured(const Local& local, std::span<const double> current) {
+LocalGradient local_gradient(const Local& local, std::span<const double> current) {
   double xx = 0, xy = 0, yy = 0, zz = 0;
   for (std::size_t k = 0; k < current.size(); ++k) {
     xx += current[k] * local.g[k][0][0];
@@ -186,7 +185,7 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
     c.across[k] = -polarity * 0.5 * unit * (g[0][1] + g[1][0]);
   }
   if (!a.allFinite() || !c.mean.allFinite() || !c.along.allFinite() || !c.across.allFinite()) {
-    // In a winding, or outside of a measured map.
+    // In a winding, or outside a measured map.
     constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     return {std::vector<double>(std::size_t(n)), {kUnknown, kUnknown}, kUnknown, false, true};
   }
@@ -202,27 +201,27 @@ FieldNull null_at(const Field& field, Vec2 at, int polarity, std::span<const dou
   const bool zero = (a * start - wanted).norm() <= 1e-9 * (wanted.norm() + 1e-12);
   if (zero && free.cols() > 0) {
     const Slope combined{free.transpose() * c.mean, free.transpose() * c.along, free.transpose() * c.across};
-    const double inside = room(start, Vector::Zero(n));
+    const double inside = largest_step(start, Vector::Zero(n));
     if (inside > 0 && combined.size() > 0) {
       out.reachable = true;
       if (start.cwiseAbs().maxCoeff() < 1) current = BestTrap(c, start, free).solve();
-      if (!(weakest(c, current) > 0)) {  // nothing traps here, or nothing within the limits
+      if (!(weakest_slope(c, current) > 0)) {  // no trap at this point within the limits
         const Vector direction = free * strongest_slope(combined);
-        current = start + room(start, direction) * direction;
+        current = start + largest_step(start, direction) * direction;
       }
     }
   }
   for (Eigen::Index k = 0; k < n; ++k) out.current.push_back(most[std::size_t(k)] * current[k]);
-  const Measured m = measured(local, out.current);
+  const LocalGradient m = local_gradient(local, out.current);
   out.gradient = m.in_plane;
   out.out_of_plane = m.along_z;
-  // North-seeking cells swim along B: they come together where B points inwards.
+  // North-seeking cells swim along B: they gather where B points inwards.
   out.saddle = !(polarity > 0 ? m.in_plane[1] < 0 : m.in_plane[0] > 0);
   return out;
 }
 
 NullGradient null_gradient(const Field& field, std::span<const double> current, Vec2 at) {
-  return measured(Local(field, at), current).in_plane;
+  return local_gradient(Local(field, at), current).in_plane;
 }
 
 std::vector<double> current_limits(const Field& field) {
@@ -245,17 +244,17 @@ Vec2 find_null(const Field& field, std::span<const double> current, Vec2 from) {
       for (int r = 0; r < 2; ++r)
         for (int c = 0; c < 2; ++c) g(r, c) += current[k] * local.g[k][std::size_t(r)][std::size_t(c)];
     }
-    double made = 0;  // by the coils one by one: what a zero is small against
+    double field_scale = 0;  // sum of the field magnitudes of the coils: scale for the tolerance of the zero
     for (std::size_t k = 0; k < current.size(); ++k)
-      made += std::fabs(current[k]) * norm(Vec2{local.b[k].x, local.b[k].y});
+      field_scale += std::fabs(current[k]) * norm(Vec2{local.b[k].x, local.b[k].y});
     const Eigen::Vector2d step = g.fullPivLu().solve(b);
-    // A step longer than the way to the nearest coil is no step towards a zero that this gradient knows of.
+    // The gradient is not valid beyond the nearest coil: the step is limited to half the distance to it.
     const double most = 0.5 * field.clearance({from.x, from.y, 0});
     const double length = step.norm();
     if (!std::isfinite(length) || !(most > 0)) break;
-    const double share = length > most ? most / length : 1;
-    from = from - share * Vec2{step[0], step[1]};
-    if (length < 1e-12 && b.norm() < 1e-9 * made) return from;
+    const double fraction = length > most ? most / length : 1;
+    from = from - fraction * Vec2{step[0], step[1]};
+    if (length < 1e-12 && b.norm() < 1e-9 * field_scale) return from;
     if (length < 1e-12) break;
   }
   return {kNowhere, kNowhere};

@@ -6,7 +6,7 @@
 namespace faba {
 namespace {
 
-/// One [[coil]] of a rig: any kind of coil, described by the kind's own schema.
+/// One [[coil]] of a coil system: any kind of coil, described by the schema of its kind.
 struct RigCoil {
   FieldRegistry::PartType part;
 
@@ -22,18 +22,18 @@ struct RigCoil {
 struct Earth {
   Vec3 field;
   static Schema<Earth> schema() {
-    return Schema<Earth>("earth", "The field that no coil makes")
+    return Schema<Earth>("earth", "Ambient field: the field without currents")
         .add("field", &Earth::field,
              {.unit = "T",
               .min = -1e-2,
               .max = 1e-2,
-              .doc = "Of the Earth and the room, world frame",
+              .doc = "Field of the Earth and the surroundings, world frame",
               .role = Role::ambient});
   }
 };
 
-/// Any number of coils and the Earth's field (theory C4): B = B_earth + sum of I_k b_k. Cores and magnets
-/// that see each other keep this linear, but change every b_k: then measure them and use maps.
+/// Any number of coils and the Earth's field (theory C4): B = B_earth + sum of I_k b_k. Mutual magnetisation
+/// of cores and magnets keeps the field linear but changes every b_k; measured maps take it into account.
 class Rig final : public Field {
  public:
   struct Params {
@@ -42,18 +42,18 @@ class Rig final : public Field {
   };
   static constexpr std::array kTraits = {Trait::coil_system};
   static Schema<Params> schema(const std::shared_ptr<const FieldRegistry>& coils) {
-    return Schema<Params>("rig", "Any number of coils, and the Earth's field")
+    return Schema<Params>("rig", "A coil system: any number of coils and the Earth's field")
         .add("coil", &Params::coil,
-             {.doc = "The coils, one [[coil]] each; their order is that of the currents", .context = coils})
-        .add("earth", &Params::earth, {.doc = "The field that no coil makes"})
+             {.doc = "The coils, one [[coil]] each, in the order of the currents", .context = coils})
+        .add("earth", &Params::earth, {.doc = "Ambient field: the field without currents"})
         .check([](const Params& p) -> std::string {
-          return p.coil.empty() ? "needs at least one [[coil]]; a scenario may name a file that has them: "
+          return p.coil.empty() ? "has no coils; add at least one [[coil]], or name a file with coils: "
                                   "file = \"rig.toml\""
                                 : "";
         })
         .validity(
-            "Ferrite cores that magnetise each other: measure the field of each coil with all cores in "
-            "place.");
+            "Mutual magnetisation of ferrite cores is not modelled: use maps of each coil, measured with all "
+            "cores in position.");
   }
   Rig(const Params& p, const FieldContext& c) : earth_(p.earth.field) {
     for (std::size_t i = 0; i < p.coil.size(); ++i) {
@@ -95,10 +95,10 @@ class Rig final : public Field {
 
 }  // namespace
 
-// Its coils are those that were registered before it.
+// The coils are the parts registered before it.
 void add_rig(FieldRegistry& r) {
   const auto coils =
-      std::make_shared<const FieldRegistry>(r.only(Trait::coil, "coil", "A coil of a rig: [[coil]]"));
+      std::make_shared<const FieldRegistry>(r.only(Trait::coil, "coil", "A coil of a coil system: [[coil]]"));
   r.add<Rig>(Rig::schema(coils));
 }
 

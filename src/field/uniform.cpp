@@ -6,8 +6,8 @@
 namespace faba {
 namespace {
 
-/// The same field everywhere: two crossed pairs of coils with concurring currents, one along x and one along
-/// y (theory A6; in the view of a microscope such a pair is uniform to 0.1 %, C4).
+/// A uniform field: two crossed pairs of coils with concurring currents, one along x and one along y (theory
+/// A6; in the view of a microscope such a pair is uniform to 0.1 %, C4).
 ///   B = earth + gain (I_0, I_1, 0)
 /// Fails where gradients matter: far from the centre, or with opposed currents.
 class Uniform final : public Field {
@@ -37,25 +37,24 @@ class Uniform final : public Field {
 };
 
 Schema<Uniform::Params> Uniform::schema() {
-  return Schema<Params>("uniform",
-                        "The same field everywhere, from one pair of coils along x and one along y")
+  return Schema<Params>("uniform", "A uniform field, from one pair of coils along x and one along y")
       .add("gain", &Params::gain,
            {.unit = "T/A",
             .min = 1e-9,
             .max = 1,
             .doc = "Field per ampere of each pair",
-            .source = "two coils of the reference rig, 0.2966 mT/A each (C4)"})
+            .source = "two coils of the reference coil system, 0.2966 mT/A each (C4)"})
       .add("earth", &Params::earth,
-           {.unit = "T", .min = -1e-3, .max = 1e-3, .doc = "Ambient field in the plane of the drop"})
+           {.unit = "T", .min = -1e-3, .max = 1e-3, .doc = "Ambient field in the plane of the swarm"})
       .add("lag", &Params::lag,
            {.unit = "s",
             .min = 0,
             .max = 10,
-            .doc = "Time constant L/R of the coils; 0: currents follow at once",
+            .doc = "Time constant L/R of the coils; 0: currents follow their commands at once",
             .source = "1-10 ms is typical (C4)"})
       .validity(
-          "Uniform only near the centre of real coils; gradients, and with them field-free points, are "
-          "absent.");
+          "Valid only near the centre of real coils; there are no gradients and therefore no zeros of the "
+          "field.");
 }
 
 void Uniform::eval(const Points&, std::span<const double> current, Vectors b) const {

@@ -28,8 +28,8 @@ const std::vector<Refused> kRefused{
     {"field solenoid core_radius maximum", "core_radius must not be above radius"},
     {"field thick_coil inner_radius maximum", "outer_radius must be larger than inner_radius"},
     {"field thick_coil outer_radius minimum", "outer_radius must be larger than inner_radius"},
-    {"controller fuzzy near_px maximum", "near_px is beyond far_px"},
-    {"controller fuzzy far_px minimum", "near_px is beyond far_px"},
+    {"controller fuzzy near_px maximum", "near_px must not be larger than far_px"},
+    {"controller fuzzy far_px minimum", "near_px must not be larger than far_px"},
 };
 
 /// The key of a number in the tables of this file: a coil of a coil system has the rules of the coil part.

@@ -1,4 +1,4 @@
-// The estimators `image` and `groups` as a scenario builds them.
+// The estimators `image` and `groups`, built from scenario parameters.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ std::vector<Vec2> blob(Vec2 at, double sd, int n, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("image: centroid, spread and velocity in the world's frame; the share falls as the swarm leaves") {
+TEST_CASE("image: centroid, spread, velocity in the world frame; the share decreases as the swarm leaves") {
   cells::Look l;
   const Frame frame = frame_of(l);
   const auto e = estimator("{ type = 'image' }", frame);
@@ -64,7 +64,7 @@ TEST_CASE("image: centroid, spread and velocity in the world's frame; the share 
   const double area = frame.m_per_px * frame.m_per_px;
   CHECK(std::sqrt(last.cov.xx / area / truth.cov.xx) == doctest::Approx(1).epsilon(0.05));
   CHECK(std::sqrt(last.cov.yy / area / truth.cov.yy) == doctest::Approx(1).epsilon(0.05));
-  CHECK(last.cov.xy / area == doctest::Approx(-truth.cov.xy).epsilon(0.1));  // y turned round
+  CHECK(last.cov.xy / area == doctest::Approx(-truth.cov.xy).epsilon(0.1));  // y is inverted
   CHECK(last.velocity.x == doctest::Approx(4 * 15 * frame.m_per_px).epsilon(0.15));
   CHECK(last.velocity.y == doctest::Approx(-1 * 15 * frame.m_per_px).epsilon(0.5));
   REQUIRE(last.groups.size() == 1);
@@ -73,12 +73,12 @@ TEST_CASE("image: centroid, spread and velocity in the world's frame; the share 
     for (Vec2& p : swarm) p.x += 6;
     last = e->update(seen(l, swarm, k / 15.0, std::uint64_t(k)), {});
   }
-  CHECK(last.visible == 0);  // all gone: the last place is kept
+  CHECK(last.visible == 0);  // all out of view: the last centroid is kept
   CHECK(last.groups.empty());
   CHECK(frame.image_from_world(last.centroid).x > 280);
 }
 
-TEST_CASE("groups: two swarms in a picture are two, and one of them is followed") {
+TEST_CASE("groups: two swarms in a frame are separated, and one of them is followed") {
   cells::Look l;
   const Frame frame = frame_of(l);
   for (const std::string follow : {"largest", "first"}) {
@@ -106,14 +106,14 @@ TEST_CASE("groups: a small round swarm is round") {
   Estimate last;
   for (int k = 0; k < 8; ++k) last = e->update(seen(l, swarm, k / 15.0, std::uint64_t(k)), {});
   const cells::Spread truth = cells::spread(swarm);
-  // Places are put into bins of a 32nd of what is covered, some 50 px, which loses bin^2 / 12 = 0.2 px^2
-  // along either axis; a cell's own width of 1.3 px^2 is in both.
+  // Positions are binned: a 32nd of the extent of about 50 px, which loses bin^2 / 12 = 0.2 px^2 along either
+  // axis; the width of a cell of 1.3 px^2 is in both.
   const double area = frame.m_per_px * frame.m_per_px;
   CHECK(last.cov.xx / last.cov.yy == doctest::Approx(truth.cov.xx / truth.cov.yy).epsilon(0.05));
   CHECK(std::sqrt(last.cov.xx / area / truth.cov.xx) == doctest::Approx(1).epsilon(0.1));
 }
 
-TEST_CASE("groups: positions are grouped where the rig gives them; one swarm is one group") {
+TEST_CASE("groups: positions are clustered when available; one swarm is one group") {
   const Frame frame;
   const auto e = estimator("'groups'", frame);
   for (const int swarms : {1, 2, 3}) {
@@ -126,8 +126,8 @@ TEST_CASE("groups: positions are grouped where the rig gives them; one swarm is 
     }
     const Estimate out = e->update(o, {});
     CHECK(int(out.groups.size()) == swarms);
-    // Standard error of a mean of 300: 15 um / sqrt(300) = 0.9 um; memberships of the others pull a little
-    // more.
+    // Standard error of a mean of 300: 15 um / sqrt(300) = 0.9 um; memberships of the other groups add a
+    // bias.
     double nearest = 1;
     for (const Vec2 c : at) nearest = std::min(nearest, norm(out.centroid - c));
     CHECK(nearest < 4e-6);
@@ -142,7 +142,7 @@ TEST_CASE("groups: positions are grouped where the rig gives them; one swarm is 
   CHECK(e->update(even, {}).groups.size() == 1);
 }
 
-TEST_CASE("pictures that are missing or of another size are refused in words; nothing seen gives no cells") {
+TEST_CASE("missing frames and frames of a wrong size are refused; an empty observation gives no cells") {
   cells::Look l;
   Observation none;
   none.seen.push_back({});

@@ -57,17 +57,17 @@ TEST_CASE(
   refused(f, "field fit drawn.toml --map m.csv --out m.csv --force", 2, "is what this command reads");
   refused(f, "field fit drawn.toml --map m.csv --out ./drawn.toml --force", 2, "is what this command reads");
   refused(f, "field map drawn.toml --picture /dev/null --force", 2, "is no file that could be replaced");
-  refused(f, "field map drawn.toml --current 1e300 --picture m.png", 2, "more than any coil bears");
+  refused(f, "field map drawn.toml --current 1e300 --picture m.png", 2, "out of range");
   refused(f, "field fit drawn.toml --map nothing.csv", 3, "nothing.csv");
-  refused(f, "field fit '" + kRigs + "thesis-four-coils.toml' --map m.csv", 2, "no current flows");
+  refused(f, "field fit '" + kRigs + "thesis-four-coils.toml' --map m.csv", 2, "all currents are zero");
   write_file(f.path / "few.csv", "x_mm,y_mm,z_mm,bz_mt\n0,0,0,1\n0,0,1,1.1\n");
-  refused(f, "field fit drawn.toml --map few.csv", 3, "2 values for 5 unknowns");
+  refused(f, "field fit drawn.toml --map few.csv", 3, "2 values for 5 parameters");
   std::string one_place = "x_mm,y_mm,z_mm,bz_mt\n";
   for (int i = 0; i < 20; ++i) one_place += "0,0,0,1\n";
   write_file(f.path / "one.csv", one_place);
-  refused(f, "field fit drawn.toml --map one.csv", 3, "does not say where");
+  refused(f, "field fit drawn.toml --map one.csv", 3, "does not determine");
   write_file(f.path / "no-field.csv", "x_mm,y_mm,z_mm\n0,0,0\n");
-  refused(f, "field fit drawn.toml --map no-field.csv", 3, "needs columns for the field");
+  refused(f, "field fit drawn.toml --map no-field.csv", 3, "has no column for the field");
   write_file(f.path / "hole.csv", "x_mm,bz_mt\n0,\n");
   refused(f, "field fit drawn.toml --map hole.csv", 3, "hole.csv:2");
 }
@@ -143,7 +143,7 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
   refused(f, "field library " + four + " --levels 12 --out l.h5", 2, "already exists");
   refused(f, "run s.toml --seed 1 --out bad --set arena.radius_px=700", 2, "library: covers 2 x 2 mm");
   refused(f, "run s.toml --seed 1 --out bad --set field.file=" + kRigs + "thesis-two-coils.toml", 3,
-          "another rig");
+          "a different coil system");
   refused(f, "run s.toml --seed 1 --out bad --set controller.earth=false", 2, "earth");
   write_file(f.path / "no-library.toml", scene + "[controller]\ntype = 'gradient'\nsource = 'library'\n");
   refused(f, "run no-library.toml --seed 1 --out bad", 2, "there is no library");

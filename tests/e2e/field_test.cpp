@@ -137,7 +137,7 @@ TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
         Bad{"no axis", coil + "axis = [0, 0, 0]\n", "", 2, "axis must not be"},
         Bad{"unknown kind", "[[coil]]\ntype = 'selenoid'\n", "", 2, "did you mean \"solenoid\""},
         Bad{"unknown key", coil + "raduis = 1\n", "", 2, "did you mean \"radius\""},
-        Bad{"current above its limit", coil + "current = 2\nmax_current = 1\n", "", 2, "above max_current"},
+        Bad{"current above its limit", coil + "current = 2\nmax_current = 1\n", "", 2, "must not exceed max_current"},
         Bad{"missing column", coil, "x_m,y_m\n0,0\n", 3, "there is no column z_m"},
         Bad{"no number", coil, "x_m,y_m,z_m\n0,0,zero\n", 3, "is not a number"},
         Bad{"short line", coil, "x_m,y_m,z_m\n0,0\n", 3, "2 fields"},
@@ -183,8 +183,8 @@ TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in 
   };
   for (const Bad& b :
        {Bad{"file = 'none.toml'", "there is no none.toml"}, Bad{"file = 3", "in quotes"},
-        Bad{"", "needs at least one [[coil]]"},
-        Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "reaches into the sample"},
+        Bad{"", "add at least one [[coil]]"},
+        Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "inside the sample plane"},
         Bad{"coil = [{ type = 'loop', radius = '-1 mm' }]", "field.coil[0].radius"}}) {
     write_file(f.path / "bad.toml", "[field]\ntype = 'rig'\n" + std::string(b.field) + "\n" +
                                         "[arena]\ntype = 'drop'\nradius_px = 2000\n" + swarm);
@@ -209,11 +209,11 @@ TEST_CASE(
   for (const char* verb : {"null", "tolerance"}) {
     const Called c = faba_in(f.path, std::string("field ") + verb + " maps.toml --at '10 mm, 0 mm'");
     CHECK(c.exit == 2);
-    CHECK(c.err.find("outside of a measured map") != std::string::npos);
+    CHECK(c.err.find("outside a measured map") != std::string::npos);
   }
   const auto partly =
       faba_in(f.path, "field map maps.toml --current 1,1 --size '8 mm, 8 mm' --picture p.png --json").json();
-  CHECK(partly["note"].get<std::string>().find("outside of a measured map") != std::string::npos);
+  CHECK(partly["note"].get<std::string>().find("outside a measured map") != std::string::npos);
   CHECK(partly["strongest_t"].get<double>() > 0);
   write_file(f.path / "far.toml",
              "duration = '0.2 s'\n[field]\ntype = 'rig'\nfile = 'maps.toml'\n[[swarm]]\ncount = "

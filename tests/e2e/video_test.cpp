@@ -64,7 +64,7 @@ TEST_CASE("flow of two pictures: a file of flows, a picture, the truth, and what
   refused(f, "flow a.pgm none.pgm", 3, "no such file");
   refused(f, "flow a.pgm b.pgm --alpha2 0", 2, "out of range");
   refused(f, "flow a.pgm b.pgm --solver gauss", 2, "solver");
-  refused(f, "flow a.pgm b.pgm --quality fast", 2, "is no parameter of method horn_schunck");
+  refused(f, "flow a.pgm b.pgm --quality fast", 2, "not a parameter of method horn_schunck");
   refused(f, "flow a.pgm b.pgm --overlay o.mp4", 2, "--picture");
   refused(f, "flow a.pgm", 3, "one frame only");
   write_file(f.path / "c.pgm", spot(41, 30, 18, 15));
@@ -88,7 +88,7 @@ TEST_CASE("flow, activity and compare of a folder of frames and of its file of f
   CHECK(c.json()["runs"][0]["mean"] == 0);
   CHECK(c.json()["floor"].is_null());
   CHECK(c.json()["naive"].get<double>() > 0);
-  refused(f, "activity film.h5 --picture p.png --flow-threshold 0.05", 3, "give the video");
+  refused(f, "activity film.h5 --picture p.png --flow-threshold 0.05", 3, "the video");
   refused(f, "compare film none", 3, "no such file");
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("numbers, outputs and times that cannot be are refused before any work
   refused(f, "activity film --noise film --flow-threshold 0.1", 2, "--noise");
   refused(f, "activity film --report none/r.html", 2, "there is no folder none");
   refused(f, "track film --fps 15 --out a.csv --swarm a.csv", 2, "two outputs");
-  refused(f, "activity film --from 100", 3, "fewer than two frames in the time asked for");
+  refused(f, "activity film --from 100", 3, "fewer than two frames in the requested interval");
   CHECK_FALSE(std::filesystem::exists(f.path / "a.csv"));
 }
 

@@ -8,7 +8,7 @@ using namespace faba;
 
 namespace {
 
-// Coils with a given field per ampere, the same everywhere.
+// Coils with a given uniform field per ampere.
 class Given final : public Field {
  public:
   explicit Given(std::vector<Vec3> b) : b_(std::move(b)) {}
@@ -25,14 +25,14 @@ class Given final : public Field {
 
 }  // namespace
 
-TEST_CASE("the wanted field is made, with the least currents of all that make it") {
+TEST_CASE("the wanted field is made with the least-norm currents") {
   const Given f({{1, 0.2, 0}, {-0.3, 2, 1}, {0.5, 0.5, 0}, {0, -1, 2}});
   const Vec2 wanted{3e-4, -7e-4};
   const auto i = allocate(f, {}, wanted);
   const Vec3 b = f.at({}, i) - f.ambient();
   CHECK(b.x == doctest::Approx(wanted.x).epsilon(1e-12));
   CHECK(b.y == doctest::Approx(wanted.y).epsilon(1e-12));
-  // least norm: the currents are a combination of the two rows of the basis, so orthogonal to its null space
+  // least norm: the currents are a combination of the two rows of the basis, orthogonal to its null space
   for (const auto& null : {std::vector<double>{-0.65, -0.5, 1, -0.63}}) {
     std::vector<double> n = null;
     n[0] = -(n[1] * -0.3 + n[2] * 0.5);
@@ -43,7 +43,7 @@ TEST_CASE("the wanted field is made, with the least currents of all that make it
   }
 }
 
-TEST_CASE("coils along one line make what they can; no coil makes nothing") {
+TEST_CASE("parallel coils make the nearest field; coils without in-plane field give zero currents") {
   const Given line({{2, 0, 0}, {1, 0, 0}});
   const auto i = allocate(line, {}, {1, 1});
   CHECK(line.at({}, i).x == doctest::Approx(1));

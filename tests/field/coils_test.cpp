@@ -1,4 +1,4 @@
-// Coils against sums over their wires, against Maxwell's equations, and against each other, over random
+// Coils compared with sums over their wires, with Maxwell's equations and with each other, for random
 // geometries (theory C1, C2, C4).
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@ using namespace faba;
 
 namespace {
 
-/// Random coils of every kind, and points between a tenth of their size and ten times it from their windings.
+/// Random coils of every kind, and points at 0.1 mm to 0.5 m from their windings.
 struct Draw {
   std::mt19937_64 random{7};
   double uniform(double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); }
@@ -55,7 +55,7 @@ struct Draw {
   }
 };
 
-// What [[coil]] can be.
+// The kinds of [[coil]].
 FieldRegistry coils() { return engine_parts().field.only(Trait::coil, "coil", ""); }
 
 }  // namespace
@@ -74,7 +74,7 @@ TEST_CASE("every coil: no divergence, no curl (C2)") {
       for (const auto& row : g)
         for (const double v : row) size = std::max(size, std::fabs(v));
       INFO(toml, "at ", p.x, " ", p.y, " ", p.z, ", clearance ", f->clearance(p));
-      // Differences resolve b / clearance to 1e-10 (Field::basis), and C2 asks for 1e-7 of the gradient.
+      // Differences resolve b / clearance to 1e-10 (Field::basis); C2 requires 1e-7 of the gradient.
       const double allowed = 1e-7 * size + 1e-9 * norm(b) / f->clearance(p);
       CHECK(std::fabs(g[0][0] + g[1][1] + g[2][2]) < allowed);
       CHECK(std::fabs(g[0][1] - g[1][0]) < allowed);
@@ -83,7 +83,7 @@ TEST_CASE("every coil: no divergence, no curl (C2)") {
     }
 }
 
-TEST_CASE("three rigs agree with the sum over their wires to 1e-8") {
+TEST_CASE("three coil systems agree with the sum over their wires to 1e-8") {
   struct Case {
     const char* name;
     std::string toml;
@@ -125,7 +125,7 @@ TEST_CASE("three rigs agree with the sum over their wires to 1e-8") {
   }
 }
 
-TEST_CASE("from far away every coil is a dipole of moment N I pi a^2, whatever its shape and pose") {
+TEST_CASE("the far field of every coil is that of a dipole of moment N I pi a^2, for any shape and pose") {
   Draw draw;
   const double pi = 3.14159265358979;
   for (int i = 0; i < 200; ++i) {
@@ -172,7 +172,8 @@ TEST_CASE("from far away every coil is a dipole of moment N I pi a^2, whatever i
   }
 }
 
-TEST_CASE("two formulas for one coil: a sheet's change along its axis is that of its rims, two loops") {
+TEST_CASE(
+    "two formulas for one coil: the axial derivative of a sheet is the field of two loops at its rims") {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<> u(0.0, 1.0);
   for (int i = 0; i < 200; ++i) {
@@ -199,19 +200,20 @@ TEST_CASE("two formulas for one coil: a sheet's change along its axis is that of
   }
 }
 
-// The library takes k and n, of which 1 - k^2 = kc^2 and 1 - n = g^2 keep a precision of some 2e-16 / kc^2
-// and 2e-16 / g^2 only.
-TEST_CASE("sheets and loops agree with the standard library's elliptic integrals to 1e-12") {
+// The standard library takes k and n, whose complements 1 - k^2 = kc^2 and 1 - n = g^2 have a relative
+// precision of about 2e-16 / kc^2 and 2e-16 / g^2.
+TEST_CASE("sheets and loops agree with the elliptic integrals of the standard library to 1e-12") {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<> u(0.0, 1.0);
   const double mu0_over_pi = axial::kMu0 / 3.14159265358979323846;
   for (int i = 0; i < 3000; ++i) {
     const double a = 0.01, half = 0.02;
-    // Half of the points near a rim, where the passes of the mean are fewest for what they have to do.
+    // Half of the points near a rim, where convergence is slowest.
     const double near = std::pow(10, -4 * u(random)), turn = 6.283185307179586 * u(random);
     const double rho = i % 2 ? 3 * a * u(random) : std::fabs(a + a * near * std::cos(turn));
     const double z = i % 2 ? 4 * half * (u(random) - 0.5) : half + a * near * std::sin(turn);
-    if (rho < 0.05 * a || std::fabs(rho - a) < 1e-6 * a) continue;  // where K, E and Pi themselves cancel
+    if (rho < 0.05 * a || std::fabs(rho - a) < 1e-6 * a)
+      continue;  // cancellation in the formulas with K, E and Pi
     const double g = (a - rho) / (a + rho), n = 1 - g * g;
     Vec2 sheet, loop, b;
     for (const double side : {1.0, -1.0}) {
@@ -238,7 +240,7 @@ TEST_CASE("sheets and loops agree with the standard library's elliptic integrals
   }
 }
 
-TEST_CASE("on the axis: the closed forms, and full accuracy a micrometre beside it") {
+TEST_CASE("on the axis: the closed forms; full accuracy close to the axis") {
   const double a = 0.005, half = 0.02, z = 0.013;
   for (const double rho : {0.0, 1e-15, 1e-9, 1e-6, 1e-5}) {
     double b_rho = 0, b_z = 0;
@@ -255,7 +257,7 @@ TEST_CASE("on the axis: the closed forms, and full accuracy a micrometre beside 
   }
 }
 
-TEST_CASE("on the sheet: the mean of both sides, a jump of mu0 K; at its rim and on a wire: finite") {
+TEST_CASE("on the sheet: the mean of both sides, a jump of mu0 K; finite at its rim and on a wire") {
   const double a = 0.005, half = 0.02;
   const auto b_z = [&](double rho, double z) {
     double x = 0, y = 0;
@@ -275,7 +277,7 @@ TEST_CASE("on the sheet: the mean of both sides, a jump of mu0 K; at its rim and
   CHECK(std::isfinite(x + y));
 }
 
-TEST_CASE("a point's field does not depend on the points beside it") {
+TEST_CASE("the field at a point does not depend on the other points of the call") {
   std::vector<double> rho, z;
   for (int i = 0; i < 1000; ++i) {
     rho.push_back(1e-5 * (i * 37 % 1000));
@@ -286,13 +288,13 @@ TEST_CASE("a point's field does not depend on the points beside it") {
   for (std::size_t i = 0; i < 1000; ++i) {
     double x = 0, y = 0;
     axial::add_sheet(0.005, 0.02, 1e-5, 1, {{&rho[i], 1}, {&z[i], 1}}, {{&x, 1}, {&y, 1}});
-    // A tile takes as many passes as its hardest point: more than enough for the others.
+    // The number of passes of a tile is that of its most difficult point, sufficient for the others.
     CHECK(x == doctest::Approx(all_rho[i]).epsilon(1e-13));
     CHECK(y == doctest::Approx(all_z[i]).epsilon(1e-13));
   }
 }
 
-TEST_CASE("the table of a rig is the rig to its tolerance, and refuses coils in the sample") {
+TEST_CASE("the table of a coil system is within its tolerance; coils in the sample are refused") {
   const std::string rig =
       "type = 'rig'\nearth = { field = ['10 uT', '-15 uT', 0] }\n[[coil]]\ntype = 'solenoid'\nposition = "
       "['35 mm', 0, 0]\naxis = [-1, 0, 0]\n[[coil]]\ntype = 'solenoid'\nposition = [0, '-35 mm', 0]\naxis = "
@@ -309,7 +311,8 @@ TEST_CASE("the table of a rig is the rig to its tolerance, and refuses coils in 
     float bx = 0, by = 0;
     table.eval({{&x, 1}, {&y, 1}, 0}, {{&bx, 1}, {&by, 1}});
     const Vec3 exact = f->at({double(x), double(y), 0}, current);
-    // Both coils' errors, each a share of its largest field, 0.5 mT/A at the near rim, and float's rounding.
+    // Errors of both coils, each a fraction of its largest field, 0.5 mT/A at the near rim, and float
+    // rounding.
     const double allowed = FieldTable::kTolerance * 0.65 * 0.5e-3 + 1e-7 * norm(exact);
     CHECK(norm(Vec2{double(bx) - exact.x, double(by) - exact.y}) < allowed);
   }

@@ -7,7 +7,7 @@
 
 namespace faba {
 
-/// A coil or a rig from TOML.
+/// A coil or coil system from TOML.
 inline std::unique_ptr<Field> field_of(const std::string& toml) {
   const Document d = parse_toml(toml, "test");
   return engine_parts().field.resolve(Node(d)).make({});

@@ -1,4 +1,4 @@
-// Measured fields: files, the harmonics that they come down to, and what is refused (theory C7).
+// Measured fields: files, the fit of solid harmonics, and invalid input (theory C7).
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ const std::string kCoil =
     "type = 'solenoid'\nradius = 0.005\nlength = 0.04\nturns = 400\nposition = [0.03, 0.018, 0.004]\n"
     "axis = [-1, -0.6, 0.1]\n";
 
-/// The coil's field for 2 A as a file: `layers` planes of n x n points, 1 mm apart from `z0` on.
+/// The field of the coil for 2 A as a file: `layers` planes of n x n points with a spacing of 1 mm.
 struct Sampled {
   test::TemporaryFolder dir{"map"};
   std::string file = (dir.path() / "map.csv").string();
@@ -45,9 +45,9 @@ struct Sampled {
 };
 
 struct Off {
-  double worst = 0, rms = 0;  // share of the field; T/A
+  double worst = 0, rms = 0;  // fraction of the field; T/A
 };
-/// How far a map is from the coil within a box.
+/// Difference between a map and the coil within a box.
 Off off(const Field& map, double size, double depth) {
   const auto coil = field_of(kCoil);
   std::mt19937_64 random(9);
@@ -69,9 +69,10 @@ Off off(const Field& map, double size, double depth) {
 
 }  // namespace
 
-TEST_CASE("a map of a coil is that coil, from a box of points and from one plane") {
-  // The series about the centre falls with the powers of r / d, and least squares does no worse: d is the
-  // distance of the rim, 20 mm along and 5 mm beside the axis from the middle of the coil.
+TEST_CASE("a map reproduces the coil, from a box of points and from one plane") {
+  // The error of the series about the centre decreases with the powers of r / d, and that of least squares is
+  // not larger: d is the distance of the rim, 20 mm along and 5 mm beside the axis from the centre of the
+  // coil.
   const double d = std::sqrt(std::pow(norm({0.03, 0.018, 0.004}) - 0.02, 2) + 0.005 * 0.005);
   for (const int layers : {11, 1}) {
     const Sampled s(11, layers, 0);
@@ -83,11 +84,12 @@ TEST_CASE("a map of a coil is that coil, from a box of points and from one plane
   }
 }
 
-TEST_CASE("noise is smoothed, not followed, and what is left over says how large it was") {
+TEST_CASE("noise is smoothed, and the residual gives its standard deviation") {
   const Sampled noisy(11, 5, 0.002);  // mT, for 2 A
   const HarmonicFit fit = fit_harmonics(field_data(read_table(noisy.file)));
-  // Of N values with noise s a fit of P coefficients leaves s sqrt(1 - P / N), give or take 1 / sqrt(2 N),
-  // and is off by s sqrt(P / N) rms over the points themselves, and less between them than at the rim.
+  // For N values with noise s the residual of a fit of P coefficients is s sqrt(1 - P / N) with a relative
+  // error of 1 / sqrt(2 N); the error of the fit is s sqrt(P / N) rms over the points, and less in the
+  // inside.
   const double n = 3.0 * 11 * 11 * 5, p = double(fit.field.coefficients.size()), s = 2e-6;
   CHECK(p < 0.1 * n);
   CHECK(fit.rms == doctest::Approx(s * std::sqrt(1 - p / n)).epsilon(4 / std::sqrt(2 * n)));
@@ -102,7 +104,7 @@ TEST_CASE("the first three coefficients are the field at the centre") {
   CHECK(b.y == doctest::Approx(0.2));
 }
 
-TEST_CASE("without bz and z the field is taken to be symmetric about the plane") {
+TEST_CASE("without bz and z the field is assumed symmetric about the plane") {
   const auto rig = field_of(
       "type = 'solenoid'\nradius = 0.005\nlength = 0.04\nposition = [0.045, 0, 0]\naxis = [-1, 0, 0]\n");
   test::TemporaryFolder dir{"map"};
@@ -123,10 +125,10 @@ TEST_CASE("without bz and z the field is taken to be symmetric about the plane")
   Vec3 a, b;
   rig->per_ampere(0, {&p, 1}, {&a, 1});
   map->per_ampere(0, {&p, 1}, {&b, 1});
-  CHECK(norm(a - b) < 1e-5 * norm(a));  // (2.3 mm / 25 mm)^5, and at least degree 5 is found
+  CHECK(norm(a - b) < 1e-5 * norm(a));  // (2.3 mm / 25 mm)^5, the degree is at least 5
 }
 
-TEST_CASE("a map is moved and turned with its coil, and ends where it was measured") {
+TEST_CASE("a map moves and rotates with its coil and ends at the edge of the measured box") {
   const Sampled s(11, 3, 0);
   const auto here = field_of(s.toml());
   const auto there = field_of(s.toml("position = ['10 mm', '-4 mm', 0]\nturn = '90 deg'\n"));
@@ -141,22 +143,22 @@ TEST_CASE("a map is moved and turned with its coil, and ends where it was measur
   CHECK(here->clearance(beyond) == 0);
 }
 
-TEST_CASE("what is no map is refused, and says why") {
+TEST_CASE("invalid maps are refused with the reason") {
   const auto refused = [](const std::string& toml, const std::string& why) {
     try {
       field_of(toml);
-      FAIL("nothing was wrong with ", toml);
+      FAIL("no error for ", toml);
     } catch (const Error& e) {
       INFO(std::string(e.what()));
       CHECK(e.code() == Errc::input);
       CHECK(std::string(e.what()).find(why) != std::string::npos);
     }
   };
-  refused(Sampled(7, 3, 0, "x_mm,y_mm,z_mm,bx_mt,bz_mt,by_mt").toml(), "mixed up");
-  refused(Sampled(7, 3, 0, "x_mm,y_mm,z_mm,bx_mt,by_wb,bz_mt").toml(), "column by_wb must say its unit");
+  refused(Sampled(7, 3, 0, "x_mm,y_mm,z_mm,bx_mt,bz_mt,by_mt").toml(), "swapped columns");
+  refused(Sampled(7, 3, 0, "x_mm,y_mm,z_mm,bx_mt,by_wb,bz_mt").toml(), "column \"by_wb\" has no known unit");
   refused(Sampled(7, 3, 0, "x_mm,y_mm,z_mm,bx_mt,other,bz_mt").toml(), "needs the columns x, y, bx and by");
-  refused(Sampled(7, 3, 0, "a,b,c,bx_mt,by_mt,bz_mt").toml(), "needs columns for the place");
-  refused(Sampled(7, 3, 0).toml("within = '0.5 mm'\n"), "too few points");
+  refused(Sampled(7, 3, 0, "a,b,c,bx_mt,by_mt,bz_mt").toml(), "has no column for the position");
+  refused(Sampled(7, 3, 0).toml("within = '0.5 mm'\n"), "a field needs at least 8");
   refused("type = 'map'\nfile = 'nowhere.csv'\n", "nowhere.csv");
   test::TemporaryFolder dir("map");
   const auto file = (dir.path() / "m.csv").string();
@@ -170,9 +172,9 @@ TEST_CASE("what is no map is refused, and says why") {
   written("1", true);
   refused(toml, "on one line");
   written("0", false);
-  refused(toml, "all values are 0");
+  refused(toml, "all field values are 0");
   written("1e300", false);
-  refused(toml, "beyond any laboratory");
+  refused(toml, "out of range");
   written("1", false);
   refused(toml, "is not a magnetic field");
   CHECK_THROWS_AS(field_of("type = 'map'\n"), Error);

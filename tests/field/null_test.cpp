@@ -1,4 +1,4 @@
-// Zeros of the field: where they are, what they cost and whom they trap (theory C6).
+// Zeros of the field: positions, currents and trapping gradients (theory C6).
 #include "field/null.h"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ using namespace faba;
 
 namespace {
 
-// The reference rig (C4) with the coils at these angles, in degrees.
+// The reference coil system (C4) with the coils at these angles, in degrees.
 std::unique_ptr<Field> rig(const std::vector<double>& angles, const std::string& earth = "[0, 0, 0]") {
   return field_of("type = 'rig'\nearth = { field = " + earth + " }\n" + reference_coils("coil", angles));
 }
@@ -27,15 +27,15 @@ Vec2 in_plane(const Field& f, Vec2 at, const std::vector<double>& current) {
 
 }  // namespace
 
-TEST_CASE("the reference rig's zeros: currents and gradients of C6") {
+TEST_CASE("zeros of the reference coil system: currents and gradients of C6") {
   struct Row {
     Vec2 at;
     std::vector<double> current;
     double weaker, stronger;
   };
   const auto f = rig(kFour);
-  // The reference chose among directions some hundredths of a radian apart; the exact choice is at least as
-  // good for the weaker gradient, to the digits given, and a per cent away in the currents.
+  // The reference searched directions in steps of about 0.01 rad; the exact solution is at least as good for
+  // the weaker gradient, to the digits given, and its currents differ by up to 1 %.
   for (const Row& row : {Row{{0, 0}, {0.5, 0.5, 0.5, 0.5}, 0.0194, 0.0194},
                          Row{{1e-3, 0}, {0.43957, 0.48138, 0.5, 0.48138}, 0.01843, 0.01855},
                          Row{{2e-3, 1e-3}, {0.38565, 0.44019, 0.49375, 0.5}, 0.01565, 0.02005},
@@ -59,7 +59,7 @@ TEST_CASE("the reference rig's zeros: currents and gradients of C6") {
   }
 }
 
-TEST_CASE("two opposed coils make a saddle, and off their axis no zero at all") {
+TEST_CASE("two opposed coils make a saddle, and no zero off their axis") {
   const auto f = rig({0, 180});
   const FieldNull n = null_at(*f, {}, 1, current_limits(*f));
   CHECK(n.reachable);
@@ -78,7 +78,7 @@ TEST_CASE("two opposed coils make a saddle, and off their axis no zero at all") 
   }
 }
 
-TEST_CASE("the Earth's field is cancelled at the zero, and shifts an uncorrected one by B / g") {
+TEST_CASE("the Earth's field is cancelled at the zero, and shifts an uncompensated zero by B / g") {
   const auto f = rig(kFour, "['18 uT', 0, 0]");
   const FieldNull n = null_at(*f, {5e-4, -2e-4}, -1, current_limits(*f));
   CHECK(n.reachable);
@@ -88,7 +88,7 @@ TEST_CASE("the Earth's field is cancelled at the zero, and shifts an uncorrected
   CHECK(at.x == doctest::Approx(18e-6 / 0.0194).epsilon(0.01));
 }
 
-TEST_CASE("any rig: the zero is zero, limits are kept, Newton finds it again") {
+TEST_CASE("any coil system: the field is zero, limits are kept, Newton's method finds the zero again") {
   std::mt19937_64 random(2);
   std::uniform_real_distribution<> u(-1, 1);
   for (const std::vector<double>& angles : {std::vector<double>{0, 90, 180, 270},
@@ -106,16 +106,16 @@ TEST_CASE("any rig: the zero is zero, limits are kept, Newton finds it again") {
       CHECK(largest == doctest::Approx(0.5).epsilon(1e-9));
       CHECK(norm(in_plane(*f, at, n.current)) < 1e-15);
       if (n.saddle) continue;
-      // From a tenth of a millimetre beside it, where this zero is the nearest one.
+      // From 0.1 mm beside it, where this zero is the nearest one.
       const Vec2 again = find_null(*f, n.current, at + Vec2{1e-4, 0});
       CHECK(norm(again - at) < 1e-10);
     }
   }
 }
 
-// Coils with unlike limits in a strong ambient field, where the currents of least squares may break a limit
-// that others keep, and where no trap may be left.
-TEST_CASE("unlike limits: no currents of a fine lattice do better, and what they can make is made") {
+// Coils with unequal limits in a strong ambient field, where the least-squares currents may exceed a limit
+// although others do not, and where there may be no trap.
+TEST_CASE("unequal limits: no currents on a fine lattice are better, and reachable zeros are found") {
   std::mt19937_64 random(23);
   const auto uniform = [&](double lo, double hi) { return std::uniform_real_distribution<>(lo, hi)(random); };
   int traps = 0, saddles = 0, none = 0;
@@ -160,7 +160,7 @@ TEST_CASE("unlike limits: no currents of a fine lattice do better, and what they
     if (n.reachable) CHECK(norm(in_plane(*f, at, n.current)) < 1e-14);
     if (best > 0) {
       CHECK_FALSE(n.saddle);
-      CHECK(-n.gradient[1] >= best - 1e-10);  // T/m: the barrier's last weight leaves 1e-9 of 0.05 T/m
+      CHECK(-n.gradient[1] >= best - 1e-10);  // T/m; tolerance of the barrier: 1e-9 of 0.05 T/m
     }
     ++(!n.reachable ? none : n.saddle ? saddles : traps);
   }

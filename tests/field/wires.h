@@ -6,8 +6,8 @@
 
 namespace faba {
 
-/// The slow, obvious way to a coil's field: Biot and Savart's law summed over the pieces of its wire. A coil
-/// is a set of loops with a number of turns each.
+/// Reference calculation of the field of a coil: Biot and Savart's law summed over the pieces of its wire. A
+/// coil is a set of loops with a number of turns each.
 struct Wire {
   struct Loop {
     Vec3 centre, axis;  ///< axis of length 1
@@ -18,7 +18,7 @@ struct Wire {
 
 inline Vec3 unit(Vec3 v) { return (1 / norm(v)) * v; }
 
-/// T/A. The pieces are equal angles: for a periodic integrand their error falls exponentially with the
+/// T/A. The pieces are equal angles: for a periodic integrand the error decreases exponentially with their
 /// number.
 inline Vec3 biot_savart(const Wire& wire, Vec3 at) {
   constexpr int kPieces = 400;

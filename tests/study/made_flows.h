@@ -5,8 +5,8 @@
 
 namespace faba::test {
 
-/// A pair of frames `k` of a video of 10 frames a second: the upper left quarter of the picture moves by (u,
-/// v), the rest stands still.
+/// A pair of frames `k` of a video of 10 frames per second: the upper left quarter of the image moves by (u,
+/// v), the rest does not move.
 inline FlowPair moving_quarter(std::uint64_t k, double u, double v, int width = 32, int height = 20) {
   FlowPair p;
   p.frame = k;

@@ -5,8 +5,8 @@
 namespace faba {
 namespace {
 
-/// A point dipole of moment `moment` per ampere: what any coil looks like from far away (theory C2), and with
-/// a constant current a small magnet.
+/// A point dipole of moment `moment` per ampere: the far field of any coil (theory C2) and, with a constant
+/// current, the field of a small magnet.
 ///   B_rho = 3 mu0 m rho z / (4 pi r^5),  B_z = mu0 m (2 z^2 - rho^2) / (4 pi r^5)
 class DipoleCoil {
  public:
@@ -15,15 +15,15 @@ class DipoleCoil {
     double radius = 1e-3;
   };
   static Schema<Params> schema() {
-    return Schema<Params>("dipole", "A point dipole: a coil from far away, or a small magnet")
+    return Schema<Params>("dipole", "A point dipole: the far field of a coil or a small magnet")
         .add("moment", &Params::moment,
-             {.unit = "A m^2/A", .min = -1e6, .max = 1e6, .doc = "Moment per ampere: turns times area"})
+             {.unit = "A m^2/A", .min = -1e6, .max = 1e6, .doc = "Moment per ampere: turns x area"})
         .add("radius", &Params::radius,
              {.unit = "m",
               .min = 1e-9,
               .max = 10,
-              .doc = "Radius of the body; nearer the field is that at its surface"})
-        .validity("Nearer than about five times the size of the coil that it stands for.");
+              .doc = "Radius of the body; inside it the field is that at its surface"})
+        .validity("Within about five times the size of the coil that it represents.");
   }
   explicit DipoleCoil(const Params& p) : p_(p) {}
 

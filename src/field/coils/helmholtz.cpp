@@ -3,9 +3,8 @@
 namespace faba {
 namespace {
 
-/// Two equal loops in series, face to face. One radius apart and with the same sense of current their field
-/// is uniform to fourth order at the middle; sqrt(3) radii apart and opposed (Maxwell's pair) its gradient
-/// is.
+/// Two equal coaxial loops in series. One radius apart and with the same direction of current their field is
+/// uniform to fourth order at the centre; sqrt(3) radii apart and opposed (Maxwell pair) its gradient is.
 class Helmholtz {
  public:
   struct Params {
@@ -16,28 +15,27 @@ class Helmholtz {
     double wire_radius = 1e-3;
   };
   static Schema<Params> schema() {
-    return Schema<Params>("helmholtz",
-                          "Two equal loops in series, face to face: a uniform field or a gradient")
+    return Schema<Params>("helmholtz", "Two equal coaxial loops in series: a uniform field or a gradient")
         .add("radius", &Params::radius, {.unit = "m", .min = 1e-6, .max = 10, .doc = "Radius of both loops"})
         .add("distance", &Params::distance,
              {.unit = "m",
               .min = 1e-6,
               .max = 10,
-              .doc = "Between the loops; when absent the radius, and with opposed currents sqrt(3) times it"})
+              .doc = "Distance between the loops; when absent radius, or sqrt(3) radius if opposed"})
         .add("turns", &Params::turns, {.min = 1e-3, .max = 1e6, .doc = "Turns of each loop"})
-        .add("opposed", &Params::opposed,
-             {.doc = "Currents run against each other, the loop on the side of the axis reversed: a "
-                     "gradient, zero in the "
-                     "middle, dB/dz < 0 along the axis for a positive current"})
+        .add(
+            "opposed", &Params::opposed,
+            {.doc = "Opposed currents (Maxwell pair), the loop on the side of the axis reversed: a gradient, "
+                    "zero field at the centre, dB/dz < 0 along the axis for a positive current"})
         .add("wire_radius", &Params::wire_radius,
              {.unit = "m",
               .min = 1e-9,
               .max = 1,
-              .doc = "Nearer to the wire the field is that at its surface"})
+              .doc = "Radius of the wire; inside it the field is that at its surface"})
         .check([](const Params& p) -> std::string {
           return p.wire_radius < p.radius ? "" : "wire_radius must be smaller than radius";
         })
-        .validity("Nearer to the wires than the windings are thick.");
+        .validity("At distances from the wires below the thickness of the windings.");
   }
   explicit Helmholtz(const Params& p)
       : p_(p), half_(0.5 * p.distance.value_or(p.opposed ? std::sqrt(3.0) * p.radius : p.radius)) {}
@@ -59,7 +57,7 @@ class Helmholtz {
 
  private:
   Params p_;
-  double half_;  ///< half the distance, m
+  double half_;  ///< half the distance between the loops, m
 };
 
 }  // namespace

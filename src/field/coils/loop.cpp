@@ -3,8 +3,8 @@
 namespace faba {
 namespace {
 
-/// A circular loop, or a flat winding taken as `turns` loops at one place (theory C2).
-/// Known to fail nearer to the wire than the winding is thick.
+/// A circular loop, or a flat winding represented by `turns` loops at one position (theory C2).
+/// Known to fail at distances from the wire below the thickness of the winding.
 class Loop {
  public:
   struct Params {
@@ -13,18 +13,18 @@ class Loop {
     double wire_radius = 1e-4;
   };
   static Schema<Params> schema() {
-    return Schema<Params>("loop", "A circular loop of one or more turns at one place")
-        .add("radius", &Params::radius, {.unit = "m", .min = 1e-6, .max = 10, .doc = "Radius"})
+    return Schema<Params>("loop", "A circular loop of one or more turns")
+        .add("radius", &Params::radius, {.unit = "m", .min = 1e-6, .max = 10, .doc = "Radius of the loop"})
         .add("turns", &Params::turns, {.min = 1e-3, .max = 1e6, .doc = "Number of turns"})
         .add("wire_radius", &Params::wire_radius,
              {.unit = "m",
               .min = 1e-9,
               .max = 1,
-              .doc = "Nearer to the wire the field is that at its surface"})
+              .doc = "Radius of the wire; inside it the field is that at its surface"})
         .check([](const Params& p) -> std::string {
           return p.wire_radius < p.radius ? "" : "wire_radius must be smaller than radius";
         })
-        .validity("Nearer to the wire than the winding is thick.");
+        .validity("At distances from the wire below the thickness of the winding.");
   }
   explicit Loop(const Params& p) : p_(p) {}
 

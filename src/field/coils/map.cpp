@@ -10,41 +10,45 @@
 namespace faba {
 namespace {
 
-/// What a map comes down to: solid harmonics in the box that was measured.
+/// The result of the fit of a map: solid harmonics in the measured box.
 struct Expansion {
   Vec3 centre, half_size;
   double radius = 1;
   double residual = 0;
   std::vector<double> coefficients;
   static Schema<Expansion> schema() {
-    return Schema<Expansion>("expansion", "Solid harmonics that a map comes down to (theory C7)")
+    return Schema<Expansion>("expansion", "Solid harmonics fitted to a map (theory C7)")
+        .add("centre", &Expansion::centre,
+             {.unit = "m", .min = -10, .max = 10, .doc = "Centre of the harmonics and of the measured box"})
         .add(
-            "centre", &Expansion::centre,
-            {.unit = "m", .min = -10, .max = 10, .doc = "Of the harmonics, and of the box that was measured"})
-        .add("half_size", &Expansion::half_size,
-             {.unit = "m", .min = 0, .max = 10, .doc = "Half the width, height and depth of that box"})
+            "half_size", &Expansion::half_size,
+            {.unit = "m", .min = 0, .max = 10, .doc = "Half the width, height and depth of the measured box"})
         .add("radius", &Expansion::radius,
              {.unit = "m", .min = 1e-9, .max = 100, .doc = "Unit of length of the harmonics"})
         .add("residual", &Expansion::residual,
              {.min = 0,
               .max = 1e9,
-              .doc = "What the measurements are off by, as a share of the field, both rms"})
+              .doc = "Rms residual of the fit, relative to the rms of the measured field"})
         .add("coefficients", &Expansion::coefficients,
              {.min = -1e6,
               .max = 1e6,
               .doc = "T/A, Schmidt's semi-normalisation: c_l0, c_l1, s_l1, c_l2, s_l2 ... for l = 1, 2 ..."})
         .check([](const Expansion& p) -> std::string {
           const int degree = Harmonics{{}, 1, p.coefficients}.degree();
-          const bool whole =
+          const bool valid =
               degree >= 1 && degree <= kMostHarmonicDegree && harmonic_terms(degree) == p.coefficients.size();
-          return whole ? "" : "coefficients must be 3, 8, 15 ... (l + 1)^2 - 1 numbers, up to l = 14";
+          return valid ? ""
+                       : fmt::format(
+                             "coefficients has {} values; it must have (l + 1)^2 - 1 for a degree l "
+                             "from 1 to 14: 3, 8, 15 ...",
+                             p.coefficients.size());
         });
   }
 };
 
-/// A coil, with cores and all, whose field was measured or computed elsewhere, brought to solid harmonics:
-/// without divergence and curl whatever the errors of measurement, which the fit smooths (theory C7).
-/// Known to fail where the box that was measured holds a winding or a core.
+/// A coil, with any cores, whose field was measured or computed by other software, represented by solid
+/// harmonics: divergence and curl are zero, and the fit smooths measurement errors (theory C7).
+/// Known to fail where the measured box contains a winding or a core.
 class Map final : public Field {
  public:
   struct Params {
@@ -58,48 +62,49 @@ class Map final : public Field {
   };
   static constexpr std::array kTraits = {Trait::coil};
   static Schema<Params> schema() {
-    return Schema<Params>("map", "The field of a coil as it was measured, or computed by other software")
+    return Schema<Params>("map", "A measured field of a coil, or one computed by other software")
         .add("file", &Params::file,
-             {.doc =
-                  "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz may "
-                  "be absent), or HDF5 as of `faba field map`; beside the rig, or where the program is "
-                  "called"})
+             {.doc = "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz "
+                     "are optional), or HDF5 from `faba field map`; relative to the folder of the coil "
+                     "system file, or to the current directory"})
         .add("measured_current", &Params::measured_current,
-             {.unit = "A", .min = -1e4, .max = 1e4, .doc = "What flowed when it was measured"})
+             {.unit = "A", .min = -1e4, .max = 1e4, .doc = "Current during the measurement"})
         .add("within", &Params::within,
              {.unit = "m",
               .min = 1e-6,
               .max = 10,
-              .doc = "Only points nearer than this to the map's origin are used; all when absent"})
+              .doc =
+                  "Radius around the origin of the map within which points are used; all points when absent"})
         .add("position", &Params::position,
              {.unit = "m",
               .min = -10,
               .max = 10,
-              .doc = "Where the map's origin is, world frame",
+              .doc = "Position of the origin of the map, world frame",
               .role = Role::position})
         .add("turn", &Params::turn,
              {.unit = "rad",
               .min = -100,
               .max = 100,
-              .doc = "The map is turned by this about z, counterclockwise",
+              .doc = "Rotation of the map about z, counterclockwise",
               .role = Role::turn})
         .include(&Params::circuit, CircuitParams::schema())
-        .add("expansion", &Params::expansion, {.doc = "Filled in from the file when absent"})
+        .add("expansion", &Params::expansion,
+             {.doc = "Result of the fit; computed from the file when absent"})
         .check([](const Params& p) -> std::string {
-          if (p.file.empty() && !p.expansion) return "needs file = \"a CSV or HDF5 file\"";
+          if (p.file.empty() && !p.expansion)
+            return "file is missing; specify a CSV or HDF5 file: file = \"map.csv\"";
           return p.measured_current == 0 ? "measured_current must not be 0" : "";
         })
         .validity(
-            "A box that holds a winding or a core. Up to a twentieth of its diagonal outside of the box the "
-            "field is "
-            "predicted, further out it is not a number.");
+            "A box that contains a winding or a core. The field is extrapolated up to 5 % of the diagonal "
+            "beyond the box and is NaN further out.");
   }
   static void settle(Params& p, const Node& n) {
     if (p.expansion) return;
     FieldData data = field_data(n.table(p.file));
     if (data.about_axis || !data.given[0] || !data.given[1])
       throw Error(Errc::input, data.source,
-                  "a map needs the columns x, y, bx and by, and best z and bz, such as x_mm and bx_mt");
+                  "a map needs the columns x, y, bx and by, and preferably z and bz, such as x_mm and bx_mt");
     if (p.within) keep_within(data, *p.within);
     p.expansion = expanded(data, p.measured_current);
   }
@@ -120,7 +125,7 @@ class Map final : public Field {
     }
   }
   Circuit circuit(std::size_t) const override { return circuit_.circuit(); }
-  /// Distance to where the map ends: what is beyond is not known.
+  /// Distance to the edge of the map: the field beyond is unknown.
   double clearance(Vec3 at) const override { return std::max(0.0, inside(turned(at - position_, -1))); }
   std::vector<Stroke> outline() const override {
     Stroke box;
@@ -142,7 +147,7 @@ class Map final : public Field {
     d.b.resize(kept);
   }
   static Expansion expanded(const FieldData& data, double measured_current) {
-    constexpr double kTooFar = 0.05;  // assumed: a Hall probe is good to a hundredth
+    constexpr double kLargestResidual = 0.05;  // assumed: the error of a Hall probe is about 1 %
     const HarmonicFit fit = fit_harmonics(data);
     Expansion e;
     e.centre = fit.field.centre;
@@ -153,26 +158,26 @@ class Map final : public Field {
                      std::max(e.half_size.z, std::fabs(d.z))};
     }
     e.residual = fit.rms / fit.rms_field;
-    if (!(fit.rms_field > 0)) throw Error(Errc::input, data.source, "has no field in it: all values are 0");
-    if (!(e.residual <= kTooFar))
+    if (!(fit.rms_field > 0)) throw Error(Errc::input, data.source, "all field values are 0");
+    if (!(e.residual <= kLargestResidual))
       throw Error(
           Errc::input, data.source,
           fmt::format(
-              "is not a magnetic field without currents in it: the nearest such field is off by "
-              "{:.2g} % rms. Are columns or signs mixed up, is a value wrong, or is it mostly noise? If it "
-              "reaches into a coil or core use less of it, with `within`",
+              "is not a magnetic field in a region without currents: the residual of the fit is {:.2g} % rms "
+              "and must be at most 5 %. Check for swapped columns, wrong signs, outliers and noise; if the "
+              "map includes a part of a coil or core, use a smaller part with `within`",
               100 * e.residual));
     for (const double c : fit.field.coefficients) e.coefficients.push_back(c / measured_current);
     return e;
   }
 
-  // Turned by the map's angle (sense 1) or back (sense -1) about z.
+  // Rotated about z by the map's angle (sense 1) or back (sense -1).
   Vec3 turned(Vec3 v, int sense) const {
     const double s = sense * turn_.sin;
     return {turn_.cos * v.x - s * v.y, s * v.x + turn_.cos * v.y, v.z};
   }
-  // Distance from the border of the box, a tenth of its size larger all round, in the map's frame, m;
-  // negative outside.
+  // Distance to the edge of the box, extended by a tenth of `radius` on all sides, in the frame of the map,
+  // m; negative outside.
   double inside(Vec3 p) const {
     const Vec3 d = p - field_.centre;
     const double margin = 0.1 * field_.radius;

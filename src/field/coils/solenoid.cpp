@@ -3,13 +3,12 @@
 namespace faba {
 namespace {
 
-/// A winding of one layer as a cylindrical current sheet, exact everywhere (theory C1), and if wanted a rod
-/// of ferrite in it (C5): a second sheet round the rod that carries the current which its magnetisation
-/// stands for,
+/// A winding of one layer as a cylindrical current sheet, without approximation (theory C1), optionally with
+/// a ferrite rod (C5): a second sheet around the rod with the equivalent current of its magnetisation,
 ///   K_core = (permeability - 1) B_winding(centre) / mu0.
-/// Known to fail nearer than five pitches to the winding, where the wires show (C2). The rod is a surrogate
-/// with two parameters, to be fitted: it is uniformly magnetised, never saturates, has no remanence and does
-/// not see the rods of other coils.
+/// Known to fail within five pitches of the winding, where the field of the single wires matters (C2). The
+/// rod is a surrogate with two parameters to be fitted: it is uniformly magnetised, without saturation,
+/// remanence or interaction with the rods of other coils.
 class Solenoid {
  public:
   struct Params {
@@ -46,11 +45,11 @@ class Solenoid {
  private:
   Params p_;
   double wire_, core_radius_, core_half_;
-  double core_sheet_ = 0;  ///< 1/m: surface current of the rod per ampere in the winding
+  double core_sheet_ = 0;  ///< surface current of the rod per ampere in the winding, 1/m
 };
 
 Schema<Solenoid::Params> Solenoid::schema() {
-  return Schema<Params>("solenoid", "A winding of one layer, exact everywhere, with a ferrite rod if wanted")
+  return Schema<Params>("solenoid", "A winding of one layer, optionally with a ferrite rod")
       .add("radius", &Params::radius, {.unit = "m", .min = 1e-6, .max = 10, .doc = "Radius of the winding"})
       .add("length", &Params::length, {.unit = "m", .min = 1e-6, .max = 10, .doc = "Length of the winding"})
       .add("turns", &Params::turns, {.min = 1e-3, .max = 1e7, .doc = "Number of turns"})
@@ -58,17 +57,14 @@ Schema<Solenoid::Params> Solenoid::schema() {
            {.unit = "m",
             .min = 1e-9,
             .max = 1,
-            .doc =
-                "At the rims, where the field of a sheet has no limit, points are not taken as nearer; half "
-                "a pitch when absent"})
-      .add(
-          "core_permeability", &Params::core_permeability,
-          {.min = 1,
-           .max = 1e4,
-           .doc =
-               "Apparent permeability of a ferrite rod; 1: no rod. For a short rod it is its length over its "
-               "width that decides, not the material",
-           .source = "rods 2, 4, 8, 16 times as long as wide: 5.8, 13, 35, 103 at most (C5)"})
+            .doc = "Radius of the wire: the smallest distance from the rims, where the field of a current "
+                   "sheet diverges; half a pitch, at most 10 % of radius, when absent"})
+      .add("core_permeability", &Params::core_permeability,
+           {.min = 1,
+            .max = 1e4,
+            .doc = "Apparent permeability of a ferrite rod; 1: no rod. That of a short rod depends on its "
+                   "aspect ratio, not on the material",
+            .source = "rods with aspect ratio 2, 4, 8, 16: 5.8, 13, 35, 103 at most (C5)"})
       .add("core_length", &Params::core_length,
            {.unit = "m", .min = 1e-6, .max = 10, .doc = "Length of the rod; that of the winding when absent"})
       .add("core_radius", &Params::core_radius,
@@ -79,9 +75,9 @@ Schema<Solenoid::Params> Solenoid::schema() {
         return {};
       })
       .validity(
-          "Nearer than five pitches to the winding, where single wires show. The rod is a surrogate to be "
-          "fitted: no "
-          "saturation (0.3-0.5 T), no remanence, and it does not see the rods of other coils.");
+          "Within five pitches of the winding, where the field of the single wires matters. The rod is a "
+          "surrogate to be fitted: no saturation (0.3-0.5 T), no remanence, no interaction with the rods of "
+          "other coils.");
 }
 
 Solenoid::Solenoid(const Params& p)

@@ -3,9 +3,9 @@
 namespace faba {
 namespace {
 
-/// A winding of many layers: the current fills the space between two cylinders. Sheets at the radii of a
-/// Gauss-Legendre rule (theory C2), which is exact to 1e-12 from half the winding's thickness away on.
-/// Known to fail inside the winding, where the rule's sheets show.
+/// A winding of many layers: uniform current density between two cylinders. Current sheets at the radii of a
+/// Gauss-Legendre rule (theory C2); the error is below 1e-12 beyond half the thickness of the winding.
+/// Known to fail inside the winding, where the field of the single sheets matters.
 class ThickCoil {
  public:
   struct Params {
@@ -20,12 +20,12 @@ class ThickCoil {
              {.unit = "m", .min = 1e-6, .max = 10, .doc = "Inner radius"})
         .add("outer_radius", &Params::outer_radius,
              {.unit = "m", .min = 1e-6, .max = 10, .doc = "Outer radius"})
-        .add("length", &Params::length, {.unit = "m", .min = 1e-6, .max = 10, .doc = "Length"})
+        .add("length", &Params::length, {.unit = "m", .min = 1e-6, .max = 10, .doc = "Length of the winding"})
         .add("turns", &Params::turns, {.min = 1e-3, .max = 1e7, .doc = "Number of turns"})
         .check([](const Params& p) -> std::string {
           return p.outer_radius > p.inner_radius ? "" : "outer_radius must be larger than inner_radius";
         })
-        .validity("Inside the winding and nearer to it than a quarter of its thickness.");
+        .validity("Inside the winding and within a quarter of its thickness.");
   }
   explicit ThickCoil(const Params& p) : p_(p) {}
 

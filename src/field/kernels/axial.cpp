@@ -13,17 +13,17 @@ namespace faba::axial {
 namespace {
 
 // Complete elliptic integrals by the arithmetic-geometric mean, Bulirsch's cel (theory C1), for tiles of
-// points that take the same number of passes, so that loops over points vectorise. Convergence is quadratic:
-// the number follows from the smallest complementary modulus kc among the points of a tile. Each pass is a
-// short loop of its own over the tile: a processor then works on many points at once instead of waiting for
-// one.
+// points with the same number of passes, so that loops over points vectorise. Convergence is quadratic: the
+// number of passes follows from the smallest complementary modulus kc of a tile. Each pass is a separate
+// short loop over the tile, so that the processor works on many points in parallel.
 constexpr std::size_t kTile = 128;
-// A line more than the tile, or all columns would begin at one place of the first cache's sets.
+// One cache line more than the tile; otherwise all columns would map to the same set of the first-level
+// cache.
 using Column = std::array<double, kTile + 8>;
 
-/// 1 / sqrt(x) by four steps of Newton's method from a guess out of the number's bits (x positive and
-/// normal), to a few roundings. A processor divides and takes roots in one slow unit, and multiplies in two
-/// fast ones beside it: taking some roots in this way keeps both at work.
+/// 1 / sqrt(x) by four steps of Newton's method from an initial guess based on the bits of x (positive and
+/// normal); the error is a few roundings. Division and square root share one slow unit of the processor;
+/// computing some of the roots with multiplications keeps the other units busy.
 [[gnu::always_inline]] inline double by_root(double x) {
   auto y = std::bit_cast<double>(0x5FE6EB50C7B537A9ull - (std::bit_cast<std::uint64_t>(x) >> 1));
   const double half = 0.5 * x;
@@ -37,25 +37,25 @@ template <Root how>
   return how == Root::newton ? x * by_root(x) : std::sqrt(x);
 }
 
-/// State of the mean for the circle at one end of a sheet, or for a loop. All variables of the mean grow by 2
-/// from pass to pass, as in Bulirsch's algorithm. His p is here u / v, and his c and s are c / v and s / v,
-/// so that one division at the end does for all.
+/// State of the mean for the circle at one end of a sheet, or for a loop. All variables of the mean are
+/// doubled in each pass, as in Bulirsch's algorithm. Bulirsch's p is here u / v, and his c and s are c / v
+/// and s / v, so that one division at the end is sufficient.
 struct Rim {
   Column by_root;  ///< 1 / sqrt(zeta^2 + (a + rho)^2)
   Column kc, m, b, rest, c, s, u, v;
 };
 
-/// One tile of points. Everything per A (loop) or per A/m (sheet), without mu0.
+/// One tile of points. All values are per A (loop) or per A/m (sheet), without mu0.
 struct alignas(64) Tile {
   Column by_sum;  ///< 1 / (a + rho)
   Rim upper, lower;
-  std::size_t size = 0;  ///< whole vectors of points
+  std::size_t size = 0;  ///< number of points, a multiple of the vector length
   const double *rho = nullptr, *z = nullptr;
-  double *b_rho = nullptr, *b_z = nullptr;  ///< what is added to
-  double factor = 0;                        ///< mu0 times what flows
+  double *b_rho = nullptr, *b_z = nullptr;  ///< results are added to these
+  double factor = 0;                        ///< mu0 times the current
 };
 
-/// The circle of a rim, and the square of the least distance from it.
+/// The circle of a rim, and the square of the smallest distance from it.
 struct Circle {
   double a, wire2;
 };
@@ -81,7 +81,7 @@ template <bool third, Root how>
   r.rest[i] = 0;
 }
 
-/// What a pass does to p, c and s.
+/// Updates p, c and s in a pass.
 [[gnu::always_inline]] inline void turn(Rim& r, std::size_t i, double product) {
   const double c = r.c[i], s = r.s[i], u = r.u[i], v = r.v[i], qv = product * v;
   r.c[i] = c * u + s * v;
@@ -107,17 +107,17 @@ struct Integrals {
   double p;  ///< C(kc, g^2, 1, g)
 };
 
-/// The last pass and the integrals; `k` is not made together with the third.
+/// The last pass and the integrals; `k` is not computed together with the third.
 template <bool third>
 [[gnu::always_inline]] inline Integrals end(Rim& r, std::size_t i, double k2, double weight, double growth) {
   const double b = r.b[i], product = r.m[i] * b, difference = r.m[i] - b, m = r.m[i] + b;
   if constexpr (third) turn(r, i, product);
   const double rest = r.rest[i] + weight * difference * difference;
-  // The mean is now (m + 2 root)/2 but for the square of the difference that is left. With Heron's root of
-  // the product, m/4 + product/m, it is mean / m.
+  // The mean is now (m + 2 root)/2 up to the square of the remaining difference. With Heron's root of the
+  // product, m/4 + product/m, it is mean / m.
   const double mean = 0.75 * m * m + product, kc1 = 1 + r.kc[i];
-  // The first term of T, k^2 / 2 (1 + kc)^2, is exact. The others are differences of nearly equal numbers
-  // near the axis, where they are less than the last digit of the first: k^2 / 128 of it squared.
+  // The first term of T, k^2 / 2 (1 + kc)^2, is exact. The other terms are differences of nearly equal
+  // numbers near the axis, where they are below the rounding error of the first: k^2 / 128 of it squared.
   const bool near_axis = k2 < 1e-7;
   const double by = near_axis ? 1 : k2, first = kc1 * kc1, sum = third ? mean * r.v[i] + m * r.u[i] : 1;
   const double all = portable::kPi / 2 * m / (mean * sum * by * first);
@@ -128,8 +128,7 @@ template <bool third>
   return out;
 }
 
-// Of numbers that are not negative, by their bits, which are in the same order: a minimum of these
-// vectorises.
+// Minimum of non-negative numbers as bits, whose order is the same: this minimum vectorises.
 [[gnu::always_inline]] inline std::uint64_t lesser(std::uint64_t bits, double x) {
   const auto other = std::bit_cast<std::uint64_t>(x);
   return other < bits ? other : bits;
@@ -193,7 +192,8 @@ FABA_VECTORISED void end_loop(const Circle& circle, double weight, double growth
   }
 }
 
-/// Passes until K, T and the third integral are exact to 1e-14, whatever g: computed with 45 digits.
+/// Number of passes for which K, T and the third integral are exact to 1e-14 for all g (checked with 45
+/// digits).
 int passes(double smallest_kc) {
   return smallest_kc > 0.975  ? 2
          : smallest_kc > 0.5  ? 3
@@ -203,7 +203,7 @@ int passes(double smallest_kc) {
                               : 8;
 }
 
-// All passes but the first, which is part of the beginning, and the last, which is part of the end.
+// All passes except the first, which is part of begin(), and the last, which is part of end().
 template <class Pass, class End>
 void finish(double smallest_kc, Pass&& pass, End&& end) {
   double weight = 0.25;
@@ -212,28 +212,28 @@ void finish(double smallest_kc, Pass&& pass, End&& end) {
   end(weight, double(1 << n));
 }
 
-// Whole tiles lie where they are; the last one is filled up with copies of its first point.
+// Complete tiles are processed in place; the last one is padded with copies of its first point.
 template <class Compute>
 void for_tiles(const Places& at, const Components& b, double factor, Compute&& compute) {
   Tile tile;
   tile.factor = factor;
-  const std::size_t points = at.rho.size(), whole = points / kTile * kTile;
+  const std::size_t points = at.rho.size(), complete = points / kTile * kTile;
   tile.size = kTile;
-  for (std::size_t i = 0; i < whole; i += kTile) {
+  for (std::size_t i = 0; i < complete; i += kTile) {
     tile.rho = &at.rho[i];
     tile.z = &at.z[i];
     tile.b_rho = &b.rho[i];
     tile.b_z = &b.z[i];
     compute(tile);
   }
-  if (whole == points) return;
+  if (complete == points) return;
   constexpr std::size_t kVector = 16;
-  const std::size_t n = points - whole;
+  const std::size_t n = points - complete;
   std::array<double, kTile> rho, z, b_rho{}, b_z{};
   tile.size = (n + kVector - 1) / kVector * kVector;
   for (std::size_t i = 0; i < tile.size; ++i) {
-    rho[i] = at.rho[whole + (i < n ? i : 0)];
-    z[i] = at.z[whole + (i < n ? i : 0)];
+    rho[i] = at.rho[complete + (i < n ? i : 0)];
+    z[i] = at.z[complete + (i < n ? i : 0)];
   }
   tile.rho = rho.data();
   tile.z = z.data();
@@ -241,8 +241,8 @@ void for_tiles(const Places& at, const Components& b, double factor, Compute&& c
   tile.b_z = b_z.data();
   compute(tile);
   for (std::size_t i = 0; i < n; ++i) {
-    b.rho[whole + i] += b_rho[i];
-    b.z[whole + i] += b_z[i];
+    b.rho[complete + i] += b_rho[i];
+    b.z[complete + i] += b_z[i];
   }
 }
 

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-constexpr int kFirst = 33;  // nodes along the longer side of the first try
+constexpr int kFirst = 33;  // initial number of nodes along the longer side
 constexpr int kMostNodes = 1 << 20;
 
 struct Grid {
@@ -49,13 +49,13 @@ FABA_VECTORISED void interpolate(const Grid& g, const float* x, const float* y, 
 FieldTable::FieldTable(const Field& field, Vec2 low, Vec2 high) : ambient_(field.ambient()) {
   const Vec2 size = high - low;
   grid_ = {low, std::max(size.x, size.y) / (kFirst - 1), 0, 0};
-  // The error falls with the square of the spacing; two tries are enough unless a winding is near.
+  // The error is proportional to the square of the spacing; two attempts are enough unless a winding is near.
   for (int attempt = 0;; ++attempt) {
     const double nodes = (size.x / grid_.spacing + 2) * (size.y / grid_.spacing + 2);
     if (attempt == 4 || nodes > kMostNodes)
       throw Error(Errc::usage, "field",
-                  "a coil is too near to the sample for its field to be tabulated; move it away, or make the "
-                  "arena smaller");
+                  "a coil is too close to the sample to tabulate its field; move the coil away or reduce the "
+                  "size of the arena");
     grid_.columns = std::max(2, int(std::ceil(size.x / grid_.spacing - 1e-9)) + 1);
     grid_.rows = std::max(2, int(std::ceil(size.y / grid_.spacing - 1e-9)) + 1);
     fill(field);
@@ -75,11 +75,12 @@ void FieldTable::fill(const Field& field) {
       at.push_back({grid_.low.x + c * grid_.spacing, grid_.low.y + r * grid_.spacing, 0});
   for (const Vec3 p : at)
     if (field.clearance(p) <= grid_.spacing)
-      throw Error(Errc::usage, "field",
-                  fmt::format("a coil reaches into the sample, or a measured map does not cover it in the "
-                              "plane z = 0, at ({:.3g}, {:.3g}) mm from "
-                              "its centre; move it away, or make the arena smaller",
-                              p.x * 1e3, p.y * 1e3));
+      throw Error(
+          Errc::usage, "field",
+          fmt::format("a coil or the edge of a measured map is inside the sample plane z = 0, at "
+                      "({:.3g}, {:.3g}) mm from its centre; move the coil away, reduce the size of the "
+                      "arena or use a larger map",
+                      p.x * 1e3, p.y * 1e3));
   basis_.assign(field.coils(), std::vector<Vec2>(at.size()));
   std::vector<Vec3> b(at.size());
   for (std::size_t k = 0; k < basis_.size(); ++k) {

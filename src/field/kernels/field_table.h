@@ -3,7 +3,7 @@
 
 namespace faba {
 
-/// Nodes of a square grid in the plane z = 0, from the lower left one on, row by row.
+/// Nodes of a square grid in the plane z = 0, row by row from the lower left.
 struct TableGrid {
   Vec2 low;            ///< the first node, m, world
   double spacing = 0;  ///< m
@@ -12,32 +12,32 @@ struct TableGrid {
   Vec2 high() const { return low + spacing * Vec2{double(columns - 1), double(rows - 1)}; }
 };
 
-/// A field in the plane z = 0 over a rectangle, made ready for many points: the field per ampere of every
-/// coil at the nodes of a square grid, added up once per set of currents and interpolated bilinearly between
-/// them.
+/// A field in the plane z = 0 over a rectangle, tabulated for evaluation at many points: the field per ampere
+/// of every coil at the nodes of a square grid, summed once per set of currents and interpolated bilinearly.
 class FieldTable {
  public:
-  /// How far the table may be from the field, as a share of each coil's largest field in the rectangle.
+  /// Largest error of the table, as a fraction of the largest field of each coil in the rectangle.
   static constexpr double kTolerance = 1e-5;
 
-  /// World frame, m. The spacing follows from the tolerance. Throws Error(usage, "field") when a coil reaches
-  /// into the rectangle, or so near to it that no table of a million nodes is good enough.
+  /// World frame, m. The spacing follows from the tolerance. Throws Error(usage, "field") when a coil is
+  /// inside the rectangle, or so close that a table of a million nodes does not reach the tolerance.
   FieldTable(const Field& field, Vec2 low, Vec2 high);
-  /// With nodes as given, whatever error() they lead to. Throws likewise for coils that reach in.
+  /// With the given grid; error() may exceed the tolerance. Throws Error(usage, "field") when a coil is
+  /// inside.
   FieldTable(const Field& field, const TableGrid& grid);
 
-  /// Sets the currents (A, one per coil) for eval(). Costs a pass over the nodes when they changed.
+  /// Sets the currents (A, one per coil) for eval(). Recomputes all nodes when they changed.
   void set(std::span<const double> current);
-  /// The in-plane field, T. Points beyond the rectangle count as on its border.
+  /// The in-plane field, T. Points outside the rectangle are clamped to its border.
   void eval(const Points& at, Vectors b) const;
 
   const TableGrid& grid() const { return grid_; }
   /// The in-plane field at every node, T: x, y, x, y ...
   std::span<const float> nodes() const { return nodes_; }
-  /// Largest distance found between table and field, a share as in kTolerance: looked for at the centres of
-  /// the squares, where bilinear interpolation is worst.
+  /// Largest error of the table, as a fraction as in kTolerance: measured at the centres of the squares,
+  /// where bilinear interpolation is worst.
   double error() const { return error_; }
-  /// Strongest in-plane field at any node for currents up to the given ones (A, one per coil), T.
+  /// Largest in-plane field at any node for currents up to the given ones (A, one per coil), T.
   double strongest(std::span<const double> max_current) const;
 
  private:

@@ -30,13 +30,13 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
   return out;
 }
 
-FieldNull null_where_known(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity) {
+FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity) {
   if (!(field.clearance({at.x, at.y, 0}) > 0))
     throw Error(Errc::usage, rig.string(),
-                "there is a winding at that place, or it lies outside of a measured map");
+                "the field at this position is unknown: it is in a winding or outside a measured map");
   FieldNull n = null_at(field, at, polarity, current_limits(field));
   if (!std::isfinite(n.gradient[0] + n.gradient[1]))
-    throw Error(Errc::usage, rig.string(), "has no field that can be computed there");
+    throw Error(Errc::usage, rig.string(), "the field at this position could not be computed");
   return n;
 }
 
@@ -44,16 +44,16 @@ RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity) {
   const auto field = rig_of(rig);
   RigNull out;
   out.at = at;
-  out.null = null_where_known(*field, rig, at, polarity);
+  out.null = checked_null_at(*field, rig, at, polarity);
   const FieldNull& n = out.null;
   for (std::size_t k = 0; k < field->coils(); ++k) out.coils.push_back(field->circuit(k).name);
   out.note =
-      !n.reachable ? "these coils cannot put a zero of the field there within their current limits"
+      !n.reachable ? "the coils cannot make a zero of the field at this position within their current limits"
       : n.saddle && (polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0
-          ? "the zero drives cells away along every direction: no currents within the limits trap there"
-      : n.saddle ? "the zero is a saddle: it draws cells together along one direction and drives them "
-                   "away along the other"
-                 : "";
+          ? "the zero repels cells along all directions: no currents within the limits make a trap"
+      : n.saddle
+          ? "the zero is a saddle: it attracts cells along one direction and repels them along the other"
+          : "";
   return out;
 }
 

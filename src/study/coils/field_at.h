@@ -8,25 +8,25 @@
 
 namespace faba {
 
-/// The field of a rig at points, with its coils' own currents.
+/// The field of a coil system at points, with its default currents.
 struct FieldAtPoints {
   std::vector<double> current;  ///< A, one per coil
   std::vector<Vec3> at, b;      ///< m and T, world frame
 };
-/// `points` is a CSV with the columns x_m, y_m and z_m. Throws Error(usage) for the rig, Error(input) for the
-/// points.
+/// `points` is a CSV with the columns x_m, y_m and z_m. Throws Error(usage) for an invalid coil system,
+/// Error(input) for invalid points.
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points);
 
-/// null_at() with the coils' own limits. Throws Error(usage) naming `rig` where its field is not known: in a
-/// winding or outside of a measured map.
-FieldNull null_where_known(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity);
+/// null_at() with the current limits of the coils. Throws Error(usage) with the file name `rig` when the
+/// field is unknown at `at`: in a winding or outside a measured map.
+FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity);
 
-/// Currents for a zero of the field at a place in the plane of the sample.
+/// Currents for a zero of the field at a point in the plane of the sample.
 struct RigNull {
   Vec2 at;                         ///< m
   std::vector<std::string> coils;  ///< their names
   FieldNull null;
-  std::string note;  ///< why it traps nothing; empty when all is well
+  std::string note;  ///< reason when the zero does not trap; else empty
 };
 /// The zero at `at` (m) that traps cells of `polarity` (+1 or -1). Throws Error(usage).
 RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity);

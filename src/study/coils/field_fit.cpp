@@ -20,10 +20,10 @@
 namespace faba {
 namespace {
 
-constexpr double kMuch = 0.1;  // assumed: a rig that is right leaves a few hundredths, of probe and formula
+constexpr double kLargeResidual = 0.1;  // assumed: errors of probe and formulas are a few hundredths
 
-/// The measured values as one list, and what the rig says of them when it is stronger by `gain`, moved by
-/// `shift`, and has `offset` added.
+/// The measured values, and those predicted by the coil system with all fields multiplied by `gain`, the
+/// coils moved by `shift`, and `offset` added.
 class Model {
  public:
   Model(const Field& field, const FieldData& data)
@@ -31,7 +31,7 @@ class Model {
     for (std::size_t i = 0; i < data.at.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k)
         if (data.given[k]) values_.push_back(part(data.b[i], k));
-    // Parameters of about 1: lengths in the size of the map, fields in that of the field.
+    // Parameters are scaled to about 1: lengths by the size of the map, fields by the rms of the field.
     for (const Vec3& p : data.at) size_ = std::max({size_, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     for (const double v : values_) strength_ += v * v / double(values_.size());
     strength_ = std::sqrt(strength_);
@@ -44,8 +44,8 @@ class Model {
   const std::vector<double>& values() const { return values_; }
   double strength() const { return strength_; }
 
-  // All parameters are 1 where the rig is as its file says: forward differences take a share of a parameter
-  // as their step.
+  // All parameters are 1 for the coil system as in its file: forward differences use a fraction of a
+  // parameter as their step.
   FieldFit::Values meaning(const Eigen::VectorXd& x) const { return in_units(x, 1, 0); }
   FieldFit::Values errors(const Eigen::VectorXd& se) const {
     return in_units(se, 0, std::numeric_limits<double>::quiet_NaN());
@@ -93,7 +93,7 @@ struct Residuals : Eigen::DenseFunctor<double> {
   }
 };
 
-// The rig with its coils as strong and where the measurement has them, and what no coil made as Earth's
+// The coil system with the fitted gain and position of the coils, and the fitted offset added to the Earth's
 // field.
 void write_rig(const std::filesystem::path& file, RigEditor rig, const FieldFit::Values& m,
                const std::string& data) {
@@ -109,9 +109,9 @@ void write_rig(const std::filesystem::path& file, RigEditor rig, const FieldFit:
 
 void draw(const std::filesystem::path& file, const Model& model, const std::vector<double>& predicted) {
   Plot p;
-  p.title = "What the fitted rig leaves over";
+  p.title = "Residuals of the fitted coil system";
   p.x.label = "measured field (mT)";
-  p.y.label = "measured less fitted (mT)";
+  p.y.label = "measured - fitted (mT)";
   Scatter dots;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
     dots.x.push_back(1e3 * model.values()[i]);
@@ -123,10 +123,10 @@ void draw(const std::filesystem::path& file, const Model& model, const std::vect
 
 struct Solution {
   Eigen::VectorXd x, standard_error;
-  double rms = 0;  ///< of what is left over, as a fraction of the field
+  double rms = 0;  ///< of the residuals, as a fraction of the rms field
 };
 
-// Throws Error(input) naming `data` when they do not tell.
+// Throws Error(input) naming `data` when the data do not determine the parameters.
 Solution solved(const Model& model, const std::string& data) {
   const auto n = Eigen::Index(model.values().size());
   const Eigen::Index p = model.parameters();
@@ -138,29 +138,30 @@ Solution solved(const Model& model, const std::string& data) {
   Eigen::VectorXd left(n);
   residuals(x, left);
   if (!left.allFinite())
-    throw Error(Errc::input, data, "has points where the rig has no field: in a coil, or beyond a map");
+    throw Error(Errc::input, data,
+                "has points where the field is unknown, in a coil or outside a measured map; remove them");
   Eigen::MatrixXd j(n, p);
   slope.df(x, j);
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(j);
-  qr.setThreshold(1e-6);  // what a forward difference leaves of a column that says nothing
+  qr.setThreshold(1e-6);  // error of the forward difference for a parameter without effect
   if (qr.rank() < p)
     throw Error(
         Errc::input, data,
-        "does not say where the coils are: another place and strength fit as well; more points, off the "
-        "axis, would tell");
+        "does not determine the position of the coils: other positions and gains fit equally well; add "
+        "points that are not on the axis");
   const double variance = left.squaredNorm() / double(n - p);
   const Eigen::VectorXd se = (variance * (j.transpose() * j).inverse().diagonal()).cwiseSqrt();
   return {x, se, std::sqrt(left.squaredNorm() / double(n))};
 }
 
-std::string note_on(double gain, double left) {
-  if (left > kMuch)
+std::string note_on(double gain, double residual) {
+  if (residual > kLargeResidual)
     return fmt::format(
-        "the fit leaves {:.0f} % of the field over: columns, units or a value may be "
-        "wrong, or the rig is another one",
-        100 * left);
-  if (gain < 0) return "the gain is negative: the sense of a current or of an axis is reversed";
-  if (gain < 0.5 || gain > 2) return "the gain is far from 1: turns, current or units may be wrong";
+        "the residual is {:.0f} % of the field; check the columns, the units, outliers and that the coil "
+        "system is the measured one",
+        100 * residual);
+  if (gain < 0) return "the gain is negative: the direction of a current or an axis is reversed";
+  if (gain < 0.5 || gain > 2) return "the gain is far from 1; check the turns, the current and the units";
   return "";
 }
 
@@ -174,12 +175,14 @@ FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path
   const std::vector<double> current = field->default_currents();
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
     throw Error(Errc::usage, rig.string(),
-                "no current flows in it; give its coils the `current` with which the field was measured");
+                "all currents are zero; set the `current` of its coils to that of the measurement");
   const FieldData data = field_data(read_field_points(measured));
   const Model model(*field, data);
   const auto n = Eigen::Index(model.values().size());
   const Eigen::Index p = model.parameters();
-  if (n <= p) throw Error(Errc::input, measured.string(), fmt::format("has {} values for {} unknowns", n, p));
+  if (n <= p)
+    throw Error(Errc::input, measured.string(),
+                fmt::format("has {} values for {} parameters; at least {} are needed", n, p, p + 1));
 
   const Solution solution = solved(model, measured.string());
 

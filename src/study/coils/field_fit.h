@@ -6,7 +6,7 @@
 
 namespace faba {
 
-/// A rig brought to a measured field: one factor on all coils, one shift of all coils, one added field.
+/// A coil system fitted to a measured field: one gain, one shift and one added field for all coils.
 struct FieldFit {
   struct Values {
     double gain = 1;
@@ -15,15 +15,16 @@ struct FieldFit {
   std::size_t values = 0;  ///< measured
   Values best;
   Values standard_error;  ///< NaN where nothing was fitted
-  double rms = 0;         ///< T, of what the fit leaves over
-  double rms_field = 0;   ///< T, of the measured values
-  std::string note;       ///< empty when all is well
+  double rms = 0;         ///< of the residuals, T
+  double rms_field = 0;   ///< of the measured values, T
+  std::string note;       ///< warning; may be empty
 };
 
-/// Fits with the coils' own currents to measured values (FieldData) by least squares; the shift is along z
-/// only for data about an axis. Standard errors take the errors of measurement as equal and independent.
-/// Unless empty, `out` is written as the rig that fits, `picture` as SVG with what is left over. Throws
-/// Error(usage) for a rig without current, Error(input) for data that are wrong, too few, or do not tell.
+/// Least-squares fit to measured values (FieldData) with the default currents of the coils; for data about an
+/// axis the shift is along z only. Standard errors assume equal and independent measurement errors. Unless
+/// empty, `out` is written as the fitted coil system, `picture` as SVG with the residuals. Throws
+/// Error(usage) for a coil system without current, Error(input) for data that are invalid, too few, or do not
+/// determine the parameters.
 FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
                    const std::filesystem::path& out, const std::filesystem::path& picture);
 

@@ -17,9 +17,9 @@ namespace faba {
 namespace {
 
 constexpr std::uint64_t kMostCombinations = 1'000'000'000;
-constexpr std::size_t kBlock = 1 << 15;  // sets of currents between two looks at the clock
+constexpr std::size_t kBlock = 1 << 15;  // sets of currents between checks for progress and stop
 
-/// All sets of currents with one coil at its limit, numbered.
+/// All sets of currents on the lattice, numbered.
 class Lattice {
  public:
   Lattice(std::vector<double> most, int levels) : most_(std::move(most)), levels_(levels) {
@@ -28,18 +28,18 @@ class Lattice {
     if (all > double(kMostCombinations))
       throw Error(
           Errc::usage, "--levels",
-          fmt::format("{} levels of {} coils are {:.2g} sets of currents; at most {:.0e} are possible",
+          fmt::format("{} levels of {} coils are {:.2g} sets of currents; at most {:.0e} are permitted",
                       levels_, most_.size(), all, double(kMostCombinations)));
     size_ = std::uint64_t(all);
   }
-  /// As many levels as make some million sets.
+  /// The largest number of levels with at most 4 million sets.
   static int default_levels(std::size_t coils) {
     int n = 1;
     while (n < 100 && std::pow(2 * n + 3, double(coils)) <= 4e6) ++n;
     return n;
   }
   std::uint64_t size() const { return size_; }
-  /// Nothing for a set in which no coil is at its limit.
+  /// The set of currents of an index; none if no coil is at its limit.
   std::optional<std::vector<double>> at(std::uint64_t index) const {
     std::vector<double> current;
     bool full = false;
@@ -58,15 +58,15 @@ class Lattice {
   std::uint64_t size_ = 0;
 };
 
-/// Finds the zero that currents make in a rectangle about the centre, and says whether it is worth keeping.
+/// Finds the zero of a set of currents in a rectangle about the centre; rejects weak traps.
 class Search {
  public:
   Search(const Field& field, Vec2 half) : field_(field), half_(half) {
     const FieldNull best = null_at(field, {}, 1, current_limits(field));
     traps_ = !best.saddle;
     least_ = best.reachable ? kLeast * strength(best.gradient) : 0;
-    for (const Vec2 share : {Vec2{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
-      Start s{{0.5 * share.x * half.x, 0.5 * share.y * half.y}, {}, {}};
+    for (const Vec2 corner : {Vec2{0, 0}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}) {
+      Start s{{0.5 * corner.x * half.x, 0.5 * corner.y * half.y}, {}, {}};
       s.b.resize(field.coils());
       s.g.resize(field.coils());
       field.basis({s.at.x, s.at.y, 0}, s.b, s.g);
@@ -85,19 +85,19 @@ class Search {
   }
 
  private:
-  static constexpr double kLeast = 0.5;  // of the strongest trap at the centre: weaker ones are no use
+  static constexpr double kLeast = 0.5;  // of the strongest trap at the centre; weaker ones are rejected
   struct Start {
     Vec2 at;
     std::vector<Vec3> b;
     std::vector<Mat3> g;
   };
-  // Of a trap its weaker axis, for cells of either polarity; of a saddle by how much it traps more than it
-  // drives away.
+  // Of a trap the gradient of its weaker axis, for cells of either polarity; of a saddle the trapping
+  // gradient minus the repelling one.
   double strength(const NullGradient& g) const {
     return traps_ ? std::max(-g[1], g[0]) : std::fabs(g[0] + g[1]);
   }
-  // Whether the first step of Newton's method leads anywhere near the rectangle: most sets of currents do not
-  // come close, and this tells for a thousandth of the cost.
+  // Whether the first step of Newton's method ends near the rectangle: it rejects most sets of currents at a
+  // thousandth of the cost.
   bool near(const Start& s, const std::vector<double>& current) const {
     Vec3 b = field_.ambient();
     double xx = 0, xy = 0, yx = 0, yy = 0;
@@ -120,7 +120,7 @@ class Search {
   std::vector<Start> starts_;
 };
 
-// What the library costs against solving for the currents: places all over the rectangle, one by one.
+// Compares the library with the solver at points on a grid over the rectangle.
 void compare_with_solver(const Field& field, const FieldLibrary& library, Vec2 half,
                          FieldLibrarySummary& summary) {
   constexpr int kSide = 15;
@@ -150,7 +150,7 @@ struct Unlock {
   ~Unlock() {
     try {
       lock.complete();
-    } catch (const Error&) {  // an empty file stays behind, which hinders nobody
+    } catch (const Error&) {  // an empty lock file remains, which does no harm
       return;
     }
   }
@@ -164,7 +164,7 @@ TableGrid library_grid(const FieldLibraryOptions& o) {
                        std::max(2, int(std::ceil(o.height / spacing - 1e-9)) + 1)};
   if (double(grid.columns) * grid.rows > 1 << 22)
     throw Error(Errc::usage, "--spacing",
-                fmt::format("makes {} x {} nodes; at most 4 million are possible", grid.columns, grid.rows));
+                fmt::format("makes {} x {} nodes; at most 4 million are permitted", grid.columns, grid.rows));
   return grid;
 }
 
@@ -206,7 +206,7 @@ FieldLibrarySummary build_field_library(const std::filesystem::path& rig, const 
   for (std::uint64_t begin = writer.done(); begin < lattice.size(); begin += kBlock) {
     if (o.stop()) {
       throw Error(Errc::interrupted, out.string(),
-                  fmt::format("stopped at {} of {} sets of currents; the same command goes on there", begin,
+                  fmt::format("stopped at {} of {} sets of currents; the same command resumes there", begin,
                               lattice.size()));
     }
     o.progress(begin, lattice.size());

@@ -14,7 +14,7 @@
 namespace faba {
 namespace {
 
-constexpr int kWidth = 800;  // px of the picture and columns of the file
+constexpr int kWidth = 800;  // width of the picture in px, number of columns of the file
 
 struct Map {
   int width = 0, height = 0;
@@ -40,14 +40,15 @@ Map computed(const Field& field, const std::vector<double>& current, const Field
   return m;
 }
 
-/// All zeros in the rectangle, sought from a grid of places; two nearer than a thousandth of it are one.
+/// All zeros in the rectangle, searched from a grid of points; zeros within 0.1 % of its width are equal.
 std::vector<Vec2> zeros_in(const Field& field, const std::vector<double>& current, const FieldMapOptions& o) {
   std::vector<Vec2> found;
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; })) return found;
-  constexpr int kTries = 21;
-  for (int i = 0; i < kTries; ++i)
-    for (int j = 0; j < kTries; ++j) {
-      const Vec2 from{o.width * ((i + 0.5) / kTries - 0.5), o.height * ((j + 0.5) / kTries - 0.5)};
+  constexpr int kStartsPerSide = 21;
+  for (int i = 0; i < kStartsPerSide; ++i)
+    for (int j = 0; j < kStartsPerSide; ++j) {
+      const Vec2 from{o.width * ((i + 0.5) / kStartsPerSide - 0.5),
+                      o.height * ((j + 0.5) / kStartsPerSide - 0.5)};
       const Vec2 at = find_null(field, current, from);
       if (!(std::fabs(at.x) <= o.width / 2 && std::fabs(at.y) <= o.height / 2)) continue;
       if (std::none_of(found.begin(), found.end(), [&](Vec2 f) { return norm(f - at) < 1e-3 * o.width; }))
@@ -60,13 +61,13 @@ const char* kind_of(const NullGradient& g) {
   return g[1] < 0 ? "traps north-seekers" : g[0] > 0 ? "traps south-seekers" : "saddle";
 }
 
-/// Takes a file away that did not get its final name.
-struct Unfinished {
+/// Deletes a file that was not renamed to its final name.
+struct PartialFile {
   std::filesystem::path file;
-  explicit Unfinished(std::filesystem::path f) : file(std::move(f)) {}
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-  ~Unfinished() {
+  explicit PartialFile(std::filesystem::path f) : file(std::move(f)) {}
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+  ~PartialFile() {
     std::error_code ec;
     if (!file.empty()) std::filesystem::remove(file, ec);
   }
@@ -74,7 +75,7 @@ struct Unfinished {
 
 void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vector<double>& current) {
   const std::filesystem::path part = file.string() + ".part";
-  Unfinished unfinished{part};
+  PartialFile partial{part};
   H5File h5 = H5File::create(part);
   const auto columns = std::uint64_t(m.width);
   H5Table b = h5.table<double>("b_t", {columns, 3}, 16, columns, true);
@@ -99,7 +100,7 @@ void write_hdf5(const std::filesystem::path& file, const Map& m, const std::vect
   for (std::size_t c = 0; c < columns; ++c) x.append<double>({&m.at[c].x, 1});
   h5.close();
   rename_complete(part, file);
-  unfinished.file.clear();
+  partial.file.clear();
 }
 
 void draw(const FieldMapOptions& o, const Field& field, const Map& m,
@@ -119,7 +120,7 @@ void draw(const FieldMapOptions& o, const Field& field, const Map& m,
   write_png(o.picture, draw_field(s));
 }
 
-// A map may show the coils themselves, a table of the field may not hold them.
+// A map may include the coils; a table may not.
 std::optional<FieldMap::Table> table_of(const Field& field, const FieldMapOptions& o) {
   try {
     const FieldTable table(field, {-o.width / 2, -o.height / 2}, {o.width / 2, o.height / 2});
@@ -138,16 +139,17 @@ FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
   const std::vector<double> current = o.current.empty() ? field->default_currents() : o.current;
   if (current.size() != field->coils())
     throw Error(Errc::usage, "--current",
-                fmt::format("has {} currents, the rig has {} coils", current.size(), field->coils()));
+                fmt::format("has {} values; it must have {}, one per coil", current.size(), field->coils()));
   std::string note;
   for (std::size_t k = 0; k < current.size(); ++k) {
     if (!(std::fabs(current[k]) <= 1e4))
-      throw Error(Errc::usage, "--current", fmt::format("{:g} A is more than any coil bears", current[k]));
+      throw Error(Errc::usage, "--current",
+                  fmt::format("{:g} A is out of range; it must be between -10000 and 10000 A", current[k]));
     if (std::fabs(current[k]) > field->circuit(k).max_current)
-      note = fmt::format("{:g} A is more than the max_current of {}", current[k], field->circuit(k).name);
+      note = fmt::format("{:g} A exceeds the max_current of {}", current[k], field->circuit(k).name);
   }
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
-    note = "no current flows; say which, such as --current 0.5,0.5";
+    note = "all currents are zero; specify currents, such as --current 0.5,0.5";
   const Map m = computed(*field, current, o);
   FieldMap map{current, note, {}, 0, {}};
   for (const Vec2 at : zeros_in(*field, current, o)) {
@@ -161,14 +163,13 @@ FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
     map.strongest = std::max(map.strongest, norm(Vec2{v.x, v.y}));
   }
   if (known == 0)
-    throw Error(
-        Errc::usage, rig.string(),
-        "has no known field in this rectangle, which lies in a winding or outside of its measured maps; "
-        "choose another --size");
+    throw Error(Errc::usage, rig.string(),
+                "the field is unknown in this rectangle, which is in a winding or outside the measured maps; "
+                "choose another --size");
   if (known < m.b.size()) {
     const double unknown = 100.0 * double(m.b.size() - known) / double(m.b.size());
     map.note += fmt::format(
-        "{}the field is not known in {:.2g} % of this rectangle, in a winding or outside of a measured map",
+        "{}the field is unknown in {:.2g} % of this rectangle, in a winding or outside a measured map",
         map.note.empty() ? "" : "; ", unknown);
   }
   map.table = table_of(*field, o);

@@ -18,20 +18,20 @@ namespace {
 
 enum class Kind { current, along, across, tilt, earth };
 
-/// One way in which a rig may differ from its file, and how much of it is tried.
+/// A deviation of the coil system from its file, and the amounts that are tested.
 struct Cause {
   Kind kind;
   const char *name, *words, *unit;
-  double per_unit;  ///< of the table's unit in SI
+  double per_unit;  ///< SI value of `unit`
   std::vector<double> amounts;
 };
 const std::vector<Cause>& causes() {
   static const std::vector<Cause> all{
-      {Kind::current, "current", "a coil's current, by", "%", 0.01, {1, 2, 5, 10, 20}},
-      {Kind::along, "along", "a coil moved along its axis, by", "mm", 1e-3, {0.1, 0.2, 0.5, 1, 2}},
-      {Kind::across, "across", "a coil moved across its axis, by", "mm", 1e-3, {0.1, 0.2, 0.5, 1, 2}},
-      {Kind::tilt, "tilt", "a coil tilted, by", "deg", kDegree, {0.5, 1, 2, 5, 10}},
-      {Kind::earth, "earth", "an unknown field of", "uT", 1e-6, {2, 5, 10, 18, 50}}};
+      {Kind::current, "current", "current of a coil changed by", "%", 0.01, {1, 2, 5, 10, 20}},
+      {Kind::along, "along", "coil moved along its axis by", "mm", 1e-3, {0.1, 0.2, 0.5, 1, 2}},
+      {Kind::across, "across", "coil moved across its axis by", "mm", 1e-3, {0.1, 0.2, 0.5, 1, 2}},
+      {Kind::tilt, "tilt", "coil tilted by", "deg", kDegree, {0.5, 1, 2, 5, 10}},
+      {Kind::earth, "earth", "ambient field changed by", "uT", 1e-6, {2, 5, 10, 18, 50}}};
   return all;
 }
 
@@ -57,13 +57,13 @@ void each_ambient(const RigEditor& rig, double field, const std::vector<double>&
   }
 }
 
-void each_place(const RigEditor& rig, Kind kind, double amount, const std::vector<double>& current,
-                const Visit& visit) {
+void each_pose(const RigEditor& rig, Kind kind, double amount, const std::vector<double>& current,
+               const Visit& visit) {
   for (std::size_t k = 0; k < rig.coils(); ++k)
     for (const double side : {1.0, -1.0}) {
       RigEditor changed = rig;
       const Vec3 axis = rig.axis(k);
-      // Across its axis in the plane of the sample, which is where a zero can move to.
+      // Across its axis in the plane of the sample, in which a zero can move.
       const Vec3 in_plane{-axis.y, axis.x, 0};
       const Vec3 across = norm(in_plane) > 1e-6 ? (1 / norm(in_plane)) * in_plane : Vec3{1, 0, 0};
       if (kind == Kind::tilt)
@@ -74,8 +74,8 @@ void each_place(const RigEditor& rig, Kind kind, double amount, const std::vecto
     }
 }
 
-/// Calls visit(field, currents) for every way in which one coil, or the ambient field, is off by `amount`
-/// (SI).
+/// Calls visit(field, currents) for every coil and direction, or direction of the ambient field, with a
+/// deviation of `amount` (SI).
 void each(const Field& field, const RigEditor& rig, Kind kind, double amount,
           const std::vector<double>& current, const Visit& visit) {
   switch (kind) {
@@ -86,14 +86,14 @@ void each(const Field& field, const RigEditor& rig, Kind kind, double amount,
     case Kind::along:
     case Kind::across:
     case Kind::tilt:
-      return each_place(rig, kind, amount, current, visit);
+      return each_pose(rig, kind, amount, current, visit);
   }
 }
 
 void draw(const std::filesystem::path& file, const FieldTolerance& tolerance) {
   Plot p;
-  p.title = "How far the zero of the field moves";
-  p.x.label = "amount, as a share of the largest tried";
+  p.title = "Shift of the zero of the field";
+  p.x.label = "deviation, as a fraction of the largest";
   p.y.label = "shift of the zero (mm)";
   p.y.lo = 0;
   p.width = 560;
@@ -122,9 +122,9 @@ FieldTolerance field_tolerance(const std::filesystem::path& file, Vec2 at,
   const auto part = read_rig(file, parts);
   const RigEditor rig(parts.field, part.resolved);
   const auto field = part.make({});
-  const FieldNull n = null_where_known(*field, file, at, 1);
+  const FieldNull n = checked_null_at(*field, file, at, 1);
   if (!n.reachable)
-    throw Error(Errc::usage, file.string(), "these coils cannot put a zero of the field there");
+    throw Error(Errc::usage, file.string(), "the coils cannot make a zero of the field at this position");
   FieldTolerance out{at, n.current, n.saddle, {}};
   for (const Cause& cause : causes())
     for (const double amount : cause.amounts) {

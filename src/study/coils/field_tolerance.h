@@ -8,23 +8,23 @@
 
 namespace faba {
 
-/// How far a zero of the field moves when one thing is not as assumed.
+/// Shift of a zero of the field when one property of the coil system deviates from its file.
 struct FieldTolerance {
   struct Row {
     std::string cause, words;
     double amount;
     std::string unit;             ///< of `amount`
-    std::optional<double> shift;  ///< m, the largest of all coils and directions; none when the zero is lost
+    std::optional<double> shift;  ///< m, largest over all coils and directions; empty when the zero is lost
   };
   Vec2 at;                      ///< m
-  std::vector<double> current;  ///< A, one per coil, that make the zero
+  std::vector<double> current;  ///< currents that make the zero, A, one per coil
   bool saddle = false;
   std::vector<Row> rows;
 };
 
-/// Tries the current of a coil, its place along and across its axis, its direction, and the Earth's field,
-/// each for every coil and direction. Unless `picture` is empty the table is drawn there as SVG. Throws
-/// Error(usage) when the rig has no zero at `at`.
+/// Changes the current of a coil, its position along and across its axis, its direction, and the ambient
+/// field, for every coil and direction. Unless `picture` is empty the result is drawn there as SVG. Throws
+/// Error(usage) when the coil system cannot make a zero at `at`.
 FieldTolerance field_tolerance(const std::filesystem::path& rig, Vec2 at,
                                const std::filesystem::path& picture);
 

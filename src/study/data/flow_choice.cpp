@@ -10,7 +10,7 @@ FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& def
   const Parts parts = builtin_parts();
   for (const auto& [key, _] : choice.values)
     if (const Json& known = parts.flow.json_schema(choice.method)["properties"]; !known.contains(key))
-      throw Error(Errc::usage, "--" + key, fmt::format("is no parameter of method {}", choice.method));
+      throw Error(Errc::usage, "--" + key, fmt::format("not a parameter of method {}", choice.method));
   Document d;
   d.name = "--method " + choice.method;
   d.set("flow.type", Json(choice.method), "--method " + choice.method);

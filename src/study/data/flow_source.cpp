@@ -12,7 +12,7 @@
 namespace faba {
 namespace {
 
-/// What a path stands for.
+/// The input file of a path.
 struct Input {
   std::filesystem::path file;
   bool flows = false;
@@ -25,7 +25,8 @@ Input resolve(const std::filesystem::path& path, bool frames) {
   const RunVideo video = run_video(path);
   const bool flows = FlowFileReader::recognises(video.file);
   if (frames && flows)
-    throw Error(Errc::input, path.string(), "holds flows and no frames, which are asked for; give the video");
+    throw Error(Errc::input, path.string(),
+                "contains flows but no frames, which are needed; specify the video");
   return {video.file, flows, video.um_per_px};
 }
 
@@ -69,7 +70,7 @@ FlowSource::FlowSource(const std::filesystem::path& path, const FlowSourceOption
   impl_->height = impl_->flows->info().height;
   impl_->method = impl_->flows->info().method;
   if (!impl_->input.um_per_px) impl_->input.um_per_px = impl_->flows->info().um_per_px;
-  if (impl_->flows->size() == 0) throw Error(Errc::input, path.string(), "holds no flow");
+  if (impl_->flows->size() == 0) throw Error(Errc::input, path.string(), "contains no flows");
 }
 FlowSource::~FlowSource() = default;
 
@@ -82,13 +83,16 @@ void FlowSource::Impl::open_video(Pool& pool) {
   height = h / side;
   if (width < 2 || height < 2)
     throw side > 1
-        ? Error(Errc::usage, "shrink", fmt::format("of {} leaves nothing of {} x {} px", side, w, h))
+        ? Error(Errc::usage, "shrink",
+                fmt::format("{} is too large for frames of {} x {} px; a flow needs at least 2 x 2 px after "
+                            "shrinking",
+                            side, w, h))
         : Error(Errc::input, path.string(),
-                fmt::format("has frames of {} x {} px; a flow needs 2 x 2", w, h));
+                fmt::format("has frames of {} x {} px; a flow needs at least 2 x 2 px", w, h));
   video.emplace(std::move(reader), side);
   flow = options.method.make({&pool});
   method = options.method.resolved.dump();
-  if (!video->read(before, t_before)) throw Error(Errc::input, path.string(), "has no frame");
+  if (!video->read(before, t_before)) throw Error(Errc::input, path.string(), "contains no frames");
 }
 
 bool FlowSource::Impl::next_of_video(FlowPair& pair) {
@@ -112,7 +116,8 @@ bool FlowSource::Impl::next_of_video(FlowPair& pair) {
     ++frame;
     if (wanted) return true;
   }
-  if (frame == 0) throw Error(Errc::input, path.string(), "has one frame only; motion needs two or more");
+  if (frame == 0)
+    throw Error(Errc::input, path.string(), "contains one frame only; motion needs at least two");
   return false;
 }
 
@@ -145,20 +150,21 @@ const std::string& FlowSource::method() const { return impl_->method; }
 
 std::vector<std::string> FlowSource::notes() const {
   std::vector<std::string> notes;
-  if (is_run(impl_->path) && !is_whole(impl_->path))
-    notes.emplace_back("the run was interrupted; this is what was recorded");
+  if (is_run(impl_->path) && !is_complete(impl_->path))
+    notes.emplace_back("the run was interrupted; the result is based on the recorded part");
   if (impl_->flows) {
     if (!impl_->options.options_text.empty())
-      notes.push_back(fmt::format("its flows are taken from {} as they are: {} does not apply",
+      notes.push_back(fmt::format("the flows were read from {} and not computed: {} has no effect",
                                   impl_->input.file.filename().string(), impl_->options.options_text));
     return notes;
   }
   const VideoReader& reader = impl_->video->reader();
   if (impl_->video->side() > 1 && impl_->options.shrink == 0)
-    notes.push_back(fmt::format("frames were averaged over squares of {} px; flows are in px of the video",
-                                impl_->video->side()));
+    notes.push_back(
+        fmt::format("frames were averaged over blocks of {0} x {0} px; flows are in px of the video",
+                    impl_->video->side()));
   if (!(reader.fps() > 0))
-    notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");
+    notes.emplace_back("no frame rate is stated: times are frame counts; specify --fps");
   if (!impl_->video->words().empty()) notes.push_back(impl_->video->words());
   if (reader.truncated())
     notes.push_back(fmt::format("{} could be read; {}", counted(impl_->frame + 1, "frame"), reader.damage()));

@@ -9,53 +9,52 @@
 
 namespace faba {
 
-/// Flow between two frames that follow each other.
+/// Flow between two consecutive frames.
 struct FlowPair {
-  std::uint64_t frame = 0;  ///< number of the first one
+  std::uint64_t frame = 0;  ///< index of the first one
   double t0_s = 0, t1_s = 0;
-  Flow flow;  ///< px of the video per pair, on a picture of the source's size
-  GrayF
-      image;  ///< the second frame, greys of 0 to 255, of the same size; empty when read from a file of flows
+  Flow flow;    ///< px of the video per pair, on the pixel grid of the source
+  GrayF image;  ///< the second frame, grey levels 0 to 255, same size; empty when read from a file of flows
 };
 
-/// How flows are made from frames.
+/// Options for the computation of flows from frames.
 struct FlowSourceOptions {
   FlowRegistry::PartType method;  ///< flow part; ignored for files of flows
-  int shrink = 0;                 ///< frames are averaged over squares of so many px first; 0: see kLongSide
-  double t0_s = 0;                ///< from this time on
-  std::optional<double> t1_s = {};  ///< up to this time
-  std::uint64_t every = 1;          ///< only each pair whose number is a multiple of this
-  double fps = 0;                   ///< > 0: in place of what a video states
-  std::string options_text =
-      {};  ///< which of these the user gave, "--pyramid, --shrink": a note when they do not apply
-  bool frames = false;  ///< frames are wanted with the flows: of a run its video is taken
+  int shrink = 0;                 ///< side of the blocks over which frames are averaged, px; 0: see kLongSide
+  double t0_s = 0;                ///< start time
+  std::optional<double> t1_s = {};  ///< end time
+  std::uint64_t every = 1;          ///< only pairs whose index is a multiple of this
+  double fps = 0;                   ///< > 0: overrides the frame rate of the video
+  std::string options_text = {};    ///< options given by the user, "--pyramid, --shrink", for a note
+  bool frames = false;              ///< frames are needed with the flows: the video of a run is used
 };
 
-/// The flows of a video, a run directory or a file of flows, one after the other: memory does not grow with
-/// their number. Of a run the flows that were recorded with it are taken, or else its video.
+/// The flows of a video, a run directory or a file of flows in sequence; memory does not depend on their
+/// number. Of a run the recorded flows are used, or else its video.
 class FlowSource {
  public:
-  /// Larger frames are shrunk, unless said otherwise, until their longer side is no longer than this, px.
+  /// By default larger frames are shrunk until their longer side is at most this, px.
   static constexpr int kLongSide = 1024;
 
-  /// Throws Error(input) when `path` cannot be read, has fewer than two frames, or holds no frames where they
-  /// are wanted; Error(usage) for a `shrink` that leaves nothing.
+  /// Throws Error(input) when `path` cannot be read, is empty, or contains no frames where these are needed;
+  /// Error(usage) when `shrink` is too large for the frames.
   FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options, Pool& pool);
   ~FlowSource();
 
-  /// The next pair; false when there is none. A file that is cut off ends where it is: see notes().
+  /// The next pair; false at the end. A truncated file ends with its last readable frame: see notes(). Throws
+  /// Error(input) at the end of a video with one frame only.
   bool next(FlowPair& pair);
 
   int width() const;   ///< of the flows, px
   int height() const;  ///< of the flows, px
-  /// Px of the video to one of the flows; flows of a file are taken as they are.
+  /// Scale of the frames: px of the video per px of the flows; 1 for files of flows.
   int shrink() const;
-  double fps() const;           ///< as the file states it; 0: not stated
-  std::uint64_t pairs() const;  ///< as the file states it, for progress; 0: not stated
+  double fps() const;           ///< stated in the file; 0: unknown
+  std::uint64_t pairs() const;  ///< stated in the file, for progress; 0: unknown
   std::optional<double> um_per_px() const;
-  /// What the flow was made with, as JSON.
+  /// The flow method and its parameters, as JSON.
   const std::string& method() const;
-  /// What a reader of the result has to know: damage, shrinking, stretching. Final when next() has given
+  /// Notes for the user: damage, shrinking, grey scaling, missing frame rate. Final when next() has returned
   /// false.
   std::vector<std::string> notes() const;
 

@@ -12,7 +12,7 @@
 namespace faba {
 namespace {
 
-/// An object of the manifest that knows its own name, so that a message can say which key is wrong.
+/// An object of the manifest with its path, for messages.
 class Keys {
  public:
   Keys(const Json& json, std::string file, std::string prefix)
@@ -25,11 +25,11 @@ class Keys {
   [[noreturn]] void fail(const char* key, const char* wanted) const {
     throw Error(Errc::input, file_, fmt::format("{}{} must be {}", prefix_, key, wanted));
   }
-  /// Texts, whole numbers and anything else that is shown as it stands.
+  /// A string, or a number as its JSON text.
   std::string text(const char* key) const {
     const Json* value = find(key);
     if (!value) return {};
-    if (value->is_structured()) fail(key, "a text or a number");
+    if (value->is_structured()) fail(key, "a string or a number");
     return value->is_string() ? value->get<std::string>() : value->dump();
   }
   std::optional<double> number(const char* key) const {
@@ -54,11 +54,11 @@ class Keys {
 
 Json parsed(const std::filesystem::path& path) {
   Json json = Json::parse(read_file(path), nullptr, false);
-  if (!json.is_object()) throw Error(Errc::input, path.string(), "is not a JSON object");
+  if (!json.is_object()) throw Error(Errc::input, path.string(), "not a JSON object");
   return json;
 }
 
-/// The members of an object that are not themselves structures, as "name value, name value".
+/// The scalar members of an object, as "name value, name value".
 std::string one_line(const Json& object) {
   std::string line;
   for (const auto& [key, value] : object.items()) {
@@ -75,7 +75,7 @@ RunInfo run_info(const Json& json, const std::string& source) {
   RunInfo info;
   info.version = keys.text("version");
   if (info.version.empty())
-    throw Error(Errc::input, source, "has no version; it is not the manifest of a run");
+    throw Error(Errc::input, source, "has no key \"version\"; it is not the manifest of a run");
   info.title = keys.text("title");
   info.polarity = keys.text("polarity");
   info.seed = keys.text("seed");
@@ -106,7 +106,7 @@ RunInfo run_info(const Json& json, const std::string& source) {
   if (const Json* notes = keys.find("notes")) {
     if (!notes->is_array()) keys.fail("notes", "a list");
     for (const Json& note : *notes) {
-      if (!note.is_string()) keys.fail("notes", "a list of texts");
+      if (!note.is_string()) keys.fail("notes", "a list of strings");
       info.notes.push_back(note.get<std::string>());
     }
   }
@@ -116,7 +116,7 @@ RunInfo run_info(const Json& json, const std::string& source) {
       if (!swarm.is_object()) keys.fail("swarms", "a list of objects");
       info.swarms.push_back(one_line(swarm));
       const double cells = Keys(swarm, source, "swarms[].").number("count").value_or(0);
-      if (!(cells >= 0 && cells < 1e15)) keys.fail("swarms[].count", "a number of cells");
+      if (!(cells >= 0 && cells < 1e15)) keys.fail("swarms[].count", "between 0 and 1e15");
       info.swarm_cells.push_back(std::uint64_t(cells));
     }
   }

@@ -9,7 +9,7 @@
 namespace faba {
 namespace {
 
-constexpr std::array kVideos = {"video.avi", "video.mp4"};  // the first one without loss
+constexpr std::array kVideos = {"video.avi", "video.mp4"};  // the first is lossless
 
 }  // namespace
 
@@ -18,7 +18,7 @@ bool is_run(const std::filesystem::path& path) {
   return std::filesystem::exists(path / run_files::kManifest, absent);
 }
 
-bool is_whole(const std::filesystem::path& run) { return !RunLock::marks(run); }
+bool is_complete(const std::filesystem::path& run) { return !RunLock::marks(run); }
 
 bool has_camera_video(const std::filesystem::path& run) {
   std::error_code absent;
@@ -35,10 +35,10 @@ RunVideo run_video(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path / video)) continue;
     if (info.video_shows != "camera")
       throw Error(Errc::input, path.string(),
-                  "its video is a drawing, not what a camera sees; record the run with --as-seen");
+                  "its video is a drawing, not a camera video; record the run with --as-seen");
     return {path / video, info.um_per_px};
   }
-  throw Error(Errc::input, path.string(), "is a run without a video; record it with --as-seen");
+  throw Error(Errc::input, path.string(), "the run has no video; record it with --as-seen");
 }
 
 }  // namespace faba

@@ -4,7 +4,7 @@
 
 namespace faba {
 
-/// The video that a path stands for: the file itself, or what the camera saw of a run.
+/// The video of a path: the file itself, or the camera video of a run.
 struct RunVideo {
   std::filesystem::path file;
   std::optional<double> um_per_px;  ///< of a run
@@ -12,13 +12,13 @@ struct RunVideo {
 
 /// Whether `path` is a run directory: a folder with a manifest.
 bool is_run(const std::filesystem::path& path);
-/// Whether a run was recorded to its end.
-bool is_whole(const std::filesystem::path& run);
-/// Whether a run holds a video as a camera sees it.
+/// Whether a run is complete.
+bool is_complete(const std::filesystem::path& run);
+/// Whether a run has a camera video.
 bool has_camera_video(const std::filesystem::path& run);
 
-/// The exact video of a run directory, or else the one for browsers; any other path stands for itself. Throws
-/// Error(input, path) for a run whose video is a drawing, or that has none.
+/// For a run directory its lossless video, or else its compressed one; any other path is returned unchanged.
+/// Throws Error(input, path) for a run without a video, or whose video is a drawing.
 RunVideo run_video(const std::filesystem::path& path);
 
 }  // namespace faba

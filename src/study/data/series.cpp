@@ -11,13 +11,13 @@ struct Renamed {
   const char* old_name;
   const char* name;
 };
-// Of version 0.1.
-constexpr std::array kOfSimulations = {
+// Column names of version 0.1.
+constexpr std::array kSimulationNames = {
     Renamed{"centroid_x_px", "true_centroid_x_px"},     Renamed{"centroid_y_px", "true_centroid_y_px"},
     Renamed{"sigma_x_px", "true_sigma_x_px"},           Renamed{"sigma_y_px", "true_sigma_y_px"},
     Renamed{"rms_radius_px", "true_rms_radius_px"},     Renamed{"estimate_x_px", "estimated_centroid_x_px"},
     Renamed{"estimate_y_px", "estimated_centroid_y_px"}};
-constexpr std::array kOfBenches = {
+constexpr std::array kBenchNames = {
     Renamed{"estimate_x_px", "estimated_centroid_x_px"}, Renamed{"estimate_y_px", "estimated_centroid_y_px"},
     Renamed{"sigma_x_px", "estimated_sigma_x_px"}, Renamed{"sigma_y_px", "estimated_sigma_y_px"}};
 
@@ -27,7 +27,7 @@ Series read_series(const std::filesystem::path& path) {
   const Table read = read_table(path, LastLine::drop);
   std::error_code ec;
   const bool bench = std::filesystem::exists(path.parent_path() / "commands.csv", ec);
-  const std::span<const Renamed> renamed = bench ? std::span<const Renamed>(kOfBenches) : kOfSimulations;
+  const std::span<const Renamed> renamed = bench ? std::span<const Renamed>(kBenchNames) : kSimulationNames;
   std::vector<std::string> names = read.names();
   std::vector<std::vector<double>> columns;
   for (std::string& name : names) {

@@ -7,7 +7,7 @@
 namespace faba {
 
 ProposedDrop propose_drop(const GrayF& picture, const std::string& name) {
-  constexpr double kRadius = 0.4;  // of the smaller side
+  constexpr double kRadius = 0.4;  // fraction of the smaller side
   const double w = picture.width, h = picture.height;
   ProposedDrop p;
   p.centre_image = {(w - 1) / 2, (h - 1) / 2};

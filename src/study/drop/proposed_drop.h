@@ -6,17 +6,17 @@
 
 namespace faba {
 
-/// A circle to begin with where a drop's edge can be put right by hand.
+/// Initial circle for the manual adjustment of the edge of a drop.
 struct ProposedDrop {
-  bool found = false;            ///< whether it is the edge of a drop
-  std::string why;               ///< not: the reason
-  std::optional<DropEdge> edge;  ///< what was found: a drop's edge, or that of an air bubble in the liquid
-  Vec2 centre_image;  ///< px, pixel centres at integers: of that edge, or of the picture when there is none
-  double radius_px = 0;                   ///< of that edge, or 0.4 of the picture's smaller side
+  bool found = false;            ///< whether the edge of a drop was found
+  std::string why;               ///< reason when not found
+  std::optional<DropEdge> edge;  ///< edge of a drop, or of an air bubble in the liquid
+  Vec2 centre_image;     ///< px, pixel centres at integers; of the edge, or of the picture without edge
+  double radius_px = 0;  ///< of the edge, or 0.4 of the smaller side of the picture
   int image_width = 0, image_height = 0;  ///< px
 };
 
-/// Finds the edge in a picture; `name` stands for it in the reason.
+/// Finds the edge in a picture; `name` is the name of the picture in messages.
 ProposedDrop propose_drop(const GrayF& picture, const std::string& name);
 
 }  // namespace faba

@@ -33,8 +33,8 @@ FlowError error_of(const Flow& flow, const std::filesystem::path& file) {
   const Flow truth = read_flo(file);
   if (truth.width() != flow.width() || truth.height() != flow.height())
     throw Error(Errc::input, file.string(),
-                fmt::format("is a flow of {} x {} px; the pictures have {} x {}", truth.width(),
-                            truth.height(), flow.width(), flow.height()));
+                fmt::format("is a flow of {} x {} px; it must be {} x {} px, the size of the pictures",
+                            truth.width(), truth.height(), flow.width(), flow.height()));
   double endpoint = 0, angle = 0;
   std::size_t known = 0;
   for (std::size_t i = 0; i < flow.u.px.size(); ++i) {
@@ -46,20 +46,21 @@ FlowError error_of(const Flow& flow, const std::filesystem::path& file) {
     angle += std::acos(std::clamp(c, -1.0, 1.0));
     ++known;
   }
-  if (known == 0) throw Error(Errc::input, file.string(), "knows the flow of no pixel");
+  if (known == 0) throw Error(Errc::input, file.string(), "the flow is unknown in all pixels");
   const double n = double(known);
   return {endpoint / n, angle / n * 180 / 3.14159265358979323846, n / double(flow.u.px.size())};
 }
 
-void require_alike(const Picture& first, const std::string& a, const Picture& second, const std::string& b) {
+void require_same_format(const Picture& first, const std::string& a, const Picture& second,
+                         const std::string& b) {
   if (first.grey.width != second.grey.width || first.grey.height != second.grey.height)
     throw Error(Errc::input, b,
-                fmt::format("has {} x {} px, {} has {} x {}; a flow is between pictures of one size",
+                fmt::format("is {} x {} px, but {} is {} x {} px; both pictures must have the same size",
                             second.grey.width, second.grey.height, a, first.grey.width, first.grey.height));
   if (first.bits != second.bits)
     throw Error(Errc::input, b,
-                fmt::format("has {} bits, {} has {}; a flow is between pictures of one kind", second.bits, a,
-                            first.bits));
+                fmt::format("has {} bits per pixel, but {} has {}; both pictures must have the same depth",
+                            second.bits, a, first.bits));
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ void require_alike(const Picture& first, const std::string& a, const Picture& se
 PairFlow measure_flow(const std::filesystem::path& a, const std::filesystem::path& b,
                       const FlowRegistry::PartType& part, const std::filesystem::path& truth, Pool& pool) {
   Picture first = read_picture(a), second = read_picture(b);
-  require_alike(first, a.string(), second, b.string());
+  require_same_format(first, a.string(), second, b.string());
   const GreyScale greys(first.bits, first.grey);
   greys.apply(first.grey);
   greys.apply(second.grey);
@@ -86,7 +87,7 @@ PairFlow measure_flow(const std::filesystem::path& a, const std::filesystem::pat
   if (!truth.empty()) r.error = error_of(r.flow, truth);
   if (!greys.words().empty()) r.notes.push_back(greys.words());
   if (r.effort && !r.effort->converged)
-    r.notes.emplace_back("the iteration was not at its end: the flow is still drawn towards zero");
+    r.notes.emplace_back("the iteration has not converged: the flow is biased towards zero");
   return r;
 }
 
@@ -101,7 +102,7 @@ VideoFlow measure_flow(FlowSource& source, const std::string& name,
     sums.add(pair.flow);
     take(pair);
   }
-  if (r.pairs == 0) throw Error(Errc::input, name, "has one frame only; motion needs two or more");
+  if (r.pairs == 0) throw Error(Errc::input, name, "contains one frame only; motion needs at least two");
   r.width = source.width();
   r.height = source.height();
   r.method = source.method();

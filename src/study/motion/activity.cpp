@@ -13,18 +13,18 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kBlocks = 6;  // of a video, whose flow across the direction is taken for independent
+constexpr std::size_t kBlocks = 6;  // blocks of a video whose flows are assumed independent
 constexpr double kResponds = 4;     // standard errors
 constexpr double kSameRate = 0.01;
-constexpr double kOfTheRise = 0.1;  // of the fitted peak: where a response begins and ends
+constexpr double kEdgeFraction = 0.1;  // fraction of the fitted peak at the start and end of a response
 
 void check_stop(const ActivityJob& job, const ActivityInput& v) {
-  if (job.stop()) throw Error(Errc::interrupted, v.file.string(), "stopped; nothing was written");
+  if (job.stop()) throw Error(Errc::interrupted, v.file.string(), "stopped; no output was written");
 }
 
 double angle_of(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
 
-double found_direction(const VideoActivity& a) {
+double detected_direction(const VideoActivity& a) {
   double longest = -1, deg = 0;
   for (const MotionSegment& s : a.segments)
     if (s.t1_s - s.t0_s > longest) {
@@ -37,21 +37,21 @@ double found_direction(const VideoActivity& a) {
   return angle_of(all);
 }
 
-// Where the fitted curve is a tenth of its height to either side of the maximum, inside the video.
+// Times at which the fitted curve is a tenth of its height on either side of the maximum, inside the video.
 void mark_points(VideoActivity& a) {
   if (!a.fit.good) return;
   a.maximum_s = a.fit.peak_s;
-  const double reach = a.fit.sigma_s * std::sqrt(-2 * std::log(kOfTheRise));
-  if (a.fit.peak_s - reach > a.t_s.front()) a.onset_s = a.fit.peak_s - reach;
-  if (a.fit.peak_s + reach < a.t_s.back()) a.leaving_s = a.fit.peak_s + reach;
+  const double half_width = a.fit.sigma_s * std::sqrt(-2 * std::log(kEdgeFraction));
+  if (a.fit.peak_s - half_width > a.t_s.front()) a.onset_s = a.fit.peak_s - half_width;
+  if (a.fit.peak_s + half_width < a.t_s.back()) a.leaving_s = a.fit.peak_s + half_width;
 }
 
-// The flow across the direction has no business there: its means over blocks tell how far chance takes a
-// mean.
+// The expectation of the flow across the direction is zero: its means over blocks give the standard error of
+// a mean.
 double signal_to_noise(const VideoActivity& a) {
   const Signature& s = a.signature;
   const Vec2 across{-std::sin(a.direction_deg * kDegree), std::cos(a.direction_deg * kDegree)};
-  if (s.size() < 2 * kBlocks) return 0;  // too short to tell
+  if (s.size() < 2 * kBlocks) return 0;  // too short
   double squares = 0, block = 0;
   for (std::size_t k = 0; k < s.size(); ++k) {
     block += dot(s.sum(k), across);
@@ -82,7 +82,7 @@ NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std:
                      });
 }
 
-// Fills in the signature, the pair of frames with most motion and the notes of the source.
+// Sets the signature, the pair of frames with the largest motion and the notes of the source.
 void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, Pool& pool) {
   const double zero = a.input.direction_deg.value_or(0);
   a.signature = Signature(a.threshold_px, zero);
@@ -104,24 +104,23 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   a.notes = source.notes();
   if (a.signature.size() == 0)
     throw Error(Errc::input, a.input.file.string(),
-                "has fewer than two frames in the time asked for; motion needs two or more");
+                "has fewer than two frames in the requested interval; motion needs at least two");
 }
 
 void note_motion(VideoActivity& a) {
   if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
     a.notes.emplace_back(
-        "there is activity, but not in one direction: cells that move by more than twice their width from "
-        "frame "
-        "to frame are not followed; record more frames per second");
+        "there is activity but no directed motion: cells that move by more than twice their width between "
+        "frames are not tracked; use a higher frame rate");
   if (a.signature.still())
-    a.notes.emplace_back("nothing moves in it");
+    a.notes.emplace_back("no motion was detected");
   else if (!a.direction_given)
     a.notes.push_back(
         a.segments.empty()
-            ? fmt::format("no direction was given and nothing goes one way; {:.0f} degrees is where all "
-                          "flow together points",
+            ? fmt::format("no direction was given and no directed motion was detected; {:.0f} degrees is the "
+                          "direction of the total flow",
                           a.direction_deg)
-            : fmt::format("no direction was given; {:.0f} degrees is that of the longest motion found",
+            : fmt::format("no direction was given; {:.0f} degrees is that of the longest detected motion",
                           a.direction_deg));
 }
 
@@ -132,7 +131,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   a.direction_given = a.input.direction_deg.has_value();
   read_signature(a, job, index, pool);
   a.segments = motion_segments(a.signature, a.input.direction_deg);
-  a.direction_deg = a.direction_given ? *a.input.direction_deg : found_direction(a);
+  a.direction_deg = a.direction_given ? *a.input.direction_deg : detected_direction(a);
   const double cone = a.signature.nearest_deg(a.direction_deg);
   for (std::size_t k = 0; k < a.signature.size(); ++k) {
     a.t_s.push_back(a.signature.t_s(k));
@@ -158,7 +157,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   return a;
 }
 
-void conclude(ActivityResult& r) {
+void fit_exposure_lines(ActivityResult& r) {
   std::vector<ExposureValue> peaks, means, per_cell;
   std::vector<ExposureResponse> responses;
   for (const VideoActivity& a : r.videos) {
@@ -169,7 +168,7 @@ void conclude(ActivityResult& r) {
       per_cell.push_back({*a.input.exposure_s, *value, a.input.experiment});
   }
   r.cutoff = response_cutoff(responses);
-  // A peak of a sample that no longer responds is one of noise.
+  // A peak of a sample that no longer responds is due to noise.
   for (const VideoActivity& a : r.videos)
     if (a.input.exposure_s && has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
       peaks.push_back({*a.input.exposure_s, a.fit.peak_s - a.input.from_s, a.input.experiment});
@@ -209,8 +208,8 @@ ActivityResult measure_activity(const ActivityJob& job) {
       quiet[i] = level.quiet;
       check_stop(job, job.videos[i]);
     }
-    // Measured with one measure, so that what differs is the videos.
-    double least = 1e300;  // black videos have no noise, and say nothing about it
+    // One threshold for all videos, so that their activities are comparable.
+    double least = 1e300;  // black videos have no noise and are ignored
     for (const double t : thresholds)
       if (t > 0) least = std::min(least, t);
     if (least < 1e300) std::fill(thresholds.begin(), thresholds.end(), least);
@@ -219,10 +218,10 @@ ActivityResult measure_activity(const ActivityJob& job) {
     r.videos.push_back(measure(job, i, thresholds[i], pool));
     if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
       r.videos.back().notes.push_back(
-          "the video has no quiet moment to tell noise from; give a dead sample with --noise, or "
-          "--flow-threshold");
+          "the video has no interval without motion to determine the noise; specify a dead sample with "
+          "--noise, or --flow-threshold");
   }
-  conclude(r);
+  fit_exposure_lines(r);
   return r;
 }
 

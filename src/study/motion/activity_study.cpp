@@ -15,25 +15,25 @@ struct ActivityVideoFile {
   static Schema<ActivityVideoFile> schema() {
     return Schema<ActivityVideoFile>("video", "One video of the study")
         .add("file", &ActivityVideoFile::file,
-             {.doc = "Video, run directory or file of flows; beside the study file"})
+             {.doc = "Video, run directory or file of flows, relative to the folder of the study file"})
         .add("exposure", &ActivityVideoFile::exposure,
-             {.unit = "s", .min = 0, .max = 1e6, .doc = "Time of the sample in air before the video"})
+             {.unit = "s", .min = 0, .max = 1e6, .doc = "Air exposure time of the sample before the video"})
         .add("experiment", &ActivityVideoFile::experiment,
-             {.doc = "Which experiment, that is which drop, it belongs to"})
+             {.doc = "Name of the experiment (drop) to which the video belongs"})
         .add("direction", &ActivityVideoFile::direction,
              {.unit = "deg",
               .min = -360,
               .max = 360,
-              .doc = "Direction of the response: 0 right, 90 down in the picture"})
+              .doc = "Direction of the expected response: 0 right, 90 down in the image"})
         .add("from", &ActivityVideoFile::from,
              {.unit = "s",
               .min = 0,
               .max = 1e9,
-              .doc = "Leave out what comes before, and count time from here"})
+              .doc = "Start time of the evaluation, and zero of the time of the response"})
         .add("to", &ActivityVideoFile::to,
-             {.unit = "s", .min = 0, .max = 1e9, .doc = "Leave out what comes after"})
+             {.unit = "s", .min = 0, .max = 1e9, .doc = "End time of the evaluation"})
         .check([](const ActivityVideoFile& v) -> std::string {
-          return v.file.empty() ? "needs file = \"a video\"" : "";
+          return v.file.empty() ? "file is missing; specify a video: file = \"video.avi\"" : "";
         });
   }
 };
@@ -42,18 +42,22 @@ struct ActivityFile {
   std::optional<double> direction, threshold, from, to;
   std::string noise;
   static Schema<ActivityFile> schema() {
-    return Schema<ActivityFile>("study", "Videos of samples after different times in air")
+    return Schema<ActivityFile>("study", "Videos of samples after different air exposure times")
         .add("direction", &ActivityFile::direction,
-             {.unit = "deg", .min = -360, .max = 360, .doc = "For all videos that give none"})
+             {.unit = "deg", .min = -360, .max = 360, .doc = "Default direction for videos without one"})
         .add("from", &ActivityFile::from,
-             {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
+             {.unit = "s", .min = 0, .max = 1e9, .doc = "Default start time for videos without one"})
         .add("to", &ActivityFile::to,
-             {.unit = "s", .min = 0, .max = 1e9, .doc = "For all videos that give none"})
+             {.unit = "s", .min = 0, .max = 1e9, .doc = "Default end time for videos without one"})
         .add("threshold", &ActivityFile::threshold,
-             {.unit = "px", .min = 0, .max = 1e3, .doc = "Flows of less are noise"})
-        .add("noise", &ActivityFile::noise, {.doc = "A video of a dead sample, to find the threshold from"})
+             {.unit = "px",
+              .min = 0,
+              .max = 1e3,
+              .doc = "Flow threshold, px per pair; smaller flows are noise"})
+        .add("noise", &ActivityFile::noise,
+             {.doc = "Video of a dead sample, from which the threshold is determined"})
         .check([](const ActivityFile& s) -> std::string {
-          return s.threshold && !s.noise.empty() ? "give threshold or noise, not both" : "";
+          return s.threshold && !s.noise.empty() ? "specify either threshold or noise, not both" : "";
         });
   }
 };
@@ -63,7 +67,7 @@ struct ActivityFile {
 Json activity_study_schema() {
   Json j = ActivityFile::schema().json_schema();
   j["properties"]["video"] = {{"type", "array"},
-                              {"description", "[[video]], once for each"},
+                              {"description", "The videos, one [[video]] each"},
                               {"items", ActivityVideoFile::schema().json_schema()}};
   return j;
 }
@@ -76,7 +80,7 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   if (study.threshold) job.threshold_px = study.threshold;
   if (!study.noise.empty()) job.noise = root.file(study.noise);
   if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
-    root.fail("needs [[video]], once for each video");
+    root.fail("has no videos; add one [[video]] for each");
   const Node list = root.child("video");
   for (std::size_t i = 0; i < list.json->size(); ++i) {
     const Node n = list.item(i);

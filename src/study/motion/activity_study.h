@@ -7,8 +7,8 @@
 
 namespace faba {
 
-/// Reads a study file: `[[video]]` with file, exposure, experiment, direction; and direction, threshold,
-/// noise, [flow] for all. Throws Error(usage).
+/// Reads a study file: `[[video]]` with file, exposure, experiment, direction, from, to; and defaults for all
+/// videos: direction, from, to, threshold, noise, [flow]. Throws Error(usage).
 void read_activity_study(const std::filesystem::path& file, ActivityJob& job);
 /// JSON Schema of a study file.
 nlohmann::ordered_json activity_study_schema();

@@ -16,34 +16,33 @@
 namespace faba {
 namespace {
 
-constexpr double kReversalGap = 0.7;  // s between two opposite motions that make a reversal
-constexpr double kRise = 0.4;         // s before and after that a rise of activity is measured over
+constexpr double kReversalGap = 0.7;  // largest time between opposite motions of a reversal, s
+constexpr double kRise = 0.4;         // window before and after a rise of activity, s
 constexpr double kOpposite = 120;     // degrees
-constexpr double kSamePeriod = 0.02;  // share by which frame periods may differ unsaid
+constexpr double kSamePeriod = 0.02;  // relative difference below which frame periods count as equal
 
-/// Where a video's response begins.
-struct Beginning {
+/// The start of the response in a video.
+struct ResponseStart {
   enum class By { nothing, rise, motion, reversal };
   double t0_s = 0, direction_deg = 0;
   By by = By::nothing;
 };
-const char* words_of(Beginning::By by) {
+const char* alignment_text(ResponseStart::By by) {
   switch (by) {
-    case Beginning::By::reversal:
-      return "from the reversal of the motion on";
-    case Beginning::By::motion:
-      return "from the beginning of the first motion on";
-    case Beginning::By::rise:
-      return "from the steepest rise of activity on";
+    case ResponseStart::By::reversal:
+      return "from the reversal of the motion";
+    case ResponseStart::By::motion:
+      return "from the start of the first motion";
+    case ResponseStart::By::rise:
+      return "from the steepest rise of activity";
     default:
-      return "from the first frame on: nothing moves";
+      return "from the first frame, because no motion was detected";
   }
 }
 
-// Where cells jump further than their size from frame to frame their flow has no direction, but begins all
-// the same.
-Beginning steepest_rise(const Signature& s) {
-  Beginning b;
+// For cells that move further than their size between frames, whose flow has a start but no direction.
+ResponseStart steepest_rise(const Signature& s) {
+  ResponseStart b;
   double most = 0;
   for (std::size_t k = 1; k < s.size(); ++k) {
     double before = 0, after = 0;
@@ -59,22 +58,22 @@ Beginning steepest_rise(const Signature& s) {
     if (n < 2 || m < 2) continue;
     if (const double rise = after / m - before / n; rise > most) {
       most = rise;
-      b = {s.t0_s(k), 0, Beginning::By::rise};
+      b = {s.t0_s(k), 0, ResponseStart::By::rise};
     }
   }
   return b;
 }
 
-Beginning beginning_of(const Signature& s, std::optional<double> direction) {
+ResponseStart response_start(const Signature& s, std::optional<double> direction) {
   const std::vector<MotionSegment> segments = motion_segments(s, direction);
-  Beginning b;
+  ResponseStart b;
   if (segments.empty()) return steepest_rise(s);
-  b = {segments.front().t0_s, segments.front().direction_deg, Beginning::By::motion};
+  b = {segments.front().t0_s, segments.front().direction_deg, ResponseStart::By::motion};
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const double turn =
         std::fabs(std::remainder(segments[i].direction_deg - segments[i - 1].direction_deg, 360));
     if (turn < kOpposite || segments[i].t0_s - segments[i - 1].t1_s > kReversalGap) continue;
-    return {segments[i].t0_s, segments[i].direction_deg, Beginning::By::reversal};
+    return {segments[i].t0_s, segments[i].direction_deg, ResponseStart::By::reversal};
   }
   return b;
 }
@@ -99,16 +98,16 @@ class Comparer {
     return s;
   }
 
-  /// Of the reference, once something was compared with it.
+  /// Notes on the reference; available after compare().
   const std::vector<std::string>& reference_notes() const { return reference_notes_; }
 
   double noise(const std::filesystem::path& video) {
     return noise_level(video, options(), pool_,
-                       [&](auto done, auto total) { tick("finding the noise", done, total); })
+                       [&](auto done, auto total) { tick("determining the noise level", done, total); })
         .threshold_px;
   }
 
-  /// Pair by pair, from the beginnings on. `run` empty: against a video in which nothing moves.
+  /// Compares pair by pair from the start times. `run` empty: with a video without motion.
   ComparedRun compare(const std::filesystem::path& run, double reference_t0, double t0,
                       const FlowFilter& filter) {
     ComparedRun result;
@@ -122,8 +121,9 @@ class Comparer {
       if (other->width() != reference.width() || other->height() != reference.height())
         throw Error(
             Errc::input, run.string(),
-            fmt::format("has pictures of {} x {} px, the reference of {} x {}; they must show the same view",
-                        other->width(), other->height(), reference.width(), reference.height()));
+            fmt::format(
+                "has frames of {} x {} px, but the reference has {} x {} px; both must show the same view",
+                other->width(), other->height(), reference.width(), reference.height()));
     }
     FlowPair a, b;
     bool have = other && other->next(b);
@@ -143,21 +143,21 @@ class Comparer {
       take(at, a, other ? &b : nullptr, ratio, filter, result);
     }
     if (result.distance.t_s.size() < 3)
-      throw Error(Errc::input, run.empty() ? job_.reference.string() : run.string(),
-                  fmt::format("has fewer than three pairs of frames in common with the reference after the "
-                              "alignment ({:.2f} s in the reference, {:.2f} s here); see --t0 and --no-align",
-                              reference_t0, t0));
+      throw Error(
+          Errc::input, run.empty() ? job_.reference.string() : run.string(),
+          fmt::format("has fewer than three pairs of frames in common with the reference after "
+                      "alignment (at {:.2f} s in the reference, {:.2f} s here); see --t0 and --no-align",
+                      reference_t0, t0));
     finish(result.distance);
     if (other) result.notes = other->notes();
     if (other && other->method() != reference.method())
-      result.notes.push_back(
-          fmt::format("its flows were made with {}, the reference's with {}: they are not alike",
-                      other->method(), reference.method()));
+      result.notes.push_back(fmt::format(
+          "its flows were computed with {}, those of the reference with {}: they are not comparable",
+          other->method(), reference.method()));
     reference_notes_ = reference.notes();
     if (ratio != 1)
       result.notes.push_back(
-          fmt::format("its frames are {:.3g} times as far apart as the reference's; flows were "
-                      "brought to the reference's",
+          fmt::format("its frame period is {:.3g} times that of the reference; flows were scaled accordingly",
                       1 / ratio));
     return result;
   }
@@ -165,7 +165,8 @@ class Comparer {
  private:
   void tick(const char* what, std::uint64_t done, std::uint64_t total) {
     job_.progress(what, done, total);
-    if (job_.stop()) throw Error(Errc::interrupted, job_.reference.string(), "stopped; nothing was written");
+    if (job_.stop())
+      throw Error(Errc::interrupted, job_.reference.string(), "stopped; no output was written");
   }
 
   void take(double at, const FlowPair& a, const FlowPair* b, double ratio, const FlowFilter& filter,
@@ -217,14 +218,14 @@ class Comparer {
   std::vector<std::string> reference_notes_;
 };
 
-/// A run of the same scenario with another seed, in a folder of its own that goes with it.
-class Twin {
+/// A run of the same scenario with another seed, in a temporary folder that is deleted with this object.
+class RepeatedRun {
  public:
-  Twin(const std::filesystem::path& run, const CompareJob& job) {
+  RepeatedRun(const std::filesystem::path& run, const CompareJob& job) {
     std::string name = (std::filesystem::temp_directory_path() / "faba-twin-XXXXXX").string();
     if (!mkdtemp(name.data()))
       throw Error(Errc::internal, name,
-                  "no folder can be made there for a run with another seed; see --no-floor");
+                  "a temporary folder for a run with another seed cannot be created; see --no-floor");
     folder_ = name;
     try {
       Document d = read_toml(run / run_files::kScenario);
@@ -245,9 +246,9 @@ class Twin {
       throw;
     }
   }
-  ~Twin() { remove(); }
-  Twin(const Twin&) = delete;
-  Twin& operator=(const Twin&) = delete;
+  ~RepeatedRun() { remove(); }
+  RepeatedRun(const RepeatedRun&) = delete;
+  RepeatedRun& operator=(const RepeatedRun&) = delete;
   std::filesystem::path run() const { return folder_ / "run"; }
 
  private:
@@ -258,46 +259,45 @@ class Twin {
   std::filesystem::path folder_;
 };
 
-/// Mean distance between runs of one scenario with different seeds; compares with the job's first such run in
-/// the place of the reference.
+/// Mean distance between runs of one scenario with different seeds. The first such run is the reference.
 void find_floor(const CompareJob& job, Comparison& c) {
-  std::vector<std::filesystem::path> same;
+  std::vector<std::filesystem::path> same_scenario;
   std::string scenario;
   for (const auto& file : job.runs) {
     if (!is_run(file)) continue;
     const RunInfo info = read_run_info(file / run_files::kManifest);
-    if (same.empty()) scenario = info.scenario_hash;
-    if (info.scenario_hash == scenario) same.push_back(file);
+    if (same_scenario.empty()) scenario = info.scenario_hash;
+    if (info.scenario_hash == scenario) same_scenario.push_back(file);
   }
-  if (same.empty()) {
-    c.floor_from =
-        "not known: no run directory was given, and a video cannot be made again with another seed";
+  if (same_scenario.empty()) {
+    c.floor_from = "unknown: no run directory was given, and a video cannot be repeated with another seed";
     return;
   }
-  std::optional<Twin> twin;
-  if (same.size() < 2) {
+  std::optional<RepeatedRun> repeated;
+  if (same_scenario.size() < 2) {
     if (!job.simulate_floor) {
-      c.floor_from = "not asked for";
+      c.floor_from = "not computed, because of --no-floor";
       return;
     }
-    twin.emplace(same.front(), job);
-    same.push_back(twin->run());
-    c.floor_from = fmt::format("{} and its scenario run once more with another seed", same.front().string());
+    repeated.emplace(same_scenario.front(), job);
+    same_scenario.push_back(repeated->run());
+    c.floor_from =
+        fmt::format("{} and a run of its scenario with another seed", same_scenario.front().string());
   } else {
-    c.floor_from = fmt::format("{} runs of the same scenario", same.size());
+    c.floor_from = fmt::format("{} runs of the same scenario", same_scenario.size());
   }
-  CompareJob between = job;
-  between.reference = same.front();
-  Comparer comparer(between);
+  CompareJob floor_job = job;
+  floor_job.reference = same_scenario.front();
+  Comparer comparer(floor_job);
   double sum = 0;
-  for (std::size_t i = 1; i < same.size(); ++i) {
+  for (std::size_t i = 1; i < same_scenario.size(); ++i) {
     double t0 = 0;
     for (const ComparedRun& r : c.runs)
-      if (r.file == same.front()) t0 = r.t0_s;
-    sum +=
-        comparer.compare(same[i], t0, t0, c.filter).distance.mean;  // one scenario: one schedule of the field
+      if (r.file == same_scenario.front()) t0 = r.t0_s;
+    sum += comparer.compare(same_scenario[i], t0, t0, c.filter)
+               .distance.mean;  // one scenario: equal field schedules
   }
-  c.floor = sum / double(same.size() - 1);
+  c.floor = sum / double(same_scenario.size() - 1);
 }
 
 }  // namespace
@@ -311,34 +311,33 @@ Comparison compare_videos(const CompareJob& job) {
   Comparer comparer(job);
   Comparison c;
   c.filter.threshold_px = job.flow_threshold_px ? *job.flow_threshold_px : comparer.noise(job.reference);
-  Beginning reference;
+  ResponseStart reference;
   if ((job.align && !job.reference_t0_s) || !job.direction_deg)
-    reference = beginning_of(comparer.signature(job.reference, c.filter.threshold_px), job.direction_deg);
+    reference = response_start(comparer.signature(job.reference, c.filter.threshold_px), job.direction_deg);
   c.direction_given = job.direction_deg.has_value();
   c.filter.direction_deg = job.direction_deg.value_or(reference.direction_deg);
-  if (!c.direction_given && reference.by < Beginning::By::motion)
+  if (!c.direction_given && reference.by < ResponseStart::By::motion)
     c.notes.push_back(
-        "nothing in the reference goes one way, so that the legacy distance is that of all flow to the "
-        "right; "
-        "give --direction");
+        "no directed motion was detected in the reference; the legacy distance uses the flow to the right. "
+        "Specify --direction");
   c.reference_t0_s = job.reference_t0_s.value_or(job.align ? reference.t0_s : 0);
-  c.alignment = !job.align           ? "from the first frame on"
-                : job.reference_t0_s ? "from the moment given on"
-                                     : words_of(reference.by);
+  c.alignment = !job.align           ? "from the first frame"
+                : job.reference_t0_s ? "from the given time"
+                                     : alignment_text(reference.by);
   for (const auto& file : job.runs) {
     double t0 = job.t0_s.value_or(0);
-    Beginning b;
+    ResponseStart b;
     const bool found = job.align && !job.t0_s;
     if (found) {
-      b = beginning_of(comparer.signature(file, c.filter.threshold_px), job.direction_deg);
+      b = response_start(comparer.signature(file, c.filter.threshold_px), job.direction_deg);
       t0 = b.t0_s;
     }
     ComparedRun run = comparer.compare(file, c.reference_t0_s, t0, c.filter);
-    if (found && (job.reference_t0_s ? b.by != Beginning::By::reversal : b.by != reference.by))
-      run.notes.push_back(
-          fmt::format("taken {}, at {:.2f} s; the reference {}, at {:.2f} s. Give --t0 when that is "
-                      "not the same moment",
-                      words_of(b.by), t0, c.alignment, c.reference_t0_s));
+    if (found && (job.reference_t0_s ? b.by != ResponseStart::By::reversal : b.by != reference.by))
+      run.notes.push_back(fmt::format(
+          "aligned {}, at {:.2f} s; the reference {}, at {:.2f} s. Specify --t0 if these times do "
+          "not correspond",
+          alignment_text(b.by), t0, c.alignment, c.reference_t0_s));
     c.runs.push_back(std::move(run));
   }
   c.naive = comparer.compare({}, c.reference_t0_s, 0, c.filter).distance;

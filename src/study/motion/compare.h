@@ -11,35 +11,34 @@
 
 namespace faba {
 
-/// What `faba compare` is asked for (theory A17, A18).
+/// Input of compare_videos() (theory A17, A18).
 struct CompareJob {
   std::filesystem::path reference;
   std::vector<std::filesystem::path> runs;  ///< videos, run directories or files of flows
-  std::optional<double> direction_deg;      ///< of the response; found in the reference when empty
-  std::optional<double> flow_threshold_px;  ///< found in the reference when empty
+  std::optional<double> direction_deg;      ///< of the response; detected in the reference when empty
+  std::optional<double> flow_threshold_px;  ///< determined from the reference when empty
   std::optional<double> reference_t0_s,
-      t0_s;           ///< first frame after the reversal in the reference and in the runs; found when empty
-  bool align = true;  ///< false: all begin at their first frame
-  double duration_s = 1e9;        ///< compared from there on
-  double m = 0.9, threshold = 3;  ///< of the Quadratic-Chi distance; the threshold in bins
+      t0_s;  ///< first frame after the reversal in the reference and in the runs; detected when empty
+  bool align = true;              ///< false: all start at their first frame
+  double duration_s = 1e9;        ///< compared duration
+  double m = 0.9, threshold = 3;  ///< exponent and threshold (bins) of the Quadratic-Chi distance
   FlowRegistry::PartType method;
   int shrink = 0;                 ///< see FlowSourceOptions
   double fps = 0;                 ///< see FlowSourceOptions
   std::string options_text = {};  ///< see FlowSourceOptions
   unsigned threads = 0;
-  bool simulate_floor =
-      true;  ///< run a run's scenario once more with another seed, when no two runs tell the floor
+  bool simulate_floor = true;  ///< repeat the scenario with another seed when only one run of it is given
   std::function<void(const std::string& what, std::uint64_t done, std::uint64_t total)> progress =
       [](auto&, auto, auto) {};
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Distances frame by frame, and what they come to.
+/// Distances for all pairs of frames, and their summary.
 struct DistanceSeries {
   std::vector<double> t_s;            ///< after the alignment
-  std::vector<double> value, legacy;  ///< of the signed histograms, and of the thesis's
+  std::vector<double> value, legacy;  ///< distances of the signed histograms and of the thesis's
   double mean = 0, sd = 0;            ///< of value
-  LineFit line;                       ///< of value against the number of the frame
+  LineFit line;                       ///< of value against the index of the pair
   double legacy_mean = 0, legacy_sd = 0;
   LineFit legacy_line;
 };
@@ -55,7 +54,7 @@ struct ComparedRun {
   std::filesystem::path file;
   double t0_s = 0;
   DistanceSeries distance;
-  ComparedPair furthest;  ///< where the distance is largest
+  ComparedPair furthest;  ///< pair with the largest distance
   std::vector<std::string> notes;
 };
 
@@ -63,20 +62,20 @@ struct Comparison {
   FlowFilter filter;
   bool direction_given = false;
   double reference_t0_s = 0;
-  std::string alignment;  ///< how t0 was found, in words
+  std::string alignment;  ///< description of how t0 was determined
   std::vector<ComparedRun> runs;
   std::optional<double> floor;  ///< mean distance between runs of one scenario with different seeds
-  std::string floor_from;       ///< how it was found, or why not
-  DistanceSeries naive;         ///< to a video in which nothing moves
+  std::string floor_from;       ///< how the floor was determined, or why it was not
+  DistanceSeries naive;         ///< distance to a video without motion
   std::vector<std::string> notes;
 };
 
-/// The mean distance of a run on a scale from 0, as good as the same scenario with another seed, to 1, no
-/// better than a video in which nothing moves. Empty where the floor is not known or not below that.
+/// The mean distance of a run on a scale from 0, the distance to the same scenario with another seed, to 1,
+/// the distance to a video without motion. Empty when the floor is unknown or not below the latter.
 std::optional<double> score_of(const Comparison& c, const ComparedRun& run);
 
-/// Compares every run with the reference, pair of frames by pair. Throws Error(input) when sizes differ or
-/// nothing overlaps, and what FlowSource throws.
+/// Compares every run with the reference, pair by pair. Throws Error(input) when sizes differ or the videos
+/// do not overlap, and the errors of FlowSource.
 Comparison compare_videos(const CompareJob& job);
 
 }  // namespace faba

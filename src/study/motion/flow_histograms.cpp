@@ -7,7 +7,7 @@
 namespace faba {
 namespace {
 
-/// Whether a flow counts, and whether it goes the way that is looked for.
+/// Tests flows for the threshold and the direction.
 struct Gate {
   float least, c, s, cosine;
   explicit Gate(const FlowFilter& f)
@@ -16,7 +16,7 @@ struct Gate {
         s(float(std::sin(f.direction_deg * kDegree))),
         cosine(float(std::cos(45 * kDegree))) {}
   bool counts(float u, float v) const { return u * u + v * v > least; }
-  bool this_way(float u, float v) const { return u * c + v * s >= cosine * std::sqrt(u * u + v * v); }
+  bool in_direction(float u, float v) const { return u * c + v * s >= cosine * std::sqrt(u * u + v * v); }
 };
 
 }  // namespace
@@ -33,7 +33,7 @@ void flow_histograms(const Flow& flow, const FlowFilter& filter, double scale, F
       const double a = double(u) * scale, b = double(v) * scale;
       (a > 0 ? out.right : out.left)[c] += std::fabs(a);
       (b > 0 ? out.down : out.up)[r] += std::fabs(b);
-      if (!gate.this_way(u, v)) continue;
+      if (!gate.in_direction(u, v)) continue;
       out.x[c] += std::fabs(a);
       out.y[r] += std::fabs(b);
     }
@@ -43,7 +43,7 @@ Flow kept_flow(const Flow& flow, const FlowFilter& filter) {
   Flow kept = flow;
   const Gate gate(filter);
   for (std::size_t i = 0; i < kept.u.px.size(); ++i)
-    if (!gate.counts(kept.u.px[i], kept.v.px[i]) || !gate.this_way(kept.u.px[i], kept.v.px[i]))
+    if (!gate.counts(kept.u.px[i], kept.v.px[i]) || !gate.in_direction(kept.u.px[i], kept.v.px[i]))
       kept.u.px[i] = kept.v.px[i] = 0;
   return kept;
 }

@@ -14,15 +14,14 @@
 namespace faba {
 namespace {
 
-// Calls take(words, line number) for every line that says something.
+// Calls take(text, line number) for every line that is not empty or a comment.
 template <class Take>
 void each_line(const std::filesystem::path& file, Take&& take) {
   std::istringstream in(read_file(file));
   std::size_t number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF"))
-      line.erase(0, 3);  // the byte order mark that some spreadsheets write
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // byte-order mark
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
     const std::size_t begin = line.find_first_not_of(" \t");
     if (begin != std::string::npos && line[begin] != '#') take(line.substr(begin), number);
@@ -36,7 +35,8 @@ double number_in(const std::string& words, const std::filesystem::path& file, st
     throw Error(Errc::input, fmt::format("{}:{}", file.string(), line),
                 fmt::format("\"{}\" is not a number", words.substr(0, 40)));
   if (value < 0)
-    throw Error(Errc::input, fmt::format("{}:{}", file.string(), line), fmt::format("{} is below 0", value));
+    throw Error(Errc::input, fmt::format("{}:{}", file.string(), line),
+                fmt::format("{} is negative; it must be at least 0", value));
   return value;
 }
 
@@ -55,9 +55,9 @@ BinSimilarity similarity_of(const DistanceOptions& o) {
     if (rows++ == 0) columns = n;
     if (n != columns)
       throw Error(Errc::input, fmt::format("{}:{}", o.similarity.string(), number),
-                  fmt::format("has {} numbers, the first row {}", n, columns));
+                  fmt::format("has {} numbers, but the first row has {}", n, columns));
   });
-  if (rows != columns) columns = 0;  // refused with the matrix's own words
+  if (rows != columns) columns = 0;  // refused by BinSimilarity::given()
   return BinSimilarity::given(std::move(matrix), columns, o.similarity.string());
 }
 
@@ -68,7 +68,8 @@ std::vector<double> read_histogram(const std::filesystem::path& file) {
   each_line(file, [&](const std::string& line, std::size_t number) {
     bins.push_back(number_in(line, file, number));
   });
-  if (bins.empty()) throw Error(Errc::input, file.string(), "holds no number; a histogram has one per line");
+  if (bins.empty())
+    throw Error(Errc::input, file.string(), "contains no numbers; a histogram has one per line");
   return bins;
 }
 
@@ -82,7 +83,7 @@ std::vector<double> histogram_distances(const std::filesystem::path& first,
     double sum = 0;
     for (const double b : bins) sum += b;
     if (!(sum > 0))
-      throw Error(Errc::input, file.string(), "is empty: all bins are 0, and nothing has that shape");
+      throw Error(Errc::input, file.string(), "all bins are 0; such a histogram cannot be normalised");
     for (double& b : bins) b /= sum;
     return bins;
   };
@@ -92,7 +93,7 @@ std::vector<double> histogram_distances(const std::filesystem::path& first,
     const std::vector<double> q = read(file);
     if (q.size() != p.size())
       throw Error(Errc::input, file.string(),
-                  fmt::format("has {} bins, {} has {}", q.size(), first.string(), p.size()));
+                  fmt::format("has {} bins, but {} has {}", q.size(), first.string(), p.size()));
     out.push_back(distance(p, q));
   }
   return out;

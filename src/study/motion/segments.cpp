@@ -12,21 +12,21 @@ namespace {
 
 constexpr double kWindow = 0.4, kShortest = 0.5, kGap = 0.3;  // s
 constexpr double kOneWay = 0.5, kOfMost = 1.0 / 7, kTurn = 60;
-constexpr double kRayleigh = 6.9;  // n R^2 that chance exceeds once in a thousand: exp(-n R^2)
+constexpr double kRayleigh = 6.9;  // threshold of n R^2, exceeded with probability exp(-n R^2) = 1e-3
 
 double angle(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
 double between(double a, double b) { return std::fabs(std::remainder(a - b, 360)); }
 Vec2 unit(double deg) { return {std::cos(deg * kDegree), std::sin(deg * kDegree)}; }
 
-/// What counts of each pair: the flow, and how much there is.
+/// Flow and speed of each pair.
 struct Pairs {
   std::vector<Vec2> flow;
   std::vector<double> speed;
-  double one_way = kOneWay;  ///< share of the speed that must go one way
+  double one_way = kOneWay;  ///< smallest fraction of the speed that must be in one direction
 };
 Pairs pairs_of(const Signature& s, std::optional<double> direction) {
   Pairs p;
-  if (direction) p.one_way *= std::cos(45 * kDegree);  // what goes within 45 degrees of it counts
+  if (direction) p.one_way *= std::cos(45 * kDegree);  // motion within 45 degrees of it counts
   for (std::size_t k = 0; k < s.size(); ++k) {
     const Vec2 flow = s.sum(k);
     p.flow.push_back(direction ? dot(flow, unit(*direction)) * unit(*direction) : flow);
@@ -35,7 +35,7 @@ Pairs pairs_of(const Signature& s, std::optional<double> direction) {
   return p;
 }
 
-/// Pairs [begin, end) that go one way.
+/// Consecutive pairs [begin, end) with one direction of motion.
 struct Run {
   std::size_t begin = 0, end = 0;
   Vec2 sum{0, 0};
@@ -67,7 +67,7 @@ std::vector<Run> runs_of(const Signature& s, const Pairs& p) {
   return runs;
 }
 
-bool beyond_chance(const Run& r, const Pairs& p) {
+bool significantly_directed(const Run& r, const Pairs& p) {
   Vec2 sum{0, 0};
   for (std::size_t k = r.begin; k < r.end; ++k)
     if (const double size = std::sqrt(dot(p.flow[k], p.flow[k])); size > 0)
@@ -75,8 +75,8 @@ bool beyond_chance(const Run& r, const Pairs& p) {
   return dot(sum, sum) > kRayleigh * double(r.end - r.begin);
 }
 
-/// Begin and end where the flow along the run's direction crosses half of its median: as far as the
-/// neighbours let it.
+/// Start and end where the flow along the direction of the run crosses half of its median, within the
+/// neighbouring runs.
 MotionSegment trimmed(const Signature& s, const Pairs& p, const Run& r, std::size_t from, std::size_t to) {
   const double direction = angle(r.sum);
   const Vec2 d = unit(direction);
@@ -85,7 +85,7 @@ MotionSegment trimmed(const Signature& s, const Pairs& p, const Run& r, std::siz
   std::vector<double> of_run(along.begin() + std::ptrdiff_t(r.begin), along.begin() + std::ptrdiff_t(r.end));
   const double level = median_high(of_run) / 2;
   const std::size_t middle = (r.begin + r.end) / 2;
-  // Two pairs in a row: a single one may be noise.
+  // Two consecutive pairs: a single one may be noise.
   const auto moves = [&](std::size_t k) {
     return along[k] >= level &&
            ((k > from && along[k - 1] >= level) || (k + 1 < to && along[k + 1] >= level));
@@ -112,8 +112,8 @@ std::vector<MotionSegment> motion_segments(const Signature& s, std::optional<dou
   const std::vector<Run> runs = runs_of(s, p);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Run& r = runs[i];
-    if (!beyond_chance(r, p)) continue;
-    // Room to either side: up to the neighbouring runs, and a window at most.
+    if (!significantly_directed(r, p)) continue;
+    // Margin on either side: up to the neighbouring runs, at most a window.
     std::size_t from = r.begin, to = r.end;
     while (from > (i ? runs[i - 1].end : 0) && s.t0_s(r.begin) - s.t0_s(from - 1) < kWindow) --from;
     while (to < (i + 1 < runs.size() ? runs[i + 1].begin : s.size()) &&

@@ -22,7 +22,7 @@ int wrapped(int sector) {
 void Signature::add(const FlowPair& pair, int px_side) {
   DirectionSums sums;
   const auto least = float(threshold_px_ * threshold_px_);
-  // Turned so that sector 0 begins at 0 degrees.
+  // Rotated so that sector 0 starts at 0 degrees.
   const auto c = float(std::cos(zero_deg_ * kDegree)), s = float(std::sin(zero_deg_ * kDegree));
   const auto per_radian = float(DirectionSums::kSectors / (360 * kDegree));
   for (std::size_t i = 0; i < pair.flow.u.px.size(); ++i) {
@@ -92,8 +92,8 @@ NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptio
                        const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   FlowSourceOptions sampled = options;
   {
-    const FlowSource whole(video, options, pool);
-    sampled.every = std::max<std::uint64_t>(1, whole.pairs() / kSamples);
+    const FlowSource all(video, options, pool);
+    sampled.every = std::max<std::uint64_t>(1, all.pairs() / kSamples);
   }
   FlowSource source(video, sampled, pool);
   FlowPair pair;

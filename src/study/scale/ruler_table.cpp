@@ -22,7 +22,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The words of a column's name: what stands between spaces, underscores and brackets.
+/// The words of a column's name, separated by spaces, underscores, brackets and punctuation.
 std::vector<std::string> words_of(const std::string& name) {
   std::vector<std::string> words(1);
   for (char c : name) {
@@ -35,15 +35,15 @@ std::vector<std::string> words_of(const std::string& name) {
   return words;
 }
 
-bool says_pixels(const std::string& name) {
+bool names_pixels(const std::string& name) {
   const std::string n = lower(name);
   return n.find("px") != std::string::npos || n.find("pixel") != std::string::npos;
 }
 
-/// The unit of length that a name ends with, in m.
+/// The unit of length at the end of a name, in m.
 std::optional<double> length_unit(const std::string& name) {
   const auto words = words_of(name);
-  if (words.empty() || says_pixels(name)) return std::nullopt;
+  if (words.empty() || names_pixels(name)) return std::nullopt;
   std::string unit = words.back();
   if (lower(unit) == "micron" || lower(unit) == "microns") unit = "um";
   try {
@@ -54,20 +54,20 @@ std::optional<double> length_unit(const std::string& name) {
   return std::nullopt;
 }
 
-/// Name and unit of the column of widths.
+/// Name and unit of the column with widths.
 std::pair<std::string, double> width_column(const Table& table) {
   std::vector<std::pair<std::string, double>> found;
   for (const std::string& name : table.names())
     if (const auto unit = length_unit(name)) found.emplace_back(name, *unit);
   if (found.size() == 1) return found.front();
   if (found.empty())
-    throw Error(
-        Errc::input, table.source(),
-        "has no column of widths with their unit, such as width_um (or width_mm), beside the readings in "
-        "px");
-  throw Error(Errc::input, table.source(),
-              fmt::format("has two columns of lengths, {} and {}; name the readings in pixels px_1, px_2 ...",
-                          found[0].first, found[1].first));
+    throw Error(Errc::input, table.source(),
+                "has no column of widths with a unit, such as width_um or width_mm; add one beside the "
+                "readings in px");
+  throw Error(
+      Errc::input, table.source(),
+      fmt::format("has two columns of lengths, {} and {}; name the columns of readings px_1, px_2 ...",
+                  found[0].first, found[1].first));
 }
 
 double positive(const Table& table, const std::string& column, std::size_t row) {
@@ -75,10 +75,10 @@ double positive(const Table& table, const std::string& column, std::size_t row) 
   if (v > 0) return v;
   throw Error(Errc::input, table.place(row),
               std::isnan(v)
-                  ? fmt::format("{} is empty or not a number; with unequal numbers of readings write "
-                                "one row for each: width_um,px",
+                  ? fmt::format("{} is empty or not a number; for different numbers of readings write "
+                                "one row per reading: width_um,px",
                                 column)
-                  : fmt::format("{} is {}; it must be above 0", column, v));
+                  : fmt::format("{} is {}; it must be greater than 0", column, v));
 }
 
 }  // namespace
@@ -93,12 +93,12 @@ RulerReadings read_ruler_table(const std::filesystem::path& file) {
   const auto [width, unit] = width_column(table);
   std::vector<std::string> columns;
   const auto& names = table.names();
-  const bool named = std::any_of(names.begin(), names.end(), says_pixels);
+  const bool named = std::any_of(names.begin(), names.end(), names_pixels);
   for (const std::string& name : names)
-    if (name != width && (!named || says_pixels(name))) columns.push_back(name);
+    if (name != width && (!named || names_pixels(name))) columns.push_back(name);
   if (columns.empty())
     throw Error(Errc::input, table.source(), "has no column of readings in pixels beside " + width);
-  if (table.size() == 0) throw Error(Errc::input, table.source(), "has no readings below its header");
+  if (table.size() == 0) throw Error(Errc::input, table.source(), "has a header but no readings");
   RulerReadings out;
   for (std::size_t row = 0; row < table.size(); ++row)
     for (const std::string& name : columns) {

@@ -4,20 +4,20 @@
 
 namespace faba {
 
-/// Readings of a ruler's lines or distances: one width and the pixels it was read as, for each reading.
+/// Readings of the lines or distances of a ruler: the true width and the measured width in pixels of each.
 struct RulerReadings {
   std::vector<double> width_m;
   std::vector<double> reading_px;
 };
 
-/// Reads a table of readings: one column of widths, whose name says `width` or `um` and ends with a unit of
-/// length (`width_um`, `width (mm)`, `um`), and one or more of readings in pixels. When the names of some
-/// columns say `px` or `pixel` those are the readings, else all others are. One row for each width with its
-/// readings side by side, or one row for each reading. Throws Error(input) naming file and line for anything
-/// that is not a positive number, for a missing unit and for no readings.
+/// Reads a table of readings: one column of widths, whose name ends with a unit of
+/// length (`width_um`, `width (mm)`, `um`), and one or more columns of readings in pixels. When some names
+/// contain `px` or `pixel`, those columns are the readings, else all other columns. One row per width with
+/// its readings in several columns, or one row per reading. Throws Error(input) with file and line for a
+/// value that is not a positive number, a missing unit and a table without readings.
 RulerReadings read_ruler_table(const std::filesystem::path& file);
 
-/// Whether a file is taken for a table of readings: its name ends in .csv, .tsv, .txt or .dat.
+/// Whether a file is a table of readings: its name ends in .csv, .tsv, .txt or .dat.
 bool is_ruler_table(const std::filesystem::path& file);
 
 }  // namespace faba

@@ -36,13 +36,13 @@ std::optional<double> repeatability(const std::map<double, std::vector<double>>&
 }
 
 MarkQuality quality_of(const MarkRow& row) {
-  const double share = row.residual_px / row.pitch_px;
+  const double relative_residual = row.residual_px / row.pitch_px;
   const int used = row.used();
-  if (share < 0.02 && used >= 20) return MarkQuality::good;
-  return share < 0.05 && used >= 8 ? MarkQuality::fair : MarkQuality::poor;
+  if (relative_residual < 0.02 && used >= 20) return MarkQuality::good;
+  return relative_residual < 0.05 && used >= 8 ? MarkQuality::fair : MarkQuality::poor;
 }
 
-// Of the gaps between neighbouring marks, um/px.
+// Ratios of the gaps between neighbouring marks, um/px.
 std::vector<double> gap_ratios(const MarkRow& row, double tick_um) {
   std::vector<double> ratios;
   const RowMark* before = nullptr;
@@ -57,7 +57,7 @@ std::vector<double> gap_ratios(const MarkRow& row, double tick_um) {
 void require_line(std::size_t readings, std::size_t widths, const std::string& name) {
   if (widths >= 2 && readings >= 3) return;
   throw Error(Errc::input, name,
-              fmt::format("has {} of {}; a line through them takes two widths and three readings",
+              fmt::format("has {} of {}; at least three readings of two widths are needed",
                           readings == 1 ? "one reading" : fmt::format("{} readings", readings),
                           widths == 1 ? "one width" : fmt::format("{} widths", widths)));
 }
@@ -80,7 +80,7 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
   std::map<double, std::vector<double>> by_width;
   std::vector<double> width_um;
   for (std::size_t i = 0; i < readings.width_m.size(); ++i) {
-    // Units are factors that need not be exact in binary: 30 um is 30, not 29.999999999999996.
+    // Units are binary factors with rounding errors: 30 um must be 30, not 29.999999999999996.
     width_um.push_back(std::round(readings.width_m[i] * 1e18) / 1e12);
     by_width[width_um.back()].push_back(readings.reading_px[i]);
   }
@@ -91,8 +91,8 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
   s.slope_ci95_px_per_um = line.slope_ci95();
   if (!(s.slope_ci95_px_per_um[0] > 0))
     throw Error(Errc::input, name,
-                fmt::format("the readings do not grow with the width beyond doubt (slope {:.3g} px/um, 95 % "
-                            "{:.3g} to {:.3g})",
+                fmt::format("the readings do not increase significantly with the width (slope {:.3g} px/um, "
+                            "95 % confidence interval {:.3g} to {:.3g})",
                             line.slope, s.slope_ci95_px_per_um[0], s.slope_ci95_px_per_um[1]));
   s.um_per_px = 1 / line.slope;
   s.ci95 = {1 / s.slope_ci95_px_per_um[1], 1 / s.slope_ci95_px_per_um[0]};
@@ -117,11 +117,11 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
 PictureScale measure_scale(const Ruler& ruler, double tick_m, const std::string& name) {
   const MarkRow& row = ruler.row;
   const int used = row.used();
-  const double reach = student_t_quantile(0.975, std::max(1, used - 2)) * row.se_pitch_px;
+  const double half_ci = student_t_quantile(0.975, std::max(1, used - 2)) * row.se_pitch_px;
   PictureScale s;
   s.tick_um = tick_m * 1e6;
   s.um_per_px = s.tick_um / row.pitch_px;
-  s.ci95 = {s.tick_um / (row.pitch_px + reach), s.tick_um / (row.pitch_px - reach)};
+  s.ci95 = {s.tick_um / (row.pitch_px + half_ci), s.tick_um / (row.pitch_px - half_ci)};
   s.pitch_px = row.pitch_px;
   s.pitch_se_px = row.se_pitch_px;
   s.residual_px = row.residual_px;

@@ -20,7 +20,7 @@ Emulator::Emulator(const Eigen::MatrixXd& u, const Eigen::MatrixXd& s) {
   normal_inverse_ = (basis_of.transpose() * basis_of).inverse();
 }
 
-// 1, z, and all products of two.
+// 1, z, and all products of two elements of z.
 Eigen::VectorXd Emulator::basis(const Eigen::VectorXd& u) const {
   const Eigen::VectorXd z = (u - middle_).cwiseQuotient(width_);
   const Eigen::Index d = z.size();
@@ -62,8 +62,8 @@ Eigen::MatrixXd Emulator::covariance() const {
 
 Eigen::MatrixXd shrunk(const Eigen::MatrixXd& covariance, int freedom) {
   const double p = double(covariance.rows());
-  const double share = std::max(0.01, p / (p + freedom));
-  Eigen::MatrixXd out = (1 - share) * covariance;
+  const double shrinkage = std::max(0.01, p / (p + freedom));
+  Eigen::MatrixXd out = (1 - shrinkage) * covariance;
   out.diagonal() = covariance.diagonal();
   return out;
 }

@@ -14,12 +14,12 @@
 namespace faba {
 namespace {
 
-/// Generalised least squares for one ratio of variances (experiments' over values').
+/// Generalised least squares for one ratio of variances (between experiments over within).
 struct Trial {
   Eigen::Vector2d beta;         ///< intercept, slope
-  Eigen::Matrix2d information;  ///< X' V^-1 X, V in units of the scatter's variance
-  double variance = 0;          ///< of the scatter
-  double criterion = 0;         ///< -2 log restricted likelihood, but for a constant
+  Eigen::Matrix2d information;  ///< X' V^-1 X, V in units of the variance within experiments
+  double variance = 0;          ///< within experiments
+  double criterion = 0;         ///< -2 log restricted likelihood, without a constant
 };
 
 struct Sums {
@@ -49,7 +49,7 @@ Trial solve(const std::vector<Sums>& groups, double ratio, double n) {
   return t;
 }
 
-// Exposures and values about their means: the sums then lose no digits.
+// Means of exposures and values, subtracted before summation to reduce cancellation.
 struct Centre {
   double x = 0, y = 0;
 };
@@ -83,11 +83,11 @@ std::array<double, 2> interval(double middle, double se, double freedom) {
   return {middle - t * se, middle + t * se};
 }
 
-// Covariance of the coefficients when the scatter is not the same everywhere: MacKinnon and White's HC3, from
-// the residuals of the whitened values (those of an experiment less their common part), each over one minus
-// its leverage. White noise about its own line would get the same on average.
-Eigen::Matrix2d uneven_covariance(std::span<const ExposureValue> values, Centre c, const Trial& t,
-                                  double ratio) {
+// Covariance of the coefficients for heteroscedastic scatter: MacKinnon and White's HC3, from the residuals
+// of the whitened values (those of an experiment minus their common part), each divided by one minus its
+// leverage. For homoscedastic scatter the expectation is the ordinary covariance.
+Eigen::Matrix2d hc3_covariance(std::span<const ExposureValue> values, Centre c, const Trial& t,
+                               double ratio) {
   struct Sum {
     double n = 0, residual = 0;
     Eigen::Vector2d row = Eigen::Vector2d::Zero();
@@ -105,10 +105,10 @@ Eigen::Matrix2d uneven_covariance(std::span<const ExposureValue> values, Centre 
   Eigen::Matrix2d meat = Eigen::Matrix2d::Zero();
   for (const ExposureValue& v : values) {
     const Sum& s = sums[v.experiment];
-    const double share = (1 - 1 / std::sqrt(1 + s.n * ratio)) / s.n;
-    const Eigen::Vector2d row = row_of(v) - share * s.row;
+    const double common = (1 - 1 / std::sqrt(1 + s.n * ratio)) / s.n;
+    const Eigen::Vector2d row = row_of(v) - common * s.row;
     const double leverage = std::min(row.dot(inverse * row), 0.99);
-    const double residual = (residual_of(v) - share * s.residual) / (1 - leverage);
+    const double residual = (residual_of(v) - common * s.residual) / (1 - leverage);
     meat += row * row.transpose() * (residual * residual);
   }
   return inverse * meat * inverse;
@@ -141,7 +141,8 @@ std::optional<ExposureLine> mixed_line(std::span<const ExposureValue> values) {
   }
   const std::vector<Sums> groups = groups_of(values, c);
   const double n = line->values;
-  // The criterion is smooth in the logarithm of the ratio: a walk over ten decades, then a golden section.
+  // The criterion is smooth in the logarithm of the ratio: a scan over ten decades, then a golden-section
+  // search.
   const auto criterion = [&](double log_ratio) { return solve(groups, std::exp(log_ratio), n).criterion; };
   constexpr int kSteps = 92;
   double best = std::log(1e-5);
@@ -156,19 +157,19 @@ std::optional<ExposureLine> mixed_line(std::span<const ExposureValue> values) {
   if (solve(groups, 0, n).criterion <= solve(groups, ratio, n).criterion) ratio = 0;
 
   const Trial t = solve(groups, ratio, n);
-  const Eigen::Matrix2d even = t.information.inverse() * t.variance;
-  const Eigen::Matrix2d uneven = uneven_covariance(values, c, t, ratio);
+  const Eigen::Matrix2d homoscedastic = t.information.inverse() * t.variance;
+  const Eigen::Matrix2d robust = hc3_covariance(values, c, t, ratio);
   const bool differ = ratio > 1e-4;
   const double slope_freedom = differ ? n - line->experiments - 1 : n - 2;
   const double intercept_freedom = differ ? line->experiments - 1 : n - 2;
   line->slope = t.beta[1];
   line->intercept = c.y + t.beta[0] - t.beta[1] * c.x;
-  // The wider one: few values can look more even than they are.
-  const double of_slope = std::max(even(1, 1), uneven(1, 1));
+  // The larger of both: HC3 can be too small for few values.
+  const double of_slope = std::max(homoscedastic(1, 1), robust(1, 1));
   const auto at_zero = [&](const Eigen::Matrix2d& m) {
     return m(0, 0) - 2 * c.x * m(0, 1) + c.x * c.x * m(1, 1);
   };
-  const double of_intercept = std::max({at_zero(even), at_zero(uneven), 0.0});
+  const double of_intercept = std::max({at_zero(homoscedastic), at_zero(robust), 0.0});
   line->slope_ci95 = interval(line->slope, std::sqrt(of_slope), slope_freedom);
   line->intercept_ci95 = interval(line->intercept, std::sqrt(of_intercept), intercept_freedom);
   line->scatter_sd = std::sqrt(t.variance);
@@ -182,7 +183,7 @@ std::optional<Cutoff> response_cutoff(std::span<const ExposureResponse> samples)
   std::sort(exposures.begin(), exposures.end());
   exposures.erase(std::unique(exposures.begin(), exposures.end()), exposures.end());
   std::optional<Cutoff> best;
-  // Cut i lies before exposure i: the first before all of them, the last behind.
+  // Cut i is before exposure i; cut 0 is before all exposures and the last cut after all.
   std::size_t at = 0;
   int fewest = std::numeric_limits<int>::max();
   for (std::size_t i = 0; i <= exposures.size(); ++i) {

@@ -11,13 +11,13 @@
 namespace faba {
 namespace {
 
-// F of the fit over a constant: of 3 and many degrees of freedom chance exceeds it once in a million, and
-// there are some hundred places and widths that a peak could have.
-constexpr double kGain = 10;
+// Threshold of the F statistic of the fit over a constant. For 3 and many degrees of freedom F exceeds it
+// with a probability of 1e-6; a peak has about a hundred possible positions and widths.
+constexpr double kLeastF = 10;
 
-/// Residuals in units of the largest value, over times in units of the series' length. The last unknown is
-/// the root of the offset: an activity is not below zero, and without that a broad peak would be the top of
-/// an endless one.
+/// Residuals in units of the largest value, over times in units of the duration of the series. The last
+/// parameter is the root of the offset: activity is not negative, and a negative offset would allow
+/// arbitrarily broad peaks.
 struct Peak : Eigen::DenseFunctor<double> {
   const std::vector<double>&t, &y;
   Peak(const std::vector<double>& times, const std::vector<double>& values)
@@ -38,7 +38,7 @@ struct Peak : Eigen::DenseFunctor<double> {
   }
 };
 
-// Mean over five values: the start must not be a single spike.
+// Mean over five values, so that the initial maximum is not a single outlier.
 std::vector<double> smoothed(const std::vector<double>& y) {
   std::vector<double> out(y.size());
   for (std::size_t i = 0; i < y.size(); ++i) {
@@ -62,24 +62,24 @@ Eigen::VectorXd start(const std::vector<double>& t, const std::vector<double>& y
   return x;
 }
 
-// Neighbours share a frame and move alike: so many values count as one.
-double values_to_one(const Eigen::VectorXd& r) {
+// Number of values per independent value, from the correlation of neighbouring residuals.
+double correlated_values(const Eigen::VectorXd& r) {
   const Eigen::Index n = r.size();
   const double rho =
       std::clamp(r.head(n - 1).dot(r.tail(n - 1)) / std::max(r.squaredNorm(), 1e-300), 0.0, 0.95);
   return (1 + rho) / (1 - rho);
 }
 
-// Why a fit is not a peak of the video, or nothing. `x` has unit length and height, `sd` is the scatter about
-// it.
-std::string weakness(const GaussianFit& fit, const Eigen::VectorXd& x, double sd, double gain,
+// The reason why a fit is not accepted as a peak, or an empty string. `x` has unit duration and height, `sd`
+// is the standard deviation of its residuals.
+std::string weakness(const GaussianFit& fit, const Eigen::VectorXd& x, double sd, double f,
                      std::size_t values) {
-  if (!(x[0] > 3 * sd)) return "the peak is no higher than three times the scatter about it";
-  if (!(fit.amplitude > 2 * fit.se_amplitude)) return "its height cannot be told from its width and offset";
-  if (!(gain > kGain)) return "a constant fits nearly as well";
-  if (!(x[1] > 0 && x[1] < 1)) return "the peak lies outside of the video";
+  if (!(x[0] > 3 * sd)) return "the peak is at most three standard deviations of the residuals high";
+  if (!(fit.amplitude > 2 * fit.se_amplitude)) return "the standard error of its height is above 50 %";
+  if (!(f > kLeastF)) return "the fit is not significantly better than a constant";
+  if (!(x[1] > 0 && x[1] < 1)) return "the peak is outside the video";
   if (!(x[2] * double(values - 1) > 1)) return "the peak is narrower than two values";
-  if (!(x[2] < 1)) return "the peak is wider than the video is long";
+  if (!(x[2] < 1)) return "the peak is wider than the duration of the video";
   return {};
 }
 
@@ -111,7 +111,7 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   peak.df(x, j);
   const double variance = r.squaredNorm() / double(y.size() - 4);
   const Eigen::MatrixXd covariance =
-      (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse() * variance * values_to_one(r);
+      (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse() * variance * correlated_values(r);
   const auto se = [&](int i) { return std::sqrt(std::max(covariance(i, i), 0.0)); };
   fit.amplitude = x[0] * range;
   fit.peak_s = begin + x[1] * length;
@@ -125,15 +125,14 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   double constant = 0, mean = 0;
   for (const double v : y) mean += v / double(y.size());
   for (const double v : y) constant += (v - mean) * (v - mean);
-  const double free_values = double(y.size()) / values_to_one(r) - 4;
-  const double gain =
-      free_values > 1 ? (constant / std::max(r.squaredNorm(), 1e-300) - 1) / 3 * free_values : 0;
+  const double free_values = double(y.size()) / correlated_values(r) - 4;
+  const double f = free_values > 1 ? (constant / std::max(r.squaredNorm(), 1e-300) - 1) / 3 * free_values : 0;
   if (!std::isfinite(x.sum())) {
     fit = {};
-    fit.why = "the fit came to no end";
+    fit.why = "the fit diverged";
     return fit;
   }
-  fit.why = weakness(fit, x, std::sqrt(variance), gain, y.size());
+  fit.why = weakness(fit, x, std::sqrt(variance), f, y.size());
   fit.good = fit.why.empty();
   return fit;
 }

@@ -7,7 +7,7 @@
 namespace faba {
 namespace {
 
-// Weight of a lag: by its standard error where that is known, else by what it would be for independent pairs.
+// Weight of a lag: from its standard error, or from the error for independent pairs when that is unknown.
 double weight_of(const Msd& m, std::size_t k) {
   if (m.se_px2[k] > 0) return 1 / (m.se_px2[k] * m.se_px2[k]);
   return m.pairs[k] / std::max(m.msd_px2[k] * m.msd_px2[k], 1e-300);
@@ -32,7 +32,7 @@ StraightLine straight_line(const std::vector<double>& x, const std::vector<doubl
   return {(s * sxy - sx * sy) / det, (sxx * sy - sx * sxy) / det};
 }
 
-// 2 tau^2 (x - 1 + exp(-x)), x = t / tau; the difference of nearly equal numbers is taken by its series.
+// 2 tau^2 (x - 1 + exp(-x)), x = t / tau; by its series where x is small, to avoid cancellation.
 double persistent_shape(double t, double tau) {
   const double x = t / tau;
   if (x < 1e-3) return t * t * (1 - x / 3 + x * x / 12);
@@ -113,7 +113,7 @@ PersistentFit fit_persistent(const Msd& m) {
       at = i;
     }
   }
-  fit.good = best.v2 > 0 && at > 0;  // at the shortest time tried nothing is told of it
+  fit.good = best.v2 > 0 && at > 0;  // not determined at the shortest time of the search
   fit.speed_px_s = std::sqrt(std::max(0.0, best.v2));
   fit.offset_px2 = best.offset;
   fit.tau_open = at == kSteps || fit.tau_s > 5 * m.lag_s.back();
@@ -122,10 +122,10 @@ PersistentFit fit_persistent(const Msd& m) {
 
 double fit_exponent(const Msd& m, double offset, std::size_t first) {
   std::vector<double> x, y, w;
-  const double taken_off = std::max(0.0, offset);
+  const double subtracted = std::max(0.0, offset);
   for (std::size_t k = first; k < m.size(); ++k) {
     const double left = m.msd_px2[k] - offset;
-    if (!(left > taken_off) || !(left > 0)) continue;
+    if (!(left > subtracted) || !(left > 0)) continue;
     x.push_back(std::log(m.lag_s[k]));
     y.push_back(std::log(left));
     w.push_back(weight_of(m, k) * left * left);

@@ -40,8 +40,8 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 std::array<double, 2> interval(double value, double se, int freedom) {
-  const double reach = student_t_quantile(0.975, freedom) * se;
-  return {value - reach, value + reach};
+  const double half_ci = student_t_quantile(0.975, freedom) * se;
+  return {value - half_ci, value + half_ci};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::array<double, 2> LineFit::slope_ci95() const { return interval(slope, se_sl
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y) {
   const std::size_t n = x.size();
-  if (n < 3 || y.size() != n) throw Error(Errc::internal, "fit_line", "needs three points or more");
+  if (n < 3 || y.size() != n) throw Error(Errc::internal, "fit_line", "needs at least three points");
   const double count = double(n);
   const double mx = std::accumulate(x.begin(), x.end(), 0.0) / count;
   const double my = std::accumulate(y.begin(), y.end(), 0.0) / count;

@@ -7,19 +7,18 @@
 
 namespace faba {
 
-/// What the random numbers of a study are for: blocks of Stream::study, so that two purposes never share a
-/// number, whatever their seeds. Append only; never renumber.
+/// Purposes of the random numbers of a study: blocks of Stream::study, so that two purposes have no numbers
+/// in common for any seeds. Append only; never renumber.
 enum class StudyDraws : std::uint32_t {
   posterior = 1,        ///< Markov chain
   prediction = 2,       ///< noise of predicted statistics
-  bootstrap = 3,        ///< experiments resampled
-  timing = 9,           ///< when field segments begin
-  measurement = 10,     ///< noise that statistics add to what a simulation shows
+  bootstrap = 3,        ///< resampling of experiments
+  timing = 9,           ///< start times of field segments
+  measurement = 10,     ///< measurement noise added to statistics of simulations
   first_proposal = 100  ///< parameters of search round 0; round n has first_proposal + n
 };
 
-/// Random numbers of a study, one after the other: the same for the same seed and purpose, whatever ran
-/// before.
+/// Sequence of random numbers of a study: reproducible for a seed and purpose.
 class StudyRandom {
  public:
   StudyRandom(std::uint64_t seed, StudyDraws purpose) : seed_(seed), purpose_(std::uint32_t(purpose)) {}
@@ -35,7 +34,7 @@ class StudyRandom {
     const double r = std::sqrt(-2 * std::log(uniform()));
     return r * std::cos(2 * std::numbers::pi * uniform());
   }
-  /// One of 0 ... n - 1.
+  /// Uniform on 0 ... n - 1.
   std::size_t below(std::size_t n) { return std::size_t(uniform() * double(n)) % n; }
 
  private:

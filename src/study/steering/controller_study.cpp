@@ -20,10 +20,10 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kMostPoints = 600;  // of the curves over time that are kept of a trial
+constexpr std::size_t kMostPoints = 600;  // points of the stored time series of a trial
 
-/// What trials are compared by.
-std::vector<const MetricInfo*> compared() {
+/// The metrics that are compared.
+std::vector<const MetricInfo*> compared_metrics() {
   std::vector<const MetricInfo*> all;
   for (const MetricInfo& m : metric_list())
     if (m.compared) all.push_back(&m);
@@ -37,17 +37,19 @@ struct StudyFile {
   std::uint64_t first_seed = 1;
   std::vector<int> delays;
   static Schema<StudyFile> schema() {
-    return Schema<StudyFile>("compare-controllers", "Controllers with models and delays, over seeds")
-        .add("title", &StudyFile::title, {.doc = "What the study is called in reports"})
-        .add("scene", &StudyFile::scene, {.doc = "Scenario that all trials share; beside the study"})
-        .add("seeds", &StudyFile::seeds, {.min = 2, .max = 100000, .doc = "Trials of each combination"})
+    return Schema<StudyFile>("compare-controllers", "Comparison of controllers with models and delays")
+        .add("title", &StudyFile::title, {.doc = "Title of the study in reports"})
+        .add("scene", &StudyFile::scene,
+             {.doc = "Scenario of all trials, relative to the folder of the study file"})
+        .add("seeds", &StudyFile::seeds,
+             {.min = 2, .max = 100000, .doc = "Number of trials of each combination, one seed each"})
         .add("first_seed", &StudyFile::first_seed, {.min = 0, .max = 9e15, .doc = "Seed of the first trial"})
         .add("delays", &StudyFile::delays,
-             {.min = 0, .max = 1000, .doc = "Ages of the picture, frames; the scene's own when absent"});
+             {.min = 0, .max = 1000, .doc = "Camera delays in frames; that of the scene when absent"});
   }
 };
 
-/// A combination with its scenario.
+/// A combination of controller, model and delay, with its scenario.
 struct Setting {
   std::size_t controller = 0, model = 0;
   int delay = 0;
@@ -71,7 +73,7 @@ std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::str
         const Simulation check(s, study.first_seed, pool);
         if (check.reference().setpoints().empty())
           throw Error(Errc::usage, study.scene.name,
-                      fmt::format("has no setpoint with controller \"{}\"; give it a [reference]",
+                      fmt::format("has no setpoint for controller \"{}\"; add a [reference]",
                                   study.controllers[c].name));
         if (notes)
           for (const std::string& note : notes_on(s, check, std::filesystem::current_path()))
@@ -82,12 +84,12 @@ std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::str
   return all;
 }
 
-/// What is kept of a trial: the metrics, then times, distances and radii of some of the frames.
+/// Results of a trial: the metrics, then times, distances and radii of some of the frames.
 std::vector<double> trial_values(const Scenario& s, std::uint64_t seed, const std::function<bool()>& stop) {
   const Series series = trial(s, seed, stop);
   const Metrics m = control_metrics(series);
   std::vector<double> values;
-  for (const MetricInfo* one : compared()) values.push_back((m.*one->value).value_or(kNaN));
+  for (const MetricInfo* one : compared_metrics()) values.push_back((m.*one->value).value_or(kNaN));
   const std::size_t stride = (series.size() + kMostPoints - 1) / kMostPoints;
   const SwarmColumns swarm = swarm_columns(series);
   for (const std::span<const double> column :
@@ -110,7 +112,7 @@ MeanOverSeeds mean_of(const std::vector<double>& values) {
   return m;
 }
 
-// Wilson's interval of a share.
+// Wilson's confidence interval of a fraction.
 std::array<double, 2> fraction_ci95(int k, int n) {
   constexpr double z = 1.959964;
   const double p = double(k) / n, centre = p + z * z / (2 * n);
@@ -120,7 +122,7 @@ std::array<double, 2> fraction_ci95(int k, int n) {
 
 // Mean and standard deviation over the trials, point by point.
 void curves(const std::vector<const std::vector<double>*>& trials, Combination& c) {
-  const std::size_t first = compared().size(), points = (trials.front()->size() - first) / 3;
+  const std::size_t first = compared_metrics().size(), points = (trials.front()->size() - first) / 3;
   const auto value = [&](const std::vector<double>& t, std::size_t what, std::size_t k) {
     return t[first + what * points + k];
   };
@@ -139,13 +141,13 @@ void curves(const std::vector<const std::vector<double>*>& trials, Combination& 
 
 using Trials = std::vector<const std::vector<double>*>;
 
-Combination conclude(const ControllerStudy& study, const Setting& s, const Trials& trials) {
+Combination combined(const ControllerStudy& study, const Setting& s, const Trials& trials) {
   Combination c;
   c.controller = study.controllers[s.controller].name;
   c.model = study.models[s.model].name;
   c.delay = s.delay;
   c.trials = int(trials.size());
-  const std::vector<const MetricInfo*> metrics = compared();
+  const std::vector<const MetricInfo*> metrics = compared_metrics();
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     std::vector<double> values;
     for (const auto* t : trials) values.push_back((*t)[i]);
@@ -158,7 +160,7 @@ Combination conclude(const ControllerStudy& study, const Setting& s, const Trial
   return c;
 }
 
-// Among the controllers with one model and one delay.
+// Compares the controllers with one model and one delay.
 void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>& trials, std::size_t begin,
                        std::size_t end) {
   const auto steady = [&](std::size_t i) {
@@ -168,7 +170,7 @@ void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>&
   std::size_t best = begin;
   for (std::size_t i = begin; i < end; ++i)
     if (steady(i) < steady(best)) best = i;
-  const std::vector<const MetricInfo*> metrics = compared();
+  const std::vector<const MetricInfo*> metrics = compared_metrics();
   const auto ranked =
       std::size_t(std::find(metrics.begin(), metrics.end(), &metric(kRankedBy)) - metrics.begin());
   for (std::size_t i = begin; i < end; ++i) {
@@ -187,14 +189,15 @@ ControllerStudy read_controller_study(const std::filesystem::path& file) {
   const Document d = read_toml(file);
   const Node root(d);
   const StudyFile f = StudyFile::schema().parse(root, {"controller", "model"});
-  if (f.scene.empty()) root.fail("needs scene = \"...\", the scenario that all trials share");
+  if (f.scene.empty())
+    root.fail("scene is missing; specify the scenario of all trials: scene = \"scene.toml\"");
   ControllerStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;
   study.scene = read_toml(root.file(f.scene));
   study.controllers = read_variants(root, "controller");
   study.models = read_variants(root, "model");
   if (std::set<int>(f.delays.begin(), f.delays.end()).size() != f.delays.size())
-    root.child("delays").fail("names a delay twice");
+    root.child("delays").fail("a delay is listed twice; delays must be unique");
   study.delays = f.delays;
   study.seeds = f.seeds;
   study.first_seed = f.first_seed;
@@ -204,10 +207,10 @@ ControllerStudy read_controller_study(const std::filesystem::path& file) {
 Json controller_study_schema() {
   Json j = StudyFile::schema().json_schema();
   j["properties"]["controller"] = {{"type", "array"},
-                                   {"description", "[[controller]], once for each"},
+                                   {"description", "The controllers, one [[controller]] each"},
                                    {"items", variant_schema("A controller")}};
   j["properties"]["model"] = {{"type", "array"},
-                              {"description", "[[model]], once for each"},
+                              {"description", "The models of the cells, one [[model]] each"},
                               {"items", variant_schema("A model of the cells")}};
   return j;
 }
@@ -240,7 +243,7 @@ std::optional<ControllerComparison> compare_controllers(const ControllerStudy& s
     Trials& of = trials.emplace_back();
     for (int k = 0; k < study.seeds; ++k)
       of.push_back(results.find(tasks[i * std::size_t(study.seeds) + std::size_t(k)].key));
-    c.combinations.push_back(conclude(study, all[i], of));
+    c.combinations.push_back(combined(study, all[i], of));
   }
   for (std::size_t i = 0; i < all.size(); i += study.controllers.size())
     compare_with_best(c.combinations, trials, i, i + study.controllers.size());

@@ -8,28 +8,28 @@
 
 namespace faba {
 
-/// What is said of one metric wherever it appears: JSON, tables of reports, studies of controllers. The exact
-/// definition stands at the member in metrics.h.
+/// Description of a metric for JSON, report tables and controller studies. The exact definition is that of
+/// the member in metrics.h.
 struct MetricInfo {
-  const char* key;              ///< in JSON; the unit is part of it
-  const char* group;            ///< heading of the report's table
+  const char* key;              ///< in JSON; ends with the unit
+  const char* group;            ///< heading in the report table
   const char* name;             ///< in tables
-  const char* meaning;          ///< in tables, a few words
-  const char* unit;             ///< as it is shown
-  double shown = 1;             ///< what a value is multiplied by to be in that unit
-  const char* in_um = nullptr;  ///< unit when the picture scale multiplies the value; null: not a length
-  bool count = false;           ///< a whole number, in JSON 0 where it is empty
-  bool compared = false;        ///< studies of controllers give it with an interval over seeds
+  const char* meaning;          ///< short description in tables
+  const char* unit;             ///< displayed unit
+  double shown = 1;             ///< factor from the value to the displayed unit
+  const char* in_um = nullptr;  ///< unit after multiplication with the image scale; null: not a length
+  bool count = false;           ///< an integer, in JSON 0 where it is empty
+  bool compared = false;        ///< listed in controller studies, with an interval over seeds
   std::optional<double> Metrics::*value;
 };
 
-/// All metrics that are one number, group by group, in the order of the report.
+/// All scalar metrics, by group, in the order of the report.
 std::span<const MetricInfo> metric_list();
-/// The entry with that key, which must exist.
+/// The entry with this key. Throws Error(internal) when there is no such metric.
 const MetricInfo& metric(std::string_view key);
 
-/// frames, duration_s, setpoints and metrics_source, and every metric under its key, null for what is empty;
-/// except that `dispersion_px` = [sigma_x, sigma_y] stands for the two standard deviations.
+/// frames, duration_s, setpoints and metrics_source, and every metric under its key, null where it is empty.
+/// The two standard deviations are `dispersion_px` = [sigma_x, sigma_y].
 nlohmann::ordered_json metrics_json(const Metrics& metrics);
 
 }  // namespace faba

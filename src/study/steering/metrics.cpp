@@ -40,15 +40,15 @@ std::vector<Vec2> points(Values xs, Values ys) {
 
 void check_times(const Series& s, Values t) {
   for (std::size_t k = 0; k < t.size(); ++k) {
-    if (!std::isfinite(t[k])) throw Error(Errc::input, s.place(k), "t_s is missing");
+    if (!std::isfinite(t[k])) throw Error(Errc::input, s.place(k), "t_s has no value");
     if (k > 0 && t[k] <= t[k - 1]) {
       throw Error(Errc::input, s.place(k),
-                  fmt::format("t_s goes from {} to {}; it must increase", t[k - 1], t[k]));
+                  fmt::format("t_s decreases or repeats ({} after {}); it must increase", t[k], t[k - 1]));
     }
   }
 }
 
-/// The setpoints in the order they were given, and the row from which each one held.
+/// The setpoints in order, and the first row of each.
 struct Route {
   std::vector<Vec2> vertex;
   std::vector<std::size_t> since;
@@ -71,7 +71,7 @@ std::optional<double> settling_time(const std::vector<Timed>& targeted, double b
   return targeted[entry].t - targeted.front().t;
 }
 
-/// Time of the first fall to `level`, between frames.
+/// Time at which the distance first falls to `level`, interpolated between frames.
 std::optional<double> first_fall(const std::vector<Timed>& leg, double level) {
   for (std::size_t k = 1; k < leg.size(); ++k) {
     if (leg[k].d > level) continue;
@@ -117,14 +117,14 @@ void measure_error(Metrics& m, Values t, Values d, std::size_t first_leg_end) {
   }
 }
 
-/// Legs during which the distance was within `reach` in some frame.
-std::size_t reached(Values d, const std::vector<std::size_t>& since, double reach) {
+/// Number of legs with a distance of at most `tolerance` in some frame.
+std::size_t reached(Values d, const std::vector<std::size_t>& since, double tolerance) {
   std::size_t count = 0;
   for (std::size_t leg = 0; leg < since.size(); ++leg) {
     const std::size_t end = leg + 1 < since.size() ? since[leg + 1] : d.size();
     const Values of_leg = d.subspan(since[leg], end - since[leg]);
     count +=
-        std::any_of(of_leg.begin(), of_leg.end(), [&](double x) { return x <= reach; });  // false for NaN
+        std::any_of(of_leg.begin(), of_leg.end(), [&](double x) { return x <= tolerance; });  // false for NaN
   }
   return count;
 }
@@ -134,12 +134,12 @@ std::optional<double> overshoot_percent(const std::vector<Vec2>& centroid, const
   std::size_t first = route.since.front();
   while (first < leg_end && !finite(centroid[first])) ++first;
   if (first + 1 >= leg_end) return std::nullopt;
-  const Vec2 way = route.vertex.front() - centroid[first];
-  const double length = norm(way);
+  const Vec2 line = route.vertex.front() - centroid[first];
+  const double length = norm(line);
   if (length <= kBandFloorPx) return std::nullopt;
   double furthest = 0;
   for (std::size_t k = first; k < leg_end; ++k) {
-    const double progress = dot(centroid[k] - centroid[first], way) / (length * length);
+    const double progress = dot(centroid[k] - centroid[first], line) / (length * length);
     if (progress > furthest) furthest = progress;  // false for NaN
   }
   return 100 * std::max(0.0, furthest - 1);
@@ -160,7 +160,7 @@ void measure_route(Metrics& m, const std::vector<Vec2>& centroid, const Route& r
   m.cross_track_95_px = quantile(std::move(error), kQuantile);
 }
 
-std::optional<double> way_length(const std::vector<Vec2>& at) {
+std::optional<double> polyline_length(const std::vector<Vec2>& at) {
   std::optional<double> sum;
   for (std::size_t k = 1; k < at.size(); ++k) {
     if (finite(at[k - 1]) && finite(at[k])) sum = sum.value_or(0) + norm(at[k] - at[k - 1]);
@@ -181,7 +181,7 @@ void measure_command(Metrics& m, const Series& series, Values t) {
     m.control_effort_a2_s = effort;
     m.total_variation_a = variation;
   }
-  m.total_variation_ut = way_length(points(series.find("field_x_ut"), series.find("field_y_ut")));
+  m.total_variation_ut = polyline_length(points(series.find("field_x_ut"), series.find("field_y_ut")));
 
   std::size_t known = 0, limited = 0;
   for (const double value : series.find("limited")) {
@@ -209,13 +209,13 @@ Metrics control_metrics(const Series& series, std::optional<double> tolerance_px
 
   measure_error(m, t, d, first_leg_end);
   m.setpoints = route.vertex.size();
-  if (m.setpoints == 0 && m.initial_error_px) m.setpoints = 1;  // older recordings keep only the distance
+  if (m.setpoints == 0 && m.initial_error_px) m.setpoints = 1;  // older recordings have the distance only
   if (m.initial_error_px) {
     const std::vector<std::size_t> since = route.since.empty() ? std::vector<std::size_t>{0} : route.since;
     m.setpoints_reached = double(reached(d, since, tolerance_px.value_or(*m.settling_band_px)));
   }
   if (!route.vertex.empty()) m.overshoot_percent = overshoot_percent(centroid, route, first_leg_end);
-  m.path_length_px = way_length(centroid);
+  m.path_length_px = polyline_length(centroid);
   measure_route(m, centroid, route);
   m.sigma_x_px = finite(swarm.sigma_x.back());
   m.sigma_y_px = finite(swarm.sigma_y.back());

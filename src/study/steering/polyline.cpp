@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-// Boost 1.74 includes deprecated headers of its own, and reports each.
+// Boost 1.74 includes its own deprecated headers and warns about each.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/segment.hpp>

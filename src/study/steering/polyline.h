@@ -6,8 +6,8 @@
 
 namespace faba {
 
-/// Nearest distance to a polyline of two or more vertices. A target that moves every frame has as many
-/// segments as the run has frames, so they are kept in an R-tree.
+/// Distance to the nearest point of a polyline with at least two vertices. A target that moves in every frame
+/// has as many segments as frames, so they are stored in an R-tree.
 class Polyline {
  public:
   explicit Polyline(const std::vector<Vec2>& vertex);

@@ -6,8 +6,9 @@
 
 namespace faba {
 
-/// A whole run on the calling thread that leaves no files: what its series.csv would hold. Throws
-/// Error(interrupted) when `stop`, asked after every frame, says so, and what Simulation throws.
+/// Runs a complete trial on the calling thread without output files and returns the contents of its
+/// series.csv. `stop` is called after every frame; throws Error(interrupted) when it returns true, and the
+/// errors of Simulation.
 Series trial(
     const Scenario& s, std::uint64_t seed, const std::function<bool()>& stop = [] { return false; });
 

@@ -14,7 +14,7 @@
 namespace faba {
 namespace {
 
-// JSON has no word for what is no number.
+// JSON has no NaN: values that are not finite are written as null.
 std::string line_of(const std::string& key, const std::vector<double>& values) {
   Json list = Json::array();
   for (const double v : values) list.push_back(std::isfinite(v) ? Json(v) : Json());
@@ -24,12 +24,12 @@ std::string line_of(const std::string& key, const std::vector<double>& values) {
 }  // namespace
 
 ResultStore::ResultStore(const std::filesystem::path& file) {
-  const std::uint64_t whole = std::filesystem::exists(file) ? read(file) : 0;
-  file_ = std::make_unique<OutputFile>(file, whole);
+  const std::uint64_t complete = std::filesystem::exists(file) ? read(file) : 0;
+  file_ = std::make_unique<OutputFile>(file, complete);
 }
 ResultStore::~ResultStore() = default;
 
-// Bytes up to the end of the last whole line.
+// Number of bytes up to the end of the last complete line.
 std::uint64_t ResultStore::read(const std::filesystem::path& file) {
   const std::string text = read_file(file);
   std::size_t begin = 0, number = 0;
@@ -44,7 +44,7 @@ std::uint64_t ResultStore::read(const std::filesystem::path& file) {
       values.push_back(v.is_number() ? v.get<double>() : std::numeric_limits<double>::quiet_NaN());
     if (!good)
       throw Error(Errc::input, fmt::format("{}:{}", file.string(), number),
-                  "is no result of a study; take the file away to compute all of them again");
+                  "is not a result of a study; delete the file to compute all results again");
     results_.emplace(j["task"].get<std::string>(), std::move(values));
   }
   return begin;
@@ -63,7 +63,7 @@ void ResultStore::add(const std::string& key, const std::vector<double>& values)
 
 void ResultStore::merge(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file))
-    throw Error(Errc::input, file.string(), "no such file: the directory holds no results of a study");
+    throw Error(Errc::input, file.string(), "file not found: the directory contains no results of a study");
   auto mine = std::move(results_);
   results_.clear();
   read(file);

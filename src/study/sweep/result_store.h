@@ -10,22 +10,23 @@ namespace faba {
 
 class OutputFile;
 
-/// Results of the tasks of a study, kept in a file as they come: one line of JSON for each, written straight
-/// through, so that whatever ends the program loses none that was added. A last line that a power cut left
-/// half written is dropped.
+/// Results of the tasks of a study, stored in a file with one line of JSON per result. Each line is written
+/// immediately, so that no result is lost when the program ends. An incomplete last line, as after a power
+/// failure, is dropped.
 class ResultStore {
  public:
-  /// Opens `file`, or makes it. Throws Error(input, "file:line") for lines that are no results,
+  /// Opens or creates `file`. Throws Error(input, "file:line") for lines that are not results,
   /// Error(internal) when it cannot be written.
   explicit ResultStore(const std::filesystem::path& file);
   ~ResultStore();
 
-  /// The result of the task of this key, or null.
+  /// Whether there are no results.
   bool empty() const { return results_.empty(); }
+  /// The result of the task with this key, or null.
   const std::vector<double>* find(const std::string& key) const;
-  /// Keeps a result; one that is there already stays as it is. Numbers may be NaN.
+  /// Stores a result; an existing result is not changed. Values may be NaN.
   void add(const std::string& key, const std::vector<double>& values);
-  /// Takes over what the store in another file holds. Throws Error(input) when there is none.
+  /// Adds the results of the store in another file. Throws Error(input) when the file does not exist.
   void merge(const std::filesystem::path& file);
   std::size_t size() const { return results_.size(); }
 

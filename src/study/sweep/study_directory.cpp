@@ -15,24 +15,24 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char *kMarker = "incomplete", *kStudy = "study.json", *kResults = "results.jsonl";
 
-// Hash of the study that a directory holds.
-std::optional<std::string> held(const fs::path& dir) {
+// The hash of the study in a directory.
+std::optional<std::string> hash_of_study_in(const fs::path& dir) {
   if (!fs::is_regular_file(dir / kStudy)) return {};
   const auto j = nlohmann::json::parse(read_file(dir / kStudy), nullptr, false);
   if (!j.is_object()) return {};
-  for (const char* key : {"study_hash", "fingerprint"})  // the second is its name in the version before
+  for (const char* key : {"study_hash", "fingerprint"})  // name in an earlier version
     if (j.contains(key) && j[key].is_string()) return j[key].get<std::string>();
   return {};
 }
 
-// What studies of any kind write.
+// Output files of all kinds of studies.
 constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best.toml",  "background.png",
                                     "controllers.json", "controllers.csv", "report.html"};
 
 }  // namespace
 
 bool holds_complete_study(const fs::path& dir, const std::string& study_hash) {
-  return held(dir) == study_hash && !fs::exists(dir / kMarker);
+  return hash_of_study_in(dir) == study_hash && !fs::exists(dir / kMarker);
 }
 
 StudyDirectory::~StudyDirectory() {
@@ -41,36 +41,35 @@ StudyDirectory::~StudyDirectory() {
   lock_.complete();
   std::error_code ignored;
   for (const char* name : {kResults, kStudy}) fs::remove(dir_ / name, ignored);
-  fs::remove(dir_, ignored);  // not when something else is in it
+  fs::remove(dir_, ignored);  // fails when it contains other files
 }
 
-StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_hash, const std::string& again,
-                               bool force)
+StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_hash,
+                               const std::string& resume_command, bool force)
     : dir_(dir), study_hash_(study_hash) {
   std::error_code ec;
   if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
-    throw Error(Errc::usage, dir.string(), "exists and is not a directory");
+    throw Error(Errc::usage, dir.string(), "exists and is not a directory; choose another --out");
   new_ = !fs::is_directory(dir);
   if (new_) fs::create_directories(dir, ec);
   if (!fs::is_directory(dir))
     throw Error(Errc::internal, dir.string(),
-                fmt::format("cannot be made: {}; choose another --out", ec.message()));
-  const auto there = held(dir);
-  if (!there && !fs::is_empty(dir, ec))
-    throw Error(Errc::usage, dir.string(), "holds other files and no study; choose another --out");
-  const bool same = there == study_hash;
-  if (there && !same && !force)
+                fmt::format("the directory cannot be created: {}; choose another --out", ec.message()));
+  const auto existing = hash_of_study_in(dir);
+  if (!existing && !fs::is_empty(dir, ec))
+    throw Error(Errc::usage, dir.string(), "contains other files and no study; choose another --out");
+  const bool same = existing == study_hash;
+  if (existing && !same && !force)
     throw Error(Errc::usage, dir.string(),
-                "holds another study; choose another --out, or --force to replace it");
+                "contains a different study; choose another --out, or --force to replace it");
   if (same && !fs::exists(dir / kMarker) && !force)
-    throw Error(
-        Errc::usage, dir.string(),
-        "holds this study already, complete; choose another --out, or --force to write its pages again");
-  lock_ =
-      FileLock(dir / kMarker, dir, fmt::format("This study is not complete. Resume it with: {}\n", again));
+    throw Error(Errc::usage, dir.string(),
+                "the study is already complete; choose another --out, or --force to write its pages again");
+  lock_ = FileLock(dir / kMarker, dir,
+                   fmt::format("This study is not complete. Resume it with: {}\n", resume_command));
   if (!same) {
     fs::remove(dir / kResults, ec);
-    if (there)
+    if (existing)
       for (const char* name : kWritten) fs::remove(dir / name, ec);
     write_file(dir / kStudy,
                nlohmann::ordered_json{{"study_hash", study_hash}, {"version", FABA_VERSION}}.dump(2) + "\n");
@@ -80,9 +79,9 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
 
 void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
   for (const fs::path& other : dirs) {
-    const auto there = held(other);
-    if (!there) throw Error(Errc::input, other.string(), "holds no study");
-    if (*there != study_hash_) throw Error(Errc::usage, other.string(), "holds another study than this one");
+    const auto existing = hash_of_study_in(other);
+    if (!existing) throw Error(Errc::input, other.string(), "contains no study");
+    if (*existing != study_hash_) throw Error(Errc::usage, other.string(), "contains a different study");
     if (fs::weakly_canonical(other) != fs::weakly_canonical(dir_) && fs::exists(other / kResults))
       results_->merge(other / kResults);
   }

@@ -9,29 +9,29 @@
 
 namespace faba {
 
-/// Whether `dir` holds a complete study with this hash.
+/// Whether `dir` contains the complete study with this hash.
 bool holds_complete_study(const std::filesystem::path& dir, const std::string& study_hash);
 
-/// Where a study keeps its results. While it is being made it holds the file `incomplete`; a study that was
-/// stopped or killed goes on from the results that are there.
+/// The directory with the results of a study. Until the study is complete it contains the file `incomplete`;
+/// a study that was stopped or killed is resumed from the stored results.
 class StudyDirectory {
  public:
-  /// Makes `dir`, or resumes the study in it. `study_hash` is the hash of all inputs that the results depend
-  /// on. `again` is the command that goes on. Throws Error(usage) when it holds something else, another study
-  /// or (without `force`) a complete one, and when another process is at it. With `force` the results of
-  /// another study give way; those of the same one are taken.
-  StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash, const std::string& again,
-                 bool force);
-  /// A directory that was made for a study that then came to nothing goes again.
+  /// Creates `dir`, or resumes the study in it. `study_hash` is the hash of all inputs of the study,
+  /// `resume_command` the command that resumes it. Throws Error(usage) when the directory contains other
+  /// files, a different study or (without `force`) the complete study, and when another process uses it. With
+  /// `force` the results of a different study are deleted; those of the same study are used.
+  StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash,
+                 const std::string& resume_command, bool force);
+  /// Deletes a directory that was created for a study without results.
   ~StudyDirectory();
   StudyDirectory(StudyDirectory&&) = default;
 
   ResultStore& results() { return *results_; }
   const std::filesystem::path& path() const { return dir_; }
-  /// Takes over what other directories of the same study hold. Throws Error(usage) for another study's,
-  /// Error(input) for those that are none.
+  /// Adds the results of other directories of the same study. Throws Error(usage) for a different study,
+  /// Error(input) for a directory without a study.
   void merge(const std::vector<std::filesystem::path>& dirs);
-  /// Everything is written: the study is whole.
+  /// Marks the study as complete; call it when everything is written.
   void complete() {
     lock_.complete();
     complete_ = true;

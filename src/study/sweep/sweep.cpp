@@ -13,8 +13,8 @@
 namespace faba {
 namespace {
 
-// Tasks take and give back memory for pictures by the thousand. Given back to the system each time, that
-// costs more than the work done in it: pages come cleared, one by one.
+// Tasks allocate and free memory for frames thousands of times. Returning it to the system each time would
+// cost more than the tasks, because the system clears every page.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 64 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
@@ -32,34 +32,34 @@ std::string task_key(const std::string& what) {
 bool sweep(ResultStore& store, std::span<const Task> tasks, const SweepOptions& o) {
   keep_freed_memory();
   std::vector<const Task*> todo;
-  std::uint64_t mine = 0;
+  std::uint64_t shard_tasks = 0;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     if (i % o.shard.count != o.shard.index - 1) continue;
-    ++mine;
+    ++shard_tasks;
     if (!store.find(tasks[i].key)) todo.push_back(&tasks[i]);
   }
   std::atomic<std::size_t> next{0};
-  std::atomic<bool> over{false};
-  std::mutex keeping;
-  std::uint64_t done = mine - todo.size();
+  std::atomic<bool> stopped{false};
+  std::mutex storing;
+  std::uint64_t done = shard_tasks - todo.size();
   Pool pool(o.threads);
-  // Tasks are of different length: each thread takes the next one when it is free.
+  // Tasks have different durations: each thread takes the next task when it is free.
   if (!todo.empty())
     pool.run(pool.threads(), [&](std::size_t) {
-      for (std::size_t i; !over && (i = next++) < todo.size();) {
+      for (std::size_t i; !stopped && (i = next++) < todo.size();) {
         try {
           const std::vector<double> values = todo[i]->work();
-          const std::lock_guard lock(keeping);
+          const std::lock_guard lock(storing);
           store.add(todo[i]->key, values);
-          o.progress(++done, mine);
-          if (o.stop()) over = true;
+          o.progress(++done, shard_tasks);
+          if (o.stop()) stopped = true;
         } catch (...) {
-          over = true;
+          stopped = true;
           throw;
         }
       }
     });
-  if (done < mine) throw Error(Errc::interrupted, "", "stopped; what is done is kept");
+  if (done < shard_tasks) throw Error(Errc::interrupted, "", "stopped; the completed tasks are stored");
   return std::all_of(tasks.begin(), tasks.end(), [&](const Task& t) { return store.find(t.key) != nullptr; });
 }
 

@@ -15,18 +15,18 @@ std::vector<Variant> read_variants(const Node& study, const std::string& key,
   if (!study.has(key)) return {{.name = "as the scene has it", .origin = study.where()}};
   const Node list = study.child(key);
   if (!list.json->is_array() || list.json->empty())
-    list.fail(fmt::format("must be [[{}]], once or more", key));
+    list.fail(fmt::format("must be one or more tables [[{}]]", key));
   std::set<std::string> names;
   for (std::size_t i = 0; i < list.json->size(); ++i) {
     const Node n = list.item(i);
     if (!n.json->is_object()) n.fail(fmt::format("must be a table, [[{}]]", key));
     Variant v{.part = Json::object(), .origin = n.where()};
     for (const auto& [word, value] : n.json->items()) {
-      const bool taken = std::find(extra.begin(), extra.end(), word) != extra.end();
-      if (taken)
+      const bool is_extra = std::find(extra.begin(), extra.end(), word) != extra.end();
+      if (is_extra)
         v.extra[word] = value;
       else if (word == "name") {
-        if (!value.is_string() || value.get<std::string>().empty()) n.child(word).fail("must be words");
+        if (!value.is_string() || value.get<std::string>().empty()) n.child(word).fail("must be a string");
         v.name = value.get<std::string>();
       } else if (word == "set") {
         if (!value.is_object()) n.child(word).fail("must be a table of paths and values");
@@ -38,26 +38,29 @@ std::vector<Variant> read_variants(const Node& study, const std::string& key,
     if (v.part.empty())
       v.part = Json();
     else if (!v.part.contains("type") || !v.part["type"].is_string())
-      n.fail("needs type = \"...\"");
+      n.fail("type is missing; specify type = \"...\"");
     if (v.name.empty())
       v.name = v.part.is_null() ? fmt::format("{} {}", key, i + 1) : v.part["type"].get<std::string>();
     if (!names.insert(v.name).second)
-      n.fail(fmt::format("there are two called \"{}\"; give each a name of its own", v.name));
+      n.fail(fmt::format("the name \"{}\" is used twice; names must be unique", v.name));
     variants.push_back(std::move(v));
   }
   return variants;
 }
 
 Json variant_schema(const std::string& description) {
-  return {{"title", "variant"},
-          {"description", description},
-          {"type", "object"},
-          {"properties",
-           {{"name", {{"type", "string"}, {"description", "What reports call it; its type when absent"}}},
-            {"type",
-             {{"type", "string"},
-              {"description", "The part, with its own keys beside it; as the scene has it when absent"}}},
-            {"set", {{"type", "object"}, {"description", "Other values of the scenario, by path"}}}}}};
+  return {
+      {"title", "variant"},
+      {"description", description},
+      {"type", "object"},
+      {"properties",
+       {{"name", {{"type", "string"}, {"description", "Name in reports; the type when absent"}}},
+        {"type",
+         {{"type", "string"},
+          {"description",
+           "Type of the part, whose parameters follow as further keys; the part of the scene when absent"}}},
+        {"set",
+         {{"type", "object"}, {"description", "Other values of the scenario to override, by path"}}}}}};
 }
 
 void apply(const Variant& v, const std::string& place, Document& d) {

@@ -7,23 +7,23 @@
 
 namespace faba {
 
-/// What frames of an experiment look like, for whoever measures them: greys of 0 to 255.
+/// Appearance of the cells in the frames of an experiment: grey levels 0 to 255.
 struct CellView {
   int width = 0, height = 0;                     ///< px
-  double frame_s = 0;                            ///< between frames
-  ForegroundOptions cells;                       ///< how they look
-  std::shared_ptr<const Background> background;  ///< where nothing is; the same noise everywhere
-  double threshold_sd = 0;                       ///< least signal-to-noise of a cell that is followed
-  double reach_px = 0;                           ///< farthest displacement of one from frame to frame
+  double frame_s = 0;                            ///< frame period
+  ForegroundOptions cells;                       ///< appearance of a cell
+  std::shared_ptr<const Background> background;  ///< empty background, with uniform noise
+  double threshold_sd = 0;                       ///< smallest signal-to-noise ratio of a tracked cell
+  double reach_px = 0;                           ///< largest displacement between frames
 
   double noise() const { return double(background->noise_sd.px.front()); }  ///< sd of a pixel, grey
-  /// Finds cells one by one.
+  /// Detects single cells.
   Detector detector() const;
-  /// What a frame shows of the swarm as a whole.
+  /// Foreground of a frame, without detection of single cells.
   Foreground seen_in(const GrayF& frame) const;
 };
 
-/// The direction at an angle: (cos, sin).
+/// Unit vector at an angle: (cos, sin).
 Vec2 unit_vector(double deg);
 
 }  // namespace faba

@@ -19,7 +19,7 @@ ForegroundOptions options_of(const TrackSurvey& s) {
   ForegroundOptions o;
   o.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   o.polarity = s.polarity == Polarity::both ? Polarity::automatic : s.polarity;
-  o.learn = s.temporal;  // else each frame has a background of its own
+  o.learn = s.temporal;  // else each frame has its own background
   return o;
 }
 
@@ -27,7 +27,7 @@ void multiply(GrayF& frame, float by) {
   for (float& v : frame.px) v *= by;
 }
 
-// As the simulation counted them.
+// Number of visible cells recorded by the simulation.
 std::optional<double> counted_by_run(const std::filesystem::path& run, const VideoPart& part) {
   const Series series = read_series(run / "series.csv");
   const auto counts = series.find("visible_count"), times = series.column("t_s");
@@ -43,7 +43,7 @@ std::optional<double> counted_by_run(const std::filesystem::path& run, const Vid
 }  // namespace
 
 SwarmView::SwarmView(const TrackSurvey& survey, int bits) : foreground_(options_of(survey)) {
-  // Light is to stay in proportion, so that its share that is lost does.
+  // The scale keeps black at 0, so that the absorbed fraction of the light is preserved.
   if (bits > 8 && survey.white > 0) scale_ = 255 / survey.white;
   std::vector<float> noise = survey.background.noise_sd.px;
   noise_ = double(scale_ * robust_spread_low(noise).median);
@@ -76,9 +76,9 @@ std::optional<double> visible_cells(const std::filesystem::path& path, const Vid
   VideoReader reader(video, part.fps);
   const Detector detector(survey.background, detector_options(options, survey, {}));
   const double length = std::min(part.to_s.value_or(survey.duration_s), survey.duration_s) - part.from_s;
-  const double share = survey.duration_s > 0 ? std::clamp(length / survey.duration_s, 0.0, 1.0) : 1;
+  const double fraction = survey.duration_s > 0 ? std::clamp(length / survey.duration_s, 0.0, 1.0) : 1;
   const std::int64_t step =
-      std::max<std::int64_t>(1, std::int64_t(share * double(survey.frames)) / kFramesCounted);
+      std::max<std::int64_t>(1, std::int64_t(fraction * double(survey.frames)) / kFramesCounted);
   GrayF frame;
   double t_s = 0, cells = 0, n = 0;
   for (std::int64_t index = 0; reader.read(frame, t_s); ++index) {

@@ -8,21 +8,21 @@
 
 namespace faba {
 
-/// Where the swarm is in the frames of a video of which a first pass is done, without its cells being found
-/// one by one: for crowds in which they cannot be (theory H5, with the background of the whole video).
+/// Position of the swarm in the frames of a surveyed video, without detection of single cells: for dense
+/// swarms (theory H5, with the background of the complete video).
 class SwarmView {
  public:
-  /// `bits` as VideoReader gives it.
+  /// `bits`: see VideoReader.
   SwarmView(const TrackSurvey& survey, int bits);
   SwarmMoments take(const GrayF& frame, double t_s);
 
  private:
   Foreground foreground_;
-  float scale_ = 1;  ///< to greys of 0 to 255
+  float scale_ = 1;  ///< to grey levels 0 to 255
   double noise_ = 0, last_s_ = 0;
 };
 
-/// Frames from one time to another, s; at `fps` > 0 in place of what the video states.
+/// An interval of a video, s; `fps` > 0 overrides the frame rate of the video.
 struct VideoPart {
   double from_s = 0;
   std::optional<double> to_s = {};
@@ -30,10 +30,10 @@ struct VideoPart {
   bool holds(double t_s) const { return t_s >= from_s && (!to_s || t_s <= *to_s); }
 };
 
-/// Cells in view, as spots that Detector finds: the mean over fifty frames or more of a part of a video
-/// (anything VideoReader reads, or a run). Of a run without a camera's video it is the number that is in its
-/// series. Empty for a file of flows, which shows no cells. `keep_running` is asked between frames;
-/// Error(interrupted) when it says no. Throws as VideoReader.
+/// Number of cells in view, detected by Detector: the mean over at least fifty frames of an interval of a
+/// video (anything VideoReader reads, or a run). For a run without a camera video it is read from its series.
+/// Empty for a file of flows, which has no frames. `keep_running` is called between frames;
+/// Error(interrupted) when it returns false. Throws the errors of VideoReader.
 std::optional<double> visible_cells(const std::filesystem::path& path, const VideoPart& part,
                                     const std::function<bool()>& keep_running);
 

@@ -9,7 +9,7 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kSpans = 512;
-constexpr double kFewest = 5;  // vectors, from which an order is said
+constexpr double kFewest = 5;  // smallest number of vectors for an order parameter
 
 }  // namespace
 

@@ -21,7 +21,7 @@ std::optional<DropMask> drop_of(const TrackOptions& o, const TrackSurvey& s) {
   return DropMask{edge.centre_image, edge.radius_px, edge.centre_side_inside, s.size_px};
 }
 
-// The second pass over the frames.
+// The second pass over the frames: detection and tracking.
 class TrackPass {
  public:
   TrackPass(const TrackOptions& o, const TrackSurvey& s, TrackListener& listener)
@@ -52,11 +52,11 @@ class TrackPass {
         ++repeated_times_;
       }
       listener_.frame(index, t_s, frame, tracker_);
-      hand_out();
+      emit_tracks();
       tick(std::int64_t(index) + 1);
     }
     tracker_.finish();
-    hand_out();
+    emit_tracks();
   }
 
   TrackDetection detection() const {
@@ -97,7 +97,7 @@ class TrackPass {
       place_sd_ += s.sd_px;
     }
   }
-  void hand_out() {
+  void emit_tracks() {
     for (const Track& t : tracker_.finished()) {
       listener_.track(t);
       statistics_.take(t);
@@ -114,19 +114,20 @@ class TrackPass {
   std::int64_t repeated_times_ = 0;
 };
 
-// What throws doubt on the speeds; empty when nothing does.
-std::string doubt_of_speeds(const TrackSurvey& survey, const TrackPass& pass, const TrackSummary& s) {
-  // Cells that are joined over a quarter of the mean spacing and more are often the wrong ones.
+// Warning about unreliable speeds; empty if there is no reason for one.
+std::string speed_warning(const TrackSurvey& survey, const TrackPass& pass, const TrackSummary& s) {
+  // When the displacement per frame exceeds about a quarter of the mean spacing, tracks often join wrong
+  // cells.
   const double spacing = std::sqrt(double(survey.first.width) * survey.first.height / pass.spots_in_view());
   const double step = s.speed_count > 0 ? s.mean_speed_px_s.value * survey.frame_s : 0;
   if (pass.crowded() || step > 0.3 * spacing)
-    return "cells move about as far between frames as they are apart: many tracks join different cells, and "
-           "speeds are too small; record more frames per second, or fewer cells";
-  // Steps that agree in direction for less than two frames are steps to the wrong cells.
+    return "the displacement of cells between frames is similar to their distance: many tracks join "
+           "different cells, and speeds are too small; use a higher frame rate or fewer cells";
+  // A persistence time below two frames is typical of steps to wrong cells.
   if (supported_walk(s) == SupportedWalk::persistent && !s.persistent.tau_open &&
       (!s.persistent.good || s.tau_s.value < 1.5 * survey.frame_s))
-    return "directions last for less than two frames: cells turn faster than the camera looks, or tracks "
-           "join different cells; speeds are too small";
+    return "the persistence time is below two frames: cells turn faster than the frame rate resolves, or "
+           "tracks join different cells; speeds are too small";
   return "";
 }
 
@@ -164,14 +165,14 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
   m.joining = pass.joining();
   m.summary = pass.summary();
   m.notes = survey.notes;
-  if (is_run(o.video) && !is_whole(o.video))
-    m.notes.emplace_back("the run was interrupted; this is what was recorded");
+  if (is_run(o.video) && !is_complete(o.video))
+    m.notes.emplace_back("the run was interrupted; the result is based on the recorded part");
   if (pass.repeated_times() > 0)
-    m.notes.push_back(fmt::format("{} at the time of the one before: not tracked",
+    m.notes.push_back(fmt::format("{} with the same time as the previous frame: not tracked",
                                   counted(std::uint64_t(pass.repeated_times()), "frame")));
-  if (const std::string doubt = doubt_of_speeds(survey, pass, m.summary); !doubt.empty())
-    m.notes.push_back(doubt);
-  if (survey.frames > 1 && m.summary.tracks == 0) m.notes.emplace_back("nothing was tracked");
+  if (const std::string warning = speed_warning(survey, pass, m.summary); !warning.empty())
+    m.notes.push_back(warning);
+  if (survey.frames > 1 && m.summary.tracks == 0) m.notes.emplace_back("no tracks were found");
   return m;
 }
 

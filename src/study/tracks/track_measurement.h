@@ -13,38 +13,38 @@
 
 namespace faba {
 
-/// How spots were found in the frames, and how many.
+/// Parameters and results of the detection of spots.
 struct TrackDetection {
-  double size_px = 0;  ///< full width at half maximum that was looked for
+  double size_px = 0;  ///< full width at half maximum of a spot
   Polarity polarity = Polarity::dark;
   bool temporal = false;      ///< see TrackSurvey
-  int background_frames = 0;  ///< that the background rests on
-  double noise_grey = 0;      ///< grey values, median over the picture
-  double threshold_snr = 0;   ///< least signal-to-noise
+  int background_frames = 0;  ///< number of frames used for the background
+  double noise_grey = 0;      ///< grey levels, median over the image
+  double threshold_snr = 0;   ///< smallest signal-to-noise ratio
   double spots_per_frame = 0;
   std::int64_t still_spots = 0;            ///< see TrackSurvey
-  std::optional<double> mean_place_sd_px;  ///< uncertainty of a place; empty when no spot was found
-  std::optional<double> mean_elongation;   ///< empty when no spot was found
-  std::optional<DropMask> drop;            ///< that spots were looked for in, where that was asked for
+  std::optional<double> mean_place_sd_px;  ///< standard deviation of a position; empty without spots
+  std::optional<double> mean_elongation;   ///< empty without spots
+  std::optional<DropMask> drop;            ///< searched region, when restricted to the drop
 };
 
-/// How spots of successive frames were joined.
+/// Parameters and results of the linking of spots to tracks.
 struct TrackJoining {
-  double reach_px = 0;              ///< farthest step between frames
+  double reach_px = 0;              ///< largest displacement between frames
   Motion motion = Motion::nearest;  ///< nearest or velocity
   int memory_frames = 0;            ///< see TrackerOptions::memory
   int least_points = 0;             ///< see TrackerOptions
-  std::uint64_t unsure_tracks = 0;  ///< given up before they had least_points
+  std::uint64_t unsure_tracks = 0;  ///< discarded because they had fewer than least_points
 };
 
-/// How what moves in a video moves.
+/// Result of tracking a video.
 struct TrackMeasurement {
   std::filesystem::path video;
   std::int64_t frames = 0;
   double duration_s = 0;      ///< from the first frame to the last
   double frame_s = 0;         ///< median time between frames
-  bool timed = true;          ///< false: times are counts of frames
-  int width = 0, height = 0;  ///< of a frame, px
+  bool timed = true;          ///< false: times are frame counts
+  int width = 0, height = 0;  ///< of the frames, px
   std::optional<double> um_per_px;
   TrackDetection detection;
   TrackJoining joining;
@@ -52,25 +52,26 @@ struct TrackMeasurement {
   std::vector<std::string> notes;
 };
 
-/// The walk that a mean-square displacement supports; none with fewer than two lags.
+/// The model of motion that a mean-square displacement supports; none with fewer than two lags.
 enum class SupportedWalk { none, diffusion, persistent };
 SupportedWalk supported_walk(const TrackSummary& summary);
 
-/// Mean over the spans of time of the order in each, weighted by its displacements; NaN where there is none.
+/// Mean over the time bins of the order parameter in each, weighted by its displacements; NaN when there are
+/// no bins.
 double order_at_a_time(const TrackSummary& summary);
 
-/// Looks on while a video is tracked.
+/// Observer of the tracking of a video.
 class TrackListener {
  public:
   virtual ~TrackListener() = default;
-  /// Once per frame, after its spots were joined to the tracks of `tracker`.
+  /// Called once per frame, after its spots were linked to the tracks of `tracker`.
   virtual void frame(std::uint64_t index, double t_s, const GrayF& frame, const Tracker& tracker) = 0;
-  /// Once per track that ended, and per piece of a long one.
+  /// Called once per finished track, and per segment of a long one.
   virtual void track(const Track& track) = 0;
 };
 
-/// Detects and tracks what moves in a video: the second pass over its frames, after survey_tracks. `tick` is
-/// called with the number of frames done. Throws Error(Errc::input) for what cannot be read.
+/// Detects and tracks the moving objects of a video: the second pass over its frames, after survey_tracks().
+/// `tick` is called with the number of frames done. Throws Error(Errc::input) for unreadable videos.
 TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, const TrackSurvey& survey,
                                 TrackListener& listener, const std::function<void(std::int64_t done)>& tick);
 

@@ -8,32 +8,31 @@
 
 namespace faba {
 
-/// How the background of a video is found.
+/// Method for the background of a video.
 enum class BackgroundKind {
-  automatic,  ///< the median, unless more than half of the spots would vanish with it because they stand
-              ///< still
-  median,     ///< temporal median: removes all that never moves, as the edge of a drop
-  spatial     ///< smoothing of each frame: keeps what stands still
+  automatic,  ///< median, unless more than half of the spots do not move and would vanish with it
+  median,     ///< temporal median: removes everything that never moves, such as the edge of a drop
+  spatial     ///< smoothing of each frame: keeps stationary objects
 };
 
-/// What `faba track` is asked to do. What is not given is found from the video.
+/// Options of `faba track`. Unspecified values are determined from the video.
 struct TrackOptions {
   std::filesystem::path video;  ///< anything VideoReader reads, or a run directory
-  double fps = 0;               ///< > 0: in place of what the video states
+  double fps = 0;               ///< > 0: overrides the frame rate of the video
   std::optional<double> um_per_px;
   std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
-  std::filesystem::path swarm;             ///< table of the swarm's place and spread in each frame, .csv
-  std::filesystem::path overlay;           ///< video with the tracks drawn in, .mp4 or .avi
+  std::filesystem::path swarm;             ///< table of position and spread of the swarm in each frame, .csv
+  std::filesystem::path overlay;           ///< video with the tracks, .mp4 or .avi
   std::filesystem::path report;            ///< page with the figures, .html
   std::filesystem::path picture;           ///< all tracks on the first frame, .png
   std::filesystem::path figures;           ///< folder for the figures, one .svg each
-  double size_px = 0;                      ///< full width at half maximum of a spot; 0: found
+  double size_px = 0;                      ///< full width at half maximum of a spot; 0: automatic
   Polarity polarity = Polarity::automatic;
   BackgroundKind background = BackgroundKind::automatic;
-  double threshold_sd = 0;   ///< least signal-to-noise; 0: one false spot in ten frames by noise
-  bool inside_drop = false;  ///< find the edge of the drop in the first frame and look inside it only
+  double threshold_sd = 0;   ///< smallest signal-to-noise ratio; 0: for 0.1 false detections per frame
+  bool inside_drop = false;  ///< detect the edge of the drop in the first frame and search inside it only
   TrackerOptions tracker;
-  int interval_frames = 0;  ///< of displacements for speeds and turns; 0: found
+  int interval_frames = 0;  ///< interval of displacements for speeds and turns; 0: automatic
 };
 
 }  // namespace faba

@@ -13,24 +13,24 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kGroups = 20;  // of tracks, by number: the jackknife leaves out one after the other
+constexpr std::size_t kGroups = 20;  // groups of tracks for the jackknife, by track number
 constexpr std::size_t kPilotPoints = 50000;
-constexpr double kLowSpeed = 1e-4;  // px per interval, where the logarithmic bins begin
+constexpr double kLowSpeed = 1e-4;  // lower edge of the logarithmic bins, px per interval
 constexpr double kBinsPerDecade = 400;
 constexpr std::size_t kSpeedBins = 3600, kTurnBins = 720;
-constexpr std::size_t kScales[] = {1, 2, 4, 8};  // frames, over which it is asked whether direction is kept
-constexpr std::size_t kMostMemory = 12;  // frames, for which places may hang together by blur or codec
-constexpr double kClear = 3;             // standard errors
-constexpr double kKept = 0.2;  // of the squared displacement; a walk that forgets in one frame has 0.2
+constexpr std::size_t kScales[] = {1, 2, 4, 8};  // time scales of the test for persistence, frames
+constexpr std::size_t kMostMemory = 12;          // longest correlation of positions by blur or codec, frames
+constexpr double kClear = 3;                     // standard errors
+constexpr double kKept = 0.2;  // of the squared displacement; 0.2 is a persistence time of one frame
 
-// 1 to 8, then each a quarter longer.
+// 1 to 8, then in steps of a quarter.
 std::vector<int> lags_up_to(int most) {
   std::vector<int> lags;
   for (int k = 1; k <= most; k = k < 8 ? k + 1 : std::max(k + 1, k + k / 4)) lags.push_back(k);
   return lags;
 }
 
-// Where a track was, by the number of frame times since its first sighting; -1: not seen then.
+// Index of the point of a track for each frame time since its first detection; -1: not detected.
 std::vector<int> slots_of(const Track& track, double frame_s) {
   std::vector<int> slots;
   for (std::size_t i = 0; i < track.points.size(); ++i) {
@@ -47,8 +47,8 @@ std::vector<int> slots_of(const Track& track, double frame_s) {
 struct TrackStatistics::Impl {
   double frame_s;
   int interval = 0;
-  bool settled = false;
-  double noise2 = 0;  // variance of an axis of a sighting, px^2
+  bool has_interval = false;
+  double noise2 = 0;  // variance of a detected position per axis, px^2
   std::vector<int> lags;
   std::vector<TrackGroup> groups = std::vector<TrackGroup>(kGroups);
   std::vector<Track> pilot;
@@ -70,11 +70,11 @@ struct TrackStatistics::Impl {
 
   void add_displacements(const Track& t);
   void add_motion(const Track& t);
-  void settle();
+  void set_interval();
   LagSums all(std::size_t lag) const;
   Msd msd_without(const TrackGroup* left_out) const;
   Estimated product(std::size_t which, std::vector<ProductSums> TrackGroup::*list) const;
-  void weigh_persistence(TrackSummary& s) const;
+  void test_persistence(TrackSummary& s) const;
   void fit(TrackSummary& s) const;
   void motion(TrackSummary& s) const;
 };
@@ -113,7 +113,7 @@ void TrackStatistics::Impl::add_displacements(const Track& t) {
       }
 }
 
-// Speeds and turns over the interval, from displacements that follow one on the other.
+// Speeds and turns over the interval, from consecutive displacements.
 void TrackStatistics::Impl::add_motion(const Track& t) {
   TrackGroup& g = groups[t.number % kGroups];
   const std::vector<int> slots = slots_of(t, frame_s);
@@ -129,7 +129,8 @@ void TrackStatistics::Impl::add_motion(const Track& t) {
     const TrackPoint &p = t.points[std::size_t(a)], &q = t.points[std::size_t(b)];
     const Vec2 d{q.x_px - p.x_px, q.y_px - p.y_px};
     const double dt = q.t_s - p.t_s;
-    // Across the direction of motion the error makes displacements longer, along it neither (theory H2).
+    // The localisation error across the direction of motion increases the length of displacements, that along
+    // it does not (theory H2).
     const double length = std::sqrt(std::max(0.0, dot(d, d) - 2 * noise2)), v = length / dt;
     g.speed.n += 1;
     g.speed.v += v;
@@ -150,7 +151,7 @@ void TrackStatistics::Impl::add_motion(const Track& t) {
     last = d;
     has_last = clear;
   }
-  for (std::size_t i = 0; i + step < slots.size(); ++i) {  // overlapping: every moment has its say
+  for (std::size_t i = 0; i + step < slots.size(); ++i) {  // overlapping: all times have equal weight
     if (slots[i] < 0 || slots[i + step] < 0) continue;
     const TrackPoint &p = t.points[std::size_t(slots[i])], &q = t.points[std::size_t(slots[i + step])];
     const double dt = q.t_s - p.t_s;
@@ -183,7 +184,7 @@ Msd TrackStatistics::Impl::msd_without(const TrackGroup* left_out) const {
   return m;
 }
 
-// Mean product of two displacements, about what the common drift alone would give.
+// Mean product of two displacements, minus the contribution of the common drift.
 Estimated TrackStatistics::Impl::product(std::size_t which,
                                          std::vector<ProductSums> TrackGroup::*list) const {
   const auto without = [&](const TrackGroup* left_out) {
@@ -203,18 +204,18 @@ Estimated TrackStatistics::Impl::product(std::size_t which,
   return {without(nullptr), jackknife_se(groups, [&](const TrackGroup& g) { return without(&g); })};
 }
 
-void TrackStatistics::Impl::weigh_persistence(TrackSummary& s) const {
+void TrackStatistics::Impl::test_persistence(TrackSummary& s) const {
   s.persistence = {0, kNaN};
   for (std::size_t i = 0; i < std::size(kScales); ++i) {
     const auto lag = std::size_t(std::find(lags.begin(), lags.end(), int(kScales[i])) - lags.begin());
     if (lag >= s.msd.size()) break;
     const Estimated p = product(i, &TrackGroup::kept);
-    const double share = p.value / s.msd.msd_px2[lag], se = p.se / s.msd.msd_px2[lag];
-    // With too few tracks for a standard error only what is plain counts.
-    const bool clear = std::isfinite(se) ? share > kClear * se && share > kKept : share > 2 * kKept;
+    const double fraction = p.value / s.msd.msd_px2[lag], se = p.se / s.msd.msd_px2[lag];
+    // Without a standard error (too few tracks) twice the limit is required.
+    const bool clear = std::isfinite(se) ? fraction > kClear * se && fraction > kKept : fraction > 2 * kKept;
     if (clear) s.persists = true;
-    if (share > s.persistence.value) {
-      s.persistence = {share, se};
+    if (fraction > s.persistence.value) {
+      s.persistence = {fraction, se};
       s.persistence_scale_s = s.msd.lag_s[lag];
     }
   }
@@ -235,7 +236,7 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
   };
   s.drift_x_px_s = drift(true);
   s.drift_y_px_s = drift(false);
-  weigh_persistence(s);
+  test_persistence(s);
   const auto skipped =
       s.persists ? 0
                  : std::size_t(std::lower_bound(lags.begin(), lags.end(), s.memory_frames) - lags.begin());
@@ -263,8 +264,8 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
              })};
 }
 
-void TrackStatistics::Impl::settle() {
-  settled = true;
+void TrackStatistics::Impl::set_interval() {
+  has_interval = true;
   TrackSummary s;
   fit(s);
   noise2 = s.localisation_px * s.localisation_px;
@@ -328,7 +329,7 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
     s.velocity_y_px_s.push_back(span.y);
     s.order_in_time.push_back(span.order);
   }
-  // Bins of equal width out to the 99.5 % quantile; the last one takes the rest.
+  // Bins of equal width up to the 99.5 % quantile; faster displacements are in the last bin.
   const double most = binned_quantile(speed_bins, 0.995, speed_at);
   if (!(most > 0)) return;
   const auto bins = std::size_t(std::clamp(std::sqrt(double(s.speed_count)), 8.0, 40.0));
@@ -356,10 +357,10 @@ void TrackStatistics::take(const Track& track) {
     me.groups[track.number % kGroups].tracks += 1;
   }
   me.add_displacements(track);
-  if (me.settled) return me.add_motion(track);
+  if (me.has_interval) return me.add_motion(track);
   me.pilot.push_back(track);
   me.pilot_points += track.points.size();
-  if (me.pilot_points >= kPilotPoints) me.settle();
+  if (me.pilot_points >= kPilotPoints) me.set_interval();
 }
 
 TrackSummary TrackStatistics::summary() {
@@ -369,7 +370,7 @@ TrackSummary TrackStatistics::summary() {
   s.points = me.points;
   s.mean_points = me.track_count > 0 ? double(me.points) / me.track_count : 0;
   if (me.points == 0) return s;
-  if (!me.settled) me.settle();
+  if (!me.has_interval) me.set_interval();
   me.fit(s);
   me.motion(s);
   return s;

@@ -7,7 +7,7 @@
 
 namespace faba {
 
-/// Sums over pairs of sightings one lag apart.
+/// Sums over pairs of detections separated by one lag.
 struct LagSums {
   double n = 0, dt = 0, dx = 0, dy = 0, rr = 0;
   LagSums& operator+=(const LagSums& o) {
@@ -19,11 +19,11 @@ struct LagSums {
     return *this;
   }
   LagSums without(const LagSums& o) const { return {n - o.n, dt - o.dt, dx - o.dx, dy - o.dy, rr - o.rr}; }
-  /// Mean-square displacement about the mean one.
+  /// Mean-square displacement relative to the mean displacement.
   double msd() const { return (rr - (dx * dx + dy * dy) / n) / n; }
 };
 
-/// Sums over pairs of displacements: of `over` frames, the second beginning `apart` frames after the first.
+/// Sums over pairs of displacements of `over` frames, the second starting `apart` frames after the first.
 struct ProductSums {
   std::size_t over = 1, apart = 2;
   double n = 0, dot = 0;
@@ -37,18 +37,19 @@ struct TurnSums {
   double n = 0, size = 0, with_sign = 0;
 };
 
-/// Sums over every 20th track: the jackknife leaves out one group after the other.
+/// Sums over every 20th track: a group of the jackknife.
 struct TrackGroup {
   std::vector<LagSums> lags;
-  /// One for each number of frames that a displacement takes; the pause between two is as long.
+  /// One per time scale; the pause between two displacements has the duration of a displacement.
   std::vector<ProductSums> kept;
-  std::vector<ProductSums> memory;  ///< displacements of one frame, two frames apart or more
+  std::vector<ProductSums> memory;  ///< displacements of one frame, at least two frames apart
   SpeedSums speed;
   TurnSums turn;
   double tracks = 0;
 };
 
-/// delete-one jackknife over the groups that hold tracks: value(left out) for each of them.
+/// Standard error by the delete-one jackknife over the groups with tracks: value(group) is the estimate
+/// without that group.
 template <class Value>
 double jackknife_se(const std::vector<TrackGroup>& groups, const Value& value) {
   std::vector<double> v;

@@ -15,12 +15,12 @@
 namespace faba {
 namespace {
 
-constexpr int kFewFrames = 10;        // below this a median over time says little
+constexpr int kFewFrames = 10;        // smallest number of frames for a temporal median
 constexpr double kSizeIfNone = 4;     // px
-constexpr std::size_t kGaps = 10000;  // times between frames that are kept
+constexpr std::size_t kGaps = 10000;  // largest number of stored frame intervals
 
-// Differences of what a cell could be from its surroundings, 1.5 to 8 px wide.
-Polarity found_polarity(const GrayF& frame, const Background& b) {
+// Polarity of the differences from the surroundings at the scale of cells, 1.5 to 8 px.
+Polarity detected_polarity(const GrayF& frame, const Background& b) {
   GrayF d = frame;
   for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] -= b.level.px[i];
   GrayF fine = smoothed(d, 1);
@@ -41,7 +41,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   Background median = sampler.background();
   const bool many = s.frames >= kFewFrames;
   const Background& first_guess = many ? median : fine;
-  s.polarity = o.polarity == Polarity::automatic ? found_polarity(middle, first_guess) : o.polarity;
+  s.polarity = o.polarity == Polarity::automatic ? detected_polarity(middle, first_guess) : o.polarity;
   s.size_px = o.size_px > 0 ? o.size_px : spot_size(middle, first_guess, s.polarity);
   if (!(s.size_px > 0) && many) s.size_px = spot_size(middle, fine, s.polarity);
   if (!(s.size_px > 0)) {
@@ -56,7 +56,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   s.temporal = o.background == BackgroundKind::median ||
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;
-  // Noise over time is measured per pixel where there is one; it weighs the picture's parts.
+  // The temporal background has a noise level for each pixel, used as a weight.
   s.background = std::move(s.temporal ? median : smooth);
 }
 
@@ -73,7 +73,7 @@ DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
 }
 
 void make_finite(GrayF& frame) {
-  // What is not finite stays so when it is multiplied by nothing.
+  // 0 times a value that is not finite is NaN.
   float sum = 0;
   for (const float v : frame.px) sum += 0 * v;
   if (sum == 0) return;
@@ -104,7 +104,7 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
     sampler.take(frame);
     tick(s.frames + 1, reader.frames_stated());
   }
-  if (s.frames == 0) throw Error(Errc::input, video.string(), "no frame could be read");
+  if (s.frames == 0) throw Error(Errc::input, video.string(), "contains no readable frames");
   s.duration_s = last;
   if (!gaps.empty()) s.frame_s = median_high(gaps);
   std::vector<float> levels = s.first.px;
@@ -113,17 +113,17 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   if (reader.truncated() || reader.damaged_frames() > 0)
     s.notes.push_back(fmt::format("{}: {} could be read; {}", video.string(),
                                   counted(std::uint64_t(s.frames), "frame"), reader.damage()));
-  if (s.frames == 1) s.notes.emplace_back("one frame only: spots are found, nothing is tracked");
+  if (s.frames == 1) s.notes.emplace_back("one frame only: spots are detected but not tracked");
   if (!s.timed && s.frames > 1)
-    s.notes.emplace_back("no frame rate is stated: times are counts of frames; give --fps");
+    s.notes.emplace_back("no frame rate is stated: times are frame counts; specify --fps");
   choose_background(o, s, sampler);
   if (!s.size_found)
     s.notes.push_back(
-        fmt::format("nothing stands out of the noise at any size; spots of {} px are looked for", s.size_px));
+        fmt::format("no spots above the noise at any size; a size of {} px is assumed", s.size_px));
   if (s.temporal && s.size_found && s.still_spots * 4 > s.spots)
     s.notes.push_back(fmt::format(
-        "{} things of this size stand in the median of all frames and are left out as background: they never "
-        "move, or others often come to where they are; to keep them, --background spatial",
+        "{} stationary spots of this size are part of the median background and are excluded: they never "
+        "move, or their positions are often occupied; to include them, specify --background spatial",
         s.still_spots));
   return s;
 }

@@ -1,4 +1,4 @@
-// Building a field library: what is in it, and that a stopped build goes on to the same.
+// Building a field library: its entries, and resuming a stopped build.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -37,11 +37,11 @@ void check_equal(const FieldLibrary& a, const FieldLibrary& b) {
 
 }  // namespace
 
-TEST_CASE("field library: every entry is a zero that traps, and its field is the rig's") {
+TEST_CASE("field library: every entry is a zero that traps, and its field is that of the coil system") {
   const test::TemporaryFolder f("library");
   const FieldLibrarySummary made = build_field_library(kRig, f.path() / "l.h5", small());
-  const auto kept_l = open_library(f.path() / "l.h5");
-  const FieldLibrary& l = *kept_l;
+  const auto library = open_library(f.path() / "l.h5");
+  const FieldLibrary& l = *library;
   const auto rig = read_rig(kRig, builtin_parts());
   const auto field = rig.make({});
   CHECK_NOTHROW(l.table(*field, coil_system_hash(rig.resolved)));
@@ -62,20 +62,21 @@ TEST_CASE("field library: every entry is a zero that traps, and its field is the
     CHECK(l.field(i)[0] == doctest::Approx(corner.x).epsilon(1e-6));
     CHECK(l.field(i)[1] == doctest::Approx(corner.y).epsilon(1e-6));
   }
-  CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", small()), Error);  // it is there
+  CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", small()), Error);  // the file exists
 }
 
-TEST_CASE("field library: stopped or crashed, it goes on to the same library, with any number of threads") {
+TEST_CASE(
+    "field library: a stopped or crashed build resumes to the same library, with any number of threads") {
   const test::TemporaryFolder f("library");
   FieldLibraryOptions o = small();
-  build_field_library(kRig, f.path() / "whole.h5", o);
+  build_field_library(kRig, f.path() / "complete.h5", o);
   const auto out = f.path() / "stopped.h5", part = f.path() / "stopped.h5.part";
   int asked = 0;
   o.threads = 1;
   o.stop = [&] { return ++asked > 7; };
   try {
     build_field_library(kRig, out, o);
-    FAIL("it was not stopped");
+    FAIL("the build was not stopped");
   } catch (const Error& e) {
     CHECK(e.code() == Errc::interrupted);
   }
@@ -87,21 +88,21 @@ TEST_CASE("field library: stopped or crashed, it goes on to the same library, wi
   o.stop = [] { return false; };
   o.progress = [&](std::uint64_t done, std::uint64_t) { first = first ? first : done; };
   build_field_library(kRig, out, o);
-  CHECK(first > 0);  // it did not begin again
-  check_equal(*open_library(f.path() / "whole.h5"), *open_library(out));
+  CHECK(first > 0);  // it did not restart
+  check_equal(*open_library(f.path() / "complete.h5"), *open_library(out));
 
-  // A power cut leaves any part of the file: what can be read of it is used, and never more.
-  for (const double share : {0.1, 0.5, 0.9}) {
+  // A power failure leaves any part of the file: everything readable is used.
+  for (const double fraction : {0.1, 0.5, 0.9}) {
     const auto cut = f.path() / "cut.h5";
-    write_file(cut.string() + ".part", left.substr(0, std::size_t(share * double(left.size()))));
+    write_file(cut.string() + ".part", left.substr(0, std::size_t(fraction * double(left.size()))));
     o.force = true;
     o.progress = [](auto, auto) {};
     build_field_library(kRig, cut, o);
-    check_equal(*open_library(f.path() / "whole.h5"), *open_library(cut));
+    check_equal(*open_library(f.path() / "complete.h5"), *open_library(cut));
   }
 }
 
-TEST_CASE("field library: limits are said") {
+TEST_CASE("field library: options out of range are refused") {
   const test::TemporaryFolder f("library");
   FieldLibraryOptions o = small();
   o.levels = 100000;
@@ -111,6 +112,6 @@ TEST_CASE("field library: limits are said") {
   CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", o), Error);
   o = small();
   o.width = o.height = 0.05;
-  o.spacing = 1e-3;  // the coils stand in it
+  o.spacing = 1e-3;  // contains the coils
   CHECK_THROWS_AS(build_field_library(kRig, f.path() / "l.h5", o), Error);
 }

@@ -1,4 +1,4 @@
-// Theory A17: histograms from their definition, alignment, and what a distance is measured against.
+// Theory A17: histograms, alignment, and the distances for comparison.
 #include "study/motion/compare.h"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-/// A file of flows, 10 pairs a second: rest, to the right from `first` on, back from `second` to the end.
+/// A file of flows, 10 pairs per second: no motion, to the right from pair `first`, to the left from
+/// `second`.
 void write_step(const std::filesystem::path& file, int pairs, int first, int second, double speed,
                 unsigned seed, int height = 20) {
   std::mt19937 g(seed);
@@ -43,13 +44,13 @@ CompareJob job_of(const std::filesystem::path& reference, const std::vector<std:
   job.runs = runs;
   job.method = flow_part({}, published_flow());
   job.threads = 1;
-  job.flow_threshold_px = 0.5;  // five standard deviations of the noise: what is compared is the motion
+  job.flow_threshold_px = 0.5;  // five standard deviations of the noise
   return job;
 }
 
 }  // namespace
 
-TEST_CASE("histograms are the sums of their definition") {
+TEST_CASE("histograms agree with their definition") {
   std::mt19937 g(1);
   std::normal_distribution<float> gauss(0, 1);
   Flow f{GrayF(7, 5), GrayF(7, 5)};
@@ -77,7 +78,7 @@ TEST_CASE("histograms are the sums of their definition") {
   }
 }
 
-TEST_CASE("a video against itself is at no distance, and nothing is far from it") {
+TEST_CASE("the distance of a video to itself is 0, and that to a video without motion is large") {
   const test::TemporaryFolder f("compare");
   write_step(f.path() / "a.h5", 100, 20, 50, 1, 1);
   const Comparison c = compare_videos(job_of(f.path() / "a.h5", {f.path() / "a.h5"}));
@@ -87,16 +88,16 @@ TEST_CASE("a video against itself is at no distance, and nothing is far from it"
   CHECK(c.runs[0].distance.legacy_mean == 0);
   CHECK(c.naive.mean > 1);
   CHECK_FALSE(c.floor);
-  CHECK(c.floor_from.find("not known") != std::string::npos);
+  CHECK(c.floor_from.find("unknown") != std::string::npos);
 }
 
-TEST_CASE("both begin at the reversal, wherever it is") {
+TEST_CASE("reference and run are aligned at the reversal") {
   const test::TemporaryFolder f("compare");
   write_step(f.path() / "a.h5", 100, 20, 50, 1, 1);
   write_step(f.path() / "b.h5", 120, 30, 63, 1, 2);
   CompareJob job = job_of(f.path() / "a.h5", {f.path() / "b.h5"});
   const Comparison found = compare_videos(job);
-  // The reversal is found to the pair or its neighbour.
+  // The reversal is detected to within one pair.
   CHECK(std::fabs(found.reference_t0_s - 5) <= 0.11);
   CHECK(std::fabs(found.runs[0].t0_s - 6.3) <= 0.11);
   CHECK(std::fabs(std::remainder(found.filter.direction_deg - 180, 360)) < 5);
@@ -113,7 +114,7 @@ TEST_CASE("both begin at the reversal, wherever it is") {
   CHECK(given.runs[0].distance.mean < 0.2 * given.naive.mean);
 }
 
-TEST_CASE("a slower run is farther, and a run of another size or without anything in common is refused") {
+TEST_CASE("a slower run has a larger distance; a run of another size or without overlap is refused") {
   const test::TemporaryFolder f("compare");
   write_step(f.path() / "a.h5", 100, 20, 50, 1, 1);
   write_step(f.path() / "same.h5", 100, 20, 50, 1, 2);

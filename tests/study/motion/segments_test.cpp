@@ -1,4 +1,4 @@
-// Segments of directed motion in flows made for the purpose: the ends are known to the frame.
+// Segments of directed motion in synthetic flows with known start and end.
 #include "study/motion/segments.h"
 
 #include <doctest/doctest.h>
@@ -40,42 +40,43 @@ Signature made(int pairs, const std::vector<Motion>& motions, double noise, unsi
 
 }  // namespace
 
-TEST_CASE("stretches of motion, rests and a direct reversal, with their directions") {
+TEST_CASE("intervals of motion, pauses and a direct reversal, with their directions") {
   const std::vector<Motion> truth{
       {20, 55, 270, 1}, {80, 130, 100, 0.7}, {150, 200, 0, 1}, {200, 240, 180, 1}};
   const auto found = motion_segments(made(260, truth, 0.1));
   REQUIRE(found.size() == truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    // The ends are those of a pair or its neighbour; the direction from some 40 sums of 160 pixels, each with
-    // an error of 0.3 / sqrt(160): far below a degree.
+    // Start and end to within one pair; the direction from about 40 sums of 160 pixels, each with an error of
+    // 0.3 / sqrt(160): far below one degree.
     CHECK(std::fabs(found[i].t0_s - 0.1 * truth[i].from) <= 0.11);
     CHECK(std::fabs(found[i].t1_s - 0.1 * truth[i].to) <= 0.11);
     CHECK(std::fabs(std::remainder(found[i].direction_deg - truth[i].deg, 360)) < 3);
   }
 }
 
-TEST_CASE("with a direction given motion is taken along it: to it and against it") {
+TEST_CASE("with a given direction only motion along it and against it is detected") {
   const std::vector<Motion> truth{{20, 55, 270, 1}, {80, 130, 60, 1}, {150, 200, 0, 1}};
   const auto found = motion_segments(made(220, truth, 0.1), 90.0);
-  REQUIRE(found.size() == 2);  // what goes across is none
+  REQUIRE(found.size() == 2);  // motion across is ignored
   CHECK(found[0].direction_deg == doctest::Approx(270));
   CHECK(found[1].direction_deg == doctest::Approx(90));
   CHECK(std::fabs(found[1].t0_s - 8) <= 0.11);
 }
 
-TEST_CASE("noise, one thing that diffuses, a short jerk and no motion at all are no directed motion") {
+TEST_CASE("noise, diffusion of one object, a short jerk and no motion are not directed motion") {
   int false_ones = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     CHECK(motion_segments(made(150, {}, 0.5, seed)).empty());
-    // A thing that steps into a random direction from frame to frame.
+    // An object that steps in a random direction in each frame.
     std::mt19937 g(seed);
     std::uniform_real_distribution<double> turn(0, 360);
     std::vector<Motion> steps;
     for (int k = 0; k < 150; ++k) steps.push_back({k, k + 1, turn(g), 1});
     false_ones += !motion_segments(made(150, steps, 0.05, seed)).empty();
   }
-  // Windows of five steps go one way often; a segment of half a second that agrees beyond 1 in 1000 is rare:
-  // some 30 independent windows in each of 20 videos make 0.6 to be expected, 4 or more once in 300 times.
+  // Windows of five steps often have one direction; a segment of half a second with p < 0.001 is rare: about
+  // 30 independent windows in each of 20 videos give an expectation of 0.6; 4 or more occur once in 300
+  // tests.
   CHECK(false_ones <= 3);
   CHECK(motion_segments(made(100, {{50, 53, 0, 2}}, 0.1)).empty());
   CHECK(motion_segments(made(50, {}, 0)).empty());

@@ -1,4 +1,4 @@
-// Theory A16: the sums are what their definition says, for every direction.
+// Theory A16: the sums agree with their definition for every direction.
 #include "study/motion/signature.h"
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 }
 
-TEST_CASE("activity within 45 degrees of a direction, and along it less against it, from the definition") {
+TEST_CASE("activity within 45 degrees of a direction, and net flow along it, agree with their definition") {
   std::mt19937 g(2);
   std::normal_distribution<float> flow(0.1F, 1);
   FlowPair p = test::moving_quarter(0, 0, 0);
@@ -32,15 +32,15 @@ TEST_CASE("activity within 45 degrees of a direction, and along it less against 
         if (forward >= std::cos(45 * kDegree) * speed) amount += std::fabs(u) + std::fabs(v);
         if (std::fabs(forward) >= std::cos(45 * kDegree) * speed) along += forward;
       }
-      // Sums of some 600 floats of magnitude 1, and flows within 1e-6 of the border of a sector may fall on
-      // either side: one of 600 pixels would be 0.2 %.
+      // Sums of about 600 floats of magnitude 1; flows within 1e-6 of the border of a sector may be in either
+      // sector: one of 600 pixels would be 0.2 %.
       CHECK(s.amount(0, deg) == doctest::Approx(9 * amount).epsilon(1e-5));
       CHECK(s.along(0, deg) == doctest::Approx(9 * along).epsilon(1e-4));
     }
   }
 }
 
-TEST_CASE("noise without a direction adds to the activity and nothing to the flow along a direction") {
+TEST_CASE("noise without a direction increases the activity but not the flow along a direction") {
   std::mt19937 g(3);
   std::normal_distribution<float> noise(0, 1);
   Signature s(0.5, 0);
@@ -59,7 +59,7 @@ TEST_CASE("noise without a direction adds to the activity and nothing to the flo
   CHECK(std::fabs(along) < 4 * std::sqrt(squares));  // four standard errors of a sum of zero mean
 }
 
-TEST_CASE("the nearest whole direction, and times") {
+TEST_CASE("the nearest direction with complete sectors, and times") {
   Signature s(0.1, 10);
   s.add(test::moving_quarter(4, 1, 0), 1);
   CHECK(s.nearest_deg(10) == doctest::Approx(10));

@@ -21,7 +21,7 @@ using namespace faba;
 
 namespace {
 
-// The thesis's table 4.1.
+// Table 4.1 of the thesis.
 const char* const kTable41 =
     "width_um,px_1,px_2\n30,41.42,40.31\n50,63.25,64.19\n70,87.52,90.10\n100,121.44,122.40\n"
     "200,228.55,225.66\n";
@@ -57,7 +57,7 @@ TEST_CASE("table 4.1 to all printed digits") {
   const auto end = [&](const char* key, int i, int digits) {
     return fmt::format("{:.{}f}", j[key][std::size_t(i)].get<double>(), digits);
   };
-  // REFERENCE A20; the same numbers stand in docs/theory/thesis-models.md.
+  // REFERENCE A20; the same numbers are in docs/theory/thesis-models.md.
   CHECK(fixed("intercept_px", 2) == "10.27");
   CHECK(end("intercept_ci95_px", 0, 1) == "7.1");
   CHECK(end("intercept_ci95_px", 1, 1) == "13.5");
@@ -78,7 +78,7 @@ TEST_CASE("table 4.1 to all printed digits") {
   CHECK(j["take"] == "regression");
 }
 
-TEST_CASE("every way to write the same table") {
+TEST_CASE("all forms of the same table give the same result") {
   const auto wanted = report(kTable41);
   std::string narrow = "width_um,px\n", mm = "\"Width (mm)\",first,second\n",
               other = "n,pixels a,pixels b,um\n";
@@ -106,9 +106,9 @@ TEST_CASE("every way to write the same table") {
   CHECK(report("width_microns,px\n10,20\n20,40.1\n30,60\n")["repeatability_px"].is_null());
 }
 
-TEST_CASE("the interval holds the truth as often as it says") {
-  // 400 tables of 6 widths read twice, 1.2 um/px, 7 px of edge, readings good to 1.5 px. The number of hits
-  // is binomial: 380 +- 4.4; 5 standard deviations to each side.
+TEST_CASE("the confidence interval has its nominal coverage") {
+  // 400 tables of 6 widths read twice, 1.2 um/px, 7 px of edge, readings with an error of 1.5 px. The number
+  // of hits is binomial: 380 +- 4.4; tolerance of 5 standard deviations.
   int hits = 0, ratio_hits = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     FrameNoise noise(seed);
@@ -120,21 +120,21 @@ TEST_CASE("the interval holds the truth as often as it says") {
       }
     const TableScale s = measure_scale(r, "made");
     hits += s.ci95[0] < 1.2 && 1.2 < s.ci95[1];
-    const double reach = student_t_quantile(0.975, 5) * s.ratios.sem;
-    ratio_hits += std::fabs(s.ratios.mean - 1.2) < reach;
+    const double half_ci = student_t_quantile(0.975, 5) * s.ratios.sem;
+    ratio_hits += std::fabs(s.ratios.mean - 1.2) < half_ci;
   }
   CHECK(hits > 358);
-  CHECK(ratio_hits < 200);  // what edges do to the mean of the ratios
+  CHECK(ratio_hits < 200);  // biased by the edges
 }
 
-TEST_CASE("without an excess both estimators agree and the note says so") {
+TEST_CASE("without an edge excess both estimators agree, and the note states it") {
   const TableScale s = measured("width_um,px_1,px_2\n10,20.1,19.9\n20,40.2,39.9\n50,99.8,100.3\n");
   CHECK_FALSE(s.edge_excess_significant());
   CHECK(s.ratios.mean == doctest::Approx(s.um_per_px).epsilon(0.01));
   CHECK(says(scale_note(s), "not significantly different from 0"));
 }
 
-TEST_CASE("tables that are none") {
+TEST_CASE("invalid tables are refused") {
   CHECK(says(refused("dear diary\nwe measured\n"), ":2"));
   CHECK(says(refused("width_um,px\n30,41\nforty,52\n"), ":3"));
   CHECK(says(refused("width,px\n30,41\n50,63\n70,88\n"), "width_um"));
@@ -143,16 +143,16 @@ TEST_CASE("tables that are none") {
   CHECK(says(refused("width_um,px\n"), "no readings"));
   CHECK(says(refused("width_um,px_1,px_2,px_3\n30,41,42,40\n"), "one width"));
   CHECK(says(refused("width_um,px\n30,41\n50,63\n"), "three readings"));
-  CHECK(says(refused("width_um,px\n-30,41\n50,63\n70,88\n"), "above 0"));
+  CHECK(says(refused("width_um,px\n-30,41\n50,63\n70,88\n"), "greater than 0"));
   CHECK(says(refused("width_um,px\n30,41\n50,0\n70,88\n"), ":3"));
   CHECK(says(refused("width_um,px\n30,41\n50,nan\n70,88\n"), "not a number"));
   CHECK(says(refused("width_um,px_1,px_2\n30,41,42\n50,,63\n70,88,89\n"), "empty"));
   CHECK(says(refused("width_um,px\n30,inf\n50,63\n70,88\n"), ":2"));
-  CHECK(says(refused("width_um,px\n30,88\n50,63\n70,41\n"), "do not grow"));
-  CHECK(says(refused("width_um,px\n30,50\n50,80\n70,51\n"), "beyond doubt"));
+  CHECK(says(refused("width_um,px\n30,88\n50,63\n70,41\n"), "do not increase"));
+  CHECK(says(refused("width_um,px\n30,50\n50,80\n70,51\n"), "do not increase significantly"));
 }
 
-TEST_CASE("the calibration file of a report reads back") {
+TEST_CASE("the calibration file of a measurement can be read") {
   const TestFolder folder;
   const auto file = folder.path / "calibration.toml";
   const TableScale s = measured(kTable41);

@@ -1,5 +1,4 @@
-// Lines against exposure (theory A16): intervals hold the truth as often as they say, when experiments
-// differ.
+// Lines against exposure (theory A16): coverage of the confidence intervals for experiments that differ.
 #include "study/stats/exposure_lines.h"
 
 #include <doctest/doctest.h>
@@ -27,8 +26,7 @@ std::vector<ExposureValue> made(unsigned seed, double shift_sd, int experiments 
 
 }  // namespace
 
-TEST_CASE(
-    "95 % intervals of slope and intercept hold the truth in 95 % of the cases, with and without shifts") {
+TEST_CASE("95 % intervals of slope and intercept have their nominal coverage, with and without shifts") {
   for (const double shift : {0.0, 0.5}) {
     int slope = 0, intercept = 0, pooled = 0;
     const int n = 400;
@@ -40,14 +38,14 @@ TEST_CASE(
       intercept += line->intercept_ci95[0] <= 1 && 1 <= line->intercept_ci95[1];
       pooled += all->intercept_ci95[0] <= 1 && 1 <= all->intercept_ci95[1];
     }
-    // Binomial: 380 of 400 expected, standard deviation 4.4; four of them.
+    // Binomial: 380 of 400 expected, standard deviation 4.4; tolerance of four.
     CHECK(slope > 362);
     CHECK(intercept > 362);
-    if (shift > 0) CHECK(pooled < 350);  // values of one experiment are not independent: why it is not enough
+    if (shift > 0) CHECK(pooled < 350);  // values of one experiment are correlated
   }
 }
 
-TEST_CASE("intervals hold the truth when late values scatter more than early ones") {
+TEST_CASE("intervals keep their coverage when late values scatter more than early ones") {
   int mixed = 0, pooled = 0;
   for (unsigned seed = 1; seed <= 400; ++seed) {
     const auto values = made(seed, 0.2, 4, 7, 1.5);
@@ -59,7 +57,7 @@ TEST_CASE("intervals hold the truth when late values scatter more than early one
   CHECK(pooled < mixed);
 }
 
-TEST_CASE("experiments that do not differ give the pooled line; one experiment is the pooled line") {
+TEST_CASE("experiments without shifts and a single experiment give the pooled line") {
   const auto one = made(3, 0, 1);
   CHECK(mixed_line(one)->slope == doctest::Approx(pooled_line(one)->slope).epsilon(1e-12));
   CHECK_FALSE(mixed_line(std::vector<ExposureValue>{{0, 1, "a"}, {0, 2, "b"}, {0, 3, "c"}}));
@@ -72,7 +70,7 @@ TEST_CASE("experiments that do not differ give the pooled line; one experiment i
   CHECK(line->scatter_sd == doctest::Approx(0.1).epsilon(0.5));
 }
 
-TEST_CASE("the cut-off lies between the exposures that it separates") {
+TEST_CASE("the cut-off is between the exposures that it separates") {
   std::vector<ExposureResponse> samples;
   for (int e = 0; e < 4; ++e)
     for (int i = 1; i <= 8; ++i) samples.push_back({100.0 * i, i <= 6});
@@ -80,7 +78,7 @@ TEST_CASE("the cut-off lies between the exposures that it separates") {
   REQUIRE(cut);
   CHECK(cut->cutoff_s == 650);
   CHECK(cut->wrong == 0);
-  samples[7].responds = true;  // one odd video at 800 s
+  samples[7].responds = true;  // one outlier at 800 s
   cut = response_cutoff(samples);
   REQUIRE(cut);
   CHECK(cut->cutoff_s == 650);

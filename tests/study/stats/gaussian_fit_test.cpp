@@ -27,7 +27,7 @@ Series peak(double a, double mu, double s, double c, double noise, unsigned seed
 
 }  // namespace
 
-TEST_CASE("a Gaussian without noise is found to the last digits") {
+TEST_CASE("the parameters of a Gaussian without noise are recovered") {
   const Series s = peak(1.7e4, 2.2, 0.8, 8.3e3, 0, 1);
   const GaussianFit f = fit_gaussian(s.t, s.y);
   CHECK(f.good);
@@ -37,7 +37,7 @@ TEST_CASE("a Gaussian without noise is found to the last digits") {
   CHECK(f.offset == doctest::Approx(8.3e3).epsilon(1e-6));
 }
 
-TEST_CASE("standard errors are the scatter of the answers over many series") {
+TEST_CASE("standard errors equal the scatter of the estimates over many series") {
   double sum = 0, squares = 0, stated = 0;
   const int n = 200;
   for (unsigned seed = 1; seed <= n; ++seed) {
@@ -50,19 +50,19 @@ TEST_CASE("standard errors are the scatter of the answers over many series") {
   }
   const double sd = std::sqrt(squares / n);
   CHECK(std::fabs(sum / n) < 4 * sd / std::sqrt(n));
-  // A standard deviation from 200 values is known to 5 %; the correlation that is allowed for makes errors no
-  // smaller.
+  // The relative error of a standard deviation from 200 values is 5 %; the correction for correlation only
+  // increases the standard errors.
   CHECK(stated > 0.8 * sd);
   CHECK(stated < 1.4 * sd);
 }
 
-TEST_CASE("what is no peak is said to be none") {
+TEST_CASE("series without a peak are not accepted") {
   int good = 0;
   for (unsigned seed = 1; seed <= 50; ++seed) {
     const Series flat = peak(0, 3, 1, 8.3e3, 300, seed);
     good += fit_gaussian(flat.t, flat.y).good;
   }
-  CHECK(good == 0);  // one in ten thousand each
+  CHECK(good == 0);  // probability 1e-4 each
   const Series rising = peak(100, 30, 8, 10, 1, 1);
   CHECK_FALSE(fit_gaussian(rising.t, rising.y).good);
   const std::vector<double> t{0, 1, 2, 3, 4, 5, 6}, same(7, 3.0), zero(7, 0.0);

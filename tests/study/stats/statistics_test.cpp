@@ -10,8 +10,8 @@
 
 using namespace faba;
 
-TEST_CASE("a line with residuals that can be done by hand") {
-  // y = 1 + 2 x with +1, -1, -1, +1 on top, which no line can take up.
+TEST_CASE("line fit with residuals calculated by hand") {
+  // y = 1 + 2 x plus +1, -1, -1, +1, which are orthogonal to any line.
   const std::vector<double> x{-3, -1, 1, 3}, y{-4, -2, 2, 8};
   const LineFit f = fit_line(x, y);
   CHECK(f.slope == doctest::Approx(2));
@@ -26,7 +26,7 @@ TEST_CASE("a line with residuals that can be done by hand") {
   CHECK_THROWS_AS(fit_line(std::vector<double>{1, 1, 1}, std::vector<double>{1, 2, 3}), Error);
 }
 
-TEST_CASE("Spearman's correlation and how likely it is") {
+TEST_CASE("Spearman's correlation and its p-value") {
   const std::vector<double> x{1, 2, 3, 4, 5}, up{2, 3, 50, 51, 1000}, down{9, 8, 7, 6, 5},
       ties{1, 1, 2, 2, 3};
   CHECK(spearman(x, up) == doctest::Approx(1));

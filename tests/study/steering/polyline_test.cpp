@@ -13,7 +13,7 @@ using namespace faba;
 
 namespace {
 
-Vec2 drawn_point(std::uint32_t i, std::uint32_t of) {
+Vec2 random_point(std::uint32_t i, std::uint32_t of) {
   const auto w = draw(1, Stream::study, i, of);
   return {200 * double(normals(w[0], w[1])[0]), 100 * double(normals(w[2], w[3])[0])};
 }
@@ -41,10 +41,10 @@ TEST_CASE("distance to a corner") {
 TEST_CASE("distance is the smallest of the distances to all segments") {
   for (const std::uint32_t count : {2U, 3U, 40U, 2000U}) {
     std::vector<Vec2> vertex;
-    for (std::uint32_t i = 0; i < count; ++i) vertex.push_back(drawn_point(i, 0));
+    for (std::uint32_t i = 0; i < count; ++i) vertex.push_back(random_point(i, 0));
     const Polyline line(vertex);
     for (std::uint32_t i = 0; i < 300; ++i) {
-      const Vec2 p = drawn_point(i, 1);
+      const Vec2 p = random_point(i, 1);
       CHECK(std::fabs(line.distance(p) - distance_to_any(p, vertex)) < 1e-10);
     }
   }

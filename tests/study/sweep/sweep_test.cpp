@@ -30,7 +30,7 @@ struct Work {
 
 }  // namespace
 
-TEST_CASE("what was done is not done again, whatever ended the sweep") {
+TEST_CASE("a resumed sweep repeats no completed task") {
   const test::TemporaryFolder folder("sweep");
   const auto& f = folder.path();
   Work work(20);
@@ -42,9 +42,9 @@ TEST_CASE("what was done is not done again, whatever ended the sweep") {
     CHECK_THROWS_AS(sweep(store, work.tasks, stopped), Error);
     CHECK(store.size() >= 7);
   }
-  // Killed in the middle of a line.
-  const std::string whole = read_file(f / "r.jsonl");
-  write_file(f / "r.jsonl", whole.substr(0, whole.size() - 5));
+  // Killed while writing a line.
+  const std::string complete = read_file(f / "r.jsonl");
+  write_file(f / "r.jsonl", complete.substr(0, complete.size() - 5));
   ResultStore store(f / "r.jsonl");
   const int before = work.done;
   const auto kept = int(store.size());
@@ -53,11 +53,11 @@ TEST_CASE("what was done is not done again, whatever ended the sweep") {
   for (int i = 0; i < 20; ++i) {
     const auto* values = store.find(work.tasks[std::size_t(i)].key);
     REQUIRE(values);
-    CHECK(*values == std::vector<double>{double(i), 1.0 / (i + 3)});  // to the last bit
+    CHECK(*values == std::vector<double>{double(i), 1.0 / (i + 3)});  // bit-identical
   }
 }
 
-TEST_CASE("shards do each task once, and together all of them") {
+TEST_CASE("shards run each task once, and together all tasks") {
   const test::TemporaryFolder folder("sweep");
   const auto& f = folder.path();
   Work work(11);
@@ -74,7 +74,7 @@ TEST_CASE("shards do each task once, and together all of them") {
   CHECK(work.done == 11);
 }
 
-TEST_CASE("numbers that are none are kept as such; a task's error ends the sweep; damage is named") {
+TEST_CASE("NaN is stored; an error of a task ends the sweep; damaged files are refused") {
   const test::TemporaryFolder folder("sweep");
   const auto& f = folder.path();
   {
@@ -90,11 +90,11 @@ TEST_CASE("numbers that are none are kept as such; a task's error ends the sweep
   const std::vector<Task> bad{{"x", []() -> std::vector<double> { throw Error(Errc::usage, "x", "no"); }}};
   CHECK_THROWS_WITH(sweep(other, bad, {}), doctest::Contains("no"));
 
-  write_file(f / "t", "{\"task\":\"a\",\"values\":[1]}\nrubbish\n");
+  write_file(f / "t", "{\"task\":\"a\",\"values\":[1]}\ninvalid\n");
   CHECK_THROWS_WITH(ResultStore(f / "t"), doctest::Contains("t:2"));
 }
 
-TEST_CASE("a study's directory: it goes on, and is neither mixed up nor overwritten") {
+TEST_CASE("study directory: resumed, neither mixed with another study nor overwritten") {
   const test::TemporaryFolder folder("sweep");
   const auto& f = folder.path();
   const auto dir = f / "study";
@@ -103,19 +103,19 @@ TEST_CASE("a study's directory: it goes on, and is neither mixed up nor overwrit
     d.results().add("a", {1});
   }
   {
-    StudyDirectory d(dir, "one", "again", false);  // killed before: goes on
+    StudyDirectory d(dir, "one", "again", false);  // resumes after a kill
     CHECK(d.results().find("a"));
     CHECK_THROWS_WITH(StudyDirectory(dir, "one", "again", false), doctest::Contains("process"));
     d.complete();
   }
   CHECK_THROWS_WITH(StudyDirectory(dir, "one", "again", false), doctest::Contains("complete"));
-  CHECK_THROWS_WITH(StudyDirectory(dir, "two", "again", false), doctest::Contains("another study"));
+  CHECK_THROWS_WITH(StudyDirectory(dir, "two", "again", false), doctest::Contains("a different study"));
   CHECK(StudyDirectory(dir, "one", "again", true).results().find("a"));
   StudyDirectory replaced(dir, "two", "again", true);
   CHECK_FALSE(replaced.results().find("a"));
   write_file(f / "mine.txt", "x");
   CHECK_THROWS_WITH(StudyDirectory(f, "one", "again", true), doctest::Contains("no study"));
   StudyDirectory third(f / "third", "three", "again", false);
-  CHECK_THROWS_WITH(third.merge({dir}), doctest::Contains("another study"));
+  CHECK_THROWS_WITH(third.merge({dir}), doctest::Contains("a different study"));
   CHECK_THROWS_AS(third.merge({f / "none"}), Error);
 }

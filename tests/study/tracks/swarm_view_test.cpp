@@ -10,7 +10,7 @@
 
 using namespace faba;
 
-TEST_CASE("cells in view are counted in a video, taken from the series of a run, unknown for flows") {
+TEST_CASE("visible cells: detected in a video, read from the series of a run, unknown for flows") {
   const media::ScratchFolder folder;
   std::filesystem::create_directories(folder / "frames");
   cells::Look l;

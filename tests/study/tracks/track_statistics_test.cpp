@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kFrame = 0.05;
 
-// Tracks of walkers with speed v, rotational diffusion dr, translational diffusion d, drift, seen with error
-// s.
+// Statistics of tracks of walkers with speed v, rotational diffusion dr, translational diffusion d, drift,
+// and localisation error s.
 TrackSummary walk(int tracks, int frames, double v, double dr, double d, Vec2 drift, double s,
                   std::uint64_t seed, int interval = 0) {
   cells::Dice dice(seed);
@@ -46,7 +46,7 @@ bool within(const Estimated& e, double truth, double errors = 4) {
 
 }  // namespace
 
-TEST_CASE("diffusion: D, localisation error and drift come back inside their errors") {
+TEST_CASE("diffusion: D, localisation error and drift are recovered within their errors") {
   for (const double s : {0.0, 0.5, 2.0}) {
     CAPTURE(s);
     const TrackSummary r = walk(300, 60, 0, 0, 8, {12, -5}, s, 3);
@@ -57,14 +57,15 @@ TEST_CASE("diffusion: D, localisation error and drift come back inside their err
     CHECK(r.d_px2_s.se < 0.6);
     CHECK(within(r.drift_x_px_s, 12));
     CHECK(within(r.drift_y_px_s, -5));
-    // The offset's error is about that of the first MSD: 4 (D dt + s^2) sqrt(2 / pairs), pairs 17 000.
+    // The error of the offset is about that of the first MSD: 4 (D dt + s^2) sqrt(2 / pairs), pairs 17 000.
     CHECK(std::fabs(r.diffusion.offset_px2 - 4 * s * s) <
           12 * (8 * kFrame + s * s) * std::sqrt(2.0 / 17000) * 4);
     if (s < 1) CHECK(r.alpha.value == doctest::Approx(1).epsilon(0.06));
   }
 }
 
-TEST_CASE("swimming: speed and persistence of the walk come back, and the walk is told from diffusion") {
+TEST_CASE(
+    "swimming: speed and persistence time are recovered, and the walk is distinguished from diffusion") {
   // tau = 1 / Dr in two dimensions: MSD = 2 v^2 tau^2 (t / tau - 1 + exp(-t / tau)).
   const TrackSummary r = walk(300, 60, 40, 1.0, 0, {}, 0.4, 5);
   CHECK(r.persists);
@@ -76,10 +77,10 @@ TEST_CASE("swimming: speed and persistence of the walk come back, and the walk i
   CHECK(r.mean_speed_px_s.value == doctest::Approx(40).epsilon(0.03));
 }
 
-TEST_CASE("mean speed is free of the localisation error") {
+TEST_CASE("mean speed is corrected for the localisation error") {
   for (const double s : {0.0, 0.3, 1.0}) {
     CAPTURE(s);
-    // Three frames: 6 px, the error up to a sixth of it; chords are shorter than arcs by Dr T / 6 = 0.25 %.
+    // Three frames: 6 px, error up to a sixth of it; chords are shorter than arcs by Dr T / 6 = 0.25 %.
     const TrackSummary r = walk(400, 40, 40, 0.1, 0, {}, s, 7, 3);
     CHECK(r.mean_speed_px_s.value == doctest::Approx(40).epsilon(0.01));
     CHECK(r.interval_frames == 3);
@@ -91,7 +92,7 @@ TEST_CASE("mean speed is free of the localisation error") {
   }
 }
 
-TEST_CASE("a circle turns at its rate, clockwise as seen when y is down and the angle grows") {
+TEST_CASE("circular motion: rate of turn, clockwise positive with y down") {
   cells::Dice dice(1);
   TrackStatistics statistics(kFrame, 1);
   for (int i = 0; i < 40; ++i) {
@@ -109,7 +110,7 @@ TEST_CASE("a circle turns at its rate, clockwise as seen when y is down and the 
   CHECK(r.turn_deg_s.value == doctest::Approx(2.0 * 180 / std::numbers::pi).epsilon(0.01));
 }
 
-TEST_CASE("places smeared over frames are noticed and do not pass for swimming") {
+TEST_CASE("positions correlated over frames are detected and not mistaken for swimming") {
   cells::Dice dice(6);
   TrackStatistics statistics(kFrame);
   for (int i = 0; i < 300; ++i) {
@@ -118,7 +119,7 @@ TEST_CASE("places smeared over frames are noticed and do not pass for swimming")
     Vec2 p, smeared;
     for (int k = 0; k < 100; ++k) {
       p = p + std::sqrt(2 * 8 * kFrame) * Vec2{dice.normal(), dice.normal()};
-      smeared = smeared + 0.6 * (p - smeared);  // as a codec that moves a picture's blocks late
+      smeared = smeared + 0.6 * (p - smeared);  // as by a codec that updates blocks with a delay
       t.points.push_back({std::uint64_t(k), k * kFrame, smeared.x, smeared.y, 1, 1});
     }
     statistics.take(t);
@@ -129,7 +130,7 @@ TEST_CASE("places smeared over frames are noticed and do not pass for swimming")
   CHECK(r.d_px2_s.value == doctest::Approx(8).epsilon(0.08));
 }
 
-TEST_CASE("nothing, one point, one track: a summary without numbers that do not exist") {
+TEST_CASE("no track, one point: a summary without undefined values") {
   TrackStatistics none(kFrame);
   CHECK(none.summary().tracks == 0);
   TrackStatistics one(kFrame);
