@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMostOutput = 16u << 20;
 constexpr int kPollMs = 100;
 constexpr double kReportPeriod = 0.2;  // s
-constexpr double kPatience = 5;        // s, timeout between SIGINT and SIGKILL
+constexpr double kKillDelay = 5;        // s, timeout between SIGINT and SIGKILL
 constexpr int kProgressFd = 3;
 constexpr std::size_t kKept = 100;  // maximum length of the job list
 
@@ -244,7 +244,7 @@ void JobList::carry_out(Job& job, const std::stop_token& stop) {
       asked = Clock::now();
       ::kill(process.pid, SIGINT);
     }
-    if (asked && !killed && since(*asked) > kPatience) {
+    if (asked && !killed && since(*asked) > kKillDelay) {
       killed = true;
       ::kill(process.pid, SIGKILL);
     }

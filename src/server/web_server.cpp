@@ -29,7 +29,7 @@ using asio::ip::tcp;
 namespace {
 
 constexpr std::size_t kMostHeader = 16u << 10;
-constexpr auto kPatience = std::chrono::seconds(30);  // timeout of a request and of a response
+constexpr auto kRequestTimeout = std::chrono::seconds(30);  // timeout of a request and of a response
 constexpr std::uint64_t kMostOfRange = 8u << 20;      // maximum size of a range response
 
 // Only scripts and resources of this server.
@@ -108,7 +108,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     head_->header_limit(kMostHeader);
     head_->body_limit(
         std::numeric_limits<std::uint64_t>::max());  // the limit depends on the path, which is unknown here
-    stream_.expires_after(kPatience);
+    stream_.expires_after(kRequestTimeout);
     http::async_read_header(
         stream_, buffer_, *head_, [self = shared_from_this()](beast::error_code ec, std::size_t) {
           if (!ec) return self->judge();
@@ -184,7 +184,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   void take_more(const std::shared_ptr<http::request_parser<http::file_body>>& parser,
                  const std::filesystem::path& file) {
     if (parser->is_done()) return answer({}, file, parser->get().base());  // empty body
-    stream_.expires_after(kPatience);
+    stream_.expires_after(kRequestTimeout);
     http::async_read_some(stream_, buffer_, *parser,
                           [self = shared_from_this(), parser, file](beast::error_code ec, std::size_t) {
                             if (!ec && !parser->is_done()) return self->take_more(parser, file);
@@ -267,7 +267,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   void send(const std::shared_ptr<Response>& r, bool head_only = false) {
     if (!head_only) r->prepare_payload();
     const bool again = !r->need_eof();
-    stream_.expires_after(kPatience);
+    stream_.expires_after(kRequestTimeout);
     const auto sent = [self = shared_from_this(), r, again](beast::error_code ec, std::size_t) {
       if (ec || !again) return self->close();
       self->read();
