@@ -7,9 +7,9 @@
 namespace faba {
 
 BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
-  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench that it could run on");
+  if (!s.rig) throw Error(Errc::usage, "rig", "section is missing; a run on a bench needs a [rig] section");
   if (!s.events.empty())
-    throw Error(Errc::usage, "event", "a bench cannot exchange parts during a run; take [[event]] out");
+    throw Error(Errc::usage, "event", "a run on a bench cannot exchange parts; remove [[event]]");
   field = s.field.make({});
   frame = s.arena.make({s.si_scale()})->frame();
   ControlContext control = control_context(s, field, frame, nullptr);

@@ -30,7 +30,7 @@ struct TrackVerb {
 
 template <class Enum>
 Enum chosen(const std::string& word, const std::vector<const char*>& words) {
-  return Enum(std::find(units.begin(), units.end(), word) - units.begin());
+  return Enum(std::find(words.begin(), words.end(), word) - words.begin());
 }
 
 TrackOptions options_of(const TrackVerb& v) {

@@ -12,7 +12,7 @@ Json field_json_schema(const Parts& parts) {
     if (!one.contains("x-traits")) continue;
     const Json& words = one["x-traits"];
     if (std::find(words.begin(), words.end(), holds_coils) == words.end()) continue;
-    one["properties"]["file"] = {{"type", "string"}, {"description", "A rig file, taken in as it is"}};
+    one["properties"]["file"] = {{"type", "string"}, {"description", "Rig file, whose content is included"}};
   }
   return j;
 }

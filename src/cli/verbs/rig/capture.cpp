@@ -48,7 +48,7 @@ int rig_capture(const CaptureVerb& v, const Common& c) {
     throw Error(
         Errc::usage, job.out.string(),
         "unknown file extension; use .avi or .mp4 for a video, or give --format for a folder of pictures");
-  job.patience = s.rig ? s.rig->params.camera_timeout : job.patience;
+  job.timeout = s.rig ? s.rig->params.camera_timeout : job.timeout;
   job.stop = &stop_requested();
   Progress bar("capturing", !c.quiet && !c.json);
   job.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
