@@ -222,7 +222,7 @@ TEST_CASE(
              "[reference]\ntype = 'hold'\nsetpoint_px = [30000, 200]\n");
   const Called far = faba_in(f.path, "run far.toml --out far --json");
   REQUIRE_MESSAGE(far.exit == 0, far.err);
-  CHECK(far.err.find("cannot put a zero of the field at") != std::string::npos);
+  CHECK(far.err.find("cannot produce a zero of the field at") != std::string::npos);
   // A map as the only coil of a scenario names its file itself.
   write_file(f.path / "one.toml",
              "duration = '0.2 s'\n[field]\ntype = 'map'\nfile = 'm.h5'\n[[swarm]]\ncount = 5\n"
