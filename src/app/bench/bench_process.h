@@ -7,8 +7,8 @@
 
 namespace faba {
 
-/// A simulated bench in a separate process, for a run whose scenario names no devices: `faba rig simulate`
-/// with its scenario, in real time. It ends with the run.
+/// A simulated bench in a separate process, for a run with simulated devices and without the socket of a
+/// bench: `faba rig simulate` with its scenario, in real time. It ends with the run.
 class BenchProcess {
  public:
   /// Returns when clients can connect. Throws Error(device).

@@ -15,9 +15,9 @@ namespace faba {
 /// several runs in succession.
 class OpenBench {
  public:
-  /// Starts a simulated bench if the scenario names no devices. Sets `s.camera.rate` to the rate of the
-  /// camera. Throws Error(usage) for an unsuitable scenario, if possible before a device is opened;
-  /// Error(device).
+  /// Starts a simulated bench if the scenario has simulated devices without a socket. Sets `s.camera.rate` to
+  /// the rate of the camera. Throws Error(usage) for an unsuitable scenario, if possible before a device is
+  /// opened; Error(device).
   enum class Open { all, coils };
   OpenBench(Scenario& s, std::uint64_t seed, Open what = Open::all);
 

@@ -69,8 +69,8 @@ RunDirectory RunDirectory::make(const Options& o) {
   }
   d.lock_ = RunLock(d.path_, o.program);
   std::error_code ec;
-  if (!o.force &&
-      std::filesystem::exists(d.path_ / kManifest, ec)) {  // another process was first and has finished
+  // Another process may have written a run to the directory in the meantime.
+  if (!o.force && std::filesystem::exists(d.path_ / kManifest, ec)) {
     d.lock_.complete();
     throw Error(Errc::usage, d.path_.string(),
                 "already contains a run; choose another --out, or --force to replace it");

@@ -45,8 +45,8 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
                 "the run was interrupted before anything was written; run the scenario again");
   const Scenario s = read_scenario(read_toml(o.out / kScenario), parts);
   if (!s.params.seed) throw Error(Errc::input, (o.out / kScenario).string(), "key \"seed\" is missing");
-  if (!std::filesystem::exists(o.out / kCheckpoint,
-                               ec)) {  // killed before the first checkpoint: start from scratch
+  // Without a checkpoint the run was killed before the first one: start from scratch.
+  if (!std::filesystem::exists(o.out / kCheckpoint, ec)) {
     RunOptions again = o;
     again.force = true;
     lock = RunLock();  // begin() locks it again

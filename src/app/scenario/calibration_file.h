@@ -23,9 +23,8 @@ Calibration read_calibration(const std::filesystem::path& file);
 /// Writes a calibration file atomically. Throws Error(Errc::internal, file).
 void write_calibration(const std::filesystem::path& file, const Calibration& calibration);
 
-/// Value of an option such as `--um-per-px FILE_OR_NUMBER`: a number in um/px ("0.9164"), a number with its
-/// unit
-/// ("0.9164 um/px"), or a calibration file. `where` is the name of the option. Throws Error(usage).
+/// Value of an option such as `--um-per-px FILE_OR_NUMBER`: a number in um/px ("0.9164", "0.9164 um/px"), or
+/// a calibration file. `where` is the name of the option. Throws Error(usage).
 Calibration parse_calibration(const std::string& text, const std::string& where);
 
 /// Replaces the key `scale.file` of a scenario by um_per_px of that calibration file (path relative to the

@@ -54,8 +54,8 @@ std::shared_ptr<const VideoGround> Scenario::ground() const {
 }
 
 std::shared_ptr<const FieldLibrary> Scenario::field_library() const {
-  return library ? readers.library(library->file)
-                 : nullptr;  // read_library() has checked that the reader exists
+  // read_library() has checked that the reader exists.
+  return library ? readers.library(library->file) : nullptr;
 }
 
 const std::vector<Section>& scenario_sections() {

@@ -19,7 +19,7 @@ struct SwarmState {
 struct SeriesCycle {
   const Tick& tick;
   const SinkContext& run;
-  SwarmState truth;      ///< NaN on a bench
+  SwarmState truth;      ///< not used on a bench
   SwarmState estimated;  ///< sigmas are NaN while no swarm is detected
 
   /// The true state if available, otherwise the estimate.
