@@ -13,8 +13,8 @@ namespace faba::cli {
 namespace {
 
 void summary(const ControllerComparison& r) {
-  fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", "controller", "model", "delay", "settled",
-             "settling time s", "steady error px", "dispersion px");
+  fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", "controller", "model", "delay", "settled",
+             "settling time s", "steady-state error px", "dispersion px");
   const auto mean_text = [](const Combination& one, const char* name) {
     const auto it = one.metrics.find(name);
     return it == one.metrics.end()
@@ -22,7 +22,7 @@ void summary(const ControllerComparison& r) {
                : fmt::format("{:.3g} +- {:.2g}", it->second.mean, it->second.mean - it->second.ci95[0]);
   };
   for (const Combination& one : r.combinations)
-    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", one.controller, one.model, one.delay,
+    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", one.controller, one.model, one.delay,
                fmt::format("{}/{}", one.settled, one.trials), mean_text(one, "settling_time_s"),
                mean_text(one, "steady_rms_px"), mean_text(one, "rms_radius_px"));
   fmt::print("means over {} +- half width of the 95 % interval; settling times: only trials that settled\n",

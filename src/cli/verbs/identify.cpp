@@ -13,7 +13,7 @@ namespace {
 
 void print_parameter(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
-  fmt::print("  {:<28} {:.4g} {}  90 % {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n", q.path,
+  fmt::print("  {:<28} {:.4g} {}  90 % interval {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n", q.path,
              q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), q.shown(p.abc_median),
              q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
   if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
