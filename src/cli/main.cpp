@@ -22,17 +22,17 @@ void check_verb(const CLI::App& app, const std::string& word) {
     throw Error(Errc::usage, "", fmt::format("unknown command \"{}\"{}", word, suggestion(word, known)));
 }
 
-// Checks the verb and returns it with the program: "faba field map".
-std::string called_verb(const CLI::App& app, const std::vector<std::string>& words) {
-  std::string called = program();
+// Checks the verb and returns it with the name of the program: "faba field map".
+std::string command_of(const CLI::App& app, const std::vector<std::string>& arguments) {
+  std::string command = program();
   const CLI::App* at = &app;
-  for (const std::string& word : words) {
+  for (const std::string& word : arguments) {
     if (word.rfind('-', 0) == 0 || at->get_subcommands({}).empty()) break;
     check_verb(*at, word);
-    called += " " + word;
+    command += " " + word;
     at = at->get_subcommand(word);
   }
-  return called;
+  return command;
 }
 
 int dispatch(int argc, char** argv) {
@@ -46,17 +46,17 @@ int dispatch(int argc, char** argv) {
   CommandLine line;
   add_verbs(app, line);
 
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (!words.empty() && words[0] == "help") {  // faba help run
-    words.erase(words.begin());
-    words.emplace_back("--help");
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments[0] == "help") {  // faba help run
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
   }
-  const std::string called = called_verb(app, words);
+  const std::string command = command_of(app, arguments);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), called));
+    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), command));
   }
   return line.code;
 }

@@ -81,10 +81,10 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
     return;
   }
   const double fraction = double(done) / double(total);
-  const double left = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
+  const double remaining = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
   const int width = bar_width(what_.size()), full = int(fraction * width);
   const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {} left", what_, "", full, "",
-                                      width - full, 100 * fraction, clock_time(left));
+                                      width - full, 100 * fraction, clock_time(remaining));
   std::fputs(bar.c_str(), stderr);
   std::fflush(stderr);
 }

@@ -158,12 +158,12 @@ class FrameSelection {
   double due_ = 0;  // s
 };
 
-void report_progress(const CaptureJob& job, const Captured& done) {
+void report_progress(const CaptureJob& job, const Captured& result) {
   if (!job.progress) return;
   if (job.frames > 0)
-    job.progress(done.taken, job.frames);
+    job.progress(result.taken, job.frames);
   else
-    job.progress(std::uint64_t(1e3 * done.duration), std::uint64_t(1e3 * job.time));
+    job.progress(std::uint64_t(1e3 * result.duration), std::uint64_t(1e3 * job.time));
 }
 
 }  // namespace
@@ -172,13 +172,13 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   const std::unique_ptr<Store> store = store_for(job, *camera);
   CameraFeed feed(camera, camera->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::all,
                   job.buffered ? SIZE_MAX : kBacklog);
-  Captured done;
+  Captured result;
   std::vector<CameraFrame> waiting;
   FrameSelection selection(job);
   double began = 0, last_frame_time = monotonic_now();
   const auto stopped = [&] { return job.stop && job.stop->load(); };
   const auto keep = [&](CameraFrame&& f) {
-    ++done.kept;
+    ++result.kept;
     if (job.buffered)
       waiting.push_back(std::move(f));
     else
@@ -196,24 +196,24 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
         continue;
       }
       last_frame_time = monotonic_now();
-      if (done.taken == 0) began = f.t;
+      if (result.taken == 0) began = f.t;
       const double t = f.t - began;
       if (job.time > 0 && t >= job.time) break;
-      ++done.taken;
-      done.duration = t;
-      if (selection.keeps(done.taken, t)) keep(std::move(f));
-      report_progress(job, done);
-      if (job.frames > 0 && done.taken >= job.frames) break;
-      if (job.buffered && done.taken % kMemoryEvery == 0 && memory_is_low()) {
-        done.memory_full = true;
+      ++result.taken;
+      result.duration = t;
+      if (selection.keeps(result.taken, t)) keep(std::move(f));
+      report_progress(job, result);
+      if (job.frames > 0 && result.taken >= job.frames) break;
+      if (job.buffered && result.taken % kMemoryEvery == 0 && memory_is_low()) {
+        result.memory_full = true;
         break;
       }
     }
   } catch (const Error& e) {
     failure = e;
   }
-  done.dropped = feed.dropped();
-  done.corrupt = camera->corrupt();
+  result.dropped = feed.dropped();
+  result.corrupt = camera->corrupt();
   for (CameraFrame& f : waiting) {
     store->put(f, f.t - began);
     f.image.reset();
@@ -224,7 +224,7 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
                             store->unfinished_path()));
   store->finish();
   if (failure) throw Error(*failure);
-  return done;
+  return result;
 }
 
 }  // namespace faba

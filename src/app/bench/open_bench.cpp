@@ -46,17 +46,17 @@ double OpenBench::delay(const Scenario& s) {
   if (setup_.driver.has(Trait::no_current) || camera_->waits()) return 0;
   constexpr int kDelayPictures = 11;  // the median excludes one-time costs of the first picture
   BenchControls controls(s);
-  std::vector<double> took;
+  std::vector<double> delays;
   Observation seen;
   rig({}).begin();
   for (int i = 0; i < kDelayPictures && rig_->read(seen); ++i) {
     const double received = monotonic_now();
     const Estimate e = controls.estimator->update(seen, {});
     (void)controls.controller->update(e, controls.reference->update(e), frame_period_);
-    took.push_back(seen.age + monotonic_now() - received);
+    delays.push_back(seen.age + monotonic_now() - received);
   }
-  if (took.empty()) return 0;
-  return median(took);
+  if (delays.empty()) return 0;
+  return median(delays);
 }
 
 BenchCheck check_bench(Scenario s, std::uint64_t seed, double seconds) {

@@ -187,25 +187,25 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
   for (int i = 0; i < p.repeat; ++i) {
     schedule.wait_until(i * p.every);
     check();
-    RecordedResponse one;
-    gather(bench, scenes.gather, schedule, one);
+    RecordedResponse response;
+    gather(bench, scenes.gather, schedule, response);
     check();
     Scenario s = scenes.respond;
-    one.exposure = s.params.exposure = scenes.gather.params.exposure + schedule.now();
+    response.exposure = s.params.exposure = scenes.gather.params.exposure + schedule.now();
     RunOptions o = job.run;
-    o.out /= fmt::format("{}-{:.0f}s", study.experiment(), one.exposure);
+    o.out /= fmt::format("{}-{:.0f}s", study.experiment(), response.exposure);
     o.numbered = true;
     o.progress = [&](std::uint64_t, std::uint64_t) { (void)schedule.keep_running(); };
     BenchSession session =
         BenchSession::begin(s, std::shared_ptr<OpenBench>(&bench, [](OpenBench*) {}), job.seed, o);
-    one.dir = session.dir();
+    response.dir = session.dir();
     if (!session.run()) check();
-    one.frames = session.manifest().frames;
-    one.dropped = session.manifest().bench->frames_dropped;
-    if (job.done) job.done(one);
+    response.frames = session.manifest().frames;
+    response.dropped = session.manifest().bench->frames_dropped;
+    if (job.done) job.done(response);
     session.complete();
-    study.add(one);
-    all.push_back(one);
+    study.add(response);
+    all.push_back(response);
   }
   return all;
 }

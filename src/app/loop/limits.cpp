@@ -24,7 +24,7 @@ Schema<Limits::Params> Limits::schema() {
 }
 
 double Limits::limited(std::size_t coil, double current, double dt) const {
-  const double limit = most_.empty() ? p_.max_current : std::min(most_[coil], p_.max_current);
+  const double limit = max_currents_.empty() ? p_.max_current : std::min(max_currents_[coil], p_.max_current);
   const double i = std::isfinite(current) ? std::clamp(current, -limit, limit) : 0;
   if (!p_.max_slew) return i;
   const double change = *p_.max_slew * std::max(0.0, dt);
@@ -32,11 +32,11 @@ double Limits::limited(std::size_t coil, double current, double dt) const {
 }
 
 bool Limits::apply(Command& c, double dt, double frame_age) {
-  if (!most_.empty() && c.current.size() != most_.size())
+  if (!max_currents_.empty() && c.current.size() != max_currents_.size())
     throw Error(
         Errc::usage, "controller",
         fmt::format("the command has {} currents, but the field has {} coils; give one current per coil",
-                    c.current.size(), most_.size()));
+                    c.current.size(), max_currents_.size()));
   const std::vector<double> requested = c.current;
   last_.resize(c.current.size(), 0.0);
   if (!(frame_age <= p_.max_frame_age)) {

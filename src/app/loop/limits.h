@@ -24,12 +24,12 @@ class Limits {
     double max_frame_age = 1;
   };
   static Schema<Params> schema();
-  /// `most`: maximum current of each coil, A; if empty, the number of coils is that of the currents of a
-  /// command, and only the common limit applies. `wired`, if given: replaces the currents by those that flow
-  /// in coils that share an output.
-  explicit Limits(const Params& p, std::vector<double> most = {},
+  /// `max_currents`: maximum current of each coil, A; if empty, the number of coils is that of the currents
+  /// of a command, and only the common limit applies. `wired`, if given: replaces the currents by those that
+  /// flow in coils that share an output.
+  explicit Limits(const Params& p, std::vector<double> max_currents = {},
                   std::function<void(std::vector<double>&)> wired = {})
-      : p_(p), most_(std::move(most)), wired_(std::move(wired)) {}
+      : p_(p), max_currents_(std::move(max_currents)), wired_(std::move(wired)) {}
 
   /// Clips to the current limits, and the change since the last command to the slew limit; non-finite values
   /// count as zero, which is approached within the slew limit. Sets all currents to zero immediately if the
@@ -44,7 +44,7 @@ class Limits {
   double limited(std::size_t coil, double current, double dt) const;  ///< A
 
   Params p_;
-  std::vector<double> most_;  ///< A
+  std::vector<double> max_currents_;  ///< A
   std::function<void(std::vector<double>&)> wired_;
   std::vector<double> last_;  ///< A, last command after the limits
 };

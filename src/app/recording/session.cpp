@@ -78,11 +78,11 @@ bool Session::run() {
   auto last = Clock::now();
   Loop& loop = simulation_->loop();
   // A long frame is not finished after a stop request: resume computes it again from the last checkpoint.
-  std::optional<Clock::time_point> asked;
+  std::optional<Clock::time_point> stop_time;
   simulation_->rig().before_steps([&] {
     if (!options_.stop || !options_.stop->load()) return true;
-    if (!asked) asked = Clock::now();
-    return Clock::now() - *asked < std::chrono::seconds(1);
+    if (!stop_time) stop_time = Clock::now();
+    return Clock::now() - *stop_time < std::chrono::seconds(1);
   });
   faba::run(loop, total, [&] {
     if (options_.progress) options_.progress(loop.next, total);

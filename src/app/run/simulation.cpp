@@ -71,13 +71,13 @@ int steps_per_frame(const Scenario& s, double longest) {
         fmt::format("the models need {:.2g} steps per frame for their accuracy; use a weaker field, slower "
                     "turning or less diffusion, or set simulation.step",
                     needed));
-  const int least = int(needed);
+  const int min_steps = int(needed);
   const double iteration = s.si_scale().iteration;
-  for (int n = least; n <= least + 3 + int(std::ceil(frame / iteration)); ++n) {
+  for (int n = min_steps; n <= min_steps + 3 + int(std::ceil(frame / iteration)); ++n) {
     const double per_iteration = iteration * n / frame;
     if (per_iteration > 0.5 && std::fabs(per_iteration - std::floor(per_iteration + 0.5)) < 1e-6) return n;
   }
-  return least;  // models that use iterations will report the error
+  return min_steps;  // models that use iterations will report the error
 }
 
 std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool,
@@ -186,13 +186,13 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
 }
 
 Simulation::Exchanged Simulation::make(const Event& e) const {
-  Exchanged made;
-  if (e.estimator) made.estimator = e.estimator->make(control_);
-  if (e.reference) made.reference = e.reference->make(control_);
-  if (e.controller) made.controller = e.controller->make(control_);
+  Exchanged parts;
+  if (e.estimator) parts.estimator = e.estimator->make(control_);
+  if (e.reference) parts.reference = e.reference->make(control_);
+  if (e.controller) parts.controller = e.controller->make(control_);
   if (e.model) {
-    made.model = e.model->make({control_.scale, step()});
-    if (const double longest = made.model->longest_step(strongest_t_); longest < step() * (1 - 1e-9))
+    parts.model = e.model->make({control_.scale, step()});
+    if (const double longest = parts.model->longest_step(strongest_t_); longest < step() * (1 - 1e-9))
       throw Error(
           Errc::usage, "model",
           fmt::format(
@@ -200,7 +200,7 @@ Simulation::Exchanged Simulation::make(const Event& e) const {
               "this model, or set simulation.step",
               longest, step()));
   }
-  return made;
+  return parts;
 }
 
 void Simulation::apply(const Event& e) {

@@ -49,14 +49,14 @@ ActivityJob job_of(const ActivityVerb& v) {
         throw Error(Errc::usage, video.string(), "is a study file; give either one study file or videos");
     for (const auto& video : v.videos) job.videos.push_back({.file = video});
   }
-  for (ActivityInput& one : job.videos) {
-    if (v.from) one.from_s = *v.from;
-    if (v.to) one.to_s = *v.to;
-    if (one.to_s && *one.to_s <= one.from_s)
+  for (ActivityInput& input : job.videos) {
+    if (v.from) input.from_s = *v.from;
+    if (v.to) input.to_s = *v.to;
+    if (input.to_s && *input.to_s <= input.from_s)
       throw Error(Errc::usage, "--from, --to",
                   fmt::format("the time from {:g} s to {:g} s is empty; --to must be later than --from",
-                              one.from_s, *one.to_s));
-    if (v.response.direction) one.direction_deg = v.response.direction;
+                              input.from_s, *input.to_s));
+    if (v.response.direction) input.direction_deg = v.response.direction;
   }
   if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
   return job;

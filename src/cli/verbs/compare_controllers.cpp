@@ -15,16 +15,17 @@ namespace {
 void summary(const ControllerComparison& r) {
   fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", "controller", "model", "delay", "settled",
              "settling time s", "steady-state error px", "dispersion px");
-  const auto mean_text = [](const Combination& one, const char* name) {
-    const auto it = one.metrics.find(name);
-    return it == one.metrics.end()
+  const auto mean_text = [](const Combination& combination, const char* name) {
+    const auto it = combination.metrics.find(name);
+    return it == combination.metrics.end()
                ? std::string("-")
                : fmt::format("{:.3g} +- {:.2g}", it->second.mean, it->second.mean - it->second.ci95[0]);
   };
-  for (const Combination& one : r.combinations)
-    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", one.controller, one.model, one.delay,
-               fmt::format("{}/{}", one.settled, one.trials), mean_text(one, "settling_time_s"),
-               mean_text(one, "steady_rms_px"), mean_text(one, "rms_radius_px"));
+  for (const Combination& combination : r.combinations)
+    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", combination.controller, combination.model,
+               combination.delay, fmt::format("{}/{}", combination.settled, combination.trials),
+               mean_text(combination, "settling_time_s"), mean_text(combination, "steady_rms_px"),
+               mean_text(combination, "rms_radius_px"));
   fmt::print("means over {} +- half width of the 95 % interval; settling times: only trials that settled\n",
              counted(std::uint64_t(r.study.seeds), "seed"));
 }

@@ -29,7 +29,7 @@ int distance(const DistanceVerb& v, const Common& c) {
                nlohmann::ordered_json{{"distance", d}, {"m", v.m}, {"threshold", v.threshold}}.dump());
     return 0;
   }
-  for (const double one : d) fmt::print("{:.17g}\n", one);
+  for (const double value : d) fmt::print("{:.17g}\n", value);
   return 0;
 }
 

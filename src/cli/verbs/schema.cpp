@@ -16,14 +16,14 @@ namespace {
 // Columns of series.csv, which a run writes; input files have a JSON Schema instead.
 int schema_of_series(const Common& c) {
   Json columns = Json::array();
-  for (const SeriesColumn& one : described_series_columns()) {
-    columns.push_back({{"name", one.name},
-                       {"unit", one.unit},
-                       {"meaning", one.meaning},
-                       {"simulated_only", one.simulated_only}});
+  for (const SeriesColumn& column : described_series_columns()) {
+    columns.push_back({{"name", column.name},
+                       {"unit", column.unit},
+                       {"meaning", column.meaning},
+                       {"simulated_only", column.simulated_only}});
     if (!c.json)
-      fmt::print("{:<24} {:<3} {}{}\n", one.name, one.unit, one.meaning,
-                 one.simulated_only ? "; simulations only" : "");
+      fmt::print("{:<24} {:<3} {}{}\n", column.name, column.unit, column.meaning,
+                 column.simulated_only ? "; simulations only" : "");
   }
   if (c.json) fmt::print("{}\n", Json{{"columns", columns}}.dump());
   return 0;

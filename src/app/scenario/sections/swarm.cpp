@@ -34,12 +34,12 @@ std::vector<Swarm> read_swarms(const Node& root, const Parts& parts) {
   };
   for (std::size_t i = 0; i < list.json->size(); ++i) {
     const Node n = list.item(i);
-    Swarm one;
-    one.params = Swarm::schema().parse(n, {"model", "start"});
-    one.model = part(n, "model", parts.model, "dipole");
-    one.start = part(n, "start", parts.start, "uniform");
-    total += double(one.params.count);
-    swarms.push_back(std::move(one));
+    Swarm swarm;
+    swarm.params = Swarm::schema().parse(n, {"model", "start"});
+    swarm.model = part(n, "model", parts.model, "dipole");
+    swarm.start = part(n, "start", parts.start, "uniform");
+    total += double(swarm.params.count);
+    swarms.push_back(std::move(swarm));
   }
   if (total > kMostCells) list.fail(fmt::format("{} cells in total; the maximum is 5e7", total));
   return swarms;
@@ -48,10 +48,10 @@ std::vector<Swarm> read_swarms(const Node& root, const Parts& parts) {
 Json swarms_json(const std::vector<Swarm>& swarms) {
   Json all = Json::array();
   for (const Swarm& s : swarms) {
-    Json one = Swarm::schema().to_json(s.params);
-    one["model"] = s.model.resolved;
-    one["start"] = s.start.resolved;
-    all.push_back(one);
+    Json swarm = Swarm::schema().to_json(s.params);
+    swarm["model"] = s.model.resolved;
+    swarm["start"] = s.start.resolved;
+    all.push_back(swarm);
   }
   return all;
 }

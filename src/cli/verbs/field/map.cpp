@@ -24,12 +24,12 @@ struct FieldMapVerb {
 std::vector<double> amperes(const std::string& text) {
   std::vector<double> out;
   std::istringstream in(text);
-  for (std::string one; std::getline(in, one, ',');) {
+  for (std::string item; std::getline(in, item, ',');) {
     char* end = nullptr;
-    out.push_back(std::strtod(one.c_str(), &end));
-    if (end == one.c_str() || *end != '\0' || !std::isfinite(out.back()))
+    out.push_back(std::strtod(item.c_str(), &end));
+    if (end == item.c_str() || *end != '\0' || !std::isfinite(out.back()))
       throw Error(Errc::usage, "--current",
-                  fmt::format("\"{}\" is not a number; give currents in A, such as 0.5,0.5,0,0", one));
+                  fmt::format("\"{}\" is not a number; give currents in A, such as 0.5,0.5,0,0", item));
   }
   return out;
 }

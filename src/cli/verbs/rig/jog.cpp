@@ -89,8 +89,8 @@ class Keyboard {
 void approach(std::vector<double>& current, const std::vector<double>& requested, std::optional<double> slew,
               double dt) {
   for (std::size_t k = 0; k < current.size(); ++k) {
-    const double most = slew ? *slew * dt : std::numeric_limits<double>::infinity();
-    current[k] += std::clamp(requested[k] - current[k], -most, most);
+    const double max_change = slew ? *slew * dt : std::numeric_limits<double>::infinity();
+    current[k] += std::clamp(requested[k] - current[k], -max_change, max_change);
   }
 }
 
@@ -133,33 +133,33 @@ int rig_jog(const JogVerb& v, const Common& c) {
                             largest));
   const OpenBench bench(s, s.params.seed.value_or(1), OpenBench::Open::coils);
   GuardLink coils(bench.guard_setup({}));
-  const std::vector<double> most = s.rig->max_current();
-  std::vector<double> requested(most.size(), 0.0);
+  const std::vector<double> limits = s.rig->max_current();
+  std::vector<double> requested(limits.size(), 0.0);
   std::vector<double> current = requested;  // requested from the guard, limited in slew rate
   double last = monotonic_now();            // s, time of the previous request
   std::size_t selected = 0;
   std::string shown;
   Keyboard keys;
   const bool verbose = !c.quiet && !c.json;
-  if (verbose) print_keys(most.size());
+  if (verbose) print_keys(limits.size());
   while (!stop_requested().load()) {
     const char key = keys.next();
-    double& one = requested[selected];
+    double& value = requested[selected];
     if (key == 'q') break;
     if (key >= '1' && key <= '9' && std::size_t(key - '1') < requested.size())
       selected = std::size_t(key - '1');
-    if (key == 'U' || key == '+') one = std::min(most[selected], one + step);
-    if (key == 'D' || key == '-') one = std::max(-most[selected], one - step);
-    if (key == 'P') one = most[selected];
-    if (key == 'N') one = -most[selected];
-    if (key == '0') one = 0;
+    if (key == 'U' || key == '+') value = std::min(limits[selected], value + step);
+    if (key == 'D' || key == '-') value = std::max(-limits[selected], value - step);
+    if (key == 'P') value = limits[selected];
+    if (key == 'N') value = -limits[selected];
+    if (key == '0') value = 0;
     if (key == ' ') std::fill(requested.begin(), requested.end(), 0.0);
-    const GuardReport before = coils.report();
-    if (key == 'r' && before.state == CoilGuard::State::faulted) coils.reset();
-    if (before.state != CoilGuard::State::armed) {
+    const GuardReport report = coils.report();
+    if (key == 'r' && report.state == CoilGuard::State::faulted) coils.reset();
+    if (report.state != CoilGuard::State::armed) {
       std::fill(requested.begin(), requested.end(), 0.0);  // there is no current until a key is pressed
       std::fill(current.begin(), current.end(), 0.0);
-      if (key == 'a' && before.state == CoilGuard::State::disarmed) coils.arm();
+      if (key == 'a' && report.state == CoilGuard::State::disarmed) coils.arm();
     }
     const double now = monotonic_now();
     approach(current, requested, s.rig->guard.max_slew, now - last);
