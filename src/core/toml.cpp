@@ -186,15 +186,15 @@ Document parse_toml(std::string_view text, const std::string& name) {
 }
 
 Document read_toml(const std::filesystem::path& file) {
-  constexpr std::uintmax_t kMost = 4u << 20;
+  constexpr std::uintmax_t kMaxBytes = 4u << 20;
   std::error_code ec;
   if (!std::filesystem::exists(file, ec)) throw Error(Errc::usage, file.string(), "file not found");
   if (std::filesystem::is_directory(file, ec))
     throw Error(Errc::usage, file.string(), "is a directory, not a TOML file");
-  if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMost)
+  if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)
     throw Error(Errc::usage, file.string(), "is larger than the maximum of 4 MiB");
   std::ifstream in(file, std::ios::binary);
-  std::string text(kMost + 1, '\0');
+  std::string text(kMaxBytes + 1, '\0');
   in.read(text.data(), std::streamsize(text.size()));
   if (in.bad() || (in.fail() && !in.eof())) throw Error(Errc::usage, file.string(), "cannot be read");
   text.resize(std::size_t(in.gcount()));
@@ -209,33 +209,33 @@ std::string to_toml(const Json& root) {
 
 void Document::set(const std::string& path, Json value, const std::string& origin_label) {
   Json* at = &root;
-  std::string so_far;
+  std::string prefix;
   for (const Step& s : split(path)) {
     const auto fail = [&](const std::string& what) {
       throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), what);
     };
     // `model = "dipole"` is short for `model = { type = "dipole" }`: setting a key of it keeps the type.
     if (at->is_string()) *at = Json{{"type", *at}};
-    if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", so_far));
-    so_far = joined(so_far, s.key);
+    if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", prefix));
+    prefix = joined(prefix, s.key);
     if (!at->contains(s.key)) {
-      if (!s.index.empty()) fail(fmt::format("array \"{}\" not found", so_far));
+      if (!s.index.empty()) fail(fmt::format("array \"{}\" not found", prefix));
       (*at)[s.key] = Json::object();
     }
     at = &(*at)[s.key];
     for (const std::size_t i : s.index) {
       if (!at->is_array() || i >= at->size())
-        fail(fmt::format("{0}[{1}] not found; \"{0}\" has {2} elements, add more in the file", so_far, i,
+        fail(fmt::format("{0}[{1}] not found; \"{0}\" has {2} elements, add more in the file", prefix, i,
                          at->is_array() ? at->size() : 0));
       at = &(*at)[i];
-      so_far += fmt::format("[{}]", i);
+      prefix += fmt::format("[{}]", i);
     }
   }
   *at = std::move(value);
   // The line numbers of the replaced values are no longer valid.
-  for (auto it = origin.lower_bound(so_far); it != origin.end() && it->first.starts_with(so_far);)
+  for (auto it = origin.lower_bound(prefix); it != origin.end() && it->first.starts_with(prefix);)
     it = origin.erase(it);
-  origin[so_far] = origin_label;
+  origin[prefix] = origin_label;
 }
 
 void Document::set(const std::string& path, const std::string& value, const std::string& origin_label) {

@@ -182,20 +182,22 @@ H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>&
   t->type = type_of<T>();
   t->dims.assign({0});
   t->dims.insert(t->dims.end(), row_shape.begin(), row_shape.end());
-  std::vector<hsize_t> most = t->dims, chunk = t->dims;
-  most[0] = H5S_UNLIMITED;
+  std::vector<hsize_t> max_dims = t->dims, chunk = t->dims;
+  max_dims[0] = H5S_UNLIMITED;
   chunk[0] = chunk_rows;
   if (chunk.size() > 1) chunk[1] = std::min<hsize_t>(chunk[1], chunk_columns);
-  const Handle space(H5Screate_simple(int(t->dims.size()), t->dims.data(), most.data()), H5Sclose);
-  const Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  H5Pset_chunk(made, int(chunk.size()), chunk.data());
+  const Handle space(H5Screate_simple(int(t->dims.size()), t->dims.data(), max_dims.data()), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose),
+      access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk(creation, int(chunk.size()), chunk.data());
   if (compress) {
-    H5Pset_shuffle(made);
-    H5Pset_deflate(made, 1);
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 1);
   }
-  H5Pset_fletcher32(made);  // a flipped bit gives a read error
+  H5Pset_fletcher32(creation);  // a flipped bit gives a read error
   H5Pset_chunk_cache(access, 12421, kCacheBytes, 1.0);
-  t->set = Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, made, access), H5Dclose);
+  t->set =
+      Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, creation, access), H5Dclose);
   if (t->set < 0) impl_->fail(Errc::internal, "create a table");
   impl_->tables.push_back(t);
   return H5Table(t);
