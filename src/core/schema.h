@@ -248,7 +248,7 @@ class Schema {
         [rule = std::move(rule)](const void* p) -> std::string { return rule(*static_cast<const P*>(p)); });
     return *this;
   }
-  /// Known limits of the part, shown by `faba parts` and the reference pages.
+  /// Conditions under which the part is known to fail, shown by `faba parts` and the reference pages.
   Schema& validity(std::string text) {
     fields_.validity = std::move(text);
     return *this;
