@@ -149,7 +149,7 @@ TEST_CASE("numbers, outputs and times that cannot be are refused before any work
   const TestFolder f;
   write_film(f, "film");
   refused(f, "activity film --direction nan", 2, "out of range");
-  refused(f, "activity film --flow-threshold -1", 2, "must be 0 to");
+  refused(f, "activity film --flow-threshold -1", 2, "must be between 0 and");
   refused(f, "activity film --fps nan", 2, "--fps");
   refused(f, "compare film film --t0 nan", 2, "--t0");
   refused(f, "compare film film --t0 0.1 --no-align", 2, "--no-align");
@@ -230,7 +230,7 @@ TEST_CASE("study files and distances: what is wrong is named") {
   write_file(f.path / "typo.toml", "[[video]]\nfile = 'a.avi'\nexposur = '100 s'\n");
   refused(f, "activity typo.toml", 2, "exposure");
   write_file(f.path / "gone.toml", "[[video]]\nfile = 'a.avi'\nexposure = '100 s'\n");
-  refused(f, "activity gone.toml", 3, "file not found");
+  refused(f, "activity gone.toml", 3, "no such file");
 
   write_file(f.path / "p", "1\n0\n2\n3\n0\n0\n");
   write_file(f.path / "q", "0\n1\n2\n5\n0\n0\n");
