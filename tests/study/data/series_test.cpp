@@ -122,7 +122,7 @@ TEST_CASE("series: what cannot be read says where and why") {
     }
   }
   SUBCASE("a name twice, and no name") {
-    CHECK(error_of(CsvFile("t_s,t_s\n0,0\n").path()).message.find("twice") != std::string::npos);
+    CHECK(error_of(CsvFile("t_s,t_s\n0,0\n").path()).message.find("duplicate") != std::string::npos);
     CHECK(error_of(CsvFile("t_s,,x\n0,0,0\n").path()).message.find("no name") != std::string::npos);
   }
 }
