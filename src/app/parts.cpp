@@ -1,6 +1,6 @@
-// The list of all parts: what a scenario can name. This file is compiled three times: for the engine, which
-// has no devices, pictures' files and optical flow; for the guard of the coils, which has the coil drivers
-// alone; and for the program, which has everything (CMakeLists.txt).
+// All parts that a scenario can name. This file is compiled three times: for the engine, without devices,
+// picture files and optical flow; for the coil guard, with the coil drivers only; and for the program, with
+// all parts (CMakeLists.txt).
 #include "app/scenario/parts.h"
 #ifdef FABA_PARTS_OF_PROGRAM
 #include "app/files/field_points.h"
@@ -10,7 +10,8 @@
 
 namespace faba {
 
-// To add a part: write its file, add its line here. Coils come before the coil system that they are parts of.
+// To add a part: write its file, add its line here. Coils must be listed before the coil system that contains
+// them.
 #define FABA_ENGINE_PARTS(X)   \
   X(model, basic)              \
   X(model, adapted)            \

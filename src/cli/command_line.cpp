@@ -15,38 +15,40 @@
 namespace faba::cli {
 namespace {
 
-std::string called_by = "faba";
+std::string program_name = "faba";
 
 }  // namespace
 
-CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* does,
+CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* description,
                const char* examples) {
-  CLI::App* v = parent.add_subcommand(name, does);
-  v->add_flag("--json", line.common.json, "One JSON object on standard output and nothing else there");
-  v->add_flag("-q,--quiet", line.common.quiet, "No progress bar, no notes and no summary");
-  v->footer(fmt::format(
-      "Examples:\n{}\n\nExit codes: 0 done, 2 usage or scenario error, 3 unreadable or unsuitable input, "
-      "4 camera or coil driver, 130 interrupted, 1 anything else",
-      examples));
+  CLI::App* v = parent.add_subcommand(name, description);
+  v->add_flag("--json", line.common.json,
+              "Print the result as one JSON object; standard output has no other text");
+  v->add_flag("-q,--quiet", line.common.quiet, "Print no progress bar, no notes and no summary");
+  v->footer(
+      fmt::format("Examples:\n{}\n\nExit codes: 0 success, 2 invalid command line or scenario, 3 unreadable "
+                  "or unsuitable "
+                  "input, 4 camera or coil driver failure, 130 interrupted, 1 any other error",
+                  examples));
   return v;
 }
 
-std::string not_empty(const std::string& word) { return word.empty() ? "must not be empty" : ""; }
+std::string not_empty(const std::string& text) { return text.empty() ? "must not be empty" : ""; }
 
-std::function<std::string(const std::string&)> between(double least, double most) {
-  return [least, most](const std::string& word) -> std::string {
+std::function<std::string(const std::string&)> between(double min, double max) {
+  return [min, max](const std::string& text) -> std::string {
     char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0') return fmt::format("\"{}\" is not a number", word);
-    if (value >= least && value <= most) return "";
-    return fmt::format("{} is out of range; it must be {:g} to {:g}", word, least, most);
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0') return fmt::format("\"{}\" is not a number", text);
+    if (value >= min && value <= max) return "";
+    return fmt::format("{} is out of range; it must be between {:g} and {:g}", text, min, max);
   };
 }
 
-const std::string& program() { return called_by; }
-void set_program(const char* called_as) { called_by = called_as; }
+const std::string& program() { return program_name; }
+void set_program(const char* name) { program_name = name; }
 
-void tell(const std::string& line) {
+void print_stderr(const std::string& line) {
   std::fputs((line + '\n').c_str(), stderr);
   std::fflush(stderr);
 }
@@ -63,7 +65,7 @@ std::string shell_word(const std::string& word) {
 
 const std::atomic<bool>& stop_requested() {
   static std::atomic<bool> stop{false};
-  // Some senders signal a process and its group: a repeat within half a second is the same wish.
+  // Some senders signal a process and its group: a second signal within 0.5 s counts as the same request.
   static std::atomic<long> first_ms{0};
   const auto on_signal = [](int) {
     timespec now{};

@@ -9,38 +9,39 @@ class App;
 
 namespace faba::cli {
 
-/// What every verb takes.
+/// Flags of all verbs.
 struct Common {
-  bool json = false;   ///< one JSON object on standard output and nothing else there
-  bool quiet = false;  ///< no progress bar, no notes, no summary
+  bool json = false;   ///< print one JSON object and no other text to standard output
+  bool quiet = false;  ///< print no progress bar, no notes and no summary
 };
 
-/// What comes of a command line while it is read: the flags that all verbs share, and the exit code.
+/// State of a command line: the flags of all verbs, and the exit code.
 struct CommandLine {
   Common common;
   int code = 0;
 };
 
-/// All verbs with their options, in the order of the help. `line` outlives the parsing.
+/// Adds all verbs with their options, in the order of the help. `line` must outlive the parsing.
 void add_verbs(CLI::App& app, CommandLine& line);
 
-/// A verb below `parent`, with the flags and the help that every verb has.
-CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* does, const char* examples);
-/// A check for options: "" or the complaint.
-std::string not_empty(const std::string& word);
-/// A check for options that are numbers: finite, `least` or more, and `most` or less.
-std::function<std::string(const std::string&)> between(double least, double most);
+/// Adds a verb to `parent`, with the flags and the help of all verbs.
+CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* description,
+               const char* examples);
+/// Check of an option: returns "" or the error message.
+std::string not_empty(const std::string& text);
+/// Check of a numeric option: a finite number between `min` and `max`.
+std::function<std::string(const std::string&)> between(double min, double max);
 
-/// The program as it was called, for commands that a user is told to type.
+/// The name under which the program was called, for commands in messages.
 const std::string& program();
-void set_program(const char* called_as);
-/// A line on standard error; lost when nobody can be told.
-void tell(const std::string& line);
-/// A word as a shell takes it for one: in quotes where it needs them.
+void set_program(const char* name);
+/// Prints a line to standard error; errors are ignored.
+void print_stderr(const std::string& line);
+/// Quotes a word for a shell if necessary.
 std::string shell_word(const std::string& word);
 
-/// Becomes true on Ctrl-C and SIGTERM; the second Ctrl-C ends the program at once. Only who asks has to look
-/// at it: a program that never does is ended by the first signal.
+/// Becomes true on Ctrl-C, SIGTERM and SIGHUP; a second signal ends the program immediately. The first call
+/// installs the signal handlers: without a call, the first signal ends the program.
 const std::atomic<bool>& stop_requested();
 
 }  // namespace faba::cli

@@ -12,51 +12,51 @@
 namespace faba::cli {
 namespace {
 
-void complain(const std::string& text) { tell("faba: error: " + text); }
+void print_error(const std::string& text) { print_stderr("faba: error: " + text); }
 
-// CLI11 would say that a verb is missing.
+// The message of CLI11 would be that a verb is missing.
 void check_verb(const CLI::App& app, const std::string& word) {
   std::vector<std::string> known;
   for (const CLI::App* v : app.get_subcommands({})) known.push_back(v->get_name());
   if (std::find(known.begin(), known.end(), word) == known.end())
-    throw Error(Errc::usage, word, "is no verb" + suggestion(word, known));
+    throw Error(Errc::usage, "", fmt::format("unknown command \"{}\"{}", word, suggestion(word, known)));
 }
 
-// The program and the verb that the words begin with, checked: "faba field map".
-std::string called_verb(const CLI::App& app, const std::vector<std::string>& words) {
-  std::string called = program();
+// Checks the verb and returns it with the name of the program: "faba field map".
+std::string command_of(const CLI::App& app, const std::vector<std::string>& arguments) {
+  std::string command = program();
   const CLI::App* at = &app;
-  for (const std::string& word : words) {
+  for (const std::string& word : arguments) {
     if (word.rfind('-', 0) == 0 || at->get_subcommands({}).empty()) break;
     check_verb(*at, word);
-    called += " " + word;
+    command += " " + word;
     at = at->get_subcommand(word);
   }
-  return called;
+  return command;
 }
 
 int dispatch(int argc, char** argv) {
   if (argc > 0) set_program(argv[0]);
   CLI::App app{
-      "Faba, a laboratory for magnetotactic bacteria: simulate a swarm under coils, steer it, record it"};
+      "Faba, a laboratory for magnetotactic bacteria: simulate, steer and record swarms in magnetic fields"};
   app.name("faba");
   app.set_version_flag("--version", "faba " FABA_VERSION);
   app.require_subcommand(1);
-  app.footer("Each verb in full: faba VERB --help\nFirst steps: faba run scenes/steer.toml");
+  app.footer("Options of a verb: faba VERB --help\nFirst run: faba run scenes/steer.toml");
   CommandLine line;
   add_verbs(app, line);
 
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (!words.empty() && words[0] == "help") {  // as others have it: faba help run
-    words.erase(words.begin());
-    words.emplace_back("--help");
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (!arguments.empty() && arguments[0] == "help") {  // faba help run
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
   }
-  const std::string called = called_verb(app, words);
+  const std::string command = command_of(app, arguments);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), called));
+    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), command));
   }
   return line.code;
 }
@@ -65,20 +65,20 @@ int dispatch(int argc, char** argv) {
 }  // namespace faba::cli
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early is an error of writing, not a death
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is reported as a write error
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported as a write error
   try {
     const int code = faba::cli::dispatch(argc, argv);
     if (std::fflush(stdout) != 0)
       throw faba::Error(faba::Errc::internal, "standard output", "cannot be written");
     return code;
   } catch (const faba::Error& e) {
-    faba::cli::complain(e.what());
+    faba::cli::print_error(e.what());
     return int(e.code());
   } catch (const std::bad_alloc&) {
-    faba::cli::complain("out of memory; fewer cells, a smaller arena or a shorter run may fit");
+    faba::cli::print_error("out of memory; reduce the number of cells, the arena or the duration");
   } catch (const std::exception& e) {
-    faba::cli::complain(e.what());
+    faba::cli::print_error(e.what());
   }
   return int(faba::Errc::internal);
 }

@@ -4,13 +4,14 @@
 
 namespace faba::cli {
 
-/// Before a file is written: refuses one that exists unless `force` is set, and in any case what the command
-/// reads (`inputs`: files, and folders with what is in them), folders and devices, and another ending than
-/// `extension` (".png"; "" takes any). An empty `file` is not written and passes. Throws Error(usage, file).
+/// Checks a file before it is written. Rejects an existing file unless `force` is set; always rejects the
+/// inputs of the command (`inputs`: files, and folders with their files), folders, devices, and a file
+/// extension other than `extension` (".png"; "" permits any). An empty `file` is accepted. Throws
+/// Error(usage, file).
 void check_output(const std::filesystem::path& file, const char* extension, bool force,
                   const std::vector<std::filesystem::path>& inputs);
 
-/// Refuses outputs of one command that have the same name; empty ones do not count. Throws Error(usage).
+/// Rejects outputs of one command that have the same name; empty names are ignored. Throws Error(usage).
 void check_distinct(std::vector<std::filesystem::path> outputs);
 
 }  // namespace faba::cli

@@ -13,31 +13,31 @@
 namespace faba::cli {
 namespace {
 
-// Without the sequence that erases a line, as on TERM=dumb, a bar would be one line after the other.
+// Without the escape sequence that erases a line, as with TERM=dumb, every update would be a new line.
 bool can_erase() {
   const char* kind = std::getenv("TERM");
   return kind && std::strcmp(kind, "dumb") != 0;
 }
 
-// Of the bar: what a narrow terminal leaves beside the words.
-int bar_width(std::size_t words) {
-  constexpr int kMost = 30, kNumbers = 22;
+// Width of the bar beside a label of `label` characters, limited by the width of the terminal.
+int bar_width(std::size_t label) {
+  constexpr int kMax = 30, kNumbers = 22;
   winsize size{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kMost;
-  return std::clamp(int(size.ws_col) - int(words) - kNumbers, 0, kMost);
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kMax;
+  return std::clamp(int(size.ws_col) - int(label) - kNumbers, 0, kMax);
 }
 
-constexpr double kTellEvery = 0.1;  // s
+constexpr double kReportPeriod = 0.1;  // s
 
-int descriptor() {
-  const char* named = std::getenv("FABA_PROGRESS_FD");
-  return named && *named >= '0' && *named <= '9' ? std::atoi(named) : -1;
+int progress_descriptor() {
+  const char* value = std::getenv("FABA_PROGRESS_FD");
+  return value && *value >= '0' && *value <= '9' ? std::atoi(value) : -1;
 }
 
 std::string clock_time(double s) {
-  const auto whole = std::llround(s);
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+  const auto seconds = std::llround(s);
+  if (seconds >= 3600) return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
 }
 
 }  // namespace
@@ -45,13 +45,13 @@ std::string clock_time(double s) {
 Progress::Progress(std::string what, bool enabled)
     : what_(std::move(what)),
       enabled_(enabled && isatty(STDERR_FILENO) && can_erase()),
-      told_to_(descriptor()) {}
+      report_descriptor_(progress_descriptor()) {}
 
 Progress::~Progress() { clear(); }
 
-void Progress::tell(std::uint64_t done, std::uint64_t total) const {
+void Progress::report(std::uint64_t done, std::uint64_t total) const {
   const std::string line = fmt::format("{} {} {}\n", what_, done, total);
-  if (::write(told_to_, line.data(), line.size()) < 0) return;  // whoever asked has gone
+  if (::write(report_descriptor_, line.data(), line.size()) < 0) return;  // the reader has closed it
 }
 
 void Progress::clear() {
@@ -61,9 +61,10 @@ void Progress::clear() {
 
 void Progress::update(std::uint64_t done, std::uint64_t total) {
   const auto now = Clock::now();
-  if (told_to_ >= 0 && (done == total || std::chrono::duration<double>(now - told_).count() > kTellEvery)) {
-    told_ = now;
-    tell(done, total);
+  if (report_descriptor_ >= 0 &&
+      (done == total || std::chrono::duration<double>(now - reported_).count() > kReportPeriod)) {
+    reported_ = now;
+    report(done, total);
   }
   if (!enabled_) return;
   if (!started_) {
@@ -80,10 +81,10 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
     return;
   }
   const double fraction = double(done) / double(total);
-  const double left = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
+  const double remaining = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
   const int width = bar_width(what_.size()), full = int(fraction * width);
   const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {} left", what_, "", full, "",
-                                      width - full, 100 * fraction, clock_time(left));
+                                      width - full, 100 * fraction, clock_time(remaining));
   std::fputs(bar.c_str(), stderr);
   std::fflush(stderr);
 }

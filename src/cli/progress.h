@@ -5,28 +5,28 @@
 
 namespace faba::cli {
 
-/// A bar with the time still to go on the last line of the terminal, once the work has lasted a second; a
-/// count where it is not known how much there is (total 0). Silent when standard error is no terminal.
-/// Where the environment names a file descriptor (FABA_PROGRESS_FD) it is also written there, a line at a
-/// time: what, done, total. The live lab follows its jobs so.
+/// Progress bar with the remaining time on the last line of the terminal, shown when the work takes longer
+/// than a second; a counter if the total is unknown (0). Shows nothing if standard error is not a terminal.
+/// If the environment variable FABA_PROGRESS_FD has a file descriptor, progress is also written there, one
+/// line per update: label, done, total. The live lab reads the progress of its jobs in this way.
 class Progress {
  public:
   Progress(std::string what, bool enabled);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  void clear();  ///< takes the bar off the terminal; the next update() draws it again
+  void clear();  ///< erases the bar; the next update() draws it again
   void update(std::uint64_t done, std::uint64_t total);
 
  private:
-  void tell(std::uint64_t done, std::uint64_t total) const;
+  void report(std::uint64_t done, std::uint64_t total) const;
 
   using Clock = std::chrono::steady_clock;
   std::string what_;
   bool enabled_, shown_ = false;
-  int told_to_;  ///< file descriptor; -1: nobody
-  Clock::time_point began_ = Clock::now(), drawn_ = began_, told_;
-  std::uint64_t first_ = 0;  ///< work done before this process: not part of the speed
+  int report_descriptor_;  ///< -1: none
+  Clock::time_point began_ = Clock::now(), drawn_ = began_, reported_;
+  std::uint64_t first_ = 0;  ///< work done by an earlier process: not part of the speed
   bool started_ = false;
 };
 

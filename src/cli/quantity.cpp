@@ -10,17 +10,17 @@
 
 namespace faba::cli {
 
-double quantity_of(const std::string& words, const char* unit, const std::string& option,
+double quantity_of(const std::string& text, const char* unit, const std::string& option,
                    const std::string& example) {
-  std::string why = fmt::format("\"{}\" is not in {}", words, unit);
+  std::string reason = fmt::format("\"{}\" is not a quantity in {}", text, unit);
   try {
-    const Quantity q = parse_quantity(words);
+    const Quantity q = parse_quantity(text);
     const bool fits = q.bare || q.dimension == parse_unit(unit).dimension;
     if (fits && std::isfinite(q.value)) return q.value;
   } catch (const std::invalid_argument& e) {
-    why = e.what();
+    reason = e.what();
   }
-  throw Error(Errc::usage, option, fmt::format("{}; write it such as \"{}\"", why, example));
+  throw Error(Errc::usage, option, fmt::format("{}; write it like \"{}\"", reason, example));
 }
 
 }  // namespace faba::cli

@@ -3,9 +3,9 @@
 
 namespace faba::cli {
 
-/// The value in SI of an option's words such as "50 mA", which must be finite and measure what `unit` does,
-/// or be a number in SI, as in scenarios. Throws Error(usage, option) that shows `example`.
-double quantity_of(const std::string& words, const char* unit, const std::string& option,
+/// Value in SI of the text of an option, such as "50 mA": a finite quantity with the dimension of `unit`, or
+/// a number in SI, as in scenarios. Throws Error(usage, option) with `example`.
+double quantity_of(const std::string& text, const char* unit, const std::string& option,
                    const std::string& example);
 
 }  // namespace faba::cli

@@ -17,30 +17,32 @@ void summary(const Session& session, const Manifest& manifest, const Metrics& m,
   fmt::print("{}\n", run_in_words(m, run_info(manifest)).outcome);
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
   if (m.setpoints > 0)
-    fmt::print("settling time {}, steady error {} px rms, ",
-               m.settling_time_s ? three_digits(*m.settling_time_s) + " s" : "never", px(m.steady_rms_px));
-  if (m.cross_track_95_px) fmt::print("off the route {} px (95 %), ", px(m.cross_track_95_px));
+    fmt::print("settling time {}, steady-state error {} px rms, ",
+               m.settling_time_s ? three_digits(*m.settling_time_s) + " s" : "not settled",
+               px(m.steady_rms_px));
+  if (m.cross_track_95_px) fmt::print("cross-track error {} px (95th percentile), ", px(m.cross_track_95_px));
   fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));
   const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
-                                                       {"exact", "video.avi"},
+                                                       {"lossless", "video.avi"},
                                                        {"tracks", "tracks.h5"},
                                                        {"series", "series.csv"},
                                                        {"report", "report.html"}};
   for (const auto& [what, name] : files)
-    if (std::filesystem::exists(dir / name)) fmt::print("  {:<7}{}\n", what, (dir / name).string());
+    if (std::filesystem::exists(dir / name)) fmt::print("  {:<9}{}\n", what, (dir / name).string());
   fmt::print("seed {}, state_hash {}\n", manifest.seed, manifest.simulated->state_hash);
-  if (!next.empty()) fmt::print("now try: {}\n", next);
+  if (!next.empty()) fmt::print("next: {}\n", next);
 }
 
 }  // namespace
 
-int carry_out(Session& session, Progress& bar, const Common& c, const std::string& next) {
-  const bool whole = session.run();
+int run_session(Session& session, Progress& bar, const Common& c, const std::string& next) {
+  const bool complete = session.run();
   bar.clear();
-  if (!whole) {
+  if (!complete) {
     if (!c.quiet)
-      tell(fmt::format("faba: interrupted; the recorded data are kept. Resume the run with: {} resume {}",
-                       shell_word(program()), shell_word(session.dir().string())));
+      print_stderr(
+          fmt::format("faba: interrupted; the recorded data are kept. Resume the run with: {} resume {}",
+                      shell_word(program()), shell_word(session.dir().string())));
     return int(Errc::interrupted);
   }
   const Manifest manifest = session.manifest();
@@ -52,7 +54,7 @@ int carry_out(Session& session, Progress& bar, const Common& c, const std::strin
     Json j = {{"out", session.dir().string()}};
     for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})
       for (const auto& [k, v] : source.items())
-        if (!j.contains(k)) j[k] = v;  // what both name is what the manifest says
+        if (!j.contains(k)) j[k] = v;  // the manifest has precedence
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
     summary(session, manifest, metrics, next);

@@ -10,8 +10,8 @@ class Session;
 
 namespace faba::cli {
 
-/// Runs a session to its end, writes its report and prints what came of it; `next`, unless empty, is a
-/// command that a user may try then. Returns the exit code.
-int carry_out(Session& session, Progress& bar, const Common& c, const std::string& next);
+/// Runs a session to its end, writes its report and prints a summary; `next`, unless empty, is a command
+/// proposed to the user. Returns the exit code.
+int run_session(Session& session, Progress& bar, const Common& c, const std::string& next);
 
 }  // namespace faba::cli

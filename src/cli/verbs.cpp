@@ -1,4 +1,4 @@
-// The list of all verbs, in the order of the help. Each is a file in verbs/.
+// All verbs, in the order of the help. Each has a file in verbs/.
 #include "cli/command_line.h"
 
 namespace faba::cli {

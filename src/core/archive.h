@@ -10,7 +10,7 @@
 
 namespace faba {
 
-/// A checkpoint being written or read: one function per class describes both directions,
+/// A checkpoint that is written or read. One function per class describes both directions:
 ///   void Thing::archive(Archive& a) { a & count_ & position_ & history_; }
 /// Little-endian, fixed widths. Reading past the end throws Error(input).
 class Archive {
@@ -57,13 +57,13 @@ class Archive {
     std::uint64_t n = now;
     *this& n;
     if (reading_ && n > (bytes_.size() - at_) / least_bytes_each)
-      throw Error(Errc::input, "checkpoint", "is damaged");
+      throw Error(Errc::input, "checkpoint", "is corrupt");
     return n;
   }
   void raw(void* p, std::size_t n) {
     if (n == 0) return;
     if (reading_) {
-      if (n > bytes_.size() - at_) throw Error(Errc::input, "checkpoint", "ends too early");
+      if (n > bytes_.size() - at_) throw Error(Errc::input, "checkpoint", "is truncated");
       std::memcpy(p, bytes_.data() + at_, n);
       at_ += n;
     } else {

@@ -3,8 +3,8 @@
 
 namespace faba {
 
-/// Waits for a child process that has been asked to end; one that was stopped is let go on, so that it can.
-/// After `patience` s it is killed.
-void end_child(pid_t process, double patience) noexcept;
+/// Waits until a child process that was asked to exit has exited. Sends SIGCONT first, because a stopped
+/// process cannot exit, and SIGKILL after `timeout` s.
+void end_child(pid_t process, double timeout) noexcept;
 
 }  // namespace faba

@@ -1,5 +1,7 @@
 #include "core/distributions.h"
 
+#include <fmt/format.h>
+
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -8,7 +10,8 @@
 namespace faba {
 
 double normal_quantile(double p) {
-  if (!(p > 0 && p < 1)) throw Error(Errc::internal, "normal_quantile", "needs 0 < p < 1");
+  if (!(p > 0 && p < 1))
+    throw Error(Errc::internal, "normal_quantile", fmt::format("p is {}; it must be between 0 and 1", p));
   return boost::math::quantile(boost::math::normal(), p);
 }
 
@@ -18,7 +21,9 @@ double student_t_cdf(double t, double freedom) {
 
 double student_t_quantile(double p, double freedom) {
   if (!(p > 0 && p < 1 && freedom > 0))
-    throw Error(Errc::internal, "student_t_quantile", "needs 0 < p < 1 and degrees of freedom");
+    throw Error(
+        Errc::internal, "student_t_quantile",
+        fmt::format("p is {} and must be between 0 and 1; freedom is {} and must be positive", p, freedom));
   return boost::math::quantile(boost::math::students_t(freedom), p);
 }
 

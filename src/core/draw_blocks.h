@@ -6,8 +6,8 @@
 
 namespace faba {
 
-/// What draws are for. Philox's counter is (agent, step, stream, block): draws for two purposes are
-/// independent, whatever agent and step are, because their pairs of stream and block differ.
+/// Purpose of a random draw. The counter of Philox is (agent, step, stream, block). Draws for two purposes
+/// are independent for any agent and step, because their pairs (stream, block) differ.
 struct DrawBlock {
   Stream stream;
   std::uint32_t block;
@@ -15,22 +15,22 @@ struct DrawBlock {
 
 // All purposes of a run. Append only; never renumber. Rows (core/kernels/philox_row.h) have block 0. Purposes
 // of studies, in Stream::study, are StudyDraws (study/stats/study_random.h).
-inline constexpr DrawBlock kPlaceDraws{Stream::start, 0};       ///< where a cell begins; step: attempt
+inline constexpr DrawBlock kPlaceDraws{Stream::start, 0};       ///< initial position of a cell; step: attempt
 inline constexpr DrawBlock kBirthDraws{Stream::start, 0xFFFF};  ///< heading, speed and turning rate of a cell
-inline constexpr DrawBlock kMotionDraws{Stream::motion, 0};     ///< of one step, in rows
+inline constexpr DrawBlock kMotionDraws{Stream::motion, 0};     ///< noise of one step, in rows
 inline constexpr DrawBlock kReorientDraws{Stream::motility, 0};   ///< reversals and tumbles
 inline constexpr DrawBlock kToleranceDraws{Stream::motility, 1};  ///< tolerated dose of oxygen of a cell
 inline constexpr DrawBlock kResponseDraws{Stream::motility, 2};   ///< whether a cell responds to the field
-inline constexpr DrawBlock kPixelDraws{Stream::camera, 0};        ///< noise of pixels, in rows; step: frame
-inline constexpr DrawBlock kFrameDraws{Stream::camera, 1};        ///< agent: one of FrameDraw; step: frame
+inline constexpr DrawBlock kPixelDraws{Stream::camera, 0};        ///< pixel noise, in rows; step: frame
+inline constexpr DrawBlock kFrameDraws{Stream::camera, 1};        ///< agent: a FrameDraw; step: frame
 inline constexpr DrawBlock kDepthDraws{Stream::camera, 2};        ///< distance of a cell from focus
-inline constexpr DrawBlock kWaveDraws{Stream::camera, 3};         ///< unevenness of the light; agent: wave
-inline constexpr DrawBlock kContestDraws{Stream::exclusion, 0};   ///< key of one step's contests
+inline constexpr DrawBlock kWaveDraws{Stream::camera, 3};         ///< uneven illumination; agent: wave
+inline constexpr DrawBlock kContestDraws{Stream::exclusion, 0};   ///< key of the contests of one step
 
-/// What stands for the agent in kFrameDraws.
+/// Value used as the agent in kFrameDraws.
 enum class FrameDraw : std::uint32_t {
   lamp = 0,  ///< flicker
-  time = 1   ///< jitter of the time at which the frame is taken
+  time = 1   ///< jitter of the time of exposure
 };
 
 namespace draw_blocks {

@@ -4,16 +4,16 @@
 
 namespace faba {
 
-/// Kinds of failure a caller may want to tell apart; the value is the program's exit code.
+/// Kinds of failure that a caller may distinguish; the value is the exit code of the program.
 enum class Errc {
-  internal = 1,      ///< a defect of the program, a full disk, or anything not listed below
-  usage = 2,         ///< wrong command line, scenario, rig or study file
+  internal = 1,      ///< a bug, a full disk, or anything not listed below
+  usage = 2,         ///< invalid command line, scenario, rig or study file
   input = 3,         ///< a picture, video or data file that is missing, unreadable or unsuitable
   device = 4,        ///< camera or coil driver
-  interrupted = 130  ///< stopped by a signal; what was recorded is kept
+  interrupted = 130  ///< stopped by a signal; the recorded data are kept
 };
 
-/// The one exception type of the library. `where` names the place in the user's terms (a scenario path such
+/// The only exception type of the library. `where` is the location in the user's terms (a scenario path such
 /// as `swarm[0].model.speed`, a file, a device), never a C++ file; `what` is one line: the reason and what to
 /// do.
 class Error : public std::runtime_error {
@@ -24,11 +24,11 @@ class Error : public std::runtime_error {
         where_(std::move(where)) {}
   Errc code() const noexcept { return code_; }
   const std::string& where() const noexcept { return where_; }
-  /// what() without the place, for those who show the two apart.
+  /// what() without the location.
   std::string reason() const { return where_.empty() ? what() : what() + where_.size() + 2; }
 
  private:
-  // Names and values come from users' files and may hold anything.
+  // Names and values come from users' files and may contain control characters.
   static std::string one_line(std::string text) {
     for (char& c : text)
       if (static_cast<unsigned char>(c) < ' ') c = ' ';

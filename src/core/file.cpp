@@ -16,26 +16,26 @@ namespace {
 std::string advice(int error_number) {
   std::string reason = std::generic_category().message(error_number);
   if (error_number == ENOSPC || error_number == EDQUOT)
-    return reason + "; free some space or write elsewhere";
+    return reason + "; free some space or choose another disk";
   if (error_number == EACCES || error_number == EROFS || error_number == EPERM) {
-    return reason + "; choose a place that may be written";
+    return reason + "; choose a writable location";
   }
   if (error_number == EFBIG)
-    return reason + "; the limit of file sizes (ulimit -f) or of the disk is reached";
+    return reason + "; the file size limit (ulimit -f) or the limit of the file system is reached";
   if (error_number == ENOENT) return reason + "; does the folder exist?";
   return reason;
 }
 
-void flush_path(const std::filesystem::path& path, int flags, const std::filesystem::path& blame) {
+void flush_path(const std::filesystem::path& path, int flags, const std::filesystem::path& shown) {
   const int descriptor = ::open(path.c_str(), flags | O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw Error(Errc::internal, blame.string(), "cannot be flushed: " + advice(errno));
+  if (descriptor < 0) throw Error(Errc::internal, shown.string(), "cannot be flushed: " + advice(errno));
   try {
-    flush_descriptor(descriptor, blame);
+    flush_descriptor(descriptor, shown);
   } catch (...) {
     ::close(descriptor);
     throw;
   }
-  ::close(descriptor);  // read only: what closing says is of no file's content
+  ::close(descriptor);  // opened for reading only: an error of close() does not concern the content
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
 
 std::string read_file(const std::filesystem::path& file) {
   std::error_code ec;
-  if (!std::filesystem::exists(file, ec)) throw Error(Errc::input, file.string(), "no such file");
+  if (!std::filesystem::exists(file, ec)) throw Error(Errc::input, file.string(), "file not found");
   if (std::filesystem::is_directory(file, ec))
     throw Error(Errc::input, file.string(), "is a directory, not a file");
   std::ifstream in(file, std::ios::binary);
@@ -73,7 +73,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, std::uint64_t keep_byt
   descriptor_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
   if (descriptor_ < 0 && keep_bytes > 0 && errno == ENOENT)
     throw Error(Errc::input, shown_.string(),
-                "is missing, so it cannot be continued; start again from scratch");
+                "file not found, so it cannot be continued; start again from scratch");
   if (descriptor_ < 0) fail("cannot be written", errno);
   if (keep_bytes == 0) return;
   try {
@@ -84,7 +84,7 @@ OutputFile::OutputFile(const std::filesystem::path& path, std::uint64_t keep_byt
                   "has " + std::to_string(end) + " bytes, fewer than the " + std::to_string(keep_bytes) +
                       " bytes that were written before, so it cannot be continued; start again from scratch");
     }
-    if (::ftruncate(descriptor_, static_cast<off_t>(keep_bytes)) != 0) fail("cannot be cut", errno);
+    if (::ftruncate(descriptor_, static_cast<off_t>(keep_bytes)) != 0) fail("cannot be truncated", errno);
     if (::lseek(descriptor_, 0, SEEK_END) < 0) fail("cannot be continued", errno);
   } catch (...) {
     ::close(descriptor_);
@@ -107,9 +107,9 @@ void OutputFile::append(std::span<const std::uint8_t> piece) {
       rest = rest.subspan(static_cast<std::size_t>(written));
     } else if (errno != EINTR) {
       const int failure = errno;
-      const auto whole = static_cast<off_t>(size_);
-      // A device such as /dev/full cannot be cut back, nor does it keep anything.
-      if (::ftruncate(descriptor_, whole) == 0) ::lseek(descriptor_, whole, SEEK_SET);
+      const auto complete = static_cast<off_t>(size_);
+      // A device such as /dev/full cannot be truncated and stores nothing.
+      if (::ftruncate(descriptor_, complete) == 0) ::lseek(descriptor_, complete, SEEK_SET);
       fail("cannot be written", failure);
     }
   }
@@ -131,7 +131,7 @@ void OutputFile::close() {
 
 void flush_descriptor(int descriptor, const std::filesystem::path& shown) {
   if (::fsync(descriptor) == 0) return;
-  // Devices and some network file systems have nothing to flush and say so.
+  // Devices and some network file systems do not support fsync.
   if (errno != EINVAL && errno != ENOTSUP)
     throw Error(Errc::internal, shown.string(), "cannot be flushed to the disk: " + advice(errno));
 }
@@ -140,7 +140,9 @@ void rename_complete(const std::filesystem::path& from, const std::filesystem::p
   flush_path(from, 0, to);
   std::error_code failure;
   std::filesystem::rename(from, to, failure);
-  if (failure) throw Error(Errc::internal, to.string(), "cannot be put in place: " + advice(failure.value()));
+  if (failure)
+    throw Error(Errc::internal, to.string(),
+                "cannot be renamed to its final name: " + advice(failure.value()));
   const auto folder = to.has_parent_path() ? to.parent_path() : std::filesystem::path(".");
   flush_path(folder, O_DIRECTORY, to);
 }

@@ -7,34 +7,34 @@
 
 namespace faba {
 
-/// Writes the whole content under a temporary name, syncs, and renames: the name never stands for a part.
-/// Throws Error(internal) with the reason (full disk, no permission); then nothing is left behind and an old
-/// file is intact.
+/// Writes `content` to a temporary file, syncs it, and renames it, so that `file` never has partial content.
+/// Throws Error(internal) with the reason (full disk, no permission); the temporary file is then removed and
+/// an existing file is unchanged.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// The whole content. Throws Error(input) when missing, a directory or unreadable.
+/// Content of a file. Throws Error(input) if it is missing, a directory or unreadable.
 std::string read_file(const std::filesystem::path& file);
 
-/// A file that grows by whole pieces (a line, a frame), written straight through so that a crash of the
-/// program loses nothing that append() has taken. Every failure throws Error(Errc::internal, path) with the
-/// system's reason.
+/// A file to which complete records (a line, a frame) are appended. Writes are unbuffered, so that a crash of
+/// the program loses no appended record. Every failure throws Error(Errc::internal, path) with the system's
+/// reason.
 class OutputFile {
  public:
-  /// Creates `path`, or replaces what is there. With `keep_bytes` > 0 the file must exist with at least that
-  /// many bytes, else Error(Errc::input); it is truncated to them and continued. Messages name `shown` when
-  /// it is given.
+  /// Creates or replaces `path`. With `keep_bytes` > 0 the file must exist with at least that many bytes,
+  /// otherwise throws Error(Errc::input); it is truncated to them and continued. Messages show `shown` unless
+  /// it is empty.
   explicit OutputFile(const std::filesystem::path& path, std::uint64_t keep_bytes = 0,
                       const std::filesystem::path& shown = {});
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Appends all of `piece` or, when that fails (disk full), throws with the file cut back to what it was.
+  /// Appends `piece`. If that fails (disk full), truncates the file to its previous size and throws.
   void append(std::span<const std::uint8_t> piece);
   void append(std::string_view piece);
   /// Returns when everything appended so far is on the disk.
   void sync();
-  /// Closes the file; only sync() promises that it is on the disk. Closing twice is allowed.
+  /// Closes the file; only sync() guarantees that it is on the disk. Closing twice is allowed.
   void close();
 
   std::uint64_t size() const { return size_; }                 ///< bytes
@@ -48,14 +48,14 @@ class OutputFile {
   std::uint64_t size_ = 0;
 };
 
-/// Returns when all that was written to an open file is on the disk. Throws Error(Errc::internal, shown).
+/// Returns when everything written to an open file is on the disk. Throws Error(Errc::internal, shown).
 void flush_descriptor(int descriptor, const std::filesystem::path& shown);
 
-/// Gives the complete file `from` its final name in the same file system, replacing what is there, and makes
-/// sure that content and name outlive a power cut. Throws Error(Errc::internal, to).
+/// Renames the complete file `from` to its final name in the same file system, replacing an existing file.
+/// Syncs content and name, so that both survive a power failure. Throws Error(Errc::internal, to).
 void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// What a file is called until it is complete and renamed: `path` + ".tmp".
+/// Name of a file until it is complete and renamed: `path` + ".tmp".
 std::filesystem::path temporary_name(const std::filesystem::path& path);
 
 }  // namespace faba

@@ -47,22 +47,23 @@ FileLock::FileLock(const std::filesystem::path& file, const std::filesystem::pat
     if (descriptor_ < 0) fail(file_, "cannot be written");
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(std::exchange(descriptor_, -1));
-      throw Error(Errc::usage, shown.string(),
-                  fmt::format("{} is writing here; wait for it or choose another --out", holder(file_)));
+      throw Error(
+          Errc::usage, shown.string(),
+          fmt::format("{} is writing to it; wait until it exits or choose another --out", holder(file_)));
     }
-    if (same_file(descriptor_, file_)) break;  // else its holder completed and removed it meanwhile
+    if (same_file(descriptor_, file_)) break;  // otherwise the holder removed the file in the meantime
     ::close(std::exchange(descriptor_, -1));
   }
   if (descriptor_ < 0) fail(file_, "cannot be written");
   struct stat before {};
-  const bool marks = fstat(descriptor_, &before) != 0 || before.st_size > 0;
-  // Over the old text and then cut: on a full disk an older mark stays.
+  const bool had_text = fstat(descriptor_, &before) != 0 || before.st_size > 0;
+  // Overwrite, then truncate: on a full disk the text of an earlier process is kept.
   const std::string content = fmt::format("{}{}\n{}", kFirst, getpid(), text);
-  errno = ENOSPC;  // the reason of a write that takes only a part
+  errno = ENOSPC;  // reported after a partial write, which sets no errno
   if (::pwrite(descriptor_, content.data(), content.size(), 0) != ssize_t(content.size()) ||
       ::ftruncate(descriptor_, off_t(content.size())) != 0 || ::fsync(descriptor_) != 0) {
     const int reason = errno;
-    if (!marks) ::unlink(file_.c_str());
+    if (!had_text) ::unlink(file_.c_str());
     ::close(std::exchange(descriptor_, -1));
     errno = reason;
     fail(file_, "cannot be written");

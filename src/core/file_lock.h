@@ -4,18 +4,18 @@
 
 namespace faba {
 
-/// A file that one process at a time can hold. The system takes the lock back however that process ends; the
-/// file stays until complete().
+/// A lock file that one process at a time can hold. The system releases the lock when that process ends for
+/// any reason; the file exists until complete().
 class FileLock {
  public:
   FileLock() = default;
-  /// Makes the file if it is not there; it then holds the process's number and, below, `text`. Throws
-  /// Error(usage, shown) when another process holds it, Error(internal) when it cannot be written.
+  /// Creates the file if necessary and writes the process id and, on the next lines, `text`. Throws
+  /// Error(usage, shown) if another process holds it, Error(internal) if it cannot be written.
   FileLock(const std::filesystem::path& file, const std::filesystem::path& shown, const std::string& text);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();
-  /// Removes the file: what it stood for is whole.
+  /// Removes the file: the work that it protects is complete.
   void complete();
 
  private:

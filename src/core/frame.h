@@ -3,12 +3,12 @@
 
 namespace faba {
 
-/// The camera's rectangle and how it lies in the world. World: m, origin at the arena's centre, x right, y
-/// up. Image: px, pixel centres at whole numbers, x right, y down.
+/// Transform between world and image coordinates, and size of the image. World: m, origin at the arena's
+/// centre, x right, y up. Image: px, pixel centres at integers, x right, y down.
 struct Frame {
   double m_per_px = 1e-6;
   int width = 640, height = 480;    ///< px
-  Vec2 centre_image{319.5, 239.5};  ///< where the arena's centre appears
+  Vec2 centre_image{319.5, 239.5};  ///< image position of the arena's centre
 
   Vec2 image_from_world(Vec2 p_world) const {
     return {centre_image.x + p_world.x / m_per_px, centre_image.y - p_world.y / m_per_px};
@@ -21,7 +21,7 @@ struct Frame {
   }
 };
 
-/// How the models of the thesis, which count in pixels, iterations and field units, hang together with SI.
+/// Conversion from the units of the thesis's models (pixels, iterations, field units) to SI.
 struct Scale {
   double m_per_px = 0.9164e-6;  ///< m
   double iteration = 1.0 / 15;  ///< s

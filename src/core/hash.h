@@ -6,8 +6,7 @@
 
 namespace faba {
 
-/// FNV-1a, 64 bits, over little-endian bytes: a hash to compare runs by, not a safeguard against
-/// forgery.
+/// FNV-1a, 64 bits, over little-endian bytes. A hash for comparing runs; not cryptographic.
 class Hash {
  public:
   void bytes(const void* p, std::size_t n) {

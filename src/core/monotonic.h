@@ -3,7 +3,7 @@
 
 namespace faba {
 
-/// s on the clock that all processes of this machine share and nobody sets.
+/// Monotonic time in s, the same for all processes of this machine.
 inline double monotonic_now() {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);

@@ -8,7 +8,7 @@
 namespace faba {
 namespace {
 
-// A job comes every few microseconds while a simulation runs: look for it a little before going to sleep.
+// A job arrives every few microseconds while a simulation runs: spin for a short time before sleeping.
 constexpr int kSpins = 2000;
 
 void relax() {
@@ -25,10 +25,11 @@ Pool::Pool(unsigned threads) {
     for (unsigned i = 1; i < threads; ++i)
       workers_.emplace_back([this, i](const std::stop_token& stop) { work(i, stop); });
   } catch (const std::system_error& e) {
-    stop();  // those that are there wait for work, and would be waited for
+    stop();  // the threads already started wait for work; without this their destructors would block
     throw Error(Errc::internal, "--threads",
-                "the system starts no more than " + std::to_string(workers_.size() + 1) + " threads here (" +
-                    e.code().message() + "); ask for fewer");
+                std::to_string(threads) + " threads cannot be started, only " +
+                    std::to_string(workers_.size() + 1) + " (" + e.code().message() +
+                    "); give a smaller number");
   }
 }
 
@@ -40,7 +41,7 @@ void Pool::stop() {
   round_.notify_all();
 }
 
-void Pool::share(unsigned index) {
+void Pool::run_share(unsigned index) {
   const std::size_t n = threads(), begin = blocks_ * index / n, end = blocks_ * (index + 1) / n;
   try {
     for (std::size_t b = begin; b < end && !failed_.load(std::memory_order_relaxed); ++b) (*job_)(b);
@@ -56,7 +57,7 @@ void Pool::work(unsigned index, const std::stop_token& stop) {
     round_.wait(seen, std::memory_order_acquire);
     if (stop.stop_requested()) return;
     seen = round_.load(std::memory_order_acquire);
-    share(index);
+    run_share(index);
     if (pending_.fetch_sub(1, std::memory_order_acq_rel) == 1) pending_.notify_one();
   }
 }
@@ -73,7 +74,7 @@ void Pool::run(std::size_t blocks, const std::function<void(std::size_t)>& job) 
   pending_.store(std::uint32_t(workers_.size()), std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
-  share(0);
+  run_share(0);
   for (int i = 0; i < kSpins && pending_.load(std::memory_order_acquire) != 0; ++i) relax();
   for (auto left = pending_.load(std::memory_order_acquire); left != 0;
        left = pending_.load(std::memory_order_acquire))

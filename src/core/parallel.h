@@ -8,12 +8,11 @@
 
 namespace faba {
 
-/// Threads kept for the life of the object. Work is cut into fixed blocks, so what a block computes never
-/// depends on how many threads there are. The calling thread works too; one thread means no other is started.
+/// Thread pool. Work is divided into fixed blocks, so the result of a block does not depend on the number of
+/// threads. The calling thread takes part; with one thread no other is started.
 class Pool {
  public:
-  /// `threads` >= 1; 0 means as many as the machine has. Throws Error(internal) when the system gives no
-  /// more.
+  /// `threads` >= 1; 0: number of hardware threads. Throws Error(internal) if they cannot be started.
   explicit Pool(unsigned threads = 0);
   ~Pool();
   Pool(const Pool&) = delete;
@@ -21,7 +20,7 @@ class Pool {
 
   unsigned threads() const { return unsigned(workers_.size()) + 1; }
 
-  /// Calls job(block) once for each block in [0, blocks), each thread taking a contiguous share; returns when
+  /// Calls job(block) once for each block in [0, blocks), each thread a contiguous range; returns when
   /// all are done. The first exception thrown by a job is rethrown here.
   void run(std::size_t blocks, const std::function<void(std::size_t)>& job);
 
@@ -35,13 +34,13 @@ class Pool {
  private:
   void work(unsigned index, const std::stop_token& stop);
   void stop();
-  void share(unsigned index);
+  void run_share(unsigned index);
 
   std::vector<std::jthread> workers_;
   const std::function<void(std::size_t)>* job_ = nullptr;
   std::size_t blocks_ = 0;
-  std::atomic<std::uint32_t> round_{0};    ///< raised to start a job
-  std::atomic<std::uint32_t> pending_{0};  ///< workers not yet done with it
+  std::atomic<std::uint32_t> round_{0};    ///< incremented to start a job
+  std::atomic<std::uint32_t> pending_{0};  ///< workers that have not finished it
   std::atomic<bool> failed_{false};
   std::exception_ptr error_;
 };

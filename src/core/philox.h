@@ -6,23 +6,23 @@
 
 namespace faba {
 
-/// Independent physical processes draw from streams of their own. Append only; never renumber.
+/// Independent physical processes use separate random streams. Append only; never renumber.
 enum class Stream : std::uint32_t {
-  start = 0,        ///< where cells begin, and what each is born with
+  start = 0,        ///< initial positions and properties of cells
   motion = 1,       ///< rotational and translational noise of one step
   translation = 2,  ///< reserved
   motility = 3,     ///< reversals, tumbles, tolerance to oxygen
   camera = 4,
   controller = 5,
-  exclusion = 6,  ///< who wins a contested grid cell
-  study = 7       ///< designs and draws of studies, not of a run
+  exclusion = 6,  ///< which cell wins a contested grid site
+  study = 7       ///< designs and draws of studies; not used in a run
 };
 
 inline constexpr std::uint32_t kPhiloxM0 = 0xD2511F53u, kPhiloxM1 = 0xCD9E8D57u;  ///< multipliers
 inline constexpr std::uint32_t kPhiloxW0 = 0x9E3779B9u, kPhiloxW1 = 0xBB67AE85u;  ///< key increments
 
 /// Philox4x32-10 (Salmon et al. 2011, as in Random123): four random words as a pure function of counter and
-/// key. No state is kept, so results cannot depend on thread count or visiting order.
+/// key. There is no state, so results do not depend on the number of threads or the order of evaluation.
 [[gnu::always_inline]] inline void philox(std::uint32_t& c0, std::uint32_t& c1, std::uint32_t& c2,
                                           std::uint32_t& c3, std::uint32_t k0, std::uint32_t k1) {
 #pragma GCC unroll 10
@@ -37,8 +37,8 @@ inline constexpr std::uint32_t kPhiloxW0 = 0x9E3779B9u, kPhiloxW1 = 0xBB67AE85u;
   }
 }
 
-/// The same for one draw: key = seed, counter = (agent, step, stream, block). core/draw_blocks.h lists what
-/// each stream and block is for.
+/// Philox for one draw: key = seed, counter = (agent, step, stream, block). core/draw_blocks.h lists the
+/// purposes of the streams and blocks.
 inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, Stream stream, std::uint32_t agent,
                                          std::uint32_t step, std::uint32_t block = 0) {
   std::array<std::uint32_t, 4> c{agent, step, std::uint32_t(stream), block};
@@ -46,7 +46,7 @@ inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, Stream stream, std:
   return c;
 }
 
-/// Uniform in (0, 1), 23 bits: the half that keeps it from 0 and 1 is then exact in a float.
+/// Uniform in (0, 1), 23 bits: the added 0.5, which excludes 0 and 1, is then exact in a float.
 [[gnu::always_inline]] inline float uniform(std::uint32_t word) {
   return (float(word >> 9) + 0.5f) * 0x1p-23f;
 }
@@ -54,7 +54,7 @@ inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, Stream stream, std:
 [[gnu::always_inline]] inline std::uint32_t below(std::uint32_t word, std::uint32_t n) {
   return std::uint32_t((std::uint64_t{word} * n) >> 32);
 }
-/// Two independent standard normals from two words (Box-Muller); the tails end at 5.8 sigma.
+/// Two independent standard normals from two words (Box-Muller); the tails are cut at 5.8 sigma.
 [[gnu::always_inline]] inline std::array<float, 2> normals(std::uint32_t a, std::uint32_t b) {
   const float radius = std::sqrt(-2.0f * portable::log(uniform(a)));
   const auto [s, c] = portable::sincos(float(std::int32_t(b) >> 8) * (portable::kPiF * 0x1p-23f));

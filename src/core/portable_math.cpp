@@ -62,7 +62,7 @@ double atan2(double y, double x) {
   if (ax == 0 && ay == 0) return 0;
   const bool steep = ay > ax;
   double t = steep ? ax / ay : ay / ax;
-  // two halvings of the angle bring t from [0,1] to [0, 0.2]; then the series converges quickly
+  // halving the angle twice maps t from [0, 1] to [0, 0.2], where the series converges quickly
   double scale = 1;
   for (int i = 0; i < 2; ++i) {
     t = t / (1 + std::sqrt(1 + t * t));

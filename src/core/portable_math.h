@@ -12,7 +12,7 @@ namespace faba::portable {
 inline constexpr float kPiF = 3.14159265358979f;
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// Nearest integer, ties to even, for |x| < 2^22. Adding and taking away 1.5 * 2^23 works with SSE2 alone.
+/// Nearest integer, ties to even, for |x| < 2^22. Adding and subtracting 1.5 * 2^23 needs SSE2 only.
 [[gnu::always_inline]] inline float nearest(float x) { return (x + 12582912.0f) - 12582912.0f; }
 
 struct SinCos {
@@ -78,7 +78,8 @@ struct SinCosD {
 };
 SinCosD sincos(double a);  ///< |a| <= 1e8
 double atan2(double y, double x);
-/// Share of a standard normal distribution below x; absolute error below 1e-7 (Abramowitz & Stegun 26.2.17).
+/// Cumulative distribution function of the standard normal distribution; absolute error below 1e-7
+/// (Abramowitz & Stegun 26.2.17).
 double normal_cdf(double x);
 
 }  // namespace faba::portable

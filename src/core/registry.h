@@ -13,7 +13,7 @@
 
 namespace faba {
 
-/// A part that a scenario names, read and checked but not yet built.
+/// A part named in a scenario, read and checked but not yet constructed.
 template <class Interface, class Context>
 struct Part {
   std::string type;
@@ -24,25 +24,24 @@ struct Part {
   bool has(Trait t) const { return std::find(traits.begin(), traits.end(), t) != traits.end(); }
 };
 
-/// Names -> factories for one kind of part. An ordinary value, not a global: the application owns it, tests
-/// make their own. `Context` is what every part of the kind may look at when it is built (scale, field, grid
-/// ...).
+/// Factories of one kind of part, by name. An ordinary value, not a global: the application owns it, tests
+/// create others. `Context` holds what the parts of the kind need for construction (scale, field, grid ...).
 template <class Interface, class Context>
 class Registry {
  public:
   using PartType = Part<Interface, Context>;
 
-  /// `kind` is the word for messages ("agent model"), `doc` one sentence for `faba parts`.
+  /// `kind` is the name of the kind in messages ("agent model"), `doc` one sentence for `faba parts`.
   Registry(std::string kind, std::string doc) : kind_(std::move(kind)), doc_(std::move(doc)) {}
 
-  /// T provides Params, static schema(), and a constructor T(Params, const Context&). Parameters that stand
-  /// for something kept elsewhere, such as a file of measurements, are filled in by a static settle(Params&,
-  /// const Node&), so that what is resolved stands by itself.
+  /// T provides Params, static schema(), and a constructor T(Params, const Context&). An optional static
+  /// settle(Params&, const Node&) replaces references to other files, such as a file of measurements, by
+  /// their content, so that the resolved parameters are self-contained.
   template <class T>
   void add() {
     add<T>(T::schema());
   }
-  /// The same with a schema that is not the class's alone, as that of a part which holds other parts.
+  /// The same with a schema that depends on other parts.
   template <class T>
   void add(const Schema<typename T::Params>& s) {
     Entry e;
@@ -62,7 +61,7 @@ class Registry {
       throw Error(Errc::internal, kind_ + " " + s.name(), "registered twice");
   }
 
-  /// The parts with a trait, as a registry of another kind.
+  /// Registry of the parts with a trait, under another name of the kind.
   Registry only(Trait t, std::string kind, std::string doc) const {
     Registry some(std::move(kind), std::move(doc));
     for (const auto& [name, e] : entries_)
@@ -75,11 +74,11 @@ class Registry {
     Json table = n.json->is_string() ? Json{{"type", *n.json}} : *n.json;
     const Node node{table, n.path, n.document};
     if (!table.is_object() || !table.contains("type") || !table["type"].is_string())
-      n.fail(fmt::format("needs type = \"...\"; known {}s: {}", kind_, fmt::join(names(), ", ")));
+      n.fail(fmt::format("key \"type\" is missing; known {}s: {}", kind_, fmt::join(names(), ", ")));
     const auto it = entries_.find(table["type"].get<std::string>());
     if (it == entries_.end())
       throw Error(Errc::usage, node.where("type"),
-                  fmt::format("there is no {} \"{}\"{}", kind_, table["type"].get<std::string>(),
+                  fmt::format("unknown {} \"{}\"{}", kind_, table["type"].get<std::string>(),
                               suggestion(table["type"].get<std::string>(), names())));
     return it->second.resolve(node);
   }
@@ -92,8 +91,7 @@ class Registry {
   }
   /// Names of the parts with a trait.
   std::vector<std::string> names_with(Trait t) const { return only(t, "", "").names(); }
-  /// Names of the parts without any of these traits: what a message proposes instead of one that has
-  /// them.
+  /// Names of the parts that have none of these traits, for proposals in messages.
   std::vector<std::string> names_without(std::initializer_list<Trait> unwanted) const {
     std::vector<std::string> v;
     for (const auto& [name, e] : entries_)
@@ -104,7 +102,7 @@ class Registry {
   }
   /// JSON Schema of one part's parameters. The name must exist.
   const Json& json_schema(const std::string& name) const { return entries_.at(name).json_schema; }
-  /// JSON Schema of a table that names any of the parts by its `type`.
+  /// JSON Schema of a table whose `type` is the name of any of the parts.
   Json json_schema_of_any() const {
     Json any = Json::array();
     for (const auto& [name, e] : entries_) {
@@ -115,7 +113,7 @@ class Registry {
     }
     return {{"oneOf", any}};
   }
-  /// The same, where a part with its defaults may also be given by its name alone.
+  /// The same, or a string: the name of a part with its defaults.
   Json json_schema_of_choice() const {
     Json any = Json::array({Json{{"type", "string"}, {"enum", names()}}});
     const Json tables = json_schema_of_any();

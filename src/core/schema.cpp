@@ -51,7 +51,7 @@ double in_si(const Json& written) {
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const std::string* best = nullptr;
-  // More than a third of the letters wrong is another word, not a slip.
+  // A word with more than a third of its characters wrong is not a typing error.
   std::size_t d_best = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto& k : known)
     if (const std::size_t d = edit_distance(word, k); d < d_best) {
@@ -102,12 +102,12 @@ double read_number(const Node& n, const FieldInfo& f) {
 std::int64_t read_integer(const Node& n, const FieldInfo& f) {
   if (!n.json->is_number()) {
     const bool bounded = f.min > -kOpen && f.max < kOpen;
-    n.fail(fmt::format("expected a whole number{}, got {}",
-                       bounded ? fmt::format(" from {} to {}", f.min, f.max) : "", shown(*n.json)));
+    n.fail(fmt::format("expected an integer{}, got {}",
+                       bounded ? fmt::format(" between {} and {}", f.min, f.max) : "", shown(*n.json)));
   }
   const double v = n.json->get<double>();
   check_number(v, f, n);
-  if (v != std::floor(v)) n.fail(fmt::format("expected a whole number, got {}", v));
+  if (v != std::floor(v)) n.fail(fmt::format("expected an integer, got {}", v));
   return n.json->is_number_integer() ? n.json->get<std::int64_t>() : std::int64_t(v);
 }
 
@@ -117,7 +117,7 @@ bool read_flag(const Node& n) {
 }
 
 std::string read_text(const Node& n, const FieldInfo& f) {
-  if (!n.json->is_string()) n.fail(fmt::format("expected a text in quotes, got {}", shown(*n.json)));
+  if (!n.json->is_string()) n.fail(fmt::format("expected a string, got {}", shown(*n.json)));
   if (!f.choices.empty()) read_choice(n, f);
   return n.json->get<std::string>();
 }
@@ -125,12 +125,12 @@ std::string read_text(const Node& n, const FieldInfo& f) {
 std::size_t read_choice(const Node& n, const FieldInfo& f) {
   const std::string word = n.json->is_string() ? n.json->get<std::string>() : shown(*n.json);
   const auto it = std::find(f.choices.begin(), f.choices.end(), word);
-  if (it == f.choices.end()) n.fail(fmt::format("\"{}\" is none of {}", word, fmt::join(f.choices, ", ")));
+  if (it == f.choices.end()) n.fail(fmt::format("\"{}\" is not one of {}", word, fmt::join(f.choices, ", ")));
   return std::size_t(it - f.choices.begin());
 }
 
 void require_array(const Node& n, std::size_t exact) {
-  if (!n.json->is_array()) n.fail(fmt::format("expected a list in [ ], got {}", shown(*n.json)));
+  if (!n.json->is_array()) n.fail(fmt::format("expected an array in [ ], got {}", shown(*n.json)));
   if (exact && n.json->size() != exact)
     n.fail(fmt::format("expected {} values, got {}", exact, n.json->size()));
 }
@@ -202,7 +202,7 @@ void Fields::read(void* to, const Node& n, const std::vector<std::string>& extra
     }
     if (key != f->key && n.has(f->key))
       throw Error(Errc::usage, n.where(key),
-                  fmt::format("is the old name of \"{}\"; give one of the two", f->key));
+                  fmt::format("is the old name of \"{}\"; give only one of them", f->key));
     f->type->read(static_cast<char*>(to) + f->at, n.child(key), f->info);
   }
   for (const Rule& rule : rules)
@@ -229,11 +229,12 @@ Json Fields::json_schema(const std::vector<const void*>& preset_values) const {
       sources[presets[i].first] = presets[i].second;
       values[presets[i].first] = to_json(preset_values[i]);
     }
-    properties["preset"] = {{"type", "string"},
-                            {"enum", names},
-                            {"x-source", sources},
-                            {"x-values", values},
-                            {"description", "Named set of values; keys given beside it win over it"}};
+    properties["preset"] = {
+        {"type", "string"},
+        {"enum", names},
+        {"x-source", sources},
+        {"x-values", values},
+        {"description", "Named set of default values; other keys of the table override it"}};
   }
   if (!validity.empty()) j["x-validity"] = validity;
   j["properties"] = properties;

@@ -15,34 +15,33 @@
 
 namespace faba {
 
-/// What a parameter is to code that changes it without knowing the part: the key may have any name. It stands
-/// in JSON Schema as `x-role`, by the word of kRoleWords.
+/// Role of a parameter, for code that changes it without knowing the part; the key may have any name. The
+/// JSON Schema has it as `x-role`, a word of kRoleWords.
 enum class Role : std::size_t {
   none,
-  position,  ///< coil: its middle, m, world frame
+  position,  ///< coil: its centre, m, world frame
   axis,      ///< coil: direction of its field, of any length
-  turn,      ///< coil: angle about z by which it is turned, rad
+  turn,      ///< coil: rotation about z, rad
   strength,  ///< coil: factor on its field
-  ambient,   ///< coil system: the field that no coil makes, T, world frame
-  coupling   ///< agent model: acts only as a factor of the field, so that it shows in how fast cells turn
+  ambient,   ///< coil system: field that the coils do not produce, T, world frame
+  coupling   ///< agent model: acts only as a factor of the field; observable as the turning rate of cells
 };
-/// Of a parameter's JSON Schema.
+/// Role in the JSON Schema of a parameter.
 Role role_of(const Json& described);
 inline constexpr std::array kRoleWords = {"", "position", "axis", "turn", "strength", "ambient", "coupling"};
 
-/// What is said about one parameter. Numbers with a unit may be given as "186 um/s"; a bare number is in
-/// `unit`.
+/// Description of one parameter. Numbers with a unit may be given as "186 um/s"; a bare number is in `unit`.
 struct FieldInfo {
   std::string unit = {};                             ///< SI unit (or px); empty for a pure number
   double min = -std::numeric_limits<double>::max();  ///< in `unit`
   double max = std::numeric_limits<double>::max();
   std::string doc = {};                   ///< one sentence
-  std::string source = {};                ///< where the default comes from; "assumed" when nobody measured it
+  std::string source = {};                ///< source of the default; "assumed" if it was not measured
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
-  std::string old_key = {};               ///< name of the key in the version before, which is still read
+  std::string old_key = {};               ///< former name of the key, which is still read
   Role role = Role::none;
-  /// For a type whose description needs something, such as the registry of the parts that a table may name:
-  /// handed to its schema(context).
+  /// Argument of schema(context) for types whose schema depends on something, such as the registry of the
+  /// parts that a table may name.
   std::shared_ptr<const void> context = {};
 };
 
@@ -110,7 +109,7 @@ T read(const Node& n, const FieldInfo& f) {
     return v;
   } else {
     static_assert(Described<T> || DescribedIn<T>,
-                  "a parameter's type must be known to the schema or have a schema() of its own");
+                  "the type of a parameter must be supported by the schema or have a schema()");
     return nested<T>(f).parse(n);
   }
 }
@@ -164,7 +163,7 @@ Json describe(const FieldInfo& f, const Json& fallback) {
   }
 }
 
-/// What one type of value is to a schema, whatever struct holds it.
+/// Operations of a schema on one type of value.
 struct ValueType {
   void (*read)(void* to, const Node& n, const FieldInfo& f);
   Json (*dump)(const void* value, const FieldInfo& f);
@@ -176,8 +175,9 @@ inline constexpr ValueType kValueType = {
     [](const void* value, const FieldInfo& f) { return dump(*static_cast<const T*>(value), f); },
     [](const FieldInfo& f, const Json& fallback) { return describe<T>(f, fallback); }};
 
-/// The fields of a struct whose type is forgotten: what Schema does is done here once for all structs, which
-/// halves the compiling of a part. A struct is the address of its first byte, a field lies `at` bytes on.
+/// The fields of a struct with its type erased. Schema is implemented here once for all structs, which halves
+/// the compile time of a part. A struct is the address of its first byte; a field has the offset `at` in
+/// bytes.
 class Fields {
  public:
   using Rule = std::function<std::string(const void*)>;
@@ -185,12 +185,12 @@ class Fields {
   Fields(std::string n, std::string s) : name(std::move(n)), summary(std::move(s)) {}
   void add(std::string key, std::size_t at, const ValueType& type, FieldInfo info, const void* defaults);
   void include(const Fields& other, std::size_t at);
-  /// Number of the preset that a table names; none when it names none. Throws Error(usage).
+  /// Index of the preset that a table names; empty if it names none. Throws Error(usage).
   std::optional<std::size_t> chosen_preset(const Node& n) const;
   /// Throws Error(usage).
   void read(void* to, const Node& n, const std::vector<std::string>& extra) const;
   Json to_json(const void* from) const;
-  /// `preset_values`: of each preset, in their order.
+  /// `preset_values`: the structs of the presets, in their order.
   Json json_schema(const std::vector<const void*>& preset_values) const;
 
   std::string name, summary, validity;
@@ -205,65 +205,64 @@ class Fields {
     const ValueType* type;
     Json json_schema;
   };
-  const Field* find(const std::string& key) const;  ///< by its key or its old one
+  const Field* find(const std::string& key) const;  ///< by its key or its old key
   std::vector<Field> fields_;
 };
 }  // namespace schema_detail
 
-/// A number, or a quantity with its unit as to_json() writes it, in SI.
+/// Value in SI of a number, or of a quantity with its unit as written by to_json().
 double in_si(const Json& written);
 
-/// "; did you mean "speed"?" when `word` is near one of `known`, else "".
+/// "; did you mean "speed"?" if `word` is similar to one of `known`, otherwise the list of `known`.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
 
-/// Describes a plain struct P once: the scenario loader, `--set`, `faba parts`, JSON Schema, the reference
-/// pages and the bounds of identification are all read from this object. A field's default is not written
-/// here: it is the value that it has in P{}.
+/// Description of a plain struct P, used by the scenario loader, `--set`, `faba parts`, the JSON Schema, the
+/// reference pages and the bounds of identification. The default of a field is its value in P{}.
 template <class P>
 class Schema {
  public:
-  /// `name` is what `type = "..."` says; `summary` one sentence.
+  /// `name` is the value of `type = "..."`; `summary` is one sentence.
   Schema(std::string name, std::string summary) : fields_(std::move(name), std::move(summary)) {}
 
   template <class T>
   Schema& add(const std::string& key, T P::*member, const FieldInfo& info) {
-    fields_.add(key, place(member), schema_detail::kValueType<T>, info, &defaults_);
+    fields_.add(key, offset_of(member), schema_detail::kValueType<T>, info, &defaults_);
     return *this;
   }
-  /// Takes over every field of a struct that P holds, as keys of the same table.
+  /// Adds every field of a struct that is a member of P, as keys of the same table.
   template <class M>
   Schema& include(M P::*member, const Schema<M>& other) {
-    fields_.include(other.fields_, place(member));
+    fields_.include(other.fields_, offset_of(member));
     return *this;
   }
-  /// Named sets of defaults, chosen by the key `preset`; other keys given beside it win over it.
+  /// Named set of defaults, selected by the key `preset`; other keys of the table override it.
   Schema& preset(std::string preset_name, P values, std::string source) {
     fields_.presets.emplace_back(std::move(preset_name), std::move(source));
     presets_.push_back(std::move(values));
     return *this;
   }
-  /// A check over several fields at once, of a const P&; returns what is wrong, or "".
+  /// Adds a check of several fields: rule(const P&) returns the error message, or "".
   template <class Rule>
   Schema& check(Rule rule) {
     fields_.rules.emplace_back(
         [rule = std::move(rule)](const void* p) -> std::string { return rule(*static_cast<const P*>(p)); });
     return *this;
   }
-  /// Where the part is known to fail; shown by `faba parts` and the reference pages.
+  /// Conditions under which the part is known to fail, shown by `faba parts` and the reference pages.
   Schema& validity(std::string text) {
     fields_.validity = std::move(text);
     return *this;
   }
 
-  /// Reads and checks; unknown keys are errors. `extra` are keys that somebody else reads from the same
-  /// table. Throws Error(usage) naming file, line, path, reason and the nearest known key.
+  /// Reads and checks; unknown keys are errors. `extra` are keys that other code reads from the same table.
+  /// Throws Error(usage) with file, line, path, reason and the most similar known key.
   P parse(const Node& n, const std::vector<std::string>& extra = {}) const {
     const auto preset = fields_.chosen_preset(n);
     P p = preset ? presets_[*preset] : defaults_;
     fields_.read(&p, n, extra);
     return p;
   }
-  /// Every parameter with its value, defaults included: reading it back gives the same P.
+  /// All parameters with their values, including defaults; parsing the result gives the same P.
   Json to_json(const P& p) const { return fields_.to_json(&p); }
   Json json_schema() const {
     std::vector<const void*> values;
@@ -272,14 +271,14 @@ class Schema {
   }
   const std::string& name() const { return fields_.name; }
   const std::string& summary() const { return fields_.summary; }
-  /// Empty when nothing is said.
+  /// Empty if not set.
   const std::string& validity() const { return fields_.validity; }
 
  private:
   template <class Other>
   friend class Schema;
   template <class T>
-  std::size_t place(T P::*member) const {
+  std::size_t offset_of(T P::*member) const {
     return std::size_t(reinterpret_cast<const char*>(&(defaults_.*member)) -
                        reinterpret_cast<const char*>(&defaults_));
   }

@@ -9,53 +9,51 @@ namespace faba {
 
 template <class T>
 struct Image;
-/// A picture that goes with an observation; null when the rig reports positions only.
+/// Picture of an observation; null if the rig reports positions only.
 using ImageRef = std::shared_ptr<const Image<std::uint8_t>>;
 
-/// One cell as the rig reports it. Position in m, world frame; float because a rig may report a million of
-/// them.
+/// One cell as reported by the rig. Position in m, world frame; float because a rig may report a million
+/// cells.
 struct Detection {
   float x = 0, y = 0;
-  bool in_view = true;  ///< inside the camera's rectangle; only a simulation knows of cells outside
+  bool in_view = true;  ///< inside the camera view; only a simulation reports cells outside it
 };
 
-/// What the rig saw. `t`: mid-exposure, s on the rig's clock; with a camera delay it lies before the present.
+/// Observation by the rig. `t`: mid-exposure, s on the rig's clock; with a camera delay it lies in the past.
 struct Observation {
   std::uint64_t frame = 0;
   double t = 0;
-  double age = 0;  ///< s from mid-exposure to the moment the rig hands it out
-  bool coils_off =
-      false;  ///< the coils had no current for a while since the last frame, whatever was commanded
+  double age = 0;          ///< s from mid-exposure until the rig delivers it
+  bool coils_off = false;  ///< the coils were de-energised at some time since the last frame
   std::vector<Detection> seen;
   ImageRef image;
 };
 
 /// One of several swarms in view.
 struct Group {
-  Vec2 centroid;  ///< m, world
-  double share =
-      0;     ///< of what is in view; for a single group of a picture, of the most that ever was in view
-  Mat2 cov;  ///< of the positions of its cells, m^2
+  Vec2 centroid;     ///< m, world
+  double share = 0;  ///< fraction of what is in view; for a single group in a picture: of the maximum so far
+  Mat2 cov;          ///< of the cell positions, m^2
 };
 
-/// What the estimator believes at time t. World frame, m.
+/// Result of an estimator at time t. World frame, m.
 struct Estimate {
   double t = 0;
   Vec2 centroid;
-  Mat2 cov;            ///< of the cells' positions, m^2
+  Mat2 cov;            ///< of the cell positions, m^2
   Vec2 velocity;       ///< m/s
-  double visible = 0;  ///< cells the estimate rests on; 0: none, centroid is the last one known
+  double visible = 0;  ///< number of cells used; 0: none, `centroid` is the last known one
   std::vector<Group> groups;
 };
 
-/// Where the swarm should be. World frame, m.
+/// Setpoint for the swarm. World frame, m.
 struct Target {
-  Vec2 position;          ///< not a number: nowhere in particular
-  std::size_t index = 0;  ///< of the setpoint on a route
-  bool finished = false;  ///< the route has been walked to its end
+  Vec2 position;          ///< NaN: no setpoint
+  std::size_t index = 0;  ///< index of the setpoint on a route
+  bool finished = false;  ///< the end of the route is reached
 };
 
-/// What the controller asks for: one current per coil, A.
+/// Output of a controller: one current per coil, A.
 struct Command {
   std::vector<double> current;
 };

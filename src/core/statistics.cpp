@@ -28,7 +28,7 @@ T select_low(std::span<T> values, double p) {
 template <class T>
 double interpolate(std::span<const T> values, double p) {
   if (!(p >= 0 && p <= 1))
-    throw Error(Errc::internal, "quantile", fmt::format("p is {}; it must be from 0 to 1", p));
+    throw Error(Errc::internal, "quantile", fmt::format("p is {}; it must be between 0 and 1", p));
   if (values.empty()) return kNaN;
   std::vector<T> v(values.begin(), values.end());
   if (std::any_of(v.begin(), v.end(), [](T x) { return std::isnan(x); })) return kNaN;

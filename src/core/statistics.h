@@ -5,7 +5,7 @@
 
 namespace faba {
 
-/// Not a number: a figure that does not exist, such as the standard error of one value.
+/// NaN: an undefined figure, such as the standard error of one value.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Standard deviation of a Gaussian over its median absolute deviation, 1 / Phi^-1(3/4), to five digits.
@@ -22,7 +22,7 @@ double quantile(std::span<const float> values, double p);
 double median(std::span<const double> values);
 double median(std::span<const float> values);
 
-/// Median, and standard deviation of the Gaussian with the same median absolute deviation from it.
+/// Median, and standard deviation of the Gaussian with the same median absolute deviation.
 template <class T>
 struct RobustSpread {
   T median = 0, sd = 0;
@@ -32,7 +32,7 @@ struct RobustSpread {
 RobustSpread<double> robust_spread(std::span<const double> values);
 
 /// The functions below select one of the values and do not interpolate. They are for code that runs for each
-/// pixel or frame, and where a result must keep its bits. They partition `values` in place
+/// pixel or frame, and for results that must be bit-identical. They partition `values` in place
 /// (std::nth_element). None of the values may be NaN: which value is returned is then unspecified. The result
 /// is NaN when there are no values.
 

@@ -42,7 +42,7 @@ double number_in(std::string_view field, const std::string& file, std::size_t li
   return value;
 }
 
-/// Takes the next line off `text`, without its line end.
+/// Removes the next line from `text` and returns it without its line end.
 std::string_view next_line(std::string_view& text) {
   const auto end = text.find('\n');
   const std::string_view line = text.substr(0, end);
@@ -68,11 +68,11 @@ Table::Table(std::string source, std::vector<std::string> names, std::vector<std
       throw Error(Errc::input, source_ + ":1", fmt::format("column {} has no name", i + 1));
     }
     if (std::find(names_.begin(), before, names_[i]) != before) {
-      throw Error(Errc::input, source_ + ":1", fmt::format("column {} is there twice", names_[i]));
+      throw Error(Errc::input, source_ + ":1", fmt::format("duplicate column {}", names_[i]));
     }
     if (columns_[i].size() != columns_.front().size()) {
       throw Error(Errc::input, source_,
-                  fmt::format("column {} differs in length from {}", names_[i], names_[0]));
+                  fmt::format("columns {} and {} have different lengths", names_[i], names_[0]));
     }
   }
 }
@@ -92,7 +92,7 @@ std::span<const double> Table::column(std::string_view name) const {
     std::string known;
     for (const std::string& other : names_) known += (known.empty() ? "" : ", ") + other;
     throw Error(Errc::input, source_ + ":1",
-                fmt::format("there is no column {}; the columns are {}", name, known));
+                fmt::format("column {} not found; the columns are {}", name, known));
   }
   return find(name);
 }
@@ -105,12 +105,12 @@ Table read_table(const std::filesystem::path& path, LastLine last_line) {
   const std::string file = path.string();
   const std::string content = read_file(path);
   std::string_view text = content;
-  if (text.starts_with("\xEF\xBB\xBF"))
-    text.remove_prefix(3);  // a byte-order mark, as spreadsheets leave one
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark, written by spreadsheets
   if (trimmed(text).empty()) throw Error(Errc::input, file, "is empty");
 
   const auto last_end = text.rfind('\n');
-  if (last_end == std::string_view::npos) throw Error(Errc::input, file + ":1", "the header line is cut off");
+  if (last_end == std::string_view::npos)
+    throw Error(Errc::input, file + ":1", "the header line is incomplete");
   const bool cut = last_line == LastLine::drop && last_end + 1 != text.size();
   if (cut) text = text.substr(0, last_end + 1);
 
@@ -124,7 +124,7 @@ Table read_table(const std::filesystem::path& path, LastLine last_line) {
     const auto fields = split_fields(next_line(text));
     if (fields.size() != names.size()) {
       throw Error(Errc::input, fmt::format("{}:{}", file, line),
-                  fmt::format("{} fields where the header has {}", fields.size(), names.size()));
+                  fmt::format("{} fields, but the header has {}", fields.size(), names.size()));
     }
     for (std::size_t i = 0; i < fields.size(); ++i) {
       columns[i].push_back(number_in(fields[i], file, line, names[i]));

@@ -8,11 +8,11 @@
 
 namespace faba {
 
-/// Columns of numbers with names, of equal length, as a CSV file holds them. NaN stands for "nothing there".
+/// Named columns of numbers of equal length, as in a CSV file. NaN: no value.
 class Table {
  public:
-  /// `source` is the file name that messages show. Throws Error(Errc::input) when the columns differ in
-  /// length, when there is not one name per column, or when a name is empty or used twice.
+  /// `source` is the file name in messages. Throws Error(Errc::input) if the columns differ in length, if the
+  /// numbers of names and columns differ, or if a name is empty or used twice.
   Table(std::string source, std::vector<std::string> names, std::vector<std::vector<double>> columns,
         bool last_line_cut = false, std::size_t header_line = 1);
 
@@ -21,13 +21,12 @@ class Table {
   const std::vector<std::string>& names() const noexcept { return names_; }
   bool has(std::string_view name) const noexcept;
 
-  /// The values of one column, size() of them. Throws Error(Errc::input) naming the file and the columns it
-  /// does have.
+  /// The size() values of one column. Throws Error(Errc::input) with the file and its columns.
   std::span<const double> column(std::string_view name) const;
-  /// The same, or an empty span when there is no such column.
+  /// The same, or an empty span if the column does not exist.
   std::span<const double> find(std::string_view name) const noexcept;
 
-  /// True when the file ended in the middle of a line, as after a power cut; that line is not among the rows.
+  /// True if the last line of the file was incomplete, as after a power failure; it is not among the rows.
   bool last_line_cut() const noexcept { return last_line_cut_; }
   const std::string& source() const noexcept { return source_; }
   /// `file:line` of a row (0-based), for messages.
@@ -41,16 +40,16 @@ class Table {
   std::size_t header_line_;
 };
 
-/// What becomes of a last line without its line end.
+/// Treatment of a last line without a line end.
 enum class LastLine {
-  keep,  ///< it is a line like the others
-  drop   ///< its last number may be half a number: it is left out, and last_line_cut() says so
+  keep,  ///< it is read like the others
+  drop   ///< it is left out, because its last number may be incomplete, and last_line_cut() is true
 };
 
 /// Reads a CSV file with one header line and numbers below it: comma separated, '.' as the decimal point, LF
-/// or CRLF; lines above it that begin with '#' are comments. An empty field and `nan` are NaN; an infinite
-/// value is refused. Throws Error(Errc::input, "file:line", reason) for a missing or empty file, a directory,
-/// a field that is not a number, and a line with more or fewer fields than the header.
+/// or CRLF; lines above the header that start with '#' are comments. An empty field and `nan` are NaN;
+/// infinite values are rejected. Throws Error(Errc::input, "file:line", reason) for a missing or empty file,
+/// a directory, a field that is not a number, and a line with more or fewer fields than the header.
 Table read_table(const std::filesystem::path& path, LastLine last_line = LastLine::keep);
 
 }  // namespace faba

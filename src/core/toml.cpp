@@ -8,7 +8,7 @@ constexpr void require(bool holds) {
 }
 }  // namespace
 }  // namespace faba
-// toml++ 3.3 asserts what it should refuse, such as a header that begins with "[+".
+// toml++ 3.3 has assertions for some invalid input, such as a header that starts with "[+".
 #define TOML_ASSERT(expr) faba::require(static_cast<bool>(expr))
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ std::string joined(const std::string& path, std::string_view key) {
 Json convert(const toml::node& n, const std::string& path, Document& doc) {
   if (n.source().begin.line) doc.origin[path] = fmt::format("{}:{}", doc.name, n.source().begin.line);
   if (const auto* t = n.as_table()) {
-    // toml++ keeps keys sorted; order by line, so that a resolved scenario reads like the user's own.
+    // toml++ sorts keys by name; sort by line, so that a resolved scenario has the order of the user's file.
     std::vector<std::pair<toml::source_position, std::string_view>> keys;
     for (const auto& [k, v] : *t) keys.emplace_back(v.source().begin, k.str());
     std::stable_sort(keys.begin(), keys.end(),
@@ -50,7 +50,7 @@ Json convert(const toml::node& n, const std::string& path, Document& doc) {
   if (const auto* d = n.as_floating_point()) return d->get();
   if (const auto* b = n.as_boolean()) return b->get();
   throw Error(Errc::usage, fmt::format("{}:{}: {}", doc.name, n.source().begin.line, path),
-              "dates and times have no meaning here");
+              "dates and times are not supported");
 }
 
 struct Step {
@@ -59,7 +59,7 @@ struct Step {
 };
 std::vector<Step> split(const std::string& path) {
   const auto bad = [&] {
-    return Error(Errc::usage, "--set " + path, "write a path such as swarm[0].model.speed");
+    return Error(Errc::usage, "--set " + path, "invalid path; write it like swarm[0].model.speed");
   };
   std::vector<Step> steps;
   std::istringstream in(path);
@@ -109,7 +109,7 @@ void emit_value(const Json& j, std::string& out) {
     out += " }";
   } else {
     for (const char c : j.dump())
-      c == '\x7f' ? out += "\\u007f" : out += c;  // else JSON's scalars are TOML's
+      c == '\x7f' ? out += "\\u007f" : out += c;  // all other JSON scalars are valid TOML
   }
 }
 
@@ -134,8 +134,8 @@ void emit_table(const Json& table, const std::string& path, std::string& out) {
   }
 }
 
-// End of the string that begins at `i` with a quote: one past its closing quotes, the end of the line or of
-// the text where they are missing.
+// End of the string that starts at `i` with a quote: one past its closing quotes; if they are missing, the
+// end of the line or of the text.
 std::size_t end_of_string(std::string_view text, std::size_t i) {
   const std::string_view quote = text.substr(i, 1), three = text.substr(i, 3);
   const bool many_lines = three.size() == 3 && three[1] == three[0] && three[2] == three[0];
@@ -148,8 +148,8 @@ std::size_t end_of_string(std::string_view text, std::size_t i) {
   return text.size();
 }
 
-// Characters beyond ASCII belong into strings and comments. toml++ 3.3 is undefined on some of them
-// elsewhere.
+// TOML permits non-ASCII characters in strings and comments only. Elsewhere some of them cause undefined
+// behaviour in toml++ 3.3.
 void check_plain(std::string_view text, const std::string& name) {
   for (std::size_t i = 0; i < text.size();) {
     if (text[i] == '#') {
@@ -159,7 +159,7 @@ void check_plain(std::string_view text, const std::string& name) {
     } else if (static_cast<unsigned char>(text[i]) >= 0x80) {
       const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(i), '\n');
       throw Error(Errc::usage, fmt::format("{}:{}", name, line),
-                  "letters beyond ASCII may stand in strings and comments only");
+                  "non-ASCII characters are permitted in strings and comments only");
     } else {
       ++i;
     }
@@ -171,7 +171,7 @@ void check_plain(std::string_view text, const std::string& name) {
 Document parse_toml(std::string_view text, const std::string& name) {
   Document doc;
   doc.name = name;
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of some editors
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark, written by some editors
   if (text.find('\0') != text.npos) throw Error(Errc::usage, name, "is a binary file, not TOML");
   check_plain(text, name);
   try {
@@ -180,22 +180,21 @@ Document parse_toml(std::string_view text, const std::string& name) {
   } catch (const toml::parse_error& e) {
     throw Error(Errc::usage, fmt::format("{}:{}", name, e.source().begin.line), std::string(e.description()));
   } catch (const NotToml&) {
-    throw Error(Errc::usage, name,
-                "is not TOML: a key or a [header] begins with a character that it may not");
+    throw Error(Errc::usage, name, "is not valid TOML: a key or a [header] starts with an invalid character");
   }
   return doc;
 }
 
 Document read_toml(const std::filesystem::path& file) {
-  constexpr std::uintmax_t kMost = 4u << 20;
+  constexpr std::uintmax_t kMaxBytes = 4u << 20;
   std::error_code ec;
-  if (!std::filesystem::exists(file, ec)) throw Error(Errc::usage, file.string(), "no such file");
+  if (!std::filesystem::exists(file, ec)) throw Error(Errc::usage, file.string(), "file not found");
   if (std::filesystem::is_directory(file, ec))
     throw Error(Errc::usage, file.string(), "is a directory, not a TOML file");
-  if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMost)
-    throw Error(Errc::usage, file.string(), "is over 4 MiB, no scenario is that long");
+  if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)
+    throw Error(Errc::usage, file.string(), "is larger than the maximum of 4 MiB");
   std::ifstream in(file, std::ios::binary);
-  std::string text(kMost + 1, '\0');
+  std::string text(kMaxBytes + 1, '\0');
   in.read(text.data(), std::streamsize(text.size()));
   if (in.bad() || (in.fail() && !in.eof())) throw Error(Errc::usage, file.string(), "cannot be read");
   text.resize(std::size_t(in.gcount()));
@@ -210,33 +209,33 @@ std::string to_toml(const Json& root) {
 
 void Document::set(const std::string& path, Json value, const std::string& origin_label) {
   Json* at = &root;
-  std::string so_far;
+  std::string prefix;
   for (const Step& s : split(path)) {
     const auto fail = [&](const std::string& what) {
       throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), what);
     };
-    // `model = "dipole"` is short for `model = { type = "dipole" }`: setting below it keeps the type.
+    // `model = "dipole"` is short for `model = { type = "dipole" }`: setting a key of it keeps the type.
     if (at->is_string()) *at = Json{{"type", *at}};
-    if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", so_far));
-    so_far = joined(so_far, s.key);
+    if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", prefix));
+    prefix = joined(prefix, s.key);
     if (!at->contains(s.key)) {
-      if (!s.index.empty()) fail(fmt::format("there is no list \"{}\"", so_far));
+      if (!s.index.empty()) fail(fmt::format("array \"{}\" not found", prefix));
       (*at)[s.key] = Json::object();
     }
     at = &(*at)[s.key];
     for (const std::size_t i : s.index) {
       if (!at->is_array() || i >= at->size())
-        fail(fmt::format("there is no {0}[{1}]; \"{0}\" has {2} of them, more are added in the file", so_far,
-                         i, at->is_array() ? at->size() : 0));
+        fail(fmt::format("{0}[{1}] not found; \"{0}\" has {2} elements, add more in the file", prefix, i,
+                         at->is_array() ? at->size() : 0));
       at = &(*at)[i];
-      so_far += fmt::format("[{}]", i);
+      prefix += fmt::format("[{}]", i);
     }
   }
   *at = std::move(value);
-  // Whatever stood below in the file is gone, and its line numbers with it.
-  for (auto it = origin.lower_bound(so_far); it != origin.end() && it->first.starts_with(so_far);)
+  // The line numbers of the replaced values are no longer valid.
+  for (auto it = origin.lower_bound(prefix); it != origin.end() && it->first.starts_with(prefix);)
     it = origin.erase(it);
-  origin[so_far] = origin_label;
+  origin[prefix] = origin_label;
 }
 
 void Document::set(const std::string& path, const std::string& value, const std::string& origin_label) {
@@ -248,7 +247,7 @@ void Document::set(const std::string& path, const std::string& value, const std:
       parsed = convert(*t.get("v"), "", scratch);
     }
   } catch (const toml::parse_error& e) {
-    // What does not begin like a table or list is a plain string.
+    // A value that does not start like a table or an array is a plain string.
     if (value.starts_with('{') || value.starts_with('['))
       throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), std::string(e.description()));
   }

@@ -9,8 +9,8 @@
 namespace faba {
 namespace {
 
-// A unit's factor is factor * 10^ten: keeping the decimal power apart makes "186 um" the same double
-// as 1.86e-4.
+// The factor of a unit is factor * 10^ten: with a separate decimal power "186 um" gives the same double as
+// 1.86e-4.
 struct Factor {
   double factor = 1;
   int ten = 0;
@@ -92,7 +92,7 @@ Factor product(const Factor& a, const Factor& b) {
 class UnitParser {
  public:
   explicit UnitParser(std::string_view text) : text_(text) {}
-  Factor whole() {
+  Factor complete_unit() {
     const Factor f = unit(0);
     if (at_ < text_.size()) throw std::invalid_argument(fmt::format("cannot read the unit \"{}\"", text_));
     return f;
@@ -140,7 +140,7 @@ class UnitParser {
   std::size_t at_ = 0;
 };
 
-// 10^n is exact up to n = 22, so one rounding in all.
+// 10^n is exact up to n = 22, so there is only one rounding.
 double times_ten(double v, int n) {
   for (; n > 22; n -= 22) v *= 1e22;
   for (; n < -22; n += 22) v /= 1e22;
@@ -160,7 +160,7 @@ std::string_view trimmed(std::string_view s) {
 Quantity parse_unit(std::string_view unit) {
   unit = trimmed(unit);
   if (unit.empty()) return {1, {}};
-  const Factor f = UnitParser(unit).whole();
+  const Factor f = UnitParser(unit).complete_unit();
   return {times_ten(f.factor, f.ten), f.dim};
 }
 
@@ -174,7 +174,7 @@ Quantity parse_quantity(std::string_view text) {
   if (e != std::errc{}) throw std::invalid_argument(fmt::format("\"{}\" does not start with a number", text));
   const std::string_view rest = trimmed(text.substr(std::size_t(p - text.data())));
   if (rest.empty()) return {v, {}, true};
-  const Factor f = UnitParser(rest).whole();
+  const Factor f = UnitParser(rest).complete_unit();
   return {times_ten(v * f.factor, f.ten), f.dim};
 }
 

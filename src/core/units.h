@@ -15,7 +15,7 @@ struct Dimension {
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
-/// A number in SI (pixels stay pixels) and what it measures.
+/// A value in SI (pixels are not converted) and its dimension.
 struct Quantity {
   double value = 0;
   Dimension dimension;
@@ -23,17 +23,17 @@ struct Quantity {
 };
 
 /// Reads "186 um/s", "23 uT", "1e-15 A m^2", "1/(T s)", "30 deg", "12 px", or a bare number (dimensionless).
-/// Decimal prefixes f p n u(µ) m c k M G. Throws std::invalid_argument with one line saying what is wrong.
+/// Decimal prefixes f p n u(µ) m c k M G. Throws std::invalid_argument with one line that gives the reason.
 Quantity parse_quantity(std::string_view text);
 
 /// Dimension of a unit such as "um/s"; the factor to SI is in `value`. Throws std::invalid_argument.
 Quantity parse_unit(std::string_view unit);
 
-/// A word for the dimension where there is one ("length", "speed", "magnetic field"), else its SI unit ("kg
-/// m^2/s").
+/// Name of the dimension ("length", "speed", "magnetic field"); "quantity in" with its SI unit if it has
+/// none.
 std::string dimension_name(const Dimension& d);
 
-/// Shortest text that reads back to the same number: "0.000186 m/s"; no unit when `unit` is empty.
+/// Shortest text that parses to the same number: "0.000186 m/s"; without a unit if `unit` is empty.
 std::string format_quantity(double in_si, std::string_view unit);
 
 }  // namespace faba

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int32_t kNiceness = -10;
 constexpr std::uint64_t kSlice =
-    100'000;  // ns, the least that the scheduler takes: who asks for less goes first
+    100'000;  // ns, the minimum of the scheduler: a thread with a shorter slice runs first
 
 bool get(Urgent::Attributes& a) { return syscall(SYS_sched_getattr, 0, &a, sizeof a, 0) == 0; }
 bool set(const Urgent::Attributes& a) { return syscall(SYS_sched_setattr, 0, &a, 0) == 0; }
@@ -28,7 +28,7 @@ Urgent::Urgent() noexcept {
     a.niceness = before.niceness;
     if (!set(a)) return;
   }
-  // A kernel that knows no slices takes them without a word.
+  // A kernel without support for slices ignores them without an error.
   Attributes now;
   if (get(now) && (now.slice == kSlice || now.niceness < before.niceness)) before_ = before;
 }

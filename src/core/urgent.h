@@ -4,10 +4,10 @@
 
 namespace faba {
 
-/// Its thread answers to a device: while this lives, it is run before others as far as the system lets it (a
-/// lower niceness where that is allowed, a shorter slice of time where the scheduler knows one, Linux 6.12),
-/// and afterwards as before. A thread that somebody has made a real-time one stays that. Only to be there
-/// sooner: nothing may depend on it.
+/// Raises the scheduling priority of its thread, which serves a device, during the life of the object: a
+/// lower niceness if permitted, and a shorter time slice if the scheduler supports it (Linux 6.12). The
+/// destructor restores the previous attributes. Real-time threads are not changed. This reduces latency only;
+/// nothing may depend on it.
 class Urgent {
  public:
   Urgent() noexcept;
@@ -15,11 +15,10 @@ class Urgent {
   Urgent(const Urgent&) = delete;
   Urgent& operator=(const Urgent&) = delete;
 
-  /// Whether it is of any use here; otherwise others may step back instead.
+  /// Whether the priority can be raised on this system; otherwise other threads can lower theirs.
   static bool possible() noexcept;
 
-  /// What the kernel schedules a thread by, as it has it; the system's header and its C library's cannot be
-  /// had together.
+  /// struct sched_attr of the kernel, whose header cannot be included together with that of the C library.
   struct Attributes {
     std::uint32_t size = sizeof(Attributes);
     std::uint32_t policy = 0;
@@ -30,7 +29,7 @@ class Urgent {
   };
 
  private:
-  std::optional<Attributes> before_;  ///< none when nothing was changed
+  std::optional<Attributes> before_;  ///< empty if nothing was changed
 };
 
 }  // namespace faba

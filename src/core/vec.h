@@ -4,7 +4,7 @@
 
 namespace faba {
 
-/// Plane vector; frame and unit are in the name of the variable that holds it.
+/// Vector in the plane; frame and unit are part of the variable's name.
 struct Vec2 {
   double x = 0, y = 0;
   friend Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
@@ -13,7 +13,7 @@ struct Vec2 {
   friend bool operator==(const Vec2&, const Vec2&) = default;
 };
 inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-/// Euclidean length. sqrt is correctly rounded everywhere, std::hypot is not: this keeps runs bit-identical.
+/// Euclidean norm. sqrt is correctly rounded everywhere, std::hypot is not; this makes runs bit-identical.
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 
 struct Vec3 {

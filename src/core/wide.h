@@ -2,7 +2,7 @@
 
 namespace faba {
 
-/// As many T as fit into so many bytes, computed with at once; anywhere in memory.
+/// Vector of as many T as fit into `bytes` bytes, with no alignment requirement beyond that of T.
 template <class T, int bytes>
 struct Wide {
   using type __attribute__((vector_size(bytes), aligned(alignof(T)), may_alias)) = T;
@@ -10,11 +10,11 @@ struct Wide {
 
 }  // namespace faba
 
-/// Makes a function `name` of a template `name_in<bytes>`, compiled for vectors as long as the registers of
-/// AVX-512, AVX2 and SSE2; the longest that the processor has is used. Longer ones a compiler would keep in
-/// memory. What is computed element by element is the same bits in all of them. The template must be
-/// [[gnu::always_inline]]. Sanitized builds and other compilers take the shortest.
-// NOLINTBEGIN(bugprone-macro-parentheses): what is given are lists in parentheses already
+/// Defines a function `name` from a template `name_in<bytes>`, compiled for the vector lengths of AVX-512,
+/// AVX2 and SSE2; the longest that the processor supports is used. Compilers keep longer vectors in memory.
+/// Element-wise results are bit-identical for all lengths. The template must be [[gnu::always_inline]].
+/// Sanitizer builds and other compilers use the shortest.
+// NOLINTBEGIN(bugprone-macro-parentheses): the arguments are lists in parentheses already
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__) && defined(__OPTIMIZE__) && !defined(FABA_ONE_ISA)
 #define FABA_WIDE(name, parameters, arguments)                                             \

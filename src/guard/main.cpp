@@ -1,4 +1,4 @@
-// faba-coil-guard: the process that owns the coils' driver. Begun by faba, never by hand; see
+// faba-coil-guard: the process that owns the coil driver. Started by faba, never manually; see
 // rig/guard/guard_loop.h.
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -26,7 +26,9 @@ int guard() {
   std::string text(kLongestSetup, '\0');
   const ssize_t n = recv(kGuardDescriptor, text.data(), text.size(), 0);
   if (n <= 0) {
-    std::fputs("faba-coil-guard: is begun by faba itself, such as by `faba rig run`\n", stderr);
+    std::fputs(
+        "faba-coil-guard: is started by faba, for example by `faba rig run`; do not start it directly\n",
+        stderr);
     return int(Errc::usage);
   }
   text.resize(std::size_t(n));
@@ -35,7 +37,7 @@ int guard() {
   if (!setup.log.empty()) log = std::make_unique<OutputFile>(setup.log);
   GuardLoop loop(kGuardDescriptor, CoilGuard(setup.guard, setup.bounds(), setup.frame_period),
                  CoilWiring(setup.coils), setup.driver.make(setup.context()), std::move(log));
-  // What helps to be in time, where this is allowed; the deadlines hold without.
+  // Reduces latency if the system permits it; the deadlines do not depend on it.
   const Urgent urgent;
   (void)mlockall(MCL_CURRENT | MCL_FUTURE);
   return loop.run() ? 0 : int(Errc::device);
@@ -46,7 +48,7 @@ int guard() {
 int main() {
   try {
     return guard();
-  } catch (const std::exception& e) {  // before the loop, so nothing flows yet
+  } catch (const std::exception& e) {  // before the loop, so there is no current yet
     refuse(e.what());
     return int(faba::Errc::device);
   }

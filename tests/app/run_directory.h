@@ -10,7 +10,7 @@
 
 namespace faba {
 
-/// A folder of its own for one test, removed with it.
+/// A temporary folder of one test, removed by the destructor.
 struct TestFolder {
   std::filesystem::path path;
   TestFolder() {

@@ -17,8 +17,8 @@ struct Entry {
 
 }  // namespace
 
-TEST_CASE("Student's t where it has a closed form") {
-  // One degree of freedom is Cauchy's distribution; two and four have algebraic ones.
+TEST_CASE("Student's t: degrees of freedom with a closed form") {
+  // One degree of freedom is the Cauchy distribution; two and four have algebraic distribution functions.
   for (const double t : {-30.0, -2.5, -0.3, 0.0, 0.7, 4.0, 100.0}) {
     CHECK(student_t_cdf(t, 1) == doctest::Approx(0.5 + std::atan(t) / std::acos(-1.0)).epsilon(1e-13));
     CHECK(student_t_cdf(t, 2) == doctest::Approx(0.5 + t / (2 * std::sqrt(2 + t * t))).epsilon(1e-12));
@@ -33,7 +33,7 @@ TEST_CASE("Student's t where it has a closed form") {
 
 // Computed with 40 digits by mpmath 1.3 (https://mpmath.org) from the regularised incomplete beta function,
 // F(t) = 1/2 I_x(n / 2, 1/2) with x = n / (n + t^2) for t < 0 (https://dlmf.nist.gov/8.17).
-TEST_CASE("Student's t, values of high precision") {
+TEST_CASE("Student's t: reference values of high precision") {
   for (const auto& [t, n, p] :
        {Entry{-2.5, 5, 0.027245049671188121}, Entry{1, 7, 0.82469166858989624},
         Entry{-12, 6, 1.0153703097686596e-5}, Entry{0.3, 33.5, 0.61698456330459673},
@@ -60,13 +60,13 @@ TEST_CASE("quantiles of the normal distribution") {
   CHECK_THROWS_AS(normal_quantile(1), Error);
 }
 
-TEST_CASE("quantiles as tables have them, and back") {
+TEST_CASE("quantiles agree with published tables and invert the distribution function") {
   // NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.2.
   CHECK(student_t_quantile(0.975, 1) == doctest::Approx(12.706).epsilon(5e-5));
   CHECK(student_t_quantile(0.975, 8) == doctest::Approx(2.306).epsilon(5e-4));
   CHECK(student_t_quantile(0.975, 100) == doctest::Approx(1.984).epsilon(5e-4));
   CHECK(student_t_quantile(0.95, 30) == doctest::Approx(1.697).epsilon(5e-4));
-  CHECK(student_t_quantile(0.975, 1e7) == doctest::Approx(1.959964).epsilon(1e-6));  // the normal one
+  CHECK(student_t_quantile(0.975, 1e7) == doctest::Approx(1.959964).epsilon(1e-6));  // the normal quantile
   for (const double freedom : {1.0, 3.0, 8.0, 33.5, 400.0})
     for (const double p : {1e-6, 0.02, 0.4, 0.7, 0.995})
       CHECK(student_t_cdf(student_t_quantile(p, freedom), freedom) == doctest::Approx(p).epsilon(1e-11));

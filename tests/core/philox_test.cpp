@@ -25,12 +25,12 @@ TEST_CASE("draw() is Philox with counter (agent, step, stream, block)") {
         std::array<std::uint32_t, 4>{c0, c1, c2, c3});
 }
 
-TEST_CASE("uniforms lie strictly between 0 and 1") {
+TEST_CASE("uniform numbers are strictly between 0 and 1") {
   CHECK(uniform(0) > 0.0f);
   CHECK(uniform(~0u) < 1.0f);
 }
 
-TEST_CASE("normals: mean, variance, kurtosis and correlation of a million") {
+TEST_CASE("normals: mean, variance, kurtosis and correlation of a million numbers") {
   const std::size_t n = 500000;
   double s1 = 0, s2 = 0, s4 = 0, cross = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -51,7 +51,7 @@ TEST_CASE("normals: mean, variance, kurtosis and correlation of a million") {
   CHECK(std::fabs(cross / double(n)) < 4 / std::sqrt(double(n)));
 }
 
-TEST_CASE("below() covers its range evenly") {
+TEST_CASE("below() is uniform over its range") {
   std::array<int, 17> count{};
   const int n = 170000;
   for (int i = 0; i < n; ++i) ++count[below(draw(3, Stream::start, std::uint32_t(i), 0)[0], 17)];

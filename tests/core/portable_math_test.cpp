@@ -7,7 +7,7 @@
 
 using namespace faba;
 
-TEST_CASE("float functions keep their stated errors") {
+TEST_CASE("the errors of the float functions are within their documented bounds") {
   double worst_exp = 0, worst_log = 0, worst_sin = 0;
   for (int i = -400000; i <= 400000; ++i) {
     const auto x = float(i) * 2.1e-4f;
@@ -25,7 +25,7 @@ TEST_CASE("float functions keep their stated errors") {
   CHECK(worst_sin < 1.5e-7);
 }
 
-TEST_CASE("double functions are good to a few ulp") {
+TEST_CASE("the errors of the double functions are a few ulp") {
   double worst = 0;
   for (int i = -50000; i <= 50000; ++i) {
     const double x = i * 0.00713;
@@ -51,14 +51,14 @@ TEST_CASE("special arguments") {
   CHECK(portable::atan2(0, -1) == doctest::Approx(portable::kPi));
 }
 
-// Frozen values: the promise is the same bits on every machine and at every optimisation level.
+// Frozen values: the results must be bit-identical on every machine and at every optimisation level.
 TEST_CASE("frozen bits") {
   CHECK(std::bit_cast<std::uint32_t>(portable::exp(1.2345f)) == 0x405bf23c);
   CHECK(std::bit_cast<std::uint32_t>(portable::log(0.7071f)) == 0xbeb1735b);
   CHECK(std::bit_cast<std::uint32_t>(portable::sincos(2.5f).sin) == 0x3f193579);
 }
 
-TEST_CASE("normal_cdf: against erfc") {
+TEST_CASE("normal_cdf agrees with erfc") {
   for (double x = -9; x <= 9; x += 0.01)
     CHECK(std::fabs(portable::normal_cdf(x) - 0.5 * std::erfc(-x / std::sqrt(2.0))) < 1e-7);
 }

@@ -18,7 +18,7 @@ std::vector<double> sample(std::size_t n, std::uint64_t seed) {
   std::vector<double> v(n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto w = draw(seed, Stream::study, std::uint32_t(i), 0);
-    // Few different values, so that ties occur.
+    // Only a few different values, so that ties occur.
     v[i] = double(w[0] % 17) - 8 + (w[1] % 3 == 0 ? 0.25 : 0);
   }
   return v;
@@ -71,22 +71,22 @@ void compare_with_sorting() {
 
 }  // namespace
 
-TEST_CASE("Quantiles and order statistics are those of the sorted values") {
+TEST_CASE("Quantiles and order statistics agree with those of the sorted values") {
   compare_with_sorting<double>();
   compare_with_sorting<float>();
 }
 
-TEST_CASE("Quantiles are those of numpy.quantile(v, p)") {
+TEST_CASE("Quantiles agree with numpy.quantile(v, p)") {
   const std::vector<double> v{3, 1, 4, 1, 5, 9, 2, 6};
   CHECK(quantile(v, 0.1) == doctest::Approx(1).epsilon(1e-15));
   CHECK(quantile(v, 0.25) == doctest::Approx(1.75).epsilon(1e-15));
   CHECK(quantile(v, 0.5) == doctest::Approx(3.5).epsilon(1e-15));
   CHECK(quantile(v, 0.9) == doctest::Approx(6.9).epsilon(1e-15));
   CHECK(quantile(v, 0.95) == doctest::Approx(7.95).epsilon(1e-15));
-  CHECK(v == std::vector<double>{3, 1, 4, 1, 5, 9, 2, 6});  // which stay in their order
+  CHECK(v == std::vector<double>{3, 1, 4, 1, 5, 9, 2, 6});  // the input is not reordered
 }
 
-TEST_CASE("Interpolation between two values, and none of them beyond the ends") {
+TEST_CASE("Interpolation between two values; the ends are not interpolated") {
   CHECK(median(std::vector<double>{2, 1}) == 1.5);
   CHECK(quantile(std::vector<double>{2, 1}, 0) == 1);
   CHECK(quantile(std::vector<double>{2, 1}, 1) == 2);
@@ -116,7 +116,7 @@ TEST_CASE("No values, NaN and infinity") {
   CHECK(median(std::vector<double>{inf, inf}) == inf);
 }
 
-TEST_CASE("A quantile beyond 0 to 1 is an error") {
+TEST_CASE("A probability outside 0 to 1 is an error") {
   const std::vector<double> v{1, 2};
   CHECK_THROWS_AS((void)quantile(v, -0.01), Error);
   CHECK_THROWS_AS((void)quantile(v, 1.01), Error);

@@ -1,4 +1,4 @@
-// archive, file and h5: what is written is read back, what is damaged is refused.
+// archive, file and h5: written data are read back, damaged data are rejected.
 #include <doctest/doctest.h>
 
 #include "core/archive.h"
@@ -8,7 +8,7 @@
 
 using namespace faba;
 
-TEST_CASE("archive: the same function writes and reads; reading past the end is refused") {
+TEST_CASE("archive: the same function writes and reads; reading past the end is an error") {
   std::vector<float> v{1, 2, 3};
   std::string s = "abc";
   double d = 0.1;
@@ -33,7 +33,7 @@ TEST_CASE("archive: the same function writes and reads; reading past the end is 
   CHECK_THROWS_AS(bad & v2, Error);
 }
 
-TEST_CASE("files: whole or not at all; appended files are cut back") {
+TEST_CASE("files are written completely or not at all; appended files are truncated") {
   const TestFolder f;
   write_file(f.path / "a", "one");
   write_file(f.path / "a", "two");
@@ -60,7 +60,7 @@ TEST_CASE("files: whole or not at all; appended files are cut back") {
   CHECK(full.size() == 0);
 }
 
-TEST_CASE("HDF5: rows come back, also from a file that was not closed") {
+TEST_CASE("HDF5: rows are read back, also from a file that was not closed") {
   const TestFolder f;
   const auto write = [&](bool close) {
     H5File file = H5File::create(f.path / "t.h5");
@@ -92,7 +92,7 @@ TEST_CASE("HDF5: rows come back, also from a file that was not closed") {
   CHECK_THROWS_AS(H5File::open(f.path / "not.h5"), Error);
 }
 
-TEST_CASE("pool: every block once, exceptions come out, any number of threads") {
+TEST_CASE("pool: every block is run once, exceptions are rethrown, for any number of threads") {
   for (const unsigned threads : {1u, 2u, 5u}) {
     Pool pool(threads);
     for (int round = 0; round < 200; ++round) {

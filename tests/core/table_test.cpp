@@ -8,14 +8,14 @@
 
 using namespace faba;
 
-// What a table shares with a series is in tests/study/series_test.cpp.
-TEST_CASE("table: comments above the header, and a last line without its end is a line") {
+// More tests of tables: tests/study/data/series_test.cpp.
+TEST_CASE("table: comments above the header; a last line without a line end is read") {
   const test::TemporaryFolder folder("table");
   const auto file = folder.path() / "t.csv";
   write_file(file, "# measured at noon\n# by hand\na,b\n1,2\n3,x");
   try {
     read_table(file);
-    FAIL("a word was taken for a number");
+    FAIL("a word was read as a number");
   } catch (const Error& e) {
     CHECK(e.where() == file.string() + ":5");
   }

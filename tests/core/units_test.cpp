@@ -6,7 +6,7 @@
 
 using namespace faba;
 
-TEST_CASE("quantities come out as the nearest double to their SI value") {
+TEST_CASE("quantities are converted to the double nearest to their SI value") {
   CHECK(parse_quantity("186 um/s").value == 186e-6);
   CHECK(parse_quantity("1e-15 A m^2").value == 1e-15);
   CHECK(parse_quantity("23uT").value == 23e-6);
@@ -29,13 +29,13 @@ TEST_CASE("dimensions") {
   CHECK(dimension_name(parse_unit("mol/m^3").dimension) == "quantity in m^-3 mol");
 }
 
-TEST_CASE("what cannot be read is refused") {
+TEST_CASE("invalid quantities are rejected") {
   for (const char* bad : {"", "um", "abc", "1 parsec", "1 m^", "1 m^99", "1 (m", "1 m/", "1 m)", "1e999 m",
                           "1 ((((((((((((m", "1 \xff\xfe", "0x10 m", "1 m^1.5"})
     CHECK_THROWS_AS(parse_quantity(bad), std::invalid_argument);
 }
 
-TEST_CASE("printing a number and reading it back changes nothing") {
+TEST_CASE("a printed number is read back unchanged") {
   for (const double v : {1.0 / 3, 186e-6, 23e-6, 1e-300, 6.02214076e23, 0.1})
     CHECK(parse_quantity(format_quantity(v, "m/s")).value == v);
 }

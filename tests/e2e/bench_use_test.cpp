@@ -40,7 +40,7 @@ TEST_CASE("who comes second to a bench is turned away, and the first goes on") {
   CHECK(b.program->wait() == 130);
   // What was ended by hand does not pass as whole.
   CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));
-  CHECK(read_file(b.f.path / "run/manifest.json").find("ended by hand after") != std::string::npos);
+  CHECK(read_file(b.f.path / "run/manifest.json").find("stopped by the user after") != std::string::npos);
 }
 
 TEST_CASE("coils begin disarmed: without --arm nothing is opened, and --arm is what it asks for") {
@@ -85,7 +85,7 @@ TEST_CASE("the device is unplugged: the run ends with one line, and what was rec
   // Nobody can tell such coils anything any more.
   CHECK(b.err().find("switch them off by hand") != std::string::npos);
   CHECK(std::filesystem::file_size(b.f.path / "run/series.csv") > 200);
-  CHECK(read_file(b.f.path / "run/report.html").find("ended by") != std::string::npos);
+  CHECK(read_file(b.f.path / "run/report.html").find("stopped by an error") != std::string::npos);
   // The name that the killed one has left is not in the next one's way, and one that is there is not
   // replaced.
   b.simulated->wait();
@@ -137,7 +137,7 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
                                 "rig run scene.toml --arm --json --out played --set rig.driver=none "
                                 "--set \"rig.camera={ type = 'playback', file = 'a.avi', fast = true }\"");
   REQUIRE_MESSAGE(played.exit == 0, played.err);
-  CHECK(played.err.find("pictures ended after") != std::string::npos);
+  CHECK(played.err.find("the camera stopped after") != std::string::npos);
   CHECK(played.json()["notes"].size() == 1);
   CHECK(played.json()["complete"] == true);
   // With coils of a bench that is begun with the run.

@@ -54,9 +54,9 @@ TEST_CASE(
   CHECK(again["rms_t"].get<double>() < 1e-6 * again["rms_field_t"].get<double>());
 
   refused(f, "field fit drawn.toml --map m.csv --out fitted.toml", 2, "already exists");
-  refused(f, "field fit drawn.toml --map m.csv --out m.csv --force", 2, "is what this command reads");
-  refused(f, "field fit drawn.toml --map m.csv --out ./drawn.toml --force", 2, "is what this command reads");
-  refused(f, "field map drawn.toml --picture /dev/null --force", 2, "is no file that could be replaced");
+  refused(f, "field fit drawn.toml --map m.csv --out m.csv --force", 2, "is an input of this command");
+  refused(f, "field fit drawn.toml --map m.csv --out ./drawn.toml --force", 2, "is an input of this command");
+  refused(f, "field map drawn.toml --picture /dev/null --force", 2, "is not a regular file");
   refused(f, "field map drawn.toml --current 1e300 --picture m.png", 2, "out of range");
   refused(f, "field fit drawn.toml --map nothing.csv", 3, "nothing.csv");
   refused(f, "field fit '" + kRigs + "thesis-four-coils.toml' --map m.csv", 2, "all currents are zero");
@@ -148,11 +148,11 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
   write_file(f.path / "no-library.toml", scene + "[controller]\ntype = 'gradient'\nsource = 'library'\n");
   refused(f, "run no-library.toml --seed 1 --out bad", 2, "there is no library");
   write_file(f.path / "cut.h5", read_file(f.path / "l.h5").substr(0, 20000));
-  refused(f, "run s.toml --seed 1 --out bad --set library.file=cut.h5", 3, "not a whole field library");
-  refused(f, "run s.toml --seed 1 --out bad --set library.file=s.toml", 3, "not a whole field library");
+  refused(f, "run s.toml --seed 1 --out bad --set library.file=cut.h5", 3, "not a complete field library");
+  refused(f, "run s.toml --seed 1 --out bad --set library.file=s.toml", 3, "not a complete field library");
   refused(f, "run s.toml --seed 1 --out bad --set library.file=none.h5", 3, "none.h5");
   REQUIRE(faba_in(f.path, "field library " + four + " --levels 11 --out l.h5 --force -q").exit == 0);
-  refused(f, "run run/scenario.toml --out bad", 3, "another library");
+  refused(f, "run run/scenario.toml --out bad", 3, "is not the library with which");
   CHECK_FALSE(std::filesystem::exists(f.path / "bad"));
 }
 

@@ -131,14 +131,15 @@ TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
     const char* says;
   };
   for (const Bad& b :
-       {Bad{"no coil", "[earth]\nfield = [0, 0, 0]\n", "", 2, "has no [[coil]]"},
+       {Bad{"no coil", "[earth]\nfield = [0, 0, 0]\n", "", 2, "[[coil]] not found"},
         Bad{"zero turns", coil + "turns = 0\n", "", 2, "out of range"},
         Bad{"NaN current", coil + "current = nan\n", "", 2, "finite"},
         Bad{"no axis", coil + "axis = [0, 0, 0]\n", "", 2, "axis must not be"},
         Bad{"unknown kind", "[[coil]]\ntype = 'selenoid'\n", "", 2, "did you mean \"solenoid\""},
         Bad{"unknown key", coil + "raduis = 1\n", "", 2, "did you mean \"radius\""},
-        Bad{"current above its limit", coil + "current = 2\nmax_current = 1\n", "", 2, "must not exceed max_current"},
-        Bad{"missing column", coil, "x_m,y_m\n0,0\n", 3, "there is no column z_m"},
+        Bad{"current above its limit", coil + "current = 2\nmax_current = 1\n", "", 2,
+            "must not exceed max_current"},
+        Bad{"missing column", coil, "x_m,y_m\n0,0\n", 3, "column z_m not found"},
         Bad{"no number", coil, "x_m,y_m,z_m\n0,0,zero\n", 3, "is not a number"},
         Bad{"short line", coil, "x_m,y_m,z_m\n0,0\n", 3, "2 fields"},
         Bad{"empty field", coil, "x_m,y_m,z_m\n0,,0\n", 3, "a coordinate is missing"},
@@ -182,7 +183,7 @@ TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in 
     const char* says;
   };
   for (const Bad& b :
-       {Bad{"file = 'none.toml'", "there is no none.toml"}, Bad{"file = 3", "in quotes"},
+       {Bad{"file = 'none.toml'", "none.toml not found"}, Bad{"file = 3", "expected a string"},
         Bad{"", "add at least one [[coil]]"},
         Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "inside the sample plane"},
         Bad{"coil = [{ type = 'loop', radius = '-1 mm' }]", "field.coil[0].radius"}}) {
@@ -222,7 +223,7 @@ TEST_CASE(
              "[reference]\ntype = 'hold'\nsetpoint_px = [30000, 200]\n");
   const Called far = faba_in(f.path, "run far.toml --out far --json");
   REQUIRE_MESSAGE(far.exit == 0, far.err);
-  CHECK(far.err.find("cannot put a zero of the field at") != std::string::npos);
+  CHECK(far.err.find("cannot produce a zero of the field at") != std::string::npos);
   // A map as the only coil of a scenario names its file itself.
   write_file(f.path / "one.toml",
              "duration = '0.2 s'\n[field]\ntype = 'map'\nfile = 'm.h5'\n[[swarm]]\ncount = 5\n"
@@ -236,5 +237,5 @@ TEST_CASE("field: one name for two outputs is refused, and places are within a m
   CHECK(faba_in(f.path, "field map " + kRig + " --current 1,1,1,1 --picture a.png --out a.png").exit == 2);
   const Called far = faba_in(f.path, "field null " + kRig + " --at '1 km, 0 mm'");
   CHECK(far.exit == 2);
-  CHECK(far.err.find("up to 1 m") != std::string::npos);
+  CHECK(far.err.find("between -1 m and 1 m") != std::string::npos);
 }

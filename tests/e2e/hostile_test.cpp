@@ -26,7 +26,7 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
   for (const Bad& b : {
            Bad{"truncated", "duration = '2 s'\n[[swarm", "s.toml:2"},
            Bad{"not TOML", "\x01\x02\xff\xfe", "s.toml:1"},
-           Bad{"empty", "", "needs at least one [[swarm]]"},
+           Bad{"empty", "", "[[swarm]] is missing"},
            Bad{"misspelt key", swarm + "cuont = 3\n",
                "s.toml:3: swarm[0].cuont: unknown key; did you mean \"count\"?"},
            Bad{"misspelt section", swarm + "[controler]\ntype = 'fuzzy'\n", "did you mean \"controller\"?"},
@@ -41,16 +41,16 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
                "do not fit into 1000 sites"},
            Bad{"1e18 cells", "[[swarm]]\ncount = 1000000000000000000\n", "out of range"},
            Bad{"unknown part", swarm + "model = 'dipol'\n",
-               "there is no agent model \"dipol\"; did you mean \"dipole\"?"},
+               "unknown agent model \"dipol\"; did you mean \"dipole\"?"},
            Bad{"wrong type", "duration = [1]\n" + swarm, "expected a time such as \"1 s\", got [1]"},
-           Bad{"part without type", swarm + "[controller]\nmax_output = 3\n", "needs type"},
+           Bad{"part without type", swarm + "[controller]\nmax_output = 3\n", "key \"type\" is missing"},
            Bad{"duplicate key", "seed = 1\nseed = 2\n" + swarm, "s.toml:2"},
            Bad{"deep nesting", "a = " + std::string(100000, '[') + "\n", "s.toml:1"},
            Bad{"route without points", swarm + "[reference]\ntype = 'route'\n", "at least one setpoint"},
            Bad{"step that does not divide", swarm + "[simulation]\nstep = '40 ms'\n",
-               "whole part of a frame"},
+               "does not divide the frame period"},
            Bad{"a key of the top level below a table", "[camera]\nrate = 20\nduration = '2 s'\n" + swarm,
-               "s.toml:3: camera.duration: belongs to the whole scenario"},
+               "s.toml:3: camera.duration: is a top-level key"},
            Bad{"a start outside", swarm + "start = { type = 'disc', centre_px = [5000, 0] }\n",
                "is outside of the arena"},
            Bad{"a binary file",
@@ -61,7 +61,7 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
            Bad{"a video that cannot be", swarm + "[camera]\nrate = '100 kHz'\n",
                "a video cannot have 100000"},
            Bad{"a picture that cannot be", swarm + "[arena]\ntype = 'drop'\nview_px = [20000, 10]\n",
-               "16384 px is the most"},
+               "the maximum is 16384 px"},
            Bad{"a date", "seed = 2020-01-01\n" + swarm, "dates and times"},
        }) {
     write_file(f.path / "s.toml", b.scene);
@@ -137,7 +137,7 @@ TEST_CASE("what is not ours is never overwritten, --force or not") {
   for (const char* force : {"", " --force"}) {
     const Called c = faba_in(f.path, std::string("run s.toml --seed 1 --out thesis") + force);
     CHECK(c.exit == 2);
-    CHECK(c.err.find("holds other files and no run") != std::string::npos);
+    CHECK(c.err.find("has files that do not belong to a run") != std::string::npos);
   }
   CHECK(read_file(f.path / "thesis/report.html") == "mine");
   CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet").exit == 0);
@@ -218,10 +218,10 @@ TEST_CASE("what is legal but probably not meant is noted, a line each") {
   };
   write_file(f.path / "s.toml", "duration = '0.5 s'\n[[swarm]]\ncount = 5\n[[swarm]]\ncount = 9\n");
   for (const Odd& o :
-       {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px lies outside of the box"},
-        Odd{"limits.max_current=0", "the coils stay without current"},
+       {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px is outside the box"},
+        Odd{"limits.max_current=0", "there is no current in the coils"},
         Odd{"swarm[0].polarity=north", "swarm[0]: the controller steers the south-seeking cells"},
-        Odd{"duration=0", "has one frame"}, Odd{"exposure=100", "did you mean motility"},
+        Odd{"duration=0", "has only one frame"}, Odd{"exposure=100", "did you mean motility"},
         Odd{"camera.rate=20", ""}}) {
     const std::string type = std::string(o.set).starts_with("reference") ? " --set reference.type=hold" : "";
     const std::string run = "run s.toml --seed 1 --force --out run" + type + " --set '" + o.set + "'";

@@ -53,7 +53,7 @@ TEST_CASE("run: a drawn seed is printed, recorded, and repeats the run") {
   const auto first = faba_in(f.path, "run s.toml --out a --json").json();
   const auto again = faba_in(f.path, "run s.toml --out b --json --seed " + first["seed"].dump()).json();
   CHECK(again["state_hash"] == first["state_hash"]);
-  CHECK(faba_in(f.path, "run s.toml --out c").out.find("(drawn; --seed ") != std::string::npos);
+  CHECK(faba_in(f.path, "run s.toml --out c").out.find("(random; --seed ") != std::string::npos);
 }
 
 TEST_CASE("run: the tracks open in h5py with fps and um_per_px") {

@@ -60,7 +60,7 @@ TEST_CASE("flow of two pictures: a file of flows, a picture, the truth, and what
   CHECK(read_file(f.path / "two.flo") == read_file(f.path / "ab.flo"));
 
   refused(f, "flow a.pgm b.pgm --out ab.flo", 2, "already exists");
-  refused(f, "flow a.pgm b.pgm --out a.pgm --force", 2, "must end in .flo");
+  refused(f, "flow a.pgm b.pgm --out a.pgm --force", 2, "the file extension must be .flo");
   refused(f, "flow a.pgm none.pgm", 3, "no such file");
   refused(f, "flow a.pgm b.pgm --alpha2 0", 2, "out of range");
   refused(f, "flow a.pgm b.pgm --solver gauss", 2, "solver");
@@ -149,12 +149,12 @@ TEST_CASE("numbers, outputs and times that cannot be are refused before any work
   const TestFolder f;
   write_film(f, "film");
   refused(f, "activity film --direction nan", 2, "out of range");
-  refused(f, "activity film --flow-threshold -1", 2, "must be 0 to");
+  refused(f, "activity film --flow-threshold -1", 2, "must be between 0 and");
   refused(f, "activity film --fps nan", 2, "--fps");
   refused(f, "compare film film --t0 nan", 2, "--t0");
   refused(f, "compare film film --t0 0.1 --no-align", 2, "--no-align");
   refused(f, "activity film --noise film --flow-threshold 0.1", 2, "--noise");
-  refused(f, "activity film --report none/r.html", 2, "there is no folder none");
+  refused(f, "activity film --report none/r.html", 2, "folder none not found");
   refused(f, "track film --fps 15 --out a.csv --swarm a.csv", 2, "two outputs");
   refused(f, "activity film --from 100", 3, "fewer than two frames in the requested interval");
   CHECK_FALSE(std::filesystem::exists(f.path / "a.csv"));

@@ -38,7 +38,7 @@ TEST_CASE("what the engine cannot read is refused in words") {
     }
     return "accepted";
   };
-  CHECK(refusal("[library]\nfile = 'l.h5'\n").find("does not read HDF5") != std::string::npos);
+  CHECK(refusal("[library]\nfile = 'l.h5'\n").find("cannot read HDF5") != std::string::npos);
   CHECK(refusal("[microscope]\nbackground = 'v.avi'\n[camera]\nsensor = 'frames'\n")
-            .find("does not read videos") != std::string::npos);
+            .find("cannot read videos") != std::string::npos);
 }

@@ -7,9 +7,9 @@
 namespace faba {
 
 BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
-  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench that it could run on");
+  if (!s.rig) throw Error(Errc::usage, "rig", "section is missing; a run on a bench needs a [rig] section");
   if (!s.events.empty())
-    throw Error(Errc::usage, "event", "a bench cannot exchange parts during a run; take [[event]] out");
+    throw Error(Errc::usage, "event", "a run on a bench cannot exchange parts; remove [[event]]");
   field = s.field.make({});
   frame = s.arena.make({s.si_scale()})->frame();
   ControlContext control = control_context(s, field, frame, nullptr);
@@ -17,16 +17,18 @@ BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
   estimator = s.estimator.make(control);
   reference = s.reference.make(control);
   controller = s.controller.make(control);
-  std::vector<double> most = field->max_currents(s.limits.max_current);
+  std::vector<double> max_currents = field->max_currents(s.limits.max_current);
   const std::vector<double> wired = s.rig->max_current();
-  for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::min(most[k], wired[k]);
+  for (std::size_t k = 0; k < max_currents.size(); ++k) max_currents[k] = std::min(max_currents[k], wired[k]);
   Limits::Params p = s.limits;
   if (const auto slew = s.rig->guard.max_slew) p.max_slew = std::min(*slew, p.max_slew.value_or(*slew));
   const CoilWiring wiring(s.rig->coils);
-  std::function<void(std::vector<double>&)> together;
+  std::function<void(std::vector<double>&)> shared_outputs;
   if (wiring.channels().size() < wiring.coils().size())
-    together = [wiring](std::vector<double>& current) { current = wiring.currents(wiring.volts(current)); };
-  limits = Limits(p, most, together);
+    shared_outputs = [wiring](std::vector<double>& current) {
+      current = wiring.currents(wiring.volts(current));
+    };
+  limits = Limits(p, max_currents, shared_outputs);
 }
 
 Loop BenchControls::loop(Rig& rig, double frame_period) {

@@ -6,10 +6,10 @@
 
 namespace faba {
 
-/// What closes the loop of a scenario on a bench, where nothing is simulated: eyes and hands are somebody
-/// else's.
+/// The parts of the control loop of a scenario on a bench: estimator, reference, controller and limits,
+/// without a simulation.
 struct BenchControls {
-  /// Throws Error(usage) for a scenario without [rig], or one whose parts do not fit together.
+  /// Throws Error(usage) for a scenario without [rig], or with incompatible parts.
   explicit BenchControls(const Scenario& s);
 
   std::shared_ptr<const Field> field;
@@ -17,7 +17,7 @@ struct BenchControls {
   std::unique_ptr<Estimator> estimator;
   std::unique_ptr<Reference> reference;
   std::unique_ptr<Controller> controller;
-  Limits limits;  ///< of the scenario and of the coils as they are wired
+  Limits limits;  ///< of the scenario and of the wired coils
 
   Loop loop(Rig& rig, double frame_period);
 };

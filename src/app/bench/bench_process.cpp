@@ -18,8 +18,8 @@
 namespace faba {
 namespace {
 
-constexpr double kPatience = 30;  // s for a large swarm to be placed
-constexpr double kEnding = 5;     // s for it to end when told
+constexpr double kStartTimeout = 30;  // s, long enough to place a large swarm
+constexpr double kExitTimeout = 5;    // s from SIGTERM to SIGKILL
 
 [[noreturn]] void fail(const std::string& what) { throw Error(Errc::device, "simulated bench", what); }
 
@@ -27,37 +27,37 @@ constexpr double kEnding = 5;     // s for it to end when told
 
 BenchProcess::BenchProcess(const Scenario& s, std::uint64_t seed) {
   std::string name = (std::filesystem::temp_directory_path() / "faba-XXXXXX").string();
-  if (!mkdtemp(name.data())) fail(fmt::format("{} cannot be made: {}", name, std::strerror(errno)));
+  if (!mkdtemp(name.data())) fail(fmt::format("{} cannot be created: {}", name, std::strerror(errno)));
   folder_ = name;
   const std::string scene = (folder_ / "scene.toml").string(), at = this->at(),
-                    seed_word = std::to_string(seed);
+                    seed_text = std::to_string(seed);
   write_file(scene, to_toml(s.resolved()));
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  std::vector<const char*> words = {program.c_str(), "rig",    "simulate", scene.c_str(), "--at",
-                                    at.c_str(),      "--once", "--quiet",  "--seed",      seed_word.c_str(),
-                                    nullptr};
-  posix_spawnattr_t how;
-  posix_spawnattr_init(&how);
-  posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSID);  // Ctrl-C is the run's
-  const int wrong =
-      posix_spawn(&process_, program.c_str(), nullptr, &how, const_cast<char* const*>(words.data()), environ);
-  posix_spawnattr_destroy(&how);
-  if (wrong != 0) fail(std::strerror(wrong));
-  const double until = monotonic_now() + kPatience;
+  std::vector<const char*> arguments = {
+      program.c_str(), "rig",     "simulate", scene.c_str(),     "--at", at.c_str(),
+      "--once",        "--quiet", "--seed",   seed_text.c_str(), nullptr};
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);  // Ctrl-C is handled by the run only
+  const int error = posix_spawn(&process_, program.c_str(), nullptr, &attributes,
+                                const_cast<char* const*>(arguments.data()), environ);
+  posix_spawnattr_destroy(&attributes);
+  if (error != 0) fail(fmt::format("cannot be started: {}", std::strerror(error)));
+  const double until = monotonic_now() + kStartTimeout;
   std::error_code ec;
   while (!std::filesystem::exists(at, ec)) {
     if (waitpid(process_, nullptr, WNOHANG) != 0) {
       process_ = -1;
       end();
-      fail("ended before it was there");
+      fail("the process exited during its start");
     }
     if (monotonic_now() > until) {
       end();
-      fail("takes too long");
+      fail(fmt::format("did not start within {:g} s", kStartTimeout));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  std::filesystem::remove(scene, ec);  // it has been read; what is killed now leaves no more than a folder
+  std::filesystem::remove(scene, ec);  // it has been read
 }
 
 BenchProcess::~BenchProcess() { end(); }
@@ -65,7 +65,7 @@ BenchProcess::~BenchProcess() { end(); }
 void BenchProcess::end() noexcept {
   if (process_ > 0) {
     kill(process_, SIGTERM);
-    end_child(process_, kEnding);
+    end_child(process_, kExitTimeout);
   }
   std::error_code ec;
   std::filesystem::remove_all(folder_, ec);

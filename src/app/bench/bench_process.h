@@ -7,20 +7,20 @@
 
 namespace faba {
 
-/// A simulated bench in a process of its own, for a run that names none: `faba rig simulate` of its scenario,
-/// in real time. It ends with the run.
+/// A simulated bench in a separate process, for a run with simulated devices and without the socket of a
+/// bench: `faba rig simulate` with its scenario, in real time. It ends with the run.
 class BenchProcess {
  public:
-  /// Returns when it can be connected to. Throws Error(device).
+  /// Returns when clients can connect. Throws Error(device).
   BenchProcess(const Scenario& s, std::uint64_t seed);
   ~BenchProcess();
   BenchProcess(const BenchProcess&) = delete;
   BenchProcess& operator=(const BenchProcess&) = delete;
-  std::string at() const { return (folder_ / "bench").string(); }  ///< its socket
+  std::string at() const { return (folder_ / "bench").string(); }  ///< path of its socket
 
  private:
   void end() noexcept;
-  std::filesystem::path folder_;  ///< of its own, for nobody else to read
+  std::filesystem::path folder_;  ///< temporary, readable by this user only
   pid_t process_ = -1;
 };
 

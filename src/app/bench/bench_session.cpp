@@ -15,9 +15,9 @@
 namespace faba {
 namespace {
 
-constexpr double kDelaySteps = 1e4;  // of a second, to which a measured delay is written down
+constexpr double kDelaySteps = 1e4;  // per second; measured delays are rounded to a multiple of 0.1 ms
 
-// Of the delays that are known, s.
+// Quantiles in ms of the delays in s that are not NaN.
 Latency in_ms(std::vector<double> s) {
   std::erase_if(s, [](double x) { return std::isnan(x); });
   return {1e3 * quantile(s, 0.5), 1e3 * quantile(s, 0.99), 1e3 * quantile(s, 0.999), 1e3 * quantile(s, 1)};
@@ -33,7 +33,7 @@ void write_latency(const std::filesystem::path& file, const BenchRig& rig) {
   out.close();
 }
 
-/// The camera of a bench: what it saw comes with the observations.
+/// The camera of a bench: its pictures are part of the observations.
 class BenchFrames final : public FrameSource {
  public:
   double time_of(const Tick& t) const override { return t.seen.t; }
@@ -41,7 +41,7 @@ class BenchFrames final : public FrameSource {
   ImageRef picture(const Tick& t) const override { return t.seen.image; }
   int bits() const override { return 8; }
   const Image<std::uint16_t>& deep_picture() const override {
-    throw Error(Errc::internal, "camera", "gives pictures of 8 bits");
+    throw Error(Errc::internal, "camera", "has no 16-bit pictures; a bench camera gives 8 bits");
   }
 };
 
@@ -54,16 +54,16 @@ struct BenchSession::Impl {
   std::unique_ptr<Pool> pool;
   std::unique_ptr<BenchControls> controls;
   std::shared_ptr<OpenBench> bench;
-  BenchRig* rig = nullptr;  ///< of the bench
+  BenchRig* rig = nullptr;  ///< owned by `bench`
   Recording recording;
   std::unique_ptr<RunSink> commands;
   std::unique_ptr<Loop> loop;
   std::size_t most_behind = 0;
   std::uint64_t commands_before = 0, refused_before = 0,
-                timeouts_before = 0;  ///< the bench may have had runs before
-  bool whole = false;
+                timeouts_before = 0;  ///< counters of earlier runs on the same bench
+  bool complete = false;
   std::vector<std::string> notes;
-  Manifest manifest;  ///< as it was when the run ended
+  Manifest manifest;  ///< at the end of the run
 };
 
 BenchSession::BenchSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -82,7 +82,7 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
   m->options = o;
   m->pool = std::make_unique<Pool>(o.threads);
   m->bench = std::move(bench);
-  const Frame frame = BenchControls(s).frame;  // what does not fit is said before anything is written
+  const Frame frame = BenchControls(s).frame;  // throws before anything is written
   check_recording(s.record, frame, s.camera.rate);
 
   m->bench->try_coils();
@@ -140,31 +140,30 @@ bool BenchSession::run() {
       if (m.options.progress)
         m.options.progress(std::uint64_t(1e3 * std::min(loop.last_t, duration)),
                            std::uint64_t(1e3 * duration));
-      // What parts do but once, such as laying out their memory, they have done by now.
+      // One-time work of the parts, such as the allocation of memory, is done by now.
       if (loop.next == 1) m.rig->arm();
-      m.whole = loop.last_t + 0.5 * loop.frame_period >= duration;
-      return !m.whole && !(m.options.stop && m.options.stop->load());
+      m.complete = loop.last_t + 0.5 * loop.frame_period >= duration;
+      return !m.complete && !(m.options.stop && m.options.stop->load());
     });
-    const bool by_hand = !m.whole && m.options.stop && m.options.stop->load();
-    if (by_hand)
-      m.notes.push_back(fmt::format("ended by hand after {:.3g} s of {:.3g} s", loop.last_t, duration));
-    if (loop.next == 0 && !by_hand) throw Error(Errc::device, "camera", "has no more pictures");
-    // A video that is played may end before.
-    if (!m.whole && !by_hand) {
-      m.whole = true;
-      m.notes.push_back(
-          fmt::format("the camera's pictures ended after {:.3g} s of {:.3g} s", loop.last_t, duration));
+    const bool stopped_by_user = !m.complete && m.options.stop && m.options.stop->load();
+    if (stopped_by_user)
+      m.notes.push_back(fmt::format("stopped by the user after {:.3g} s of {:.3g} s", loop.last_t, duration));
+    if (loop.next == 0 && !stopped_by_user) throw Error(Errc::device, "camera", "no pictures received");
+    // A camera that plays back a video may end earlier.
+    if (!m.complete && !stopped_by_user) {
+      m.complete = true;
+      m.notes.push_back(fmt::format("the camera stopped after {:.3g} s of {:.3g} s", loop.last_t, duration));
     }
   } catch (const Error& e) {
-    m.notes.push_back(fmt::format("ended by {}", e.what()));
+    m.notes.push_back(fmt::format("stopped by an error: {}", e.what()));
     try {
       if (loop.next > 0) finish();
-    } catch (const Error&) {  // what ended the run is reported, not what followed from it
+    } catch (const Error&) {  // the error that stopped the run is reported instead
     }
     throw;
   }
   finish();
-  return m.whole;
+  return m.complete;
 }
 
 const Manifest& BenchSession::manifest() const { return impl_->manifest; }
@@ -180,7 +179,7 @@ Manifest BenchSession::describe() const {
   }
   const GuardReport guard = m.rig->coils()->report();
   Manifest all = manifest_of(s, m.seed, m.controls->frame, s.arena.make({s.si_scale()})->outline());
-  all.complete = m.whole;
+  all.complete = m.complete;
   all.frames = m.loop->next;
   all.duration_s = m.loop->last_t + m.loop->frame_period;
   all.wall_time_s = m.recording.wall_time();

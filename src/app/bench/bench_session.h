@@ -9,25 +9,25 @@ namespace faba {
 
 struct RunOptions;
 
-/// A recorded run on the bench of a scenario: the closed loop of app/loop/loop.h with a camera and coils in
-/// place of a simulation. Its directory holds what a simulated run's does, with what was seen in place of
-/// what is true.
+/// A recorded run on the bench of a scenario: the control loop of app/loop/loop.h with a camera and coils in
+/// place of a simulation. Its directory has the same files as that of a simulated run, with estimated in
+/// place of true values.
 class BenchSession {
  public:
-  /// Makes the directory; the coils are disarmed. `bench`: opened with `s`. Throws Error(usage) for
-  /// a scenario that does not fit, and then nothing has been written; Error(device).
+  /// Creates the directory; the coils are disarmed. `bench`: opened with `s`. Throws Error(usage) for an
+  /// unsuitable scenario, before anything is written; Error(device).
   static BenchSession begin(Scenario s, std::shared_ptr<OpenBench> bench, std::uint64_t seed,
                             const RunOptions& o);
   ~BenchSession();
   BenchSession(BenchSession&&) noexcept;
 
-  /// Runs for the scenario's duration, from the first frame on, or until asked to stop. Coils are armed when
-  /// the first frame has been decided on, and at rest in the end. What was recorded is complete on every way
-  /// out, also when Error(device) is thrown. Returns whether the end was reached.
+  /// Runs for the scenario's duration, from the first frame, or until the stop flag is set. The coils are
+  /// armed after the first control cycle and de-energised at the end. All recorded files are finished in any
+  /// case, also when Error(device) is thrown. Returns whether the end was reached.
   bool run();
-  /// What manifest.json says, once it ran.
+  /// Content of manifest.json, after run().
   const Manifest& manifest() const;
-  /// series.csv, once it ran.
+  /// Content of series.csv, after run().
   Table series() const;
   void complete();
   const std::filesystem::path& dir() const;

@@ -12,14 +12,14 @@
 namespace faba {
 namespace {
 
-constexpr double kUnwatched = 20;  // s without a look, after which a camera is closed
-constexpr double kTurn = 0.1;      // s between looks at the clock
-constexpr double kSilent = 2;      // s without a picture, after which this is said
-constexpr double kRateTime = 1;    // s over which the rate is averaged
+constexpr double kViewIdleTimeout = 20;    // s without a request, after which the camera is closed
+constexpr double kViewPollPeriod = 0.1;    // s
+constexpr double kViewPictureTimeout = 2;  // s without a picture, after which this is reported
+constexpr double kViewRateTime = 1;        // s, averaging time of the frame rate
 
 }  // namespace
 
-// An open camera with the thread that fetches its pictures.
+// An open camera and the thread that reads its pictures.
 struct BenchView::View {
   View(Scenario s, std::string what)
       : name(std::move(what)),
@@ -28,16 +28,16 @@ struct BenchView::View {
     fetcher = std::jthread([this](const std::stop_token& stop) { fetch(stop); });
   }
   void fetch(const std::stop_token& stop);
-  void looked() { looked_at = monotonic_now(); }
+  void mark_used() { last_used = monotonic_now(); }
 
   std::string name;
   OpenBench bench;
   CameraFeed feed;
-  std::atomic<double> looked_at = monotonic_now();
-  std::mutex mutex;  // of what follows
+  std::atomic<double> last_used = monotonic_now();
+  std::mutex mutex;  // protects the following members
   CameraFrame newest;
-  double came = monotonic_now();  // s, when it did
-  double rate = 0;                // Hz
+  double received = monotonic_now();  // s, time of arrival of `newest`
+  double rate = 0;                    // Hz
   std::string trouble;
   std::jthread fetcher;
 };
@@ -46,21 +46,21 @@ void BenchView::View::fetch(const std::stop_token& stop) {
   try {
     while (!stop.stop_requested()) {
       CameraFrame f;
-      const CameraFeed::Got got = feed.next(f, monotonic_now() + kTurn);
+      const CameraFeed::Got got = feed.next(f, monotonic_now() + kViewPollPeriod);
       if (got == CameraFeed::Got::end) {
         const std::lock_guard lock(mutex);
-        trouble = "camera: has no more pictures; this is the last one";
+        trouble = "camera: no more pictures; this is the last one";
         return;
       }
       if (got == CameraFeed::Got::nothing) continue;
       const std::lock_guard lock(mutex);
       const double dt = f.t - newest.t;
       if (newest.image && dt > 0) {
-        const double share = std::min(1.0, dt / kRateTime);
-        rate = rate == 0 ? 1 / dt : 1 / (1 / rate + share * (dt - 1 / rate));
+        const double weight = std::min(1.0, dt / kViewRateTime);
+        rate = rate == 0 ? 1 / dt : 1 / (1 / rate + weight * (dt - 1 / rate));
       }
       newest = std::move(f);
-      came = monotonic_now();
+      received = monotonic_now();
     }
   } catch (const Error& e) {
     const std::lock_guard lock(mutex);
@@ -69,29 +69,29 @@ void BenchView::View::fetch(const std::stop_token& stop) {
 }
 
 BenchView::BenchView()
-    : janitor_([this](const std::stop_token& stop) {
+    : closer_([this](const std::stop_token& stop) {
         while (!stop.stop_requested()) {
-          std::this_thread::sleep_for(std::chrono::duration<double>(kTurn));
+          std::this_thread::sleep_for(std::chrono::duration<double>(kViewPollPeriod));
           const auto v = view(false);
-          if (v && monotonic_now() - v->looked_at > kUnwatched) close();
+          if (v && monotonic_now() - v->last_used > kViewIdleTimeout) close();
         }
       }) {}
 
 BenchView::~BenchView() {
-  janitor_.request_stop();
-  if (janitor_.joinable()) janitor_.join();
+  closer_.request_stop();
+  if (closer_.joinable()) closer_.join();
   close();
 }
 
-std::shared_ptr<BenchView::View> BenchView::view(bool must) {
+std::shared_ptr<BenchView::View> BenchView::view(bool required) {
   const std::lock_guard lock(mutex_);
-  if (!view_ && must) throw Error(Errc::input, "bench", "no camera is open");
+  if (!view_ && required) throw Error(Errc::input, "bench", "no camera is open");
   return view_;
 }
 
 void BenchView::open(Scenario s, const std::string& name) {
   const std::lock_guard one_at_a_time(opening_);
-  close();  // two of them might want the same camera
+  close();  // the new one may need the same camera
   const auto v = std::make_shared<View>(std::move(s), name);
   const std::lock_guard lock(mutex_);
   view_ = v;
@@ -108,7 +108,7 @@ void BenchView::close() {
 Json BenchView::state() {
   const auto v = view(false);
   if (!v) return {{"open", nullptr}};
-  v->looked();
+  v->mark_used();
   Json controls = Json::array();
   for (const CameraControl& c : v->bench.camera()->controls())
     controls.push_back({{"name", control_name(c.kind)},
@@ -124,9 +124,9 @@ Json BenchView::state() {
   j["rate_hz"] = v->rate > 0 ? Json(v->rate) : Json();
   if (!v->trouble.empty()) {
     j["trouble"] = v->trouble;
-  } else if (const double silent = monotonic_now() - v->came;
-             silent > kSilent + (v->rate > 0 ? 2 / v->rate : 0)) {
-    j["trouble"] = fmt::format("camera: has given no picture for {:.0f} s", silent);
+  } else if (const double silent = monotonic_now() - v->received;
+             silent > kViewPictureTimeout + (v->rate > 0 ? 2 / v->rate : 0)) {
+    j["trouble"] = fmt::format("camera: no picture for {:.0f} s", silent);
   }
   if (j.contains("trouble")) j["rate_hz"] = nullptr;
   if (v->newest.image && !v->newest.image->px.empty()) {
@@ -142,7 +142,7 @@ Json BenchView::state() {
 std::string BenchView::picture() {
   const auto v = view(false);
   if (!v) return {};
-  v->looked();
+  v->mark_used();
   ImageRef image;
   {
     const std::lock_guard lock(v->mutex);

@@ -16,12 +16,12 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kBacklog = 64;       // frames that may wait for a disk before some are lost
-constexpr double kShortOfMemory = 0.05;    // of all memory, below which a buffered capture ends
-constexpr double kLookAtClock = 0.1;       // s between looks at whether to stop
-constexpr std::uint64_t kMemoryEvery = 8;  // frames between looks at the memory
+constexpr std::size_t kBacklog = 64;       // maximum number of frames that wait for the disk
+constexpr double kMinimumMemory = 0.05;    // fraction of all memory, below which a buffered capture stops
+constexpr double kStopPollPeriod = 0.1;    // s
+constexpr std::uint64_t kMemoryEvery = 8;  // frames between checks of the memory
 
-// Where pictures go, with the table of their times.
+// Destination of the pictures, with the table of their times.
 class Store {
  public:
   Store(const std::filesystem::path& times) : times_(times) { times_.append("frame,camera_frame,t_s\n"); }
@@ -35,12 +35,12 @@ class Store {
     times_.sync();
     times_.close();
   }
-  virtual std::string begun() const = 0;  ///< where the pictures are that were not finished
+  virtual std::string unfinished_path() const = 0;  ///< location of the pictures before finish()
   std::uint64_t size() const { return at_.size(); }
 
  protected:
   virtual void write(const Gray8& picture) = 0;
-  std::vector<double> at_;  ///< s, of each
+  std::vector<double> at_;  ///< s, time of each picture
 
  private:
   OutputFile times_;
@@ -54,9 +54,9 @@ class VideoStore final : public Store {
         writer_(job.out.string() + ".part",
                 job.format == "mp4" ? VideoFormat::mp4 : VideoFormat::lossless_avi, camera.width(),
                 camera.height(), rate, 0, VideoPixels::grey8) {}
-  std::string begun() const override { return out_.string() + ".part"; }
+  std::string unfinished_path() const override { return out_.string() + ".part"; }
   void finish() override {
-    if (at_.empty()) {  // nothing is left of nothing
+    if (at_.empty()) {  // without pictures no files are kept
       std::error_code ec;
       std::filesystem::remove(out_.string() + ".part", ec);
       std::filesystem::remove(out_.string() + ".csv", ec);
@@ -82,7 +82,7 @@ class PictureStore final : public Store {
         job_(job),
         colour_(job.format == "ppm"),
         encoder_(kind_of(job.format), camera.width(), camera.height(), {}, job.out.string()) {}
-  std::string begun() const override { return job_.out.string(); }
+  std::string unfinished_path() const override { return job_.out.string(); }
 
  private:
   static FrameEncoder::Kind kind_of(const std::string& format) {
@@ -111,23 +111,25 @@ class PictureStore final : public Store {
 
 std::unique_ptr<Store> store_for(const CaptureJob& job, const Camera& camera) {
   std::error_code ec;
-  const bool there = std::filesystem::exists(job.out, ec);
+  const bool exists = std::filesystem::exists(job.out, ec);
   if (job.format == "mp4" || job.format == "avi") {
-    if (there && !job.force)
-      throw Error(Errc::usage, job.out.string(), "exists; choose another --out, or --force to replace it");
+    if (exists && !job.force)
+      throw Error(Errc::usage, job.out.string(),
+                  "already exists; choose another --out, or --force to replace it");
     if (!job.out.parent_path().empty()) std::filesystem::create_directories(job.out.parent_path(), ec);
     const double rate = camera.rate() > 0 ? camera.rate() : 25;
     return std::make_unique<VideoStore>(job, camera,
                                         job.every > 0 ? 1 / job.every : rate / double(job.one_of));
   }
-  if (there && !(std::filesystem::is_directory(job.out, ec) && std::filesystem::is_empty(job.out, ec)))
-    throw Error(Errc::usage, job.out.string(), "exists and is no empty folder; choose another --out");
+  if (exists && !(std::filesystem::is_directory(job.out, ec) && std::filesystem::is_empty(job.out, ec)))
+    throw Error(Errc::usage, job.out.string(),
+                "already exists and is not an empty folder; choose another --out");
   std::filesystem::create_directories(job.out, ec);
-  if (ec) throw Error(Errc::usage, job.out.string(), "cannot be made: " + ec.message());
+  if (ec) throw Error(Errc::usage, job.out.string(), "cannot be created: " + ec.message());
   return std::make_unique<PictureStore>(job, camera);
 }
 
-bool short_of_memory() {
+bool memory_is_low() {
   std::ifstream in("/proc/meminfo");
   double total = 0, available = 0, kib = 0;
   std::string name, unit;
@@ -135,17 +137,17 @@ bool short_of_memory() {
     if (name == "MemTotal:") total = kib;
     if (name == "MemAvailable:") available = kib;
   }
-  return available < kShortOfMemory * total;
+  return available < kMinimumMemory * total;
 }
 
-/// Which of a camera's frames are kept.
-class FrameChoice {
+/// Selects the frames of a camera that are kept.
+class FrameSelection {
  public:
-  explicit FrameChoice(const CaptureJob& job) : job_(job) {}
-  /// Of frame number `taken`, counted from 1, which came `t` seconds after the first.
-  bool wants(std::uint64_t taken, double t) {
+  explicit FrameSelection(const CaptureJob& job) : job_(job) {}
+  /// Whether to keep frame number `taken`, counted from 1, at `t` s after the first.
+  bool keeps(std::uint64_t taken, double t) {
     if (!(job_.every > 0)) return (taken - 1) % job_.one_of == 0;
-    // A millionth of a second: due times are sums.
+    // 1 us for rounding: due times are sums.
     if (!(t >= due_ - 1e-6)) return false;
     while (due_ <= t + 1e-6) due_ += job_.every;
     return true;
@@ -156,12 +158,12 @@ class FrameChoice {
   double due_ = 0;  // s
 };
 
-void report_progress(const CaptureJob& job, const Captured& done) {
+void report_progress(const CaptureJob& job, const Captured& result) {
   if (!job.progress) return;
   if (job.frames > 0)
-    job.progress(done.taken, job.frames);
+    job.progress(result.taken, job.frames);
   else
-    job.progress(std::uint64_t(1e3 * done.duration), std::uint64_t(1e3 * job.time));
+    job.progress(std::uint64_t(1e3 * result.duration), std::uint64_t(1e3 * job.time));
 }
 
 }  // namespace
@@ -170,13 +172,13 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   const std::unique_ptr<Store> store = store_for(job, *camera);
   CameraFeed feed(camera, camera->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::all,
                   job.buffered ? SIZE_MAX : kBacklog);
-  Captured done;
+  Captured result;
   std::vector<CameraFrame> waiting;
-  FrameChoice choice(job);
-  double began = 0, heard = monotonic_now();
+  FrameSelection selection(job);
+  double began = 0, last_frame_time = monotonic_now();
   const auto stopped = [&] { return job.stop && job.stop->load(); };
   const auto keep = [&](CameraFrame&& f) {
-    ++done.kept;
+    ++result.kept;
     if (job.buffered)
       waiting.push_back(std::move(f));
     else
@@ -186,42 +188,43 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   try {
     while (!stopped()) {
       CameraFrame f;
-      const CameraFeed::Got got = feed.next(f, monotonic_now() + kLookAtClock);
+      const CameraFeed::Got got = feed.next(f, monotonic_now() + kStopPollPeriod);
       if (got == CameraFeed::Got::end) break;
       if (got == CameraFeed::Got::nothing) {
-        if (monotonic_now() - heard > job.patience)
-          throw Error(Errc::device, "camera", fmt::format("has given no frame for {:g} s", job.patience));
+        if (monotonic_now() - last_frame_time > job.timeout)
+          throw Error(Errc::device, "camera", fmt::format("no frame for {:g} s", job.timeout));
         continue;
       }
-      heard = monotonic_now();
-      if (done.taken == 0) began = f.t;
+      last_frame_time = monotonic_now();
+      if (result.taken == 0) began = f.t;
       const double t = f.t - began;
       if (job.time > 0 && t >= job.time) break;
-      ++done.taken;
-      done.duration = t;
-      if (choice.wants(done.taken, t)) keep(std::move(f));
-      report_progress(job, done);
-      if (job.frames > 0 && done.taken >= job.frames) break;
-      if (job.buffered && done.taken % kMemoryEvery == 0 && short_of_memory()) {
-        done.memory_full = true;
+      ++result.taken;
+      result.duration = t;
+      if (selection.keeps(result.taken, t)) keep(std::move(f));
+      report_progress(job, result);
+      if (job.frames > 0 && result.taken >= job.frames) break;
+      if (job.buffered && result.taken % kMemoryEvery == 0 && memory_is_low()) {
+        result.memory_full = true;
         break;
       }
     }
   } catch (const Error& e) {
     failure = e;
   }
-  done.dropped = feed.dropped();
-  done.corrupt = camera->corrupt();
+  result.dropped = feed.dropped();
+  result.corrupt = camera->corrupt();
   for (CameraFrame& f : waiting) {
     store->put(f, f.t - began);
     f.image.reset();
   }
   if (failure && store->size() > 0)
     throw Error(failure->code(), failure->where(),
-                fmt::format("{}; {} frames are in {}", failure->reason(), store->size(), store->begun()));
+                fmt::format("{}; {} recorded frames are in {}", failure->reason(), store->size(),
+                            store->unfinished_path()));
   store->finish();
   if (failure) throw Error(*failure);
-  return done;
+  return result;
 }
 
 }  // namespace faba

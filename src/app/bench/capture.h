@@ -9,35 +9,34 @@
 
 namespace faba {
 
-/// What is kept of a camera's pictures, and how (Fig. 3.9 of the thesis).
+/// Which pictures of a camera are recorded, and how (Fig. 3.9 of the thesis).
 struct CaptureJob {
-  std::uint64_t frames = 0;  ///< of the camera, after which it ends; 0: no such end
-  double time = 0;           ///< s, after which it ends; 0: no such end
-  std::uint64_t one_of = 1;  ///< of as many frames one is kept
-  double every = 0;          ///< s between those that are kept; 0: all
-  bool buffered = false;     ///< pictures wait in memory and are written afterwards
+  std::uint64_t frames = 0;  ///< maximum number of camera frames; 0: no limit
+  double time = 0;           ///< maximum duration, s; 0: no limit
+  std::uint64_t one_of = 1;  ///< one of this number of frames is kept
+  double every = 0;          ///< time between kept frames, s; 0: not used
+  bool buffered = false;     ///< pictures are kept in memory and written at the end
   /// mp4 or avi: a video; png, pgm, ppm or tiff: a folder of numbered pictures.
   std::string format = "avi";
   std::filesystem::path out;
-  bool force = false;   ///< replace what is there; a folder must be empty
-  double patience = 2;  ///< s that the camera may be silent
+  bool force = false;  ///< replace an existing video; a folder must be empty
+  double timeout = 2;  ///< maximum time without a frame, s
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  ///< total 0: until stopped
   const std::atomic<bool>* stop = nullptr;
 };
 
 struct Captured {
   std::uint64_t taken = 0, kept = 0;
-  std::uint64_t dropped = 0;  ///< that the camera took and nobody fetched in time
-  std::uint64_t corrupt = 0;  ///< that came damaged and were left out
-  double duration = 0;        ///< s from the first to the last
-  bool memory_full = false;   ///< a buffered capture ended because memory went short
+  std::uint64_t dropped = 0;  ///< frames of the camera that were not read in time
+  std::uint64_t corrupt = 0;  ///< frames that arrived damaged and were left out
+  double duration = 0;        ///< from the first to the last frame, s
+  bool memory_full = false;   ///< a buffered capture stopped because the memory was full
 };
 
-/// Captures until one of the ends is reached, the camera has no more, or somebody asks to stop. Beside a
-/// video `out` the times of its frames are in `out` + ".csv", beside pictures in times.csv. What was captured
-/// stays on every way out, of a video in `out` + ".part" when the camera failed. Throws Error(usage) for an
-/// `out` that will not do, Error(device) when the camera fails or is silent for too long, Error(internal) for
-/// a full disk.
+/// Captures until a limit is reached, the camera has no more frames, or `stop` is set. The times of the
+/// frames are written to `out` + ".csv" for a video and to times.csv for pictures. The recorded frames are
+/// kept in any case; if the camera fails, a video keeps the name `out` + ".part". Throws Error(usage) for an
+/// unsuitable `out`, Error(device) if the camera fails or exceeds `timeout`, Error(internal) for a full disk.
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job);
 
 }  // namespace faba

@@ -11,7 +11,7 @@
 namespace faba {
 
 OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what) {
-  (void)BenchControls(s);  // what does not fit is said before a device is touched
+  (void)BenchControls(s);  // throws for an unsuitable scenario before a device is opened
   const Parts parts = builtin_parts();
   setup_ = *s.rig;
   if (setup_.needs_bench()) {
@@ -26,7 +26,7 @@ OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what) {
   const Frame frame = s.arena.make({s.si_scale()})->frame();
   if (camera_->width() != frame.width || camera_->height() != frame.height)
     throw Error(Errc::usage, "arena",
-                fmt::format("is seen in {} x {} px, and the camera gives {} x {} px", frame.width,
+                fmt::format("the view is {} x {} px, but the camera gives {} x {} px", frame.width,
                             frame.height, camera_->width(), camera_->height()));
 }
 
@@ -44,19 +44,19 @@ void OpenBench::try_coils() const {
 
 double OpenBench::delay(const Scenario& s) {
   if (setup_.driver.has(Trait::no_current) || camera_->waits()) return 0;
-  constexpr int kLook = 11;  // pictures; what only the first one takes is not in their median
+  constexpr int kDelayPictures = 11;  // the median excludes one-time costs of the first picture
   BenchControls controls(s);
-  std::vector<double> took;
+  std::vector<double> delays;
   Observation seen;
   rig({}).begin();
-  for (int i = 0; i < kLook && rig_->read(seen); ++i) {
-    const double came = monotonic_now();
+  for (int i = 0; i < kDelayPictures && rig_->read(seen); ++i) {
+    const double received = monotonic_now();
     const Estimate e = controls.estimator->update(seen, {});
     (void)controls.controller->update(e, controls.reference->update(e), frame_period_);
-    took.push_back(seen.age + monotonic_now() - came);
+    delays.push_back(seen.age + monotonic_now() - received);
   }
-  if (took.empty()) return 0;
-  return median(took);
+  if (delays.empty()) return 0;
+  return median(delays);
 }
 
 BenchCheck check_bench(Scenario s, std::uint64_t seed, double seconds) {
@@ -73,7 +73,7 @@ BenchCheck check_bench(Scenario s, std::uint64_t seed, double seconds) {
     if (frames == 0) first = seen.t;
     estimate = controls.estimator->update(seen, {});
   }
-  if (frames == 0) throw Error(Errc::device, "camera", "has no more pictures to look at");
+  if (frames == 0) throw Error(Errc::device, "camera", "no pictures received");
   const GuardReport guard = rig.coils()->report();
   BenchCheck c;
   c.camera = s.rig->camera.type;

@@ -11,27 +11,27 @@
 
 namespace faba {
 
-/// The bench of a scenario, opened: its camera gives pictures and its coils are disarmed. Several runs may
-/// follow one another on it.
+/// The opened bench of a scenario: its camera gives pictures and its coils are disarmed. It can be used for
+/// several runs in succession.
 class OpenBench {
  public:
-  /// Begins a simulated bench when the scenario names none. `s.camera.rate` becomes the camera's. Throws
-  /// Error(usage) for a scenario that does not fit, before anything is opened where this can be known;
-  /// Error(device).
+  /// Starts a simulated bench if the scenario has simulated devices without a socket. Sets `s.camera.rate` to
+  /// the rate of the camera. Throws Error(usage) for an unsuitable scenario, if possible before a device is
+  /// opened; Error(device).
   enum class Open { all, coils };
   OpenBench(Scenario& s, std::uint64_t seed, Open what = Open::all);
 
-  /// Camera and coils as a rig, made when first asked for; the guard's log goes to `log` then, none when
-  /// empty. Throws Error(device).
+  /// Camera and coils as a rig, created by the first call with the log of the guard in `log` (empty: no log).
+  /// Throws Error(device).
   BenchRig& rig(const std::filesystem::path& log);
-  /// Throws Error(device) when the coils' driver cannot be opened, so that nothing need be written then.
+  /// Throws Error(device) if the coil driver cannot be opened; for a check before files are written.
   void try_coils() const;
-  /// How long this machine takes from mid-exposure of a picture to the command that the scenario's parts
-  /// answer it with, s: the median of a few pictures. Coils stay disarmed. 0 where commands move nothing or
-  /// the camera waits for them. Throws Error(device).
+  /// Latency from mid-exposure of a picture to the command of the scenario's parts on this machine, s: median
+  /// of a few pictures. The coils stay disarmed. 0 if the driver drives no current or the camera waits for
+  /// commands. Throws Error(device).
   double delay(const Scenario& s);
-  const std::shared_ptr<Camera>& camera() const { return camera_; }  ///< null when not opened
-  /// What a GuardLink needs, for those who want coils and no camera.
+  const std::shared_ptr<Camera>& camera() const { return camera_; }  ///< null if not opened
+  /// Setup of a GuardLink, for use of the coils without the camera.
   GuardSetup guard_setup(const std::filesystem::path& log) const {
     return setup_.guard_setup(frame_period_, log);
   }
@@ -44,18 +44,18 @@ class OpenBench {
   std::unique_ptr<BenchRig> rig_;
 };
 
-/// What a bench is like.
+/// Result of check_bench().
 struct BenchCheck {
-  std::string camera, driver;  ///< the parts' names
+  std::string camera, driver;  ///< names of the parts
   int width_px = 0, height_px = 0;
-  std::optional<double> rate_hz;  ///< of the frames that came; empty for a single one
+  std::optional<double> rate_hz;  ///< of the received frames; empty for a single frame
   std::uint64_t frames = 0, dropped = 0, corrupt = 0;
-  double age_s = 0;              ///< of the last frame: from mid-exposure until it is in the program
+  double age_s = 0;              ///< of the last frame, from mid-exposure to arrival in the program
   double delay_s = 0;            ///< see OpenBench::delay
-  std::string guard;             ///< its state in a word
-  std::string cannot_arm;        ///< why the coils cannot be armed; empty when they can
-  std::vector<double> sensed_a;  ///< current of each coil, A; NaN where it is not measured
-  /// Where the estimator sees a swarm; empty when it sees none.
+  std::string guard;             ///< name of its state
+  std::string cannot_arm;        ///< why the coils cannot be armed; empty if they can
+  std::vector<double> sensed_a;  ///< current of each coil, A; NaN if it is not measured
+  /// Swarm detected by the estimator; otherwise empty.
   struct Swarm {
     double cells = 0;
     Vec2 centroid_px;
@@ -63,8 +63,8 @@ struct BenchCheck {
   std::optional<Swarm> swarm;
 };
 
-/// Looks at a bench without letting current flow: pictures for so many seconds, what the guard says, and
-/// where the estimator sees a swarm. For `faba rig check`.
+/// Checks a bench without current: reads pictures for `seconds`, the state of the guard, and the estimate of
+/// the swarm. For `faba rig check`.
 BenchCheck check_bench(Scenario s, std::uint64_t seed, double seconds);
 
 }  // namespace faba

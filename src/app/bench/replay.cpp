@@ -12,14 +12,13 @@
 namespace faba {
 
 Replayed replay_run(const std::filesystem::path& dir,
-                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& keep_running) {
+                    const std::function<bool(std::uint64_t done, std::uint64_t total)>& keep_running) {
   std::error_code ec;
   const auto commands = dir / run_files::kCommands, video = dir / "video.avi";
   if (!std::filesystem::exists(commands, ec))
-    throw Error(Errc::input, dir.string(), "is no run on a bench: it has no commands.csv");
+    throw Error(Errc::input, dir.string(), "is not a run on a bench: commands.csv not found");
   if (!std::filesystem::exists(video, ec))
-    throw Error(Errc::input, dir.string(),
-                "has no video.avi with the pictures as they were; record it with record.lossless = true");
+    throw Error(Errc::input, dir.string(), "video.avi not found; record the run with record.lossless = true");
   const Scenario s = read_scenario(read_toml(dir / run_files::kScenario), builtin_parts());
   BenchControls controls(s);
   ReplayRig rig(video, commands);
@@ -29,13 +28,13 @@ Replayed replay_run(const std::filesystem::path& dir,
     stopped = !keep_running(loop.next, rig.frames());
     return !stopped;
   });
-  if (stopped) throw Error(Errc::interrupted, dir.string(), "was not replayed to its end");
+  if (stopped) throw Error(Errc::interrupted, dir.string(), "replay interrupted");
   if (loop.next < rig.frames())
     throw Error(Errc::input, video.string(),
-                fmt::format("ends after {} frames, and commands.csv has {}", loop.next, rig.frames()));
+                fmt::format("has {} frames, but commands.csv has {}", loop.next, rig.frames()));
   if (rig.more())
     throw Error(Errc::input, commands.string(),
-                fmt::format("ends after {} frames, and video.avi has more", rig.frames()));
+                fmt::format("has {} frames, but video.avi has more", rig.frames()));
   return {rig.frames(), rig.equal(), rig.first_other()};
 }
 

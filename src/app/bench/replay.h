@@ -6,16 +6,17 @@
 
 namespace faba {
 
-/// How the commands of a recorded bench run compare with those that its pictures lead to now.
+/// Comparison of the commands of a recorded bench run with those computed again from its pictures.
 struct Replayed {
   std::uint64_t recorded = 0;                ///< commands in the recording
-  std::uint64_t equal = 0;                   ///< of them the same bit for bit
-  std::optional<std::uint64_t> first_other;  ///< frame of the first that is not
+  std::uint64_t equal = 0;                   ///< number of bit-identical commands
+  std::optional<std::uint64_t> first_other;  ///< frame of the first different command
 };
 
-/// Does the decisions of the run in `dir` again. Throws Error(input) when it is none of a bench, or kept no
-/// lossless video. `keep_running` is asked after every frame; Error(interrupted) when it says no.
+/// Computes the commands of the run in `dir` again. Throws Error(input) if it is not a run on a bench or has
+/// no lossless video. `keep_running` is called after every frame; throws Error(interrupted) if it returns
+/// false.
 Replayed replay_run(const std::filesystem::path& dir,
-                    const std::function<bool(std::uint64_t done, std::uint64_t of)>& keep_running);
+                    const std::function<bool(std::uint64_t done, std::uint64_t total)>& keep_running);
 
 }  // namespace faba

@@ -17,16 +17,15 @@
 namespace faba {
 namespace {
 
-constexpr double kSlice = 1e-3;  // s between looks at the sockets, and lines of the log while currents change
-constexpr double kSending = 0.5;  // s that a client may take for what is a few bytes
-constexpr double kFetching = 10;  // s for a frame: who has just connected has its coils to open first
-constexpr auto kAlive = std::chrono::milliseconds(10);  // between looks at whether a client is still there
-constexpr double kStep = 2e-3;  // s, the longest of the world: a command waits for the next to begin
-constexpr double kAffordable =
-    2e7;  // steps of cells a second, a fifth of what a core makes (bench/results/agents.md)
-constexpr double kNobody = 30;        // s after which a bench that is to serve once ends, when nobody comes
-constexpr double kAlone = 5;          // s after which it does when everybody has gone
-constexpr double kNoticeable = 1e-5;  // A
+constexpr double kSocketPeriod = 1e-3;   // s between polls of the sockets and log lines while currents change
+constexpr double kMessageTimeout = 0.5;  // s to send or receive a message of a few bytes
+constexpr double kFrameTimeout = 10;     // s to send a frame; a new client opens its coils first
+constexpr auto kClientPollPeriod = std::chrono::milliseconds(10);  // checks whether a client is connected
+constexpr double kLongestStep = 2e-3;        // s, of the world; a command takes effect at the next step
+constexpr double kCellStepsPerSecond = 2e7;  // a fifth of the speed of a core (bench/results/agents.md)
+constexpr double kFirstClientTimeout = 30;   // s with --once, until the first client connects
+constexpr double kNoClientTimeout = 5;       // s with --once, after the last client has disconnected
+constexpr double kLoggedChange = 1e-5;       // A, minimum change of a logged current
 
 struct CoilEvent {
   double t;
@@ -34,7 +33,7 @@ struct CoilEvent {
   bool enable;
 };
 
-// The coils' side: takes voltages as they come and logs what flows.
+// Coil side: receives voltages and logs the currents.
 class Coils {
  public:
   Coils(const BenchParams& p, std::size_t outputs, const std::filesystem::path& log)
@@ -50,26 +49,26 @@ class Coils {
   void connect(BenchSocket s) {
     const BenchDevice device{std::uint32_t(outputs_), p_.amplifier.enable_line ? 1U : 0U};
     socket_ = std::move(s);
-    if (!socket_.write(&device, sizeof device, kSending)) socket_.close();
+    if (!socket_.write(&device, sizeof device, kMessageTimeout)) socket_.close();
   }
   bool connected() const { return bool(socket_); }
 
-  // Reads what has come; to be called every kSlice.
+  // Reads the received messages; to be called every kSocketPeriod.
   void work() {
     BenchVolts m;
     while (socket_) {
       const auto got = socket_.read(&m, sizeof m, 0);
       if (got == BenchSocket::Got::nothing) break;
       if (got == BenchSocket::Got::closed) {
-        socket_.close();  // the voltages stay as they are, as those of an unplugged device do
+        socket_.close();  // the voltages do not change, as with an unplugged device
         break;
       }
       if (m.set) take(m);
-      if (m.tell) tell();
+      if (m.tell) send_sensed();
     }
     record(monotonic_now());
   }
-  // Events until time t, for the world.
+  // Removes and returns the events until time t, for the world.
   std::vector<CoilEvent> until(double t) {
     const std::lock_guard lock(mutex_);
     std::vector<CoilEvent> due;
@@ -93,19 +92,19 @@ class Coils {
     }
     record(now);
   }
-  void tell() {
+  void send_sensed() {
     BenchSense answer;
     amplifier_.at(monotonic_now());
     const std::vector<double> volts = amplifier_.sensed();
     std::copy(volts.begin(), volts.end(), answer.volts.begin());
-    if (!socket_.write(&answer, sizeof answer, kSending)) socket_.close();
+    if (!socket_.write(&answer, sizeof answer, kMessageTimeout)) socket_.close();
   }
   void record(double now) {
     if (!log_) return;
     const std::vector<double>& i = amplifier_.at(now);
     bool changed = logged_.empty() || relay_ != amplifier_.enabled() || logged_enable_ != enable_;
     for (std::size_t k = 0; k < outputs_ && !changed; ++k)
-      changed = std::fabs(i[k] - logged_[k]) > kNoticeable || volts_[k] != logged_[outputs_ + k];
+      changed = std::fabs(i[k] - logged_[k]) > kLoggedChange || volts_[k] != logged_[outputs_ + k];
     if (!changed) return;
     relay_ = amplifier_.enabled();
     logged_enable_ = enable_;
@@ -127,7 +126,7 @@ class Coils {
   std::deque<CoilEvent> events_;
 };
 
-// The camera's side: hands the newest frame to whoever is connected.
+// Camera side: sends the newest frame to the connected client.
 class Sender {
  public:
   explicit Sender(double rate) : rate_(rate), thread_([this](const std::stop_token& s) { work(s); }) {}
@@ -156,7 +155,7 @@ class Sender {
     BenchSocket socket;
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
-      came_.wait_for(lock, kAlive, [&] { return image_ || stop.stop_requested(); });
+      came_.wait_for(lock, kClientPollPeriod, [&] { return image_ || stop.stop_requested(); });
       if (socket && socket.hung_up()) {
         socket.close();
         connected_ = bool(fresh_);
@@ -170,8 +169,8 @@ class Sender {
       const BenchFrame head{number_, t_, image->width, image->height, rate_};
       if (!socket) continue;
       lock.unlock();
-      const bool sent = socket.write(&head, sizeof head, kFetching) &&
-                        socket.write(image->px.data(), image->px.size(), kFetching);
+      const bool sent = socket.write(&head, sizeof head, kFrameTimeout) &&
+                        socket.write(image->px.data(), image->px.size(), kFrameTimeout);
       if (!sent) socket.close();
       lock.lock();
       if (!sent && !fresh_) connected_ = false;
@@ -190,31 +189,32 @@ class Sender {
   std::jthread thread_;
 };
 
-/// The scenario as the bench's camera shows it, in steps that a machine can compute in real time.
+/// The scenario with camera pictures, and with steps that a machine can compute in real time.
 Scenario in_real_time(Scenario s) {
   s.camera.sensor = CameraParams::Sensor::frames;
   s.camera.delay_frames = 0;
   double cells = 0;
   for (const Swarm& swarm : s.swarms) cells += double(swarm.params.count);
-  s.simulation.longest = std::max(kStep, cells / kAffordable);
+  s.simulation.longest = std::max(kLongestStep, cells / kCellStepsPerSecond);
   return s;
 }
 
-void welcome(BenchSocket come, Coils& coils, Sender& sender) {
+void accept_client(BenchSocket client, Coils& coils, Sender& sender) {
   BenchHello hello;
-  if (come.read(&hello, sizeof hello, kSending) != BenchSocket::Got::all || hello.version != kBenchVersion)
+  if (client.read(&hello, sizeof hello, kMessageTimeout) != BenchSocket::Got::all ||
+      hello.version != kBenchVersion)
     return;
-  // One at a time: who comes second is turned away, and finds the connection closed.
+  // One client per role: the connection of a second one is closed.
   if (hello.role == BenchHello::Role::coils && !coils.connected())
-    coils.connect(std::move(come));
+    coils.connect(std::move(client));
   else if (hello.role == BenchHello::Role::camera && !sender.connected())
-    sender.connect(std::move(come));
+    sender.connect(std::move(client));
 }
 
 }  // namespace
 
 SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool& pool, const Options& o) {
-  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench to be simulated");
+  if (!s.rig) throw Error(Errc::usage, "rig", "section is missing; a simulated bench needs a [rig] section");
   const BenchParams bench = s.rig->bench;
   s = in_real_time(std::move(s));
   Simulation simulation(s, seed, pool);
@@ -232,24 +232,24 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
   Coils coils(bench, outputs, o.log);
   if (o.ready) o.ready();
   Sender sender(s.camera.rate);
-  std::atomic<bool> left_alone = false;
+  std::atomic<bool> no_clients = false;
   std::jthread io([&](const std::stop_token& stop) {
-    double until = monotonic_now() + kNobody;
+    double until = monotonic_now() + kFirstClientTimeout;
     while (!stop.stop_requested()) {
-      coils.work();  // first, so that one that has just gone is not in the next one's way
-      if (BenchSocket come = listener.accept(0)) welcome(std::move(come), coils, sender);
-      if (coils.connected() || sender.connected()) until = monotonic_now() + kAlone;
-      if (o.once && monotonic_now() > until) left_alone = true;
-      std::this_thread::sleep_for(std::chrono::duration<double>(kSlice));
+      coils.work();  // first, to release the role of a client that has disconnected
+      if (BenchSocket client = listener.accept(0)) accept_client(std::move(client), coils, sender);
+      if (coils.connected() || sender.connected()) until = monotonic_now() + kNoClientTimeout;
+      if (o.once && monotonic_now() > until) no_clients = true;
+      std::this_thread::sleep_for(std::chrono::duration<double>(kSocketPeriod));
     }
   });
 
   Summary summary;
   Amplifier amplifier(bench.amplifier, outputs);
   const double began = monotonic_now();
-  const auto stopped = [&] { return left_alone || (o.stop && o.stop->load()); };
+  const auto stopped = [&] { return no_clients || (o.stop && o.stop->load()); };
   simulation.rig().before_steps([&] {
-    // A step is made when its time is over: by then all that flowed in it is known.
+    // A step is computed after its end in real time, when all currents during it are known.
     const double t = began + world.state().t, over = t + world.parts().dt;
     for (double left = over - monotonic_now(); left > 0 && !stopped(); left = over - monotonic_now())
       std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left, 0.05)));

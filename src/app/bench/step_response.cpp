@@ -19,13 +19,13 @@ namespace faba {
 namespace {
 
 constexpr const char* kStudy = "study.toml";
-constexpr double kRound = 1e-9;  // share of a current that is rounding
-constexpr double kLook = 0.05;   // s between looks at the clock while nothing is to be done
+constexpr double kCurrentRounding = 1e-9;  // relative rounding error of a current
+constexpr double kWaitPeriod = 0.05;       // s between checks of the clock while waiting
 
-Json field_words(Vec2 b) { return {fmt::format("{} T", b.x), fmt::format("{} T", b.y)}; }
+Json field_json_text(Vec2 b) { return {fmt::format("{} T", b.x), fmt::format("{} T", b.y)}; }
 
-// The scene with fields in place of its controller: one that drives the cells to a side, and another after
-// `before`.
+// The scenario with a manual field in place of its controller: `gather` drives the cells to one side,
+// `respond` reverses the field after `before`.
 struct Scenes {
   Scenario gather, respond;
 };
@@ -34,42 +34,43 @@ Scenes scenes_of(Document d) {
   for (const char* key : {"reference", "controller", "event"}) d.root.erase(key);
   if (!d.root.contains("estimator")) d.set("estimator", Json("image"), "step-response");
   const Scenario s = read_scenario(d, builtin_parts());
-  if (!s.rig) throw Error(Errc::usage, "rig", "the scenario has no [rig], the bench to record on");
+  if (!s.rig) throw Error(Errc::usage, "rig", "section is missing; a step response needs a [rig] section");
   const StepResponseParams& p = s.rig->step_response;
-  const auto way = portable::sincos(p.direction * kDegree);
-  // Picture directions turn clockwise, the world's y is up; south-seeking cells swim against the field.
-  const Vec2 field = (s.polarity() * p.field) * Vec2{way.cos, -way.sin};
-  const Json there = {{"type", "manual"}, {"field", field_words(field)}};
-  Json back = there;
-  back["segment"] =
-      Json::array({{{"at", fmt::format("{} s", p.before)}, {"field", field_words(-1.0 * field)}}});
-  d.set("controller", there, "step-response");
+  const auto direction = portable::sincos(p.direction * kDegree);
+  // Angles in pictures are clockwise, the world's y is up; south-seeking cells swim against the field.
+  const Vec2 field = (s.polarity() * p.field) * Vec2{direction.cos, -direction.sin};
+  const Json forward = {{"type", "manual"}, {"field", field_json_text(field)}};
+  Json reversed = forward;
+  reversed["segment"] =
+      Json::array({{{"at", fmt::format("{} s", p.before)}, {"field", field_json_text(-1.0 * field)}}});
+  d.set("controller", forward, "step-response");
   d.set("duration", Json(fmt::format("{} s", p.gather)), "step-response");
   const Scenario gather = read_scenario(d, builtin_parts());
-  d.set("controller", back, "step-response");
+  d.set("controller", reversed, "step-response");
   d.set("duration", Json(fmt::format("{} s", p.before + p.record)), "step-response");
   d.set("record.lossless", Json(true), "step-response");
   return {gather, read_scenario(d, builtin_parts())};
 }
 
-// Coils that are asked for more than they take give another field, and in another direction.
+// Coils at their current limit would give another field, in another direction.
 void check_field(const Scenario& s) {
   const BenchControls c(s);
-  const double wanted = s.rig->step_response.field;
-  const Command asked = c.controller->update({}, {}, s.frame_period());
+  const double field = s.rig->step_response.field;
+  const Command command = c.controller->update({}, {}, s.frame_period());
   const std::vector<double> common = c.field->max_currents(s.limits.max_current),
                             wired = s.rig->max_current();
-  double share = 1;
-  for (std::size_t k = 0; k < asked.current.size(); ++k)
-    if (const double i = std::fabs(asked.current[k]); i > 0)
-      share = std::min(share, std::min(common[k], wired[k]) / i);
-  if (share < 1 - kRound)
-    throw Error(Errc::usage, "rig.step_response.field",
-                fmt::format("is {:.1f} uT; with the currents that these coils take they give {:.1f} uT",
-                            1e6 * wanted, 1e6 * share * wanted));
+  double fraction = 1;
+  for (std::size_t k = 0; k < command.current.size(); ++k)
+    if (const double i = std::fabs(command.current[k]); i > 0)
+      fraction = std::min(fraction, std::min(common[k], wired[k]) / i);
+  if (fraction < 1 - kCurrentRounding)
+    throw Error(
+        Errc::usage, "rig.step_response.field",
+        fmt::format("{:.1f} uT is out of range; the maximum at the current limits of the coils is {:.1f} uT",
+                    1e6 * field, 1e6 * fraction * field));
 }
 
-// The study file: what is there already stays.
+// The study file; existing entries are kept.
 class StudyFile {
  public:
   StudyFile(const std::filesystem::path& dir, const StepResponseParams& p, std::string experiment)
@@ -80,7 +81,8 @@ class StudyFile {
     const Json& videos = root_["video"];
     if (!videos.is_array() ||
         !std::all_of(videos.begin(), videos.end(), [](const Json& v) { return v.is_object(); }))
-      throw Error(Errc::usage, path_.string() + ": video", "must be [[video]] tables; choose another --out");
+      throw Error(Errc::usage, path_.string() + ": video",
+                  "must be an array of tables [[video]]; choose another --out");
     if (experiment_.empty()) {
       std::vector<std::string> names;
       for (const Json& v : root_["video"])
@@ -108,31 +110,31 @@ class StudyFile {
   double direction_ = 0, from_ = 0;  ///< deg; s
 };
 
-// A schedule in time, that somebody may stop.
+// A schedule in real time that can be stopped.
 class Schedule {
  public:
   Schedule(const StepResponseJob& job, const StepResponseParams& p)
       : job_(job),
         began_(monotonic_now()),
-        whole_(p.every * (p.repeat - 1) + p.gather + p.before + p.record) {}
+        total_(p.every * (p.repeat - 1) + p.gather + p.before + p.record) {}
   double now() const { return monotonic_now() - began_; }
   bool stopped() const { return job_.run.stop && job_.run.stop->load(); }
   bool keep_running() const {
     if (job_.run.progress)
-      job_.run.progress(std::uint64_t(1e3 * std::min(now(), whole_)), std::uint64_t(1e3 * whole_));
+      job_.run.progress(std::uint64_t(1e3 * std::min(now(), total_)), std::uint64_t(1e3 * total_));
     return !stopped();
   }
   void wait_until(double t) const {
     while (now() < t && keep_running())
-      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kLook, t - now())));
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kWaitPeriod, t - now())));
   }
 
  private:
   const StepResponseJob& job_;
-  double began_, whole_;  ///< s
+  double began_, total_;  ///< s
 };
 
-// Drives the cells to one side, and says where the swarm is then.
+// Drives the cells to one side and measures the position of the swarm.
 void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, RecordedResponse& out) {
   BenchControls controls(s);
   BenchRig& rig = bench.rig({});
@@ -156,7 +158,9 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
 
 std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) {
   if (job.experiment.find('/') != std::string::npos || job.experiment.starts_with('.'))
-    throw Error(Errc::usage, "--experiment", "is a name for files: without / and no dot in front");
+    throw Error(Errc::usage, "--experiment",
+                fmt::format("\"{}\" is not a valid file name; it must not contain / or start with a dot",
+                            job.experiment));
   Scenes scenes = scenes_of(job.scene);
   const StepResponseParams p = scenes.gather.rig->step_response;
   check_field(scenes.gather);
@@ -168,40 +172,40 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
   scenes.respond.camera.rate = scenes.gather.camera.rate;
   bench.try_coils();
   std::filesystem::create_directories(job.run.out, ec);
-  if (ec) throw Error(Errc::usage, job.run.out.string(), "cannot be made: " + ec.message());
+  if (ec) throw Error(Errc::usage, job.run.out.string(), "cannot be created: " + ec.message());
   bench.rig(job.run.out / fmt::format("coils-{}.log", study.experiment()));
   scenes.gather.rig->params.delay = scenes.respond.rig->params.delay =
-      scenes.gather.rig->params.delay.value_or(0);  // a schedule reckons with none
+      scenes.gather.rig->params.delay.value_or(0);  // delays do not matter for a schedule
 
   std::vector<RecordedResponse> all;
   const Schedule schedule(job, p);
   const auto check = [&] {
     if (schedule.stopped())
       throw Error(Errc::interrupted, job.run.out.string(),
-                  fmt::format("has {} of {} step responses", all.size(), p.repeat));
+                  fmt::format("interrupted after {} of {} step responses", all.size(), p.repeat));
   };
   for (int i = 0; i < p.repeat; ++i) {
     schedule.wait_until(i * p.every);
     check();
-    RecordedResponse one;
-    gather(bench, scenes.gather, schedule, one);
+    RecordedResponse response;
+    gather(bench, scenes.gather, schedule, response);
     check();
     Scenario s = scenes.respond;
-    one.exposure = s.params.exposure = scenes.gather.params.exposure + schedule.now();
+    response.exposure = s.params.exposure = scenes.gather.params.exposure + schedule.now();
     RunOptions o = job.run;
-    o.out /= fmt::format("{}-{:.0f}s", study.experiment(), one.exposure);
+    o.out /= fmt::format("{}-{:.0f}s", study.experiment(), response.exposure);
     o.numbered = true;
     o.progress = [&](std::uint64_t, std::uint64_t) { (void)schedule.keep_running(); };
     BenchSession session =
         BenchSession::begin(s, std::shared_ptr<OpenBench>(&bench, [](OpenBench*) {}), job.seed, o);
-    one.dir = session.dir();
+    response.dir = session.dir();
     if (!session.run()) check();
-    one.frames = session.manifest().frames;
-    one.dropped = session.manifest().bench->frames_dropped;
-    if (job.done) job.done(one);
+    response.frames = session.manifest().frames;
+    response.dropped = session.manifest().bench->frames_dropped;
+    if (job.done) job.done(response);
     session.complete();
-    study.add(one);
-    all.push_back(one);
+    study.add(response);
+    all.push_back(response);
   }
   return all;
 }

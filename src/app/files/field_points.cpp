@@ -13,7 +13,7 @@
 namespace faba {
 namespace {
 
-constexpr double kLargest = 1e3;  // m and T: no laboratory has more
+constexpr double kLargest = 1e3;  // m and T
 
 std::vector<double> numbers(const H5Table& t) {
   std::vector<double> v(std::size_t(t.rows()));
@@ -32,7 +32,7 @@ Table from_hdf5(const std::filesystem::path& file) {
   if (b.row_size() % 3 != 0 || y.size() != rows || x.size() != (grid ? columns : rows) ||
       (!z.empty() && (grid || z.size() != rows)))
     throw Error(Errc::input, file.string(),
-                "b_t, x_m, y_m and z_m do not fit together; see `faba parts field map`");
+                "the sizes of b_t, x_m, y_m and z_m do not match; see `faba parts field map`");
   std::vector<std::vector<double>> columns_of_points(6);
   std::vector<double> row(b.row_size());
   for (std::size_t r = 0; r < rows; ++r) {
@@ -42,8 +42,9 @@ Table from_hdf5(const std::filesystem::path& file) {
                                          row[3 * c],         row[3 * c + 1], row[3 * c + 2]};
       for (std::size_t k = 0; k < values.size(); ++k) {
         if (!(std::fabs(values[k]) <= kLargest))
-          throw Error(Errc::input, file.string(),
-                      fmt::format("a value in row {} is not finite, or above {:g} m or T", r, kLargest));
+          throw Error(
+              Errc::input, file.string(),
+              fmt::format("a value in row {} is not finite or greater than {:g} m or T", r, kLargest));
         columns_of_points[k].push_back(values[k]);
       }
     }
@@ -54,9 +55,9 @@ Table from_hdf5(const std::filesystem::path& file) {
 }  // namespace
 
 Table read_field_points(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".h5" || ending == ".hdf5" ? from_hdf5(file) : read_table(file);
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".h5" || extension == ".hdf5" ? from_hdf5(file) : read_table(file);
 }
 
 }  // namespace faba

@@ -5,10 +5,10 @@
 
 namespace faba {
 
-/// The table of a measured or computed field, for field_data(): CSV, or HDF5 told by its name (.h5, .hdf5) as
-/// `faba field map` writes it: `b_t` with rows of (x, y, z) along `x_m`, one row for each of `y_m`, in the
-/// plane z = 0; or `b_t` with one (x, y, z) a row and `x_m`, `y_m`, `z_m` as long. Throws Error(input) naming
-/// the file and what is expected.
+/// Table of a measured or computed field, for field_data(), from CSV or HDF5 (file extension .h5 or .hdf5).
+/// HDF5 has the format of `faba field map`: `b_t` (y, x, component) on the grid `x_m` by `y_m` in the plane z
+/// = 0; or `b_t` (point, component) with `x_m`, `y_m`, `z_m` (point). Throws Error(input) with the file and
+/// the reason.
 Table read_field_points(const std::filesystem::path& file);
 
 }  // namespace faba

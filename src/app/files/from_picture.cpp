@@ -14,10 +14,10 @@ void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_
   options.name = picture_or_video.string();
   const DropEdge edge = find_drop_edge(picture.grey, options);
   if (!edge.centre_side_inside)
-    throw Error(Errc::input, options.name,
-                "shows an air bubble in the liquid, not a drop: the cells are outside of the circle; give a "
-                "picture of a "
-                "drop, or write the arena by hand");
+    throw Error(
+        Errc::input, options.name,
+        "the picture shows an air bubble in liquid, not a drop: the cells are outside the circle; use a "
+        "picture of a drop, or write the [arena] section manually");
   const std::string origin = "--from-video " + picture_or_video.string();
   scenario.set("arena",
                Json{{"type", "drop"},
@@ -26,7 +26,7 @@ void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_
                     {"radius_px", edge.radius_px}},
                origin);
   if (!scenario.root.contains("swarm") || !scenario.root["swarm"].is_array())
-    return;  // the reader will say so
+    return;  // read_scenario() reports the error
   for (std::size_t i = 0; i < scenario.root["swarm"].size(); ++i)
     if (scenario.root["swarm"][i].is_object() && !scenario.root["swarm"][i].contains("start"))
       scenario.set(fmt::format("swarm[{}].start", i), Json("visible"), origin);

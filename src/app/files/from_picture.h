@@ -5,10 +5,9 @@
 
 namespace faba {
 
-/// Fits a scenario to a real drop (theory A13): finds the drop's edge in a picture, or in the first
-/// frame of a video, and makes the scenario's arena that drop, in the picture's own pixel grid. Swarms
-/// without a start of their own begin in the visible part of the drop. Throws Error(input) when there is no
-/// usable picture or no edge in it.
+/// Sets the arena of a scenario to a real drop (theory A13): detects the edge of the drop in a picture, or in
+/// the first frame of a video, in the pixel grid of the picture. Swarms without `start` get "visible": they
+/// start in the visible part of the drop. Throws Error(input) if there is no usable picture or no edge in it.
 void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_video);
 
 }  // namespace faba

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kFormat = "faba field library 1";
 
-/// What a library is made of, in its file.
+/// The tables of a library file.
 struct Tables {
   H5Table current, zero, gradient, field;
   explicit Tables(const H5File& f)
@@ -20,7 +20,7 @@ struct Tables {
         zero(f.table("zero_m")),
         gradient(f.table("gradient_t_per_m")),
         field(f.table("field_t")) {}
-  /// Entries that are there in full.
+  /// Number of complete entries.
   std::uint64_t rows() const {
     return std::min({current.rows(), zero.rows(), gradient.rows(), field.rows()});
   }
@@ -36,18 +36,19 @@ struct Tables {
   }
 };
 
-Error no_library(const std::filesystem::path& file, const Error& reason) {
+Error invalid_library(const std::filesystem::path& file, const Error& reason) {
   return {
       Errc::input, file.string(),
-      fmt::format("is not a whole field library ({}); make one with `faba field library RIG.toml --out FILE`",
-                  std::string(reason.what()).substr(reason.where().empty() ? 0 : reason.where().size() + 2))};
+      fmt::format(
+          "is not a complete field library ({}); create one with `faba field library RIG.toml --out FILE`",
+          std::string(reason.what()).substr(reason.where().empty() ? 0 : reason.where().size() + 2))};
 }
 
 H5File opened(const std::filesystem::path& file) {
   try {
     return H5File::open(file);
   } catch (const Error& e) {
-    throw no_library(file, e);
+    throw invalid_library(file, e);
   }
 }
 
@@ -55,7 +56,7 @@ FieldLibrary::Content content_of(const std::filesystem::path& path) {
   const auto file = std::make_shared<const H5File>(opened(path));
   FieldLibrary::Content c;
   c.source = path.string();
-  if (file->text_attribute("/", "format") != kFormat) throw Error(Errc::input, "", "format");
+  if (file->text_attribute("/", "format") != kFormat) throw Error(Errc::input, "", "unknown format");
   c.rig = file->text_attribute("/", "rig");
   const auto number = [&](const char* name) { return file->number_attribute("/", name); };
   c.grid = {{number("low_x_m"), number("low_y_m")},
@@ -66,7 +67,7 @@ FieldLibrary::Content content_of(const std::filesystem::path& path) {
   std::uint64_t entries = 0;
   file->table("entries").read<std::uint64_t>(0, {&entries, 1});
   if (tables.rows() != entries || tables.field.row_size() != 2 * c.grid.nodes())
-    throw Error(Errc::input, "", "tables do not fit together");
+    throw Error(Errc::input, "", "the sizes of the tables do not match");
   for (std::uint64_t i = 0; i < entries; ++i) c.entries.push_back(tables.entry(i));
   c.field = [file, nodes = c.grid.nodes()](std::size_t entry) {
     std::vector<float> values(2 * nodes);
@@ -82,7 +83,7 @@ std::shared_ptr<const FieldLibrary> open_library(const std::filesystem::path& fi
   try {
     return std::make_shared<const FieldLibrary>(content_of(file));
   } catch (const Error& e) {
-    throw no_library(file, e);
+    throw invalid_library(file, e);
   }
 }
 
@@ -91,7 +92,7 @@ std::string library_task(const std::filesystem::path& file) {
   try {
     return h5.text_attribute("/", "task");
   } catch (const Error& e) {
-    throw no_library(file, e);
+    throw invalid_library(file, e);
   }
 }
 
@@ -105,7 +106,7 @@ LibraryWriter::LibraryWriter(const std::filesystem::path& file, const std::strin
   gradient_ = file_.table<double>("gradient_t_per_m", {2}, 1024, 2, false);
   field_ = file_.table<float>("field_t", {rows, columns, 2}, 1, rows, true);
   tried_ = file_.table<std::uint64_t>("tried", {}, 1024, 1, false);
-  whole_ = file_.table<std::uint64_t>("entries", {}, 1, 1, false);
+  entries_ = file_.table<std::uint64_t>("entries", {}, 1, 1, false);
   file_.attribute("/", "format", std::string(kFormat));
   file_.attribute("/", "rig", rig);
   file_.attribute("/", "task", task);
@@ -117,20 +118,20 @@ LibraryWriter::LibraryWriter(const std::filesystem::path& file, const std::strin
                                     {"coils", double(coils)}})
     file_.attribute("/", name, value);
   file_.begin_writing();
-  take_over(task);
+  import_unfinished(task);
 }
 
-// HDF5 cannot go on in a file whose writer was killed, but it can read it.
-void LibraryWriter::take_over(const std::string& task) {
+// HDF5 cannot append to a file whose writer was killed, but can read it.
+void LibraryWriter::import_unfinished(const std::string& task) {
   std::error_code ec;
   if (std::filesystem::exists(part_, ec)) try {
       const H5File old = H5File::open(part_);
       if (old.text_attribute("/", "task") == task) {
         const Tables tables(old);
         const H5Table combination = old.table("combination");
-        const std::uint64_t whole = std::min(tables.rows(), combination.rows());
+        const std::uint64_t complete = std::min(tables.rows(), combination.rows());
         std::vector<float> nodes(field_->row_size());
-        for (std::uint64_t i = 0; i < whole; ++i) {
+        for (std::uint64_t i = 0; i < complete; ++i) {
           std::uint64_t from = 0;
           combination.read<std::uint64_t>(i, {&from, 1});
           tables.field.read<float>(i, nodes);
@@ -143,7 +144,8 @@ void LibraryWriter::take_over(const std::string& task) {
         if (combinations > done_) tried(combinations);
       }
     } catch (const Error& e) {
-      if (e.code() != Errc::input) throw;  // else what could be read is kept, and the rest is made again
+      if (e.code() != Errc::input)
+        throw;  // otherwise the readable entries are kept, and the rest is computed again
     }
   file_.rename_complete(part_);
 }
@@ -161,15 +163,15 @@ void LibraryWriter::add(std::uint64_t combination, const LibraryEntry& e, std::s
 }
 
 void LibraryWriter::tried(std::uint64_t combinations) {
-  file_.sync();  // entries first: what counts as tried must be there
+  file_.sync();  // entries first: those of all tried sets must be on the disk
   tried_->append<std::uint64_t>({&combinations, 1});
   done_ = combinations;
 }
 
 void LibraryWriter::finish() {
   const std::uint64_t n = entries();
-  whole_->append<std::uint64_t>({&n, 1});
-  for (auto* table : {&combination_, &current_, &zero_, &gradient_, &field_, &tried_, &whole_})
+  entries_->append<std::uint64_t>({&n, 1});
+  for (auto* table : {&combination_, &current_, &zero_, &gradient_, &field_, &tried_, &entries_})
     table->reset();
   file_.close();
   rename_complete(part_, path_);

@@ -8,36 +8,36 @@
 namespace faba {
 
 Schema<Limits::Params> Limits::schema() {
-  return Schema<Params>("limits", "What the loop lets through to the coils")
+  return Schema<Params>("limits", "Limits of the commands that the control loop sends to the coils")
       .add("max_current", &Params::max_current,
-           {.unit = "A", .min = 0, .max = 1000, .doc = "Largest current in any coil", .source = "assumed"})
+           {.unit = "A", .min = 0, .max = 1000, .doc = "Maximum current in any coil", .source = "assumed"})
       .add("max_slew", &Params::max_slew,
            {.unit = "A/s",
             .min = 1e-6,
             .max = 1e9,
-            .doc = "Fastest change of any current; unlimited when absent"})
+            .doc = "Maximum rate of change of any current; default: unlimited"})
       .add("max_frame_age", &Params::max_frame_age,
            {.unit = "s",
             .min = 1e-3,
             .max = 1e6,
-            .doc = "Older pictures are not acted on: all currents go to zero"});
+            .doc = "Maximum age of a picture; for an older one all currents are set to zero"});
 }
 
 double Limits::limited(std::size_t coil, double current, double dt) const {
-  const double most = most_.empty() ? p_.max_current : std::min(most_[coil], p_.max_current);
-  const double i = std::isfinite(current) ? std::clamp(current, -most, most) : 0;
+  const double limit = max_currents_.empty() ? p_.max_current : std::min(max_currents_[coil], p_.max_current);
+  const double i = std::isfinite(current) ? std::clamp(current, -limit, limit) : 0;
   if (!p_.max_slew) return i;
   const double change = *p_.max_slew * std::max(0.0, dt);
   return std::clamp(i, last_[coil] - change, last_[coil] + change);
 }
 
 bool Limits::apply(Command& c, double dt, double frame_age) {
-  if (!most_.empty() && c.current.size() != most_.size())
+  if (!max_currents_.empty() && c.current.size() != max_currents_.size())
     throw Error(
         Errc::usage, "controller",
-        fmt::format("commands {} currents; the field has {} coils, and a command has one current for each",
-                    c.current.size(), most_.size()));
-  const std::vector<double> asked = c.current;
+        fmt::format("the command has {} currents, but the field has {} coils; give one current per coil",
+                    c.current.size(), max_currents_.size()));
+  const std::vector<double> requested = c.current;
   last_.resize(c.current.size(), 0.0);
   if (!(frame_age <= p_.max_frame_age)) {
     std::fill(c.current.begin(), c.current.end(), 0.0);
@@ -46,7 +46,7 @@ bool Limits::apply(Command& c, double dt, double frame_age) {
     for (std::size_t k = 0; k < c.current.size(); ++k) c.current[k] = limited(k, c.current[k], dt);
   }
   last_ = c.current;
-  return c.current != asked;
+  return c.current != requested;
 }
 
 }  // namespace faba

@@ -9,13 +9,13 @@
 
 namespace faba {
 
-/// What the loop allows between a controller and the coils, whatever the controller says.
+/// Limits of the commands between controller and coils.
 ///
-/// `max_slew` holds for currents that answer a picture. When the picture is older than `max_frame_age`,
-/// nobody knows what the swarm does, and all currents are zero at once: a slow way down would go on steering
-/// by what was seen long ago. The guard of a bench, whose own slew rule has the same limit, lets all-zero
-/// pass at any moment (rig/setup/coil_guard.h), and takes the current away at once itself. The first current
-/// after that is again within `max_slew` of zero.
+/// `max_slew` limits commands that respond to a picture. If the picture is older than `max_frame_age`, the
+/// state of the swarm is unknown and all currents are set to zero immediately; a slow decrease would continue
+/// to steer by an old picture. The guard of a bench has the same slew limit, but permits zero currents at any
+/// time (rig/setup/coil_guard.h), and itself switches off immediately. The first current after that is again
+/// within `max_slew` of zero.
 class Limits {
  public:
   struct Params {
@@ -24,19 +24,19 @@ class Limits {
     double max_frame_age = 1;
   };
   static Schema<Params> schema();
-  /// `most`: the largest current of each coil, A, one per coil; when empty, there are as many coils as a
-  /// command has currents, and they have the common limit alone. `wired`, when given: brings currents to what
-  /// flows in coils that hang on one output.
-  explicit Limits(const Params& p, std::vector<double> most = {},
+  /// `max_currents`: maximum current of each coil, A; if empty, the number of coils is that of the currents
+  /// of a command, and only the common limit applies. `wired`, if given: replaces the currents by those that
+  /// flow in coils that share an output.
+  explicit Limits(const Params& p, std::vector<double> max_currents = {},
                   std::function<void(std::vector<double>&)> wired = {})
-      : p_(p), most_(std::move(most)), wired_(std::move(wired)) {}
+      : p_(p), max_currents_(std::move(max_currents)), wired_(std::move(wired)) {}
 
-  /// Clips to the current limits, and the change since the last command to the slew limit; what is not finite
-  /// counts as zero, which is approached within the slew limit. All zero at once when the frame is older than
-  /// allowed or its age is not a number. `dt`, s: since the last command. Returns whether anything was
-  /// changed. Throws Error(usage) for another number of currents than there are coils.
+  /// Clips to the current limits, and the change since the last command to the slew limit; non-finite values
+  /// count as zero, which is approached within the slew limit. Sets all currents to zero immediately if the
+  /// frame age is above the maximum or NaN. `dt`: time since the last command, s. Returns whether the command
+  /// was changed. Throws Error(usage) if the number of currents is not the number of coils.
   bool apply(Command& c, double dt, double frame_age);
-  /// The coils had no current for a while: changes are reckoned from there.
+  /// The coils were de-energised: the slew limit applies from zero.
   void coils_off() { last_.assign(last_.size(), 0.0); }
   void archive(Archive& a) { a& last_; }
 
@@ -44,9 +44,9 @@ class Limits {
   double limited(std::size_t coil, double current, double dt) const;  ///< A
 
   Params p_;
-  std::vector<double> most_;  ///< A
+  std::vector<double> max_currents_;  ///< A
   std::function<void(std::vector<double>&)> wired_;
-  std::vector<double> last_;  ///< A, what was let through last
+  std::vector<double> last_;  ///< A, last command after the limits
 };
 
 }  // namespace faba

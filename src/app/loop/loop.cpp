@@ -5,7 +5,7 @@
 
 namespace faba {
 
-bool turn(Loop& loop) {
+bool run_cycle(Loop& loop) {
   Observation seen;
   if (loop.between) loop.between();
   if (!loop.rig.read(seen)) return false;
@@ -14,7 +14,7 @@ bool turn(Loop& loop) {
   const Target target = loop.reference->update(estimate);
   Command command = loop.controller->update(estimate, target, dt);
   if (seen.coils_off) loop.limits.coils_off();
-  // Nothing flowed in the frames before: a change out of rest has one frame's time, as the guard reckons.
+  // The coils were de-energised: the first change from zero has one frame period, as in the guard.
   const double changing = seen.coils_off ? std::min(dt, loop.frame_period) : dt;
   const bool limited = loop.limits.apply(command, changing, seen.age);
   loop.rig.write(command);
@@ -30,7 +30,7 @@ void run(Loop& loop, std::uint64_t end, const std::function<bool()>& keep_runnin
     Rig& rig;
     ~Guard() { rig.safe(); }
   } guard{loop.rig};
-  while (loop.next < end && turn(loop))
+  while (loop.next < end && run_cycle(loop))
     if (!keep_running()) break;
 }
 

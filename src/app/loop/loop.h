@@ -8,47 +8,47 @@
 
 namespace faba {
 
-/// One turn of the loop, as sinks see it.
+/// Data of one control cycle, for sinks.
 struct Tick {
   std::uint64_t index;
   const Observation& seen;
   const Estimate& estimate;
   const Target& target;
   const Command& command;  ///< after the limits
-  bool limited;            ///< the limits changed it
+  bool limited;            ///< whether the limits changed it
 };
 
-/// Somebody who records.
+/// Receives the data of every control cycle, for example to record it.
 class Sink {
  public:
   virtual ~Sink() = default;
   virtual void take(const Tick& t) = 0;
 };
 
-/// The parts of a control loop. They outlive it, or are exchanged between two turns.
+/// The parts of a control loop. They must outlive it, or are exchanged between two cycles.
 struct Loop {
   Rig& rig;
   Estimator* estimator;
   Reference* reference;
   Controller* controller;
   Limits& limits;
-  double frame_period = 0;  ///< s; stands for the time step in the very first turn
+  double frame_period = 0;  ///< s; used as the time step of the first cycle
   std::vector<Sink*> sinks;
-  std::function<void()> between;  ///< called before every turn, when parts may be exchanged
+  std::function<void()> between;  ///< called before every cycle, when parts may be exchanged
 
-  std::uint64_t next = 0;  ///< index of the next turn; a resumed loop starts where it was
-  double last_t = 0;       ///< time stamp of the frame before, s
-  Command last;            ///< written in the turn before
+  std::uint64_t next = 0;  ///< index of the next cycle; restored when a run is resumed
+  double last_t = 0;       ///< time stamp of the previous frame, s
+  Command last;            ///< command of the previous cycle
 };
 
-/// One turn: read -> estimate -> reference -> control -> limit -> write -> sinks. Returns false when the rig
-/// has no more frames, and then nothing was written. Who calls it sees to it that the rig is made safe; run()
-/// does. Throws Error(usage) when the controller gives another number of currents than there are coils.
-bool turn(Loop& loop);
+/// One control cycle: read -> estimate -> reference -> control -> limit -> write -> sinks. Returns false if
+/// the rig has no more frames; then nothing was written. The caller must call Rig::safe() at the end, as
+/// run() does. Throws Error(usage) if the number of currents of the controller is not the number of coils.
+bool run_cycle(Loop& loop);
 
-/// The only control loop in the program; simulation, replay and hardware differ only in the rig. Takes turns
-/// until turn `end`, until the rig has no more frames, or until `keep_running` (asked after every turn) says
-/// no. The rig is made safe on every way out.
+/// The only control loop in the program; simulation, replay and hardware differ only in the rig. Runs cycles
+/// until cycle `end`, until the rig has no more frames, or until `keep_running` (called after every cycle)
+/// returns false. Calls Rig::safe() in any case, also on exceptions.
 void run(Loop& loop, std::uint64_t end, const std::function<bool()>& keep_running);
 
 }  // namespace faba

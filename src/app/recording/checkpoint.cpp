@@ -40,7 +40,7 @@ Archive read_checkpoint(const std::filesystem::path& file, const std::string& sc
     fail("is not a checkpoint of this version of faba");
   std::uint32_t sum = 0;
   std::memcpy(&sum, in.data() + kMagicSize, 4);
-  if (sum != checksum(in, kMagicSize + 4)) fail("is damaged (its checksum is wrong); run the scenario again");
+  if (sum != checksum(in, kMagicSize + 4)) fail("is corrupt (wrong checksum); run the scenario again");
   Archive body(std::vector<std::uint8_t>(in.begin() + long(kMagicSize) + 4, in.end()));
   std::string hash;
   std::vector<std::uint8_t> bytes;

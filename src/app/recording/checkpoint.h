@@ -6,12 +6,12 @@
 
 namespace faba {
 
-/// A checkpoint file: magic, length and checksum around an Archive's bytes, replaced as a whole.
-/// `scenario_hash` ties it to its scenario.
+/// Writes a checkpoint file: magic, checksum, `scenario_hash` and the bytes of an Archive. An existing file
+/// is replaced atomically. `scenario_hash` identifies the scenario.
 void write_checkpoint(const std::filesystem::path& file, const std::string& scenario_hash,
                       const Archive& content);
 
-/// Throws Error(input) when it is missing, cut short, damaged, of another version, or of another scenario.
+/// Throws Error(input) if it is missing, truncated, corrupt, of another version, or of another scenario.
 Archive read_checkpoint(const std::filesystem::path& file, const std::string& scenario_hash);
 
 }  // namespace faba

@@ -8,12 +8,12 @@
 
 namespace faba {
 
-/// Four numbers of how long something took, ms; not a number when it never happened.
+/// Quantiles of a latency, ms; NaN if there are no values.
 struct Latency {
   double median = 0, p99 = 0, p999 = 0, max = 0;
 };
 
-/// What a run says about itself in its manifest.json (docs/formats/run-directory.md).
+/// Content of manifest.json of a run (docs/formats/run-directory.md).
 struct Manifest {
   std::string title, scenario_hash;
   std::uint64_t seed = 0;
@@ -21,23 +21,24 @@ struct Manifest {
   Vec2 view_px;  ///< width and height of the picture
   std::string arena_type;
   Vec2 arena_centre_px;
-  double arena_radius_px = 0;  ///< of a drop; 0: the arena is a rectangle as large as the view
-  std::string polarity;        ///< "north" or "south": of the cells that are steered
+  double arena_radius_px = 0;  ///< of a drop; 0: the arena is a rectangle of the size of the view
+  std::string polarity;        ///< "north" or "south": of the steered cells
   bool complete = false;
-  std::uint64_t frames = 0;  ///< turns of the control loop
+  std::uint64_t frames = 0;  ///< number of control cycles
   double duration_s = 0, wall_time_s = 0;
-  std::size_t setpoints = 0;  ///< that the reference gives, also those that were not reached
-  std::optional<double> setpoint_tolerance_px;  ///< within which the reference takes one for reached
-  std::string video_shows;                      ///< "camera" or "drawing"
-  std::string distance_source;                  ///< "true" or "estimated": of distance_px in series.csv
+  std::size_t setpoints = 0;  ///< number of setpoints of the reference, reached or not
+  std::optional<double>
+      setpoint_tolerance_px;    ///< distance at which the reference counts a setpoint as reached
+  std::string video_shows;      ///< "camera" or "drawing"
+  std::string distance_source;  ///< "true" or "estimated": of distance_px in series.csv
   std::vector<std::string> notes;
 
-  /// Of a swarm that was simulated.
+  /// A simulated swarm.
   struct Swarm {
     faba::Swarm::Params params;
     std::string model, start;
   };
-  /// Of a simulation.
+  /// Members of a simulated run.
   struct Simulated {
     unsigned threads = 0;
     std::string state_hash;
@@ -47,24 +48,24 @@ struct Manifest {
   };
   std::optional<Simulated> simulated;
 
-  /// Of a bench.
+  /// Members of a run on a bench.
   struct Bench {
     std::string camera, driver;
     std::uint64_t frames_dropped = 0, frames_corrupt = 0;
-    double delay_ms = 0;       ///< that controllers reckon with
-    Latency arrival, command;  ///< from mid-exposure to the program, from there to the coils
+    double delay_ms = 0;       ///< latency that controllers compensate
+    Latency arrival, command;  ///< from mid-exposure to the program; from there to the coils
     std::size_t recorder_most_behind = 0;
     std::string guard_state;
     std::uint64_t guard_commands = 0, guard_refused = 0, command_timeouts = 0;
-    double guard_heat = 0;  ///< of the warmest coil, 1 at its limit
+    double guard_heat = 0;  ///< thermal load of the warmest coil, 1 at its limit
   };
   std::optional<Bench> bench;
 };
 
-/// What any run of a scenario says about it. `frame` and `outline` are of the scenario's arena.
+/// The members of any run of a scenario. `frame` and `outline` are those of its arena.
 Manifest manifest_of(const Scenario& s, std::uint64_t seed, const Frame& frame, const Outline& outline);
 
-/// As manifest.json has them.
+/// JSON as in manifest.json.
 Json swarm_json(const Manifest::Swarm& s);
 Json manifest_json(const Manifest& m);
 

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-constexpr int kStepBack = 10;  // niceness: what is recorded later is no worse, and who steers goes first
+constexpr int kRecorderNiceness = 10;  // recording may be late; the control loop has priority
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void Recorder::finish() {
 
 void Recorder::work() {
   if (!Urgent::possible())
-    (void)setpriority(PRIO_PROCESS, id_t(gettid()), kStepBack);  // of this thread alone
+    (void)setpriority(PRIO_PROCESS, id_t(gettid()), kRecorderNiceness);  // of this thread only
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [&] { return !waiting_.empty() || over_; });

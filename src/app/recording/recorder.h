@@ -9,20 +9,20 @@
 
 namespace faba {
 
-/// Hands every turn to its sinks in a thread of its own, so that a loop in real time does not wait for a
-/// disk. It loses nothing: when the sinks are `kMost` turns behind, the loop waits after all.
+/// Passes every control cycle to its sinks in a separate thread, so that a real-time loop does not wait for
+/// the disk. No data are lost: if the sinks are `kMost` cycles behind, the loop waits.
 class Recorder final : public Sink {
  public:
   static constexpr std::size_t kMost = 300;  // 90 MB of 640 x 480 px
 
-  /// `sinks` outlive it; nobody else calls them until finish().
+  /// `sinks` must outlive it and must not be called by others before finish().
   explicit Recorder(std::vector<Sink*> sinks);
   ~Recorder() override;
-  /// Throws what a sink threw at an earlier turn.
+  /// Throws the exception that a sink threw in an earlier cycle.
   void take(const Tick& t) override;
-  /// Returns when all turns are with the sinks. Throws what one of them threw.
+  /// Returns when the sinks have received all cycles. Throws the exception of a sink.
   void finish();
-  std::size_t most_behind() const { return most_behind_; }  ///< turns
+  std::size_t most_behind() const { return most_behind_; }  ///< maximum backlog, cycles
 
  private:
   struct Kept {

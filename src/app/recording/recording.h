@@ -10,30 +10,28 @@
 
 namespace faba {
 
-/// A run directory while it is filled: its sinks, its checkpoints and its manifest, whether the run is
-/// simulated or on a bench.
+/// Writes a run directory, of a simulated run or a run on a bench: sinks, checkpoints and manifest.
 class Recording {
  public:
   Recording() = default;
-  /// `scenario`: as the run has it, written to the directory unless it is resumed.
+  /// `scenario`: written to the directory unless the run is resumed.
   Recording(RunDirectory directory, const Scenario& scenario, bool resumed);
 
-  /// Opens the sinks that the scenario's [record] asks for, tracks only where the truth is known. `resume`:
-  /// null, or the checkpoint, read as far as what the run itself has put there.
+  /// Opens the sinks given by the scenario's [record]; tracks only with ground truth. `resume`: null, or the
+  /// checkpoint, from which the state of the run has already been read.
   void open_sinks(const SinkContext& c, Archive* resume);
   std::vector<Sink*> sinks() const;
-  /// Brings all files to the disk and writes the checkpoint: the run's own state in `a`, then where sinks
-  /// stand.
+  /// Syncs all files and writes the checkpoint: the state of the run in `a`, then the state of the sinks.
   void checkpoint(Archive& a);
-  /// Completes all files and writes manifest.json. `keep`: what is needed to resume stays.
+  /// Completes all files and writes manifest.json. `keep`: keep the files that are needed to resume.
   void finish(const Manifest& m, bool keep);
-  /// Call when the report, too, is written: the directory is complete, and its marker is removed.
+  /// To be called after the report is written: the directory is complete, and its marker is removed.
   void complete() { directory_.complete(); }
 
   const std::filesystem::path& dir() const { return directory_.path(); }
   /// series.csv, after finish().
   Table series() const { return series_->rows(); }
-  /// Time on the clock since the recording began, s.
+  /// Wall time since the start of the recording, s.
   double wall_time() const;
 
  private:

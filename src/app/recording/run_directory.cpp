@@ -8,10 +8,10 @@ namespace faba {
 namespace {
 
 using namespace run_files;
-constexpr const char* kOurs[] = {kMarker,       kCheckpoint,      kScenario,       kManifest,
-                                 "series.csv",  "tracks.h5",      "tracks.h5.new", "video.mp4.part",
-                                 "video.mp4",   "video.avi.part", "video.avi",     "flow.h5",
-                                 "report.html", kCommands,        kCoilsLog,       "latency.csv"};
+constexpr const char* kRunFiles[] = {kMarker,       kCheckpoint,      kScenario,       kManifest,
+                                     "series.csv",  "tracks.h5",      "tracks.h5.new", "video.mp4.part",
+                                     "video.mp4",   "video.avi.part", "video.avi",     "flow.h5",
+                                     "report.html", kCommands,        kCoilsLog,       "latency.csv"};
 
 bool holds_run(const std::filesystem::path& dir) {
   std::error_code ec;
@@ -19,8 +19,8 @@ bool holds_run(const std::filesystem::path& dir) {
   return RunLock::marks(dir) || (has(kManifest) && has(kScenario));
 }
 
-// Whether the directory is new. All that can be wrong with an old one is found here, before anything in it
-// goes.
+// Creates the directory if necessary; returns whether it is new. All checks of an existing directory are done
+// here, before anything in it is removed.
 bool make_directory(const std::filesystem::path& dir, bool force) {
   std::error_code ec;
   if (dir.has_parent_path()) std::filesystem::create_directories(dir.parent_path(), ec);
@@ -29,22 +29,22 @@ bool make_directory(const std::filesystem::path& dir, bool force) {
     if (std::filesystem::exists(std::filesystem::symlink_status(dir)))
       throw Error(Errc::usage, dir.string(), "exists and is not a directory");
     throw Error(Errc::internal, dir.string(),
-                fmt::format("cannot be made: {}; choose another --out", ec.message()));
+                fmt::format("cannot be created: {}; choose another --out", ec.message()));
   }
   if (std::filesystem::is_empty(dir, ec)) return false;
   if (!holds_run(dir))
-    throw Error(Errc::usage, dir.string(), "holds other files and no run; choose another --out");
+    throw Error(Errc::usage, dir.string(), "has files that do not belong to a run; choose another --out");
   if (!force)
     throw Error(Errc::usage, dir.string(),
-                "already holds a run; choose another --out, or --force to replace it");
-  for (const char* name : kOurs)
+                "already contains a run; choose another --out, or --force to replace it");
+  for (const char* name : kRunFiles)
     if (std::filesystem::is_directory(dir / name, ec))
       throw Error(Errc::usage, (dir / name).string(),
-                  "is a directory where a file of the run is to be; choose another --out");
+                  "is a directory, but the run writes a file of this name; choose another --out");
   return false;
 }
 
-// The first of `base`, `base`-2, `base`-3 ... that is not there yet; made, so that nobody else takes it.
+// Creates the first of `base`, `base`-2, `base`-3 ... that does not exist.
 std::filesystem::path make_numbered(const std::filesystem::path& base) {
   for (int i = 1;; ++i) {
     std::filesystem::path dir = i == 1 ? base.string() : fmt::format("{}-{}", base.string(), i);
@@ -52,29 +52,30 @@ std::filesystem::path make_numbered(const std::filesystem::path& base) {
     try {
       if (make_directory(dir, false)) return dir;
     } catch (const Error& e) {
-      if (e.code() != Errc::usage) throw;  // somebody was quicker
+      if (e.code() != Errc::usage) throw;  // another process created it first
     }
   }
 }
 
 }  // namespace
 
-RunDirectory RunDirectory::make(const Wish& w) {
+RunDirectory RunDirectory::make(const Options& o) {
   RunDirectory d;
-  if (w.numbered) {
-    d.path_ = make_numbered(w.out);
+  if (o.numbered) {
+    d.path_ = make_numbered(o.out);
   } else {
-    d.path_ = w.out;
-    make_directory(d.path_, w.force);
+    d.path_ = o.out;
+    make_directory(d.path_, o.force);
   }
-  d.lock_ = RunLock(d.path_, w.program);
+  d.lock_ = RunLock(d.path_, o.program);
   std::error_code ec;
-  if (!w.force && std::filesystem::exists(d.path_ / kManifest, ec)) {  // somebody was quicker, and is done
+  // Another process may have written a run to the directory in the meantime.
+  if (!o.force && std::filesystem::exists(d.path_ / kManifest, ec)) {
     d.lock_.complete();
     throw Error(Errc::usage, d.path_.string(),
-                "already holds a run; choose another --out, or --force to replace it");
+                "already contains a run; choose another --out, or --force to replace it");
   }
-  for (const char* name : kOurs)  // what is not ours stays
+  for (const char* name : kRunFiles)  // other files are kept
     if (std::string_view(name) != kMarker) std::filesystem::remove(d.path_ / name, ec);
   return d;
 }

@@ -7,24 +7,24 @@
 
 namespace faba {
 
-/// A directory that a run is written to, held against other processes.
+/// The directory of a run that is being written, locked against other processes.
 class RunDirectory {
  public:
-  struct Wish {
+  struct Options {
     std::filesystem::path out;
-    bool numbered = false;         ///< or out-2, out-3 ... when it exists
-    bool force = false;            ///< replace an earlier run there
-    std::string program = "faba";  ///< the command to go on with; empty: it cannot go on
+    bool numbered = false;         ///< use out-2, out-3 ... if it exists
+    bool force = false;            ///< replace an existing run
+    std::string program = "faba";  ///< program of the resume command; empty: the run cannot be resumed
   };
   RunDirectory() = default;
-  /// Makes the directory, or empties one that holds a run of what runs write. All checks come first: on
+  /// Creates the directory, or removes the files of an existing run from it. All checks are done first: on
   /// Error(usage) nothing has been changed.
-  static RunDirectory make(const Wish& w);
-  /// One that is there already.
+  static RunDirectory make(const Options& o);
+  /// An existing directory.
   RunDirectory(std::filesystem::path path, RunLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
 
   const std::filesystem::path& path() const { return path_; }
-  /// Call when the last file is written: the directory is whole.
+  /// To be called after the last file is written: the directory is complete.
   void complete();
 
  private:

@@ -9,15 +9,15 @@ namespace {
 
 constexpr const char* kSecond = "This run is not complete. ";
 
-std::string words(const std::filesystem::path& dir, const std::string& program) {
-  if (program.empty()) return fmt::format("{}It was on a bench and cannot go on.\n", kSecond);
+std::string marker_text(const std::filesystem::path& dir, const std::string& program) {
+  if (program.empty()) return fmt::format("{}It was recorded on a bench and cannot be resumed.\n", kSecond);
   return fmt::format("{}Resume it with: {} resume {}\n", kSecond, program, dir.string());
 }
 
 }  // namespace
 
 RunLock::RunLock(const std::filesystem::path& dir, const std::string& program)
-    : lock_(dir / kFile, dir, words(dir, program)) {}
+    : lock_(dir / kFile, dir, marker_text(dir, program)) {}
 
 bool RunLock::marks(const std::filesystem::path& dir) {
   std::ifstream in(dir / kFile);

@@ -7,20 +7,19 @@
 
 namespace faba {
 
-/// The file `incomplete` of a run directory, held while a process writes there.
+/// The file `incomplete` of a run directory, locked while a process writes the run.
 class RunLock {
  public:
   static constexpr const char* kFile = run_files::kMarker;
 
   RunLock() = default;
-  /// Makes the file if it is not there. `program` is the command to go on with; empty: what was broken off
-  /// cannot go on. Throws Error(usage) when another process is at it, Error(internal) when the file cannot be
-  /// written.
+  /// Creates the file if necessary. `program` is the program of the resume command; empty: the run cannot be
+  /// resumed. Throws Error(usage) if another process holds it, Error(internal) if the file cannot be written.
   RunLock(const std::filesystem::path& dir, const std::string& program);
-  /// Removes the file: the run is whole.
+  /// Removes the file: the run is complete.
   void complete() { lock_.complete(); }
 
-  /// Whether a directory has such a file, and not somebody's own file of that name.
+  /// Whether a directory has such a file, and not an unrelated file of that name.
   static bool marks(const std::filesystem::path& dir);
 
  private:

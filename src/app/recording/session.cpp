@@ -30,7 +30,7 @@ Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& 
 Session Session::resume(const Parts& parts, const RunOptions& o) {
   std::error_code ec;
   if (!std::filesystem::is_directory(o.out, ec))
-    throw Error(Errc::input, o.out.string(), "no such run directory");
+    throw Error(Errc::input, o.out.string(), "run directory not found");
   if (!RunLock::marks(o.out)) {
     if (std::filesystem::exists(o.out / kManifest, ec))
       throw Error(Errc::usage, o.out.string(), "this run is complete");
@@ -38,17 +38,18 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
   }
   if (std::filesystem::exists(o.out / kCommands, ec) || std::filesystem::exists(o.out / kCoilsLog, ec))
     throw Error(Errc::usage, o.out.string(),
-                "is a run on a bench, which cannot go on; what was recorded is in it");
+                "is a run on a bench, which cannot be resumed; the recorded data are kept");
   RunLock lock(o.out, o.program);
   if (!std::filesystem::exists(o.out / kScenario, ec))
     throw Error(Errc::input, o.out.string(),
-                "was broken off before anything was written; run the scenario again");
+                "the run was interrupted before anything was written; run the scenario again");
   const Scenario s = read_scenario(read_toml(o.out / kScenario), parts);
-  if (!s.params.seed) throw Error(Errc::input, (o.out / kScenario).string(), "names no seed");
-  if (!std::filesystem::exists(o.out / kCheckpoint, ec)) {  // killed before the first one: nothing to lose
+  if (!s.params.seed) throw Error(Errc::input, (o.out / kScenario).string(), "key \"seed\" is missing");
+  // Without a checkpoint the run was killed before the first one: start from scratch.
+  if (!std::filesystem::exists(o.out / kCheckpoint, ec)) {
     RunOptions again = o;
     again.force = true;
-    lock = RunLock();  // begin() takes it anew
+    lock = RunLock();  // begin() locks it again
     return begin(s, *s.params.seed, again);
   }
   Session session(s, *s.params.seed, o);
@@ -76,20 +77,19 @@ bool Session::run() {
   const std::uint64_t total = scenario_.frames();
   auto last = Clock::now();
   Loop& loop = simulation_->loop();
-  // A frame of very many steps is not waited for: it is done again by resume, from the last checkpoint.
-  std::optional<Clock::time_point> asked;
+  // A long frame is not finished after a stop request: resume computes it again from the last checkpoint.
+  std::optional<Clock::time_point> stop_time;
   simulation_->rig().before_steps([&] {
     if (!options_.stop || !options_.stop->load()) return true;
-    if (!asked) asked = Clock::now();
-    return Clock::now() - *asked < std::chrono::seconds(1);
+    if (!stop_time) stop_time = Clock::now();
+    return Clock::now() - *stop_time < std::chrono::seconds(1);
   });
   faba::run(loop, total, [&] {
     if (options_.progress) options_.progress(loop.next, total);
     const bool stop = options_.stop && options_.stop->load();
     const bool due =
         std::chrono::duration<double>(Clock::now() - last).count() >= scenario_.record.checkpoint;
-    // Also at the end: a crash while files are completed then costs nothing. Before the rig is made safe, in
-    // any case.
+    // Also at the end, so that a crash while files are completed loses nothing. Always before Rig::safe().
     if (stop || due || loop.next == total) {
       checkpoint();
       last = Clock::now();
@@ -106,7 +106,7 @@ Manifest Session::manifest() const {
   const World& world = simulation_->world();
   std::vector<Vec2> setpoints = simulation_->reference().setpoints();
   setpoints.erase(std::unique(setpoints.begin(), setpoints.end()),
-                  setpoints.end());  // as a series shows them
+                  setpoints.end());  // repeated setpoints count once, as in series.csv
   Manifest m = manifest_of(scenario_, seed_, simulation_->frame(), world.parts().arena->outline());
   m.complete = loop.next == scenario_.frames();
   m.frames = loop.next;

@@ -9,42 +9,42 @@
 
 namespace faba {
 
-/// How a run is carried out; nothing here changes its result.
+/// Options of a run that do not change its result.
 struct RunOptions {
   std::filesystem::path out;     ///< run directory
-  bool numbered = false;         ///< or out-2, out-3 ... when it exists
-  std::string program = "faba";  ///< the command to go on with
-  bool force = false;            ///< replace an earlier run there
-  unsigned threads = 0;          ///< 0: all of the machine's
+  bool numbered = false;         ///< use out-2, out-3 ... if it exists
+  std::string program = "faba";  ///< program of the resume command
+  bool force = false;            ///< replace an existing run
+  unsigned threads = 0;          ///< 0: number of hardware threads
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  ///< called after every frame
-  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user wants to stop
+  const std::atomic<bool>* stop = nullptr;                                ///< set to true to stop the run
 };
 
-/// A recorded run in a directory of its own. While it is being made the directory holds the file
-/// `incomplete`; a run that was interrupted or killed goes on from its last checkpoint, and ends with the
-/// same bits as one that was not.
+/// A recorded run in its directory. The directory has a file `incomplete` until the run is complete. A run
+/// that was interrupted or killed is resumed from its last checkpoint; its result is bit-identical to that of
+/// an uninterrupted run.
 class Session {
  public:
-  /// Makes the directory and everything in it. All checks come first: on Error(usage) nothing has been
+  /// Creates the directory and opens its files. All checks are done first: on Error(usage) nothing has been
   /// written.
   static Session begin(const Scenario& s, std::uint64_t seed, const RunOptions& o);
-  /// Goes on with the run in `o.out`. Throws Error(input) when there is nothing to go on with, Error(usage)
-  /// when the run is complete or another process is at it.
+  /// Resumes the run in `o.out`. Throws Error(input) if there is no run to resume, Error(usage) if the run is
+  /// complete or another process is writing it.
   static Session resume(const Parts& parts, const RunOptions& o);
   Session(Session&&) = default;
   ~Session();
 
-  /// Runs to the end, or until asked to stop; then a checkpoint is left. Returns whether the end was reached.
+  /// Runs to the end, or until stopped; then writes a checkpoint. Returns whether the end was reached.
   bool run();
-  /// What manifest.json says, or would say now.
+  /// Content of manifest.json for the current state.
   Manifest manifest() const;
   /// series.csv, after run().
   Table series() const { return recording_.series(); }
-  /// Call when the report, too, is written: the directory is complete.
+  /// To be called after the report is written: the directory is complete.
   void complete() { recording_.complete(); }
 
   const Scenario& scenario() const { return scenario_; }
-  /// What is legal but probably not meant: notes_on().
+  /// Warnings about the scenario: notes_on().
   const std::vector<std::string>& notes() const { return notes_; }
   const std::filesystem::path& dir() const { return recording_.dir(); }
 

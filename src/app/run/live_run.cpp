@@ -11,7 +11,7 @@ namespace faba {
 LiveRun::LiveRun(const Document& d, std::uint64_t seed, const Parts& parts, Pool& pool)
     : parts_(parts), began_(read_scenario(d, parts)), seed_(seed) {
   began_.params.seed = seed;
-  // Any frame may be looked at as the camera sees it; what is recorded is told by recorded().
+  // Every frame can be rendered as the camera sees it; recorded() has the settings of the recording.
   Scenario rendered = began_;
   rendered.record.as_seen = true;
   simulation_ = std::make_unique<Simulation>(rendered, seed, pool);
@@ -34,7 +34,7 @@ void LiveRun::exchange(const Json& event) {
   Event e = read_event(Node(d), next, parts_);
   simulation_->apply(e);
   now_ = std::move(next);
-  // Several exchanges of the same parts between two frames, as when a field is dragged, are one.
+  // Several exchanges of the same parts between two frames, as during dragging of a field, are merged.
   if (!given_.empty() && given_.back().frame == e.frame && !e.model && !given_.back().model) {
     Event& last = given_.back();
     if (e.estimator) last.estimator = std::move(e.estimator);
@@ -48,17 +48,17 @@ void LiveRun::exchange(const Json& event) {
 Scenario LiveRun::recorded() const {
   Scenario s = began_;
   s.params.duration = double(frame()) * s.frame_period();
-  // What was given before a frame came before what the file has for it.
+  // At the same frame, exchanges come before events of the file.
   s.events.clear();
   std::merge(given_.begin(), given_.end(), began_.events.begin(), began_.events.end(),
              std::back_inserter(s.events), [](const Event& a, const Event& b) { return a.frame < b.frame; });
-  std::erase_if(s.events, [&](const Event& e) { return e.frame >= frame(); });  // has not happened yet
+  std::erase_if(s.events, [&](const Event& e) { return e.frame >= frame(); });  // not yet applied
   return s;
 }
 
 std::string LiveRun::state_hash() const {
   State s = simulation_->world().state();
-  std::fill(s.command.begin(), s.command.end(), 0.0);  // as the guard leaves the coils at the end
+  std::fill(s.command.begin(), s.command.end(), 0.0);  // the coils are de-energised at the end of a run
   return s.hash();
 }
 

@@ -6,8 +6,8 @@
 
 namespace faba {
 
-/// What is legal but probably not meant, a line each: a setpoint that cannot be reached, cells that nothing
-/// moves, a recording larger than the disk. `out` is where the run is recorded.
+/// Warnings about valid but probably unintended settings, one line each: an unreachable setpoint, cells that
+/// do not respond, a recording larger than the free disk space. `out`: run directory.
 std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulation,
                                   const std::filesystem::path& out);
 

@@ -10,20 +10,20 @@
 namespace faba {
 namespace {
 
-// The strongest field in the plane that the coils can make anywhere in the arena, T.
-double strongest(const WorldParts& w, double max_current) {
-  const std::vector<double> most = w.field->max_currents(max_current);
-  if (w.table) return w.table->strongest(most);
+// Maximum in-plane field of the coils in the arena, T.
+double maximum_field(const WorldParts& w, double max_current) {
+  const std::vector<double> limits = w.field->max_currents(max_current);
+  if (w.table) return w.table->strongest(limits);
   std::vector<Vec3> b(w.field->coils());
   w.field->basis({}, b, {});
   const Vec3 earth = w.field->ambient();
   Vec2 sum{std::fabs(earth.x), std::fabs(earth.y)};
   for (std::size_t k = 0; k < b.size(); ++k)
-    sum = sum + Vec2{most[k] * std::fabs(b[k].x), most[k] * std::fabs(b[k].y)};
+    sum = sum + Vec2{limits[k] * std::fabs(b[k].x), limits[k] * std::fabs(b[k].y)};
   return norm(sum);
 }
 
-// Over the rectangle that the arena lies in, or at the nodes of a library that must cover it.
+// Field table on the bounding rectangle of the arena, or at the nodes of a library, which must cover it.
 FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary* library, const Scenario& s) {
   const Vec2 low{double(g.left), double(g.low)};
   const Vec2 high = low + double(g.cell) * Vec2{double(g.columns), double(g.rows)};
@@ -33,16 +33,18 @@ FieldTable tabulated(const Field& field, const Grid& g, const FieldLibrary* libr
   if (low.x < from.x - kRim || low.y < from.y - kRim || high.x > to.x + kRim || high.y > to.y + kRim)
     throw Error(
         Errc::usage, "library",
-        fmt::format("covers {:.4g} x {:.4g} mm about the centre, the arena reaches over {:.4g} x {:.4g} mm; "
-                    "make it larger with --size",
-                    1e3 * (to - from).x, 1e3 * (to - from).y, 1e3 * (high - low).x, 1e3 * (high - low).y));
+        fmt::format(
+            "the library covers {:.4g} x {:.4g} mm, but the arena is {:.4g} x {:.4g} mm; create a larger "
+            "library with --size",
+            1e3 * (to - from).x, 1e3 * (to - from).y, 1e3 * (high - low).x, 1e3 * (high - low).y));
   return library->table(field, coil_system_hash(s.field.resolved));
 }
 
-constexpr double kJitterSteps = 4;  // in one sd of the frames' times, so that whole steps do not show
+constexpr double kJitterSteps =
+    4;  // steps per standard deviation of the jitter, so that rounding is invisible
 
-// Steps per frame: as the user says, or the fewest with which every model is accurate and iterations come out
-// whole.
+// Steps per frame: given by the user, or the minimum for the accuracy of every model, with an integer number
+// of steps per iteration.
 int steps_per_frame(const Scenario& s, double longest) {
   const double frame = s.frame_period();
   if (s.camera.jitter > 0) longest = std::min(longest, s.camera.jitter / kJitterSteps);
@@ -50,29 +52,32 @@ int steps_per_frame(const Scenario& s, double longest) {
     if (s.camera.jitter > 0 && *s.simulation.step > s.camera.jitter)
       throw Error(
           Errc::usage, "camera.jitter",
-          fmt::format("{:g} s is less than a step ({:g} s), and frames are taken at whole steps; a shorter "
-                      "simulation.step",
-                      s.camera.jitter, *s.simulation.step));
-    const double n = frame / *s.simulation.step, whole = std::floor(n + 0.5);
-    if (whole < 1 || std::fabs(n - whole) > 1e-6 * whole)
-      throw Error(Errc::usage, "simulation.step",
-                  fmt::format("{:g} s is not a whole part of a frame ({:g} s); the nearest is {:.9g} s",
-                              *s.simulation.step, frame, frame / std::max(1.0, whole)));
-    return int(whole);
+          fmt::format(
+              "{:g} s is less than a time step ({:g} s), but frames are taken at multiples of a step; "
+              "reduce simulation.step",
+              s.camera.jitter, *s.simulation.step));
+    const double n = frame / *s.simulation.step, steps = std::floor(n + 0.5);
+    if (steps < 1 || std::fabs(n - steps) > 1e-6 * steps)
+      throw Error(
+          Errc::usage, "simulation.step",
+          fmt::format("{:g} s does not divide the frame period ({:g} s); the nearest valid step is {:.9g} s",
+                      *s.simulation.step, frame, frame / std::max(1.0, steps)));
+    return int(steps);
   }
   const double needed = std::max(1.0, std::ceil(frame / longest - 1e-9));
   if (!(needed < 1e9))
-    throw Error(Errc::usage, "simulation",
-                fmt::format("the models need {:.2g} steps per frame to be accurate; use less field, slower "
-                            "turning or less diffusion, or say yourself with simulation.step",
-                            needed));
-  const int least = int(needed);
+    throw Error(
+        Errc::usage, "simulation",
+        fmt::format("the models need {:.2g} steps per frame for their accuracy; use a weaker field, slower "
+                    "turning or less diffusion, or set simulation.step",
+                    needed));
+  const int min_steps = int(needed);
   const double iteration = s.si_scale().iteration;
-  for (int n = least; n <= least + 3 + int(std::ceil(frame / iteration)); ++n) {
+  for (int n = min_steps; n <= min_steps + 3 + int(std::ceil(frame / iteration)); ++n) {
     const double per_iteration = iteration * n / frame;
     if (per_iteration > 0.5 && std::fabs(per_iteration - std::floor(per_iteration + 0.5)) < 1e-6) return n;
   }
-  return least;  // models that count in iterations will say what is wrong
+  return min_steps;  // models that use iterations will report the error
 }
 
 std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool,
@@ -90,7 +95,7 @@ std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std
   return std::make_unique<SimRig>(world, p);
 }
 
-// Each swarm is a range of the state's rows, in the order of the scenario.
+// Each swarm is a range of rows of the state, in the order of the scenario.
 void add_populations(WorldParts& w, const Scenario& s) {
   std::size_t at = 0;
   for (const Swarm& swarm : s.swarms) {
@@ -141,9 +146,9 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
   w.motility = s.motility.make({w.arena.get(), s.params.exposure});
   frame_ = w.arena->frame();
 
-  // A model must be asked for its longest step before the step is known: build it twice, it is cheap.
+  // The longest step of a model is needed before the step is known: construct it twice, which is cheap.
   double longest = std::min(s.frame_period(), s.simulation.longest);
-  strongest_t_ = strongest(w, s.limits.max_current);
+  strongest_t_ = maximum_field(w, s.limits.max_current);
   const auto shorten = [&](const ModelRegistry::PartType& model) {
     longest = std::min(longest, model.make({scale, scale.iteration})->longest_step(strongest_t_));
   };
@@ -157,7 +162,9 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
   if (double(s.frames()) * steps > 4e9)
     throw Error(
         Errc::usage, "duration",
-        fmt::format("is more than 4e9 steps of {:g} s, the length of a random stream; shorten it", w.dt));
+        fmt::format(
+            "the run has more than 4e9 steps of {:g} s, the length of a random stream; reduce the duration",
+            w.dt));
 
   limits_ = Limits(s.limits, w.field->max_currents(s.limits.max_current));
   control_ = control_context(s, w.field, frame_, library);
@@ -175,39 +182,40 @@ Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
                                       .sinks = {},
                                       .between = [this] { apply_due(loop_->next + 1); },
                                       .last = {}});
-  for (const Event& e : events_) make(e);  // what does not fit is said before the run begins
+  for (const Event& e : events_) make(e);  // throws for unsuitable parts before the run starts
 }
 
 Simulation::Exchanged Simulation::make(const Event& e) const {
-  Exchanged made;
-  if (e.estimator) made.estimator = e.estimator->make(control_);
-  if (e.reference) made.reference = e.reference->make(control_);
-  if (e.controller) made.controller = e.controller->make(control_);
+  Exchanged parts;
+  if (e.estimator) parts.estimator = e.estimator->make(control_);
+  if (e.reference) parts.reference = e.reference->make(control_);
+  if (e.controller) parts.controller = e.controller->make(control_);
   if (e.model) {
-    made.model = e.model->make({control_.scale, step()});
-    if (const double longest = made.model->longest_step(strongest_t_); longest < step() * (1 - 1e-9))
+    parts.model = e.model->make({control_.scale, step()});
+    if (const double longest = parts.model->longest_step(strongest_t_); longest < step() * (1 - 1e-9))
       throw Error(
           Errc::usage, "model",
-          fmt::format("needs steps of {:.3g} s, and the run has steps of {:.3g} s; begin it anew with "
-                      "this model, or set simulation.step",
-                      longest, step()));
+          fmt::format(
+              "the model needs steps of {:.3g} s, but the run has steps of {:.3g} s; restart the run with "
+              "this model, or set simulation.step",
+              longest, step()));
   }
-  return made;
+  return parts;
 }
 
 void Simulation::apply(const Event& e) {
-  Exchanged made = make(e);
-  if (made.estimator) estimator_ = std::move(made.estimator);
-  if (made.reference) reference_ = std::move(made.reference);
-  if (made.controller) controller_ = std::move(made.controller);
-  if (made.model) world_->exchange_model(e.swarm, std::move(made.model));
+  Exchanged parts = make(e);
+  if (parts.estimator) estimator_ = std::move(parts.estimator);
+  if (parts.reference) reference_ = std::move(parts.reference);
+  if (parts.controller) controller_ = std::move(parts.controller);
+  if (parts.model) world_->exchange_model(e.swarm, std::move(parts.model));
   loop_->estimator = estimator_.get();
   loop_->reference = reference_.get();
   loop_->controller = controller_.get();
 }
 
-void Simulation::apply_due(std::uint64_t turns) {
-  for (; next_event_ < events_.size() && events_[next_event_].frame < turns; ++next_event_)
+void Simulation::apply_due(std::uint64_t cycles) {
+  for (; next_event_ < events_.size() && events_[next_event_].frame < cycles; ++next_event_)
     apply(events_[next_event_]);
 }
 
@@ -215,7 +223,7 @@ void Simulation::archive(Archive& a) {
   State state = a.reading() ? State{} : world_->state();
   a& state & loop_->next & loop_->last_t & loop_->last.current;
   if (a.reading()) {
-    apply_due(loop_->next);  // so that the parts are those whose memory is read below
+    apply_due(loop_->next);  // the state read below is that of the exchanged parts
     world_->restore(std::move(state));
   }
   rig_->archive(a);

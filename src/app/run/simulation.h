@@ -7,16 +7,16 @@
 
 namespace faba {
 
-/// What the estimator, reference and controller of a scenario are made with.
+/// Context for the construction of the estimator, reference and controller of a scenario.
 ControlContext control_context(const Scenario& s, const std::shared_ptr<const Field>& field,
                                const Frame& frame, const std::shared_ptr<const FieldLibrary>& library);
 
-/// A scenario brought to life: every part built and connected, nothing recorded. What `faba run` records, and
-/// what tests, benchmarks and studies step directly.
+/// The simulation of a scenario: all parts constructed and connected, nothing recorded. `faba run` records
+/// it; tests, benchmarks and studies step it directly.
 class Simulation {
  public:
-  /// Throws Error(usage) when the parts do not fit together. `ground`, when given, is what a video shows that
-  /// microscope.background names: those who simulate many times read it once; else it is read.
+  /// Throws Error(usage) if the parts are incompatible. `ground`: content of the video microscope.background,
+  /// so that repeated simulations read it only once; null: it is read.
   Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
              const std::shared_ptr<const VideoGround>& ground = nullptr);
   Simulation(const Simulation&) = delete;
@@ -29,20 +29,20 @@ class Simulation {
   const Reference& reference() const { return *reference_; }
   const Frame& frame() const { return frame_; }
   double step() const { return world_->parts().dt; }
-  /// Everything that changes while it runs, for checkpoints.
+  /// The complete state of the simulation, for checkpoints.
   void archive(Archive& a);
-  /// Exchanges the parts that the event names, now. Those of the scenario do so by themselves. Throws
-  /// Error(usage), having changed nothing, for parts that do not fit.
+  /// Exchanges the parts that the event names immediately; events of the scenario are applied automatically.
+  /// On Error(usage) for unsuitable parts nothing has been changed.
   void apply(const Event& e);
 
  private:
   struct Exchanged;
   Exchanged make(const Event& e) const;
-  void apply_due(std::uint64_t turns);  ///< the events before the turn of that number
+  void apply_due(std::uint64_t cycles);  ///< applies the events before this cycle
 
   Frame frame_;
   ControlContext control_;
-  double strongest_t_ = 0;  ///< the largest field in the arena, T
+  double strongest_t_ = 0;  ///< maximum field in the arena, T
   std::vector<Event> events_;
   std::size_t next_event_ = 0;
   std::unique_ptr<World> world_;

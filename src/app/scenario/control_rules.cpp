@@ -13,27 +13,28 @@ std::string quoted(const std::vector<std::string>& names) {
 }  // namespace
 
 void check_control(const Node& root, const Scenario& s, const Parts& parts) {
-  const Trait unfit = s.sees_pictures() ? Trait::needs_positions : Trait::needs_pictures;
-  const auto fitting = [&] { return quoted(parts.estimator.names_without({Trait::no_estimate, unfit})); };
+  const Trait unsuitable = s.sees_pictures() ? Trait::needs_positions : Trait::needs_pictures;
+  const auto suitable_estimators = [&] {
+    return quoted(parts.estimator.names_without({Trait::no_estimate, unsuitable}));
+  };
   if (s.steers() && s.estimator.has(Trait::no_estimate))
-    throw Error(
-        Errc::usage, root.where("estimator"),
-        fmt::format("controller {} steers by an estimate, and estimator \"{}\" gives none; use one of {}",
-                    s.controller.type, s.estimator.type, fitting()));
+    throw Error(Errc::usage, root.where("estimator"),
+                fmt::format("controller {} needs an estimate, but estimator \"{}\" gives none; use one of {}",
+                            s.controller.type, s.estimator.type, suitable_estimators()));
   if (!s.sees_pictures() && s.estimator.has(Trait::needs_pictures))
     throw Error(Errc::usage, root.where("estimator"),
-                fmt::format("\"{}\" needs pictures, and a camera with sensor = \"positions\" gives none; set "
+                fmt::format("\"{}\" needs pictures, but a camera with sensor = \"positions\" gives none; set "
                             "camera.sensor = \"frames\"",
                             s.estimator.type));
   if (s.sees_pictures() && s.estimator.has(Trait::needs_positions))
     throw Error(
         Errc::usage, root.where("estimator"),
-        fmt::format("\"{}\" needs the position of every cell, and a camera with sensor = \"frames\" gives "
+        fmt::format("\"{}\" needs the positions of all cells, but a camera with sensor = \"frames\" gives "
                     "none; use one of {}",
-                    s.estimator.type, fitting()));
+                    s.estimator.type, suitable_estimators()));
   if (s.steers() && s.reference.has(Trait::no_target))
     throw Error(Errc::usage, root.where("reference"),
-                fmt::format("controller {} needs a target, and reference \"{}\" sets none; use one of {}",
+                fmt::format("controller {} needs a target, but reference \"{}\" gives none; use one of {}",
                             s.controller.type, s.reference.type,
                             quoted(parts.reference.names_without({Trait::no_target}))));
 }

@@ -3,8 +3,8 @@
 
 namespace faba {
 
-/// Whether camera, estimator, reference and controller go together; throws Error(usage) at `root` (a scenario
-/// or an event) naming what would do.
+/// Checks that camera, estimator, reference and controller are compatible. Throws Error(usage) at `root` (a
+/// scenario or an event) with suitable parts.
 void check_control(const Node& root, const Scenario& s, const Parts& parts);
 
 }  // namespace faba

@@ -3,10 +3,11 @@
 namespace faba {
 
 Schema<EventTime> EventTime::schema() {
-  return Schema<EventTime>("event", "Parts that are exchanged while the run goes on")
+  return Schema<EventTime>("event", "Parts that are exchanged during the run")
       .add("frame", &EventTime::frame,
-           {.min = 0, .max = 1e9, .doc = "Before this frame; the run begins with frame 0"})
-      .add("swarm", &EventTime::swarm, {.min = 0, .max = 1e6, .doc = "Whose model it is, from 0 on"});
+           {.min = 0, .max = 1e9, .doc = "The exchange takes place before this frame; the first frame is 0"})
+      .add("swarm", &EventTime::swarm,
+           {.min = 0, .max = 1e6, .doc = "Index of the swarm whose model is exchanged, from 0"});
 }
 
 Json Event::resolved() const {

@@ -6,29 +6,29 @@
 
 namespace faba {
 
-/// The keys of an event that are no parts.
+/// The keys of an event that are not parts.
 struct EventTime {
   std::uint64_t frame = 0;
   std::uint64_t swarm = 0;
   static Schema<EventTime> schema();
 };
 
-/// A change while a run goes on, one [[event]]: before turn `frame` of the loop the parts that are named here
-/// take the place of those that were there, and begin anew. What somebody does in the live lab is kept as
-/// events, so that the scenario alone repeats it.
+/// A change during a run, one [[event]]: before control cycle `frame` the parts named here replace the
+/// current ones and start from their initial state. The live lab records user actions as events, so that the
+/// scenario repeats them.
 struct Event {
   std::uint64_t frame = 0;
-  std::size_t swarm = 0;  ///< whose model it is
+  std::size_t swarm = 0;  ///< index of the swarm whose model is exchanged
   std::optional<ModelRegistry::PartType> model;
   std::optional<EstimatorRegistry::PartType> estimator;
   std::optional<ReferenceRegistry::PartType> reference;
   std::optional<ControllerRegistry::PartType> controller;
 
-  /// As it stands in a scenario.
+  /// JSON as in a scenario.
   Json resolved() const;
 };
 
-Json events_json(const std::vector<Event>& events);  ///< null when there are none
+Json events_json(const std::vector<Event>& events);  ///< null if there are none
 /// JSON Schema of [[event]].
 Json events_json_schema(const Parts& parts);
 

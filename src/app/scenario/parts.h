@@ -15,38 +15,38 @@
 
 namespace faba {
 
-/// What reads the files that a scenario names. The engine alone reads CSV tables and nothing else: members
-/// that are empty make the scenario fail with Error(usage) where it names such a file.
+/// Readers of the files that a scenario names. The engine without the program reads only CSV tables: an empty
+/// member gives Error(usage) for a scenario that names such a file.
 struct Readers {
-  std::function<Table(const std::filesystem::path&)> table;  ///< of numbers: measured fields
+  std::function<Table(const std::filesystem::path&)> table;  ///< measured fields
   std::function<std::shared_ptr<const FieldLibrary>(const std::filesystem::path&)> library;
-  std::function<std::string(const std::filesystem::path&)> library_task;  ///< how a library was made
-  std::function<VideoGround(const std::filesystem::path&)> ground;        ///< light and noise of a video
+  std::function<std::string(const std::filesystem::path&)> library_task;  ///< task of a library
+  std::function<VideoGround(const std::filesystem::path&)> ground;  ///< illumination and noise of a video
 };
 
-/// Every part that a scenario can name, by kind, and what reads the files that it can name.
+/// All parts that a scenario can name, by kind, and the readers of its files.
 struct Parts {
   ModelRegistry model{"agent model", "Law of motion of a swarm: [swarm.model]"};
-  StartRegistry start{"start", "Where a swarm begins: [swarm.start]"};
-  ArenaRegistry arena{"arena", "Where cells can be: [arena]"};
+  StartRegistry start{"start", "Initial positions of a swarm: [swarm.start]"};
+  ArenaRegistry arena{"arena", "Region that contains the cells: [arena]"};
   FieldRegistry field{"field", "Magnetic field of the coils: [field]"};
-  MotilityRegistry motility{"motility law", "What air does to the cells: motility = \"...\""};
-  EstimatorRegistry estimator{"estimator", "What is believed of the swarm: [estimator]"};
-  ReferenceRegistry reference{"reference", "Where the swarm should be: [reference]"};
+  MotilityRegistry motility{"motility law", "Effect of air on the motility of the cells: motility = \"...\""};
+  EstimatorRegistry estimator{"estimator", "Estimate of the state of the swarm: [estimator]"};
+  ReferenceRegistry reference{"reference", "Setpoints for the swarm: [reference]"};
   ControllerRegistry controller{"controller", "Feedback law: [controller]"};
   FlowRegistry flow{"flow method", "Optical flow between two frames: [flow], --method"};
-  CameraRegistry camera{"camera", "Where the bench's pictures come from: [rig.camera]"};
-  CoilDriverRegistry driver{"coil driver", "What puts current through the coils: [rig.driver]"};
+  CameraRegistry camera{"camera", "Camera of the bench: [rig.camera]"};
+  CoilDriverRegistry driver{"coil driver", "Driver of the coil currents: [rig.driver]"};
   Readers readers;
 };
 
 /// The parts of the simulation engine: no devices, no optical flow, no files but CSV. Part of faba_engine.
 Parts engine_parts();
 
-/// All parts that come with the program.
+/// All parts of the program.
 Parts builtin_parts();
 
-/// Calls visit(key, registry) for every kind; key is the word of `faba parts KIND`.
+/// Calls visit(key, registry) for every kind; key is the KIND of `faba parts KIND`.
 template <class Visit>
 void each_kind(const Parts& p, Visit&& visit) {
   visit("model", p.model);

@@ -25,7 +25,8 @@ Event read_event(const Node& n, Scenario& now, const Parts& parts) {
   e.swarm = std::size_t(when.swarm);
   if (n.has("model")) {
     if (e.swarm >= now.swarms.size())
-      n.child("swarm").fail(fmt::format("there are {} swarms, counted from 0 on", now.swarms.size()));
+      n.child("swarm").fail(fmt::format("{} is out of range; the scenario has {} swarms, counted from 0",
+                                        e.swarm, now.swarms.size()));
     e.model = parts.model.resolve(n.child("model"));
   }
   if (n.has("estimator")) e.estimator = parts.estimator.resolve(n.child("estimator"));
@@ -35,13 +36,13 @@ Event read_event(const Node& n, Scenario& now, const Parts& parts) {
   Scenario next = now;
   change(e, next);
   if (next.steers()) {
-    const auto usual = [&](const auto& registry, const char* kind, const Json& name) {
+    const auto default_part = [&](const auto& registry, const char* kind, const Json& name) {
       return registry.resolve(Node(name, kind, n.document));
     };
     if (!e.estimator && next.estimator.has(Trait::no_estimate))
-      e.estimator = usual(parts.estimator, "estimator", next.default_estimator());
+      e.estimator = default_part(parts.estimator, "estimator", next.default_estimator());
     if (!e.reference && next.reference.has(Trait::no_target))
-      e.reference = usual(parts.reference, "reference", next.default_reference());
+      e.reference = default_part(parts.reference, "reference", next.default_reference());
     change(e, next);
   }
   check_control(n, next, parts);
@@ -51,13 +52,13 @@ Event read_event(const Node& n, Scenario& now, const Parts& parts) {
 
 void read_events(const Node& root, const Parts& parts, Scenario& s) {
   const Node events = root.child("event");
-  if (!events.json->is_array()) events.fail("write [[event]], once for each change");
+  if (!events.json->is_array()) events.fail("must be an array of tables; write [[event]] for each change");
   Scenario now = s;
   for (std::size_t i = 0; i < events.json->size(); ++i) {
     const Node n = events.item(i);
     s.events.push_back(read_event(n, now, parts));
     if (i > 0 && s.events[i].frame < s.events[i - 1].frame)
-      n.child("frame").fail("events must be in order of time");
+      n.child("frame").fail("events must be in the order of their frames");
   }
 }
 

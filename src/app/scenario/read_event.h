@@ -3,12 +3,11 @@
 
 namespace faba {
 
-/// Reads an event against the scenario as it stands then, and makes the change in it. An estimator and a
-/// reference that the new controller cannot do without are added. Throws Error(usage), leaving `now` as it
-/// was.
+/// Reads an event for the current scenario `now` and applies it to `now`. Adds a default estimator and
+/// reference if the new controller needs them. On Error(usage) `now` is unchanged.
 Event read_event(const Node& n, Scenario& now, const Parts& parts);
 
-/// Makes the change of an event in a scenario.
+/// Applies an event to a scenario.
 void change(const Event& e, Scenario& s);
 
 }  // namespace faba

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-// In TOML a key belongs to the last [header] before it, which is easily forgotten below the tables.
+// In TOML a key belongs to the last [header] before it: a frequent error is a top-level key below a table.
 void check_top_level(const Node& root) {
   for (const auto& [table, content] : root.json->items()) {
     const bool list = content.is_array() && !content.empty();
@@ -18,12 +18,12 @@ void check_top_level(const Node& root) {
     for (const char* key : {"title", "seed", "duration"})
       if (n.json->is_object() && n.json->contains(key))
         throw Error(Errc::usage, n.where(key),
-                    fmt::format("belongs to the whole scenario; write {} above the first [table]", key));
+                    fmt::format("is a top-level key of the scenario; write {} above the first [table]", key));
   }
 }
 
-// What the file has first, then what it leaves to defaults, the last one first: which estimator is usual
-// depends on the controller. What is composed comes when all else is known.
+// First the sections of the file, then the defaults of the missing parts in reverse order, because the
+// default estimator depends on the controller; composed sections last, because they depend on all others.
 void read_sections(const Node& root, const Parts& parts, Scenario& s) {
   std::vector<const Section*> all;
   for (const Section& section : scenario_sections())
@@ -58,7 +58,7 @@ Scenario read_scenario(Document d, const Parts& parts) {
   s.params = Scenario::schema().parse(root, keys);
   read_sections(root, parts, s);
   if (s.params.duration * s.camera.rate > 1e8)
-    root.child("duration").fail("is more than 1e8 frames; shorten it or lower camera.rate");
+    root.child("duration").fail("the run has more than 1e8 frames; reduce duration or camera.rate");
   if (s.exclusion.order == Exclusion::Order::none && s.arena.make({s.si_scale()})->needs_exclusion())
     throw Error(Errc::usage, root.where("arena"),
                 "limits = \"reject\" needs exclusion; use \"clamp\" or \"reflect\"");

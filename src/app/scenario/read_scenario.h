@@ -3,8 +3,8 @@
 
 namespace faba {
 
-/// Reads and checks a whole scenario. Throws Error(usage) naming file, line, path, reason and the nearest
-/// known key.
+/// Reads and checks a complete scenario. Throws Error(usage) with file, line, path, reason and the most
+/// similar known key.
 Scenario read_scenario(Document d, const Parts& parts);
 
 }  // namespace faba

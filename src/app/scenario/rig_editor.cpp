@@ -5,7 +5,7 @@
 namespace faba {
 namespace {
 
-// The value of the parameter that has this role in a table or in a table of that table; null when none has.
+// The value of the parameter with this role in a table or its subtables; null without such a parameter.
 template <class MaybeConst>
 MaybeConst* value_with(Role role, MaybeConst& table, const Json& schema) {
   for (const auto& [key, described] : schema.at("properties").items()) {
@@ -53,8 +53,8 @@ void RigEditor::move(std::size_t coil, Vec3 by) {
 }
 
 void RigEditor::tilt(std::size_t coil, double angle, Vec3 across) {
-  if (Json* axis_now = find(coil, Role::axis))
-    *axis_now = json(std::cos(angle) * axis(coil) + std::sin(angle) * across);
+  if (Json* current_axis = find(coil, Role::axis))
+    *current_axis = json(std::cos(angle) * axis(coil) + std::sin(angle) * across);
   else if (Json* turn = find(coil, Role::turn))
     *turn = in_si(*turn) + angle;
 }

@@ -5,24 +5,25 @@
 
 namespace faba {
 
-/// A coil system whose coils can be moved, tilted and made stronger, whatever kind of coil each of them is:
-/// what a key means is known by its Role, which the kind's schema declares.
+/// A coil system whose coils can be moved, tilted and scaled, for coils of any type: the keys are found by
+/// their Role in the schema of the type.
 class RigEditor {
  public:
   /// `rig` is a resolved coil system: `PartType::resolved` of read_rig().
   RigEditor(const FieldRegistry& fields, Json rig);
 
   std::size_t coils() const;
-  /// Direction of the coil's field, of length 1; x turned about z for a coil that has no axis, such as a map.
+  /// Unit vector of the direction of the coil's field; for a coil without an axis, such as a map: x rotated
+  /// about z.
   Vec3 axis(std::size_t coil) const;
   void move(std::size_t coil, Vec3 by);
-  /// Tilts the axis by `angle` (rad) towards `across`, of length 1 and perpendicular to it; a coil without an
-  /// axis is turned about z by `angle`.
+  /// Tilts the axis by `angle` (rad) towards `across`, a unit vector perpendicular to it; a coil without an
+  /// axis is rotated about z by `angle`.
   void tilt(std::size_t coil, double angle, Vec3 across);
   void strengthen(std::size_t coil, double factor);
   void add_ambient(Vec3 field);
 
-  /// Throws Error(usage) when a changed value is out of range.
+  /// Throws Error(usage) if a changed value is out of range.
   FieldRegistry::PartType resolved() const;
   std::unique_ptr<Field> make() const { return resolved().make({}); }
 

@@ -12,15 +12,16 @@ FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts&
   Document d = read_toml(file);
   d.table_reader = parts.readers.table;
   if (!d.root.contains("coil"))
-    throw Error(Errc::usage, file.string(), "is no rig: it has no [[coil]]; see rigs/ for some");
+    throw Error(Errc::usage, file.string(),
+                "is not a rig file: [[coil]] not found; see the examples in rigs/");
   d.root["type"] = parts.field.names_with(Trait::coil_system).front();
   return parts.field.resolve(Node(d));
 }
 
 namespace {
 
-// Files that a rig names stand beside it; in a scenario the same names would be looked for elsewhere.
-void files_from_here(Document& rig) {
+// Makes file names of a rig file, which are relative to it, valid in a scenario.
+void resolve_file_names(Document& rig) {
   if (!rig.root.contains("coil") || !rig.root["coil"].is_array()) return;
   for (Json& coil : rig.root["coil"]) {
     if (!coil.is_object() || !coil.contains("file") || !coil["file"].is_string()) continue;
@@ -55,26 +56,26 @@ void include_rig(Document& scenario, const Parts& parts) {
     return;
   Json& field = scenario.root["field"];
   if (!field.contains("file")) return;
-  // A part of another kind reads a file of its own, such as a measured map.
+  // `file` of any other field type is a different file, such as a measured map.
   const std::vector<std::string> systems = parts.field.names_with(Trait::coil_system);
   if (field.contains("type") && std::find(systems.begin(), systems.end(), field["type"]) == systems.end())
     return;
   const Node node = Node(scenario).child("field").child("file");
-  if (!field["file"].is_string()) node.fail("expected the name of a rig file in quotes");
+  if (!field["file"].is_string()) node.fail("expected a string: the name of a rig file");
   const std::string named = field["file"].get<std::string>();
   const std::filesystem::path file = node.file(named);
   std::error_code ec;
   if (!std::filesystem::exists(file, ec))
     node.fail(
-        fmt::format("there is no {}, neither beside the scenario nor where the program was called", named));
+        fmt::format("{} not found, neither relative to the scenario nor to the working directory", named));
   Document rig = read_toml(file);
-  files_from_here(rig);
+  resolve_file_names(rig);
   field.erase("file");
   for (const auto& [key, value] : rig.root.items()) {
     if (field.contains(key)) continue;
     field[key] = value;
-    for (const auto& [path, place] : rig.origin)
-      if (path.starts_with(key)) scenario.origin["field." + path] = place;
+    for (const auto& [path, location] : rig.origin)
+      if (path.starts_with(key)) scenario.origin["field." + path] = location;
   }
 }
 

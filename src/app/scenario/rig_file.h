@@ -5,19 +5,19 @@
 
 namespace faba {
 
-/// A rig in a TOML file of its own: [[coil]] and [earth]. Throws Error(usage) naming file, line and reason.
+/// Reads a rig file (TOML): [[coil]] and [earth]. Throws Error(usage) with file, line and reason.
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts);
 
 /// JSON Schema of a rig file.
 Json rig_file_json_schema(const Parts& parts);
 
-/// What a resolved rig, or any other field, is told by: everything but names, where maps were read from, and
-/// the currents that flow when nothing commands them.
+/// Hash of a resolved coil system or any other field, of all parameters except names, files of maps, and
+/// default currents.
 std::string coil_system_hash(const Json& resolved);
 
-/// Puts the content of the rig file named by the scenario's `field.file`, relative to the scenario or to
-/// where the program was called, in the key's place, so that what is recorded stands by itself. What the
-/// scenario says itself wins.
+/// Replaces the key `field.file` of a scenario by the content of that rig file (path relative to the scenario
+/// or to the working directory), so that the recorded scenario is self-contained. Keys of the scenario
+/// override those of the file.
 void include_rig(Document& scenario, const Parts& parts);
 
 }  // namespace faba

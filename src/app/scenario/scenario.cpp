@@ -9,18 +9,19 @@
 namespace faba {
 
 Schema<Scenario::Params> Scenario::schema() {
-  return Schema<Params>("scenario", "A swarm, its coils, its controller and what is recorded")
-      .add("title", &Params::title, {.doc = "What the run is called in reports"})
+  return Schema<Params>("scenario", "A swarm, its coils, its controller and the recording")
+      .add("title", &Params::title, {.doc = "Title of the run in reports"})
       .add("seed", &Params::seed,
            {.min = 0,
             .max = 9007199254740991.0,
-            .doc = "Same scenario and seed, same bits; drawn and printed when absent"})
+            .doc = "Seed of all random numbers: the same scenario and seed give a bit-identical run; "
+                   "default: a random seed, which is printed"})
       .add("duration", &Params::duration, {.unit = "s", .min = 0, .max = 1e6, .doc = "Simulated time"})
       .add("exposure", &Params::exposure,
            {.unit = "s",
             .min = 0,
             .max = 1e6,
-            .doc = "Time in air before the run; matters with a motility law"});
+            .doc = "Air exposure time before the run; has an effect with a motility law"});
 }
 
 std::uint64_t Scenario::frames() const {
@@ -48,12 +49,13 @@ Json Scenario::default_reference() const { return steers() ? "hold" : "none"; }
 std::shared_ptr<const VideoGround> Scenario::ground() const {
   if (microscope.background.empty()) return nullptr;
   if (!readers.ground)
-    throw Error(Errc::usage, "microscope.background", "this build of the program does not read videos");
+    throw Error(Errc::usage, "microscope.background", "this build of the program cannot read videos");
   return std::make_shared<const VideoGround>(readers.ground(microscope.background));
 }
 
 std::shared_ptr<const FieldLibrary> Scenario::field_library() const {
-  return library ? readers.library(library->file) : nullptr;  // read_library() has looked for the reader
+  // read_library() has checked that the reader exists.
+  return library ? readers.library(library->file) : nullptr;
 }
 
 const std::vector<Section>& scenario_sections() {

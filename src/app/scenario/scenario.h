@@ -18,10 +18,10 @@
 namespace faba {
 
 struct Scenario;
-/// Reads [[event]] (read_event.h): each against the scenario as it stands then.
+/// Reads [[event]] (read_event.h), each for the scenario after the previous events.
 void read_events(const Node& root, const Parts& parts, Scenario& s);
 
-/// A scenario, read and checked: everything about a run except its seed when none is given.
+/// A scenario, read and checked: everything that defines a run, except the seed if it is not given.
 struct Scenario {
   struct Params {
     std::string title;
@@ -46,14 +46,14 @@ struct Scenario {
   EstimatorRegistry::PartType estimator;
   ReferenceRegistry::PartType reference;
   ControllerRegistry::PartType controller;
-  FlowRegistry::PartType flow;  ///< that record.flow is made with
+  FlowRegistry::PartType flow;  ///< method of record.flow
   std::vector<Swarm> swarms;
   std::vector<Event> events;    ///< in order of time
-  std::optional<RigSetup> rig;  ///< the bench that it can be run on
-  Readers readers;              ///< of the files that it names
+  std::optional<RigSetup> rig;  ///< bench for the scenario
+  Readers readers;              ///< readers of the files that it names
 
-  /// The sections of a scenario file, in the order in which a resolved scenario has them. To add one: its
-  /// file in sections/, its member above, its line here.
+  /// The sections of a scenario file, in the order of a resolved scenario. To add one: add its file in
+  /// sections/, its member above, and its line here.
   template <class Sections>
   static void describe(Sections& s) {
     using S = Scenario;
@@ -70,7 +70,9 @@ struct Scenario {
     s.composed(
          "swarm", [](const Node& n, const Parts& p, S& to) { to.swarms = read_swarms(n, p); },
          [](const S& from) { return swarms_json(from.swarms); }, swarms_json_schema)
-        .fill_in = [](const Node& n, const Parts&, S&) { n.fail("needs at least one [[swarm]]"); };
+        .fill_in = [](const Node& n, const Parts&, S&) {
+      n.fail("[[swarm]] is missing; at least one is required");
+    };
     s.part("estimator", &S::estimator, &Parts::estimator, &S::default_estimator);
     s.part("reference", &S::reference, &Parts::reference, &S::default_reference);
     s.part("controller", &S::controller, &Parts::controller, "fuzzy");
@@ -96,32 +98,33 @@ struct Scenario {
         "event", read_events, [](const S& from) { return events_json(from.events); }, events_json_schema);
   }
 
-  std::uint64_t frames() const;  ///< of the whole run, at least 1
+  std::uint64_t frames() const;  ///< number of frames of the run, at least 1
   double frame_period() const { return 1 / camera.rate; }
-  /// Whether the loop gets pictures, not positions.
+  /// Whether the control loop gets pictures, not positions.
   bool sees_pictures() const { return camera.sensor == CameraParams::Sensor::frames; }
   bool records_flow() const { return record.flow; }
-  /// Whether frames are rendered: for the loop or for the recording.
+  /// Whether frames are rendered, for the control loop or for the recording.
   bool renders() const { return sees_pictures() || record.as_seen || record.flow; }
   Scale si_scale() const;
-  /// Whether a feedback controller steers to a setpoint; false with a schedule of fields.
+  /// Whether a feedback controller steers to a setpoint; false for open-loop control.
   bool steers() const { return !controller.has(Trait::open_loop); }
-  /// The estimator of a scenario that names none: all positions where the camera gives them, else the
-  /// picture; none without feedback, since nobody needs to know where the cells are.
+  /// The default estimator: "mean" of all positions if the camera gives positions, otherwise "image"; "none"
+  /// with pictures and without feedback.
   Json default_estimator() const;
-  /// The reference of a scenario that names none.
+  /// The default reference.
   Json default_reference() const;
-  /// Polarity of most of the cells, which is what a controller steers: +1 or -1; south when both are as many.
+  /// Polarity of the majority of the cells, which the controller steers: +1 (north) or -1 (south); -1 for
+  /// equal numbers.
   int polarity() const;
-  /// Light and noise of the video microscope.background; null when none is named. Reads the video. Throws
-  /// Error(usage) where no reader is at hand, and what the reader throws.
+  /// Illumination and noise of the video microscope.background, which is read; null if it is not set. Throws
+  /// Error(usage) without a reader, and the errors of the reader.
   std::shared_ptr<const VideoGround> ground() const;
-  /// The library of [library]; null when none is named. Throws as ground().
+  /// The library of [library]; null if it is not set. Throws as ground().
   std::shared_ptr<const FieldLibrary> field_library() const;
-  /// Every key with its value; as TOML it reads back to the same scenario.
+  /// All keys with their values; as TOML it gives the same scenario when read.
   Json resolved() const;
-  /// Hash of what happens in a run: of resolved() without title, seed and what only says how the run
-  /// is recorded or carried out.
+  /// Hash of everything that affects the result of a run: of resolved() without title, seed and the settings
+  /// of recording and execution.
   std::string hash() const;
 };
 

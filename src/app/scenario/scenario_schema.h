@@ -3,7 +3,7 @@
 
 namespace faba {
 
-/// JSON Schema of a whole scenario file: what web forms and editors read.
+/// JSON Schema of a complete scenario file, for web forms and editors.
 Json scenario_json_schema(const Parts& parts);
 
 }  // namespace faba

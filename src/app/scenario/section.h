@@ -11,39 +11,39 @@ namespace faba {
 struct Scenario;
 
 /// One table of a scenario file, such as [camera]: how it is read, written and described.
-/// Scenario::describe() has the list; reading, resolving, JSON Schema, hashing and the reference pages go
-/// through it.
+/// Scenario::describe() has the list, which is used for reading, resolving, JSON Schema, hashing and the
+/// reference pages.
 struct Section {
-  /// Tables and parts stand by themselves; what is composed looks at the sections read before it.
+  /// Tables and parts are independent of other sections; a composed section depends on those read before it.
   enum class Kind { table, part, composed };
   using Read = std::function<void(const Node& root, const Parts& parts, Scenario& s)>;
 
   std::string key;
   Kind kind = Kind::table;
-  Read read;     ///< from a file that has the section; throws Error(usage)
-  Read fill_in;  ///< for a file that has none; empty when the defaults of the member do
-  std::function<Json(const Scenario&)> resolved;  ///< null: it has no effect in this scenario
-  std::function<Json(const Scenario&)> hashed;    ///< what the scenario's hash covers of it; null: nothing
+  Read read;     ///< reads a section of the file; throws Error(usage)
+  Read fill_in;  ///< for a file without the section; empty: the member keeps its defaults
+  std::function<Json(const Scenario&)> resolved;  ///< null: no effect in this scenario
+  std::function<Json(const Scenario&)> hashed;    ///< its part of the scenario hash; null: none
   std::function<Json(const Parts&)> json_schema;
-  /// Whether it can be read with these parts: the engine alone leaves the sections of devices unread.
+  /// Whether it can be read with these parts: the engine without the program ignores the sections of devices.
   std::function<bool(const Parts&)> readable = [](const Parts&) { return true; };
 
-  /// It has an effect only when this holds.
+  /// The section has an effect only under this condition.
   Section& when(bool (Scenario::*holds)() const) {
     resolved = only_when(holds, std::move(resolved));
     return hashed_when(holds);
   }
-  /// It is in the scenario's hash only when this holds.
+  /// The section is part of the scenario hash only under this condition.
   Section& hashed_when(bool (Scenario::*holds)() const) {
     hashed = only_when(holds, std::move(hashed));
     return *this;
   }
-  /// It says how a run is recorded or carried out, not what happens: no part of the hash.
+  /// The section affects only recording or execution of a run and is not part of the hash.
   Section& not_hashed() {
     hashed = [](const Scenario&) { return Json(); };
     return *this;
   }
-  /// A key that include_...() replaces before the section is read.
+  /// Adds a key to the schema that include_...() replaces before the section is read.
   Section& also_key(const std::string& name, Json described) {
     json_schema = [all = std::move(json_schema), name, described](const Parts& p) {
       Json j = all(p);
@@ -60,10 +60,10 @@ struct Section {
   }
 };
 
-/// The list of sections, in the order in which a resolved scenario has them.
+/// The list of sections, in the order of a resolved scenario.
 class Sections {
  public:
-  /// A table with a schema, kept in `member`.
+  /// A table with a schema, stored in `member`.
   template <class P>
   Section& table(const char* key, P Scenario::*member, Schema<P> (*schema)()) {
     Section s;
@@ -78,10 +78,10 @@ class Sections {
     return add(std::move(s));
   }
 
-  /// A part of a kind, kept in `member`; `usual` gives the part of a file that names none.
+  /// A part of a kind, stored in `member`; `default_part` gives the part of a file that names none.
   template <class Registry>
   Section& part(const char* key, typename Registry::PartType Scenario::*member, Registry Parts::*kind,
-                Json (Scenario::*usual)() const) {
+                Json (Scenario::*default_part)() const) {
     Section s;
     s.key = key;
     s.kind = Section::Kind::part;
@@ -90,30 +90,30 @@ class Sections {
       to.*member = (parts.*kind).resolve(root.child(key));
     };
     s.fill_in = [=](const Node& root, const Parts& parts, Scenario& to) {
-      const Json name = (to.*usual)();
+      const Json name = (to.*default_part)();
       to.*member = (parts.*kind).resolve(Node(name, key, root.document));
     };
     s.resolved = [=](const Scenario& from) { return (from.*member).resolved; };
     s.json_schema = [=](const Parts& parts) { return (parts.*kind).json_schema_of_choice(); };
     return add(std::move(s));
   }
-  /// The same with one usual part, whatever the rest of the scenario says.
+  /// The same with a default that does not depend on the scenario.
   template <class Registry>
   Section& part(const char* key, typename Registry::PartType Scenario::*member, Registry Parts::*kind,
-                const Json& usual) {
+                const Json& default_part) {
     Section& s = part(key, member, kind, static_cast<Json (Scenario::*)() const>(nullptr));
     s.fill_in = [=](const Node& root, const Parts& parts, Scenario& to) {
-      to.*member = (parts.*kind).resolve(Node(usual, key, root.document));
+      to.*member = (parts.*kind).resolve(Node(default_part, key, root.document));
     };
     s.json_schema = [=](const Parts& parts) {
       Json j = (parts.*kind).json_schema_of_choice();
-      j["default"] = usual;
+      j["default"] = default_part;
       return j;
     };
     return s;
   }
 
-  /// A section with functions of its own.
+  /// A section with custom functions.
   Section& composed(const char* key, Section::Read read, std::function<Json(const Scenario&)> resolved,
                     std::function<Json(const Parts&)> json_schema) {
     Section s;

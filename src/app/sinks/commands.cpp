@@ -7,7 +7,7 @@
 namespace faba {
 namespace {
 
-/// All that a loop's decisions depend on beside the pictures, and what it decided, to the last bit.
+/// Inputs of the control decisions other than pictures, and the commands, with full precision.
 class Commands final : public RunSink {
  public:
   explicit Commands(const SinkContext& c) : file_(c.dir / run_files::kCommands) {

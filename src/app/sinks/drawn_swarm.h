@@ -4,13 +4,13 @@
 
 namespace faba {
 
-/// Draws a simulation as a picture for people: cells in the colours of their swarms, the drop, setpoint and
-/// route, the field at the centroid. What does not change is drawn once.
+/// Draws a simulation as a schematic picture: cells in the colours of their swarms, the drop, setpoint and
+/// route, the field at the centroid. The constant background is drawn once.
 class DrawnSwarm {
  public:
-  /// Both outlive it. `um_per_px` for the scale bar.
+  /// `world` and `loop` must outlive it. `um_per_px` is for the scale bar.
   DrawnSwarm(const World& world, const Loop& loop, double um_per_px);
-  /// `target`: where the swarm is wanted, in the world; not finite: nowhere.
+  /// `target`: setpoint in world coordinates; not finite: none.
   RgbImage draw(double t, Vec2 target);
 
  private:

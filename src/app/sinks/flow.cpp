@@ -1,10 +1,12 @@
+#include <fmt/format.h>
+
 #include "app/sinks/sinks.h"
 #include "vision/flow/flow_file.h"
 
 namespace faba {
 namespace {
 
-/// Computed from the pictures themselves while they are made, so that no coding of a video is in it.
+/// Optical flow computed from the rendered pictures, so that video compression has no effect.
 class FlowSink final : public RunSink {
  public:
   FlowSink(const SinkContext& c, Archive* resume)
@@ -16,7 +18,7 @@ class FlowSink final : public RunSink {
     before_.width = info.width;
     before_.height = info.height;
     writer_.emplace(keep ? path_.string() + ".new" : path_.string(), info, c.record.compress);
-    if (keep) take_over(keep);
+    if (keep) import_flows(keep);
   }
 
   void take(const Tick& t) override {
@@ -41,12 +43,13 @@ class FlowSink final : public RunSink {
   void finish(bool) override { writer_->close(); }
 
  private:
-  // HDF5 cannot go on in a file whose writer was killed, but it can read it.
-  void take_over(std::uint64_t keep) {
+  // HDF5 cannot append to a file whose writer was killed, but can read it.
+  void import_flows(std::uint64_t keep) {
     {
       const FlowFileReader old(path_);
       if (old.size() < keep)
-        throw Error(Errc::input, path_.string(), "has fewer flows than its checkpoint says");
+        throw Error(Errc::input, path_.string(),
+                    fmt::format("has {} flows, but the checkpoint has {}", old.size(), keep));
       std::uint64_t frame = 0;
       double t0 = 0, t1 = 0;
       for (std::uint64_t k = 0; k < keep; ++k) {

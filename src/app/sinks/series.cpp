@@ -12,7 +12,7 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kMostKept = 1'000'000;  // rows
+constexpr std::size_t kMaxRowsInMemory = 1'000'000;
 
 class Series final : public SeriesSink {
  public:
@@ -27,17 +27,17 @@ class Series final : public SeriesSink {
 
   void take(const Tick& t) override {
     const std::vector<double> values = row_.values(t);
-    kept_ = kept_ && columns_.front().size() < kMostKept;
+    kept_ = kept_ && columns_.front().size() < kMaxRowsInMemory;
     if (!kept_) columns_ = {};
     std::string line;
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const std::string word = std::isfinite(values[k]) ? fmt::format("{:.9g}", values[k]) : "";
+      const std::string field = std::isfinite(values[k]) ? fmt::format("{:.9g}", values[k]) : "";
       if (k > 0) line += ',';
-      line += word;
-      // What the file says: a reader of it must come to the same figures.
+      line += field;
+      // The rounded value of the file, so that readers of the file get the same metrics.
       if (kept_)
-        columns_[k].push_back(word.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                           : std::strtod(word.c_str(), nullptr));
+        columns_[k].push_back(field.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                            : std::strtod(field.c_str(), nullptr));
     }
     file_.append(line + '\n');
   }

@@ -6,11 +6,11 @@
 
 namespace faba {
 
-/// series.csv: one line per turn (docs/formats/run-directory.md).
+/// series.csv: one line per control cycle (docs/formats/run-directory.md).
 class SeriesSink : public RunSink {
  public:
-  /// The rows as they are in the file. They are kept in memory up to a million turns, 20 columns of which are
-  /// 160 MB; a run that is longer, or was resumed, is read from the file. Call after finish().
+  /// The rows of the file. Up to a million rows are kept in memory (160 MB with 20 columns); for a longer or
+  /// resumed run they are read from the file. To be called after finish().
   virtual Table rows() const = 0;
 };
 

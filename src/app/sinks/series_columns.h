@@ -7,22 +7,22 @@
 
 namespace faba {
 
-/// What is known of a swarm at one moment, m, world frame.
+/// State of a swarm at one time, m, world frame.
 struct SwarmState {
   Vec2 centroid;
-  double sigma_x = 0, sigma_y = 0;  ///< standard deviations of the cells' positions
-  double visible = 0;               ///< cells in view
-  double responding = 0;            ///< cells that feel the field
+  double sigma_x = 0, sigma_y = 0;  ///< standard deviations of the cell positions
+  double visible = 0;               ///< number of cells in view
+  double responding = 0;            ///< number of cells that respond to the field
 };
 
-/// One turn as the columns of series.csv see it.
-struct SeriesMoment {
+/// Data of one control cycle, for the columns of series.csv.
+struct SeriesCycle {
   const Tick& tick;
   const SinkContext& run;
-  SwarmState truth;      ///< not a number on a bench
-  SwarmState estimated;  ///< sigmas are not a number while nothing is seen
+  SwarmState truth;      ///< not used on a bench
+  SwarmState estimated;  ///< sigmas are NaN while no swarm is detected
 
-  /// The truth where there is one, else the estimate.
+  /// The true state if available, otherwise the estimate.
   const SwarmState& best() const { return run.truth ? truth : estimated; }
 };
 
@@ -31,15 +31,14 @@ struct SeriesColumn {
   std::string name;
   std::string unit;  ///< empty for a pure number
   std::string meaning;
-  bool simulated_only = false;  ///< it is the simulated truth: a bench has no such column
-  std::function<double(const SeriesMoment&)> value;
+  bool simulated_only = false;  ///< true state, which runs on a bench do not have
+  std::function<double(const SeriesCycle&)> value;
 };
 
-/// Every column of the series.csv of a run with so many coils, in order; what a bench does not have is
-/// marked.
+/// All columns of series.csv of a run with this number of coils, in order.
 std::vector<SeriesColumn> series_columns(std::size_t coils);
 
-/// The same list to be read: K stands for the number of a coil. The column of the currents has no value.
+/// The same list for documentation, with K for the number of a coil. The column of the currents has no value.
 std::vector<SeriesColumn> described_series_columns();
 
 }  // namespace faba

@@ -54,10 +54,10 @@ std::vector<std::string> SeriesRow::names() const {
 }
 
 std::vector<double> SeriesRow::values(const Tick& t) const {
-  const SeriesMoment m{.tick = t,
-                       .run = c_,
-                       .truth = c_.truth ? truth_of(*c_.truth, c_.frame) : SwarmState{},
-                       .estimated = estimate_of(t.estimate)};
+  const SeriesCycle m{.tick = t,
+                      .run = c_,
+                      .truth = c_.truth ? truth_of(*c_.truth, c_.frame) : SwarmState{},
+                      .estimated = estimate_of(t.estimate)};
   std::vector<double> row;
   row.reserve(columns_.size());
   for (const SeriesColumn& column : columns_) row.push_back(column.value(m));

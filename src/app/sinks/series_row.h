@@ -6,13 +6,13 @@
 
 namespace faba {
 
-/// The rows of series.csv of one run: the columns that this run has, and their values turn by turn.
+/// The rows of series.csv of one run: its columns, and their values in every control cycle.
 class SeriesRow {
  public:
   explicit SeriesRow(SinkContext c);
 
   std::vector<std::string> names() const;
-  /// One value for each name; NaN stands for "nothing there", such as the distance to no setpoint.
+  /// One value for each name; NaN: no value, such as the distance without a setpoint.
   std::vector<double> values(const Tick& t) const;
 
  private:

@@ -16,13 +16,13 @@ class SimulatedFrames final : public FrameSource {
  public:
   SimulatedFrames(SimRig& rig, bool jitter, double rate) : rig_(rig), jitter_(jitter), rate_(rate) {}
   double time_of(const Tick& t) const override { return at(t.index); }
-  std::optional<double> planned_time(std::uint64_t turn) const override { return rig_.time_of(turn); }
+  std::optional<double> planned_time(std::uint64_t cycle) const override { return rig_.time_of(cycle); }
   ImageRef picture(const Tick&) const override { return rig_.picture(); }
   int bits() const override { return rig_.bits(); }
   const Image<std::uint16_t>& deep_picture() const override { return rig_.deep_picture(); }
 
  private:
-  double at(std::uint64_t turn) const { return jitter_ ? rig_.time_of(turn) : double(turn) / rate_; }
+  double at(std::uint64_t cycle) const { return jitter_ ? rig_.time_of(cycle) : double(cycle) / rate_; }
   SimRig& rig_;
   bool jitter_;
   double rate_;  ///< Hz
@@ -33,14 +33,15 @@ class SimulatedFrames final : public FrameSource {
 void check_recording(const Record& record, const Frame& frame, double rate) {
   if (!record.video && !record.lossless) return;
   if (std::max(frame.width, frame.height) > kLongestVideoSide)
-    throw Error(Errc::usage, "arena",
-                fmt::format("a video of {} x {} px is not possible, {} px is the most; a smaller view, or "
-                            "record.video = false",
-                            frame.width, frame.height, kLongestVideoSide));
+    throw Error(
+        Errc::usage, "arena",
+        fmt::format("a video of {} x {} px is too large, the maximum is {} px; use a smaller view, or set "
+                    "record.video = false",
+                    frame.width, frame.height, kLongestVideoSide));
   const double fps = rate / record.video_every;
   if (fps < kSlowestVideo || fps > kFastestVideo)
     throw Error(Errc::usage, "camera.rate",
-                fmt::format("a video cannot have {:g} frames per second; another record.video_every, or "
+                fmt::format("a video cannot have {:g} frames per second; change record.video_every, or set "
                             "record.video = false",
                             fps));
 }

@@ -8,12 +8,13 @@
 namespace faba {
 namespace {
 
-constexpr std::uint64_t kChunkBytes = 16u << 20;  // of the row of chunks being filled; fits the file's cache
+constexpr std::uint64_t kChunkBytes =
+    16u << 20;  // of the row of chunks being filled; fits into the cache of the file
 
 class Tracks final : public RunSink {
  public:
-  // `keep` rows of an earlier file are taken over: HDF5 cannot go on in a file whose writer was killed, but
-  // it can read it.
+  // Copies `keep` rows of an earlier file: HDF5 cannot append to a file whose writer was killed, but can read
+  // it.
   Tracks(const SinkContext& c, std::uint64_t keep)
       : c_(c),
         path_(c.dir / "tracks.h5"),
@@ -29,7 +30,7 @@ class Tracks final : public RunSink {
           file_.table<std::uint8_t>("responding", {n}, rows, 4096, c.record.compress));
     describe();
     file_.begin_writing();
-    if (keep) take_over(keep);
+    if (keep) import_rows(keep);
   }
 
   void take(const Tick& t) override {
@@ -77,8 +78,8 @@ class Tracks final : public RunSink {
     file_.attribute("/", "width_px", double(c_.frame.width));
     file_.attribute("/", "height_px", double(c_.frame.height));
     file_.attribute("position_px", "axes",
-                    std::string("row, cell, (x right, y down); pixel centres are whole numbers"));
-    // which cells belong to which [[swarm]]: they are numbered one swarm after the other
+                    std::string("row, cell, (x right, y down); pixel centres are integers"));
+    // range of cells of each [[swarm]]; the numbers of cells are in the order of the swarms
     for (std::size_t k = 0; k < c_.truth->parts().populations.size(); ++k) {
       const auto& p = c_.truth->parts().populations[k];
       file_.attribute("/", fmt::format("swarm_{}_first_cell", k), double(p.begin));
@@ -86,12 +87,13 @@ class Tracks final : public RunSink {
     }
   }
 
-  void take_over(std::uint64_t keep) {
+  void import_rows(std::uint64_t keep) {
     {
       const H5File old = H5File::open(path_);
       const H5Table frame = old.table("frame"), t = old.table("t_s"), position = old.table("position_px");
       if (position.rows() < keep)
-        throw Error(Errc::input, path_.string(), "has fewer frames than its checkpoint says");
+        throw Error(Errc::input, path_.string(),
+                    fmt::format("has {} frames, but the checkpoint has {}", position.rows(), keep));
       row_.resize(position.row_size());
       flags_.resize(position.row_size() / 2);
       for (std::uint64_t r = 0; r < keep; ++r) {

@@ -11,7 +11,7 @@ class Video final : public RunSink {
         lossless_(lossless),
         part_(c.dir / (lossless ? "video.avi.part" : "video.mp4.part")),
         final_(c.dir / (lossless ? "video.avi" : "video.mp4")) {
-    // Killed after this file was completed and before the run was: there is nothing left to do.
+    // The process was killed after this file was completed and before the run was: the file is complete.
     if (keep > 0 && !std::filesystem::exists(part_) && std::filesystem::exists(final_)) return;
     writer_.emplace(part_, lossless ? VideoFormat::lossless_avi : VideoFormat::mp4, c.frame.width,
                     c.frame.height, c.frame_rate / c.record.video_every, keep, grey(c, lossless));
@@ -48,7 +48,7 @@ class Video final : public RunSink {
   }
 
  private:
-  // Of a frame of a bench, or of one that would have come after the last.
+  // Time of a frame of a bench; extrapolated after the last one.
   double taken_at(std::size_t frame) const {
     if (frame < times_.size()) return times_[frame];
     return times_.back() + double(frame - times_.size() + 1) * c_.record.video_every / c_.frame_rate;
@@ -62,7 +62,7 @@ class Video final : public RunSink {
   bool lossless_;
   std::filesystem::path part_, final_;
   std::optional<VideoWriter> writer_;
-  std::vector<double> times_;  ///< s, of the frames of a bench, which nobody knows beforehand
+  std::vector<double> times_;  ///< s, times of the frames of a bench, which are not known in advance
 };
 
 }  // namespace

@@ -8,15 +8,17 @@
 namespace faba::cli {
 
 void add_bench_scene(CLI::App* v, SceneOptions& o) {
-  v->add_option("scene", o.scene, "Scenario file (TOML) with a [rig]")->required();
-  v->add_option("--set", o.set, "Change one value: PATH=VALUE")->take_all()->allow_extra_args(false);
-  v->add_option("--seed", o.seed, "Seed of all randomness of a simulated bench");
-  v->add_option("--threads", o.threads, "Threads; all of the machine's when absent")
+  v->add_option("scene", o.scene, "Scenario file (TOML) with a [rig] section")->required();
+  v->add_option("--set", o.set, "Set one value of the scenario: PATH=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  v->add_option("--seed", o.seed, "Seed of all random numbers of a simulated bench");
+  v->add_option("--threads", o.threads, "Number of threads; default: all threads of the machine")
       ->check(CLI::Range(1, 1024));
 }
 
 void add_arm(CLI::App* v, bool& arm) {
-  v->add_flag("--arm", arm, "Allow current in the coils; give it only while somebody watches the coils");
+  v->add_flag("--arm", arm, "Permit current in the coils; use it only while a person supervises the coils");
 }
 
 Scenario read_bench_scene(const SceneOptions& o) {
@@ -27,10 +29,10 @@ Scenario read_bench_scene(const SceneOptions& o) {
 
 void require_arm(bool arm) {
   if (arm) return;
-  throw Error(
-      Errc::usage, "--arm",
-      "is missing: the coils stay disarmed without it; give it while somebody watches the coils, or use "
-      "`faba rig check`, which needs no current");
+  throw Error(Errc::usage, "--arm",
+              "option is missing; the coils stay disarmed without it. Give it while a person supervises the "
+              "coils, or "
+              "use `faba rig check`, which needs no current");
 }
 
 }  // namespace faba::cli

@@ -8,14 +8,14 @@ class App;
 
 namespace faba::cli {
 
-/// The scenario file of a verb for the bench, --set, --seed and --threads.
+/// Adds the scenario file of a bench verb, --set, --seed and --threads.
 void add_bench_scene(CLI::App* v, SceneOptions& o);
-/// --arm
+/// Adds --arm.
 void add_arm(CLI::App* v, bool& arm);
 
-/// The scenario with a camera that tells no cells, as a bench has.
+/// The scenario with camera.sensor = "frames": a bench camera gives pictures, not cell positions.
 Scenario read_bench_scene(const SceneOptions& o);
-/// Throws Error(usage, "--arm") unless it was given.
+/// Throws Error(usage, "--arm") if --arm was not given.
 void require_arm(bool arm);
 
 }  // namespace faba::cli

@@ -12,29 +12,33 @@
 namespace faba::cli {
 
 void add_rig_file(CLI::App* v, std::filesystem::path& rig) {
-  v->add_option("rig", rig, "Rig file (TOML)")->required();
+  v->add_option("rig", rig, "Coil system: rig file (TOML)")->required();
 }
 
-double metres(const std::string& option, const std::string& words) {
-  return quantity_of(words, "m", option, "1 mm, -0.5 mm");
+double metres(const std::string& option, const std::string& text) {
+  return quantity_of(text, "m", option, "1 mm, -0.5 mm");
 }
 
-Vec2 place(const std::string& option, const std::string& words) {
-  const auto comma = words.find(',');
+Vec2 position(const std::string& option, const std::string& text) {
+  const auto comma = text.find(',');
   if (comma == std::string::npos)
     throw Error(Errc::usage, option,
-                fmt::format("needs two lengths, such as \"1 mm, -0.5 mm\"; \"{}\" is one", words));
-  const Vec2 at{metres(option, words.substr(0, comma)),
-                metres(option, words.substr(std::min(comma + 1, words.size())))};
+                fmt::format("\"{}\" is one length; two are required, such as \"1 mm, -0.5 mm\"", text));
+  const Vec2 at{metres(option, text.substr(0, comma)),
+                metres(option, text.substr(std::min(comma + 1, text.size())))};
   if (!(std::fabs(at.x) <= 1 && std::fabs(at.y) <= 1))
-    throw Error(Errc::usage, option, fmt::format("\"{}\" must be two lengths of up to 1 m", words));
+    throw Error(Errc::usage, option,
+                fmt::format("\"{}\" is out of range; both lengths must be between -1 m and 1 m", text));
   return at;
 }
 
-Vec2 rectangle(const std::string& words) {
-  const Vec2 size = place("--size", words);
+Vec2 rectangle(const std::string& text) {
+  const Vec2 size = position("--size", text);
   if (!(size.x > 0 && size.y > 0 && size.x <= 1 && size.y <= 1))
-    throw Error(Errc::usage, "--size", "must be two lengths of up to 1 m, such as \"6 mm, 4.5 mm\"");
+    throw Error(Errc::usage, "--size",
+                fmt::format("\"{}\" is out of range; width and height must be positive and at most 1 m, such "
+                            "as \"6 mm, 4.5 mm\"",
+                            text));
   return size;
 }
 

@@ -12,8 +12,7 @@ class App;
 
 namespace faba::cli {
 
-/// How flows are made: the flow part, the parameters given for it in words, and what comes before and beside
-/// it.
+/// Options of the optical flow: the flow part, its parameters as text, shrinking, frame rate and threads.
 struct FlowOptions {
   std::string method = FlowChoice{}.method;
   std::vector<std::pair<std::string, std::string>> values;
@@ -21,18 +20,18 @@ struct FlowOptions {
   double fps = 0;
   unsigned threads = 0;
 };
-/// What counts as a response.
+/// Definition of a response.
 struct ResponseOptions {
   std::optional<double> direction, flow_threshold;
 };
 
-/// --shrink, --fps, --threads, --method, and an option for every parameter of every flow part, as their
-/// schemas describe them.
+/// Adds --shrink, --fps, --threads, --method, and an option for every parameter of every flow part, from
+/// their schemas.
 void add_flow_options(CLI::App* v, FlowOptions& o);
-/// --direction and --flow-threshold
+/// Adds --direction and --flow-threshold.
 void add_response_options(CLI::App* v, ResponseOptions& o);
 
-/// For options that are seconds: "1.2 s" and "300 ms" as the number that they are; other words stay.
-std::string in_seconds(std::string word);
+/// For options in seconds: converts "1.2 s" and "300 ms" to a number; returns any other text unchanged.
+std::string in_seconds(std::string text);
 
 }  // namespace faba::cli

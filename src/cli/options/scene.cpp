@@ -11,7 +11,8 @@ Document read_scene(const SceneOptions& v) {
   for (const std::string& s : v.set) {
     const auto equals = s.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw Error(Errc::usage, "--set " + s, "write --set path=value, such as --set swarm[0].count=200");
+      throw Error(Errc::usage, "--set " + s,
+                  "must have the form PATH=VALUE, such as --set swarm[0].count=200");
     d.set(s.substr(0, equals), s.substr(equals + 1), "--set");
   }
   if (v.duration) d.set("duration", *v.duration, "--duration");
@@ -22,14 +23,14 @@ Document read_scene(const SceneOptions& v) {
   return d;
 }
 
-void refuse_own_input(const SceneOptions& v) {
+void reject_input_in_out(const SceneOptions& v) {
   std::error_code ec;
   for (const std::filesystem::path& input : {std::filesystem::path(v.scene), v.from_video}) {
     if (input.empty() || v.out.empty()) continue;
     const auto folder = std::filesystem::weakly_canonical(input, ec).parent_path();
     if (folder == std::filesystem::weakly_canonical(v.out, ec))
       throw Error(Errc::usage, input.string(),
-                  "lies in the directory that the run would replace; choose another --out");
+                  "is in the directory that the run would replace; choose another --out");
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace faba::cli {
 
-/// A scenario file, what options change in it, and where its run goes.
+/// A scenario file, the values that options change, and the directory of the run.
 struct SceneOptions {
   std::string scene;
   std::vector<std::string> set;  ///< "path=value"
@@ -20,11 +20,11 @@ struct SceneOptions {
   bool as_seen = false, force = false;
 };
 
-/// The scenario file with what the options change in it, and a title.
+/// The scenario file with the changes of the options, and a title.
 Document read_scene(const SceneOptions& v);
 
-/// Throws Error(usage) when `out`, given by the user, is where an input lies: what a run is made from is not
-/// to be replaced by it.
-void refuse_own_input(const SceneOptions& v);
+/// Throws Error(usage) if an input file is in the directory `out` given by the user: a run must not replace
+/// its input.
+void reject_input_in_out(const SceneOptions& v);
 
 }  // namespace faba::cli

@@ -13,18 +13,18 @@
 namespace faba::cli {
 namespace {
 
-Shard shard_of(const std::string& words) {
-  if (words.empty()) return {};
+Shard shard_of(const std::string& text) {
+  if (text.empty()) return {};
   Shard s;
-  const auto slash = words.find('/');
+  const auto slash = text.find('/');
   const auto number = [&](std::size_t from, std::size_t to, std::uint64_t& out) {
-    const auto [end, error] = std::from_chars(words.data() + from, words.data() + to, out);
-    return error == std::errc() && end == words.data() + to;
+    const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, out);
+    return error == std::errc() && end == text.data() + to;
   };
-  if (slash == std::string::npos || !number(0, slash, s.index) || !number(slash + 1, words.size(), s.count) ||
+  if (slash == std::string::npos || !number(0, slash, s.index) || !number(slash + 1, text.size(), s.count) ||
       s.index < 1 || s.index > s.count || s.count > 1000000)
     throw Error(Errc::usage, "--shard",
-                fmt::format("\"{}\" is not like 3/16: which part of how many", words));
+                fmt::format("\"{}\" is not a shard; write INDEX/COUNT, such as 3/16", text));
   return s;
 }
 
@@ -43,17 +43,17 @@ void print_json(const std::filesystem::path& out, const nlohmann::ordered_json& 
 void add_study_options(CLI::App* v, StudyOptions& o) {
   v->add_option("study", o.study, "Study file (TOML)")->required();
   v->add_option("-o,--out", o.out,
-                "Directory of the study; runs/NAME when absent. One that is not complete goes on")
+                "Directory of the study; default: runs/NAME. An incomplete study is resumed")
       ->check(not_empty);
   v->add_option("--shard", o.shard,
-                "Do only this part of the simulations, such as 3/16, for one of several machines")
+                "Compute only this part of the simulations, such as 3/16, to use several machines")
       ->check(not_empty);
-  v->add_option("--merge", o.merge,
-                "Take over the results in these directories of the same study, then go on");
-  v->add_option("--threads", o.threads, "Threads; all of the machine's when absent. Never changes the result")
+  v->add_option("--merge", o.merge, "First import the results in these directories of the same study");
+  v->add_option("--threads", o.threads,
+                "Number of threads; default: all threads of the machine. Does not change the result")
       ->check(CLI::Range(1, 1024));
   v->add_flag("--force", o.force,
-              "Replace another study in the directory, or write a complete one's pages again");
+              "Replace another study in the directory, or write the pages of a complete study again");
 }
 
 StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& study_hash) {
@@ -72,7 +72,7 @@ bool report_if_complete(const StudyOptions& v, const std::string& name, const st
   if (c.json)
     print_json(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
   else if (!c.quiet)
-    fmt::print("{} holds this study already, complete; --force writes its pages again\n", out.string());
+    fmt::print("{}: this study is already complete; --force writes its pages again\n", out.string());
   return true;
 }
 
@@ -91,14 +91,14 @@ void finish(StudyDirectory& dir, const std::string& name, const nlohmann::ordere
   if (c.json) print_json(dir.path(), j);
 }
 
-int tell_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir) {
+int report_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir) {
   if (c.json)
     fmt::print("{}\n", nlohmann::ordered_json{{"out", dir.path().string()}, {"complete", false}}.dump());
   else if (!c.quiet)
     fmt::print(
-        "part {} of this round is done; its results are in {}. When the other parts are, call again: each "
-        "call "
-        "takes in what the others found with --merge, until one says that the study is complete\n",
+        "part {} of this round is complete; its results are in {}. When the other parts are complete, run "
+        "the "
+        "command again with --merge and their directories, until it reports that the study is complete\n",
         v.shard, dir.path().string());
   return 0;
 }

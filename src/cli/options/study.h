@@ -12,7 +12,7 @@
 
 namespace faba::cli {
 
-/// A study of many simulations, in a directory of its own.
+/// Options of a study of many simulations.
 struct StudyOptions {
   std::filesystem::path study, out;
   std::string shard;  ///< "3/16"
@@ -21,23 +21,26 @@ struct StudyOptions {
   bool force = false;
 };
 
-/// The study file, --out, --shard, --merge, --threads and --force.
+/// Adds the study file, --out, --shard, --merge, --threads and --force.
 void add_study_options(CLI::App* v, StudyOptions& o);
 
-/// Where the study goes: --out, or runs/NAME. `name` of the verb, for the command to go on with.
+/// Opens the directory of the study: --out, or runs/NAME. `verb` is its name, for the command that resumes
+/// the study.
 StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& study_hash);
 
-/// Whether the study is there already, whole; then this has been said, or its NAME.json printed again.
+/// Whether the directory has the complete study; if so, reports it or, with --json, prints its NAME.json
+/// again.
 bool report_if_complete(const StudyOptions& v, const std::string& name, const std::string& study_hash,
                         const Common& c);
 
-/// Threads, shard, progress and stop of a study. `bar` outlives the sweep. Throws Error(usage, "--shard").
+/// Threads, shard, progress and stop of a study. `bar` must outlive the sweep. Throws Error(usage,
+/// "--shard").
 SweepOptions sweep_options(const StudyOptions& v, Progress& bar);
 
-/// Writes NAME.json, the last file of a study, and with --json prints it, too, with where it is.
+/// Writes NAME.json, the last file of a study; with --json also prints it with the directory.
 void finish(StudyDirectory& dir, const std::string& name, const nlohmann::ordered_json& j, const Common& c);
 
-/// Says that other shards have tasks left; returns the exit code.
-int tell_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir);
+/// Reports that other shards have pending tasks; returns the exit code.
+int report_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir);
 
 }  // namespace faba::cli

@@ -46,59 +46,61 @@ ActivityJob job_of(const ActivityVerb& v) {
   } else {
     for (const auto& video : v.videos)
       if (video.extension() == ".toml")
-        throw Error(Errc::usage, video.string(), "is a study, which stands alone: one study or videos");
+        throw Error(Errc::usage, video.string(), "is a study file; give either one study file or videos");
     for (const auto& video : v.videos) job.videos.push_back({.file = video});
   }
-  for (ActivityInput& one : job.videos) {
-    if (v.from) one.from_s = *v.from;
-    if (v.to) one.to_s = *v.to;
-    if (one.to_s && *one.to_s <= one.from_s)
+  for (ActivityInput& input : job.videos) {
+    if (v.from) input.from_s = *v.from;
+    if (v.to) input.to_s = *v.to;
+    if (input.to_s && *input.to_s <= input.from_s)
       throw Error(Errc::usage, "--from, --to",
-                  fmt::format("{:g} s to {:g} s is no time", one.from_s, *one.to_s));
-    if (v.response.direction) one.direction_deg = v.response.direction;
+                  fmt::format("the time from {:g} s to {:g} s is empty; --to must be later than --from",
+                              input.from_s, *input.to_s));
+    if (v.response.direction) input.direction_deg = v.response.direction;
   }
   if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
   return job;
 }
 
-std::string line_words(double intercept, double slope) {
+std::string line_text(double intercept, double slope) {
   return fmt::format("{:.4g} {} {:.4g} x exposure", intercept, slope < 0 ? '-' : '+', std::fabs(slope));
 }
 
-void tell_video(const VideoActivity& a) {
+void print_video(const VideoActivity& a) {
   fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {} degrees{}\n",
              a.input.file.string(), a.mean_amount, a.threshold_px, whole_degrees(a.direction_deg),
-             a.signal_to_noise ? fmt::format(", signal to noise {:.3g}", *a.signal_to_noise) : "");
+             a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a))
-    fmt::print("  {:.3g} per visible cell, of which there are {:.3g}\n", *per_cell, *a.visible_cells);
+    fmt::print("  {:.3g} per visible cell ({:.3g} cells)\n", *per_cell, *a.visible_cells);
   if (a.fit.good)
     fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a.fit.peak_s, a.fit.se_peak_s,
                a.fit.sigma_s);
   else
-    fmt::print("  no Gaussian: {}\n", a.fit.why);
+    fmt::print("  no Gaussian fit: {}\n", a.fit.why);
   for (const MotionSegment& s : a.segments)
-    fmt::print("  {:7.2f} to {:7.2f} s  towards {:3} degrees\n", s.t0_s, s.t1_s,
+    fmt::print("  {:7.2f} to {:7.2f} s  direction {:3} degrees\n", s.t0_s, s.t1_s,
                whole_degrees(s.direction_deg));
-  if (a.segments.empty()) fmt::print("  at no time half of all that moves goes one way\n");
+  if (a.segments.empty())
+    fmt::print("  no motion segment: at no time does more than half of the motion have one direction\n");
 }
 
-void tell_line(const char* words, const std::optional<ExposureLine>& line) {
+void print_line(const char* quantity, const std::optional<ExposureLine>& line) {
   if (!line) return;
-  fmt::print("{} = {}; 95 % of the slope {:.4g} to {:.4g}\n", words, line_words(line->intercept, line->slope),
-             line->slope_ci95[0], line->slope_ci95[1]);
+  fmt::print("{} = {}; 95 % interval of the slope {:.4g} to {:.4g}\n", quantity,
+             line_text(line->intercept, line->slope), line->slope_ci95[0], line->slope_ci95[1]);
 }
 
 void summary(const ActivityResult& r) {
-  for (const VideoActivity& a : r.videos) tell_video(a);
-  tell_line("time of the maximum", r.peak_line);
+  for (const VideoActivity& a : r.videos) print_video(a);
+  print_line("time of the maximum", r.peak_line);
   if (r.peak_line && r.frame_s)
-    fmt::print("  in frames, at {:.3g} per second: {}\n", 1 / *r.frame_s,
-               line_words(r.peak_line->intercept / *r.frame_s, r.peak_line->slope / *r.frame_s));
-  tell_line("mean activity", r.mean_line);
-  tell_line("mean activity per visible cell", r.per_cell_line);
+    fmt::print("  in frames at {:.3g} Hz: {}\n", 1 / *r.frame_s,
+               line_text(r.peak_line->intercept / *r.frame_s, r.peak_line->slope / *r.frame_s));
+  print_line("mean activity", r.mean_line);
+  print_line("mean activity per visible cell", r.per_cell_line);
   if (r.cutoff)
-    fmt::print("cut-off at {:.4g} s in air; videos that do not fit it: {}\n", r.cutoff->cutoff_s,
-               r.cutoff->wrong);
+    fmt::print("cut-off at {:.4g} s air exposure time; videos on the wrong side of it: {}\n",
+               r.cutoff->cutoff_s, r.cutoff->wrong);
 }
 
 int activity(const ActivityVerb& v, const Common& c) {
@@ -109,7 +111,9 @@ int activity(const ActivityVerb& v, const Common& c) {
   check_output(v.report, ".html", v.force, inputs);
   check_output(v.picture, ".png", v.force, inputs);
   ActivityJob job = job_of(v);
-  if (!v.picture.empty() && job.videos.size() != 1) throw Error(Errc::usage, "--picture", "is for one video");
+  if (!v.picture.empty() && job.videos.size() != 1)
+    throw Error(Errc::usage, "--picture",
+                fmt::format("requires a single video, but {} are given", job.videos.size()));
   Progress bar("measuring", !c.quiet && !c.json);
   job.progress = [&](std::size_t video, std::uint64_t done, std::uint64_t total) {
     if (total > 0) bar.update(video * total + std::min(done, total), job.videos.size() * total);
@@ -127,7 +131,7 @@ int activity(const ActivityVerb& v, const Common& c) {
   if (c.quiet) return 0;
   for (const VideoActivity& a : result.videos)
     for (const std::string& note : a.notes)
-      tell(fmt::format("faba: note: {}: {}", a.input.file.string(), note));
+      print_stderr(fmt::format("faba: note: {}: {}", a.input.file.string(), note));
   summary(result);
   for (const auto& file : {v.out, v.report, v.picture})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
@@ -138,28 +142,26 @@ int activity(const ActivityVerb& v, const Common& c) {
 
 void add_activity(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<ActivityVerb>();
-  CLI::App* v = verb(app, line, "activity",
-                     "Activity of videos: when something moves in one direction, how much, and when most",
-                     "  faba activity film.mp4 --report activity.html\n"
-                     "  faba activity film.mp4 --direction 90 --noise dead.mp4 --out signature.csv\n"
-                     "  faba activity study.toml --report study.html");
+  CLI::App* v =
+      verb(app, line, "activity",
+           "Measure when cells in videos move in one direction, how much, and when the motion is largest",
+           "  faba activity film.mp4 --report activity.html\n"
+           "  faba activity film.mp4 --direction 90 --noise dead.mp4 --out signature.csv\n"
+           "  faba activity study.toml --report study.html");
   v->add_option("videos", o->videos,
-                "Videos, run directories or files of flows; or a study file (TOML) that lists them")
+                "Videos, run directories or flow files; or a study file (TOML) that lists them")
       ->required();
   add_response_options(v, o->response);
-  v->add_option("--noise", o->noise, "A video of a dead sample to find the threshold from")
+  v->add_option("--noise", o->noise, "Video of a dead sample, from which the threshold is measured")
       ->check(not_empty)
       ->excludes("--flow-threshold");
-  v->add_option("--from", o->from, "Leave out what comes before this time, s")
-      ->check(between(0, 1e9))
-      ->transform(in_seconds);
-  v->add_option("--to", o->to, "Leave out what comes after this time, s")
-      ->check(between(0, 1e9))
-      ->transform(in_seconds);
-  v->add_option("-o,--out", o->out, "Signatures to write, CSV")->check(not_empty);
-  v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
+  v->add_option("--from", o->from, "Start of the analysis, s")->check(between(0, 1e9))->transform(in_seconds);
+  v->add_option("--to", o->to, "End of the analysis, s")->check(between(0, 1e9))->transform(in_seconds);
+  v->add_option("-o,--out", o->out, "Write the activity signatures, as CSV")->check(not_empty);
+  v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
   v->add_option("--picture", o->picture,
-                "One video: flow of the busiest pair before and after filtering, PNG")
+                "Single video: write the flow of the pair with the largest activity, before and after "
+                "filtering, as PNG")
       ->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
   add_flow_options(v, o->flow);

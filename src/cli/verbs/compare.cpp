@@ -25,8 +25,8 @@ struct CompareVerb {
   bool force = false;
 };
 
-void tell_runs(const Comparison& result) {
-  fmt::print("compared {}; direction {} degrees, flow above {:.3g} px\n", result.alignment,
+void print_runs(const Comparison& result) {
+  fmt::print("alignment: {}; direction {} degrees, flow threshold {:.3g} px\n", result.alignment,
              whole_degrees(result.filter.direction_deg), result.filter.threshold_px);
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
   for (const ComparedRun& r : result.runs) {
@@ -38,7 +38,7 @@ void tell_runs(const Comparison& result) {
     fmt::print("{:10.4f} {:43}floor: {}\n", *result.floor, "", result.floor_from);
   else
     fmt::print("{:>10} {:43}floor: {}\n", "-", "", result.floor_from);
-  fmt::print("{:10.4f} {:43}naive: nothing moves\n", result.naive.mean, "");
+  fmt::print("{:10.4f} {:43}baseline: no motion\n", result.naive.mean, "");
 }
 
 int compare(const CompareVerb& v, const Common& c) {
@@ -64,12 +64,12 @@ int compare(const CompareVerb& v, const Common& c) {
   job.fps = v.flow.fps;
   job.threads = v.flow.threads;
   job.simulate_floor = !v.no_floor;
-  std::string doing;
+  std::string label;
   std::optional<Progress> bar;
   job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
-    if (what != doing || done <= 1) {
+    if (what != label || done <= 1) {
       bar.reset();
-      bar.emplace(doing = what, !c.quiet && !c.json);
+      bar.emplace(label = what, !c.quiet && !c.json);
     }
     if (total > 0) bar->update(std::min(done, total), total);
   };
@@ -83,10 +83,11 @@ int compare(const CompareVerb& v, const Common& c) {
     return 0;
   }
   if (c.quiet) return 0;
-  for (const std::string& note : result.notes) tell("faba: note: " + note);
+  for (const std::string& note : result.notes) print_stderr("faba: note: " + note);
   for (const ComparedRun& r : result.runs)
-    for (const std::string& note : r.notes) tell(fmt::format("faba: note: {}: {}", r.file.string(), note));
-  tell_runs(result);
+    for (const std::string& note : r.notes)
+      print_stderr(fmt::format("faba: note: {}: {}", r.file.string(), note));
+  print_runs(result);
   for (const auto& file : {v.out, v.report})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;
@@ -98,29 +99,32 @@ void add_compare(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<CompareVerb>();
   CLI::App* v =
       verb(app, line, "compare",
-           "How far the motion in videos or runs is from that in a reference, frame by frame",
+           "Distance between the motion in videos or runs and the motion in a reference, frame by frame",
            "  faba compare experiment.mp4 runs/basic-1 runs/basic-2 --report compare.html\n"
            "  faba compare experiment.mp4 simulation.avi --direction 0 --reference-t0 1.2 --t0 0.5");
-  v->add_option("reference", o->reference, "Video, run directory or file of flows")->required();
-  v->add_option("runs", o->runs, "Videos, run directories or files of flows to compare with it")->required();
+  v->add_option("reference", o->reference, "Video, run directory or flow file")->required();
+  v->add_option("runs", o->runs, "Videos, run directories or flow files to compare with the reference")
+      ->required();
   add_response_options(v, o->response);
   v->add_option("--reference-t0", o->reference_t0,
-                "First moment after the reversal in the reference, s; found when absent")
+                "Start time in the reference, the first time after the field reversal, s; default: measured")
       ->check(between(0, 1e9))
       ->transform(in_seconds);
-  v->add_option("--t0", o->t0, "The same in the runs")->check(between(0, 1e9))->transform(in_seconds);
-  v->add_flag("--no-align", o->no_align, "Compare from the first frames on")
+  v->add_option("--t0", o->t0, "Start time in the runs, s; default: measured")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
+  v->add_flag("--no-align", o->no_align, "Compare from the first frames, without alignment at the reversals")
       ->excludes("--t0")
       ->excludes("--reference-t0");
-  v->add_option("--duration", o->duration, "Compare so many seconds from there on")
+  v->add_option("--duration", o->duration, "Duration of the comparison, s")
       ->check(between(1e-9, 1e9))
       ->transform(in_seconds);
-  v->add_option("--m", o->m, "Exponent of the distance's normalisation, 0 or more and below 1");
+  v->add_option("--m", o->m, "Exponent of the normalisation of the distance, at least 0 and less than 1");
   v->add_option("--threshold", o->threshold,
-                "Columns or rows as far apart as this have nothing in common, px");
-  v->add_flag("--no-floor", o->no_floor, "Do not run a scenario again to find the noise floor");
-  v->add_option("-o,--out", o->out, "Distances to write, CSV")->check(not_empty);
-  v->add_option("--report", o->report, "Page to write, HTML, with all figures")->check(not_empty);
+                "Distance of columns or rows at which their similarity is zero, px");
+  v->add_flag("--no-floor", o->no_floor, "Do not simulate the scenario again to measure the noise floor");
+  v->add_option("-o,--out", o->out, "Write the distances, as CSV")->check(not_empty);
+  v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
   add_flow_options(v, o->flow);
   v->callback([o, &line] { line.code = compare(*o, line.common); });

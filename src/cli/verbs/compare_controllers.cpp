@@ -13,19 +13,20 @@ namespace faba::cli {
 namespace {
 
 void summary(const ControllerComparison& r) {
-  fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", "controller", "model", "delay", "settled",
-             "settling time s", "steady error px", "dispersion px");
-  const auto words = [](const Combination& one, const char* name) {
-    const auto it = one.metrics.find(name);
-    return it == one.metrics.end()
+  fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", "controller", "model", "delay", "settled",
+             "settling time s", "steady-state error px", "dispersion px");
+  const auto mean_text = [](const Combination& combination, const char* name) {
+    const auto it = combination.metrics.find(name);
+    return it == combination.metrics.end()
                ? std::string("-")
                : fmt::format("{:.3g} +- {:.2g}", it->second.mean, it->second.mean - it->second.ci95[0]);
   };
-  for (const Combination& one : r.combinations)
-    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>18} {:>16}\n", one.controller, one.model, one.delay,
-               fmt::format("{}/{}", one.settled, one.trials), words(one, "settling_time_s"),
-               words(one, "steady_rms_px"), words(one, "rms_radius_px"));
-  fmt::print("means over {} +- half of a 95 % interval; settling times of the trials that settled\n",
+  for (const Combination& combination : r.combinations)
+    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", combination.controller, combination.model,
+               combination.delay, fmt::format("{}/{}", combination.settled, combination.trials),
+               mean_text(combination, "settling_time_s"), mean_text(combination, "steady_rms_px"),
+               mean_text(combination, "rms_radius_px"));
+  fmt::print("means over {} +- half width of the 95 % interval; settling times: only trials that settled\n",
              counted(std::uint64_t(r.study.seeds), "seed"));
 }
 
@@ -33,18 +34,18 @@ int compare_controllers(const StudyOptions& v, const Common& c) {
   const ControllerStudy study = read_controller_study(v.study);
   Progress bar("trials", !c.quiet && !c.json);
   const SweepOptions options = sweep_options(v, bar);
-  const std::string mark = study_hash(study);
-  if (report_if_complete(v, "controllers", mark, c)) return 0;
-  StudyDirectory dir = open_study(v, "compare-controllers", mark);
+  const std::string hash = study_hash(study);
+  if (report_if_complete(v, "controllers", hash, c)) return 0;
+  StudyDirectory dir = open_study(v, "compare-controllers", hash);
   const auto result = compare_controllers(study, dir.results(), options);
   bar.clear();
-  if (!result) return tell_partial(v, c, dir);
+  if (!result) return report_partial(v, c, dir);
   const auto j = controllers_json(*result);
   write_file(dir.path() / "controllers.csv", controllers_csv(*result));
   write_file(dir.path() / "report.html", controllers_page(*result));
   finish(dir, "controllers", j, c);
   if (!c.quiet)
-    for (const std::string& note : result->notes) tell("faba: note: " + note);
+    for (const std::string& note : result->notes) print_stderr("faba: note: " + note);
   if (!c.json && !c.quiet) {
     summary(*result);
     fmt::print("wrote {}\n", (dir.path() / "report.html").string());
@@ -57,7 +58,7 @@ int compare_controllers(const StudyOptions& v, const Common& c) {
 void add_compare_controllers(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<StudyOptions>();
   CLI::App* v = verb(app, line, "compare-controllers",
-                     "Controllers with several models and delays, each over many seeds",
+                     "Compare controllers with several models and delays, each over many seeds",
                      "  faba compare-controllers studies/controllers.toml\n"
                      "  faba compare-controllers study.toml --out runs/mine --threads 1");
   add_study_options(v, *o);

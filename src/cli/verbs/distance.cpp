@@ -29,7 +29,7 @@ int distance(const DistanceVerb& v, const Common& c) {
                nlohmann::ordered_json{{"distance", d}, {"m", v.m}, {"threshold", v.threshold}}.dump());
     return 0;
   }
-  for (const double one : d) fmt::print("{:.17g}\n", one);
+  for (const double value : d) fmt::print("{:.17g}\n", value);
   return 0;
 }
 
@@ -37,17 +37,19 @@ int distance(const DistanceVerb& v, const Common& c) {
 
 void add_distance(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<DistanceVerb>();
-  CLI::App* v =
-      verb(app, line, "distance", "Quadratic-Chi distance of histograms, one number per line in each file",
-           "  faba distance p.csv q.csv\n  faba distance p.csv q1.csv q2.csv --m 0.5 --threshold 20");
+  CLI::App* v = verb(
+      app, line, "distance", "Quadratic-Chi distance of histograms in text files with one number per line",
+      "  faba distance p.csv q.csv\n  faba distance p.csv q1.csv q2.csv --m 0.5 --threshold 20");
   v->add_option("p", o->p, "Histogram")->required();
-  v->add_option("q", o->q, "Histograms to compare it with; a line of output for each")->required();
-  v->add_option("--m", o->m, "Exponent of the normalisation, 0 or more and below 1");
-  v->add_option("--threshold", o->threshold, "Bins that are as far apart as this have nothing in common");
-  v->add_option("--similarity", o->similarity, "Similarity of the bins instead: a CSV matrix")
+  v->add_option("q", o->q, "Histograms to compare with P; one line of output for each")->required();
+  v->add_option("--m", o->m, "Exponent of the normalisation, at least 0 and less than 1");
+  v->add_option("--threshold", o->threshold, "Distance of bins at which their similarity is zero");
+  v->add_option("--similarity", o->similarity,
+                "Similarity matrix of the bins, as CSV, in place of --threshold")
       ->check(not_empty)
       ->excludes("--threshold");
-  v->add_flag("--normalise", o->normalise, "Compare shapes only: both histograms to a sum of 1 first");
+  v->add_flag("--normalise", o->normalise,
+              "First scale both histograms to a sum of 1, to compare shapes only");
   v->callback([o, &line] { line.code = distance(*o, line.common); });
 }
 

@@ -13,7 +13,7 @@
 namespace faba::cli {
 namespace {
 
-// "key : value" of a file in /proc; empty when it is not there.
+// Value of "key : value" in a file in /proc; empty if it does not exist.
 std::string value_of(const char* file, const char* key) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
@@ -56,7 +56,7 @@ int doctor(const Common& c) {
 }  // namespace
 
 void add_doctor(CLI::App& app, CommandLine& line) {
-  CLI::App* v = verb(app, line, "doctor", "What this machine has", "  faba doctor");
+  CLI::App* v = verb(app, line, "doctor", "Report the properties of this machine", "  faba doctor");
   v->callback([&line] { line.code = doctor(line.common); });
 }
 

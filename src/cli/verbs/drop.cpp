@@ -20,7 +20,7 @@ int drop(const DropVerb& v, const Common& c) {
   check_output(v.overlay, ".png", v.force, {v.picture});
   if (!v.stages.empty() && std::filesystem::exists(v.stages)) {
     if (!std::filesystem::is_directory(v.stages))
-      throw Error(Errc::usage, v.stages.string(), "is a file; --stages names a folder");
+      throw Error(Errc::usage, v.stages.string(), "is a file; --stages must be a folder");
     for (const char* stage : kDropStages) check_output(v.stages / stage, ".png", v.force, {v.picture});
   }
   const DropEdge edge = report_drop(v.picture, v.overlay, v.stages);
@@ -29,13 +29,13 @@ int drop(const DropVerb& v, const Common& c) {
   } else if (!c.quiet) {
     fmt::print(
         "centre  ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}) px\nradius  {:.1f} +- {:.1f} px\narc     {:.0f} "
-        "degrees in view\n",
+        "degrees visible\n",
         edge.centre_image.x, edge.sd_centre_px.x, edge.centre_image.y, edge.sd_centre_px.y, edge.radius_px,
         edge.sd_radius_px, edge.arc_deg);
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
     if (!v.stages.empty()) fmt::print("stages  {}\n", v.stages.string());
     if (std::filesystem::exists("scenes/drop.toml"))
-      fmt::print("now try: {} run scenes/drop.toml --from-video {}\n", shell_word(program()),
+      fmt::print("next: {} run scenes/drop.toml --from-video {}\n", shell_word(program()),
                  shell_word(v.picture.string()));
   }
   return 0;
@@ -46,10 +46,10 @@ int drop(const DropVerb& v, const Common& c) {
 void add_drop(CLI::App& app, CommandLine& line) {
   const auto d = std::make_shared<DropVerb>();
   CLI::App* v =
-      verb(app, line, "drop", "Find the edge of a drop in a picture or in the first frame of a video",
+      verb(app, line, "drop", "Detect the edge of a drop in a picture or in the first frame of a video",
            "  faba drop drop.tif --overlay edge.png\n  faba drop film.avi --json");
-  v->add_option("picture", d->picture, "TIFF, PNG, JPEG, PGM (8 or 16 bit) or any video")->required();
-  v->add_option("--overlay", d->overlay, "Write the picture with the edge drawn in, as PNG")
+  v->add_option("picture", d->picture, "Picture (TIFF, PNG, JPEG or PGM, 8 or 16 bit) or video")->required();
+  v->add_option("--overlay", d->overlay, "Write the picture with the detected edge, as PNG")
       ->check(not_empty);
   v->add_option("--stages", d->stages, "Write a picture of each stage of the search into this folder, as PNG")
       ->check(not_empty);

@@ -21,9 +21,9 @@ struct FlowVerb {
   bool force = false;
 };
 
-void tell_notes(const std::vector<std::string>& notes, const std::filesystem::path& of, const Common& c) {
+void print_notes(const std::vector<std::string>& notes, const std::filesystem::path& file, const Common& c) {
   if (c.quiet) return;
-  for (const std::string& note : notes) tell(fmt::format("faba: note: {}: {}", of.string(), note));
+  for (const std::string& note : notes) print_stderr(fmt::format("faba: note: {}: {}", file.string(), note));
 }
 
 FlowJob job_of(const FlowVerb& v) {
@@ -44,18 +44,18 @@ int flow_pair(const FlowVerb& v, const Common& c) {
   check_output(v.out, ".flo", v.force, {v.a, v.b, v.truth});
   check_output(v.picture, ".png", v.force, {v.a, v.b, v.truth});
   if (!v.overlay.empty())
-    throw Error(Errc::usage, "--overlay", "is for a video; take --picture for two pictures");
+    throw Error(Errc::usage, "--overlay", "requires a video; for two pictures use --picture");
   for (const auto& [option, given] :
        {std::pair{"--shrink", v.flow.shrink > 1}, std::pair{"--fps", v.flow.fps > 0}})
-    if (given) throw Error(Errc::usage, option, "is for a video");
+    if (given) throw Error(Errc::usage, option, "requires a video, but two pictures are given");
   const PairFlow flow = flow_of_pair(v.a, v.b, job_of(v));
   if (c.json) {
     fmt::print("{}\n", flow_json(flow).dump());
     return 0;
   }
-  tell_notes(flow.notes, v.a, c);
+  print_notes(flow.notes, v.a, c);
   if (c.quiet) return 0;
-  fmt::print("flow     mean ({:.4g}, {:.4g}) px, mean speed {:.4g} px, largest {:.4g} px\n", flow.mean_px.x,
+  fmt::print("flow     mean ({:.4g}, {:.4g}) px, mean speed {:.4g} px, maximum {:.4g} px\n", flow.mean_px.x,
              flow.mean_px.y, flow.mean_speed_px, flow.largest_px);
   if (flow.effort)
     fmt::print("solver   {}, {}\n", counted(std::uint64_t(flow.effort->iterations), "iteration"),
@@ -73,7 +73,7 @@ int flow_video(const FlowVerb& v, const Common& c) {
   check_output(v.out, ".h5", v.force, {v.a});
   check_output(v.overlay, ".mp4", v.force, {v.a});
   for (const auto& [option, file] : {std::pair{"--picture", v.picture}, std::pair{"--truth", v.truth}})
-    if (!file.empty()) throw Error(Errc::usage, option, "is for two pictures; this is one video");
+    if (!file.empty()) throw Error(Errc::usage, option, "requires two pictures, but one video is given");
   Progress bar("flow", !c.quiet && !c.json);
   FlowJob job = job_of(v);
   job.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
@@ -84,7 +84,7 @@ int flow_video(const FlowVerb& v, const Common& c) {
     fmt::print("{}\n", flow_json(flow).dump());
     return 0;
   }
-  tell_notes(flow.notes, v.a, c);
+  print_notes(flow.notes, v.a, c);
   if (c.quiet) return 0;
   fmt::print("{} of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
              counted(flow.pairs, "pair"), flow.seconds, flow.width, flow.height, flow.mean_speed_px);
@@ -99,19 +99,20 @@ int flow(const FlowVerb& v, const Common& c) { return v.b.empty() ? flow_video(v
 
 void add_flow(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<FlowVerb>();
-  CLI::App* v =
-      verb(app, line, "flow", "Optical flow between two pictures, or from frame to frame of a video",
-           "  faba flow a.png b.png --out ab.flo --picture ab.png\n"
-           "  faba flow a.png b.png --pyramid --truth true.flo\n"
-           "  faba flow film.mp4 --solver jacobi --iterations 100 --out film.h5 --overlay arrows.mp4");
-  v->add_option("a", o->a, "First picture; or a video, a folder of frames, a run directory")->required();
+  CLI::App* v = verb(
+      app, line, "flow", "Compute the optical flow between two pictures, or from frame to frame of a video",
+      "  faba flow a.png b.png --out ab.flo --picture ab.png\n"
+      "  faba flow a.png b.png --pyramid --truth true.flo\n"
+      "  faba flow film.mp4 --solver jacobi --iterations 100 --out film.h5 --overlay arrows.mp4");
+  v->add_option("a", o->a, "First picture; or a video, a folder of pictures, or a run directory")->required();
   v->add_option("b", o->b, "Second picture");
   v->add_option("-o,--out", o->out, "File to write: .flo (Middlebury) for two pictures, .h5 for a video")
       ->check(not_empty);
-  v->add_option("--picture", o->picture, "Two pictures: the flow in colours, PNG")->check(not_empty);
-  v->add_option("--truth", o->truth, "Two pictures: the true flow (.flo), to say how far off this one is")
+  v->add_option("--picture", o->picture, "Two pictures: write the flow in colours, as PNG")->check(not_empty);
+  v->add_option("--truth", o->truth, "Two pictures: the true flow (.flo), to print the error")
       ->check(not_empty);
-  v->add_option("--overlay", o->overlay, "Video: arrows on its frames, MP4")->check(not_empty);
+  v->add_option("--overlay", o->overlay, "Video: write its frames with the flow as arrows, as MP4")
+      ->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
   add_flow_options(v, o->flow);
   v->callback([o, &line] { line.code = flow(*o, line.common); });

@@ -11,9 +11,9 @@
 namespace faba::cli {
 namespace {
 
-void say(const FoundParameter& p) {
+void print_parameter(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
-  fmt::print("  {:<28} {:.4g} {}  90 % {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n", q.path,
+  fmt::print("  {:<28} {:.4g} {}  90 % interval {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n", q.path,
              q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), q.shown(p.abc_median),
              q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
   if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
@@ -25,13 +25,14 @@ void summary(const Identification& r) {
       fmt::print("{}: {}\n", m.name, m.failed);
       continue;
     }
-    fmt::print("{}: score {:.3f}, fit p {:.2g}, {} simulations\n", m.name, m.score, m.fit_p, m.simulations);
-    for (const FoundParameter& p : m.parameters) say(p);
+    fmt::print("{}: predictive score {:.3f}, goodness-of-fit p {:.2g}, {} simulations\n", m.name, m.score,
+               m.fit_p, m.simulations);
+    for (const FoundParameter& p : m.parameters) print_parameter(p);
   }
   for (const LegacyModel& m : r.legacy)
-    fmt::print("legacy rule, not to be trusted: {}: slope is zero at {:.4g} {}{}\n", m.name,
+    fmt::print("legacy rule (unreliable): {}: slope is zero at {:.4g} {}{}\n", m.name,
                m.parameter.shown(m.zero), m.parameter.shown_unit(),
-               m.meaningless.empty() ? "" : "; means nothing: " + m.meaningless);
+               m.meaningless.empty() ? "" : "; not meaningful: " + m.meaningless);
   fmt::print("{}\n", r.words);
 }
 
@@ -39,10 +40,10 @@ int identify(const StudyOptions& v, const Common& c) {
   const IdentifyStudy study = read_identify_study(v.study);
   Progress bar("simulating", !c.quiet && !c.json);
   SweepOptions options = sweep_options(v, bar);
-  const std::string mark = study_hash(study);
-  if (report_if_complete(v, "identify", mark, c)) return 0;
-  StudyDirectory dir = open_study(v, "identify", mark);
-  Progress reader("reading, frames", !c.quiet && !c.json);
+  const std::string hash = study_hash(study);
+  if (report_if_complete(v, "identify", hash, c)) return 0;
+  StudyDirectory dir = open_study(v, "identify", hash);
+  Progress reader("reading frames", !c.quiet && !c.json);
   std::uint64_t frames = 0;
   const auto simulating = options.progress;
   options.progress = [&](std::uint64_t done, std::uint64_t total) {
@@ -52,14 +53,14 @@ int identify(const StudyOptions& v, const Common& c) {
   const auto result = identify(study, dir.results(), options, [&] { reader.update(++frames, 0); });
   reader.clear();
   bar.clear();
-  if (!result) return tell_partial(v, c, dir);
+  if (!result) return report_partial(v, c, dir);
   write_best_scene(*result, dir.path());
   write_file(dir.path() / "identify.html", identify_page(*result));
   finish(dir, "identify", identify_json(*result), c);
   if (!c.json && !c.quiet) {
-    for (const std::string& note : notes_of(*result)) tell("faba: note: " + note);
+    for (const std::string& note : notes_of(*result)) print_stderr("faba: note: " + note);
     summary(*result);
-    fmt::print("wrote {}, and best.toml, the scene of the best model\n",
+    fmt::print("wrote {} and best.toml, the scenario of the best model\n",
                (dir.path() / "identify.html").string());
   }
   return 0;
@@ -71,7 +72,7 @@ void add_identify(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<StudyOptions>();
   CLI::App* v =
       verb(app, line, "identify",
-           "Which model and which parameters explain videos of step responses, and how sure that is",
+           "Find which model and which parameters explain videos of step responses, and how certain both are",
            "  faba identify studies/step-response.toml\n"
            "  faba identify study.toml --out runs/part3 --shard 3/16\n"
            "  faba identify study.toml --out runs/all --merge runs/part1 --merge runs/part2");

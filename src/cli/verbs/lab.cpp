@@ -22,8 +22,8 @@ struct LabVerb {
   bool no_browser = false;
 };
 
-// Whether there is a screen to show a browser on.
-bool has_screen() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
+// Whether there is a display for a browser.
+bool has_display() { return std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY"); }
 
 void open_browser(const std::filesystem::path& door) {
   std::string opener = "xdg-open", file = door.string();
@@ -33,7 +33,8 @@ void open_browser(const std::filesystem::path& door) {
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&files, fd, "/dev/null", O_RDWR, 0);
   pid_t pid = 0;
-  posix_spawnp(&pid, opener.c_str(), &files, nullptr, argv, environ);  // without one the address is printed
+  posix_spawnp(&pid, opener.c_str(), &files, nullptr, argv,
+               environ);  // if this fails, the printed address can be used
   posix_spawn_file_actions_destroy(&files);
 }
 
@@ -51,9 +52,10 @@ int lab(const LabVerb& v, const Common& c) {
       fmt::print("{}\n", Json{{"address", address}}.dump());
     else
       fmt::print("{}\n", address);
-    if (!c.json && !c.quiet) fmt::print("The live lab, for this machine only; Ctrl-C ends it.\n");
+    if (!c.json && !c.quiet)
+      fmt::print("The live lab is running, for this machine only; press Ctrl-C to stop it.\n");
     if (std::fflush(stdout) != 0) throw Error(Errc::internal, "standard output", "cannot be written");
-    if (!v.no_browser && has_screen()) open_browser(door);
+    if (!v.no_browser && has_display()) open_browser(door);
   };
   serve_lab(o);
   return 0;
@@ -63,15 +65,14 @@ int lab(const LabVerb& v, const Common& c) {
 
 void add_lab(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<LabVerb>();
-  CLI::App* v = verb(app, line, "lab", "The live lab: watch, steer and record a swarm in a browser",
+  CLI::App* v = verb(app, line, "lab", "Start the live lab: watch, steer and record a swarm in a browser",
                      "  faba lab\n  faba lab scenes/steer.toml\n  faba lab --no-browser --port 8765");
-  v->add_option("scene", o->scene, "Scenario file to begin with");
-  v->add_option("--port", o->port, "Port on 127.0.0.1; any that is free when absent")
-      ->check(CLI::Range(0, 65535));
-  v->add_flag("--no-browser", o->no_browser, "Only print the address");
-  v->add_option("--threads", o->threads, "Threads; all of the machine's when absent")
+  v->add_option("scene", o->scene, "Scenario file to open");
+  v->add_option("--port", o->port, "Port on 127.0.0.1; default: any free port")->check(CLI::Range(0, 65535));
+  v->add_flag("--no-browser", o->no_browser, "Do not open a browser; print the address only");
+  v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
       ->check(CLI::Range(1, 1024));
-  v->add_option("--www", o->pages, "Take the page from this folder, while it is worked on")
+  v->add_option("--www", o->pages, "Read the files of the page from this folder, for development")
       ->check(CLI::ExistingDirectory);
   v->callback([o, &line] { line.code = lab(*o, line.common); });
 }

@@ -30,7 +30,7 @@ std::string range_of(const Json& f) {
   return s.empty() ? unit : unit.empty() ? s : s + " " + unit;
 }
 
-// Of a preset: the values that are not the defaults.
+// Values of a preset that differ from the defaults.
 std::string overrides(const Json& values, const Json& properties) {
   std::string out;
   for (const auto& [key, value] : values.items())
@@ -61,7 +61,7 @@ void describe(const Json& schema, const std::string& indent) {
       std::string kinds;
       for (const auto& one : f["items"]["oneOf"])
         kinds += (kinds.empty() ? "" : " | ") + one["properties"]["type"]["const"].get<std::string>();
-      fmt::print("{}    type   ({}), and the keys of that kind\n", indent, kinds);
+      fmt::print("{}    type   ({}), and the keys of that type\n", indent, kinds);
     }
   }
 }
@@ -76,12 +76,12 @@ int parts(const PartsVerb& v, const Common& c) {
   });
   if (!v.kind.empty() && !out.contains(v.kind))
     throw Error(Errc::usage, "parts",
-                fmt::format("there is no kind \"{}\"{}", v.kind, suggestion(v.kind, kinds)));
+                fmt::format("unknown kind \"{}\"{}", v.kind, suggestion(v.kind, kinds)));
   if (!v.name.empty() && !out[v.kind].contains(v.name)) {
     std::vector<std::string> names;
     for (const auto& [k, _] : out[v.kind].items()) names.push_back(k);
     throw Error(Errc::usage, "parts",
-                fmt::format("there is no {} \"{}\"{}", v.kind, v.name, suggestion(v.name, names)));
+                fmt::format("unknown {} \"{}\"{}", v.kind, v.name, suggestion(v.name, names)));
   }
   if (c.json) {
     fmt::print("{}\n", (v.kind.empty() ? out : v.name.empty() ? out[v.kind] : out[v.kind][v.name]).dump());
@@ -101,7 +101,7 @@ int parts(const PartsVerb& v, const Common& c) {
     for (const auto& name : registry.names())
       fmt::print("  {:<14}{}\n", name, registry.json_schema(name)["description"].template get<std::string>());
   });
-  fmt::print("\nEach in full: faba parts KIND NAME, such as faba parts model dipole\n");
+  fmt::print("\nParameters of a part: faba parts KIND NAME, for example faba parts model dipole\n");
   return 0;
 }
 
@@ -109,13 +109,13 @@ int parts(const PartsVerb& v, const Common& c) {
 
 void add_parts(CLI::App& app, CommandLine& line) {
   const auto p = std::make_shared<PartsVerb>();
-  CLI::App* v =
-      verb(app, line, "parts", "What can be named in a scenario, with units, ranges, defaults and sources",
-           "  faba parts\n  faba parts model\n  faba parts model dipole");
+  CLI::App* v = verb(app, line, "parts",
+                     "List the parts that a scenario can name, with units, ranges, defaults and sources",
+                     "  faba parts\n  faba parts model\n  faba parts model dipole");
   v->add_option(
       "kind", p->kind,
-      "model, start, arena, field, motility, estimator, reference, controller, flow, camera, driver");
-  v->add_option("name", p->name, "One part in full");
+      "Kind: model, start, arena, field, motility, estimator, reference, controller, flow, camera, driver");
+  v->add_option("name", p->name, "Part whose parameters are printed");
   v->callback([p, &line] { line.code = parts(*p, line.common); });
 }
 

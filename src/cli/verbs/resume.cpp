@@ -25,7 +25,7 @@ int resume(const ResumeVerb& v, const Common& c) {
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   Session session = Session::resume(builtin_parts(), o);
-  return carry_out(session, bar, c, "");
+  return run_session(session, bar, c, "");
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ void add_resume(CLI::App& app, CommandLine& line) {
   CLI::App* v = verb(app, line, "resume", "Resume an interrupted run from its last checkpoint",
                      "  faba resume runs/steer-1");
   v->add_option("dir", o->dir, "Run directory")->required();
-  v->add_option("--threads", o->threads, "Threads; all of the machine's when absent")
+  v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
       ->check(CLI::Range(1, 1024));
   v->callback([o, &line] { line.code = resume(*o, line.common); });
 }

@@ -14,8 +14,8 @@
 namespace faba::cli {
 namespace {
 
-// The same run with another swarm: what a result is worth shows from the second one on.
-std::string again_with(const SceneOptions& v, std::uint64_t seed) {
+// The same run with another seed, to see how much results vary.
+std::string command_with_seed(const SceneOptions& v, std::uint64_t seed) {
   std::string line = fmt::format("{} run {} --seed {}", shell_word(program()), shell_word(v.scene), seed);
   if (!v.from_video.empty()) line += " --from-video " + shell_word(v.from_video);
   if (v.duration) line += " --duration " + shell_word(*v.duration);
@@ -35,16 +35,16 @@ int run(const SceneOptions& v, const Common& c) {
   o.numbered = v.out.empty();
   o.force = v.force;
   o.program = shell_word(program());
-  refuse_own_input(v);
+  reject_input_in_out(v);
   o.threads = v.threads;
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   Session session = Session::begin(s, seed, o);
   if (!c.quiet)
-    for (const auto& note : session.notes()) tell(fmt::format("faba: note: {}: {}", v.scene, note));
+    for (const auto& note : session.notes()) print_stderr(fmt::format("faba: note: {}: {}", v.scene, note));
   if (!s.params.seed && !c.quiet && !c.json)
-    fmt::print("seed {} (drawn; --seed {} repeats this run)\n", seed, seed);
-  return carry_out(session, bar, c, again_with(v, s.params.seed ? seed + 1 : 1));
+    fmt::print("seed {} (random; --seed {} repeats this run)\n", seed, seed);
+  return run_session(session, bar, c, command_with_seed(v, s.params.seed ? seed + 1 : 1));
 }
 
 }  // namespace
@@ -52,21 +52,23 @@ int run(const SceneOptions& v, const Common& c) {
 void add_run(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<SceneOptions>();
   CLI::App* v =
-      verb(app, line, "run", "Run a scenario: the closed loop, headless and recorded",
+      verb(app, line, "run", "Run the control loop of a scenario, without display, and record it",
            "  faba run scenes/steer.toml\n"
            "  faba run scenes/thesis-basic.toml --seed 7 --out runs/a --set swarm[0].model.max_speed=5\n"
            "  faba run scenes/drop.toml --from-video drop.tif --duration \"10 s\"");
   v->add_option("scene", o->scene, "Scenario file (TOML)")->required();
-  v->add_option("--set", o->set, "Change one value: PATH=VALUE")->take_all()->allow_extra_args(false);
-  v->add_option("--seed", o->seed, "Seed of all randomness; drawn and printed when absent");
+  v->add_option("--set", o->set, "Set one value of the scenario: PATH=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+  v->add_option("--seed", o->seed, "Seed of all random numbers; default: a random seed, which is printed");
   v->add_option("--threads", o->threads,
-                "Threads; all of the machine's when absent. Never changes the result")
+                "Number of threads; default: all threads of the machine. Does not change the result")
       ->check(CLI::Range(1, 1024));
-  v->add_option("-o,--out", o->out, "Run directory; runs/SCENE-SEED when absent")->check(not_empty);
+  v->add_option("-o,--out", o->out, "Run directory; default: runs/SCENE-SEED")->check(not_empty);
   v->add_option("--duration", o->duration, "Simulated time, such as \"10 s\"");
-  v->add_option("--from-video", o->from_video, "Take the drop's edge from this picture or video")
+  v->add_option("--from-video", o->from_video, "Detect the edge of the drop in this picture or video")
       ->check(not_empty);
-  v->add_flag("--as-seen", o->as_seen, "Videos show what the camera sees, not a drawing");
+  v->add_flag("--as-seen", o->as_seen, "Record videos as the camera sees them, not drawings");
   v->add_flag("--force", o->force, "Replace an earlier run in the directory");
   v->callback([o, &line] { line.code = run(*o, line.common); });
 }

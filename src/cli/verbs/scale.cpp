@@ -19,14 +19,16 @@ struct ScaleVerb {
   bool force = false;
 };
 
-double tick_of(const std::string& words) {
-  if (words.empty())
+double tick_of(const std::string& text) {
+  if (text.empty())
     throw Error(Errc::usage, "--tick",
-                "say how far neighbouring marks of the finest kind are apart, such as --tick \"10 um\"");
-  const double tick = quantity_of(words, "m", "--tick", "10 um");
+                "option is missing; give the distance between neighbouring marks of the finest kind, such as "
+                "--tick \"10 um\"");
+  const double tick = quantity_of(text, "m", "--tick", "10 um");
   if (!(tick >= 1e-9 && tick <= 1))
-    throw Error(Errc::usage, "--tick",
-                fmt::format("\"{}\" is not a length of 1 nm to 1 m such as \"10 um\"", words));
+    throw Error(
+        Errc::usage, "--tick",
+        fmt::format("\"{}\" is out of range; it must be between 1 nm and 1 m, such as \"10 um\"", text));
   return tick;
 }
 
@@ -37,7 +39,8 @@ void print_table(const TableScale& s) {
   fmt::print(
       "ratio-mean   {:.6f} um/px, s.d. {:.6f}, s.e.m. {:.4f}; trend with width (Spearman) {:.2f}, p {:.3f}\n",
       s.ratios.mean, s.ratios.sd, s.ratios.sem, s.spearman, s.spearman_p);
-  fmt::print("regression   {:.4f} um/px, 95 % {:.3f} to {:.3f}\n", s.um_per_px, s.ci95[0], s.ci95[1]);
+  fmt::print("regression   {:.4f} um/px, 95 % interval {:.3f} to {:.3f}\n", s.um_per_px, s.ci95[0],
+             s.ci95[1]);
   fmt::print("             reading = {:.2f} px + {:.4f} px/um x width; edges {:.1f} to {:.1f} px",
              s.intercept_px, s.slope_px_per_um, s.intercept_ci95_px[0], s.intercept_ci95_px[1]);
   if (s.repeatability_px) fmt::print("; repeatability {:.2f} px", *s.repeatability_px);
@@ -46,16 +49,17 @@ void print_table(const TableScale& s) {
 
 void print_picture(const PictureScale& s) {
   fmt::print(
-      "marks        {} {} ones, {:.4f} px apart (s.e. {:.4f}), {:.2f} degrees, scatter {:.2f} px: {}\n",
+      "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees, scatter {:.2f} px: {}\n",
       s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px,
       word_of(s.quality));
   fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
              s.ratios.sem);
-  fmt::print("regression   {:.5f} um/px, 95 % {:.5f} to {:.5f}\n", s.um_per_px, s.ci95[0], s.ci95[1]);
+  fmt::print("regression   {:.5f} um/px, 95 % interval {:.5f} to {:.5f}\n", s.um_per_px, s.ci95[0],
+             s.ci95[1]);
 }
 
 template <class Scale, class Print>
-void tell_scale(const Scale& s, const ScaleVerb& v, const Common& c, Print&& print) {
+void print_scale(const Scale& s, const ScaleVerb& v, const Common& c, Print&& print) {
   if (!v.out.empty()) write_calibration(v.out, calibration_of(s));
   if (c.json) {
     fmt::print("{}\n", scale_json(s).dump());
@@ -74,15 +78,16 @@ void scale_of_picture(const ScaleVerb& v, const Common& c) {
   if (!v.out.empty() && !v.force && s.quality == MarkQuality::poor)
     throw Error(
         Errc::input, v.ruler.string(),
-        fmt::format("the marks found in it are too few or too uneven for a calibration ({} of them, scatter "
-                    "{:.2f} px): look at them with --overlay; --force writes {} all the same",
+        fmt::format("the detected marks are too few or too irregular for a calibration ({} marks, scatter "
+                    "{:.2f} px); check them with --overlay, or write {} anyway with --force",
                     s.marks, s.residual_px, v.out.string()));
   if (!c.quiet && !c.json && s.quality != MarkQuality::good)
-    tell(fmt::format(
-        "faba: note: the marks are few or uneven ({}); look at them with --overlay before you use the "
-        "scale",
-        word_of(s.quality)));
-  tell_scale(s, v, c, print_picture);
+    print_stderr(
+        fmt::format("faba: note: the detected marks are few or irregular ({}); check them with --overlay "
+                    "before you use the "
+                    "scale",
+                    word_of(s.quality)));
+  print_scale(s, v, c, print_picture);
 }
 
 int scale(const ScaleVerb& v, const Common& c) {
@@ -90,10 +95,11 @@ int scale(const ScaleVerb& v, const Common& c) {
   check_output(v.overlay, ".png", v.force, {v.ruler});
   const bool table = is_ruler_table(v.ruler);
   if (table && !v.tick.empty())
-    throw Error(Errc::usage, "--tick", "is for pictures; a table says how wide everything is");
-  if (table && !v.overlay.empty()) throw Error(Errc::usage, "--overlay", "is for pictures");
+    throw Error(Errc::usage, "--tick", "requires a picture; a table has the widths");
+  if (table && !v.overlay.empty())
+    throw Error(Errc::usage, "--overlay", "requires a picture, but a table is given");
   if (table)
-    tell_scale(measure_scale(read_ruler_table(v.ruler), v.ruler.string()), v, c, print_table);
+    print_scale(measure_scale(read_ruler_table(v.ruler), v.ruler.string()), v, c, print_table);
   else
     scale_of_picture(v, c);
   return 0;
@@ -103,16 +109,18 @@ int scale(const ScaleVerb& v, const Common& c) {
 
 void add_scale(CLI::App& app, CommandLine& line) {
   const auto s = std::make_shared<ScaleVerb>();
-  CLI::App* v = verb(app, line, "scale", "Micrometres per pixel, from a table or a picture of a ruler",
-                     "  faba scale readings.csv --out calibration.toml\n"
-                     "  faba scale ruler.png --tick \"10 um\" --overlay marks.png");
+  CLI::App* v =
+      verb(app, line, "scale", "Determine micrometres per pixel, from a table or a picture of a ruler",
+           "  faba scale readings.csv --out calibration.toml\n"
+           "  faba scale ruler.png --tick \"10 um\" --overlay marks.png");
   v->add_option("ruler", s->ruler, "Readings as CSV (width_um,px_1,px_2), or a picture of a ruler")
       ->required();
-  v->add_option("--tick", s->tick, "Distance between neighbouring finest marks of a ruler in a picture")
+  v->add_option("--tick", s->tick,
+                "Picture: distance between neighbouring marks of the finest kind, such as \"10 um\"")
       ->check(not_empty);
-  v->add_option("--out", s->out, "Write a calibration file, which scenarios and analyses take in, as TOML")
+  v->add_option("--out", s->out, "Write a calibration file for scenarios and analyses, as TOML")
       ->check(not_empty);
-  v->add_option("--overlay", s->overlay, "Write the picture with the marks drawn in, as PNG")
+  v->add_option("--overlay", s->overlay, "Write the picture with the detected marks, as PNG")
       ->check(not_empty);
   v->add_flag("--force", s->force, "Replace existing files");
   v->callback([s, &line] { line.code = scale(*s, line.common); });

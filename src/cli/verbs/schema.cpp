@@ -13,17 +13,17 @@
 namespace faba::cli {
 namespace {
 
-// What a run records in series.csv: not a file that a user writes, and so without a JSON Schema.
+// Columns of series.csv, which a run writes; input files have a JSON Schema instead.
 int schema_of_series(const Common& c) {
   Json columns = Json::array();
-  for (const SeriesColumn& one : described_series_columns()) {
-    columns.push_back({{"name", one.name},
-                       {"unit", one.unit},
-                       {"meaning", one.meaning},
-                       {"simulated_only", one.simulated_only}});
+  for (const SeriesColumn& column : described_series_columns()) {
+    columns.push_back({{"name", column.name},
+                       {"unit", column.unit},
+                       {"meaning", column.meaning},
+                       {"simulated_only", column.simulated_only}});
     if (!c.json)
-      fmt::print("{:<24} {:<3} {}{}\n", one.name, one.unit, one.meaning,
-                 one.simulated_only ? "; simulations only" : "");
+      fmt::print("{:<24} {:<3} {}{}\n", column.name, column.unit, column.meaning,
+                 column.simulated_only ? "; simulations only" : "");
   }
   if (c.json) fmt::print("{}\n", Json{{"columns", columns}}.dump());
   return 0;
@@ -44,13 +44,13 @@ int schema(const std::string& file, const Common& c) {
 }  // namespace
 
 void add_schema(CLI::App& app, CommandLine& line) {
-  CLI::App* v =
-      verb(app, line, "schema", "JSON Schema of a scenario, rig or study file, for editors and forms",
-           "  faba schema > scenario.json\n  faba schema rig > rig.json\n  faba schema series");
+  CLI::App* v = verb(app, line, "schema",
+                     "Print the JSON Schema of a scenario, rig or study file, for editors and forms",
+                     "  faba schema > scenario.json\n  faba schema rig > rig.json\n  faba schema series");
   const auto of = std::make_shared<std::string>("scenario");
   v->add_option("file", *of,
-                "scenario (unless given) or rig; the verb that takes the study file; or series, which lists "
-                "the columns of a run's series.csv")
+                "scenario (default) or rig; the verb that reads the study file; or series, which lists the "
+                "columns of series.csv")
       ->check(CLI::IsMember({"scenario", "rig", "identify", "compare-controllers", "activity", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }

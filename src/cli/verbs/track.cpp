@@ -21,7 +21,7 @@ namespace {
 struct TrackVerb {
   std::filesystem::path video, swarm, overlay, report, picture, figures;
   std::vector<std::filesystem::path> out;
-  std::string scale;  ///< a number or a calibration file
+  std::string scale;  ///< number or calibration file
   std::string polarity = "auto", background = "auto", motion = "auto";
   double fps = 0, size_px = 0, threshold = 0, reach_px = 0;
   int memory = 2, least = 3, interval = 0;
@@ -60,11 +60,11 @@ TrackOptions options_of(const TrackVerb& v) {
 void check_outputs(const TrackVerb& v) {
   for (const auto& path : v.out) {
     if (path.extension() != ".csv" && path.extension() != ".h5")
-      throw Error(Errc::usage, path.string(), "must end in .csv or .h5, which is what is written");
+      throw Error(Errc::usage, path.string(), "the file extension must be .csv or .h5");
     check_output(path, "", v.force, {v.video});
   }
   if (!v.overlay.empty() && v.overlay.extension() != ".mp4" && v.overlay.extension() != ".avi")
-    throw Error(Errc::usage, v.overlay.string(), "must end in .mp4 or .avi, which is what is written");
+    throw Error(Errc::usage, v.overlay.string(), "the file extension must be .mp4 or .avi");
   std::vector<std::filesystem::path> all = v.out;
   all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture});
   check_distinct(std::move(all));
@@ -73,17 +73,17 @@ void check_outputs(const TrackVerb& v) {
   check_output(v.report, ".html", v.force, {v.video});
   check_output(v.picture, ".png", v.force, {v.video});
   if (!v.figures.empty() && std::filesystem::exists(v.figures) && !std::filesystem::is_directory(v.figures))
-    throw Error(Errc::usage, v.figures.string(), "is a file; --figures names a folder");
+    throw Error(Errc::usage, v.figures.string(), "is a file; --figures must be a folder");
   if (!v.figures.empty() && std::filesystem::is_directory(v.figures))
     for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
       check_output(v.figures / name, ".svg", v.force, {v.video});
 }
 
-// Numbers with their standard errors in words: in um where there is a scale, per frame where times are counts
-// of frames.
-class TrackWords {
+// Formats numbers with their standard errors: in um if there is a scale, per frame if times are frame
+// numbers.
+class TrackUnits {
  public:
-  explicit TrackWords(const TrackMeasurement& m) : um_per_px_(m.um_per_px.value_or(0)), timed_(m.timed) {}
+  explicit TrackUnits(const TrackMeasurement& m) : um_per_px_(m.um_per_px.value_or(0)), timed_(m.timed) {}
   std::string velocity(const Estimated& e) const { return estimate(e, scale(), length() + per_time()); }
   std::string diffusion(const Estimated& e) const {
     return estimate(e, scale() * scale(), length() + "^2" + per_time());
@@ -97,9 +97,9 @@ class TrackWords {
   const char* per_time() const { return timed_ ? "/s" : "/frame"; }
   static std::string estimate(const Estimated& e, double scale, const std::string& unit) {
     if (!std::isfinite(scale * e.value)) return "-";
-    std::string words = fmt::format("{:.3g}", scale * e.value);
-    if (std::isfinite(scale * e.se)) words += fmt::format(" +- {:.2g}", scale * e.se);
-    return words + " " + unit;
+    std::string text = fmt::format("{:.3g}", scale * e.value);
+    if (std::isfinite(scale * e.se)) text += fmt::format(" +- {:.2g}", scale * e.se);
+    return text + " " + unit;
   }
   double um_per_px_;
   bool timed_;
@@ -107,28 +107,27 @@ class TrackWords {
 
 void print_summary(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
-  const TrackWords words(m);
-  fmt::print("spots    {:.4g} in a frame, {} and {:.2g} px wide, against the {} background\n",
-             m.detection.spots_per_frame, word_of(m.detection.polarity), m.detection.size_px,
-             background_word(m.detection));
-  fmt::print("tracks   {} in {}, {:.3g} places each\n", s.tracks, counted(std::uint64_t(m.frames), "frame"),
-             s.mean_points);
+  const TrackUnits units(m);
+  fmt::print("spots    {:.4g} per frame, {}, {:.2g} px wide, background: {}\n", m.detection.spots_per_frame,
+             word_of(m.detection.polarity), m.detection.size_px, background_word(m.detection));
+  fmt::print("tracks   {} in {}, {:.3g} positions each\n", s.tracks,
+             counted(std::uint64_t(m.frames), "frame"), s.mean_points);
   const bool drifts = s.speed_count > 0 && s.order > 0.5 && s.msd.size() > 0;
   const bool together = drifts || order_at_a_time(s) > 0.5;
-  const char* about = !together ? "" : drifts ? "about the drift " : "about the common motion ";
+  const char* about = !together ? "" : drifts ? "relative to the drift: " : "relative to the common motion: ";
   const SupportedWalk walk = supported_walk(s);
   if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))
-    fmt::print("speed    {} on average, over {:.3g} {}\n", words.velocity(s.mean_speed_px_s), s.interval_s,
-               words.time_unit());
+    fmt::print("speed    {} on average, over {:.3g} {}\n", units.velocity(s.mean_speed_px_s), s.interval_s,
+               units.time_unit());
   if (drifts)
-    fmt::print("drift    {} right, {} down\n", words.velocity(s.drift_x_px_s),
-               words.velocity(s.drift_y_px_s));
+    fmt::print("drift    {} right, {} down\n", units.velocity(s.drift_x_px_s),
+               units.velocity(s.drift_y_px_s));
   if (walk == SupportedWalk::diffusion && s.diffusion.good)
-    fmt::print("motion   {}no direction is kept: diffusion, D = {}\n", about, words.diffusion(s.d_px2_s));
+    fmt::print("motion   {}diffusion, D = {}\n", about, units.diffusion(s.d_px2_s));
   if (walk == SupportedWalk::persistent && s.persistent.good)
-    fmt::print("motion   {}direction is kept: walk at {} (rms), for {}\n", about,
-               words.velocity(s.speed_rms_px_s),
-               s.persistent.tau_open ? "longer than was seen" : words.time(s.tau_s));
+    fmt::print("motion   {}persistent walk, speed {} (rms), persistence time {}\n", about,
+               units.velocity(s.speed_rms_px_s),
+               s.persistent.tau_open ? "longer than the observed time" : units.time(s.tau_s));
 }
 
 int track(const TrackVerb& v, const Common& c) {
@@ -141,16 +140,16 @@ int track(const TrackVerb& v, const Common& c) {
   });
   bar.clear();
   if (!c.quiet && !c.json)
-    for (const std::string& note : tracks.notes) tell("faba: note: " + note);
+    for (const std::string& note : tracks.notes) print_stderr("faba: note: " + note);
   if (c.json) {
     fmt::print("{}\n", track_json(tracks).dump());
     return 0;
   }
   if (c.quiet) return 0;
   print_summary(tracks);
-  for (const auto& path : v.out) fmt::print("written  {}\n", path.string());
+  for (const auto& path : v.out) fmt::print("wrote    {}\n", path.string());
   for (const auto* path : {&v.swarm, &v.overlay, &v.report, &v.picture, &v.figures})
-    if (!path->empty()) fmt::print("written  {}\n", path->string());
+    if (!path->empty()) fmt::print("wrote    {}\n", path->string());
   return 0;
 }
 
@@ -159,46 +158,47 @@ int track(const TrackVerb& v, const Common& c) {
 void add_track(CLI::App& app, CommandLine& line) {
   const auto t = std::make_shared<TrackVerb>();
   CLI::App* v =
-      verb(app, line, "track", "Find and follow cells or beads in a video and measure how they move",
+      verb(app, line, "track", "Detect and track cells or beads in a video and measure how they move",
            "  faba track film.avi --um-per-px 0.35 --out tracks.csv --report tracks.html\n"
            "  faba track 'frames/frame_*.tif' --fps 26.87 --out tracks.h5 --overlay seen.mp4");
   v->add_option("video", t->video,
-                "Video, TIFF stack, folder of pictures, pattern in quotes, or run directory")
+                "Video, TIFF stack, folder of pictures, quoted file name pattern, or run directory")
       ->required();
-  v->add_option("--fps", t->fps, "Frames per second, where the video does not state them or not truly")
+  v->add_option("--fps", t->fps, "Frames per second, if the video states none or a wrong value")
       ->check(between(1e-6, 1e7));
   v->add_option("--um-per-px", t->scale,
-                "Scale: micrometres per pixel, or a calibration file of `faba scale`")
+                "Scale: micrometres per pixel, or a calibration file from `faba scale`")
       ->check(not_empty);
-  v->add_option("--out", t->out, "Write the tracks, as CSV or HDF5 by the ending; may be given twice");
-  v->add_option("--swarm", t->swarm, "Write centroid and spread of the swarm in each frame, as CSV");
-  v->add_option("--overlay", t->overlay, "Write the video with the tracks drawn in, as MP4 or AVI");
-  v->add_option("--report", t->report, "Write a page with figures and numbers, as HTML");
+  v->add_option("--out", t->out,
+                "Write the tracks, as CSV or HDF5 by the file extension; may be given twice");
+  v->add_option("--swarm", t->swarm, "Write centroid and covariance of the swarm in each frame, as CSV");
+  v->add_option("--overlay", t->overlay, "Write the video with the tracks, as MP4 or AVI");
+  v->add_option("--report", t->report, "Write a page with all figures, as HTML");
   v->add_option("--picture", t->picture, "Write the first frame with all tracks, as PNG");
   v->add_option("--figures", t->figures, "Write the figures into this folder, as SVG");
-  v->add_option("--size", t->size_px, "Width of a cell at half its contrast, px; found when absent")
+  v->add_option("--size", t->size_px, "Full width of a cell at half its contrast, px; default: measured")
       ->check(between(1, 60));
-  v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; found when absent")
+  v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; default: measured")
       ->check(CLI::IsMember({"auto", "dark", "bright", "both"}));
-  v->add_option("--background", t->background, "median of the video, or spatial: each frame, smoothed")
+  v->add_option("--background", t->background,
+                "Background: median of the video, or spatial (each frame, smoothed)")
       ->check(CLI::IsMember({"auto", "median", "spatial"}));
   v->add_option("--threshold", t->threshold,
-                "Least signal-to-noise of a spot; 1 false one in 10 frames when absent")
+                "Minimum signal-to-noise ratio of a spot; default: one false detection in 10 frames")
       ->check(between(1, 1e6));
-  v->add_option("--reach", t->reach_px, "Farthest displacement between two frames, px; found when absent")
+  v->add_option("--reach", t->reach_px, "Maximum displacement between two frames, px; default: measured")
       ->check(between(0.1, 1e5));
-  v->add_option(
-       "--motion", t->motion,
-       "Predict the next position by velocity, or take the nearest spot; chosen from the video when absent")
+  v->add_option("--motion", t->motion,
+                "Predict positions by velocity, or use the nearest spot; default: chosen for the video")
       ->check(CLI::IsMember({"auto", "nearest", "velocity"}));
-  v->add_option("--memory", t->memory, "Frames in a row that a cell may be unseen")
+  v->add_option("--memory", t->memory, "Maximum number of consecutive frames without a detection of the cell")
       ->check(CLI::Range(0, 1000));
-  v->add_option("--least", t->least, "Shortest track that counts, in sightings")
+  v->add_option("--least", t->least, "Minimum number of detections of a track")->check(CLI::Range(1, 100000));
+  v->add_option(
+       "--interval", t->interval,
+       "Number of frames over which displacements are measured for speeds and turns; default: measured")
       ->check(CLI::Range(1, 100000));
-  v->add_option("--interval", t->interval,
-                "Frames over which displacements are taken for speeds and turns; found when absent")
-      ->check(CLI::Range(1, 100000));
-  v->add_flag("--drop", t->drop, "Find the edge of the drop and look inside it only");
+  v->add_flag("--drop", t->drop, "Detect the edge of the drop in the first frame and search inside it only");
   v->add_flag("--force", t->force, "Replace existing files");
   v->callback([t, &line] { line.code = track(*t, line.common); });
 }

@@ -54,20 +54,20 @@ class Handle {
   }
   ~Handle() { release(); }
   bool release() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
-  operator hid_t() const { return id_; }  // NOLINT: it stands for the id wherever the C library wants one
+  operator hid_t() const { return id_; }  // NOLINT: used as the id in calls of the C library
 
  private:
   hid_t id_ = -1;
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-// What the library itself would say of an error; each thread has a switch of its own.
+// Turns off the error messages that HDF5 prints itself; the setting is per thread.
 void quiet() {
   thread_local bool done = false;
   if (std::exchange(done, true)) return;
   static std::once_flag once;
   std::call_once(once, [] {
-    H5dont_atexit();  // its clean-up loops for ever over a file that could not be flushed
+    H5dont_atexit();  // the clean-up loops forever if a file cannot be flushed
     H5open();
   });
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -88,8 +88,7 @@ struct H5Table::Impl {
   [[noreturn]] void fail(Errc code, const char* doing) const {
     throw Error(code, where, fmt::format("cannot {}: {}", doing, reason()));
   }
-  // The part of the table that is one row.
-  /// One row, as it lies in memory and in the file.
+  /// Selection of one row, in memory and in the file.
   struct Row {
     Handle memory, in_file;
   };
@@ -117,7 +116,7 @@ void H5Table::append(std::span<const T> row) {
   Impl& t = *impl_;
   quiet();
   if (row.size() != t.row_size() || type_of<T>() != t.type)
-    throw Error(Errc::internal, t.where, "row of another shape or type");
+    throw Error(Errc::internal, t.where, "the row has the wrong shape or type");
   ++t.dims[0];
   if (H5Dset_extent(t.set, t.dims.data()) < 0) t.fail(Errc::internal, "write");
   const auto at = t.select(t.dims[0] - 1);
@@ -129,7 +128,10 @@ template <class T>
 void H5Table::read(std::uint64_t row, std::span<T> out) const {
   const Impl& t = *impl_;
   quiet();
-  if (row >= t.dims[0] || out.size() != t.row_size()) throw Error(Errc::input, t.where, "has no such row");
+  if (row >= t.dims[0] || out.size() != t.row_size())
+    throw Error(Errc::input, t.where,
+                fmt::format("row {} not found, or its size differs; the table has {} rows of {} values", row,
+                            t.dims[0], t.row_size()));
   const auto at = t.select(row);
   if (H5Dread(t.set, type_of<T>(), at.memory, at.in_file, H5P_DEFAULT, out.data()) < 0)
     t.fail(Errc::input, "read");
@@ -149,7 +151,7 @@ H5File H5File::create(const std::filesystem::path& file) {
   impl->path = file;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110,
-                       H5F_LIBVER_V110);  // single writer, many readers needs this format
+                       H5F_LIBVER_V110);  // required for single writer, multiple readers
   impl->file = Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   if (impl->file < 0) impl->fail(Errc::internal, "create");
   return H5File(std::move(impl));
@@ -162,11 +164,11 @@ H5File H5File::open(const std::filesystem::path& file) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
-  // What a writer left half written is read again, each time after twice as long a pause, which by default
-  // goes on for hours: a millisecond is enough for a writer that lives.
+  // HDF5 retries to read partly written metadata, with a pause that doubles each time; the default number of
+  // attempts takes hours. A millisecond in total is enough for a running writer.
   constexpr unsigned kReadAttempts = 20;
   H5Pset_metadata_read_attempts(access, kReadAttempts);
-  if (impl->file < 0)  // its writer died: the mark "being written" is still set
+  if (impl->file < 0)  // the writer was killed: the flag "open for writing" is still set
     impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose);
   if (impl->file < 0) impl->fail(Errc::input, "open");
   return H5File(std::move(impl));
@@ -180,21 +182,23 @@ H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>&
   t->type = type_of<T>();
   t->dims.assign({0});
   t->dims.insert(t->dims.end(), row_shape.begin(), row_shape.end());
-  std::vector<hsize_t> most = t->dims, chunk = t->dims;
-  most[0] = H5S_UNLIMITED;
+  std::vector<hsize_t> max_dims = t->dims, chunk = t->dims;
+  max_dims[0] = H5S_UNLIMITED;
   chunk[0] = chunk_rows;
   if (chunk.size() > 1) chunk[1] = std::min<hsize_t>(chunk[1], chunk_columns);
-  const Handle space(H5Screate_simple(int(t->dims.size()), t->dims.data(), most.data()), H5Sclose);
-  const Handle made(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  H5Pset_chunk(made, int(chunk.size()), chunk.data());
+  const Handle space(H5Screate_simple(int(t->dims.size()), t->dims.data(), max_dims.data()), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose),
+      access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk(creation, int(chunk.size()), chunk.data());
   if (compress) {
-    H5Pset_shuffle(made);
-    H5Pset_deflate(made, 1);
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 1);
   }
-  H5Pset_fletcher32(made);  // a flipped bit is an error of reading
+  H5Pset_fletcher32(creation);  // a flipped bit gives a read error
   H5Pset_chunk_cache(access, 12421, kCacheBytes, 1.0);
-  t->set = Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, made, access), H5Dclose);
-  if (t->set < 0) impl_->fail(Errc::internal, "create a table in");
+  t->set =
+      Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, creation, access), H5Dclose);
+  if (t->set < 0) impl_->fail(Errc::internal, "create a table");
   impl_->tables.push_back(t);
   return H5Table(t);
 }
@@ -203,7 +207,7 @@ H5Table H5File::table(const std::string& name) const {
   auto t = std::make_shared<H5Table::Impl>();
   t->where = impl_->path.string();
   t->set = Handle(H5Dopen2(impl_->file, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (t->set < 0) throw Error(Errc::input, t->where, fmt::format("has no table \"{}\"", name));
+  if (t->set < 0) throw Error(Errc::input, t->where, fmt::format("table \"{}\" not found", name));
   const Handle space(H5Dget_space(t->set), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1) throw Error(Errc::input, t->where, fmt::format("\"{}\" is not a table", name));
@@ -240,7 +244,7 @@ double H5File::number_attribute(const std::string& object, const std::string& na
                  H5Aclose);
   double value = 0;
   if (a < 0 || H5Aread(a, H5T_NATIVE_DOUBLE, &value) < 0)
-    throw Error(Errc::input, impl_->path.string(), fmt::format("has no number \"{}\"", name));
+    throw Error(Errc::input, impl_->path.string(), fmt::format("numeric attribute \"{}\" not found", name));
   return value;
 }
 
@@ -253,17 +257,17 @@ std::string H5File::text_attribute(const std::string& object, const std::string&
                       '\0');
     if (!value.empty() && H5Aread(a, type, value.data()) >= 0) return value.substr(0, value.find('\0'));
   }
-  throw Error(Errc::input, impl_->path.string(), fmt::format("has no text \"{}\"", name));
+  throw Error(Errc::input, impl_->path.string(), fmt::format("string attribute \"{}\" not found", name));
 }
 
 void H5File::begin_writing() {
-  if (H5Fstart_swmr_write(impl_->file) < 0) impl_->fail(Errc::internal, "begin to write");
+  if (H5Fstart_swmr_write(impl_->file) < 0) impl_->fail(Errc::internal, "start writing");
 }
 
 void H5File::sync() {
   quiet();
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->fail(Errc::internal, "write");
-  void* handle = nullptr;  // a pointer to HDF5's descriptor of the file, whatever the file is called by now
+  void* handle = nullptr;  // pointer to the file descriptor of HDF5
   if (H5Fget_vfd_handle(impl_->file, H5P_DEFAULT, &handle) < 0) impl_->fail(Errc::internal, "write");
   flush_descriptor(*static_cast<const int*>(handle), impl_->path);
 }

@@ -8,9 +8,9 @@
 
 namespace faba {
 
-/// A table of an HDF5 file that grows by rows. Element types: float, double, std::uint8_t, std::int32_t,
-/// std::uint64_t. Valid as long as its file. Every failure throws Error(internal) with the file's name and
-/// HDF5's reason.
+/// An HDF5 dataset to which rows are appended. Element types: float, double, std::uint8_t, std::int32_t,
+/// std::uint64_t. Valid as long as its file is open. Every failure throws Error(internal) with the file name
+/// and the reason given by HDF5.
 class H5Table {
  public:
   template <class T>
@@ -27,26 +27,26 @@ class H5Table {
   std::shared_ptr<Impl> impl_;
 };
 
-/// An HDF5 file. While it is written it stays readable at any moment, also after the process was killed
-/// (single writer, many readers). One thread at a time may use a file; several files may be open in several
-/// threads, since Debian builds HDF5 thread-safe (its calls take turns).
+/// An HDF5 file. It is readable at any time while it is written, and after the writing process was killed
+/// (SWMR: single writer, multiple readers). One thread at a time may use a file. Several threads may use
+/// several files, because Debian builds HDF5 thread-safe (its calls are serialised).
 class H5File {
  public:
-  /// Throws Error(internal) when it cannot be made.
+  /// Throws Error(internal) if the file cannot be created.
   static H5File create(const std::filesystem::path& file);
-  /// For reading; also a file whose writer died. Throws Error(input).
+  /// Opens for reading, also a file whose writer was killed. Throws Error(input).
   static H5File open(const std::filesystem::path& file);
   H5File(H5File&&) noexcept;
   H5File& operator=(H5File&&) noexcept;
   ~H5File();
 
-  /// `row_shape`: shape of one row; {} for a single number. Element type T. Rows come in chunks of
-  /// `chunk_rows` by, in the first dimension of the row, `chunk_columns`. Tables and attributes must be made
+  /// `row_shape`: shape of one row; {} for a scalar. Element type T. A chunk has `chunk_rows` rows and
+  /// `chunk_columns` elements along the first dimension of a row. Tables and attributes must be created
   /// before begin_writing().
   template <class T>
   H5Table table(const std::string& name, const std::vector<std::uint64_t>& row_shape,
                 std::uint64_t chunk_rows, std::uint64_t chunk_columns, bool compress);
-  /// An existing table. Throws Error(input) when it is absent or of another shape.
+  /// An existing table. Throws Error(input) if it does not exist or has no rows dimension.
   H5Table table(const std::string& name) const;
   bool has(const std::string& name) const;
 
@@ -56,11 +56,11 @@ class H5File {
   double number_attribute(const std::string& object, const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;
 
-  void begin_writing();  ///< from here on readers may follow, and a crash leaves a readable file
-  void sync();           ///< everything appended so far to the disk
-  /// Brings all to the disk and gives the file its final name; writing may continue.
+  void begin_writing();  ///< from here on other processes can read, and a crash leaves a readable file
+  void sync();           ///< writes everything appended so far to the disk
+  /// Syncs and renames the file to its final name; writing may continue.
   void rename_complete(const std::filesystem::path& to);
-  void close();  ///< reports what a destructor cannot
+  void close();  ///< throws on errors, which the destructor cannot
 
  private:
   struct Impl;

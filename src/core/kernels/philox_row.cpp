@@ -3,7 +3,7 @@
 #include <vector>
 
 #if defined(__x86_64__)
-// GCC 12 takes its own header's placeholder operands for variables somebody forgot (GCC bug 105593).
+// GCC 12 warns about placeholder operands in its own header (GCC bug 105593).
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif

@@ -6,25 +6,26 @@
 
 namespace faba {
 
-/// The words of agents in a row, word by word, as loops over agents want them.
+/// Random words of consecutive agents as a structure of arrays, for vectorised loops over agents.
 struct PhiloxRow {
-  static constexpr std::size_t kLength = 256;  ///< 4 KiB: stays in the first cache beside a block of agents
+  static constexpr std::size_t kLength =
+      256;  ///< 4 KiB: fits into the L1 cache together with a block of agents
   alignas(64) std::array<std::uint32_t, kLength> w0, w1, w2, w3;
 };
 
-/// draw() with block 0 for agents [first, first + n), n <= PhiloxRow::kLength, with the processor's widest
-/// multiplier: compilers do not find it for a product of two words on their own. What stands beyond n is
+/// draw() with block 0 for agents [first, first + n), n <= PhiloxRow::kLength, with the widest vector
+/// multiplier of the processor, which compilers do not use for a product of two words. Elements beyond n are
 /// undefined.
 void draw_row(std::uint64_t seed, Stream stream, std::uint32_t first, std::uint32_t step, std::size_t n,
               PhiloxRow& row);
 
-/// One way to compute a row. All give the same words.
+/// One implementation of a row. All give the same words.
 struct PhiloxKernel {
   const char* instructions;
   void (*row)(std::uint32_t first, std::uint32_t step, std::uint32_t stream, std::uint64_t seed,
               std::size_t n, PhiloxRow& row);
 };
-/// Those that this machine can run, the fastest one first.
+/// Implementations that this machine supports, the fastest first.
 std::span<const PhiloxKernel> philox_kernels();
 
 /// Calls job(i, n, row) for the rows of agents [begin, begin + count): the words of agent begin + i + j are

@@ -1,4 +1,4 @@
-// What `faba rig capture` keeps of a camera, whose frames the test makes.
+// Frames that `faba rig capture` keeps, with a test camera.
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -14,14 +14,14 @@ using namespace faba;
 
 namespace {
 
-// Ten frames a second, as fast as they are taken: 0.0 s, 0.1 s ... Frame k (from 1) is of grey 5 k. Frames 7
-// and 8 are lost on the way.
-class Film final : public Camera {
+// A camera at 10 Hz (0.0 s, 0.1 s ...) that delivers frames without waiting. Frame k (from 1) has grey value
+// 5 k. Frames 7 and 8 are dropped.
+class TestCamera final : public Camera {
  public:
-  explicit Film(int frames, bool breaks = false) : frames_(frames), breaks_(breaks) {}
+  explicit TestCamera(int frames, bool fails = false) : frames_(frames), fails_(fails) {}
   bool read(CameraFrame& out) override {
     if (next_ > frames_) {
-      if (breaks_) throw Error(Errc::device, "film", "broke");
+      if (fails_) throw Error(Errc::device, "camera", "failed");
       return false;
     }
     out.number = std::uint64_t(next_);
@@ -39,10 +39,10 @@ class Film final : public Camera {
 
  private:
   int frames_, next_ = 1;
-  bool breaks_;
+  bool fails_;
 };
 
-// The camera's numbers of the frames that were kept.
+// Camera frame numbers of the kept frames.
 std::vector<double> numbers(const std::filesystem::path& times) {
   const Table t = read_table(times, LastLine::keep);
   const auto column = t.column("camera_frame");
@@ -58,7 +58,7 @@ CaptureJob into(const std::filesystem::path& out, const std::string& format) {
 
 }  // namespace
 
-TEST_CASE("one of N, once every T, a run of N frames, a run of T: what is kept, streaming and buffered") {
+TEST_CASE("kept frames with one_of, every, frames and time, streaming and buffered") {
   const test::TemporaryFolder f("capture");
   int k = 0;
   const auto kept = [&](auto&& change) {
@@ -67,7 +67,7 @@ TEST_CASE("one of N, once every T, a run of N frames, a run of T: what is kept, 
       CaptureJob job = into(f.path() / std::to_string(k++), "pgm");
       job.buffered = buffered;
       change(job);
-      const Captured c = capture(std::make_shared<Film>(20), job);
+      const Captured c = capture(std::make_shared<TestCamera>(20), job);
       const auto now = numbers(job.out / "times.csv");
       CHECK(c.kept == now.size());
       CHECK(c.corrupt == 3);
@@ -77,23 +77,23 @@ TEST_CASE("one of N, once every T, a run of N frames, a run of T: what is kept, 
     return streamed;
   };
   CHECK(kept([](CaptureJob& j) { j.one_of = 4; }) ==
-        std::vector<double>{1, 5, 11, 15, 19});  // of those that came
+        std::vector<double>{1, 5, 11, 15, 19});  // counted without the dropped frames
   CHECK(kept([](CaptureJob& j) { j.frames = 7; }) == std::vector<double>{1, 2, 3, 4, 5, 6, 9});
   CHECK(kept([](CaptureJob& j) {
           j.frames = 7;
           j.one_of = 3;
         }) == std::vector<double>{1, 4, 9});
   CHECK(kept([](CaptureJob& j) { j.time = 0.45; }) == std::vector<double>{1, 2, 3, 4, 5});
-  // Due at 0, 0.3, 0.6 (lost, the next one stands for it), 0.9 ...
+  // Due at 0, 0.3, 0.6 (dropped; the next frame is used), 0.9 ...
   CHECK(kept([](CaptureJob& j) { j.every = 0.3; }) == std::vector<double>{1, 4, 9, 10, 13, 16, 19});
 }
 
-TEST_CASE("pictures are what the camera gave, in every format; a video without loss, too") {
+TEST_CASE("pictures of every format and lossless videos have the grey values of the camera") {
   const test::TemporaryFolder f("capture");
   for (const std::string format : {"png", "pgm", "ppm", "tiff"}) {
     INFO(format);
     const auto folder = f.path() / format;
-    const Captured c = capture(std::make_shared<Film>(20), into(folder, format));
+    const Captured c = capture(std::make_shared<TestCamera>(20), into(folder, format));
     CHECK(c.taken == 18);
     CHECK(c.dropped == 2);
     CHECK(c.duration == doctest::Approx(1.9));
@@ -104,7 +104,7 @@ TEST_CASE("pictures are what the camera gave, in every format; a video without l
     VideoReader all(folder, 10);
     CHECK(all.frames_stated() == 18);
   }
-  capture(std::make_shared<Film>(20), into(f.path() / "film.avi", "avi"));
+  capture(std::make_shared<TestCamera>(20), into(f.path() / "film.avi", "avi"));
   VideoReader video(f.path() / "film.avi");
   GrayF frame;
   double t = 0;
@@ -113,13 +113,13 @@ TEST_CASE("pictures are what the camera gave, in every format; a video without l
   CHECK(numbers(f.path() / "film.avi.csv").size() == 18);
 }
 
-TEST_CASE("a camera that breaks: it is said, and what came before can be read but does not pass as whole") {
+TEST_CASE("a camera failure is reported; earlier frames are readable in a file marked as incomplete") {
   const test::TemporaryFolder f("capture");
   for (const bool buffered : {false, true}) {
     CaptureJob job = into(f.path() / (buffered ? "b.avi" : "a.avi"), "avi");
     job.buffered = buffered;
-    CHECK_THROWS_WITH_AS(capture(std::make_shared<Film>(6, true), job),
-                         doctest::Contains("broke; 6 frames are in"), Error);
+    CHECK_THROWS_WITH_AS(capture(std::make_shared<TestCamera>(6, true), job),
+                         doctest::Contains("failed; 6 recorded frames are in"), Error);
     CHECK_FALSE(std::filesystem::exists(job.out));
     VideoReader video(job.out.string() + ".part");
     GrayF frame;
@@ -131,13 +131,13 @@ TEST_CASE("a camera that breaks: it is said, and what came before can be read bu
   }
 }
 
-TEST_CASE("what is there is not written over") {
+TEST_CASE("existing files are not overwritten") {
   const test::TemporaryFolder f("capture");
   const auto video = f.path() / "a.avi", folder = f.path() / "pictures";
   std::ofstream(video) << "mine";
   std::filesystem::create_directory(folder);
   std::ofstream(folder / "mine") << "mine";
-  CHECK_THROWS_AS(capture(std::make_shared<Film>(3), into(video, "avi")), Error);
-  CHECK_THROWS_AS(capture(std::make_shared<Film>(3), into(folder, "pgm")), Error);
+  CHECK_THROWS_AS(capture(std::make_shared<TestCamera>(3), into(video, "avi")), Error);
+  CHECK_THROWS_AS(capture(std::make_shared<TestCamera>(3), into(folder, "pgm")), Error);
   CHECK(std::filesystem::file_size(video) == 4);
 }

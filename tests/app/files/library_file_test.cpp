@@ -1,4 +1,4 @@
-// The file of a field library, and which entry is taken.
+// The file of a field library, and the selection of entries.
 #include "app/files/library_file.h"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ struct Written {
 
 }  // namespace
 
-TEST_CASE("library: what is written is read, and has its name only when whole") {
+TEST_CASE("library: written entries are read back; the file has its final name only when complete") {
   const Written w({entry(1e-4, 2e-4, -2, -1, 0.25), entry(-3e-4, 0, 1, 3, -0.5)});
   const auto kept_l = open_library(w.file);
   const FieldLibrary& l = *kept_l;
@@ -44,18 +44,21 @@ TEST_CASE("library: what is written is read, and has its name only when whole") 
   CHECK_FALSE(std::filesystem::exists(w.file.string() + ".part"));
 }
 
-TEST_CASE("library: the nearest zero that traps the cells asked for; of two alike the one with less power") {
+TEST_CASE(
+    "library: the nearest zero that traps cells of the polarity; of two equal ones that with less power") {
   const Written w({entry(0, 0, -2, -1, 0.5), entry(0, 0, -1, -0.5, 0.25), entry(0, 0, 1, 2, -0.5),
                    entry(1e-4, 0, -2, -1, 0.4), entry(0, 1e-5, -2, 1, 0.1), entry(5e-4, 5e-4, 0.5, 1, -0.1)});
   const auto kept_l = open_library(w.file);
   const FieldLibrary& l = *kept_l;
-  CHECK(l.nearest({1e-5, 0}, 1) == 1);  // not the saddle beside it, and not the stronger current
+  CHECK(l.nearest({1e-5, 0}, 1) == 1);  // neither the nearby saddle nor the larger current
   CHECK(l.nearest({0.9e-4, 0}, 1) == 3);
   CHECK(l.nearest({0, 0}, -1) == 2);
   CHECK(l.nearest({1, 1}, -1) == 5);
 }
 
-TEST_CASE("library: of saddles alone those that trap more than they drive away; of none, none") {
+TEST_CASE(
+    "library: with saddles only, those that trap more than they drive away; an empty library has no nearest "
+    "zero") {
   const Written saddles({entry(0, 0, -2, 1, 0.5), entry(0, 0, -1, 2, -0.5)});
   const auto kept_l = open_library(saddles.file);
   const FieldLibrary& l = *kept_l;
@@ -65,7 +68,7 @@ TEST_CASE("library: of saddles alone those that trap more than they drive away; 
   CHECK_FALSE(open_library(none.file)->nearest({0, 0}, 1).has_value());
 }
 
-TEST_CASE("library: what was written before a crash is taken over, for the same task only") {
+TEST_CASE("library: entries written before a crash are imported, for the same task only") {
   test::TemporaryFolder folder("library");
   const auto file = folder.path() / "l.h5";
   const std::vector<float> field(2 * kGrid.nodes(), 7);
@@ -73,7 +76,7 @@ TEST_CASE("library: what was written before a crash is taken over, for the same 
     LibraryWriter w(file, "a rig", "a task", kGrid, 2);
     w.add(3, entry(1e-4, 0, -2, -1, 1), field);
     w.add(8, entry(2e-4, 0, -2, -1, 1), field);
-    w.tried(12);  // and no finish(): what is left behind is what a crash leaves
+    w.tried(12);  // no finish(): the files are those after a crash
   }
   CHECK_FALSE(std::filesystem::exists(file));
   {
@@ -86,12 +89,12 @@ TEST_CASE("library: what was written before a crash is taken over, for the same 
   CHECK(w.entries() == 0);
 }
 
-TEST_CASE("library: another rig is refused, by its hash and by its field") {
-  const auto made = [](const std::string& radius) {
+TEST_CASE("library: another coil system is rejected, by its hash and by its field") {
+  const auto rig_with = [](const std::string& radius) {
     return field_of("type = 'rig'\n[[coil]]\ntype = 'loop'\nposition = [0, 0, 0.02]\nradius = " + radius +
                     "\n[[coil]]\ntype = 'loop'\nposition = [0, 0.02, 0]\n");
   };
-  const auto rig = made("0.005"), other = made("0.0051");
+  const auto rig = rig_with("0.005"), other = rig_with("0.0051");
   test::TemporaryFolder folder("library");
   const auto file = folder.path() / "l.h5";
   FieldTable table(*rig, kGrid);

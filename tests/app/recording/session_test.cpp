@@ -12,7 +12,7 @@ using namespace faba;
 
 namespace {
 
-// Everything with a memory: noise, reversals, exposure, delay, integrator, route, slew limit.
+// All features with internal state: noise, reversals, exposure, delay, integrator, route, slew limit.
 constexpr const char* kScene = R"(
 duration = "4 s"
 exposure = "200 s"
@@ -40,7 +40,7 @@ std::string state_hash(const Session& s) { return s.manifest().simulated->state_
 
 }  // namespace
 
-TEST_CASE("a run directory holds what it promises and loses its marker when whole") {
+TEST_CASE("a complete run directory has all files and no marker") {
   const TestFolder f;
   Session s = Session::begin(scenario_from(kScene), 7, options(f.path / "run"));
   CHECK(std::filesystem::exists(f.path / "run/incomplete"));
@@ -61,7 +61,7 @@ TEST_CASE("a run directory holds what it promises and loses its marker when whol
   CHECK(tracks.table("responding").rows() == 80);
 }
 
-TEST_CASE("the resolved scenario beside a run gives the same run again") {
+TEST_CASE("the resolved scenario of a run gives the same run again") {
   const TestFolder f;
   Session first = Session::begin(scenario_from(kScene), 7, options(f.path / "a"));
   first.run();
@@ -74,11 +74,11 @@ TEST_CASE("the resolved scenario beside a run gives the same run again") {
   CHECK(read_file(f.path / "a/series.csv") == read_file(f.path / "b/series.csv"));
 }
 
-TEST_CASE("R5: stopped after any frame and resumed, every file is the same as without the stop") {
+TEST_CASE("R5: a run stopped after any frame and resumed has the same files as an uninterrupted one") {
   const TestFolder f;
   const Scenario scene = scenario_from(kScene);
-  Session whole = Session::begin(scene, 7, options(f.path / "whole"));
-  REQUIRE(whole.run());
+  Session complete = Session::begin(scene, 7, options(f.path / "complete"));
+  REQUIRE(complete.run());
   for (const std::uint64_t stop_at : {1u, 7u, 40u, 79u, 80u}) {
     INFO("stopped after frame ", stop_at);
     const auto dir = f.path / ("stopped-" + std::to_string(stop_at));
@@ -92,11 +92,11 @@ TEST_CASE("R5: stopped after any frame and resumed, every file is the same as wi
     }
     CHECK(std::filesystem::exists(dir / "incomplete"));
     Session resumed =
-        Session::resume(builtin_parts(), options(dir, 2));  // and with another number of threads
+        Session::resume(builtin_parts(), options(dir, 2));  // with a different number of threads
     REQUIRE(resumed.run());
-    CHECK(state_hash(resumed) == state_hash(whole));
-    CHECK(read_file(dir / "series.csv") == read_file(f.path / "whole/series.csv"));
-    const H5File a = H5File::open(dir / "tracks.h5"), b = H5File::open(f.path / "whole/tracks.h5");
+    CHECK(state_hash(resumed) == state_hash(complete));
+    CHECK(read_file(dir / "series.csv") == read_file(f.path / "complete/series.csv"));
+    const H5File a = H5File::open(dir / "tracks.h5"), b = H5File::open(f.path / "complete/tracks.h5");
     const H5Table ta = a.table("position_px"), tb = b.table("position_px");
     REQUIRE(ta.rows() == tb.rows());
     std::vector<float> ra(ta.row_size()), rb(tb.row_size());
@@ -108,7 +108,7 @@ TEST_CASE("R5: stopped after any frame and resumed, every file is the same as wi
   }
 }
 
-TEST_CASE("stopped and resumed with rendered frames: the same frames, to the byte, and the same times") {
+TEST_CASE("a run with rendered frames, stopped and resumed, has bit-identical frames and the same times") {
   const TestFolder f;
   const Scenario scene = scenario_from(R"(
 duration = "1.2 s"
@@ -120,8 +120,8 @@ record = { checkpoint = "1000 s", lossless = true, as_seen = true }
 [[swarm]]
 count = 60
 )");
-  Session whole = Session::begin(scene, 7, options(f.path / "whole"));
-  REQUIRE(whole.run());
+  Session complete = Session::begin(scene, 7, options(f.path / "complete"));
+  REQUIRE(complete.run());
   {
     std::atomic<bool> stop{false};
     RunOptions o = options(f.path / "cut");
@@ -131,11 +131,11 @@ count = 60
   }
   Session resumed = Session::resume(builtin_parts(), options(f.path / "cut", 2));
   REQUIRE(resumed.run());
-  CHECK(state_hash(resumed) == state_hash(whole));
-  CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "whole/series.csv"));
-  // PNG has no memory between frames, so where checkpoints were made does not show
-  CHECK(read_file(f.path / "cut/video.avi") == read_file(f.path / "whole/video.avi"));
-  CHECK(whole.manifest().video_shows == "camera");
+  CHECK(state_hash(resumed) == state_hash(complete));
+  CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "complete/series.csv"));
+  // PNG has no state between frames, so the position of checkpoints has no effect
+  CHECK(read_file(f.path / "cut/video.avi") == read_file(f.path / "complete/video.avi"));
+  CHECK(complete.manifest().video_shows == "camera");
 
   VideoReader avi(f.path / "cut/video.avi"), mp4(f.path / "cut/video.mp4");
   CHECK(avi.bits() == 16);
@@ -157,7 +157,7 @@ count = 60
   CHECK(std::fabs(truth - 23 / 20.0) > 1e-4);
 }
 
-TEST_CASE("as seen without frames as sensor: the run is the same, only the video differs") {
+TEST_CASE("record.as_seen with sensor = positions changes only the video, not the run") {
   const TestFolder f;
   Document plain = parse_toml(kScene, "test"), seen = plain;
   seen.set("record.as_seen", Json(true), "test");
@@ -172,13 +172,13 @@ TEST_CASE("as seen without frames as sensor: the run is the same, only the video
   CHECK(read_file(f.path / "a/video.avi") != read_file(f.path / "b/video.avi"));
 }
 
-TEST_CASE("resume: refused when there is nothing to go on with") {
+TEST_CASE("resume: rejected without an unfinished run") {
   const TestFolder f;
   const auto resume = [&](const std::filesystem::path& dir) {
     Session::resume(builtin_parts(), options(dir));
   };
   CHECK_THROWS_WITH_AS(resume(f.path / "none"),
-                       (f.path / "none").string().append(": no such run directory").c_str(), Error);
+                       (f.path / "none").string().append(": run directory not found").c_str(), Error);
   CHECK_THROWS_WITH_AS(resume(f.path), f.path.string().append(": is not a run directory").c_str(), Error);
   Session done = Session::begin(scenario_from(kScene), 1, options(f.path / "done"));
   done.run();
@@ -187,7 +187,7 @@ TEST_CASE("resume: refused when there is nothing to go on with") {
                        (f.path / "done").string().append(": this run is complete").c_str(), Error);
 }
 
-TEST_CASE("an existing run is not overwritten without force, and force leaves what is not ours") {
+TEST_CASE("an existing run is not overwritten without force; force keeps files that do not belong to a run") {
   const TestFolder f;
   Session::begin(scenario_from(kScene), 1, options(f.path / "run")).run();
   CHECK_THROWS_AS(Session::begin(scenario_from(kScene), 1, options(f.path / "run")), Error);
@@ -198,7 +198,7 @@ TEST_CASE("an existing run is not overwritten without force, and force leaves wh
   CHECK(read_file(f.path / "run/notes.txt") == "mine");
 }
 
-TEST_CASE("R6: a damaged checkpoint is refused, whichever byte was hit") {
+TEST_CASE("R6: a corrupt checkpoint is rejected, for an error in any byte") {
   const TestFolder f;
   Archive a;
   std::vector<double> numbers(50, 1.25);

@@ -19,7 +19,7 @@ count = 60
 start = { type = "disc", radius_px = 40 }
 )";
 
-/// Turns a live run on by `n` frames, as the lab does it: in one loop, with exchanges in between.
+/// Runs a live run until frame `end`, as the lab does: in one loop, with exchanges in between.
 void play(LiveRun& live, const std::vector<std::pair<std::uint64_t, Json>>& script, std::uint64_t end) {
   std::size_t next = 0;
   const auto due = [&] {
@@ -47,7 +47,7 @@ std::string hash_of(const Scenario& s, unsigned threads) {
 
 }  // namespace
 
-TEST_CASE("what was done live is done again, to the same bits, by the recorded scenario") {
+TEST_CASE("the recorded scenario repeats a live run bit by bit") {
   const Parts parts = builtin_parts();
   Pool pool(2);
   LiveRun live(parse_toml(kScene, "test"), 5, parts, pool);
@@ -61,7 +61,7 @@ TEST_CASE("what was done live is done again, to the same bits, by the recorded s
         {50, {{"model", {{"type", "dipole"}, {"preset", "MSR-1"}}}}}},
        60);
   const Scenario s = live.recorded();
-  CHECK(s.events.size() == 6);  // the field was turned twice before frame 7
+  CHECK(s.events.size() == 6);  // two changes of the field before frame 7 are merged
   CHECK(s.frames() == 60);
   const Document again = parse_toml(to_toml(s.resolved()), "again");
   const Scenario read = read_scenario(again, parts);
@@ -73,7 +73,7 @@ TEST_CASE("what was done live is done again, to the same bits, by the recorded s
   CHECK(hash_of(without, 1) != live.state_hash());
 }
 
-TEST_CASE("events of the file happen in a live run, after what was given before the same frame") {
+TEST_CASE("events of the file are applied in a live run, after exchanges before the same frame") {
   const Parts parts = builtin_parts();
   Pool pool(1);
   const std::string text =
@@ -88,7 +88,7 @@ TEST_CASE("events of the file happen in a live run, after what was given before 
   CHECK(hash_of(s, 1) == live.state_hash());
 }
 
-TEST_CASE("what does not fit is refused, and nothing has changed") {
+TEST_CASE("unsuitable exchanges are rejected and change nothing") {
   const Parts parts = builtin_parts();
   Pool pool(1);
   LiveRun live(parse_toml(kScene, "test"), 5, parts, pool);
@@ -109,7 +109,7 @@ TEST_CASE("what does not fit is refused, and nothing has changed") {
   }
 }
 
-TEST_CASE("a run with events that was broken off goes on to the same bits") {
+TEST_CASE("an interrupted run with events is resumed with bit-identical results") {
   const Parts parts = builtin_parts();
   const std::string text =
       std::string(kScene) +
@@ -120,7 +120,7 @@ TEST_CASE("a run with events that was broken off goes on to the same bits") {
   d.root["duration"] = "2 s";
   d.root["seed"] = 1;
   const Scenario s = read_scenario(d, parts);
-  const std::string whole = hash_of(s, 1);
+  const std::string uninterrupted = hash_of(s, 1);
   for (const std::uint64_t at : {6U, 12U, 15U}) {
     test::TemporaryFolder folder("live");
     RunOptions o;
@@ -136,6 +136,6 @@ TEST_CASE("a run with events that was broken off goes on to the same bits") {
     stop = false;
     Session second = Session::resume(parts, o);
     REQUIRE(second.run());
-    CHECK(second.manifest().simulated->state_hash == whole);
+    CHECK(second.manifest().simulated->state_hash == uninterrupted);
   }
 }

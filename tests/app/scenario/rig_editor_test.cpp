@@ -1,4 +1,4 @@
-// A coil system changed by what its keys mean: the laws that hold for the field of every kind of coil.
+// Changes of a coil system through the roles of its keys: laws for the field of every type of coil.
 #include "app/scenario/rig_editor.h"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@ using namespace faba;
 
 namespace {
 
-const Vec3 kPlace{0.7e-3, -0.4e-3, 0.9e-3};
+const Vec3 kPosition{0.7e-3, -0.4e-3, 0.9e-3};
 const std::vector<double> kCurrent{0.3};
 
 struct Coil {
@@ -33,13 +33,13 @@ RigEditor editor(const Parts& parts, const Coil& coil) {
 
 Vec3 field_at(const RigEditor& rig, Vec3 at) { return rig.make()->at(at, kCurrent) - rig.make()->ambient(); }
 
-// The formulas are computed in double and the table of a rig has 17 digits; the rest is the rounding of moved
-// places.
+// The formulas are computed in double precision and the table of a rig has 17 digits; the tolerance is for
+// the rounding of moved positions.
 constexpr double kRounding = 1e-12;
 
 }  // namespace
 
-TEST_CASE("rig editor: a coil that is moved takes its field along") {
+TEST_CASE("rig editor: the field of a moved coil moves with it") {
   const Parts parts = builtin_parts();
   for (const Coil& coil : kCoils) {
     CAPTURE(coil.what);
@@ -47,27 +47,27 @@ TEST_CASE("rig editor: a coil that is moved takes its field along") {
     RigEditor moved = rig;
     const Vec3 by{0.2e-3, -0.1e-3, 0.3e-3};
     moved.move(0, by);
-    const Vec3 before = field_at(rig, kPlace);
-    CHECK(norm(field_at(moved, kPlace + by) - before) < kRounding * norm(before));
-    CHECK(norm(field_at(moved, kPlace) - before) > 1e-3 * norm(before));
+    const Vec3 before = field_at(rig, kPosition);
+    CHECK(norm(field_at(moved, kPosition + by) - before) < kRounding * norm(before));
+    CHECK(norm(field_at(moved, kPosition) - before) > 1e-3 * norm(before));
   }
 }
 
-TEST_CASE("rig editor: a coil that is strengthened has a field in proportion, the ambient field is its own") {
+TEST_CASE("rig editor: the strength scales the field of a coil but not the ambient field") {
   const Parts parts = builtin_parts();
   for (const Coil& coil : kCoils) {
     CAPTURE(coil.what);
     const RigEditor rig = editor(parts, coil);
     RigEditor strong = rig;
     strong.strengthen(0, 1.5);
-    const Vec3 before = field_at(rig, kPlace);
-    CHECK(norm(field_at(strong, kPlace) - 1.5 * before) < kRounding * norm(before));
+    const Vec3 before = field_at(rig, kPosition);
+    CHECK(norm(field_at(strong, kPosition) - 1.5 * before) < kRounding * norm(before));
     strong.add_ambient({0, 3e-5, 0});
     CHECK(norm(strong.make()->ambient() - Vec3{1e-5, 3e-5, 2e-5}) < kRounding * 1e-5);
   }
 }
 
-TEST_CASE("rig editor: a tilt turns the axis by its angle and keeps the field in the middle") {
+TEST_CASE("rig editor: a tilt rotates the axis by its angle") {
   const Parts parts = builtin_parts();
   for (const Coil& coil : kCoils) {
     CAPTURE(coil.what);
@@ -83,7 +83,7 @@ TEST_CASE("rig editor: a tilt turns the axis by its angle and keeps the field in
   }
 }
 
-TEST_CASE("rig editor: every kind of coil says which key is its place, its direction and its strength") {
+TEST_CASE("rig editor: every type of coil declares the keys of its position, direction and strength") {
   const Parts parts = builtin_parts();
   for (const std::string& kind : parts.field.names_with(Trait::coil)) {
     CAPTURE(kind);

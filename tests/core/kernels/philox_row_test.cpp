@@ -6,7 +6,7 @@
 
 using namespace faba;
 
-TEST_CASE("every kernel gives the words of draw(), for every length of row") {
+TEST_CASE("every kernel gives the words of draw(), for all row lengths") {
   constexpr std::uint64_t kSeed = 0x0123456789abcdefu;
   for (const PhiloxKernel& kernel : philox_kernels()) {
     INFO(std::string(kernel.instructions));

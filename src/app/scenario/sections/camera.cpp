@@ -3,7 +3,7 @@
 namespace faba {
 
 Schema<CameraParams> CameraParams::schema() {
-  return Schema<CameraParams>("camera", "When the camera looks, and what it tells")
+  return Schema<CameraParams>("camera", "Frame rate, delay and output of the camera")
       .add("rate", &CameraParams::rate,
            {.unit = "Hz",
             .min = 0.01,
@@ -11,15 +11,17 @@ Schema<CameraParams> CameraParams::schema() {
             .doc = "Frames per second",
             .source = "thesis: 90 frames in 6 s (A0)"})
       .add("delay_frames", &CameraParams::delay_frames,
-           {.min = 0, .max = 1000, .doc = "Age of a picture, in frames, when the controller gets it"})
+           {.min = 0, .max = 1000, .doc = "Delay from a frame to the control decision, in frames"})
       .add("jitter", &CameraParams::jitter,
            {.unit = "s",
             .min = 0,
             .max = 1e3,
-            .doc = "Sd of the frames' times about the regular ones, at most 0.4 frames to either side"})
+            .doc = "Standard deviation of the frame times from the regular ones; deviations are limited to "
+                   "0.4 frame periods"})
       .add("sensor", &CameraParams::sensor,
-           {.doc = "positions: the loop is told where every cell is; frames: it gets pictures as the "
-                   "[microscope] renders them, and has to find the cells itself",
+           {.doc = "positions: the control loop gets the positions of all cells; frames: it gets pictures "
+                   "rendered "
+                   "by the [microscope], in which the estimator detects the swarm",
             .choices = {"positions", "frames"}});
 }
 

@@ -10,9 +10,9 @@ Json field_json_schema(const Parts& parts) {
   const char* holds_coils = traits::kWords.at(std::size_t(Trait::coil_system));
   for (Json& one : j["oneOf"]) {
     if (!one.contains("x-traits")) continue;
-    const Json& words = one["x-traits"];
-    if (std::find(words.begin(), words.end(), holds_coils) == words.end()) continue;
-    one["properties"]["file"] = {{"type", "string"}, {"description", "A rig file, taken in as it is"}};
+    const Json& part_traits = one["x-traits"];
+    if (std::find(part_traits.begin(), part_traits.end(), holds_coils) == part_traits.end()) continue;
+    one["properties"]["file"] = {{"type", "string"}, {"description", "Rig file, whose content is included"}};
   }
   return j;
 }

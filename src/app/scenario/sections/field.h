@@ -3,8 +3,8 @@
 
 namespace faba {
 
-/// JSON Schema of [field]: a part, where a coil system may also be given as a file of its own, which
-/// include_rig() puts in the key's place.
+/// JSON Schema of [field]: a part; a coil system may also be given by the key `file`, which include_rig()
+/// replaces.
 Json field_json_schema(const Parts& parts);
 
 }  // namespace faba

@@ -5,18 +5,18 @@
 
 namespace faba {
 
-/// The table [library]: a FieldLibrary that the run takes its grid from, and controllers of gradients their
-/// currents.
+/// The table [library]: a FieldLibrary that provides the grid of the run, and the currents of gradient
+/// controllers.
 struct LibraryParams {
   std::string file;
-  std::string made;  ///< hash of how the library was made
+  std::string made;  ///< hash of the task of the library
   static Schema<LibraryParams> schema();
-  /// What tells it from another one: how it was made, wherever it lies.
+  /// Parameters for the scenario hash: all except the path of the file.
   Json hashed() const;
 };
 
-/// Reads [library]: finds the file and fills in `made`. Throws Error(usage), and Error(input) when it is
-/// another library than the scenario was made with.
+/// Reads [library]: finds the file and sets `made`. Throws Error(usage), and Error(input) if it is not the
+/// library with which the scenario was created.
 LibraryParams read_library(const Node& root, const Readers& readers);
 
 }  // namespace faba

@@ -3,25 +3,24 @@
 namespace faba {
 
 Schema<Record> Record::schema() {
-  return Schema<Record>("record", "What a run keeps beside series.csv, manifest and report")
+  return Schema<Record>("record", "Files that a run records in addition to series.csv, manifest and report")
       .add("tracks", &Record::tracks, {.doc = "tracks.h5: positions of all cells"})
       .add("tracks_every", &Record::tracks_every,
-           {.min = 1, .max = 1e6, .doc = "Every how many frames tracks are kept"})
+           {.min = 1, .max = 1e6, .doc = "Positions are recorded every N frames"})
       .add("compress", &Record::compress,
-           {.doc = "Compress tracks.h5 (lossless; a quarter smaller, ten times slower)"})
-      .add("video", &Record::video, {.doc = "video.mp4: the swarm, for browsers"})
-      .add("video_every", &Record::video_every,
-           {.min = 1, .max = 1e6, .doc = "Every how many frames a picture is rendered"})
-      .add("lossless", &Record::lossless, {.doc = "video.avi as well, exact to the grey level, for Fiji"})
+           {.doc = "Compress tracks.h5 (lossless, about 25 % smaller, ten times slower)"})
+      .add("video", &Record::video, {.doc = "video.mp4: video of the swarm, for browsers"})
+      .add("video_every", &Record::video_every, {.min = 1, .max = 1e6, .doc = "Videos have every Nth frame"})
+      .add("lossless", &Record::lossless, {.doc = "video.avi: lossless video, for Fiji"})
       .add("as_seen", &Record::as_seen,
-           {.doc = "Videos show what the camera sees through the microscope of [microscope], not a drawing"})
+           {.doc = "Videos show what the camera sees, rendered with [microscope], not a drawing"})
       .add("flow", &Record::flow,
-           {.doc = "flow.h5: optical flow between the frames that the camera sees, made with [flow]"})
+           {.doc = "flow.h5: optical flow between camera frames, computed with [flow]"})
       .add("checkpoint", &Record::checkpoint,
            {.unit = "s",
             .min = 0.1,
             .max = 1e6,
-            .doc = "Time on the clock between checkpoints: what a crash can cost"});
+            .doc = "Wall time between checkpoints; a crash loses at most this time"});
 }
 
 }  // namespace faba

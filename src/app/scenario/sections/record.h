@@ -3,7 +3,7 @@
 
 namespace faba {
 
-/// The table [record]: what a run keeps.
+/// The table [record]: files that a run records.
 struct Record {
   bool tracks = true;
   int tracks_every = 1;

@@ -3,7 +3,7 @@
 namespace faba {
 
 Schema<ScaleParams> ScaleParams::schema() {
-  return Schema<ScaleParams>("scale", "How pixels, iterations and field units hang together with SI")
+  return Schema<ScaleParams>("scale", "Conversion of pixels, iterations and field units to SI")
       .add("um_per_px", &ScaleParams::um_per_px,
            {.min = 1e-3,
             .max = 1e3,
@@ -13,7 +13,7 @@ Schema<ScaleParams> ScaleParams::schema() {
            {.unit = "s",
             .min = 1e-5,
             .max = 100,
-            .doc = "One iteration of the published models; one frame when absent"})
+            .doc = "Duration of one iteration of the published models; default: one frame period"})
       .add("field_unit", &ScaleParams::field_unit,
            {.unit = "T",
             .min = 1e-9,
@@ -23,7 +23,8 @@ Schema<ScaleParams> ScaleParams::schema() {
 }
 
 Json calibration_file_json_schema() {
-  return {{"type", "string"}, {"description", "A calibration file of `faba scale`, in place of um_per_px"}};
+  return {{"type", "string"},
+          {"description", "Calibration file written by `faba scale`, in place of um_per_px"}};
 }
 
 }  // namespace faba

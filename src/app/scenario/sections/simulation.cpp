@@ -8,7 +8,8 @@ Schema<SimulationParams> SimulationParams::schema() {
            {.unit = "s",
             .min = 1e-7,
             .max = 10,
-            .doc = "Time step, a whole part of a frame; chosen from the models' accuracy when absent"});
+            .doc = "Time step, which must divide the frame period; default: chosen for the accuracy of the "
+                   "models"});
 }
 
 }  // namespace faba

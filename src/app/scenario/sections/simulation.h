@@ -10,7 +10,7 @@ namespace faba {
 struct SimulationParams {
   std::optional<double> step;
   double longest =
-      std::numeric_limits<double>::infinity();  ///< s, of a step that is chosen; no key of a scenario
+      std::numeric_limits<double>::infinity();  ///< maximum of the default step, s; not a scenario key
   static Schema<SimulationParams> schema();
 };
 

@@ -20,11 +20,11 @@ int field_at(const FieldAtVerb& v, const Common& c) {
   const auto unknown =
       std::count_if(f.b.begin(), f.b.end(), [](const Vec3& b) { return !std::isfinite(b.x + b.y + b.z); });
   if (unknown > 0 && !c.quiet)
-    tell(fmt::format(
-        "faba: note: {} of {} points lie outside of what was measured, where the field is not a number",
-        unknown, f.b.size()));
+    print_stderr(
+        fmt::format("faba: note: {} of {} points are outside the measured region; the field there is NaN",
+                    unknown, f.b.size()));
   if (!c.quiet && std::all_of(f.current.begin(), f.current.end(), [](double i) { return i == 0; }))
-    tell("faba: note: no current flows; give the coils of the rig file a `current`");
+    print_stderr("faba: note: all currents are zero; set `current` of the coils in the rig file");
   if (c.json) {
     fmt::print("{}\n", field_json(f).dump());
     return 0;
@@ -41,10 +41,10 @@ int field_at(const FieldAtVerb& v, const Common& c) {
 
 void add_field_at(CLI::App& field, CommandLine& line) {
   const auto o = std::make_shared<FieldAtVerb>();
-  CLI::App* v = verb(field, line, "at", "B at points: CSV in, CSV out, SI units",
+  CLI::App* v = verb(field, line, "at", "Compute B at points: CSV in, CSV out, SI units",
                      "  faba field at rigs/flat-coil.toml --points points.csv > b.csv");
   add_rig_file(v, o->rig);
-  v->add_option("--points", o->points, "CSV with the columns x_m,y_m,z_m")->required();
+  v->add_option("--points", o->points, "CSV file with the columns x_m,y_m,z_m")->required();
   v->callback([o, &line] { line.code = field_at(*o, line.common); });
 }
 

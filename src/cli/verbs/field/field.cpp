@@ -4,7 +4,7 @@
 
 namespace faba::cli {
 
-// To add one: write its file, which has `void add_field_NAME(CLI::App& field, CommandLine& line)`, and add
+// To add a verb: write its file, which has `void add_field_NAME(CLI::App& field, CommandLine& line)`, and add
 // its line here.
 #define FABA_FIELD_VERBS(X) \
   X(at)                     \
@@ -19,7 +19,7 @@ FABA_FIELD_VERBS(FABA_DECLARE)
 #undef FABA_DECLARE
 
 void add_field(CLI::App& app, CommandLine& line) {
-  CLI::App* field = app.add_subcommand("field", "Magnetic field of a rig of coils");
+  CLI::App* field = app.add_subcommand("field", "Magnetic field of a coil system");
   field->require_subcommand(1);
 #define FABA_ADD(name) add_field_##name(*field, line);
   FABA_FIELD_VERBS(FABA_ADD)

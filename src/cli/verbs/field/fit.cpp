@@ -38,11 +38,11 @@ int field_fit(const FieldFitVerb& v, const Common& c) {
   fmt::print("{:<12}{:>9.4f} +- {:.4f}\n", "gain", fit.best.gain, fit.standard_error.gain);
   print_fitted("shift", fit.best.shift, fit.standard_error.shift, 1e-3, "mm");
   print_fitted("offset", fit.best.offset, fit.standard_error.offset, 1e-6, "uT");
-  fmt::print("left over   {:>9.3g} uT rms of {:.4g} uT, {} values\n", fit.rms * 1e6, fit.rms_field * 1e6,
-             fit.values);
+  fmt::print("residual    {:>9.3g} uT rms, field {:.4g} uT rms, {} values\n", fit.rms * 1e6,
+             fit.rms_field * 1e6, fit.values);
   for (const auto& file : {v.out, v.picture})
     if (!file.empty()) fmt::print("  {}\n", file.string());
-  if (!fit.note.empty()) tell(fmt::format("faba: note: {}: {}", v.measured.string(), fit.note));
+  if (!fit.note.empty()) print_stderr(fmt::format("faba: note: {}: {}", v.measured.string(), fit.note));
   return 0;
 }
 
@@ -51,13 +51,14 @@ int field_fit(const FieldFitVerb& v, const Common& c) {
 void add_field_fit(CLI::App& field, CommandLine& line) {
   const auto o = std::make_shared<FieldFitVerb>();
   CLI::App* v =
-      verb(field, line, "fit", "Bring a rig to a measured field: strength, place, and what no coil makes",
+      verb(field, line, "fit", "Fit a coil system to a measured field: gain, shift and background field",
            "  faba field fit rigs/flat-coil.toml --map measured.csv\n"
-           "  faba field fit rig.toml --map measured.h5 --out fitted.toml --picture left-over.svg");
-  v->add_option("rig", o->rig, "Rig file (TOML), with the currents of the measurement")->required();
-  v->add_option("--map", o->measured, "Measured field: CSV or HDF5, see `faba parts field map`")->required();
-  v->add_option("-o,--out", o->out, "Rig file to write, with what was found")->check(not_empty);
-  v->add_option("--picture", o->picture, "Plot of what is left over, SVG")->check(not_empty);
+           "  faba field fit rig.toml --map measured.h5 --out fitted.toml --picture residual.svg");
+  v->add_option("rig", o->rig, "Coil system: rig file (TOML), with the currents of the measurement")
+      ->required();
+  v->add_option("--map", o->measured, "Measured field, CSV or HDF5; see `faba parts field map`")->required();
+  v->add_option("-o,--out", o->out, "Write a rig file with the fitted values")->check(not_empty);
+  v->add_option("--picture", o->picture, "Write a plot of the residuals, as SVG")->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
   v->callback([o, &line] { line.code = field_fit(*o, line.common); });
 }

@@ -27,34 +27,36 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
   o.width = size.x;
   o.height = size.y;
   if (!v.spacing.empty()) o.spacing = metres("--spacing", v.spacing);
-  if (!(o.spacing >= 0)) throw Error(Errc::usage, "--spacing", "must not be negative");
+  if (!(o.spacing >= 0))
+    throw Error(Errc::usage, "--spacing",
+                fmt::format("{:g} m is negative; it must be at least 0 m", o.spacing));
   o.levels = v.levels;
   o.threads = v.threads;
   o.force = v.force;
   Progress bar("library", !c.json && !c.quiet);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };
-  const FieldLibrarySummary made = build_field_library(v.rig, v.out, o);
+  const FieldLibrarySummary library = build_field_library(v.rig, v.out, o);
   bar.clear();
   if (c.json) {
-    fmt::print("{}\n", field_json(made).dump());
+    fmt::print("{}\n", field_json(library).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  fmt::print("{} entries of {} x {} nodes, from {} sets of currents\n", made.entries, made.columns, made.rows,
-             made.combinations);
-  if (made.off)
-    fmt::print(
-        "nearest zero {:.3g} um away in the median, {:.3g} um at most; the solver's is at the place itself\n",
-        made.off->median * 1e6, made.off->largest * 1e6);
-  if (made.strength)
-    fmt::print("trap {:.3g} times as strong as the solver's in the median\n", *made.strength);
-  if (made.entries == 0)
-    tell(
-        "faba: note: no set of currents makes a zero of the field in this rectangle; a library needs two "
-        "coils at least");
-  else if (made.traps == 0)
-    tell("faba: note: all zeros are saddles, which drive cells away along one direction");
+  fmt::print("{} entries of {} x {} nodes, from {} sets of currents\n", library.entries, library.columns,
+             library.rows, library.combinations);
+  if (library.off)
+    fmt::print("distance to the nearest zero: median {:.3g} um, maximum {:.3g} um (solver: 0)\n",
+               library.off->median * 1e6, library.off->largest * 1e6);
+  if (library.strength)
+    fmt::print("trap strength relative to the solver: median {:.3g}\n", *library.strength);
+  if (library.entries == 0)
+    print_stderr(
+        "faba: note: no set of currents gives a zero of the field in this rectangle; a library needs at "
+        "least "
+        "two coils");
+  else if (library.traps == 0)
+    print_stderr("faba: note: all zeros are saddles, which drive cells away along one direction");
   fmt::print("  {}\n", v.out.string());
   return 0;
 }
@@ -63,19 +65,20 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
 
 void add_field_library(CLI::App& field, CommandLine& line) {
   const auto o = std::make_shared<FieldLibraryVerb>();
-  CLI::App* v =
-      verb(field, line, "library", "Many sets of currents with the zeros that they make, as in the thesis",
-           "  faba field library rigs/thesis-four-coils.toml --out four.h5\n"
-           "  faba field library rigs/thesis-two-coils.toml --size \"1 mm, 1 mm\" --levels 200 --out two.h5");
+  CLI::App* v = verb(
+      field, line, "library", "Compute many sets of currents and their zeros of the field, as in the thesis",
+      "  faba field library rigs/thesis-four-coils.toml --out four.h5\n"
+      "  faba field library rigs/thesis-two-coils.toml --size \"1 mm, 1 mm\" --levels 200 --out two.h5");
   add_rig_file(v, o->rig);
-  v->add_option("-o,--out", o->out, "HDF5 file to write; what a stopped build left is gone on with")
+  v->add_option("-o,--out", o->out, "HDF5 file to write; an interrupted computation is resumed")
       ->required()
       ->check(not_empty);
-  v->add_option("--size", o->size, "Width and height of the rectangle that zeros are wanted in");
-  v->add_option("--spacing", o->spacing, "Of the grid; a 64th of the longer side unless given")
+  v->add_option("--size", o->size, "Width and height of the rectangle of the zeros");
+  v->add_option("--spacing", o->spacing, "Spacing of the grid; default: a 64th of the longer side")
       ->check(not_empty);
-  v->add_option("--levels", o->levels, "Steps from no current to the largest")->check(CLI::Range(1, 100000));
-  v->add_option("--threads", o->threads, "Threads to work with; all of the machine's unless given")
+  v->add_option("--levels", o->levels, "Number of steps from zero current to the maximum")
+      ->check(CLI::Range(1, 100000));
+  v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
       ->check(CLI::Range(1u, 1024u));
   v->add_flag("--force", o->force, "Replace an existing library");
   v->callback([o, &line] { line.code = field_library(*o, line.common); });

@@ -21,30 +21,32 @@ struct FieldMapVerb {
   bool check = false, force = false;
 };
 
-std::vector<double> amperes(const std::string& words) {
+std::vector<double> amperes(const std::string& text) {
   std::vector<double> out;
-  std::istringstream in(words);
-  for (std::string one; std::getline(in, one, ',');) {
+  std::istringstream in(text);
+  for (std::string item; std::getline(in, item, ',');) {
     char* end = nullptr;
-    out.push_back(std::strtod(one.c_str(), &end));
-    if (end == one.c_str() || *end != '\0' || !std::isfinite(out.back()))
-      throw Error(Errc::usage, "--current", fmt::format("\"{}\" is not a number of amperes", one));
+    out.push_back(std::strtod(item.c_str(), &end));
+    if (end == item.c_str() || *end != '\0' || !std::isfinite(out.back()))
+      throw Error(Errc::usage, "--current",
+                  fmt::format("\"{}\" is not a number; give currents in A, such as 0.5,0.5,0,0", item));
   }
   return out;
 }
 
-// To four decimals, without a sign before zero.
+// Rounded to four decimals, without a negative zero.
 double millimetres(double metres) { return std::round(metres * 1e7) / 1e4 + 0.0; }
 
 void print_map(const FieldMap& map, bool all) {
   for (const FieldMap::Zero& z : map.zeros)
     fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", millimetres(z.at.x),
                millimetres(z.at.y), z.kind, z.gradient[0], z.gradient[1]);
-  if (all && !map.note.empty()) tell("faba: note: " + map.note);
-  if (all) fmt::print("strongest {:.4g} mT\n", map.strongest * 1e3);
+  if (all && !map.note.empty()) print_stderr("faba: note: " + map.note);
+  if (all) fmt::print("maximum field {:.4g} mT\n", map.strongest * 1e3);
   if (map.table)
-    fmt::print("table {} x {} nodes, {:.3g} um apart; largest error {:.1e} of a coil's largest field\n",
-               map.table->columns, map.table->rows, map.table->spacing * 1e6, map.table->error);
+    fmt::print(
+        "table {} x {} nodes, spacing {:.3g} um; maximum error {:.1e} of the maximum field of a coil\n",
+        map.table->columns, map.table->rows, map.table->spacing * 1e6, map.table->error);
 }
 
 int field_map(const FieldMapVerb& v, const Common& c) {
@@ -53,9 +55,11 @@ int field_map(const FieldMapVerb& v, const Common& c) {
   o.width = size.x;
   o.height = size.y;
   o.current = amperes(v.current);
-  if (!v.view.empty()) o.view = place("--view", v.view);
+  if (!v.view.empty()) o.view = position("--view", v.view);
   if (!v.drop.empty()) o.drop_radius = metres("--drop", v.drop);
-  if (o.drop_radius < 0) throw Error(Errc::usage, "--drop", "must not be negative");
+  if (o.drop_radius < 0)
+    throw Error(Errc::usage, "--drop",
+                fmt::format("{:g} m is negative; it must be at least 0 m", o.drop_radius));
   if (!v.check) {
     o.picture = v.picture;
     o.hdf5 = v.out;
@@ -63,7 +67,7 @@ int field_map(const FieldMapVerb& v, const Common& c) {
     check_output(o.hdf5, "", v.force, {v.rig});
     check_distinct({o.picture, o.hdf5});
     if (!o.picture.empty() && o.picture.extension() != ".png")
-      throw Error(Errc::usage, o.picture.string(), "must end in .png, which is what is written");
+      throw Error(Errc::usage, o.picture.string(), "the file extension must be .png");
   }
   const FieldMap map = faba::field_map(v.rig, o);
   if (c.json) {
@@ -82,18 +86,20 @@ int field_map(const FieldMapVerb& v, const Common& c) {
 void add_field_map(CLI::App& field, CommandLine& line) {
   const auto o = std::make_shared<FieldMapVerb>();
   CLI::App* v =
-      verb(field, line, "map", "The field in the plane of the sample, as a picture and as HDF5",
+      verb(field, line, "map", "Map the field in the plane of the sample, as a picture and as HDF5",
            "  faba field map rigs/thesis-four-coils.toml --current 0.5,0.5,0.5,0.5\n"
            "  faba field map rigs/helmholtz.toml --current 1,0 --size \"20 mm, 20 mm\" --picture h.png --out "
            "h.h5");
   add_rig_file(v, o->rig);
-  v->add_option("--current", o->current, "Currents in A, one per coil: 0.5,0.5,0,0");
-  v->add_option("--size", o->size, "Width and height of the rectangle about the centre");
-  v->add_option("--view", o->view, "Width and height of the camera's view, to be drawn in")->check(not_empty);
-  v->add_option("--drop", o->drop, "Radius of the drop, to be drawn in")->check(not_empty);
-  v->add_option("--picture", o->picture, "Picture to write, PNG")->check(not_empty);
+  v->add_option("--current", o->current,
+                "Currents in A, one per coil: 0.5,0.5,0,0; default: `current` of each coil");
+  v->add_option("--size", o->size, "Width and height of the rectangle around the centre");
+  v->add_option("--view", o->view, "Width and height of the camera view, to draw it")->check(not_empty);
+  v->add_option("--drop", o->drop, "Radius of the drop, to draw it")->check(not_empty);
+  v->add_option("--picture", o->picture, "Picture to write, as PNG")->check(not_empty);
   v->add_option("-o,--out", o->out, "HDF5 file to write")->check(not_empty);
-  v->add_flag("--check", o->check, "Only say how far the table that a swarm swims in is from the field");
+  v->add_flag("--check", o->check,
+              "Write nothing; print the error of the field table that a simulation would use");
   v->add_flag("--force", o->force, "Replace existing files");
   v->callback([o, &line] { line.code = field_map(*o, line.common); });
 }

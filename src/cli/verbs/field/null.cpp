@@ -15,7 +15,7 @@ struct FieldNullVerb {
 };
 
 int field_null(const FieldNullVerb& v, const Common& c) {
-  const RigNull found = null_of_rig(v.rig, place("--at", v.at), v.polarity == "south" ? -1 : 1);
+  const RigNull found = null_of_rig(v.rig, position("--at", v.at), v.polarity == "south" ? -1 : 1);
   if (c.json) {
     fmt::print("{}\n", field_json(found).dump());
     return 0;
@@ -25,7 +25,7 @@ int field_null(const FieldNullVerb& v, const Common& c) {
     fmt::print("{:<12}{:>12.6g} A\n", found.coils[k], found.null.current[k]);
   fmt::print("gradient    {:.4g} and {:.4g} T/m in the plane, {:.4g} T/m along z\n", found.null.gradient[0],
              found.null.gradient[1], found.null.out_of_plane);
-  if (!found.note.empty()) tell(fmt::format("faba: note: {}: {}", v.rig.string(), found.note));
+  if (!found.note.empty()) print_stderr(fmt::format("faba: note: {}: {}", v.rig.string(), found.note));
   return 0;
 }
 
@@ -33,13 +33,13 @@ int field_null(const FieldNullVerb& v, const Common& c) {
 
 void add_field_null(CLI::App& field, CommandLine& line) {
   const auto o = std::make_shared<FieldNullVerb>();
-  CLI::App* v =
-      verb(field, line, "null", "Currents that put a zero of the field at a place and trap cells there",
-           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
-           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
+  CLI::App* v = verb(field, line, "null",
+                     "Compute currents for a zero of the field at a position that traps cells there",
+                     "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
+                     "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
   add_rig_file(v, o->rig);
-  v->add_option("--at", o->at, "Place in the plane of the sample, x and y");
-  v->add_option("--polarity", o->polarity, "Cells to trap: north or south seeking")
+  v->add_option("--at", o->at, "Position in the plane of the sample, x and y");
+  v->add_option("--polarity", o->polarity, "Cells to trap: north-seeking or south-seeking")
       ->check(CLI::IsMember({"north", "south"}));
   v->callback([o, &line] { line.code = field_null(*o, line.common); });
 }

@@ -19,18 +19,17 @@ struct FieldToleranceVerb {
 
 int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
   check_output(v.picture, ".svg", v.force, {v.rig});
-  const FieldTolerance tolerance = faba::field_tolerance(v.rig, place("--at", v.at), v.picture);
+  const FieldTolerance tolerance = faba::field_tolerance(v.rig, position("--at", v.at), v.picture);
   if (c.json) {
     fmt::print("{}\n", field_json(tolerance).dump());
     return 0;
   }
   if (c.quiet) return 0;
-  std::string before;
+  std::string previous;
   for (const FieldTolerance::Row& row : tolerance.rows) {
-    if (!before.empty() && before != row.cause) fmt::print("\n");
-    before = row.cause;
-    fmt::print("{:<42}{}\n", row.words,
-               row.shift ? fmt::format("{:>8.4f} mm", *row.shift * 1e3) : "the zero is gone");
+    if (!previous.empty() && previous != row.cause) fmt::print("\n");
+    previous = row.cause;
+    fmt::print("{:<42}{}\n", row.words, row.shift ? fmt::format("{:>8.4f} mm", *row.shift * 1e3) : "no zero");
   }
   if (!v.picture.empty()) fmt::print("  {}\n", v.picture.string());
   return 0;
@@ -41,12 +40,13 @@ int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
 void add_field_tolerance(CLI::App& field, CommandLine& line) {
   const auto o = std::make_shared<FieldToleranceVerb>();
   CLI::App* v =
-      verb(field, line, "tolerance", "How far a zero of the field moves when the rig is not as its file says",
+      verb(field, line, "tolerance",
+           "Displacement of a zero of the field when the coil system deviates from its file",
            "  faba field tolerance rigs/thesis-two-coils.toml\n"
            "  faba field tolerance rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --picture tolerance.svg");
   add_rig_file(v, o->rig);
-  v->add_option("--at", o->at, "Place of the zero in the plane of the sample, x and y");
-  v->add_option("--picture", o->picture, "Plot to write, SVG")->check(not_empty);
+  v->add_option("--at", o->at, "Position of the zero in the plane of the sample, x and y");
+  v->add_option("--picture", o->picture, "Plot to write, as SVG")->check(not_empty);
   v->add_flag("--force", o->force, "Replace an existing plot");
   v->callback([o, &line] { line.code = field_tolerance(*o, line.common); });
 }

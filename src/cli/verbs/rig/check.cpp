@@ -35,16 +35,16 @@ Json check_json(const BenchCheck& b) {
 
 void print_check(const BenchCheck& b) {
   fmt::print(
-      "camera   {}: {} x {} px, {}, {} after mid-exposure, decided on after {}; {} frames, {} dropped, {} "
-      "corrupt\n",
+      "camera   {}: {} x {} px, {}, arrival {} after mid-exposure, control decision after {}; {} frames, {} "
+      "dropped, {} corrupt\n",
       b.camera, b.width_px, b.height_px, b.rate_hz ? three_digits(*b.rate_hz) + " Hz" : "-",
       three_digits(1e3 * b.age_s) + " ms", three_digits(1e3 * b.delay_s) + " ms", b.frames, b.dropped,
       b.corrupt);
   if (b.swarm)
-    fmt::print("swarm    some {} cells about ({}, {}) px\n", three_digits(b.swarm->cells),
+    fmt::print("swarm    about {} cells, centroid ({}, {}) px\n", three_digits(b.swarm->cells),
                three_digits(b.swarm->centroid_px.x), three_digits(b.swarm->centroid_px.y));
   else
-    fmt::print("swarm    none is seen\n");
+    fmt::print("swarm    not detected\n");
   std::string sensed;
   for (const double a : b.sensed_a) sensed += " " + (std::isnan(a) ? "-" : fmt::format("{:.3f} A", a));
   fmt::print("coils    {}: {}; sensed{}\n", b.driver, b.guard, sensed);
@@ -52,9 +52,9 @@ void print_check(const BenchCheck& b) {
 }
 
 int rig_check(const SceneOptions& v, const Common& c) {
-  constexpr double kLook = 2;  // s
+  constexpr double kCheckTime = 2;  // s
   Scenario s = read_bench_scene(v);
-  const BenchCheck check = check_bench(s, s.params.seed.value_or(1), kLook);
+  const BenchCheck check = check_bench(s, s.params.seed.value_or(1), kCheckTime);
   if (c.json)
     fmt::print("{}\n", check_json(check).dump());
   else
@@ -66,9 +66,8 @@ int rig_check(const SceneOptions& v, const Common& c) {
 
 void add_rig_check(CLI::App& rig, CommandLine& line) {
   const auto o = std::make_shared<SceneOptions>();
-  CLI::App* v =
-      verb(rig, line, "check", "Look through the camera and ask the coils' driver, without any current",
-           "  faba rig check scenes/bench.toml");
+  CLI::App* v = verb(rig, line, "check", "Check the camera and the coil driver, without current",
+                     "  faba rig check scenes/bench.toml");
   add_bench_scene(v, *o);
   v->callback([o, &line] { line.code = rig_check(*o, line.common); });
 }

@@ -18,9 +18,9 @@ int rig_list(const Common& c) {
   }
   for (const Device& d : all) fmt::print("{:<14}  {:<24}  {}\n", d.kind, d.name, d.what);
   if (c.quiet) return 0;
-  if (all.empty()) fmt::print("no cameras, serial lines or output devices are here\n");
+  if (all.empty()) fmt::print("no cameras, serial ports or output devices found\n");
   fmt::print(
-      "always there: camera \"simulated\" and \"playback\", driver \"simulated\"; see faba parts camera, "
+      "always available: camera \"simulated\" and \"playback\", driver \"simulated\"; see faba parts camera, "
       "faba parts driver\n");
   return 0;
 }
@@ -28,7 +28,8 @@ int rig_list(const Common& c) {
 }  // namespace
 
 void add_rig_list(CLI::App& rig, CommandLine& line) {
-  CLI::App* v = verb(rig, line, "list", "Cameras and coil drivers that this machine has", "  faba rig list");
+  CLI::App* v =
+      verb(rig, line, "list", "List the cameras and coil drivers of this machine", "  faba rig list");
   v->callback([&line] { line.code = rig_list(line.common); });
 }
 

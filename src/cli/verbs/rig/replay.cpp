@@ -13,8 +13,8 @@ namespace {
 
 int rig_replay(const std::string& dir, const Common& c) {
   Progress bar("replaying", !c.quiet && !c.json);
-  const Replayed r = replay_run(dir, [&](std::uint64_t done, std::uint64_t of) {
-    bar.update(done, of);
+  const Replayed r = replay_run(dir, [&](std::uint64_t done, std::uint64_t total) {
+    bar.update(done, total);
     return !stop_requested().load();
   });
   bar.clear();
@@ -26,8 +26,8 @@ int rig_replay(const std::string& dir, const Common& c) {
                             {"first_other", r.first_other ? Json(*r.first_other) : Json()}}
                            .dump());
   else if (!c.quiet)
-    fmt::print("{} of {} commands are the same, bit for bit{}\n", r.equal, r.recorded,
-               r.first_other ? fmt::format("; the first other one is that of frame {}", *r.first_other) : "");
+    fmt::print("{} of {} commands are bit-identical{}\n", r.equal, r.recorded,
+               r.first_other ? fmt::format("; the first difference is at frame {}", *r.first_other) : "");
   return same ? 0 : int(Errc::internal);
 }
 
@@ -35,10 +35,10 @@ int rig_replay(const std::string& dir, const Common& c) {
 
 void add_rig_replay(CLI::App& rig, CommandLine& line) {
   const auto o = std::make_shared<std::string>();
-  CLI::App* v = verb(rig, line, "replay",
-                     "Do the decisions of a recorded run again, and compare its commands bit for bit",
-                     "  faba rig replay runs/bench-bench");
-  v->add_option("dir", *o, "Run directory, with video.avi")->required();
+  CLI::App* v =
+      verb(rig, line, "replay", "Compute the commands of a recorded run again and compare them bit by bit",
+           "  faba rig replay runs/bench-bench");
+  v->add_option("dir", *o, "Run directory with video.avi")->required();
   v->callback([o, &line] { line.code = rig_replay(*o, line.common); });
 }
 

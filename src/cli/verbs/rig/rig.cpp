@@ -4,7 +4,7 @@
 
 namespace faba::cli {
 
-// To add one: write its file, which has `void add_rig_NAME(CLI::App& rig, CommandLine& line)`, and add its
+// To add a verb: write its file, which has `void add_rig_NAME(CLI::App& rig, CommandLine& line)`, and add its
 // line here.
 #define FABA_RIG_VERBS(X) \
   X(list)                 \

@@ -23,14 +23,14 @@ struct RigRunVerb {
   bool arm = false;
 };
 
-void latency(std::uint64_t frames, const Manifest::Bench& b) {
+void print_latency(std::uint64_t frames, const Manifest::Bench& b) {
   const auto ms = [](double v) { return std::isnan(v) ? std::string("-") : three_digits(v) + " ms"; };
-  fmt::print("frames {} taken, {} dropped, {} corrupt; {} after mid-exposure at the program (median)\n",
-             frames, b.frames_dropped, b.frames_corrupt, ms(b.arrival.median));
-  fmt::print("command at the coils {} after the frame came (median), 99.9 % within {}\n",
-             ms(b.command.median), ms(b.command.p999));
+  fmt::print("frames {} received, {} dropped, {} corrupt; arrival {} after mid-exposure (median)\n", frames,
+             b.frames_dropped, b.frames_corrupt, ms(b.arrival.median));
+  fmt::print("command at the coils {} after frame arrival (median), 99.9 % within {}\n", ms(b.command.median),
+             ms(b.command.p999));
   if (b.command_timeouts > 0)
-    fmt::print("the coils came to rest {} time{}, because no command came in time\n", b.command_timeouts,
+    fmt::print("the coils were de-energised {} time{} because of a command timeout\n", b.command_timeouts,
                b.command_timeouts == 1 ? "" : "s");
 }
 
@@ -38,7 +38,7 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   Scenario s = read_bench_scene(v.run);
   const std::uint64_t seed = s.params.seed.value_or(random_seed());
   require_arm(v.arm);
-  Progress bar("on the bench", !c.quiet && !c.json);
+  Progress bar("bench", !c.quiet && !c.json);
   RunOptions o;
   o.out = v.run.out;
   if (o.out.empty()) o.out = fmt::format("runs/{}-bench", std::filesystem::path(v.run.scene).stem().string());
@@ -46,20 +46,20 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   o.force = v.run.force;
   o.threads = v.run.threads;
   o.program = shell_word(program());
-  refuse_own_input(v.run);
+  reject_input_in_out(v.run);
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   const auto bench = std::make_shared<OpenBench>(s, seed);
   BenchSession session = BenchSession::begin(s, bench, seed, o);
-  bool whole = false;
+  bool complete = false;
   try {
-    whole = session.run();
+    complete = session.run();
   } catch (const Error&) {
-    std::error_code ec;  // what was recorded can be looked at, too
+    std::error_code ec;  // the recorded data get a report, too
     try {
       if (std::filesystem::exists(session.dir() / run_files::kManifest, ec))
         write_run_report(session.dir(), run_info(session.manifest()), session.series());
-    } catch (const Error&) {  // what ended the run is reported, not what followed from it
+    } catch (const Error&) {  // the error that stopped the run is reported instead
     }
     throw;
   }
@@ -67,10 +67,11 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   const Manifest& manifest = session.manifest();
   const Series series = session.series();
   write_run_report(session.dir(), run_info(manifest), series);
-  if (whole) session.complete();
+  if (complete) session.complete();
   const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
   if (!c.quiet)
-    for (const std::string& note : manifest.notes) tell(fmt::format("faba: note: {}: {}", v.run.scene, note));
+    for (const std::string& note : manifest.notes)
+      print_stderr(fmt::format("faba: note: {}: {}", v.run.scene, note));
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
     for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})
@@ -79,23 +80,23 @@ int rig_run(const RigRunVerb& v, const Common& c) {
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
     fmt::print("{}\n", run_in_words(metrics, run_info(manifest)).outcome);
-    latency(manifest.frames, *manifest.bench);
+    print_latency(manifest.frames, *manifest.bench);
     fmt::print("  report {}\n", (session.dir() / "report.html").string());
   }
-  return whole ? 0 : int(Errc::interrupted);
+  return complete ? 0 : int(Errc::interrupted);
 }
 
 }  // namespace
 
 void add_rig_run(CLI::App& rig, CommandLine& line) {
   const auto o = std::make_shared<RigRunVerb>();
-  CLI::App* v = verb(rig, line, "run", "Run a scenario on the bench: the closed loop, recorded",
+  CLI::App* v = verb(rig, line, "run", "Run the control loop of a scenario on the bench and record it",
                      "  faba rig run scenes/bench.toml --arm\n"
                      "  faba rig run scenes/bench.toml --arm --duration \"5 s\" --out runs/a");
   add_bench_scene(v, o->run);
   add_arm(v, o->arm);
-  v->add_option("-o,--out", o->run.out, "Run directory; runs/SCENE-bench when absent")->check(not_empty);
-  v->add_option("--duration", o->run.duration, "Time on the clock, such as \"10 s\"");
+  v->add_option("-o,--out", o->run.out, "Run directory; default: runs/SCENE-bench")->check(not_empty);
+  v->add_option("--duration", o->run.duration, "Duration of the run, such as \"10 s\"");
   v->add_flag("--force", o->run.force, "Replace an earlier run in the directory");
   v->callback([o, &line] { line.code = rig_run(*o, line.common); });
 }

@@ -24,11 +24,12 @@ int rig_simulate(const SimulateVerb& v, const Common& c) {
   const std::uint64_t seed = s.params.seed.value_or(random_seed());
   std::error_code ec;
   if (!v.run.force && std::filesystem::exists(v.log, ec))
-    throw Error(Errc::usage, v.log.string(), "exists; choose another --log, or --force to replace it");
+    throw Error(Errc::usage, v.log.string(),
+                "already exists; choose another --log, or --force to replace it");
   Pool pool(v.run.threads);
   const auto ready = [&] {
     if (c.quiet || c.json) return;
-    fmt::print("a simulated bench at {}; Ctrl-C ends it\n", v.at.string());
+    fmt::print("simulated bench at {}; press Ctrl-C to stop it\n", v.at.string());
     std::fflush(stdout);
   };
   const SimulatedBench::Summary done = SimulatedBench::run(
@@ -38,7 +39,7 @@ int rig_simulate(const SimulateVerb& v, const Common& c) {
         "{}\n",
         Json{{"frames", done.frames}, {"unfetched", done.unfetched}, {"behind_s", done.behind}}.dump());
   else if (!c.quiet)
-    fmt::print("{} frames taken, {} that nobody fetched in time; at most {} ms behind the clock\n",
+    fmt::print("{} frames, {} not fetched in time by a client; maximum delay behind the clock {} ms\n",
                done.frames, done.unfetched, three_digits(1e3 * done.behind));
   return 0;
 }
@@ -48,13 +49,13 @@ int rig_simulate(const SimulateVerb& v, const Common& c) {
 void add_rig_simulate(CLI::App& rig, CommandLine& line) {
   const auto o = std::make_shared<SimulateVerb>();
   CLI::App* v =
-      verb(rig, line, "simulate", "A simulated bench for other processes: microscope and coils in real time",
+      verb(rig, line, "simulate", "Simulate a bench for other processes: microscope and coils in real time",
            "  faba rig simulate scenes/bench.toml --at /tmp/bench --log coils.csv");
   add_bench_scene(v, o->run);
-  v->add_option("--at", o->at, "Name of the socket to be made")->required()->check(not_empty);
-  v->add_option("--log", o->log, "CSV of times, voltages and currents")->check(not_empty);
-  v->add_flag("--force", o->run.force, "Replace an earlier log");
-  v->add_flag("--once", o->once, "End when those that came have gone");
+  v->add_option("--at", o->at, "Path of the socket to create")->required()->check(not_empty);
+  v->add_option("--log", o->log, "Write times, voltages and currents, as CSV")->check(not_empty);
+  v->add_flag("--force", o->run.force, "Replace an existing log");
+  v->add_flag("--once", o->once, "Stop when all clients have disconnected");
   v->callback([o, &line] { line.code = rig_simulate(*o, line.common); });
 }
 

@@ -33,7 +33,7 @@ int rig_step_response(const StepResponseVerb& v, const Common& c) {
   job.seed = s.params.seed.value_or(random_seed());
   require_arm(v.arm);
   job.experiment = v.experiment;
-  Progress bar("on the bench", !c.quiet && !c.json);
+  Progress bar("bench", !c.quiet && !c.json);
   job.run.out = v.run.out;
   if (job.run.out.empty())
     job.run.out = fmt::format("runs/{}-response", std::filesystem::path(v.run.scene).stem().string());
@@ -52,10 +52,10 @@ int rig_step_response(const StepResponseVerb& v, const Common& c) {
                    {"frames", r.frames},
                    {"frames_dropped", r.dropped}});
     if (c.json || c.quiet) return;
-    fmt::print("{}: after {:.0f} s in air, {}; {} frames, {} dropped\n", r.dir.string(), r.exposure,
-               r.at_px ? fmt::format("some {} cells about ({:.0f}, {:.0f}) px", three_digits(r.cells),
+    fmt::print("{}: air exposure time {:.0f} s, {}; {} frames, {} dropped\n", r.dir.string(), r.exposure,
+               r.at_px ? fmt::format("about {} cells, centroid ({:.0f}, {:.0f}) px", three_digits(r.cells),
                                      r.at_px->x, r.at_px->y)
-                       : "no swarm in view",
+                       : "no swarm detected",
                r.frames, r.dropped);
     std::fflush(stdout);
   };
@@ -65,7 +65,7 @@ int rig_step_response(const StepResponseVerb& v, const Common& c) {
   if (c.json)
     fmt::print("{}\n", Json{{"study", study.string()}, {"responses", all}}.dump());
   else if (!c.quiet)
-    fmt::print("now try: {} activity {}\n", shell_word(program()), shell_word(study.string()));
+    fmt::print("next: {} activity {}\n", shell_word(program()), shell_word(study.string()));
   return 0;
 }
 
@@ -75,7 +75,7 @@ void add_rig_step_response(CLI::App& rig, CommandLine& line) {
   const auto o = std::make_shared<StepResponseVerb>();
   CLI::App* v = verb(
       rig, line, "step-response",
-      "Gather the swarm at one side, reverse the field and record; again and again on a schedule",
+      "Record step responses: gather the swarm at one side, reverse the field, record; repeat on a schedule",
       "  faba rig step-response scenes/exposure.toml --arm\n"
       "  faba rig step-response scenes/exposure.toml --arm --exposure \"90 s\" --repeat 8 --every \"80 s\" "
       "--out runs/ageing\n"
@@ -83,13 +83,14 @@ void add_rig_step_response(CLI::App& rig, CommandLine& line) {
   add_bench_scene(v, o->run);
   add_arm(v, o->arm);
   v->add_option("-o,--out", o->run.out,
-                "Directory of the study, which may hold earlier ones; runs/SCENE-response when absent")
+                "Directory of the study, which may contain earlier responses; default: runs/SCENE-response")
       ->check(not_empty);
   v->add_option("--exposure", o->exposure,
-                "Time that the sample has been in air when this begins, such as \"90 s\"");
-  v->add_option("--repeat", o->repeat, "How many are recorded");
-  v->add_option("--every", o->every, "From the beginning of one to that of the next, such as \"80 s\"");
-  v->add_option("--experiment", o->experiment, "Name of the drop; a number when absent")->check(not_empty);
+                "Air exposure time of the sample at the start of the command, such as \"90 s\"");
+  v->add_option("--repeat", o->repeat, "Number of responses");
+  v->add_option("--every", o->every,
+                "Time from the start of one response to the start of the next, such as \"80 s\"");
+  v->add_option("--experiment", o->experiment, "Name of the drop; default: a number")->check(not_empty);
   v->callback([o, &line] { line.code = rig_step_response(*o, line.common); });
 }
 
