@@ -125,7 +125,7 @@ def experiment(t, o):
               "best": found["best"], "evidence": found["evidence"], "fit_p": own["fit_p"]}
     if not o.reduced:
         legacy = next(m for m in found["legacy"] if m["name"] == t["model"])
-        answer |= {"legacy": legacy["zero"] / unit, "legacy_means_nothing": legacy["meaningless"] is not None}
+        answer |= {"legacy": legacy["zero"] / unit, "legacy_means_nothing": legacy["invalid_reason"] is not None}
     return answer
 
 

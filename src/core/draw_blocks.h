@@ -15,7 +15,7 @@ struct DrawBlock {
 
 // All purposes of a run. Append only; never renumber. Rows (core/kernels/philox_row.h) have block 0. Purposes
 // of studies, in Stream::study, are StudyDraws (study/stats/study_random.h).
-inline constexpr DrawBlock kPlaceDraws{Stream::start, 0};       ///< initial position of a cell; step: attempt
+inline constexpr DrawBlock kPositionDraws{Stream::start, 0};    ///< initial position of a cell; step: attempt
 inline constexpr DrawBlock kBirthDraws{Stream::start, 0xFFFF};  ///< heading, speed and turning rate of a cell
 inline constexpr DrawBlock kMotionDraws{Stream::motion, 0};     ///< noise of one step, in rows
 inline constexpr DrawBlock kReorientDraws{Stream::motility, 0};   ///< reversals and tumbles
@@ -35,7 +35,7 @@ enum class FrameDraw : std::uint32_t {
 
 namespace draw_blocks {
 
-inline constexpr std::array kAll{kPlaceDraws,     kBirthDraws,    kMotionDraws, kReorientDraws,
+inline constexpr std::array kAll{kPositionDraws,  kBirthDraws,    kMotionDraws, kReorientDraws,
                                  kToleranceDraws, kResponseDraws, kPixelDraws,  kFrameDraws,
                                  kDepthDraws,     kWaveDraws,     kContestDraws};
 

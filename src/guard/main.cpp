@@ -15,7 +15,7 @@ constexpr std::size_t kLongestSetup = 200'000;  // bytes
 
 void refuse(const std::string& why) {
   faba::GuardReport r;
-  r.state = faba::CoilGuard::State::faulted;
+  r.state = faba::CoilGuard::State::tripped;
   r.fault = faba::CoilGuard::Fault::device;
   why.copy(r.reason.data(), r.reason.size() - 1);
   (void)send(faba::kGuardDescriptor, &r, sizeof r, MSG_NOSIGNAL);

@@ -42,7 +42,7 @@ struct CameraControl {
 };
 
 /// The error for a control that a camera does not have.
-[[noreturn]] inline void refuse_control(const std::string& name) {
+[[noreturn]] inline void reject_control(const std::string& name) {
   throw Error(Errc::usage, name, "this camera has no such control");
 }
 
@@ -63,7 +63,7 @@ class Camera {
   virtual std::vector<CameraControl> controls() { return {}; }
   /// Throws Error(usage), with the control's name, if the camera does not have the control or rejects the
   /// value.
-  virtual void set(const CameraControl& c) { refuse_control(control_name(c.kind)); }
+  virtual void set(const CameraControl& c) { reject_control(control_name(c.kind)); }
 };
 
 /// Context for the construction of a camera.

@@ -269,7 +269,7 @@ Json Api::check(const Json& asked) const {
     return {{"ok", true},
             {"resolved", s.resolved()},
             {"toml", to_toml(s.resolved())},
-            {"notes", notes_on(s, simulation, workspace_.root())}};
+            {"notes", scenario_notes(s, simulation, workspace_.root())}};
   } catch (const Error& e) {
     return {{"ok", false}, {"where", workspace_.in_page(e.where())}, {"what", e.reason()}};
   }

@@ -18,8 +18,8 @@ struct StepContext {
   double dt = 0;                  ///< s
   std::span<const float> bx, by;  ///< field at each agent of the block, T; index 0 is agent `begin`
   std::span<float> to_x,
-      to_y;          ///< proposed positions, m, indexed by agent; may be the x and y columns themselves
-  float vigour = 1;  ///< fraction of the initial swimming speed (motility law)
+      to_y;                ///< proposed positions, m, indexed by agent; may be the x and y columns themselves
+  float speed_factor = 1;  ///< fraction of the initial swimming speed (motility law)
 };
 
 /// A quantity that a model stores for every agent.

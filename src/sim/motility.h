@@ -11,7 +11,7 @@ class Motility {
   /// Sets the columns of agents [begin, end) for the air exposure time before the run.
   virtual void start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const = 0;
   /// Fraction of the initial speed after `t` s of simulation.
-  virtual double vigour(double t) const = 0;
+  virtual double speed_factor(double t) const = 0;
   /// Advances the dose of the agents; sets response to 0 if the dose exceeds the tolerance.
   virtual void step(State& s, const StepContext& c) const = 0;
 };

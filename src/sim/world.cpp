@@ -59,7 +59,7 @@ void World::place_all() {
                                    "cells, a larger region, or exclusion.order = \"none\"",
                                    i - p.begin + 1, p.end - p.begin)
                      : "the region is outside of the arena; move it, or use another start");
-        const auto w = draw(parts_.seed, kPlaceDraws, id, attempt);
+        const auto w = draw(parts_.seed, kPositionDraws, id, attempt);
         const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
         const auto candidate = p.start->place({{u(0), u(1), u(2)}, i - p.begin, attempt});
         if (!candidate) continue;
@@ -131,12 +131,12 @@ void World::step() {
   const std::span<float> to_x = proposals ? std::span<float>(to_x_) : state_.agents["x"];
   const std::span<float> to_y = proposals ? std::span<float>(to_y_) : state_.agents["y"];
   if (parts_.table) parts_.table->set(state_.current);
-  const auto vigour = float(parts_.motility->vigour(state_.t));
+  const auto speed_factor = float(parts_.motility->speed_factor(state_.t));
   for (const Population& p : parts_.populations)
     pool_.for_blocks(p.end - p.begin, kBlock, [&](std::size_t b, std::size_t e) {
       std::array<float, kBlock> bx, by;
-      StepContext c{p.begin + b,        p.begin + e, parts_.seed, parts_.dt, {bx.data(), e - b},
-                    {by.data(), e - b}, to_x,        to_y,        vigour};
+      StepContext c{p.begin + b,        p.begin + e, parts_.seed, parts_.dt,   {bx.data(), e - b},
+                    {by.data(), e - b}, to_x,        to_y,        speed_factor};
       const State& s = state_;
       const Points at{s.agents["x"].subspan(c.begin, e - b), s.agents["y"].subspan(c.begin, e - b)};
       const Vectors field{{bx.data(), e - b}, {by.data(), e - b}};

@@ -102,7 +102,7 @@ TEST_CASE("a program that was stopped and goes on finds the coils at rest, and s
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   CHECK_FALSE(b.flows());
   CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));  // what was recorded does not pass as whole
-  CHECK(read_file(b.f.path / "run/coils.log").find("faulted ") != std::string::npos);
+  CHECK(read_file(b.f.path / "run/coils.log").find("tripped ") != std::string::npos);
 }
 
 TEST_CASE("the guard itself is killed or stopped: the enable line lets no more current through") {

@@ -173,7 +173,7 @@ TEST_CASE(
   const Called again = faba_in(f.path, "rig replay run --json");
   REQUIRE_MESSAGE(again.exit == 0, again.err);
   CHECK(again.json()["same"] == true);
-  CHECK(again.json()["equal"] == j["frames"]);
+  CHECK(again.json()["equal_commands"] == j["frames"]);
   // A run of the version before has another name for a column.
   std::string commands = read_file(f.path / "run/commands.csv");
   const auto column = commands.find("coils_off");
@@ -190,7 +190,7 @@ TEST_CASE(
   std::ofstream(f.path / "run/commands.csv") << commands;
   const Called other = faba_in(f.path, "rig replay run --json");
   CHECK(other.exit == 1);
-  CHECK(other.json()["first_other"] == 30);
+  CHECK(other.json()["first_difference"] == 30);
   std::ofstream(f.path / "run/commands.csv") << commands.replace(line, 4, "\n31,");
   CHECK(faba_in(f.path, "rig replay run").exit == 3);
 

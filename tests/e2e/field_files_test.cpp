@@ -120,7 +120,7 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
       faba_in(f.path, "field library " + four + " --levels 12 --spacing '50 um' --out l.h5 --json");
   REQUIRE_MESSAGE(made.exit == 0, made.err);
   CHECK(made.json()["entries"].get<int>() > 20);
-  CHECK(made.json()["off_m"]["largest"].get<double>() < 1e-3);
+  CHECK(made.json()["null_error_m"]["largest"].get<double>() < 1e-3);
   const std::string scene =
       "duration = '2 s'\n[scale]\num_per_px = 3\n[field]\ntype = 'rig'\nfile = " + four +
       "\n[arena]\ntype = 'drop'\nradius_px = 300\n[[swarm]]\ncount = 20\nmodel = 'dipole'\n"

@@ -87,11 +87,11 @@ TEST_CASE("serial: the guard is killed or stopped: the board de-energises the co
       const bool checked = checked_in_time(f.rest_after(t), kWithin, f.machine);
       CHECK(f.log().back().furthest < 1e-6);
       // The program detects it, and does not wait for ever for a guard that hangs.
-      CHECK(soon([&] { return g.report().state == CoilGuard::State::faulted; }, 5));
+      CHECK(soon([&] { return g.report().state == CoilGuard::State::tripped; }, 5));
       const std::string reason = g.report().reason.data();
       CHECK_MESSAGE(reason.find(signal == SIGKILL ? "has ended" : "does not respond") != std::string::npos,
                     reason);
-      CHECK(g.report().obeyed == (signal == SIGKILL));
+      CHECK(g.report().write_ok == (signal == SIGKILL));
       CHECK_THROWS_AS(g.arm(), Error);
       return checked;
     });
@@ -104,10 +104,10 @@ TEST_CASE("serial: a board is unplugged or hangs: the guard trips and names the 
     g.arm();
     steer(g, 0.2);
     f.child->signal(signal);
-    for (int i = 0; i < 20 && g.report().state != CoilGuard::State::faulted; ++i) steer(g, 0.02);
+    for (int i = 0; i < 20 && g.report().state != CoilGuard::State::tripped; ++i) steer(g, 0.02);
     const std::string reason = g.report().reason.data();
     CHECK_MESSAGE(reason.find("port") != std::string::npos, reason);
-    CHECK_FALSE(g.report().obeyed);  // the state of these coils is unknown
+    CHECK_FALSE(g.report().write_ok);  // the state of these coils is unknown
   }
 }
 

@@ -14,7 +14,7 @@ TEST_CASE(
       g.arm();
       steer(g, 0.4);
       reason = g.report().reason.data();
-      CHECK(g.report().state == CoilGuard::State::faulted);
+      CHECK(g.report().state == CoilGuard::State::tripped);
     } catch (const Error& e) {
       CHECK(e.code() == Errc::device);
       reason = e.what();

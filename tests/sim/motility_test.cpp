@@ -52,7 +52,7 @@ TEST_CASE(
   };
   for (const double t : {0.0, 100.0, 350.0, 700.0}) {
     TestSwarm s(scene(t));
-    CHECK(s.world().parts().motility->vigour(0) == doctest::Approx(1 / (1 + 0.00524 * t)));
+    CHECK(s.world().parts().motility->speed_factor(0) == doctest::Approx(1 / (1 + 0.00524 * t)));
     const double responding = double(s.world().responding()) / 4000;
     INFO("exposure ", t, " responding ", responding);
     if (t == 0) CHECK(responding == 1);

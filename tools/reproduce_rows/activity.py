@@ -130,14 +130,14 @@ def signature(lab, found):
     g = a["gaussian"]
     found.value = (
         f"(1) {a['onset_s'] - REVERSAL_S:.2f} s, (2) {a['maximum_s'] - REVERSAL_S:.2f} ± {g['se_peak_s']:.2f} s, (3)"
-        f" {a['leaving_s'] - REVERSAL_S:.2f} s after the reversal"
+        f" {a['departure_s'] - REVERSAL_S:.2f} s after the reversal"
         if g["good"]
         else "no Gaussian"
     )
     found.true("A Gaussian fits", g["good"], "as it does for a sample that responds")
     found.true(
         "Onset, maximum, leaving in this order, the maximum after the reversal",
-        bool(g["good"]) and a["onset_s"] < a["maximum_s"] < a["leaving_s"] and a["maximum_s"] > REVERSAL_S,
+        bool(g["good"]) and a["onset_s"] < a["maximum_s"] < a["departure_s"] and a["maximum_s"] > REVERSAL_S,
         "what the three points mean",
     )
     error = math.hypot(g["se_peak_s"], truth["se_peak_s"])

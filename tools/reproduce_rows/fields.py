@@ -114,7 +114,7 @@ def library(lab, found):
         nearest = currents[off <= off.min() + 1e-9]
         given = np.array([s[f"current_{i}_a"][k] for i in range(4)])
         wrong += min(min(np.abs(given - c).max(), np.abs(given - south * c).max()) for c in nearest) > 1e-6
-    off_um = 1e6 * made.answer["off_m"]["median"]
+    off_um = 1e6 * made.answer["null_error_m"]["median"]
     found.value = (
         f"{made.answer['entries']} fields kept of {made.answer['combinations']} sets of currents; nearest zero {off_um:.0f} µm away in the"
         f" median; the swarm came to {step.answer['setpoints_reached']} of"

@@ -157,7 +157,7 @@ std::string BenchView::picture() {
 void BenchView::set(const std::string& control, double value, std::optional<bool> automatically) {
   const auto v = view(true);
   const auto kind = control_kind(control);
-  if (!kind) refuse_control(control);
+  if (!kind) reject_control(control);
   v->bench.camera()->set({*kind, value, automatically});
 }
 

@@ -35,7 +35,7 @@ Replayed replay_run(const std::filesystem::path& dir,
   if (rig.more())
     throw Error(Errc::input, commands.string(),
                 fmt::format("has {} frames, but video.avi has more", rig.frames()));
-  return {rig.frames(), rig.equal(), rig.first_other()};
+  return {rig.frames(), rig.equal(), rig.first_difference()};
 }
 
 }  // namespace faba

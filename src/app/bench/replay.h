@@ -8,9 +8,9 @@ namespace faba {
 
 /// Comparison of the commands of a recorded bench run with those computed again from its pictures.
 struct Replayed {
-  std::uint64_t recorded = 0;                ///< commands in the recording
-  std::uint64_t equal = 0;                   ///< number of bit-identical commands
-  std::optional<std::uint64_t> first_other;  ///< frame of the first different command
+  std::uint64_t recorded = 0;                     ///< commands in the recording
+  std::uint64_t equal = 0;                        ///< number of bit-identical commands
+  std::optional<std::uint64_t> first_difference;  ///< frame of the first different command
 };
 
 /// Computes the commands of the run in `dir` again. Throws Error(input) if it is not a run on a bench or has

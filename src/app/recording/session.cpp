@@ -61,7 +61,7 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
 
 void Session::record(RunDirectory directory, Archive* resume) {
   recording_ = Recording(std::move(directory), scenario_, resume != nullptr);
-  notes_ = notes_on(scenario_, *simulation_, dir());
+  notes_ = scenario_notes(scenario_, *simulation_, dir());
   recording_.open_sinks(sink_context(scenario_, *simulation_, *pool_, dir()), resume);
   for (Sink* s : recording_.sinks()) simulation_->loop().sinks.push_back(s);
 }

@@ -44,7 +44,7 @@ class Session {
   void complete() { recording_.complete(); }
 
   const Scenario& scenario() const { return scenario_; }
-  /// Warnings about the scenario: notes_on().
+  /// Warnings about the scenario: scenario_notes().
   const std::vector<std::string>& notes() const { return notes_; }
   const std::filesystem::path& dir() const { return recording_.dir(); }
 

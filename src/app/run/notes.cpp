@@ -145,8 +145,8 @@ void note_size(const Scenario& s, std::size_t cells, std::filesystem::path out, 
 
 }  // namespace
 
-std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulation,
-                                  const std::filesystem::path& out) {
+std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& simulation,
+                                        const std::filesystem::path& out) {
   Notes notes;
   note_without_effect(s, simulation, notes);
   if (s.steers()) {

@@ -8,7 +8,7 @@ namespace faba {
 
 /// Warnings about valid but probably unintended settings, one line each: an unreachable setpoint, cells that
 /// do not respond, a recording larger than the free disk space. `out`: run directory.
-std::vector<std::string> notes_on(const Scenario& s, const Simulation& simulation,
-                                  const std::filesystem::path& out);
+std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& simulation,
+                                        const std::filesystem::path& out);
 
 }  // namespace faba

@@ -59,7 +59,7 @@ void RigEditor::tilt(std::size_t coil, double angle, Vec3 across) {
     *turn = in_si(*turn) + angle;
 }
 
-void RigEditor::strengthen(std::size_t coil, double factor) {
+void RigEditor::scale_strength(std::size_t coil, double factor) {
   if (Json* strength = find(coil, Role::strength)) *strength = in_si(*strength) * factor;
 }
 

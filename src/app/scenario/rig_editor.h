@@ -20,7 +20,7 @@ class RigEditor {
   /// Tilts the axis by `angle` (rad) towards `across`, a unit vector perpendicular to it; a coil without an
   /// axis is rotated about z by `angle`.
   void tilt(std::size_t coil, double angle, Vec3 across);
-  void strengthen(std::size_t coil, double factor);
+  void scale_strength(std::size_t coil, double factor);
   void add_ambient(Vec3 field);
 
   /// Throws Error(usage) if a changed value is out of range.

@@ -68,7 +68,7 @@ std::string line_text(double intercept, double slope) {
 
 void print_video(const VideoActivity& a) {
   fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {} degrees{}\n",
-             a.input.file.string(), a.mean_amount, a.threshold_px, whole_degrees(a.direction_deg),
+             a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
              a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a))
     fmt::print("  {:.3g} per visible cell ({:.3g} cells)\n", *per_cell, *a.visible_cells);
@@ -79,7 +79,7 @@ void print_video(const VideoActivity& a) {
     fmt::print("  no Gaussian fit: {}\n", a.fit.why);
   for (const MotionSegment& s : a.segments)
     fmt::print("  {:7.2f} to {:7.2f} s  direction {:3} degrees\n", s.t0_s, s.t1_s,
-               whole_degrees(s.direction_deg));
+               rounded_degrees(s.direction_deg));
   if (a.segments.empty())
     fmt::print("  no motion segment: at no time does more than half of the motion have one direction\n");
 }

@@ -32,7 +32,7 @@ void summary(const Identification& r) {
   for (const LegacyModel& m : r.legacy)
     fmt::print("legacy rule (unreliable): {}: slope is zero at {:.4g} {}{}\n", m.name,
                m.parameter.shown(m.zero), m.parameter.shown_unit(),
-               m.meaningless.empty() ? "" : "; not meaningful: " + m.meaningless);
+               m.invalid_reason.empty() ? "" : "; not meaningful: " + m.invalid_reason);
   fmt::print("{}\n", r.words);
 }
 

@@ -113,7 +113,7 @@ void print_summary(const TrackMeasurement& m) {
   fmt::print("tracks   {} in {}, {:.3g} positions each\n", s.tracks,
              counted(std::uint64_t(m.frames), "frame"), s.mean_points);
   const bool drifts = s.speed_count > 0 && s.order > 0.5 && s.msd.size() > 0;
-  const bool together = drifts || order_at_a_time(s) > 0.5;
+  const bool together = drifts || mean_order(s) > 0.5;
   const char* about = !together ? "" : drifts ? "relative to the drift: " : "relative to the common motion: ";
   const SupportedWalk walk = supported_walk(s);
   if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))

@@ -42,8 +42,8 @@ void BenchRig::safe() noexcept {
 
 std::string BenchRig::coil_status() const {
   if (!coils_) return "";
-  return coils_->report().obeyed ? "; the coils are de-energised"
-                                 : "; the coils could not be de-energised: switch them off by hand";
+  return coils_->report().write_ok ? "; the coils are de-energised"
+                                   : "; the coils could not be de-energised: switch them off by hand";
 }
 
 void BenchRig::check_guard() {

@@ -24,7 +24,7 @@ class ReplayRig final : public Rig {
     return equal_;
   }  ///< commands so far that are bitwise equal to the recorded ones
   /// The first frame whose command differs.
-  const std::optional<std::uint64_t>& first_other() const { return first_other_; }
+  const std::optional<std::uint64_t>& first_difference() const { return first_other_; }
 
  private:
   struct Row {

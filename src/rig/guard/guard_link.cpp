@@ -71,7 +71,7 @@ GuardLink::GuardLink(const GuardSetup& setup, const std::filesystem::path& guard
     if (send(link_, text.data(), text.size(), MSG_NOSIGNAL) != ssize_t(text.size()))
       fail("the guard process does not respond");
     const GuardReport first = wait_for([](const GuardReport&) { return true; }, kOpenTimeout);
-    if (first.state == CoilGuard::State::faulted) fail(first.reason.data());
+    if (first.state == CoilGuard::State::tripped) fail(first.reason.data());
   } catch (...) {
     close_link();
     throw;
@@ -134,7 +134,7 @@ bool GuardLink::drain() {
     } else if (n < 0 && (errno == EAGAIN || errno == EINTR)) {
       if (monotonic_now() - received_ < kReportTimeout) return true;
       mark_lost("the guard process does not respond");
-      last_.obeyed = false;
+      last_.write_ok = false;
     } else {
       mark_lost("the guard process has ended");
     }
@@ -144,7 +144,7 @@ bool GuardLink::drain() {
 
 void GuardLink::mark_lost(const char* why) {
   lost_ = true;
-  last_.state = CoilGuard::State::faulted;
+  last_.state = CoilGuard::State::tripped;
   if (last_.reason[0] == 0) std::strncpy(last_.reason.data(), why, last_.reason.size() - 1);
 }
 
@@ -168,7 +168,7 @@ void GuardLink::arm() {
   if (!drain() || !send_message({.kind = ToGuard::Kind::arm})) fail(last_.reason.data());
   const GuardReport r =
       wait_for([](const GuardReport& g) { return g.state != CoilGuard::State::disarmed; }, kAnswerTimeout);
-  if (r.state == CoilGuard::State::faulted) fail(r.reason.data());
+  if (r.state == CoilGuard::State::tripped) fail(r.reason.data());
 }
 
 void GuardLink::disarm() noexcept {

@@ -50,7 +50,7 @@ void GuardLoop::report(std::uint64_t number, double sent) {
   GuardReport r;
   r.state = guard_.state();
   r.fault = guard_.fault();
-  r.obeyed = write_ok_;
+  r.write_ok = write_ok_;
   r.number = number;
   r.sent = sent;
   r.done = done_;
@@ -143,8 +143,8 @@ void GuardLoop::serve(double now) {
   if (now - reported_ >= kStatusPeriod) report();
   if (guard_.state() == logged_state_) return;
   logged_state_ = guard_.state();
-  log_event(logged_state_ == CoilGuard::State::faulted
-                ? fmt::format("faulted {}: {}{}", word(guard_.fault()), guard_.reason(),
+  log_event(logged_state_ == CoilGuard::State::tripped
+                ? fmt::format("tripped {}: {}{}", word(guard_.fault()), guard_.reason(),
                               write_ok_ ? "" : "; the coils could not be de-energised")
                 : word(logged_state_));
   report();

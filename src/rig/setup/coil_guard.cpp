@@ -108,7 +108,7 @@ void CoilGuard::disarm(double now) {
 }
 
 void CoilGuard::reset() {
-  if (state_ != State::faulted) return;
+  if (state_ != State::tripped) return;
   state_ = State::disarmed;
   fault_ = Fault::none;
   reason_.clear();
@@ -246,15 +246,15 @@ double CoilGuard::due() const {
 
 void CoilGuard::fail(Fault f, const std::string& detail, double now) {
   set_current(std::vector<double>(coils_.size(), 0.0), now);
-  if (state_ == State::faulted) return;
-  state_ = State::faulted;
+  if (state_ == State::tripped) return;
+  state_ = State::tripped;
   fault_ = f;
   reason_ = detail.empty() ? fault_text(f) : fmt::format("{} ({})", fault_text(f), detail);
 }
 
 const char* word(CoilGuard::State s) {
   using enum CoilGuard::State;
-  return s == disarmed ? "disarmed" : s == armed ? "armed" : "faulted";
+  return s == disarmed ? "disarmed" : s == armed ? "armed" : "tripped";
 }
 
 const char* word(CoilGuard::Fault f) {

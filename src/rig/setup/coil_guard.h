@@ -33,7 +33,7 @@ class CoilGuard {
   };
   static Schema<Params> schema();
 
-  enum class State : std::uint32_t { disarmed, armed, faulted };
+  enum class State : std::uint32_t { disarmed, armed, tripped };
   enum class Fault : std::uint32_t {
     none,
     not_finite,         ///< a current or frame time is not finite, or the number of currents is wrong

@@ -26,7 +26,7 @@ struct ToGuard {
 struct GuardReport {
   CoilGuard::State state = CoilGuard::State::disarmed;
   CoilGuard::Fault fault = CoilGuard::Fault::none;
-  bool obeyed = true;        ///< the device accepted the last write
+  bool write_ok = true;      ///< the device accepted the last write
   std::uint64_t number = 0;  ///< number of the answered request; 0 for none
   double sent = 0;           ///< s, when the request was sent
   double done = 0;           ///< s, when the device had the voltages

@@ -121,7 +121,7 @@ void Adapted::step(State& s, const StepContext& c) const {
                       earth);
              });
   }
-  clock_.move(s, c, float(scale_.m_per_px) * c.vigour);
+  clock_.move(s, c, float(scale_.m_per_px) * c.speed_factor);
 }
 
 }  // namespace

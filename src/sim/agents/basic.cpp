@@ -86,7 +86,7 @@ void Basic::step(State& s, const StepContext& c) const {
                redraw({&c.bx[i], &c.by[i], response + i, vx + i, vy + i}, row, n, noise, per_tesla);
              });
   }
-  clock_.move(s, c, float(scale_.m_per_px) * c.vigour);
+  clock_.move(s, c, float(scale_.m_per_px) * c.speed_factor);
 }
 
 }  // namespace

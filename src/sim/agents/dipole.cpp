@@ -68,7 +68,7 @@ struct Block {
   float *ux, *uy, *to_x, *to_y;
 };
 struct Constants {
-  float dt, spread_r /* 2 D_r dt */, sd_t /* sqrt(2 D_t dt) */, half_step /* vigour dt / 2 */;
+  float dt, spread_r /* 2 D_r dt */, sd_t /* sqrt(2 D_t dt) */, half_step /* speed_factor dt / 2 */;
 };
 
 // One Philox block feeds the three normals: words 0, 1 turn the heading, words 2, 3 move the cell.
@@ -300,7 +300,7 @@ void Dipole::step(State& s, const StepContext& c) const {
   const std::size_t n = c.end - c.begin;
   if (p_.reversal_rate > 0 || p_.tumble_rate > 0) reorient(s, c);
   const Constants k{float(c.dt), float(2 * d_r_ * c.dt), float(std::sqrt(2 * d_t_ * c.dt)),
-                    float(c.dt / 2) * c.vigour};
+                    float(c.dt / 2) * c.speed_factor};
   const float *response = a["response"].data(), *turning = a["turning"].data(), *speed = a["speed"].data(),
               *x = a["x"].data(), *y = a["y"].data();
   float *ux = a["ux"].data(), *uy = a["uy"].data();

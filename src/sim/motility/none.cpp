@@ -14,7 +14,7 @@ class MotilityNone final : public Motility {
   MotilityNone(const Params&, const MotilityContext&) {}
   std::vector<ColumnSpec> columns() const override { return {}; }
   void start(State&, std::size_t, std::size_t, std::uint64_t) const override {}
-  double vigour(double) const override { return 1; }
+  double speed_factor(double) const override { return 1; }
   void step(State&, const StepContext&) const override {}
 };
 

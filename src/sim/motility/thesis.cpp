@@ -27,7 +27,7 @@ class MotilityThesis final : public Motility {
   MotilityThesis(const Params& p, const MotilityContext& c);
   std::vector<ColumnSpec> columns() const override;
   void start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const override;
-  double vigour(double t) const override { return 1 / (1 + p_.slowdown * (exposure_ + t)); }
+  double speed_factor(double t) const override { return 1 / (1 + p_.slowdown * (exposure_ + t)); }
   void step(State& s, const StepContext& c) const override;
 
  private:

@@ -98,7 +98,7 @@ struct Residuals : Eigen::DenseFunctor<double> {
 void write_rig(const std::filesystem::path& file, RigEditor rig, const FieldFit::Values& m,
                const std::string& data) {
   for (std::size_t k = 0; k < rig.coils(); ++k) {
-    rig.strengthen(k, m.gain);
+    rig.scale_strength(k, m.gain);
     rig.move(k, {m.shift[0], m.shift[1], m.shift[2]});
   }
   rig.add_ambient({m.offset[0], m.offset[1], m.offset[2]});

@@ -20,11 +20,11 @@ ProposedDrop propose_drop(const GrayF& picture, const std::string& name) {
     p.edge = find_drop_edge(picture, options);
   } catch (const Error& e) {
     if (e.code() != Errc::input) throw;
-    p.why = e.reason();
+    p.reason = e.reason();
     return p;
   }
   p.found = p.edge->centre_side_inside;
-  if (!p.found) p.why = "shows an air bubble in the liquid, not a drop";
+  if (!p.found) p.reason = "shows an air bubble in the liquid, not a drop";
   p.centre_image = p.edge->centre_image;
   p.radius_px = p.edge->radius_px;
   return p;

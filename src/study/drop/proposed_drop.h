@@ -9,7 +9,7 @@ namespace faba {
 /// Initial circle for the manual adjustment of the edge of a drop.
 struct ProposedDrop {
   bool found = false;            ///< whether the edge of a drop was found
-  std::string why;               ///< reason when not found
+  std::string reason;            ///< reason when not found
   std::optional<DropEdge> edge;  ///< edge of a drop, or of an air bubble in the liquid
   Vec2 centre_image;     ///< px, pixel centres at integers; of the edge, or of the picture without edge
   double radius_px = 0;  ///< of the edge, or 0.4 of the smaller side of the picture

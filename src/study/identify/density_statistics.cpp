@@ -99,7 +99,7 @@ std::vector<double> DensityStatistics::of_frames(const std::vector<GrayF>& frame
   std::vector<std::vector<Mass>> seen;
   double most = 0;
   for (const GrayF& frame : frames) {
-    const Foreground foreground = view_.seen_in(frame);
+    const Foreground foreground = view_.foreground_in(frame);
     const GrayF& w = foreground.weights();
     std::vector<Mass>& one = seen.emplace_back();
     for (int r = 0; r < w.height; ++r)

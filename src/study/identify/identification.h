@@ -68,7 +68,7 @@ struct LegacyModel {
   std::optional<std::array<double, 2>> zero_ci95;  ///< Fieller interval; empty when it is unbounded
   double mean = 0, sd = 0;                         ///< of the mean distances of all simulations
   double least_distance_at = 0;                    ///< value with the smallest mean distance: a better rule
-  std::string meaningless;                         ///< why the result is invalid; else empty
+  std::string invalid_reason;                      ///< why the result is invalid; else empty
 };
 
 struct Identification {

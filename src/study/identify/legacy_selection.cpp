@@ -94,10 +94,10 @@ void conclude(LegacyModel& m) {
   const auto [low, high] = std::minmax_element(value.begin(), value.end());
   const FreeParameter& p = m.parameter;
   if (!m.zero_ci95)
-    m.meaningless = fmt::format(
+    m.invalid_reason = fmt::format(
         "the slope does not depend significantly on {}, so the position of its zero is undetermined", p.path);
   else if (m.zero < *low || m.zero > *high)
-    m.meaningless =
+    m.invalid_reason =
         fmt::format("its zero, {:.4g}, lies outside the tested values, {:.4g} to {:.4g}{}", p.shown(m.zero),
                     p.shown(*low), p.shown(*high), p.shown_unit().empty() ? "" : " " + p.shown_unit());
 }

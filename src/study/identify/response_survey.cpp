@@ -37,7 +37,7 @@ constexpr double kSameScale = 1e-3;  // relative
 // Positions of single cells if most are resolved; otherwise as many positions as the estimated number of
 // cells, distributed like the signal.
 std::vector<Vec2> positions_in(const GrayF& frame, const CellView& view, Measure measure) {
-  const Foreground foreground = view.seen_in(frame);
+  const Foreground foreground = view.foreground_in(frame);
   const double cells = foreground.moments().cells;
   std::vector<Vec2> positions;
   for (const Spot& s : view.detector().find(frame)) positions.push_back({s.x_px, s.y_px});
@@ -78,7 +78,7 @@ std::vector<FieldSegment> segments_of_drop(const ResponseVideo& v, const std::fu
   std::vector<Vec2> centroid;
   GrayF frame;
   for (double t = 0; video.read(frame, t); tick()) {
-    const SwarmMoments m = v.view.seen_in(frame).moments();
+    const SwarmMoments m = v.view.foreground_in(frame).moments();
     t_s.push_back(t);
     centroid.push_back(m.signal > 0 ? m.centroid_image : Vec2{std::nan(""), std::nan("")});
   }

@@ -43,7 +43,7 @@ void mark_points(VideoActivity& a) {
   a.maximum_s = a.fit.peak_s;
   const double half_width = a.fit.sigma_s * std::sqrt(-2 * std::log(kEdgeFraction));
   if (a.fit.peak_s - half_width > a.t_s.front()) a.onset_s = a.fit.peak_s - half_width;
-  if (a.fit.peak_s + half_width < a.t_s.back()) a.leaving_s = a.fit.peak_s + half_width;
+  if (a.fit.peak_s + half_width < a.t_s.back()) a.departure_s = a.fit.peak_s + half_width;
 }
 
 // The expectation of the flow across the direction is zero: its means over blocks give the standard error of

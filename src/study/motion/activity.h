@@ -55,7 +55,7 @@ struct VideoActivity {
   std::optional<double> visible_cells;  ///< mean number; empty for a file of flows
   GaussianFit fit;                      ///< of `amount`
   std::optional<double> onset_s, maximum_s,
-      leaving_s;  ///< points (1), (2), (3) of Fig. 4.9 of the thesis; only with a good fit
+      departure_s;  ///< points (1), (2), (3) of Fig. 4.9 of the thesis; only with a good fit
   /// Mean flow along the direction over its standard error, estimated from the flow across. Only for a given
   /// direction: a detected one is biased towards the largest flow. Infinite when the flow across is exactly
   /// zero, as in computed flows.

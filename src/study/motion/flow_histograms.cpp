@@ -39,7 +39,7 @@ void flow_histograms(const Flow& flow, const FlowFilter& filter, double scale, F
     }
 }
 
-Flow kept_flow(const Flow& flow, const FlowFilter& filter) {
+Flow filtered_flow(const Flow& flow, const FlowFilter& filter) {
   Flow kept = flow;
   const Gate gate(filter);
   for (std::size_t i = 0; i < kept.u.px.size(); ++i)

@@ -23,6 +23,6 @@ struct FlowHistograms {
 void flow_histograms(const Flow& flow, const FlowFilter& filter, double scale, FlowHistograms& out);
 
 /// The flow used for the legacy histograms; all other flows are zero.
-Flow kept_flow(const Flow& flow, const FlowFilter& filter);
+Flow filtered_flow(const Flow& flow, const FlowFilter& filter);
 
 }  // namespace faba

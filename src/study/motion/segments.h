@@ -14,7 +14,7 @@ struct MotionSegment {
 };
 
 /// A direction for display, rounded to integer degrees, 0 to 359.
-inline int whole_degrees(double deg) { return int(std::lround(deg) % 360 + 360) % 360; }
+inline int rounded_degrees(double deg) { return int(std::lround(deg) % 360 + 360) % 360; }
 
 /// Splits a video into segments of directed motion. In windows of 0.4 s (at least three pairs) at least half
 /// of the flow must be in one direction and be at least a seventh of the maximum in the video. A segment

@@ -61,7 +61,7 @@ Figure signature_figure(const VideoActivity& a) {
     p.add(std::move(curve));
   }
   const std::pair<const std::optional<double>*, const char*> points[] = {
-      {&a.onset_s, "(1)"}, {&a.maximum_s, "(2)"}, {&a.leaving_s, "(3)"}};
+      {&a.onset_s, "(1)"}, {&a.maximum_s, "(2)"}, {&a.departure_s, "(3)"}};
   for (const auto& [at, name] : points)
     if (*at) p.add(Rule{.at = **at, .label = name});
   f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
@@ -147,7 +147,7 @@ std::string table(const ActivityResult& r) {
                   "th");
   for (const VideoActivity& a : r.videos)
     out += text_row(
-        {title_of(a), fmt::format("{}°", whole_degrees(a.direction_deg)), three_digits(a.threshold_px),
+        {title_of(a), fmt::format("{}°", rounded_degrees(a.direction_deg)), three_digits(a.threshold_px),
          three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
          a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
          a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.peak_s), three_digits(a.fit.se_peak_s)) : "–",
@@ -163,7 +163,7 @@ std::string table(const ActivityResult& r) {
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
       out += text_row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
-                       fmt::format("{}° ({})", whole_degrees(s.direction_deg), compass(s.direction_deg))},
+                       fmt::format("{}° ({})", rounded_degrees(s.direction_deg), compass(s.direction_deg))},
                       "td");
   return out + "</table>\n";
 }
@@ -219,13 +219,14 @@ void write_activity_picture(const std::filesystem::path& file, const VideoActivi
   if (a.busiest.image.empty())
     throw Error(Errc::usage, "--picture", "a flow file contains no frames; give the video");
   const double direction = a.direction_given ? a.direction_deg : a.busiest_deg;
-  const Flow kept = kept_flow(a.busiest.flow, {a.threshold_px, direction});
+  const Flow kept = filtered_flow(a.busiest.flow, {a.threshold_px, direction});
   FlowDrawing how;
   how.full_px = std::max(full_speed(a.busiest.flow), 1e-6);
   how.arrow_step_px = 0;
   how.words = fmt::format("flow at {:.2f} s", a.busiest.t1_s);
   const RgbImage all = draw_flow(a.busiest.flow, how);
-  how.words = fmt::format("above {:.3g} px, direction {} degrees", a.threshold_px, whole_degrees(direction));
+  how.words =
+      fmt::format("above {:.3g} px, direction {} degrees", a.threshold_px, rounded_degrees(direction));
   const RgbImage filtered = draw_flow(kept, how);
   RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
   for (int y = 0; y < all.height; ++y)

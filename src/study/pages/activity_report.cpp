@@ -16,7 +16,7 @@ Json or_null(const std::optional<T>& v) {
 
 Json gaussian_json(const GaussianFit& f) {
   if (!f.good && f.amplitude == 0) {  // no data for a fit
-    Json j{{"good", false}, {"why", f.why}};
+    Json j{{"good", false}, {"reason", f.reason}};
     for (const char* key : {"amplitude", "peak_s", "sigma_s", "offset"}) j[key] = nullptr;
     return j;
   }
@@ -30,7 +30,7 @@ Json gaussian_json(const GaussianFit& f) {
           {"se_offset", f.se_offset},
           {"scatter", f.scatter},
           {"good", f.good},
-          {"why", f.why}};
+          {"reason", f.reason}};
 }
 
 Json video_json(const VideoActivity& a) {
@@ -56,7 +56,7 @@ Json video_json(const VideoActivity& a) {
   j["gaussian"] = gaussian_json(a.fit);
   j["onset_s"] = or_null(a.onset_s);
   j["maximum_s"] = or_null(a.maximum_s);
-  j["leaving_s"] = or_null(a.leaving_s);
+  j["departure_s"] = or_null(a.departure_s);
   j["notes"] = a.notes;
   return j;
 }

@@ -76,7 +76,7 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
   for (const auto& [flow, heading] : both)
     out += fmt::format(
         "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Flow within 45° of the direction.</figcaption>\n</figure>\n",
-        heading, inline_picture(draw_flow(kept_flow(*flow, filter), how), heading));
+        heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading));
   out += fmt::format("<figure>\n<h3>Flow by column</h3>\n{}</figure>\n",
                      svg(histogram("column (px)", r.furthest.reference_bins.x, r.furthest.run_bins.x)));
   out += fmt::format("<figure>\n<h3>Flow by row</h3>\n{}</figure>\n</div>\n",

@@ -64,7 +64,7 @@ std::string table(const ControllerComparison& r) {
   for (const Combination& c : r.combinations) {
     std::vector<std::string> cells{escape_markup(c.controller), fmt::format("{} of {}", c.settled, c.trials)};
     if (head[1] == "condition") cells.insert(cells.begin() + 1, escape_markup(condition(r, c)));
-    cells.push_back(c.behind_best ? with_interval(&*c.behind_best) : "–");
+    cells.push_back(c.excess_over_best ? with_interval(&*c.excess_over_best) : "–");
     for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
     out += table_row(cells, "td");
   }
@@ -151,8 +151,8 @@ std::string verdict(const ControllerComparison& r) {
     const Combination* best = nullptr;
     bool significant = true;
     for (const Combination* c : group) {
-      if (!c->behind_best && metric(*c, "steady_rms_px")) best = c;
-      if (c->behind_best && c->behind_best->ci95[0] <= 0) significant = false;
+      if (!c->excess_over_best && metric(*c, "steady_rms_px")) best = c;
+      if (c->excess_over_best && c->excess_over_best->ci95[0] <= 0) significant = false;
     }
     if (!best || group.size() < 2) continue;
     const std::string at = fmt::format("{} px rms{}", three_digits(metric(*best, "steady_rms_px")->mean),
@@ -177,11 +177,14 @@ nlohmann::ordered_json controllers_json(const ControllerComparison& r) {
          {"notes", r.notes},
          {"combinations", Json::array()}};
   for (const Combination& c : r.combinations) {
-    Json one{
-        {"controller", c.controller}, {"model", c.model},
-        {"delay_frames", c.delay},    {"trials", c.trials},
-        {"settled", c.settled},       {"settled_ci95", c.settled_ci95},
-        {"metrics", Json::object()},  {"behind_best_px", c.behind_best ? mean_json(*c.behind_best) : Json()}};
+    Json one{{"controller", c.controller},
+             {"model", c.model},
+             {"delay_frames", c.delay},
+             {"trials", c.trials},
+             {"settled", c.settled},
+             {"settled_ci95", c.settled_ci95},
+             {"metrics", Json::object()},
+             {"excess_over_best_px", c.excess_over_best ? mean_json(*c.excess_over_best) : Json()}};
     for (const auto& [name, m] : c.metrics) one["metrics"][name] = mean_json(m);
     j["combinations"].push_back(std::move(one));
   }

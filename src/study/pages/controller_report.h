@@ -10,8 +10,8 @@
 namespace faba {
 
 /// Output of `faba compare-controllers --json`: `combinations[]` = `{"controller", "model", "delay_frames",
-/// "trials", "settled", "settled_ci95", "metrics": {NAME: {"mean", "sd", "ci95", "n"}}, "behind_best_px"}`,
-/// NAME as in `faba run --json`.
+/// "trials", "settled", "settled_ci95", "metrics": {NAME: {"mean", "sd", "ci95", "n"}},
+/// "excess_over_best_px"}`, NAME as in `faba run --json`.
 nlohmann::ordered_json controllers_json(const ControllerComparison& comparison);
 
 /// The table as CSV, one line for each combination and metric.

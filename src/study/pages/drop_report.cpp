@@ -24,13 +24,13 @@ nlohmann::ordered_json drop_json(const DropEdge& edge) {
 nlohmann::ordered_json drop_json(const ProposedDrop& drop) {
   if (!drop.edge)
     return {{"found", false},
-            {"why", drop.why},
+            {"reason", drop.reason},
             {"center_px", {drop.centre_image.x, drop.centre_image.y}},
             {"radius_px", drop.radius_px},
             {"image_size", {drop.image_width, drop.image_height}}};
   Json json = drop_json(*drop.edge);
   json["found"] = drop.found;
-  if (!drop.found) json["why"] = drop.why;
+  if (!drop.found) json["reason"] = drop.reason;
   return json;
 }
 

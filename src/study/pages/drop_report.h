@@ -13,8 +13,9 @@ namespace faba {
 /// Positions in picture px, y down as in the image file; `inside` is a point of the picture inside the drop.
 nlohmann::ordered_json drop_json(const DropEdge& edge);
 
-/// A proposed drop for the web page of the lab: the fields of drop_json(DropEdge) and `"found"`, and `"why"`
-/// when a bubble was found; without an edge `"found": false, "why", "center_px", "radius_px", "image_size"`.
+/// A proposed drop for the web page of the lab: the fields of drop_json(DropEdge) and `"found"`, and
+/// `"reason"` when a bubble was found; without an edge `"found": false, "reason", "center_px", "radius_px",
+/// "image_size"`.
 nlohmann::ordered_json drop_json(const ProposedDrop& drop);
 
 /// Detects the drop edge in a picture or in the first frame of a video. Unless `overlay` is empty, writes the

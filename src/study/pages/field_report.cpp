@@ -57,8 +57,8 @@ Json field_json(const FieldLibrarySummary& s) {
   Json j{{"out", s.out.string()}, {"combinations", s.combinations}, {"entries", s.entries},
          {"levels", s.levels},    {"columns", s.columns},           {"rows", s.rows},
          {"traps", s.traps}};
-  j["off_m"] = nullptr;
-  if (s.off) j["off_m"] = {{"median", s.off->median}, {"largest", s.off->largest}};
+  j["null_error_m"] = nullptr;
+  if (s.off) j["null_error_m"] = {{"median", s.off->median}, {"largest", s.off->largest}};
   j["strength"] = s.strength ? Json(*s.strength) : Json();
   return j;
 }

@@ -119,7 +119,7 @@ Figure by_segment(const Identification& r) {
 
 /// Histogram of the signal of the swarm along a direction, sum 1.
 std::vector<double> histogram_along(const GrayF& frame, const CellView& view, double direction_deg) {
-  const Foreground foreground = view.seen_in(frame);
+  const Foreground foreground = view.foreground_in(frame);
   const Vec2 direction = unit_vector(direction_deg);
   const double half = 0.5 * (std::fabs(direction.x) * view.width + std::fabs(direction.y) * view.height);
   const Vec2 middle{0.5 * view.width, 0.5 * view.height};

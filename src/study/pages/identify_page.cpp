@@ -122,7 +122,8 @@ std::string legacy(const Identification& r) {
     out += fmt::format(
         "<tr><th scope=\"row\">{}<small>{}</small></th><td>{}</td><td>{}</td><td>{} ± "
         "{}</td><td>{}</td></tr>\n",
-        escape_markup(m.name), escape_markup(m.meaningless.empty() ? "" : "Invalid: " + m.meaningless + "."),
+        escape_markup(m.name),
+        escape_markup(m.invalid_reason.empty() ? "" : "Invalid: " + m.invalid_reason + "."),
         three_digits(q.shown(m.zero)), interval, three_digits(m.mean), three_digits(m.sd),
         three_digits(q.shown(m.least_distance_at)));
   }

@@ -11,7 +11,7 @@ Json parameter_json(const FoundParameter& p) {
           {"unit", p.parameter.unit},
           {"range", {p.parameter.low, p.parameter.high}},
           {"fraction_of_range", p.fraction_of_range},
-          {"doubt", p.doubt.empty() ? Json() : Json(p.doubt)},
+          {"warning", p.doubt.empty() ? Json() : Json(p.doubt)},
           {"abc", {{"median", p.abc_median}, {"ci90", p.abc_ci90}}},
           {"resampled90", p.resampled90 ? Json(*p.resampled90) : Json()}};
 }
@@ -35,9 +35,9 @@ nlohmann::ordered_json identify_json(const Identification& r) {
   }
   j["best"] = r.models[r.best].name;
   j["evidence"] = r.evidence;
-  j["words"] = r.words;
+  j["summary"] = r.words;
   j["experiments"] = r.experiments;
-  j["ahead"] = r.score_lead_ci95 ? Json{{"mean", r.score_lead}, {"ci95", *r.score_lead_ci95}} : Json();
+  j["score_lead"] = r.score_lead_ci95 ? Json{{"mean", r.score_lead}, {"ci95", *r.score_lead_ci95}} : Json();
   j["statistics"] = Json::array();
   for (std::size_t k = 0; k < r.statistics.size(); ++k) {
     Json one{{"what", r.statistics[k].name},
@@ -59,7 +59,7 @@ nlohmann::ordered_json identify_json(const Identification& r) {
          {"mean", m.mean},
          {"sd", m.sd},
          {"least_distance_at", m.least_distance_at},
-         {"meaningless", m.meaningless.empty() ? Json() : Json(m.meaningless)}});
+         {"invalid_reason", m.invalid_reason.empty() ? Json() : Json(m.invalid_reason)}});
   j["notes"] = notes_of(r);
   return j;
 }

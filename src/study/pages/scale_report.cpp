@@ -21,7 +21,7 @@ void add_ratios(Json& j, const ScaleRatios& r) {
 // Fields common to both kinds of scales.
 template <class Scale>
 void add_advice(Json& j, const Scale& s) {
-  j["take"] = "regression";
+  j["recommended"] = "regression";
   j["note"] = scale_note(s);
   j["method"] = calibration_of(s).method;
   j["source"] = s.source;
@@ -79,11 +79,11 @@ nlohmann::ordered_json scale_json(const PictureScale& s) {
   j["pitch_se_px"] = s.pitch_se_px;
   j["residual_px"] = s.residual_px;
   j["marks"] = s.marks;
-  j["left_out"] = s.left_out;
+  j["unused_marks"] = s.unused_marks;
   j["angle_deg"] = s.angle_deg;
   j["mark_width_px"] = s.mark_width_px;
   j["mark_length_px"] = s.mark_length_px;
-  j["marks_are"] = s.dark ? "dark" : "bright";
+  j["mark_polarity"] = s.dark ? "dark" : "bright";
   add_ratios(j, s.ratios);
   j["image_size"] = {s.image_width, s.image_height};
   j["quality"] = word_of(s.quality);

@@ -12,13 +12,13 @@ namespace faba {
 /// `intercept_ci95_px`, `slope_px_per_um`, `slope_ci95_px_per_um`, `residual_px`, `readings`, `widths_um`,
 /// `ratios`, `ratio_mean`, `ratio_sd`, `ratio_sd_population`, `ratio_sem`, `repeatability_px` (null when no
 /// width was read twice), `edge_excess_px` (the intercept), `edge_excess_significant`, `ratio_bias`,
-/// `spearman`, `spearman_p`, `take`, `note`, `method`, `source`.
+/// `spearman`, `spearman_p`, `recommended`, `note`, `method`, `source`.
 nlohmann::ordered_json scale_json(const TableScale& scale);
 
 /// A scale from a picture as reported by the command line and the lab: `um_per_px`, `ci95`, `tick_um`,
-/// `pitch_px`, `pitch_se_px`, `residual_px`, `marks`, `left_out`, `angle_deg`, `mark_width_px`,
-/// `mark_length_px`, `marks_are` ("dark", "bright"), the ratios as above, `image_size`, `quality`, `take`,
-/// `note`, `method`, `source`.
+/// `pitch_px`, `pitch_se_px`, `residual_px`, `marks`, `unused_marks`, `angle_deg`, `mark_width_px`,
+/// `mark_length_px`, `mark_polarity` ("dark", "bright"), the ratios as above, `image_size`, `quality`,
+/// `recommended`, `note`, `method`, `source`.
 nlohmann::ordered_json scale_json(const PictureScale& scale);
 
 /// Recommended estimator, and the reason.

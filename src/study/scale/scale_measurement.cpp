@@ -126,7 +126,7 @@ PictureScale measure_scale(const Ruler& ruler, double tick_m, const std::string&
   s.pitch_se_px = row.se_pitch_px;
   s.residual_px = row.residual_px;
   s.marks = used;
-  s.left_out = int(row.marks.size()) - used;
+  s.unused_marks = int(row.marks.size()) - used;
   s.angle_deg = ruler.angle_deg;
   s.mark_width_px = row.width_px;
   s.mark_length_px = row.height_px;

@@ -60,7 +60,7 @@ struct PictureScale : ScaleMeasurement {
   double tick_um = 0;  ///< distance between neighbouring marks of the finest division
   double pitch_px = 0, pitch_se_px = 0;
   int marks = 0;         ///< marks used for the regression
-  int left_out = 0;      ///< detected marks that were not used
+  int unused_marks = 0;  ///< detected marks that were not used
   double angle_deg = 0;  ///< see Ruler
   double mark_width_px = 0, mark_length_px = 0;
   bool dark = true;  ///< marks darker than the background

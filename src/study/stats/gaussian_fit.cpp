@@ -89,7 +89,7 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   GaussianFit fit;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (values.size() < 6 || !(*high > *low) || !(*high > 0)) {
-    fit.why = values.size() < 6 ? "fewer than six values" : "all values are equal";
+    fit.reason = values.size() < 6 ? "fewer than six values" : "all values are equal";
     if (!values.empty()) fit.offset = values.front();
     return fit;
   }
@@ -129,11 +129,11 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   const double f = free_values > 1 ? (constant / std::max(r.squaredNorm(), 1e-300) - 1) / 3 * free_values : 0;
   if (!std::isfinite(x.sum())) {
     fit = {};
-    fit.why = "the fit diverged";
+    fit.reason = "the fit diverged";
     return fit;
   }
-  fit.why = weakness(fit, x, std::sqrt(variance), f, y.size());
-  fit.good = fit.why.empty();
+  fit.reason = weakness(fit, x, std::sqrt(variance), f, y.size());
+  fit.good = fit.reason.empty();
   return fit;
 }
 

@@ -14,7 +14,7 @@ struct GaussianFit {
   /// Whether the peak is accepted: its amplitude is at least three times the scatter and significant, and it
   /// is inside the series and not wider than it.
   bool good = false;
-  std::string why = {};  ///< reason why the peak is not accepted; empty when good
+  std::string reason = {};  ///< reason why the peak is not accepted; empty when good
 };
 
 /// `t_s` is increasing, `values` have the same length and are not negative. No fit with fewer than six values

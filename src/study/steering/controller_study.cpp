@@ -76,7 +76,7 @@ std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::str
                       fmt::format("has no setpoint for controller \"{}\"; add a [reference]",
                                   study.controllers[c].name));
         if (notes)
-          for (const std::string& note : notes_on(s, check, std::filesystem::current_path()))
+          for (const std::string& note : scenario_notes(s, check, std::filesystem::current_path()))
             if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
         const int frames = s.camera.delay_frames;
         all.push_back({c, m, frames, std::move(s)});
@@ -179,7 +179,7 @@ void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>&
     for (std::size_t k = 0; k < trials[i].size(); ++k)
       difference.push_back((*trials[i][k])[ranked] - (*trials[best][k])[ranked]);
     const MeanOverSeeds m = mean_of(difference);
-    if (m.n > 1) all[i].behind_best = m;
+    if (m.n > 1) all[i].excess_over_best = m;
   }
 }
 

@@ -45,7 +45,7 @@ struct Combination {
   std::vector<double> t_s, distance_px, distance_sd_px, rms_radius_px, rms_radius_sd_px;
   /// Steady error minus that of the best controller with the same model and delay: mean of the paired
   /// differences over the seeds, with interval. Empty for the best controller.
-  std::optional<MeanOverSeeds> behind_best;
+  std::optional<MeanOverSeeds> excess_over_best;
 };
 
 struct ControllerComparison {

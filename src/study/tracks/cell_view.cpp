@@ -13,7 +13,7 @@ Detector CellView::detector() const {
   return {*background, o};
 }
 
-Foreground CellView::seen_in(const GrayF& frame) const {
+Foreground CellView::foreground_in(const GrayF& frame) const {
   Foreground foreground(cells);
   foreground.know(*background);
   foreground.take(frame, noise(), frame_s);

@@ -20,7 +20,7 @@ struct CellView {
   /// Detects single cells.
   Detector detector() const;
   /// Foreground of a frame, without detection of single cells.
-  Foreground seen_in(const GrayF& frame) const;
+  Foreground foreground_in(const GrayF& frame) const;
 };
 
 /// Unit vector at an angle: (cos, sin).

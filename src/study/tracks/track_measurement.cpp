@@ -70,7 +70,7 @@ class TrackPass {
     d.noise_grey = robust_spread_low(noise).median;
     d.threshold_snr = threshold_;
     d.spots_per_frame = spots_found_ / std::max(1.0, frames_);
-    d.still_spots = survey_.still_spots;
+    d.stationary_spots = survey_.stationary_spots;
     if (spots_found_ > 0) {
       d.mean_place_sd_px = place_sd_ / n;
       d.mean_elongation = elongation_ / n;
@@ -80,7 +80,7 @@ class TrackPass {
   }
   TrackJoining joining() const {
     return {tracker_.reach_px(), tracker_.motion(), options_.tracker.memory, options_.tracker.least_points,
-            tracker_.unsure_tracks()};
+            tracker_.uncertain_tracks()};
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }
@@ -138,7 +138,7 @@ SupportedWalk supported_walk(const TrackSummary& s) {
   return s.persists ? SupportedWalk::persistent : SupportedWalk::diffusion;
 }
 
-double order_at_a_time(const TrackSummary& s) {
+double mean_order(const TrackSummary& s) {
   double order = 0, n = 0;
   for (std::size_t i = 0; i < s.order_in_time.size(); ++i) {
     if (!std::isfinite(s.order_in_time[i])) continue;

@@ -22,7 +22,7 @@ struct TrackDetection {
   double noise_grey = 0;      ///< grey levels, median over the image
   double threshold_snr = 0;   ///< smallest signal-to-noise ratio
   double spots_per_frame = 0;
-  std::int64_t still_spots = 0;            ///< see TrackSurvey
+  std::int64_t stationary_spots = 0;       ///< see TrackSurvey
   std::optional<double> mean_place_sd_px;  ///< standard deviation of a position; empty without spots
   std::optional<double> mean_elongation;   ///< empty without spots
   std::optional<DropMask> drop;            ///< searched region, when restricted to the drop
@@ -30,11 +30,11 @@ struct TrackDetection {
 
 /// Parameters and results of the linking of spots to tracks.
 struct TrackJoining {
-  double reach_px = 0;              ///< largest displacement between frames
-  Motion motion = Motion::nearest;  ///< nearest or velocity
-  int memory_frames = 0;            ///< see TrackerOptions::memory
-  int least_points = 0;             ///< see TrackerOptions
-  std::uint64_t unsure_tracks = 0;  ///< discarded because they had fewer than least_points
+  double reach_px = 0;                 ///< largest displacement between frames
+  Motion motion = Motion::nearest;     ///< nearest or velocity
+  int memory_frames = 0;               ///< see TrackerOptions::memory
+  int least_points = 0;                ///< see TrackerOptions
+  std::uint64_t uncertain_tracks = 0;  ///< discarded because they had fewer than least_points
 };
 
 /// Result of tracking a video.
@@ -58,7 +58,7 @@ SupportedWalk supported_walk(const TrackSummary& summary);
 
 /// Mean over the time bins of the order parameter in each, weighted by its displacements; NaN when there are
 /// no bins.
-double order_at_a_time(const TrackSummary& summary);
+double mean_order(const TrackSummary& summary);
 
 /// Observer of the tracking of a video.
 class TrackListener {

@@ -52,7 +52,8 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   Background smooth = spatial_background(middle, s.smoothing_px);
   const std::int64_t by_space = count_spots(o, s, smooth, middle);
   const std::int64_t by_time = many ? count_spots(o, s, median, middle) : 0;
-  if (many) s.still_spots = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
+  if (many)
+    s.stationary_spots = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
   s.temporal = o.background == BackgroundKind::median ||
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;
@@ -120,11 +121,11 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
   if (!s.size_found)
     s.notes.push_back(
         fmt::format("no spots above the noise at any size; a size of {} px is assumed", s.size_px));
-  if (s.temporal && s.size_found && s.still_spots * 4 > s.spots)
+  if (s.temporal && s.size_found && s.stationary_spots * 4 > s.spots)
     s.notes.push_back(fmt::format(
         "{} stationary spots of this size are part of the median background and are excluded: they never "
         "move, or their positions are often occupied; to include them, specify --background spatial",
-        s.still_spots));
+        s.stationary_spots));
   return s;
 }
 

@@ -22,9 +22,9 @@ struct TrackSurvey {
   double smoothing_px = 0;  ///< smoothing of that copy
   Polarity polarity = Polarity::dark;
   double size_px = 0;
-  bool size_found = true;        ///< false: no spots were detected, size_px is the default
-  std::int64_t still_spots = 0;  ///< stationary spots: detected in the median
-  std::int64_t spots = 0;        ///< number of spots in the middle frame with the selected background
+  bool size_found = true;             ///< false: no spots were detected, size_px is the default
+  std::int64_t stationary_spots = 0;  ///< stationary spots: detected in the median
+  std::int64_t spots = 0;             ///< number of spots in the middle frame with the selected background
   std::vector<std::string> notes;
 };
 

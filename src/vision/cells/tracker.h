@@ -70,7 +70,7 @@ class Tracker {
   Motion motion() const { return motion_; }  ///< in use now
   std::uint64_t sure_tracks() const { return numbered_; }
   /// Tracks given up before they had `least_points`.
-  std::uint64_t unsure_tracks() const { return dropped_; }
+  std::uint64_t uncertain_tracks() const { return dropped_; }
 
  private:
   struct Live {

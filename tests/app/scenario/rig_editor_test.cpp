@@ -59,7 +59,7 @@ TEST_CASE("rig editor: the strength scales the field of a coil but not the ambie
     CAPTURE(coil.what);
     const RigEditor rig = editor(parts, coil);
     RigEditor strong = rig;
-    strong.strengthen(0, 1.5);
+    strong.scale_strength(0, 1.5);
     const Vec3 before = field_at(rig, kPosition);
     CHECK(norm(field_at(strong, kPosition) - 1.5 * before) < kRounding * norm(before));
     strong.add_ambient({0, 3e-5, 0});

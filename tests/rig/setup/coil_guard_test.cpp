@@ -69,7 +69,7 @@ TEST_CASE(
     b.request({0.3, -0.3});
     REQUIRE_FALSE(b.coils_off());
     b.request(bad.current);
-    CHECK(b.guard.state() == State::faulted);
+    CHECK(b.guard.state() == State::tripped);
     CHECK(b.guard.fault() == bad.fault);
     CHECK_FALSE(b.guard.reason().empty());
     CHECK(b.coils_off());

@@ -59,7 +59,7 @@ TEST_CASE("histograms agree with their definition") {
   const FlowFilter filter{0.6, 200};
   FlowHistograms h;
   flow_histograms(f, filter, 2, h);
-  const Flow kept = kept_flow(f, filter);
+  const Flow kept = filtered_flow(f, filter);
   for (int c = 0; c < 7; ++c) {
     double legacy = 0, right = 0, left = 0, picture = 0;
     for (int r = 0; r < 5; ++r) {

@@ -24,9 +24,9 @@ TEST_CASE("drop report: exactly the documented fields, in order") {
 TEST_CASE("drop report: a picture without a drop gives a default circle and a reason") {
   const ProposedDrop drop = propose_drop(GrayF(200, 100), "grey.png");
   CHECK_FALSE(drop.found);
-  CHECK_FALSE(drop.why.empty());
+  CHECK_FALSE(drop.reason.empty());
   nlohmann::ordered_json j = drop_json(drop);
-  j["why"] = "";
+  j["reason"] = "";
   CHECK(j.dump() ==
-        R"({"found":false,"why":"","center_px":[99.5,49.5],"radius_px":40.0,"image_size":[200,100]})");
+        R"({"found":false,"reason":"","center_px":[99.5,49.5],"radius_px":40.0,"image_size":[200,100]})");
 }

@@ -75,7 +75,7 @@ TEST_CASE("table 4.1 to all printed digits") {
   CHECK(j["spearman"].get<double>() == doctest::Approx(1));
   CHECK(j["edge_excess_significant"] == true);
   CHECK(1 / (1 + j["ratio_bias"].get<double>()) == doctest::Approx(1.143).epsilon(5e-4));
-  CHECK(j["take"] == "regression");
+  CHECK(j["recommended"] == "regression");
 }
 
 TEST_CASE("all forms of the same table give the same result") {

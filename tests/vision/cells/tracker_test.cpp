@@ -128,7 +128,7 @@ TEST_CASE("births, deaths and noise: tracks begin and end where cells do, single
   CHECK(tracks[0].points.front().frame == 5);
   CHECK(tracks[0].points.back().frame == 29);
   CHECK(tracks[1].points.front().frame == 20);
-  CHECK(t.unsure_tracks() >= 4);
+  CHECK(t.uncertain_tracks() >= 4);
 }
 
 TEST_CASE("a thousand swimmers: nearly every link is right, reach and motion are found") {

@@ -103,9 +103,9 @@ std::string cut_to_terminal(std::string line) {
 }
 
 std::string line_of(const GuardReport& g, const std::vector<double>& requested, std::size_t selected) {
-  if (g.state == CoilGuard::State::faulted)
-    return fmt::format("faulted  {}{}; press r to reset", g.reason.data(),
-                       g.obeyed ? "" : "; the coils could not be de-energised: switch them off manually");
+  if (g.state == CoilGuard::State::tripped)
+    return fmt::format("tripped  {}{}; press r to reset", g.reason.data(),
+                       g.write_ok ? "" : "; the coils could not be de-energised: switch them off manually");
   std::string line = fmt::format("{:<8}", word(g.state));
   for (std::size_t k = 0; k < requested.size(); ++k) {
     line += fmt::format(" {}coil {}: {:+.3f} A", k == selected ? "[" : " ", k, requested[k]);
@@ -155,7 +155,7 @@ int rig_jog(const JogVerb& v, const Common& c) {
     if (key == '0') value = 0;
     if (key == ' ') std::fill(requested.begin(), requested.end(), 0.0);
     const GuardReport report = coils.report();
-    if (key == 'r' && report.state == CoilGuard::State::faulted) coils.reset();
+    if (key == 'r' && report.state == CoilGuard::State::tripped) coils.reset();
     if (report.state != CoilGuard::State::armed) {
       std::fill(requested.begin(), requested.end(), 0.0);  // there is no current until a key is pressed
       std::fill(current.begin(), current.end(), 0.0);
@@ -177,7 +177,7 @@ int rig_jog(const JogVerb& v, const Common& c) {
   const GuardReport g = coils.report();
   if (c.json) fmt::print("{}\n", Json{{"state", word(g.state)}, {"reason", g.reason.data()}}.dump());
   if (stop_requested().load()) return int(Errc::interrupted);
-  return g.state == CoilGuard::State::faulted ? int(Errc::device) : 0;
+  return g.state == CoilGuard::State::tripped ? int(Errc::device) : 0;
 }
 
 }  // namespace

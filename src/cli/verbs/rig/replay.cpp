@@ -21,13 +21,14 @@ int rig_replay(const std::string& dir, const Common& c) {
   const bool same = r.equal == r.recorded;
   if (c.json)
     fmt::print("{}\n", Json{{"recorded", r.recorded},
-                            {"equal", r.equal},
+                            {"equal_commands", r.equal},
                             {"same", same},
-                            {"first_other", r.first_other ? Json(*r.first_other) : Json()}}
+                            {"first_difference", r.first_difference ? Json(*r.first_difference) : Json()}}
                            .dump());
   else if (!c.quiet)
-    fmt::print("{} of {} commands are bit-identical{}\n", r.equal, r.recorded,
-               r.first_other ? fmt::format("; the first difference is at frame {}", *r.first_other) : "");
+    fmt::print(
+        "{} of {} commands are bit-identical{}\n", r.equal, r.recorded,
+        r.first_difference ? fmt::format("; the first difference is at frame {}", *r.first_difference) : "");
   return same ? 0 : int(Errc::internal);
 }
 

@@ -70,7 +70,7 @@ Json walk_of(const TrackSummary& s, double um) {
   Writer w{Json::object(), um};
   w.put("speed_rms", "px_s", "um_s", 1, s.speed_rms_px_s);
   w.one("tau_s", 1, s.tau_s);
-  w.json["tau_longer_than_seen"] = s.persistent.tau_open;
+  w.json["tau_exceeds_tracks"] = s.persistent.tau_open;
   w.json["offset_px2"] = number(s.persistent.offset_px2);
   return w.json;
 }
@@ -106,7 +106,7 @@ Json detection_of(const TrackDetection& d) {
          {"noise_grey", d.noise_grey},
          {"threshold_snr", d.threshold_snr},
          {"spots_per_frame", d.spots_per_frame},
-         {"still_spots", d.still_spots},
+         {"stationary_spots", d.stationary_spots},
          {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
          {"mean_elongation", or_null(d.mean_elongation)}};
   if (d.drop) {
@@ -121,7 +121,7 @@ Json joining_of(const TrackJoining& t) {
           {"motion", word_of(t.motion)},
           {"memory_frames", t.memory_frames},
           {"least_points", t.least_points},
-          {"unsure_tracks", t.unsure_tracks}};
+          {"uncertain_tracks", t.uncertain_tracks}};
 }
 
 Json supported_of(const TrackSummary& s) {
@@ -158,7 +158,7 @@ void add_summary(Json& j, const TrackSummary& s, double um) {
   j["speed"] = s.speed_count > 0 ? speed_of(s, um) : Json(nullptr);
   j["turn"] = s.turn_count > 0 ? turn_of(s) : Json(nullptr);
   j["order"] = number(s.speed_count > 0 ? s.order : std::nan(""));
-  j["order_at_a_time"] = number(order_at_a_time(s));
+  j["mean_order"] = number(mean_order(s));
 }
 
 }  // namespace

@@ -111,12 +111,12 @@ std::string table(const TrackMeasurement& m) {
                                   word_of(d.polarity), number(d.size_px, " px"), number(d.threshold_snr, ""),
                                   number(d.spots_per_frame, "")));
   out += row("Background", d.temporal ? fmt::format("median of {} frames, with {} stationary spots",
-                                                    d.background_frames, d.still_spots)
+                                                    d.background_frames, d.stationary_spots)
                                       : "spatial, from each frame");
   out += row(
       "Linking",
       fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
-                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.unsure_tracks,
+                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.uncertain_tracks,
                   t.least_points));
   out += row("Drift", drift(m));
   out += row("Diffusion", diffusion(m));
