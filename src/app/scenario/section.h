@@ -44,7 +44,7 @@ struct Section {
     return *this;
   }
   /// Adds a key to the schema that include_...() replaces before the section is read.
-  Section& also_key(const std::string& name, Json described) {
+  Section& also_key(const std::string& name, const Json& described) {
     json_schema = [all = std::move(json_schema), name, described](const Parts& p) {
       Json j = all(p);
       j["properties"][name] = described;
