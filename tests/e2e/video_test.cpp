@@ -61,7 +61,7 @@ TEST_CASE("flow of two pictures: a file of flows, a picture, the truth, and what
 
   refused(f, "flow a.pgm b.pgm --out ab.flo", 2, "already exists");
   refused(f, "flow a.pgm b.pgm --out a.pgm --force", 2, "must end in .flo");
-  refused(f, "flow a.pgm none.pgm", 3, "no such file");
+  refused(f, "flow a.pgm none.pgm", 3, "file not found");
   refused(f, "flow a.pgm b.pgm --alpha2 0", 2, "out of range");
   refused(f, "flow a.pgm b.pgm --solver gauss", 2, "solver");
   refused(f, "flow a.pgm b.pgm --quality fast", 2, "is no parameter of method horn_schunck");
@@ -129,7 +129,7 @@ TEST_CASE(
     const Called c = faba_in(f.path, verb);
     CAPTURE(verb);
     CHECK_MESSAGE(c.exit == 0, c.err);
-    CHECK(c.err.find("frames could be read; the file ends before it should") != std::string::npos);
+    CHECK(c.err.find("frames could be read; the file is truncated") != std::string::npos);
   }
   const auto pairs = [&](const char* video) {
     return faba_in(f.path, std::string("activity --json ") + video).json()["videos"][0]["pairs"].get<int>();
