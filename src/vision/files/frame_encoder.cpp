@@ -33,7 +33,8 @@ void describe_h264(AVCodecContext& codec, FrameRate rate) {
   codec.pix_fmt = AV_PIX_FMT_YUV420P;
   codec.gop_size = std::max(1, (rate.numerator + rate.denominator / 2) / rate.denominator);
   codec.max_b_frames = 0;
-  // Untagged or limited range shifts greys in browsers, and an untagged matrix makes them guess by the size.
+  // Browsers shift grey values if the range is untagged or limited, and guess an untagged matrix from the
+  // picture size.
   codec.color_range = AVCOL_RANGE_JPEG;
   codec.colorspace = AVCOL_SPC_SMPTE170M;
   codec.color_primaries = AVCOL_PRI_BT709;
@@ -42,8 +43,8 @@ void describe_h264(AVCodecContext& codec, FrameRate rate) {
   av_opt_set(codec.priv_data, "preset", "veryfast", 0);
   av_opt_set(codec.priv_data, "tune", "zerolatency", 0);
   av_opt_set(codec.priv_data, "crf", "20", 0);
-  // Small cells on camera noise: split blocks and weighted prediction only cost time (a third of it) and even
-  // bytes.
+  // For small cells on camera noise, macroblock partitions and weighted prediction increase the encoding time
+  // by a third and even the file size.
   av_opt_set(codec.priv_data, "x264-params", "cpu-independent=1:partitions=none:weightp=0", 0);
 }
 

@@ -40,7 +40,7 @@ BackgroundSampler::BackgroundSampler(int most_frames, std::size_t most_bytes)
 
 void BackgroundSampler::take(const GrayF& frame) {
   if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
-    throw Error(Errc::internal, "", "frames of a background must have one size");
+    throw Error(Errc::internal, "", "the frame differs in size from the previous frames of the background");
   const bool wanted = seen_ % stride_ == 0;
   ++seen_;
   if (!wanted) return;

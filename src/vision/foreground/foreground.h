@@ -106,7 +106,8 @@ class Foreground {
   std::vector<float> still_grey_, still_s_;
 };
 
-/// Standard deviation of a picture's noise, grey, from the differences of neighbours in a row; at least 0.3.
+/// Standard deviation of the noise of a picture, grey, from the differences of horizontal neighbours; at
+/// least 0.3.
 double picture_noise(const Gray8& picture);
 
 }  // namespace faba

@@ -76,9 +76,11 @@ void describe_light(Schema<MicroscopeParams>& s) {
             .doc = "Intensity outside the drop relative to the intensity inside; 1: no step",
             .source = "assumed"})
       .add("drift", &P::drift,
-           {.unit = "1/s", .min = -1, .max = 1, .doc = "Relative change of the lamp per second"})
+           {.unit = "1/s", .min = -1, .max = 1, .doc = "Relative change of the lamp intensity per second"})
       .add("flicker", &P::flicker,
-           {.min = 0, .max = 0.3, .doc = "Relative standard deviation of the lamp from frame to frame"})
+           {.min = 0,
+            .max = 0.3,
+            .doc = "Relative standard deviation of the lamp intensity from frame to frame"})
       .add(
           "background", &P::background,
           {.doc =

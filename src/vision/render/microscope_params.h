@@ -25,8 +25,8 @@ struct MicroscopeParams {
   double full_well = 8000;              ///< electrons at white
   double read_noise = 8;                ///< electrons, sd
   std::optional<double> noise;          ///< sd, fraction of white; replaces shot noise and read noise
-  double drift = 0;                     ///< relative change of the lamp per second
-  double flicker = 0;                   ///< relative sd of the lamp from frame to frame
+  double drift = 0;                     ///< relative change of the lamp intensity per second
+  double flicker = 0;                   ///< relative sd of the lamp intensity from frame to frame
   int bits = 8;                         ///< 8 or 16
   std::string background;               ///< video; its temporal median and noise replace light and noise
 

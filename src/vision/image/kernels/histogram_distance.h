@@ -35,7 +35,7 @@ class BinSimilarity {
 /// power 1 - m, and saturates when a peak moves by more than the threshold.
 class HistogramDistance {
  public:
-  /// 0 <= m < 1 (m = 1 is not continuous). Throws Error(usage, "m").
+  /// 0 <= m < 1 (not continuous at m = 1). Throws Error(usage, "m").
   HistogramDistance(BinSimilarity similarity, double m);
   /// P and Q have the same length and finite values >= 0; otherwise Error(input, "histogram") with the bin.
   double operator()(std::span<const double> p, std::span<const double> q);
