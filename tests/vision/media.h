@@ -1,5 +1,5 @@
 #pragma once
-// Pictures and scratch space for the tests of reading and writing.
+// Test pictures and temporary folders for the tests of file formats.
 
 #include <unistd.h>
 

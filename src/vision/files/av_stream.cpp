@@ -137,7 +137,7 @@ void AvStream::Impl::open() {
   libav::forget_messages();
   result = avformat_find_stream_info(container.get(), nullptr);
   if (result < 0) refuse("its streams cannot be read: " + libav::reason(result));
-  if (io->eof_reached != 0) probing_complaint = libav::first_message();
+  if (io->eof_reached != 0) probing_error = libav::first_message();
   result = av_find_best_stream(container.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (result < 0) refuse("contains no video stream");
   stream = container->streams[result];
@@ -258,8 +258,8 @@ void AvStream::Impl::end_of_file(int result) {
     const AVIndexEntry* entry = avformat_index_get_entry(stream, i);
     missing = entry->pos + entry->size > size;
   }
-  truncated = missing || error_logged || !probing_complaint.empty() || result != AVERROR_EOF;
-  const std::string complaint = libav::first_message().empty() ? probing_complaint : libav::first_message();
+  truncated = missing || error_logged || !probing_error.empty() || result != AVERROR_EOF;
+  const std::string complaint = libav::first_message().empty() ? probing_error : libav::first_message();
   if (error_logged && holding) held->flags |= AV_PKT_FLAG_CORRUPT;
   if (truncated && damage.empty()) {
     damage = "the file is truncated" + (complaint.empty() ? "" : " (" + complaint + ")");

@@ -47,7 +47,7 @@ TEST_CASE(
   for (Vec2 p : on.points)
     square += std::pow(norm(p - s.centre) - s.radius - mean, 2) / double(on.points.size());
   CHECK(std::fabs(mean) < 5 * std::sqrt(square / double(on.points.size())));
-  CHECK(square < 4);  // px^2; steps of 12 in noise of 6 averaged over 6 px: some tenths of a px each
+  CHECK(square < 4);  // px^2; steps of 12 in noise of 6 averaged over 6 px: a few tenths of a px each
 
   const ArcEvidence beside = evaluate_arc(picture, {s.centre, s.radius + 4});
   CHECK(beside.log10_false_alarms < -20);

@@ -90,7 +90,7 @@ TEST_CASE("exact points give the exact circle, from ten degrees to a full turn")
     const auto points = noisy_arc({-700, 1200}, 640, 70, 70 + arc, 40, 0, 1);
     const auto pratt = fit_circle_pratt(points);
     REQUIRE(pratt);
-    // Rounding of 1e-16 is magnified by 1/half-angle^4, 2e4 on ten degrees, and by the ratio of the
+    // Rounding errors of 1e-16 are amplified by 1/half-angle^4 (2e4 for ten degrees) and by the ratio of the
     // distances.
     CHECK(pratt->radius == doctest::Approx(640).epsilon(1e-8));
     const CircleFit fit = refine_circle(points, *pratt, CircleLoss::tukey);
@@ -105,17 +105,17 @@ TEST_CASE("exact points give the exact circle, from ten degrees to a full turn")
 
 TEST_CASE("T17: on a noisy arc of 25 degrees the bias is below the sd, and the sd equals the scatter") {
   const Trials square = many_fits(CircleLoss::square), tukey = many_fits(CircleLoss::tukey);
-  // sd(R) = sigma sqrt(45/n)/alpha^2 is the first term for small alpha and many points: the next ones are
+  // sd(R) = sigma sqrt(45/n)/alpha^2 is the leading term for small alpha and many points; the next terms are
   // alpha^2 = 5 % and 4/n = 4 %.
   const double alpha = 12.5 * kDegree, theory = std::sqrt(45.0 / 100) / (alpha * alpha);
   CHECK(square.reported == doctest::Approx(theory).epsilon(0.09));
   for (const Trials& t : {square, tukey}) {
     CHECK(std::fabs(t.bias) < t.scatter);
-    // The mean of 400 has a standard error of scatter / 20; four of them leave one failure in 16000. The true
-    // bias, of second order, is scatter^2 / R = 0.13.
+    // The mean of 400 has a standard error of scatter / 20; a limit of four gives one failure in 16000. The
+    // true bias is of second order, scatter^2 / R = 0.13.
     CHECK(std::fabs(t.bias) < 4 * t.scatter / 20 + 0.13);
-    // A scatter from 400 values is known to 1/sqrt(800) = 3.5 %; four of them, and for Tukey's weights 5 %
-    // more because its variance formula holds for many points.
+    // The relative error of a scatter from 400 values is 1/sqrt(800) = 3.5 %; limit four times that, and 5 %
+    // more for Tukey weights, whose variance formula holds for many points only.
     CHECK(t.reported / t.scatter == doctest::Approx(1).epsilon(0.14 + 0.05));
   }
   // For comparison: the bias of the Kasa fit (theory A13: -18 px at alpha 0.2) is about one sd.
@@ -128,8 +128,8 @@ TEST_CASE("a third of outliers moves the robust fit by less than its standard de
   for (int i = 0; i < 60; ++i) points.push_back({640 * noise.uniform(), 480 * noise.uniform()});
   CircleSearchOptions options;
   const CircleFit fit = fit_circle(points, options);
-  // Five standard deviations; a wrong point inside the tolerance may count, 60 * 9 px of a 640 px arc's 480
-  // px: few.
+  // Limit: five standard deviations; few outliers lie inside the tolerance (60 * 9 px along an arc of 640 px
+  // in 480 px).
   CHECK(std::fabs(fit.radius - 1800) < 5 * fit.sd_radius);
   CHECK(std::fabs(fit.centre.x - 2000) < 5 * fit.sd_centre.x);
   CHECK(std::fabs(fit.centre.y - 900) < 5 * fit.sd_centre.y);

@@ -133,7 +133,7 @@ TEST_CASE("many cells inside do not prevent detection") {
   }
 }
 
-TEST_CASE("the same picture gives the same edge, bit for bit") {
+TEST_CASE("the result is reproducible bit for bit") {
   DropScene s;
   s.radius = 500;
   s.centre = centre_for({320, 240}, s.radius, 75);
@@ -197,7 +197,7 @@ TEST_CASE("a straight edge is reported as straight") {
   }
 }
 
-TEST_CASE("an arc under ten degrees is refused with its angle") {
+TEST_CASE("an arc below ten degrees is refused; the error has its angle") {
   DropScene s;
   s.radius = 5500;  // 480 px are 5 degrees
   s.centre = centre_for({320, 240}, s.radius, 5);

@@ -21,7 +21,7 @@ GrayF half_plane(int from) {
 
 }  // namespace
 
-TEST_CASE("an edge between columns 99 and 100 lies at 99.5, its normal from dark to bright") {
+TEST_CASE("an edge between columns 99 and 100 is at 99.5, with its normal from dark to bright") {
   for (const auto threshold :
        {EdgeThreshold::legacy, EdgeThreshold::otsu, EdgeThreshold::noise, EdgeThreshold::fixed}) {
     EdgeSegmentOptions options;

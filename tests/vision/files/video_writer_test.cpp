@@ -119,7 +119,7 @@ TEST_CASE("lossless_avi returns every pixel, at odd sizes and in colour") {
   }
 }
 
-TEST_CASE("mp4 keeps frames, times and greys") {
+TEST_CASE("mp4 preserves frames, times and grey values") {
   // Crf 20 quantises luma with steps of 0.625 * 2^(q/6) at q = 20, 3 more in predicted frames and up to 3
   // more in textured areas: at most 12.6 at q = 26. Uniform within a step: rms 12.6 / sqrt(12) = 3.6, 37 dB.
   constexpr double kLeastPsnr = 37;
@@ -259,7 +259,7 @@ TEST_CASE("the same frames and syncs give the same bytes, and no sync loses a fr
   }
 }
 
-TEST_CASE("the growing file can be read after every frame") {
+TEST_CASE("the growing file is readable after every frame") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     CAPTURE(int(format));

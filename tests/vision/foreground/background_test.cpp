@@ -71,7 +71,7 @@ TEST_CASE("background of a single frame: smoothed frame, noise of the pixels") {
   for (int row = 40; row < l.height - 40; ++row)
     for (int col = 40; col < l.width - 40; ++col)
       worst = std::max(worst, std::fabs(double(b.level.at(col, row)) - cells::ground(l, col, row)));
-  // Noise of a mean over 4 pi 144 px: 0.09; curvature of the light times 144: 150 * 0.35 * 2 * 144 / 320^2 /
-  // 2 each way.
+  // Noise of the mean over 4 pi 144 px: 0.09; curvature of the light times 144: 150 * 0.35 * 2 * 144 / 320^2
+  // / 2 per axis.
   CHECK(worst < 0.7);
 }

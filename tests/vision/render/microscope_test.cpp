@@ -108,8 +108,7 @@ TEST_CASE("absorbed light and centroid of a cell do not depend on the sub-pixel 
       least = std::min(least, m.absorbed);
       most = std::max(most, m.absorbed);
     }
-  // exp() makes the sum depend on the sub-pixel position, by exp(-2 pi^2 s^2) with the width s = 0.5 px:
-  // below 1 %
+  // exp() adds a dependence on the sub-pixel position of exp(-2 pi^2 s^2) with s = 0.5 px: below 1 %
   CHECK((most - least) / most < 0.01);
 }
 
@@ -122,12 +121,11 @@ TEST_CASE(
   const double ground = std::floor(0.8 * kWhite16 + 0.5), round = spot_variance(p);
   const double pixel = 1.0 / 12;  // variance of the integration over a pixel
   const Moments disc = moments(shot(p, {{40.3F, 30.1F}}), ground);
-  // cut off at 4 sd: 4 * 2 * 4 phi(4) = 1e-3 of the variance is missing
+  // Truncation at 4 sd: 4 * 2 * 4 phi(4) = 1e-3 of the variance is missing.
   CHECK(off(disc.xx, round + pixel) < 4e-3);
   CHECK(off(disc.yy, round + pixel) < 4e-3);
 
-  for (const double displacement :
-       {3.0, 9.0}) {  // n spots instead of a line: their variance is displacement^2 (1 - 1/n^2)/12
+  for (const double displacement : {3.0, 9.0}) {  // variance of n spots: displacement^2 (1 - 1/n^2)/12
     const double n = std::ceil(displacement / (1.2 * std::sqrt(round)));
     const Moments moved = moments(shot(p, {{40.3F, 30.1F, 0, 0, 0, float(displacement)}}), ground);
     CHECK(off(moved.yy, round + pixel + displacement * displacement / 12 * (1 - 1 / (n * n))) < 4e-3);
@@ -197,8 +195,7 @@ TEST_CASE("noise: zero mean, variance = shot noise in proportion to the light + 
     const double expected =
         255.0 * 255.0 * (level / p.full_well + std::pow(p.read_noise / p.full_well, 2)) + 1.0 / 12;
     CAPTURE(level);
-    // Five standard errors each; with noise of half a level and more, the rounding bias is below 1 % of a
-    // level.
+    // Five standard errors each; with noise above half a level, the rounding bias is below 1 % of a level.
     CHECK(std::fabs(mean - 255 * level) < 5 * std::sqrt(expected / n) + 0.01);
     CHECK(std::fabs(variance / expected - 1) < 5 * std::sqrt(2 / n) + 0.02);
     CHECK(std::fabs(neighbour) < 5 * expected / std::sqrt(n));
@@ -266,7 +263,7 @@ TEST_CASE("illumination: vignetting and drop edge match the formulas, unevenness
       square += std::pow(double(g) / 0.8 - 1, 2);
       ++count;
     }
-    for (int c = 1; c < frame.width; ++c)  // slow: six waves of at least 97 px
+    for (int c = 1; c < frame.width; ++c)  // slow variation: six waves of at least 97 px
       REQUIRE(std::fabs(double(ground.at(c, 9) - ground.at(c - 1, 9))) <
               0.8 * 0.05 * std::sqrt(2.0 * 6) * 2 * std::numbers::pi / 97);
   }
@@ -334,7 +331,7 @@ TEST_CASE("background and noise from a video") {
   v.microscope.vignetting = 0.4;
   v.microscope.unevenness = 0.05;
   v.microscope.contrast = -0.8;
-  v.cells = [](double t) {  // one cell that crosses the view
+  v.cells = [](double t) {  // one cell crosses the view
     return std::vector<CameraCell>{{float(10 + 30 * t), 40}};
   };
   write_rendered(v, folder / "real.avi");
@@ -349,8 +346,7 @@ TEST_CASE("background and noise from a video") {
     worst = std::max(worst, double(std::fabs(truth.px[i] - m.ground().px[i])) * 255);
   CHECK(worst <
         6 * 1.25 * 2.1 / std::sqrt(48.0) + 0.5);  // sd of a median of 48 frames, 14 400 pixels, rounding
-  // The light decreases by 40 % towards the corners, so the uniform noise is between that of the corners and
-  // that of the centre.
+  // The light decreases by 40 % towards the corners: the noise is between those of corners and centre.
   CHECK(m.noise_sd(0.5) > Microscope(v.microscope, frame, {}, 0.1, 1).noise_sd(0.58 * 0.6));
   CHECK(m.noise_sd(0.5) < Microscope(v.microscope, frame, {}, 0.1, 1).noise_sd(0.58));
 

@@ -199,7 +199,7 @@ TEST_CASE("two scales without integer ratio are refused") {
   s.length = 60;
   s.middle = {348, 120};
   GrayF mm = render(s);
-  s.pitch = 15.9;  // sixteenths of an inch beside millimetres
+  s.pitch = 15.9;  // 1/16 inch marks beside millimetre marks
   s.middle = {348, 400};
   const GrayF inches = render(s);
   for (std::size_t i = 0; i < mm.px.size(); ++i) mm.px[i] = std::min(mm.px[i], inches.px[i]);
