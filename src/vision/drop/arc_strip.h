@@ -40,8 +40,8 @@ struct ArcStripOptions {
 ArcStrip read_arc_strip(const GrayF& picture, const Circle& circle, const ArcStripOptions& options = {});
 
 /// Sets each shift by template matching with the mean profile of all OTHER pieces (without linear trend),
-/// normalised by the local grey variance. Makes no assumption about the edge shape, and is insensitive to
-/// linear gradients of light. Sub-pixel.
+/// normalised by the local standard deviation of grey. Makes no assumption about the edge shape, and is
+/// insensitive to linear gradients of light. Sub-pixel.
 void align_by_profile(ArcStrip& strip);
 
 /// Sets each shift to the change point of mean and variance of the piece (maximum likelihood): an edge with a

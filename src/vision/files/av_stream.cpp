@@ -136,7 +136,7 @@ void AvStream::Impl::open() {
 
   libav::forget_messages();
   result = avformat_find_stream_info(container.get(), nullptr);
-  if (result < 0) refuse("its streams cannot be read: " + libav::reason(result));
+  if (result < 0) refuse("the streams cannot be read: " + libav::reason(result));
   if (io->eof_reached != 0) probing_error = libav::first_message();
   result = av_find_best_stream(container.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (result < 0) refuse("contains no video stream");

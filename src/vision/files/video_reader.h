@@ -18,10 +18,10 @@ namespace faba {
 /// ignored: pixels are in storage order.
 ///
 /// Damage: a frame that cannot be decoded completely is skipped, as are all frames predicted from it; reading
-/// continues at the next key frame, so no pixel is interpolated. All complete frames of a truncated file are
-/// read, then read() returns false and truncated() is true. Limits: transport streams, raw H.264 and GIF do
-/// not store their length, so truncation between two frames is not detected; in streams with B-frames, a few
-/// frames displayed just before a damaged frame may have been predicted from it.
+/// continues at the next key frame; there is no error concealment. All complete frames of a truncated file
+/// are read, then read() returns false and truncated() is true. Limits: transport streams, raw H.264 and GIF
+/// do not store their length, so truncation between two frames is not detected; in streams with B-frames, a
+/// few frames displayed just before a damaged frame may have been predicted from it.
 class VideoReader {
  public:
   /// Opens the file and decodes its first frame. `fps` > 0 overrides the mean frame rate of the file (time

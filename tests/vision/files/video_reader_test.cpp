@@ -218,7 +218,7 @@ TEST_CASE("truncation exactly between two frames of an mp4 is detected") {
   CHECK(cut.truncated());
 }
 
-TEST_CASE("no pixel is interpolated: after damage, frames are skipped until the next key frame") {
+TEST_CASE("no error concealment: after damage, frames are skipped until the next key frame") {
   const media::ScratchFolder folder;
   const auto path = record(folder, VideoFormat::mp4, 30);  // key frames at 0, 10 and 20
   VideoReader complete(path);
