@@ -53,7 +53,7 @@ Schema<HornSchunckParams> HornSchunckParams::schema() {
            {.min = 1e-6,
             .max = 1e12,
             .doc = "Weight of smoothness, grey levels squared on a scale of 0 to 255",
-            .source = "assumed (A22): the thesis does not to_image it"})
+            .source = "assumed (A22): the thesis does not give it"})
       .add("solver", &P::solver,
            {.doc = "multigrid: solves to convergence; jacobi: the published iteration, starting at zero",
             .choices = {"multigrid", "jacobi"}})
