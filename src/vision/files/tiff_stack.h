@@ -8,11 +8,11 @@ namespace faba {
 
 /// Reads the pages of a TIFF file in order as grey pictures. Only one page is held in memory.
 ///
-/// Read directly, as floats: grey and RGB (interleaved or planar; further channels are ignored) of 8 to 16 and 32
-/// bits, signed or unsigned, and 32- or 64-bit floats; strips and tiles; all compressions of libtiff. Values
-/// keep the scale of the file; MINISWHITE pictures are inverted. Palettes, 1 to 4 bits, CMYK and YCbCr are
-/// converted to 8-bit colour and then to grey. The orientation tag is ignored: pixels are in storage order.
-/// Reduced-resolution pages are skipped.
+/// Read directly, as floats: grey and RGB (interleaved or planar; further channels are ignored) of 8 to 16
+/// and 32 bits, signed or unsigned, and 32- or 64-bit floats; strips and tiles; all compressions of libtiff.
+/// Values keep the scale of the file; MINISWHITE pictures are inverted. Palettes, 1 to 4 bits, CMYK and YCbCr
+/// are converted to 8-bit colour and then to grey. The orientation tag is ignored: pixels are in storage
+/// order. Reduced-resolution pages are skipped.
 class TiffStack {
  public:
   /// Opens `path` and reads the tags of its first page. Throws Error(Errc::input, path) with the message of
