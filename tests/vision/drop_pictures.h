@@ -10,10 +10,10 @@
 
 namespace faba {
 
-/// Random numbers for rendered frames: the same on every machine, unlike those of <random>.
+/// Random numbers for rendered frames: reproducible on every machine, unlike those of <random>.
 class FrameNoise {
  public:
-  /// Seeds are spread by another constant than the one steps add, or neighbouring seeds would share numbers.
+  /// The seed constant differs from the step constant; otherwise neighbouring seeds would share numbers.
   explicit FrameNoise(std::uint64_t seed) : state_((seed + 1) * 0xd1342543de82ef95ULL) {}
   double uniform() {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
@@ -27,7 +27,7 @@ class FrameNoise {
   std::uint64_t state_;
 };
 
-/// A frame as a microscope might take it, never square.
+/// A synthetic microscope frame, not square.
 struct DropScene {
   int width = 640, height = 480;
   Vec2 centre{320, 240};
@@ -35,11 +35,11 @@ struct DropScene {
   double step = 0;             ///< grey inside minus outside
   double ring = 0;             ///< grey of a line along the edge, negative: dark
   double blur = 1.5;           ///< px, Gaussian sd of the step and of the line
-  double ground = 120;         ///< grey
-  double vignette = 0;         ///< share of the light lost in the corners
+  double ground = 120;         ///< background grey
+  double vignette = 0;         ///< fraction of the light lost in the corners
   double noise = 3;            ///< grey, sd
-  int cells = 0;               ///< small spots, inside the drop if there is one
-  bool cells_outside = false;  ///< outside it instead
+  int cells = 0;               ///< number of small spots, inside the drop if there is one
+  bool cells_outside = false;  ///< spots outside the drop instead
   double cell_grey = -40;
   int hot_pixels = 0;
   int bits = 8;
@@ -85,14 +85,14 @@ inline GrayF render(const DropScene& s) {
   return im;
 }
 
-/// A circle of the radius given whose edge crosses the frame at `at`, with the centre in the direction
-/// `toward_deg` (0 right, 90 down).
+/// Centre of a circle of the given radius whose edge crosses the frame at `at`, with the centre in the
+/// direction `toward_deg` (0 right, 90 down).
 inline Vec2 centre_for(Vec2 at, double radius, double toward_deg) {
   const double a = toward_deg * std::numbers::pi / 180;
   return {at.x + radius * std::cos(a), at.y + radius * std::sin(a)};
 }
 
-/// Largest distance between two circles along the part of the first that is in the frame.
+/// Maximum distance between two circles along the visible part of the first.
 inline double arc_distance(const DropScene& s, Vec2 centre, double radius) {
   double most = 0;
   for (int i = 0; i < 7200; ++i) {

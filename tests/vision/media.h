@@ -1,5 +1,5 @@
 #pragma once
-// Pictures and scratch space for the tests of reading and writing.
+// Test pictures and temporary folders for the tests of file formats.
 
 #include <unistd.h>
 
@@ -16,7 +16,7 @@
 
 namespace faba::media {
 
-/// A folder of its own for each test, removed at the end.
+/// A temporary folder for one test, removed at the end.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -47,8 +47,8 @@ inline std::string read_bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A grey ramp across, a dark disc that moves 2 px right and 1 px down per frame, and (in colour) a red
-/// square.
+/// Test frame: a horizontal grey ramp, a dark disc that moves 2 px right and 1 px down per frame, and with
+/// `colour` a red square.
 inline RgbImage scene(int width, int height, int frame, bool colour = false) {
   RgbImage picture(width, height);
   for (int row = 0; row < height; ++row) {

@@ -1,6 +1,7 @@
 #pragma once
-// The plainest possible encoders, byte by byte, so that the readers are tested against the formats and not
-// against the writers of the libraries they use.
+// Minimal encoders written byte by byte, so that the readers are tested against the file formats and not
+// against the
+// writers of the same libraries.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,13 +21,12 @@ inline std::string bytes_of(std::uint64_t value, int count, bool big_endian) {
   return out;
 }
 
-/// What one page of an uncompressed TIFF says of itself and holds: `pixels` is all strips or tiles, one after
-/// the other.
+/// Tags and pixels of one page of an uncompressed TIFF: `pixels` is all strips or tiles in order.
 struct TiffPage {
   std::uint32_t width = 0, height = 0, bits = 8, samples = 1, format = 1, photometric = 1, planar = 1;
-  std::uint32_t rows_per_strip = 0;  ///< 0: one strip; for tiles, the tile is this high ...
-  std::uint32_t tile_width = 0;      ///< ... and this wide; 0: strips
-  std::uint32_t subfile = 0;         ///< 1: reduced copy
+  std::uint32_t rows_per_strip = 0;  ///< 0: one strip; for tiles: tile height
+  std::uint32_t tile_width = 0;      ///< tile width; 0: strips
+  std::uint32_t subfile = 0;         ///< 1: reduced-resolution page
   std::string description{};
   std::string pixels{};
 };
@@ -64,7 +64,7 @@ class TiffWriter {
 
   bool big_endian_;
   std::string file_;
-  std::size_t link_;  // where the offset of the next page belongs
+  std::size_t link_;  // position of the offset to the next page
 };
 
 inline std::vector<TiffEntry> TiffWriter::entries(const TiffPage& page, std::size_t pixels_at) const {
@@ -105,30 +105,30 @@ inline std::vector<TiffEntry> TiffWriter::entries(const TiffPage& page, std::siz
 }
 
 inline void TiffWriter::append_directory(const std::vector<TiffEntry>& entries) {
-  std::string directory = bytes(entries.size(), 2), apart;
-  const std::size_t apart_at = file_.size() + 2 + 12 * entries.size() + 4;
+  std::string directory = bytes(entries.size(), 2), overflow;
+  const std::size_t overflow_at = file_.size() + 2 + 12 * entries.size() + 4;
   for (const TiffEntry& entry : entries) {
     directory += bytes(entry.tag, 2) + bytes(entry.type, 2) + bytes(entry.count, 4);
     if (entry.data.size() <= 4) {
       directory += entry.data + std::string(4 - entry.data.size(), '\0');
     } else {
-      directory += bytes(apart_at + apart.size(), 4);
-      apart += entry.data + std::string(entry.data.size() % 2, '\0');
+      directory += bytes(overflow_at + overflow.size(), 4);
+      overflow += entry.data + std::string(entry.data.size() % 2, '\0');
     }
   }
   file_.replace(link_, 4, bytes(file_.size(), 4));
   link_ = file_.size() + directory.size();
-  file_ += directory + std::string(4, '\0') + apart;
+  file_ += directory + std::string(4, '\0') + overflow;
 }
 
-/// A classic TIFF of those pages, without compression.
+/// A classic TIFF of `pages`, without compression.
 inline std::string tiff_file(const std::vector<TiffPage>& pages, bool big_endian = false) {
   TiffWriter writer(big_endian);
   for (const TiffPage& page : pages) writer.add(page);
   return writer.file();
 }
 
-/// A PNG without compression; `rows` holds the samples as they stand in the file (16 bits: high byte first).
+/// A PNG without compression; `rows` holds the samples in file order (16 bits: high byte first).
 inline std::string png_file(int width, int height, int bits, bool colour, const std::string& rows) {
   const auto crc = [](const std::string& data) {
     std::uint32_t sum = 0xFFFFFFFFU;
@@ -162,7 +162,7 @@ inline std::string png_file(int width, int height, int bits, bool colour, const 
   return "\x89PNG\r\n\x1A\n" + chunk("IHDR", header) + chunk("IDAT", packed) + chunk("IEND", "");
 }
 
-/// A GIF of even grey frames, each shown for its own time in 1/100 s.
+/// A GIF of uniform grey frames with individual delays in 1/100 s.
 inline std::string gif_file(int width, int height, const std::vector<std::pair<int, int>>& grey_and_delay) {
   const auto size = [&] {
     return bytes_of(static_cast<std::uint64_t>(width), 2, false) +

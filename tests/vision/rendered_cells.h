@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of cells whose places are known, for the tests of detection, tracking and image estimators.
+// Pictures of cells with known positions, for tests of detection, tracking and image estimators.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace faba::cells {
 
-/// Random numbers of a test: normals and uniforms by number.
+/// Counter-based random numbers of a test: normal and uniform.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : seed_(seed) {}
@@ -30,19 +30,20 @@ class Dice {
   std::uint32_t count_ = 0;
 };
 
-/// How the pictures look. Grey of 8 bits.
+/// Parameters of the pictures. Grey values of 8 bits.
 struct Look {
   int width = 320, height = 240;
-  /// Of the light, and of a cell's middle. Dark cells take away a share of the light, bright ones add some.
+  /// Background grey, and grey change at the centre of a cell. Dark cells absorb a fraction of the light,
+  /// bright cells add light.
   double level = 150, amplitude = -60;
   double cell_sd_px = 1.27;  ///< full width at half maximum 3 px
   double noise = 2;          ///< sd
-  double light = 1;          ///< factor on everything but the noise
-  bool uneven = true;        ///< vignetting and a slope
-  bool drop = false;         ///< an edge: an arc of 25 degrees over the height, at the left
+  double light = 1;          ///< factor on the light, without the noise
+  bool uneven = true;        ///< vignetting and a gradient
+  bool drop = false;         ///< drop edge: an arc of 25 degrees over the height, at the left
 };
 
-/// Circle of which 25 degrees cross the picture from top to bottom, at x = 60 in the middle.
+/// Circle with an arc of 25 degrees that crosses the picture from top to bottom, at x = 60 at half height.
 struct Arc {
   Vec2 centre;
   double radius;
@@ -66,7 +67,7 @@ inline double ground(const Look& l, double x, double y) {
   return v;
 }
 
-/// One picture; `seed` is that of its noise. `sigma` and `amplitude` of single cells may differ by `scale`.
+/// One picture; `seed`: seed of the noise; `scale`: factors on sigma and amplitude of single cells.
 inline GrayF picture(const Look& l, const std::vector<Vec2>& cells, std::uint64_t seed) {
   GrayF out(l.width, l.height);
   const int reach = int(std::ceil(5 * l.cell_sd_px));
@@ -98,7 +99,7 @@ inline Gray8 bytes(const GrayF& g) {
   return out;
 }
 
-/// Places with at least `apart` px between any two, `margin` px from the border.
+/// Random positions with at least `apart` px distance and `margin` px from the border.
 inline std::vector<Vec2> scattered(const Look& l, int n, double apart, double margin, std::uint64_t seed) {
   Dice dice(seed);
   std::vector<Vec2> out;
@@ -110,8 +111,8 @@ inline std::vector<Vec2> scattered(const Look& l, int n, double apart, double ma
   return out;
 }
 
-/// A swarm at the edge of the drop: along the arc with an sd of `along` px, in depth exponential beyond
-/// `gap`.
+/// A swarm at the edge of the drop: Gaussian along the arc with an sd of `along` px, exponential in depth
+/// beyond `gap`.
 inline std::vector<Vec2> at_the_edge(const Look& l, int n, double along, double depth, double gap,
                                      std::uint64_t seed) {
   Dice dice(seed);

@@ -1,4 +1,5 @@
-// The renderer's drop edge is where the edge finder sees it: the two know nothing of each other.
+// The drop edge drawn by the renderer and the detected drop edge agree; the two implementations are
+// independent.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,7 +11,8 @@
 using namespace faba;
 
 TEST_CASE(
-    "the edge of a rendered drop is found within its stated error, whole, a quarter and 25 degrees of it") {
+    "the edge of a rendered drop is detected within its reported error: complete, a quarter, and 25 degrees "
+    "of the circle") {
   struct Arc {
     Circle drop;
     double degrees;
@@ -39,7 +41,7 @@ TEST_CASE(
                     [&](const Gray8& picture, int) { grey.px.assign(picture.px.begin(), picture.px.end()); });
       const DropEdge found = find_drop_edge(grey);
       CAPTURE(arc.degrees);
-      // four of its own standard deviations: one case in 16 000 for each number
+      // four reported standard deviations: one failure in 16 000 per number
       CHECK(std::fabs(found.radius_px - arc.drop.radius) < 4 * found.sd_radius_px);
       CHECK(std::fabs(found.centre_image.x - arc.drop.centre.x) < 4 * found.sd_centre_px.x + 0.05);
       CHECK(std::fabs(found.centre_image.y - arc.drop.centre.y) < 4 * found.sd_centre_px.y + 0.05);

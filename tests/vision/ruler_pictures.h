@@ -8,27 +8,27 @@
 
 namespace faba {
 
-/// A ruler as a microscope might show it. Frame of the ruler: s along it, t along its marks, px, zero at
+/// A synthetic microscope picture of a ruler. Frame of the ruler: s along it, t along its marks, px, zero at
 /// `middle`.
 struct RulerScene {
   int width = 696, height = 520;
-  Vec2 middle{340, 250};           ///< of the picture
-  double angle_deg = 0;            ///< along the ruler, from x towards y
+  Vec2 middle{340, 250};           ///< centre of the ruler in the picture
+  double angle_deg = 0;            ///< direction of the ruler, from x towards y
   double pitch = 12.3;             ///< px
-  double offset = 0.3;             ///< of mark 0, px
-  int first = -1000, last = 1000;  ///< marks drawn
+  double offset = 0.3;             ///< position of mark 0, px
+  int first = -1000, last = 1000;  ///< indices of the first and last mark
   double mark = 3;                 ///< width, px
-  double length = 40;              ///< of the short marks, px
-  double longer = 1.5;     ///< every fifth mark is this times as long, every tenth twice that much more
+  double length = 40;              ///< length of the short marks, px
+  double longer = 1.5;     ///< length factor of every fifth mark; every tenth has twice the extra length
   bool baseline = false;   ///< a line along the foot of the marks
-  bool two_sided = false;  ///< longer marks stand out on both sides
-  double contrast = -120;  ///< grey of a mark against the ground
-  double ground = 190, gradient = 0;  ///< grey; share of the light lost from one side to the other
+  bool two_sided = false;  ///< longer marks extend on both sides
+  double contrast = -120;  ///< grey of a mark minus background
+  double ground = 190, gradient = 0;  ///< grey; fraction of the light lost from one side to the other
   double blur = 1;                    ///< px, Gaussian sd
   double noise = 2;                   ///< grey, sd
-  int text = 0;                       ///< lines of writing
+  int text = 0;                       ///< number of text lines
   bool block = false;                 ///< a scale bar
-  int dirt = 0;                       ///< round spots
+  int dirt = 0;                       ///< number of round spots
   int bits = 8;
   std::uint64_t seed = 1;
 };
@@ -39,7 +39,7 @@ inline double blurred_bar(double distance, double size, double blur) {
   return 0.5 * (std::erf((distance + size / 2) / unit) - std::erf((distance - size / 2) / unit));
 }
 
-/// Share of ink at a place of the ruler's frame.
+/// Fraction of ink at a point of the ruler frame.
 inline double ruler_ink(const RulerScene& s, double along, double across) {
   const double nearest = std::round((along - s.offset) / s.pitch);
   double ink = 0;
@@ -47,7 +47,7 @@ inline double ruler_ink(const RulerScene& s, double along, double across) {
     if (k < s.first || k > s.last) continue;
     const int index = int(k);
     const double times = index % 10 == 0 ? 1 + 2 * (s.longer - 1) : index % 5 == 0 ? s.longer : 1;
-    // The foot stands at -length / 2 unless the longer marks stand out on both sides.
+    // The foot of the marks is at -length / 2 unless the longer marks extend on both sides.
     const double extra = s.length * (times - 1), middle = s.two_sided ? 0 : extra / 2;
     const double size = s.two_sided ? s.length + 2 * extra : s.length + extra;
     ink += blurred_bar(along - s.offset - k * s.pitch, s.mark, s.blur) *
@@ -76,7 +76,7 @@ inline void add_stroke(GrayF& im, Vec2 a, Vec2 b, double size, double grey) {
     }
 }
 
-/// Lines of letter-like strokes at a fixed advance, as print has them.
+/// Lines of letter-like strokes at a fixed advance, as in printed text.
 inline void add_text(GrayF& im, int lines, double grey, FrameNoise& noise) {
   for (int line = 0; line < lines; ++line) {
     const double size = 10 + 14 * noise.uniform(), advance = 0.62 * size;
@@ -124,38 +124,37 @@ inline GrayF render(const RulerScene& s) {
   return im;
 }
 
-/// A ruler with everything drawn by lot: any angle, pitch 4 to 60 px, blur, light, noise, clutter, part of it
-/// in view.
-inline RulerScene any_ruler(std::uint64_t seed) {
-  FrameNoise lot(seed * 7919 + 17);
-  const auto from = [&](double low, double high) { return low + (high - low) * lot.uniform(); };
+/// A ruler with random parameters: angle, pitch 4 to 60 px, blur, light, noise, clutter, visible part.
+inline RulerScene random_ruler(std::uint64_t seed) {
+  FrameNoise random(seed * 7919 + 17);
+  const auto from = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   RulerScene s;
   s.width = 560;
   s.height = 420;
   s.seed = seed;
   s.angle_deg = from(-90, 90);
-  s.pitch = 4 * std::pow(15.0, lot.uniform());
+  s.pitch = 4 * std::pow(15.0, random.uniform());
   s.offset = from(0, s.pitch);
   s.mark = std::max(1.2, from(0.12, 0.5) * s.pitch);
   s.length = std::max(14.0, from(1.5, 6) * s.pitch);
   s.longer = from(1, 2);
-  s.baseline = lot.uniform() < 0.5;
-  s.two_sided = lot.uniform() < 0.3;
+  s.baseline = random.uniform() < 0.5;
+  s.two_sided = random.uniform() < 0.3;
   s.blur = std::min(from(0.5, 2.5), 0.28 * s.pitch);
   s.noise = from(0, 15);
-  s.contrast = from(60, 150) * (lot.uniform() < 0.6 ? -1 : 1);
+  s.contrast = from(60, 150) * (random.uniform() < 0.6 ? -1 : 1);
   s.ground = s.contrast < 0 ? from(170, 230) : from(20, 70);
   s.gradient = from(0, 0.6);
   s.text = int(from(0, 5));
-  s.block = lot.uniform() < 0.4;
+  s.block = random.uniform() < 0.4;
   s.dirt = int(from(0, 40));
   s.middle = {s.width * from(0.35, 0.65), s.height * from(0.35, 0.65)};
-  if (lot.uniform() < 0.5) {
+  if (random.uniform() < 0.5) {
     const int half = std::max(6, int(from(0.12, 0.4) * s.width / s.pitch));
     s.first = -half;
     s.last = half;
   }
-  s.bits = lot.uniform() < 0.3 ? 16 : 8;
+  s.bits = random.uniform() < 0.3 ? 16 : 8;
   return s;
 }
 

@@ -13,21 +13,21 @@
 namespace faba {
 namespace {
 
-constexpr double kWide = 2.5;  // sd of the subtracted Gaussian over that of the spot
+constexpr double kSurroundRatio = 2.5;  // sd of the subtracted Gaussian over that of the spot
 
-// What the band pass makes of white noise: its gain, and the density of maxima (root of the determinant of
-// the second spectral moments over the variance).
-struct NoiseLaw {
+// Response of the band pass to white noise: its gain, and the density of maxima (square root of the
+// determinant of the second spectral moments over the variance).
+struct NoiseResponse {
   double gain = 1, density = 1;
 };
 
-NoiseLaw noise_law(double sd) {
-  // The kernel is G(a) - G(b), and the integral of a product of Gaussians of sd a and b is a Gaussian of
-  // a^2 + b^2 at zero.
+NoiseResponse noise_response(double sd) {
+  // The kernel is G(a) - G(b); the integral of the product of two Gaussians with variances a^2 and b^2 is a
+  // Gaussian of variance a^2 + b^2 at zero.
   const auto overlap = [](double aa) { return 1 / (2 * std::numbers::pi * aa); };
   const auto slope = [](double aa) { return 1 / (2 * std::numbers::pi * aa * aa); };
-  // Sampling adds 1/12 px^2 of variance, which matters for the narrowest kernels only.
-  const double a = sd * sd + 1.0 / 12, b = kWide * kWide * sd * sd;
+  // Sampling adds 1/12 px^2 of variance, which is relevant for the narrowest kernels only.
+  const double a = sd * sd + 1.0 / 12, b = kSurroundRatio * kSurroundRatio * sd * sd;
   const double variance = overlap(2 * a) + overlap(2 * b) - 2 * overlap(a + b);
   const double gradient = slope(2 * a) + slope(2 * b) - 2 * slope(a + b);
   return {std::sqrt(variance), gradient / variance};
@@ -35,7 +35,7 @@ NoiseLaw noise_law(double sd) {
 
 GrayF band_passed(const GrayF& difference, double sd) {
   GrayF out = smoothed(difference, sd);
-  const GrayF wide = smoothed(difference, kWide * sd);
+  const GrayF wide = smoothed(difference, kSurroundRatio * sd);
   for (std::size_t i = 0; i < out.px.size(); ++i) out.px[i] -= wide.px[i];
   return out;
 }
@@ -58,7 +58,7 @@ struct Maximum {
   float value = 0;
 };
 
-// Maxima above threshold(index) that are the largest within `reach`; of equal ones the first counts.
+// Local maxima above threshold(index) within radius `reach`; the first one of equal values.
 template <class Threshold>
 std::vector<Maximum> maxima(const GrayF& g, int reach, int margin, const Threshold& threshold) {
   std::vector<Maximum> out;
@@ -92,9 +92,9 @@ float spread_of(const GrayF& g) {
 
 double detection_threshold(double size_px, double pixels, double false_alarms) {
   const double sd = size_px / kFwhmPerSd;
-  const double scale = pixels * noise_law(sd).density / std::pow(2 * std::numbers::pi, 1.5);
+  const double scale = pixels * noise_response(sd).density / std::pow(2 * std::numbers::pi, 1.5);
   const auto expected = [&](double k) { return scale * k * std::exp(-0.5 * k * k); };
-  double low = 1, high = 40;  // expected() falls from 1 on
+  double low = 1, high = 40;  // expected() decreases for k > 1
   for (int i = 0; i < 100; ++i) {
     const double k = 0.5 * (low + high);
     (expected(k) > false_alarms ? low : high) = k;
@@ -106,14 +106,16 @@ Detector::Detector(Background background, DetectorOptions options)
     : background_(std::move(background)), options_(options) {
   if (!(options_.size_px >= 1 && options_.size_px <= 60) || options_.polarity == Polarity::automatic ||
       !(options_.false_alarms > 0) || background_.level.empty())
-    throw Error(Errc::internal, "detector", "needs a background, a size of 1 to 60 px and a polarity");
+    throw Error(Errc::internal, "detector",
+                "invalid options; a background, a size of 1 to 60 px, false_alarms > 0 and a polarity other "
+                "than automatic are required");
   sd_px_ = options_.size_px / kFwhmPerSd;
   if (options_.separation_px <= 0) options_.separation_px = std::max(1.0, 0.5 * options_.size_px);
   threshold_ =
       options_.threshold_sd > 0
           ? options_.threshold_sd
           : detection_threshold(options_.size_px, double(background_.level.px.size()), options_.false_alarms);
-  noise_gain_ = noise_law(sd_px_).gain;
+  noise_gain_ = noise_response(sd_px_).gain;
   relative_noise_ = background_.noise_sd;
   std::vector<float> work = relative_noise_.px;
   const float typical = robust_spread_low(work).median;
@@ -122,7 +124,7 @@ Detector::Detector(Background background, DetectorOptions options)
 
 std::vector<Spot> Detector::find(const GrayF& frame) const {
   if (frame.width != background_.level.width || frame.height != background_.level.height)
-    throw Error(Errc::internal, "detector", "the frame has another size than the background");
+    throw Error(Errc::internal, "detector", "the frame differs in size from the background");
   std::vector<Spot> spots;
   const int reach = std::max(1, int(std::lround(options_.separation_px)));
   const int margin = std::max(1, int(std::ceil(0.5 * options_.size_px)));
@@ -131,7 +133,8 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
     const GrayF difference = difference_of(frame, background_, sign);
     const GrayF response = band_passed(difference, sd_px_);
     const float sd = spread_of(response);
-    // An even picture, or one whose noise is coded away, has no spread: the grey step is then the noise.
+    // A uniform picture, or one whose noise was removed by a codec, has zero spread: the quantisation step is
+    // then the noise.
     const float noise = std::max(sd, float(noise_gain_) * 0.25F);
     const auto threshold = [&](std::size_t i) { return float(threshold_) * noise * relative_noise_.px[i]; };
     std::vector<SpotSeed> seeds;
@@ -150,27 +153,28 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
 }
 
 double spot_size(const GrayF& frame, const Background& background, Polarity polarity) {
-  constexpr double kLeastSnr = 6;
+  constexpr double kMinSnr = 6;
   constexpr int kSizes = 16;  // 2 to 30.8 px
   double best = 0, size_of_best = 0, size = 2;
   std::size_t count = 0;
   for (int step = 0; step < kSizes; ++step, size *= 1.2) {
     const double sd = size / kFwhmPerSd;
     if (8 * sd > std::min(frame.width, frame.height)) break;
-    // Over what white noise would leave: the picture's own noise is no measure here, since what is out of
-    // focus and what a codec smoothed away make it differ from size to size.
-    const double gain = noise_law(sd).gain;
+    // Relative to white noise: the measured noise is not comparable between sizes because of defocused
+    // objects and smoothing by codecs.
+    const double gain = noise_response(sd).gain;
     std::vector<double> snr;
     for (const double sign : {-1.0, 1.0}) {
       if (polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
       const GrayF response = band_passed(difference_of(frame, background, sign), sd);
       const float noise = std::max(spread_of(response), float(gain) * 0.25F);
-      const float least = float(kLeastSnr) * noise;
+      const float least = float(kMinSnr) * noise;
       for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, [&](std::size_t) { return least; }))
         snr.push_back(double(m.value) / gain);
     }
     std::sort(snr.begin(), snr.end(), std::greater<>());
-    // The same number of maxima at every size: that of the strongest fifth where they first stand out.
+    // The same number of maxima is used for every size: the strongest fifth at the first size with
+    // significant maxima.
     if (count == 0 && !snr.empty()) count = std::max<std::size_t>(1, snr.size() / 5);
     double sum = 0;
     for (std::size_t i = 0; i < std::min(count, snr.size()); ++i) sum += snr[i];

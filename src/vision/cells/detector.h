@@ -9,43 +9,44 @@
 
 namespace faba {
 
-/// Parts of the picture in which nothing is looked for.
+/// Region of the picture that is excluded from detection.
 struct DropMask {
   Vec2 centre_image;  ///< px
   double radius_px = 0;
-  bool inside = true;    ///< whether spots lie inside the circle
-  double margin_px = 0;  ///< width of the rim at the edge that is left out, too
+  bool inside = true;    ///< true: spots inside the circle are detected; false: outside
+  double margin_px = 0;  ///< margin at the edge that is excluded as well
 };
 
 /// Parameters of Detector.
 struct DetectorOptions {
-  double size_px = 4;                  ///< full width at half maximum of what is looked for, 1 to 60 px
+  double size_px = 4;                  ///< full width at half maximum of the spots, 1 to 60 px
   Polarity polarity = Polarity::dark;  ///< not automatic
-  /// Noise alone gives this many spots per frame on average; sets the threshold by the expected number of
-  /// maxima of a Gaussian random field (Adler). Real noise has longer tails and gives more.
+  /// Expected number of false detections per frame from noise; the threshold follows from the expected number
+  /// of maxima of a Gaussian random field (Adler). Noise with heavier tails gives more.
   double false_alarms = 0.1;
-  double threshold_sd = 0;   ///< > 0: least signal-to-noise itself, in place of false_alarms
-  double separation_px = 0;  ///< of two maxima that both count, 0: half of size_px, at least 1 px
+  double threshold_sd = 0;   ///< > 0: minimum signal-to-noise ratio, overrides false_alarms
+  double separation_px = 0;  ///< minimum distance of two maxima; 0: half of size_px, at least 1 px
   std::optional<DropMask> drop;
 };
 
-/// Finds spots of about one size to a fraction of a pixel.
+/// Spot detection with sub-pixel positions, for spots of similar size.
 ///
-/// The difference from the background goes through a band pass matched to the size (difference of two
-/// Gaussians of sd s and 2.5 s, s the sd of the spot), whose robust spread, times the background's relative
-/// noise, is the noise. Local maxima above a threshold are candidates. Each one's place is then the centre of
-/// a Gaussian window of the spot's own size that moves until the centre of mass under it is its own centre,
-/// which for a Gaussian spot has the error of the best possible estimate, with the neighbours' share of the
-/// light taken off, in two passes. The error given is that bound, sqrt(2 / pi) noise / amplitude.
-/// Spots nearer to the border than half their size are left out: their centre would be biased.
+/// The difference from the background is filtered by a band pass matched to the spot size (difference of
+/// Gaussians with sd s and 2.5 s, where s is the sd of the spot). The noise is the robust spread of the
+/// result times the relative noise of the background. Local maxima above a threshold are candidates. The
+/// position of each candidate is the centre of a Gaussian window of the spot size that is moved to the
+/// centroid under the window until it converges; for a Gaussian spot this reaches the Cramer-Rao bound. The
+/// light of neighbouring spots is subtracted, in two passes. The reported standard error is that bound,
+/// sqrt(2 / pi) noise / amplitude. Spots closer to the border than half their size are excluded, because
+/// their position would be biased.
 class Detector {
  public:
   /// Throws Error(Errc::internal) for options out of range.
   Detector(Background background, DetectorOptions options);
 
-  /// The spots of one frame of the background's size, from the top of the picture to its bottom.
+  /// Spots of one frame, which has the size of the background, sorted from top to bottom.
   std::vector<Spot> find(const GrayF& frame) const;
-  /// Least signal-to-noise that counts.
+  /// Minimum signal-to-noise ratio of a spot.
   double threshold_sd() const { return threshold_; }
   const DetectorOptions& options() const { return options_; }
 
@@ -56,12 +57,13 @@ class Detector {
   double sd_px_ = 1, threshold_ = 5, noise_gain_ = 1;
 };
 
-/// Least signal-to-noise with which noise alone gives `false_alarms` maxima in a picture of `pixels` pixels
-/// behind the band pass for spots of `size_px`.
+/// Signal-to-noise threshold at which noise gives `false_alarms` maxima in a picture of `pixels` pixels after
+/// the band pass for spots of `size_px`.
 double detection_threshold(double size_px, double pixels, double false_alarms);
 
-/// The size that fits a frame's spots best: of 2, 2.4, 2.9 ... 30 px the one whose matched filter would
-/// stand out most from white noise at the strongest maxima. 0 when nothing stands out at any size.
+/// Spot size of a frame: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest
+/// signal-to-noise ratio (relative to white noise) at the strongest maxima. 0 when no maximum is significant
+/// at any size.
 double spot_size(const GrayF& frame, const Background& background, Polarity polarity);
 
 }  // namespace faba

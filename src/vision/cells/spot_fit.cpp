@@ -10,15 +10,15 @@
 namespace faba {
 namespace {
 
-constexpr int kPasses = 3;     // the first alone, the others with the neighbours' light taken off
-constexpr int kMoves = 12;     // of the window in one pass; it halves its error with each
-constexpr double kRing = 3.5;  // inner radius of the ring that gives the offset, in sd; its width is 1.5 sd
+constexpr int kPasses = 3;     // the first without, the others with subtraction of neighbouring spots
+constexpr int kMaxMoves = 12;  // maximum moves of the window per pass; each halves the error
+constexpr double kRing = 3.5;  // sd, inner radius of the ring for the local offset; its width is 1.5 sd
 
-// A spot as a Gaussian: amplitude and covariance.
+// Gaussian model of a spot: amplitude and covariance.
 struct Shape {
   double x = 0, y = 0, offset = 0, amplitude = 0;
   Mat2 cov;
-  bool good = false;
+  bool valid = false;
 
   double reach() const { return 3.5 * std::sqrt(std::max(cov.xx, cov.yy)); }
 };
@@ -28,7 +28,7 @@ struct Moments {
   Mat2 cov;
 };
 
-// One window around a spot: the picture's values with the light of others taken off.
+// Pixels of a window around a spot, with the light of other spots subtracted.
 class Window {
  public:
   Window(const GrayF& g, const SpotSeed& seed, double sd)
@@ -40,14 +40,14 @@ class Window {
     for (int row = top_; row <= bottom_; ++row)
       for (int col = left_; col <= right_; ++col) px_.push_back(double(g.at(col, row)));
   }
-  void take_off(const Shape& other) {
+  void subtract(const Shape& other) {
     const double r = other.reach();
     if (other.x < left_ - r || other.x > right_ + r || other.y < top_ - r || other.y > bottom_ + r) return;
-    // Along a row a Gaussian's value is the one beside it times a factor that itself changes by a factor:
-    // from where it is largest outwards, so that rounding is of the largest.
+    // Recursive evaluation of the Gaussian along a row: the ratio of neighbouring values changes by a
+    // constant factor. Starts at the maximum, so that rounding errors are relative to it.
     const double det = other.cov.xx * other.cov.yy - other.cov.xy * other.cov.xy;
     const double xx = other.cov.yy / det, xy = -other.cov.xy / det, yy = other.cov.xx / det,
-                 bend = std::exp(-xx);
+                 curvature = std::exp(-xx);
     for (int row = top_; row <= bottom_; ++row) {
       double* const px = &px_[std::size_t(row - top_) * std::size_t(right_ - left_ + 1)];
       const double dy = row - other.y, peak = other.x - xy / xx * dy;
@@ -57,14 +57,15 @@ class Window {
           other.amplitude * std::exp(-0.5 * (xx * dx * dx + 2 * xy * dx * dy + yy * dy * dy));
       const double slope = xx * dx + xy * dy;
       double value = middle, step = std::exp(-slope - 0.5 * xx);
-      for (int col = from; col <= right_; ++col, value *= step, step *= bend) px[col - left_] -= value;
+      for (int col = from; col <= right_; ++col, value *= step, step *= curvature) px[col - left_] -= value;
       step = std::exp(slope - 0.5 * xx);
       value = middle * step;
-      step *= bend;
-      for (int col = from - 1; col >= left_; --col, value *= step, step *= bend) px[col - left_] -= value;
+      step *= curvature;
+      for (int col = from - 1; col >= left_; --col, value *= step, step *= curvature)
+        px[col - left_] -= value;
     }
   }
-  // Median of a ring around the spot.
+  // Local offset: median of a ring around the spot.
   double offset(double x, double y) const {
     const double in = kRing * sd_, out = in + std::max(1.5 * sd_, 1.5);
     std::vector<double> ring;
@@ -111,47 +112,48 @@ class Window {
   std::vector<double> px_, across_;
 };
 
-// Eigenvalues of a symmetric matrix, the larger first, and the direction of its vector.
+// Eigenvalues of a symmetric matrix, larger first, and the direction of the first eigenvector.
 struct Axes {
   double large = 0, small = 0, angle = 0;
 };
 Axes axes_of(const Mat2& m) {
-  const double half = 0.5 * (m.xx + m.yy), apart = std::hypot(0.5 * (m.xx - m.yy), m.xy);
-  return {half + apart, half - apart, 0.5 * std::atan2(2 * m.xy, m.xx - m.yy)};
+  const double half = 0.5 * (m.xx + m.yy), half_difference = std::hypot(0.5 * (m.xx - m.yy), m.xy);
+  return {half + half_difference, half - half_difference, 0.5 * std::atan2(2 * m.xy, m.xx - m.yy)};
 }
 
-// The spot's covariance from that under the window: variances add up as inverses. What noise makes of it is
-// held between a quarter of the window's variance and sixteen times it.
+// Covariance of the spot from the covariance under the window: the inverse variances add. The result is
+// limited to between 1/4 and 16 times the variance of the window.
 Mat2 without_window(const Mat2& under, double sd) {
   const Axes a = axes_of(under);
   const double w = 1 / (sd * sd);
-  const auto freed = [&](double v) {
+  const auto deconvolved = [&](double v) {
     const double inverse = 1 / std::max(v, 1e-3 * sd * sd) - w;
     return inverse <= w / 16 ? 16 / w : std::max(0.25 / w, 1 / inverse);
   };
-  const double large = freed(a.large), small = freed(a.small), c = std::cos(a.angle), s = std::sin(a.angle);
+  const double large = deconvolved(a.large), small = deconvolved(a.small), c = std::cos(a.angle),
+               s = std::sin(a.angle);
   return {large * c * c + small * s * s, (large - small) * c * s, large * s * s + small * c * c};
 }
 
-Shape settle(Window& window, const SpotSeed& seed, Shape from, double sd) {
+Shape converge(Window& window, const SpotSeed& seed, Shape from, double sd) {
   Shape to = from;
-  to.good = false;
+  to.valid = false;
   Moments m;
   to.offset = window.offset(to.x, to.y);
-  for (int i = 0; i < kMoves; ++i) {
+  for (int i = 0; i < kMaxMoves; ++i) {
     m = window.moments(to.x, to.y, to.offset);
     if (!(m.mass > 0)) return to;
-    // Under a window of its own width a Gaussian's centre of mass is half as far from the window's.
+    // For a Gaussian of the same width as the window, the centroid under the window moves by half the offset.
     to.x += std::clamp(2 * m.x, -sd, sd);
     to.y += std::clamp(2 * m.y, -sd, sd);
     if (std::hypot(to.x - seed.col, to.y - seed.row) > std::max(1.5, 1.5 * sd)) return to;
     if (std::hypot(m.x, m.y) < 5e-4) break;
   }
   to.cov = without_window(m.cov, sd);
-  const double window_share =
+  const double window_fraction =
       2 * std::numbers::pi * std::sqrt(std::max(1e-12, m.cov.xx * m.cov.yy - m.cov.xy * m.cov.xy));
-  to.amplitude = m.mass / std::max(window_share, 1e-3 * sd * sd);
-  to.good = true;
+  to.amplitude = m.mass / std::max(window_fraction, 1e-3 * sd * sd);
+  to.valid = true;
   return to;
 }
 
@@ -169,7 +171,7 @@ Spot spot_of(const Shape& s, const SpotSeed& seed) {
   return spot;
 }
 
-// Which spots are near which, by cells of a grid as wide as a window reaches.
+// Neighbour search on a grid with cells of the window size.
 class Neighbours {
  public:
   Neighbours(const std::vector<SpotSeed>& seeds, const GrayF& g, double reach)
@@ -208,21 +210,21 @@ std::vector<Spot> fit_spots(const GrayF& difference, const std::vector<SpotSeed>
     std::vector<Shape> next = shapes;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
       Window window(difference, seeds[i], sd_px);
-      bool alone = true;
+      bool isolated = true;
       near.each(seeds[i], i, [&](std::size_t k) {
-        if (shapes[k].good) {
-          window.take_off(shapes[k]);
-          alone = false;
+        if (shapes[k].valid) {
+          window.subtract(shapes[k]);
+          isolated = false;
         }
       });
-      if (pass > 0 && alone) continue;
-      next[i] = settle(window, seeds[i], {double(seeds[i].col), double(seeds[i].row), 0, 0, {}}, sd_px);
+      if (pass > 0 && isolated) continue;
+      next[i] = converge(window, seeds[i], {double(seeds[i].col), double(seeds[i].row), 0, 0, {}}, sd_px);
     }
     shapes = std::move(next);
   }
   std::vector<Spot> spots;
   for (std::size_t i = 0; i < seeds.size(); ++i)
-    if (shapes[i].good) spots.push_back(spot_of(shapes[i], seeds[i]));
+    if (shapes[i].valid) spots.push_back(spot_of(shapes[i], seeds[i]));
   return spots;
 }
 

@@ -6,21 +6,21 @@
 #include "vision/cells/spot.h"
 #include "vision/image/image.h"
 
-/// The sub-pixel part of the detector; include detector.h instead.
+/// Sub-pixel fit of the detector (internal; include detector.h instead).
 namespace faba {
 
 inline constexpr double kFwhmPerSd = 2.354820045;  ///< full width at half maximum of a Gaussian over its sd
 
-/// Where a spot was seen to the pixel.
+/// Position of a spot to the pixel.
 struct SpotSeed {
   int col = 0, row = 0;
   double snr = 0;
-  double noise = 0;  ///< sd of the picture's noise there, grey
+  double noise = 0;  ///< sd of the noise at this position, grey
 };
 
-/// Centre, mass and shape of each seed's spot in a picture of differences (spots positive) by moments under a
-/// Gaussian window of `sd_px`, the offset of the surroundings and the light of the other spots taken off. A
-/// spot whose window runs away from its seed by more than 1.5 sd, or has no positive mass, is left out.
+/// Centre, mass and shape of the spot at each seed in a difference picture (spots positive), from moments
+/// under a Gaussian window of `sd_px`; the local offset and the light of other spots are subtracted. A spot
+/// whose window moves away from its seed by more than 1.5 sd, or which has no positive mass, is discarded.
 std::vector<Spot> fit_spots(const GrayF& difference, const std::vector<SpotSeed>& seeds, double sd_px);
 
 }  // namespace faba

@@ -7,9 +7,9 @@
 
 namespace faba {
 
-/// A pass over the whole video at `path` (anything VideoReader reads; `fps` as there) with a
-/// BackgroundSampler. `progress`, when given, is called with frames done and stated (0: unknown) after each
-/// frame. Throws what VideoReader throws.
+/// Reads the complete video at `path` (any input of VideoReader) with a BackgroundSampler. `progress`, if
+/// given, is called after each frame with the number of frames read and the stated number (0: unknown).
+/// Throws as VideoReader.
 Background video_background(const std::filesystem::path& path, int most_frames = 50,
                             const std::function<void(std::int64_t, std::int64_t)>& progress = {});
 

@@ -16,21 +16,22 @@ namespace faba {
 namespace {
 
 constexpr int kMostFrames = 48;
-constexpr int kFinest = 4096;       // bins of the histogram of changes
-constexpr double kFine = 1.0 / 16;  // of a level, where greys are not whole ones
+constexpr int kChangeBins = 4096;       // bins of the histogram of changes
+constexpr double kFineStep = 1.0 / 16;  // histogram step in grey levels for non-integer grey values
 constexpr double kOneSd = 0.6826894921370859;
 
-/// Sizes of the changes from frame to frame, in grey levels, sorted by steps of `step` levels.
+/// Histogram of the absolute differences between frames, with bins of `step` grey levels.
 class Changes {
  public:
   explicit Changes(double step) : step_(step) {}
   void take(const GrayF& before, const GrayF& now) {
     for (std::size_t i = 0; i < now.px.size(); ++i) {
       const float change = std::fabs(now.px[i] - before.px[i]) / float(step_);
-      ++count_[std::size_t(std::min(change + 0.5F, float(kFinest - 1)))];
+      ++count_[std::size_t(std::min(change + 0.5F, float(kChangeBins - 1)))];
     }
   }
-  /// Sd of the noise of one frame, grey levels. A change of whole steps stands for half a step to each side.
+  /// Sd of the noise of one frame, grey levels. An integer difference represents the interval of half a step
+  /// to each side.
   double sd() const {
     double all = 0, below = 0;
     for (const auto n : count_) all += double(n);
@@ -48,13 +49,13 @@ class Changes {
 
  private:
   double step_;
-  std::vector<std::uint64_t> count_ = std::vector<std::uint64_t>(kFinest);
+  std::vector<std::uint64_t> count_ = std::vector<std::uint64_t>(kChangeBins);
 };
 
-GrayF quantile_over_time(const std::vector<GrayF>& frames, double share) {
+GrayF quantile_over_time(const std::vector<GrayF>& frames, double quantile) {
   GrayF out(frames.front().width, frames.front().height);
   std::vector<float> values(frames.size());
-  const auto rank = std::size_t(std::lround(share * double(frames.size() - 1)));
+  const auto rank = std::size_t(std::lround(quantile * double(frames.size() - 1)));
   for (std::size_t i = 0; i < out.px.size(); ++i) {
     for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
     out.px[i] = order_statistic(values, rank);
@@ -68,8 +69,8 @@ VideoGround read_video_ground(const std::filesystem::path& video, const VideoGro
   constexpr float kWhite = 255;
   GreyVideo frames(video, o.fps, o.side);
   BackgroundSampler sampler(kMostFrames);
-  const bool whole = o.side == 1 && frames.reader().bits() <= 8;
-  Changes changes(whole ? 1 : kFine);
+  const bool integer_greys = o.side == 1 && frames.reader().bits() <= 8;
+  Changes changes(integer_greys ? 1 : kFineStep);
   GrayF now, before;
   for (double t = 0; frames.read(now, t); o.tick()) {
     if (t < o.from_s || t > o.to_s) continue;
@@ -77,7 +78,8 @@ VideoGround read_video_ground(const std::filesystem::path& video, const VideoGro
     if (!before.empty()) changes.take(before, now);
     std::swap(now, before);
   }
-  if (sampler.kept().empty()) throw Error(Errc::input, video.string(), "has no frame at the times asked for");
+  if (sampler.kept().empty())
+    throw Error(Errc::input, video.string(), "the video has no frames in the requested time range");
   VideoGround ground{quantile_over_time(sampler.kept(), o.share), changes.sd()};
   const auto off = o.share == 0.5 ? 0.0F : float(normal_quantile(o.share) * ground.noise_sd);
   for (float& grey : ground.light.px) grey = (grey - off) / kWhite;

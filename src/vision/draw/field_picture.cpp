@@ -11,9 +11,9 @@
 namespace faba {
 namespace {
 
-constexpr int kShift = 4;         // sub-pixel bits of OpenCV's drawing
-constexpr int kScaleWidth = 108;  // of the strip at the right with the colours and their values
-constexpr int kApart = 40;        // px between arrows
+constexpr int kShift = 4;          // sub-pixel bits of OpenCV drawing
+constexpr int kScaleWidth = 108;   // px, width of the colour bar at the right
+constexpr int kArrowSpacing = 40;  // px between arrows
 const cv::Scalar kInk{40, 40, 40}, kLight{250, 250, 250};
 
 cv::Point fixed(Vec2 p) {
@@ -21,7 +21,7 @@ cv::Point fixed(Vec2 p) {
   return {at(p.x), at(p.y)};
 }
 
-// Dark below, light above, so that the eye needs no rim to see it on any colour.
+// Light line on a darker one, visible on any colour.
 void line(cv::Mat& m, Vec2 a, Vec2 b, int thickness = 1) {
   cv::line(m, fixed(a), fixed(b), kInk, thickness + 2, cv::LINE_AA, kShift);
   cv::line(m, fixed(a), fixed(b), kLight, thickness, cv::LINE_AA, kShift);
@@ -33,7 +33,7 @@ void text(cv::Mat& m, const std::string& s, Vec2 at, bool on_paper = false) {
   cv::putText(m, s, p, cv::FONT_HERSHEY_SIMPLEX, 0.45, on_paper ? kInk : kLight, 1, cv::LINE_AA);
 }
 
-/// The range of magnitudes shown, as powers of ten.
+/// Range of magnitudes of the colour bar, as powers of ten.
 struct Decades {
   double low, high;
   int level(double tesla) const {
@@ -42,7 +42,8 @@ struct Decades {
   }
 };
 
-// All but the hundredth nearest to the coils, and at most three powers of ten below: zeros have no lower end.
+// The 99 % percentile (excludes the vicinity of the coils) and at most three decades below; field zeros have
+// no lower limit.
 Decades decades_of(const std::vector<Vec2>& b) {
   std::vector<double> size;
   for (std::size_t i = 0; i < b.size(); i += 7)
@@ -68,9 +69,9 @@ cv::Mat palette() {
 }
 
 void arrows(cv::Mat& m, const FieldScene& s) {
-  for (int y = kApart / 2; y < s.height; y += kApart)
-    for (int x = kApart / 2; x < s.width; x += kApart) {
-      if (x < 0.3 * s.width && y > s.height - 50) continue;  // the scale bar's place
+  for (int y = kArrowSpacing / 2; y < s.height; y += kArrowSpacing)
+    for (int x = kArrowSpacing / 2; x < s.width; x += kArrowSpacing) {
+      if (x < 0.3 * s.width && y > s.height - 50) continue;  // region of the scale bar
       const Vec2 b = s.b[std::size_t(y) * std::size_t(s.width) + std::size_t(x)];
       const double size = norm(b);
       if (!(size > 0) || !std::isfinite(size)) continue;
@@ -99,15 +100,15 @@ void scale_bar(cv::Mat& m, const FieldScene& s) {
   const ScaleBar bar = scale_bar_for(s.width, s.um_per_px);
   const Vec2 from{14, s.height - 16.0};
   line(m, from, from + Vec2{bar.length_px, 0}, 3);
-  text(m, bar.words, from - Vec2{0, 8});
+  text(m, bar.label, from - Vec2{0, 8});
 }
 
 }  // namespace
 
 RgbImage draw_field(const FieldScene& s) {
   RgbImage out(s.width + kScaleWidth, s.height, Rgb{255, 255, 255});
-  cv::Mat whole(out.height, out.width, CV_8UC3, out.px.data());
-  cv::Mat m = whole(cv::Rect(0, 0, s.width, s.height));
+  cv::Mat canvas(out.height, out.width, CV_8UC3, out.px.data());
+  cv::Mat m = canvas(cv::Rect(0, 0, s.width, s.height));
   const Decades decades = decades_of(s.b);
   cv::Mat colours = palette();
   cv::cvtColor(colours, colours, cv::COLOR_BGR2RGB);
@@ -134,7 +135,7 @@ RgbImage draw_field(const FieldScene& s) {
     text(m, z.words, z.at + Vec2{12, -8});
   }
   scale_bar(m, s);
-  colour_scale(whole, s, decades, colours);
+  colour_scale(canvas, s, decades, colours);
   return out;
 }
 

@@ -16,8 +16,8 @@ constexpr double kPi = 3.14159265358979323846;
 const cv::Vec3b kUnknown(128, 128, 128);
 constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
 
-// Hues from red over yellow, green, cyan, blue and magenta back to red. The eye tells more hues apart between
-// some of them than between others: number of steps from each to the next after Baker et al. 2011.
+// Hues from red over yellow, green, cyan, blue and magenta to red. The number of steps between two hues
+// follows the colour discrimination of the eye (Baker et al. 2011).
 struct Wheel {
   std::array<cv::Vec3d, 56> hue;
   Wheel() {
@@ -29,7 +29,7 @@ struct Wheel {
         hue[n++] = corner[k] + (corner[k + 1] - corner[k]) * (double(i) / steps[k]);
     hue[n] = hue[0];
   }
-  /// Colour of a flow; 1 is full strength, beyond it gets darker.
+  /// Colour of a flow; 1 is full saturation, larger values are darker.
   cv::Vec3b colour(double u, double v) const {
     if (!std::isfinite(u) || !std::isfinite(v)) return kUnknown;
     const double strength = std::hypot(u, v);
@@ -57,9 +57,9 @@ cv::Point fixed(double x, double y) {
   return {int(std::lround(x * (1 << kShift))), int(std::lround(y * (1 << kShift)))};
 }
 
-constexpr double kLeast = 0.2;  // of the full speed, of a flow that gets an arrow
+constexpr double kMinArrowSpeed = 0.2;  // minimum speed of a flow with an arrow, fraction of the full speed
 
-// The mean flow of a square, and its middle, weighed by its speed: an arrow stands where something moves.
+// Speed-weighted mean flow and position of each square, so that arrows are located at moving objects.
 void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, double full, bool coloured) {
   const int step = how.arrow_step_px;
   for (int r = step / 2; r < flow.height(); r += step)
@@ -82,11 +82,11 @@ void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, dou
       x0 /= sum;
       y0 /= sum;
       const double speed = std::hypot(u, v);
-      if (speed < kLeast * full) continue;
+      if (speed < kMinArrowSpeed * full) continue;
       const double scale = 0.9 * step / std::max(full, speed);
       const cv::Point from = fixed(x0 - u * scale / 2, y0 - v * scale / 2),
                       to = fixed(x0 + u * scale / 2, y0 + v * scale / 2);
-      if (coloured) {  // the hue alone: how long it is tells the speed
+      if (coloured) {  // hue only; the length shows the speed
         const cv::Vec3b k = wheel().colour(u / speed, v / speed);
         cv::arrowedLine(canvas, from, to, cv::Scalar(20, 20, 20), 3, cv::LINE_AA, kShift, 0.35);
         cv::arrowedLine(canvas, from, to, cv::Scalar(k[0], k[1], k[2]), 1, cv::LINE_AA, kShift, 0.35);
@@ -96,21 +96,21 @@ void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, dou
     }
 }
 
-cv::Size measure(const std::string& words, double size) {
+cv::Size text_size(const std::string& words, double size) {
   int base = 0;
   return cv::getTextSize(words, cv::FONT_HERSHEY_SIMPLEX, size, 1, &base);
 }
-// Dark with a bright rim, to be read on any ground.
+// Dark text with a bright outline, readable on any background.
 void write(cv::Mat3b canvas, const std::string& words, cv::Point at, double size) {
   cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, size, {255, 255, 255}, 3, cv::LINE_AA);
   cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, size, {30, 30, 30}, 1, cv::LINE_AA);
 }
 
-// Beside the key, or not at all where there is no room.
+// Text beside the key; omitted when there is not enough space.
 void draw_words(const cv::Mat3b& canvas, const std::string& words) {
   const double size = std::clamp(canvas.rows / 600.0, 0.4, 1.0);
-  if (measure(words, size).width > canvas.cols - canvas.rows / 5 - 16) return;
-  write(canvas, words, {8, 8 + measure(words, size).height}, size);
+  if (text_size(words, size).width > canvas.cols - canvas.rows / 5 - 16) return;
+  write(canvas, words, {8, 8 + text_size(words, size).height}, size);
 }
 
 void draw_key(cv::Mat3b canvas, double full) {
@@ -126,7 +126,7 @@ void draw_key(cv::Mat3b canvas, double full) {
   cv::circle(canvas, centre, radius, {90, 90, 90}, 1, cv::LINE_AA);
   const std::string words = fmt::format("{:.3g} px", full);
   const double size = std::clamp(radius / 40.0, 0.35, 0.8);
-  const cv::Size box = measure(words, size);
+  const cv::Size box = text_size(words, size);
   write(canvas, words, {canvas.cols - box.width - 6, centre.y + radius + box.height + 6}, size);
 }
 

@@ -28,7 +28,7 @@ cv::Mat3b grey_canvas(const GrayF& picture) {
   return out;
 }
 
-/// The circle as short chords, only where it can be seen: OpenCV's own circle is limited to radii of 2^15 px.
+/// The visible part of the circle as short chords; OpenCV limits circles to radii of 2^15 px.
 std::vector<std::vector<cv::Point>> visible_arcs(const DropEdge& edge) {
   const Vec2 c = edge.centre_image;
   const int n = std::clamp(int(2 * edge.radius_px), 64, 200000);
@@ -44,7 +44,7 @@ std::vector<std::vector<cv::Point>> visible_arcs(const DropEdge& edge) {
   return arcs;
 }
 
-/// One layer of drawing: everything in its colour at `width`, or everything in black for the rim below it.
+/// One drawing layer: all shapes in their colour at `width`, or all in black as the rim below.
 class Pen {
  public:
   Pen(cv::Mat3b canvas, int width, bool rim) : canvas_(std::move(canvas)), width_(width), rim_(rim) {}
@@ -90,11 +90,11 @@ void draw(Pen pen, const DropEdge& edge, int width) {
   const double unit = width;
   for (const EdgeSegment& s : edge.segments) pen.line(s.a, s.b, kViolet);
   for (const auto& arc : visible_arcs(edge)) pen.path(arc, kSky);
-  // Far enough apart that the circle shows between them.
-  const double apart = 14 * unit;
+  // Minimum distance between dots, so that the circle remains visible.
+  const double dot_spacing = 14 * unit;
   Vec2 last{-1e9, -1e9};
   for (Vec2 p : edge.edge_points) {
-    if (norm(p - last) < apart) continue;
+    if (norm(p - last) < dot_spacing) continue;
     pen.dot(p, 1.6 * unit, kYellow);
     last = p;
   }

@@ -43,7 +43,7 @@ RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler) {
     const int number = m.index - row.marks.front().index;
     const Vec2 middle = 0.5 * (m.from_image + m.to_image);
     const bool tenth = number % 10 == 0;
-    // Every tenth reaches beyond the marks, where its number stands.
+    // Every tenth line extends beyond the marks and is labelled with its number.
     const Vec2 end = tenth ? m.to_image + (10 * size * 2) * across : m.to_image;
     cv::line(canvas, fixed(middle), fixed(end),
              !m.used ? kOrange

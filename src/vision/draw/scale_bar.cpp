@@ -7,10 +7,10 @@
 namespace faba {
 
 ScaleBar scale_bar_for(int width_px, double um_per_px) {
-  const double most = 0.25 * width_px * um_per_px;
-  double um = std::pow(10.0, std::floor(std::log10(most)));
+  const double max_um = 0.25 * width_px * um_per_px;
+  double um = std::pow(10.0, std::floor(std::log10(max_um)));
   for (const double f : {5.0, 2.0})
-    if (um * f <= most) {
+    if (um * f <= max_um) {
       um *= f;
       break;
     }

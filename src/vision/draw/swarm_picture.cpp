@@ -11,13 +11,13 @@
 namespace faba {
 namespace {
 
-// Okabe-Ito colours: apart for every kind of colour vision.
+// Okabe-Ito colours, safe for colour-blind readers.
 const cv::Scalar kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90, 20}};
 const cv::Scalar kPale{178, 182, 190}, kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
 const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kInk{60, 60, 60};
-constexpr int kShift = 4;  // sub-pixel bits of OpenCV's drawing
+constexpr int kShift = 4;  // sub-pixel bits of OpenCV drawing
 constexpr std::size_t kManyCells =
-    20000;  // beyond this a cell is one pixel: anti-aliased discs would take longer than the step
+    20000;  // above, a cell is one pixel: anti-aliased discs would take longer than a simulation step
 
 cv::Point fixed(double x, double y) {
   const auto clamped = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
@@ -72,10 +72,10 @@ void scale_bar(cv::Mat& m, const SwarmScene& s) {
   const double x = 12, y = s.height - 14;
   cv::rectangle(m, cv::Point(int(x), int(y)), cv::Point(int(std::lround(x + bar.length_px)), int(y) + 3),
                 kInk, cv::FILLED);
-  text(m, bar.words, {int(x), int(y) - 6}, 0.45);
+  text(m, bar.label, {int(x), int(y) - 6}, 0.45);
 }
 
-// Long as 40 px at 100 uT, growing with the square root so that 20 uT and 2 mT both show.
+// Length 40 px at 100 uT, proportional to the square root, so that 20 uT and 2 mT are both visible.
 void field_arrow(cv::Mat& m, const SwarmScene& s) {
   const double b = norm(s.field_ut);
   const Vec2 at{s.width - 44.0, s.height - 44.0};
@@ -110,7 +110,7 @@ RgbImage draw_swarm(const SwarmScene& s, const RgbImage& on_ground) {
   cells(m, s);
   if (s.setpoint) cross(m, *s.setpoint, 10, kPurple);
   if (s.centroid) cross(m, *s.centroid, 7, kGreen);
-  if (s.width >= 160 && s.height >= 120) {  // smaller pictures have no room for writing
+  if (s.width >= 160 && s.height >= 120) {  // smaller pictures have no space for text
     scale_bar(m, s);
     field_arrow(m, s);
     text(m, fmt::format("{:.2f} s", s.t), {12, 24}, 0.5);

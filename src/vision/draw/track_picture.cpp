@@ -7,14 +7,14 @@
 namespace faba {
 namespace {
 
-// Okabe and Ito's palette without black and yellow, which are lost on grey.
+// Okabe-Ito palette without black and yellow, which have low contrast on grey.
 const cv::Scalar kInks[] = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
                             {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
 constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
 
 cv::Point fixed(Vec2 p) {
-  const auto whole = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
-  return {whole(p.x), whole(p.y)};
+  const auto to_fixed = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
+  return {to_fixed(p.x), to_fixed(p.y)};
 }
 
 }  // namespace

@@ -7,16 +7,16 @@
 
 namespace faba {
 
-/// The path of one track, or its last part, for drawing. Picture px, y down.
+/// Path of a track, or its last part, for drawing. Picture px, y down.
 struct TrackLine {
-  std::uint64_t number = 0;  ///< gives the colour
-  std::vector<Vec2> path;    ///< in the order of time
-  bool seen = true;          ///< the last place is one of now: it gets a ring
+  std::uint64_t number = 0;  ///< selects the colour
+  std::vector<Vec2> path;    ///< in temporal order
+  bool seen = true;  ///< whether the last position belongs to the current frame; it is then drawn with a ring
 };
 
-/// A frame in grey (between the grey values `black` and `white`) with paths drawn on it: thin lines in one of
-/// six colours of the Okabe-Ito palette by number, and, when `rings` is set, a ring of `ring_px` around the
-/// last place of each track that is seen. Same size as the frame.
+/// A grey frame (contrast range `black` to `white`) with track paths: thin lines in one of six colours of the
+/// Okabe-Ito palette and, with `rings`, a ring of radius `ring_px` around the last position of each track
+/// that is visible in the current frame. Same size as the frame.
 RgbImage draw_tracks(const GrayF& frame, float black, float white, const std::vector<TrackLine>& tracks,
                      bool rings, double ring_px);
 

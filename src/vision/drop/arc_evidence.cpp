@@ -11,11 +11,13 @@
 namespace faba {
 namespace {
 
-constexpr double kExpected = 0.9;  // share of agreeing pieces on a true edge, for choosing the run
-constexpr double kTolerances[] = {0.5, 1, 2, 3.5, 6};  // px; the best is chosen and paid for in the test
-constexpr double kClear = -3;    // log10 of false alarms below which a tolerance may be chosen
-constexpr double kSettled = -8;  // below it the first way of aligning the pieces is good enough
-constexpr double kWays = 2;      // ways of aligning the pieces, both paid for
+constexpr double kExpected = 0.9;  // fraction of agreeing pieces on a true edge, for the choice of the run
+constexpr double kTolerances[] = {0.5, 1, 2, 3.5,
+                                  6};  // px; the choice of the best one is accounted for in the test
+constexpr double kSelectable = -3;     // log10 of false alarms below which a tolerance can be chosen
+constexpr double kSufficient =
+    -8;  // log10 of false alarms below which the first alignment method is sufficient
+constexpr double kAlignments = 2;  // number of alignment methods, accounted for in the test
 
 /// log10 of P(at least k successes in n trials of probability p).
 double log10_tail(std::size_t n, std::size_t k, double p) {
@@ -31,12 +33,12 @@ double log10_tail(std::size_t n, std::size_t k, double p) {
   return (largest + std::log(sum)) / std::numbers::ln10;
 }
 
-/// A run of pieces [first, first + length), wrapping round a closed strip.
+/// A run of pieces [first, first + length), cyclic on a closed strip.
 struct Run {
   std::size_t first = 0, length = 0, hits = 0;
 };
 
-/// The run with the best likelihood of "edge" against "chance".
+/// The run with the maximum likelihood ratio of "edge" against "noise".
 Run best_run(const std::vector<bool>& hit, bool closed, double p) {
   const double gain = std::log(kExpected / p), loss = std::log((1 - kExpected) / (1 - p));
   Run best;
@@ -60,7 +62,7 @@ Run best_run(const std::vector<bool>& hit, bool closed, double p) {
   return best;
 }
 
-/// Root mean square of the profile's middle half without its line.
+/// Rms about the linear fit of the middle half of the profile.
 double relief(const std::vector<double>& profile, int half) {
   std::vector<double> middle(profile.begin() + half - half / 2, profile.begin() + half + half / 2 + 1);
   remove_line(middle);
@@ -69,73 +71,74 @@ double relief(const std::vector<double>& profile, int half) {
 }
 
 /// The test at one tolerance.
-struct Verdict {
+struct ToleranceTest {
   double tolerance = 0, log10_alarms = 1e9;
   Run run;
 };
 
-/// Probability that a piece agrees within a tolerance by chance.
-double chance(const ArcStrip& strip, double tolerance) {
+/// Probability that a random piece agrees within a tolerance.
+double random_agreement(const ArcStrip& strip, double tolerance) {
   const int reach = strip.half / 2;
   return 2 * tolerance / (2 * reach + 1);
 }
 
-std::vector<Verdict> judge(const ArcStrip& strip, double log10_circles) {
-  std::vector<Verdict> verdicts;
+std::vector<ToleranceTest> test_tolerances(const ArcStrip& strip, double log10_circles) {
+  std::vector<ToleranceTest> tests_by_tolerance;
   const double n = double(strip.pieces.size());
-  // What was chosen among is paid for: circles told apart by a pixel, runs of pieces, tolerances, ways.
-  const double tests = log10_circles + std::log10(n * n * kWays * double(std::size(kTolerances)));
+  // Number of tests: circles that differ by a pixel, runs of pieces, tolerances, alignment methods.
+  const double tests = log10_circles + std::log10(n * n * kAlignments * double(std::size(kTolerances)));
   for (double tolerance : kTolerances) {
     std::vector<bool> hit;
     for (const ArcPiece& p : strip.pieces) hit.push_back(std::fabs(p.shift) <= tolerance);
-    const double p = chance(strip, tolerance);
-    Verdict v{tolerance, 1e9, best_run(hit, strip.closed, p)};
+    const double p = random_agreement(strip, tolerance);
+    ToleranceTest v{tolerance, 1e9, best_run(hit, strip.closed, p)};
     if (v.run.hits >= 4) v.log10_alarms = log10_tail(v.run.length, v.run.hits, p) + tests;
-    verdicts.push_back(v);
+    tests_by_tolerance.push_back(v);
   }
-  return verdicts;
+  return tests_by_tolerance;
 }
 
-/// The tightest tolerance that loses next to nothing of the arc the widest one shows, for the profile and the
-/// support: an edge that is not quite a circle must not be taken for a better circle along a part of it.
+/// `wide` has the longest arc; `tight` is the smallest tolerance with at least 90 % of that arc. The support
+/// is measured with `wide`, so that an edge that is not exactly a circle is not mistaken for a better circle
+/// along a part of it.
 struct Choice {
-  Verdict tight, wide;
+  ToleranceTest tight, wide;
 };
 
-Choice choose(const std::vector<Verdict>& verdicts) {
+Choice choose(const std::vector<ToleranceTest>& tests_by_tolerance) {
   Choice c;
-  c.tight = c.wide = *std::min_element(verdicts.begin(), verdicts.end(), [](const auto& a, const auto& b) {
-    return a.log10_alarms < b.log10_alarms;
-  });
-  for (const Verdict& v : verdicts)
-    if (v.log10_alarms < kClear && v.run.hits > c.wide.run.hits) c.wide = v;
-  for (const Verdict& v : verdicts)
-    if (v.log10_alarms < kClear && double(v.run.hits) >= 0.9 * double(c.wide.run.hits)) {
+  c.tight = c.wide =
+      *std::min_element(tests_by_tolerance.begin(), tests_by_tolerance.end(),
+                        [](const auto& a, const auto& b) { return a.log10_alarms < b.log10_alarms; });
+  for (const ToleranceTest& v : tests_by_tolerance)
+    if (v.log10_alarms < kSelectable && v.run.hits > c.wide.run.hits) c.wide = v;
+  for (const ToleranceTest& v : tests_by_tolerance)
+    if (v.log10_alarms < kSelectable && double(v.run.hits) >= 0.9 * double(c.wide.run.hits)) {
       c.tight = v;
       break;
     }
   return c;
 }
 
-/// The stretches in which a run agrees more than once in a hundred by chance. A corner of the picture that
-/// the circle happens to cross must not be fitted along with a true arc elsewhere.
-std::vector<bool> solid_stretches(const ArcStrip& strip, const Verdict& v) {
-  const std::size_t count = strip.pieces.back().stretch + 1;
+/// The segments in which the run is significant at the 1 % level. A picture corner that the circle happens to
+/// cross must not be included in the fit.
+std::vector<bool> significant_segments(const ArcStrip& strip, const ToleranceTest& v) {
+  const std::size_t count = strip.pieces.back().segment + 1;
   std::vector<std::size_t> pieces(count), hits(count);
   for (std::size_t i = 0; i < v.run.length; ++i) {
     const ArcPiece& p = strip.pieces[(v.run.first + i) % strip.pieces.size()];
-    pieces[p.stretch] += 1;
-    hits[p.stretch] += std::fabs(p.shift) <= v.tolerance;
+    pieces[p.segment] += 1;
+    hits[p.segment] += std::fabs(p.shift) <= v.tolerance;
   }
-  std::vector<bool> solid(count);
+  std::vector<bool> significant(count);
   for (std::size_t s = 0; s < count; ++s)
-    solid[s] = hits[s] > 0 && log10_tail(pieces[s], hits[s], chance(strip, v.tolerance)) < -2;
-  return solid;
+    significant[s] = hits[s] > 0 && log10_tail(pieces[s], hits[s], random_agreement(strip, v.tolerance)) < -2;
+  return significant;
 }
 
-/// Which pieces of a run see the same edge as their neighbours: within 3 robust sd of the median of five. Not
-/// being on the circle is no reason to be left out.
-std::vector<std::size_t> steady_pieces(const ArcStrip& strip, const Run& run) {
+/// Pieces of a run that are consistent with their neighbours: shift within 3 robust sd of the median of five.
+/// Distance from the circle is not a criterion.
+std::vector<std::size_t> consistent_pieces(const ArcStrip& strip, const Run& run) {
   const std::size_t n = strip.pieces.size(), length = run.length;
   auto shift = [&](std::size_t i) { return strip.pieces[(run.first + i) % n].shift; };
   std::vector<double> off(length), sizes;
@@ -146,45 +149,46 @@ std::vector<std::size_t> steady_pieces(const ArcStrip& strip, const Run& run) {
     off[i] = std::fabs(shift(i) - median_high(five));
     if (off[i] > 0) sizes.push_back(off[i]);
   }
-  std::vector<std::size_t> steady;
+  std::vector<std::size_t> consistent;
   if (sizes.empty()) sizes.push_back(0);
   const double limit = std::max(3 * kMadToSd * median_high(sizes), 0.25);
   for (std::size_t i = 0; i < length; ++i)
     if (off[i] <= limit && 2 * std::fabs(shift(i)) < strip.half - strip.half % 2)
-      steady.push_back((run.first + i) % n);
-  return steady;
+      consistent.push_back((run.first + i) % n);
+  return consistent;
 }
 
-double fewest_alarms(const std::vector<Verdict>& verdicts) {
-  double least = 1e9;
-  for (const Verdict& v : verdicts) least = std::min(least, v.log10_alarms);
-  return least;
+double min_log10_alarms(const std::vector<ToleranceTest>& tests_by_tolerance) {
+  double lowest = 1e9;
+  for (const ToleranceTest& v : tests_by_tolerance) lowest = std::min(lowest, v.log10_alarms);
+  return lowest;
 }
 
-/// Aligns the pieces by their common profile, or by their change of grey when that says clearly more.
-std::vector<Verdict> align_and_judge(ArcStrip& strip, double log10_circles) {
+/// Aligns the pieces by their common profile, or by their change of grey when that is clearly more
+/// significant.
+std::vector<ToleranceTest> align_and_test(ArcStrip& strip, double log10_circles) {
   align_by_profile(strip);
-  std::vector<Verdict> verdicts = judge(strip, log10_circles);
-  if (fewest_alarms(verdicts) < kSettled) return verdicts;
+  std::vector<ToleranceTest> tests_by_tolerance = test_tolerances(strip, log10_circles);
+  if (min_log10_alarms(tests_by_tolerance) < kSufficient) return tests_by_tolerance;
   ArcStrip other = strip;
   align_by_change(other);
-  std::vector<Verdict> others = judge(other, log10_circles);
-  if (fewest_alarms(others) > fewest_alarms(verdicts) - 1) return verdicts;
+  std::vector<ToleranceTest> other_tests = test_tolerances(other, log10_circles);
+  if (min_log10_alarms(other_tests) > min_log10_alarms(tests_by_tolerance) - 1) return tests_by_tolerance;
   strip = std::move(other);
-  return others;
+  return other_tests;
 }
 
 }  // namespace
 
-ArcEvidence weigh_arc(const GrayF& picture, const Circle& circle, const ArcStripOptions& options) {
+ArcEvidence evaluate_arc(const GrayF& picture, const Circle& circle, const ArcStripOptions& options) {
   ArcEvidence e;
   ArcStrip strip = read_arc_strip(picture, circle, options);
   e.visible = strip.pieces.size();
   if (e.visible < 4) return e;
   const double w = picture.width, h = picture.height;
-  const std::vector<Verdict> verdicts = align_and_judge(strip, std::log10(w * h * (w + h)));
-  const auto [tight, wide] = choose(verdicts);
-  e.log10_false_alarms = fewest_alarms(verdicts);
+  const std::vector<ToleranceTest> tests_by_tolerance = align_and_test(strip, std::log10(w * h * (w + h)));
+  const auto [tight, wide] = choose(tests_by_tolerance);
+  e.log10_false_alarms = min_log10_alarms(tests_by_tolerance);
   e.tolerance_px = tight.tolerance;
   std::vector<double> mean(std::size_t(2 * strip.half + 1), 0.0);
   for (std::size_t i = 0; i < tight.run.length; ++i) {
@@ -193,10 +197,10 @@ ArcEvidence weigh_arc(const GrayF& picture, const Circle& circle, const ArcStrip
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += p.grey[k] / double(tight.run.hits);
     for (double part : {-0.375, -0.125, 0.125, 0.375}) e.angles.push_back(p.angle + part * p.width);
   }
-  const std::vector<bool> solid = solid_stretches(strip, wide);
-  for (std::size_t k : steady_pieces(strip, wide.run)) {
+  const std::vector<bool> significant = significant_segments(strip, wide);
+  for (std::size_t k : consistent_pieces(strip, wide.run)) {
     const ArcPiece& p = strip.pieces[k];
-    if (!solid[p.stretch]) continue;
+    if (!significant[p.segment]) continue;
     const double r = circle.radius + p.shift;
     e.points.push_back({circle.centre.x + r * std::cos(p.angle), circle.centre.y + r * std::sin(p.angle)});
   }

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-/// Bilinear sample; positions outside take the nearest border pixel.
+/// Bilinear sample; positions outside are clamped to the border.
 float bilinear(const GrayF& im, double x, double y) {
   const float fx = std::clamp(float(x), 0.0f, float(im.width - 1) - 1e-3f);
   const float fy = std::clamp(float(y), 0.0f, float(im.height - 1) - 1e-3f);
@@ -25,7 +25,7 @@ struct AngleRange {
   double first, last;
 };
 
-/// The angles under which the picture can be seen from the centre.
+/// Range of directions from the centre to the picture.
 AngleRange angles_of_view(const GrayF& im, Vec2 centre) {
   const double w = im.width - 1, h = im.height - 1;
   if (centre.x >= 0 && centre.x <= w && centre.y >= 0 && centre.y <= h)
@@ -41,7 +41,7 @@ AngleRange angles_of_view(const GrayF& im, Vec2 centre) {
   return {middle + low, middle + high};
 }
 
-/// Mean of the middle half: cells and dust crossing a piece do not count. Reorders v.
+/// Interquartile mean, robust against cells and dust. Reorders v.
 double middle_mean(std::vector<float>& v) {
   const std::size_t n = v.size(), cut = n / 4;
   if (n > 40) {
@@ -49,7 +49,7 @@ double middle_mean(std::vector<float>& v) {
     std::nth_element(at(0), at(cut), at(n));
     std::nth_element(at(cut), at(n - cut), at(n));
   } else {
-    for (std::size_t i = 1; i < n; ++i) {  // insertion: the fastest sort of a dozen numbers
+    for (std::size_t i = 1; i < n; ++i) {  // insertion sort: fastest for about a dozen values
       const float x = v[i];
       std::size_t k = i;
       for (; k > 0 && v[k - 1] > x; --k) v[k] = v[k - 1];
@@ -62,27 +62,27 @@ double middle_mean(std::vector<float>& v) {
 }
 
 ArcPiece read_piece(const GrayF& im, const Circle& c, std::span<const double> angles, int half,
-                    std::size_t stretch) {
+                    std::size_t segment) {
   return {0.5 * (angles.front() + angles.back()), angles.back() - angles.front(),
-          mean_profile(im, c, angles, half), stretch, 0};
+          mean_profile(im, c, angles, half), segment, 0};
 }
 
 void cut_into_pieces(ArcStrip& strip, const GrayF& im, const Circle& c,
-                     const std::vector<std::vector<double>>& stretches, const ArcStripOptions& o) {
+                     const std::vector<std::vector<double>>& segments, const ArcStripOptions& o) {
   std::size_t total = 0;
-  for (const auto& stretch : stretches) total += stretch.size();
+  for (const auto& segment : segments) total += segment.size();
   strip.piece_px = std::max(o.piece_px, double(total) / o.max_pieces);
-  for (std::size_t s = 0; s < stretches.size(); ++s) {
-    const std::size_t size = stretches[s].size(), pieces = std::size_t(double(size) / strip.piece_px);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const std::size_t size = segments[s].size(), pieces = std::size_t(double(size) / strip.piece_px);
     for (std::size_t k = 0; k < pieces; ++k) {
-      const std::span<const double> all(stretches[s]);
+      const std::span<const double> all(segments[s]);
       const std::size_t first = k * size / pieces, last = (k + 1) * size / pieces;
       strip.pieces.push_back(read_piece(im, c, all.subspan(first, last - first), strip.half, s));
     }
   }
 }
 
-/// Sum of squares about its mean of every window of `length` samples of the piece.
+/// Sum of squared deviations from the mean, for every window of `length` samples.
 std::vector<double> window_energy(const std::vector<double>& grey, std::size_t length) {
   std::vector<double> energy;
   double sum = 0, squares = 0;
@@ -100,18 +100,18 @@ std::vector<double> window_energy(const std::vector<double>& grey, std::size_t l
   return energy;
 }
 
-/// Where along the piece the template has the largest product with it, for its length and for the unrest of
-/// the grey there: a bright cell has a large product with anything. `usual` is the energy of a window without
-/// such things.
+/// Template matching: shift with the largest product of template and piece, normalised by the local energy of
+/// the piece, because a bright cell has a large product with any template. `typical_energy` is the energy of
+/// a window without such objects.
 double best_shift(const std::vector<double>& grey, const std::vector<double>& shape, int half, int reach,
-                  double usual) {
+                  double typical_energy) {
   const std::vector<double> energy = window_energy(grey, shape.size());
   std::vector<double> product;
   for (int s = -reach; s <= reach; ++s) {
     double sum = 0;
     const double* g = &grey[std::size_t(half + s - reach)];
     for (std::size_t i = 0; i < shape.size(); ++i) sum += shape[i] * g[i];
-    product.push_back(sum / std::sqrt(energy[std::size_t(half + s - reach)] + usual));
+    product.push_back(sum / std::sqrt(energy[std::size_t(half + s - reach)] + typical_energy));
   }
   const std::size_t top = std::size_t(std::max_element(product.begin(), product.end()) - product.begin());
   double fine = 0;
@@ -157,24 +157,23 @@ ArcStrip read_arc_strip(const GrayF& im, const Circle& c, const ArcStripOptions&
     visible[i] = x >= o.border_px && y >= o.border_px && x <= im.width - 1 - o.border_px &&
                  y <= im.height - 1 - o.border_px;
   }
-  // A full turn starts where the circle is out of view, so that no stretch is cut in two by the seam.
+  // A full turn starts outside the view, so that no segment is split at the start angle.
   const bool full_turn = turn > 6.28;
   const std::size_t hidden = std::size_t(std::find(visible.begin(), visible.end(), false) - visible.begin());
   strip.closed = full_turn && hidden == n;
   const std::size_t start = full_turn && !strip.closed ? hidden : 0;
-  std::vector<std::vector<double>> stretches(1);
+  std::vector<std::vector<double>> segments(1);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t k = (start + i) % n;
     if (visible[k])
-      stretches.back().push_back(angles[k] + (start + i >= n ? turn : 0));
-    else if (!stretches.back().empty())
-      stretches.emplace_back();
+      segments.back().push_back(angles[k] + (start + i >= n ? turn : 0));
+    else if (!segments.back().empty())
+      segments.emplace_back();
   }
-  cut_into_pieces(strip, im, c, stretches, o);
+  cut_into_pieces(strip, im, c, segments, o);
   return strip;
 }
 
-/// Takes mean and slope out of v (of odd length), so that its product with any straight line is zero.
 void remove_line(std::vector<double>& v) {
   const double n = double(v.size()), middle = (n - 1) / 2;
   double mean = 0, slope = 0;
@@ -194,17 +193,18 @@ void align_by_profile(ArcStrip& strip) {
     for (std::size_t i = 0; i < length; ++i) sum[i] += p.grey[first + i];
     energies.push_back(window_energy(p.grey, length)[first]);
   }
-  const double usual = std::max(median_high(energies), 1e-12);
+  const double typical_energy = std::max(median_high(energies), 1e-12);
   for (ArcPiece& p : strip.pieces) {
     for (std::size_t i = 0; i < length; ++i) others[i] = sum[i] - p.grey[first + i];
     remove_line(others);
-    p.shift = best_shift(p.grey, others, strip.half, reach, usual);
+    p.shift = best_shift(p.grey, others, strip.half, reach, typical_energy);
   }
 }
 
 void align_by_change(ArcStrip& strip) {
   const int n = 2 * strip.half + 1;
-  // Below a quarter of the usual noise a spread is luck, and its logarithm would decide everything.
+  // Lower limit of the variance, a quarter of the median: the logarithm of a smaller one would dominate the
+  // cost.
   std::vector<double> noise;
   for (const ArcPiece& p : strip.pieces) {
     double sum = 0;

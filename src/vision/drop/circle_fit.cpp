@@ -18,7 +18,7 @@ using Eigen::Matrix3d, Eigen::Vector3d;
 
 constexpr double kTukey = 4.685;  // 95 % efficiency on Gaussian residuals
 
-/// SplitMix64: the n-th number is a mix of seed + n * golden ratio, so it is a counter and nothing else.
+/// SplitMix64 random numbers: the n-th number is a hash of seed + n * golden ratio.
 class Picker {
  public:
   explicit Picker(std::uint64_t seed) : state_(seed) {}
@@ -55,16 +55,16 @@ Normal normal_equations(std::span<const Vec2> points, std::span<const double> we
   return n;
 }
 
-/// Inverse of a symmetric positive matrix; nothing when it is singular to within rounding, relative to the
-/// product of the diagonal, which bounds the determinant.
+/// Inverse of a symmetric positive-definite matrix; empty when it is singular within rounding, relative to
+/// the product of the diagonal, which bounds the determinant.
 std::optional<Matrix3d> inverse(const Matrix3d& m) {
   if (!(m.determinant() > 1e-14 * m.diagonal().prod())) return std::nullopt;
   return m.inverse();
 }
 
-/// Levenberg-Marquardt with fixed weights; stops when a step no longer matters at 1e-10 of the radius. Three
-/// parameters and normal equations of fixed size make it 1.6 times as fast as Eigen's unsupported
-/// LevenbergMarquardt, which finds the same circles.
+/// Levenberg-Marquardt with fixed weights; converged when a step is below 1e-10 of the radius. With
+/// fixed-size normal equations for three parameters it is 1.6 times as fast as LevenbergMarquardt of Eigen
+/// (unsupported module), with the same result.
 Circle minimise(std::span<const Vec2> points, std::span<const double> weights, Circle c) {
   double damping = 1e-4;
   Normal now = normal_equations(points, weights, c);
@@ -93,7 +93,7 @@ std::vector<double> residuals(std::span<const Vec2> points, const Circle& c) {
   return r;
 }
 
-/// Tukey weights at scale `s`, and Huber's variance of one residual among those that keep a weight.
+/// Tukey weights at scale `s`; returns Huber's variance of one residual among the points with weight > 0.
 double tukey_weights(std::span<const double> r, double s, std::vector<double>& weights) {
   double psi2 = 0, slope = 0, n = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
@@ -111,7 +111,7 @@ double tukey_weights(std::span<const double> r, double s, std::vector<double>& w
 double robust_sd(std::span<const double> r) {
   std::vector<double> a(r.size());
   std::transform(r.begin(), r.end(), a.begin(), [](double x) { return std::fabs(x); });
-  // The factor for the three fitted parameters, exact for least squares.
+  // Correction for the three fitted parameters, exact for least squares.
   const double n = double(r.size());
   return kMadToSd * median_high(a) * std::sqrt(n / (n - 3));
 }
@@ -120,19 +120,19 @@ void fill_covariance(CircleFit& fit, std::span<const Vec2> points, double varian
   const std::vector<double> ones(points.size(), 1.0);
   const auto cov = inverse(normal_equations(points, ones, {fit.centre, fit.radius}).jtj);
   if (!cov)
-    throw Error(Errc::input, "circle fit", "the points do not determine a circle; they lie on a line");
+    throw Error(Errc::input, "circle fit", "the points do not determine a circle: they are collinear");
   fit.sd_centre = {std::sqrt(variance * (*cov)(0, 0)), std::sqrt(variance * (*cov)(1, 1))};
   fit.sd_radius = std::sqrt(variance * (*cov)(2, 2));
 }
 
-/// One hypothesis of the search. `sense` is +1 when normals point away from the centre, -1 inward, 0 unknown.
+/// A RANSAC hypothesis. `sense` is +1 when normals point away from the centre, -1 inward, 0: unknown.
 struct Hypothesis {
   Circle circle;
   int sense = 0;
   std::size_t votes = 0;
 };
 
-/// The points as the search sees them.
+/// The points with the options of the search.
 struct Cloud {
   std::span<const Vec2> points, normals;
   double tolerance = 0, min_cos = 0;
@@ -143,8 +143,8 @@ struct Cloud {
     if (along * along < min_cos * min_cos * dot(d, d)) return 0;
     return along > 0 ? 1 : -1;
   }
-  /// Calls act(i) for every point of `which` that supports h. Squared distances: this is where the search
-  /// spends its time.
+  /// Calls act(i) for every point of `which` that supports h. Uses squared distances, because this is the
+  /// innermost loop of the search.
   template <class Act>
   void for_support(const Hypothesis& h, std::span<const std::size_t> which, Act act) const {
     const double inner = std::max(h.circle.radius - tolerance, 0.0), outer = h.circle.radius + tolerance;
@@ -176,18 +176,18 @@ std::optional<Hypothesis> draw(const Cloud& cloud, const CircleSearchOptions& o,
   return h;
 }
 
-/// Pratt's fit on the support within three, then within one tolerance, for as long as that gains votes: three
-/// points close together give a rough circle even when all three are right.
-void polish(Hypothesis& h, const Cloud& cloud, std::span<const std::size_t> which,
-            const CircleSearchOptions& o) {
+/// Pratt's fit to the support within 3, 1.5 and 1 tolerances, kept if the number of votes does not decrease:
+/// three close points determine a circle only roughly.
+void refine_on_support(Hypothesis& h, const Cloud& cloud, std::span<const std::size_t> which,
+                       const CircleSearchOptions& o) {
   for (double reach : {3.0, 1.5, 1.0}) {
     Cloud wide = cloud;
     wide.tolerance = reach * cloud.tolerance;
     std::vector<Vec2> support;
     wide.for_support(h, which, [&](std::size_t i) { support.push_back(cloud.points[i]); });
-    const auto better = fit_circle_pratt(support);
-    if (!better || better->radius < o.min_radius || better->radius > o.max_radius) return;
-    Hypothesis next{*better, h.sense, 0};
+    const auto refit = fit_circle_pratt(support);
+    if (!refit || refit->radius < o.min_radius || refit->radius > o.max_radius) return;
+    Hypothesis next{*refit, h.sense, 0};
     next.votes = cloud.votes(next, which);
     if (next.votes >= h.votes) h = next;
   }
@@ -215,7 +215,7 @@ void best_first(std::vector<Hypothesis>& all) {
 std::optional<Circle> circle_through(Vec2 a, Vec2 b, Vec2 c) {
   const Vec2 p = b - a, q = c - a;
   const double cross = 2 * (p.x * q.y - p.y * q.x), pp = dot(p, p), qq = dot(q, q);
-  // 1e-9: a sagitta below a billionth of the chord is rounding, not curvature.
+  // A sagitta below 1e-9 of the chord is rounding.
   if (!(std::fabs(cross) > 1e-9 * std::sqrt(pp * qq))) return std::nullopt;
   const Vec2 centre{(q.y * pp - p.y * qq) / cross, (p.x * qq - q.x * pp) / cross};
   return Circle{a + centre, norm(centre)};
@@ -248,8 +248,8 @@ std::optional<Circle> fit_circle_pratt(std::span<const Vec2> points, std::span<c
     yz += w * p.y * z;
     zz += w * z * z;
   }
-  // With A = 1 the rows of (M - eta K) a = 0 give B, C and D, and the remaining row is the quartic q(eta) =
-  // 0. Its smallest root >= 0 is the minimum; Newton's steps from 0 cannot pass it.
+  // With A = 1 the rows of (M - eta K) a = 0 give B, C and D; the remaining row is the quartic q(eta) = 0.
+  // Its smallest root >= 0 is the minimum; Newton iterations from 0 do not overshoot it.
   double eta = 0, det = 0;
   for (int iteration = 0; iteration < 50; ++iteration) {
     const double ex = xx - eta, ey = yy - eta, d = 1 + 2 * eta, rest = zz - d * d;
@@ -271,7 +271,9 @@ std::optional<Circle> fit_circle_pratt(std::span<const Vec2> points, std::span<c
 
 CircleFit refine_circle(std::span<const Vec2> points, Circle start, CircleLoss loss) {
   if (points.size() < 4)
-    throw Error(Errc::input, "circle fit", "a circle with its uncertainty needs 4 points");
+    throw Error(
+        Errc::input, "circle fit",
+        std::to_string(points.size()) + " points are too few; a circle with uncertainty needs at least 4");
   std::vector<double> weights(points.size(), 1.0), r;
   double variance = 0;
   if (loss == CircleLoss::square) {
@@ -281,7 +283,7 @@ CircleFit refine_circle(std::span<const Vec2> points, Circle start, CircleLoss l
   } else {
     for (int round = 0; round < 20; ++round) {
       r = residuals(points, start);
-      // A floor far below any measured scatter keeps exact points from dividing by zero.
+      // The lower limit, far below any measured scatter, avoids division by zero for exact points.
       variance = tukey_weights(r, std::max(robust_sd(r), 1e-9 * start.radius), weights);
       const Circle before = start;
       start = minimise(points, weights, start);
@@ -301,7 +303,8 @@ CircleFit refine_circle(std::span<const Vec2> points, Circle start, CircleLoss l
     kept.push_back(points[i]);
     sum += r[i] * r[i];
   }
-  if (kept.size() < 4) throw Error(Errc::input, "circle fit", "fewer than 4 points agree on a circle");
+  if (kept.size() < 4)
+    throw Error(Errc::input, "circle fit", "fewer than 4 points are consistent with a circle");
   fit.rms = std::sqrt(sum / double(kept.size()));
   fit.arc_rad = covered_angle(kept, fit.centre);
   fill_covariance(fit, kept, variance);
@@ -320,14 +323,15 @@ std::vector<Circle> search_circles(std::span<const Vec2> points, std::span<const
 
   std::vector<Hypothesis> all = draw_all(cloud, scored, o);
   best_first(all);
-  // A circle only loses votes to the ones found before it, so the worst need not be looked at again.
+  // Votes only decrease as circles are found, so the worst hypotheses can be discarded.
   if (all.size() > 200) all.resize(200);
-  for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 40); ++i) polish(all[i], cloud, scored, o);
+  for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 40); ++i)
+    refine_on_support(all[i], cloud, scored, o);
   best_first(all);
   while (int(found.size()) < o.max_circles && !all.empty() && all.front().votes >= 4) {
     Hypothesis best = all.front();
     best.votes = cloud.votes(best, every);
-    polish(best, cloud, every, o);
+    refine_on_support(best, cloud, every, o);
     found.push_back(best.circle);
     std::erase_if(scored, [&](std::size_t i) {
       return std::fabs(norm(points[i] - best.circle.centre) - best.circle.radius) <= 2 * o.tolerance;
@@ -344,7 +348,7 @@ CircleFit fit_circle(std::span<const Vec2> points, const CircleSearchOptions& op
   const std::vector<Circle> found = search_circles(points, {}, o);
   if (found.empty())
     throw Error(Errc::input, "circle fit",
-                "no circle passes near enough of the points; is there an arc among them?");
+                "no circle is supported by at least 4 points; check that the points contain an arc");
   std::vector<Vec2> near;
   std::vector<std::size_t> index;
   for (std::size_t i = 0; i < points.size(); ++i) {

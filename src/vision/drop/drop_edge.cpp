@@ -11,9 +11,9 @@
 namespace faba {
 namespace {
 
-/// The place of an edge is a matter of definition to about a tenth of its width (half level, steepest, middle
-/// of a line), and of pixels to a twentieth.
-double place_sd(double width) { return std::sqrt(0.1 * width * 0.1 * width + 0.05 * 0.05); }
+/// Systematic uncertainty of the edge position: a tenth of its width (half level, steepest point, centre of a
+/// line) and a twentieth of a pixel.
+double position_sd(double width) { return std::sqrt(0.1 * width * 0.1 * width + 0.05 * 0.05); }
 
 DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPicture& prepared,
                   const DropEdgeOptions& o) {
@@ -21,9 +21,9 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   d.centre_image = c.circle.centre;
   d.radius_px = c.circle.radius;
   d.edge_width_px = c.profile.width * c.scale;
-  const double place = place_sd(d.edge_width_px);
+  const double systematic = position_sd(d.edge_width_px);
   d.sd_centre_px = c.fit.sd_centre;
-  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + place * place);
+  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic);
   d.arc_deg = c.seen_rad * 180 / std::numbers::pi;
   d.image_width = picture.width;
   d.image_height = picture.height;
@@ -47,12 +47,12 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
 DropEdge find_drop_edge(const GrayF& picture, const DropEdgeOptions& options) {
   const DropPicture prepared = prepare_drop_picture(picture, options);
   DropSearch search = search_drop_edge(prepared, options);
-  if (!search.accepted && search.refused) throw Error(Errc::input, options.name, search.refused->objection);
+  if (!search.accepted && search.rejected) throw Error(Errc::input, options.name, search.rejected->rejection);
   if (!search.accepted)
-    throw Error(
-        Errc::input, options.name,
-        "no edge of a drop: nothing in the picture stands out along an arc or a line; check focus and light, "
-        "and that the edge is in view");
+    throw Error(Errc::input, options.name,
+                "no drop edge detected: the picture has no arc or line with sufficient contrast; check focus "
+                "and light, "
+                "and that the edge is in view");
   DropEdge edge = describe(*search.accepted, picture, prepared, options);
   edge.segments = std::move(search.segments);
   return edge;

@@ -15,12 +15,12 @@
 namespace faba {
 namespace {
 
-constexpr int kSmallestSide = 64;  // px: below, a drop's arc has too few pieces to be told from chance
-constexpr int kSmallestCopy = 48;  // px
+constexpr int kSmallestSide = 64;  // px: a smaller picture has too few arc pieces for a significant test
+constexpr int kSmallestCopy = 48;  // px, coarsest pyramid level
 
 cv::Mat1f view_of(GrayF& g) { return {g.height, g.width, g.px.data()}; }
 
-/// About 30000 of the values, evenly spread over rows and columns: enough for percentiles, and quick.
+/// About 30000 of the values, evenly subsampled over rows and columns, for fast percentiles.
 std::vector<float> sample(const float* values, int width, int height) {
   const std::size_t size = std::size_t(width) * std::size_t(height);
   std::size_t stride = 1 + size / 30000;
@@ -37,15 +37,14 @@ void replace_hot_pixels(GrayF& grey, double limit_sd) {
   cv::medianBlur(view, median, 3);
   cv::absdiff(view, median, off);
   std::vector<float> some = sample(off.ptr<float>(), grey.width, grey.height);
-  // A flat picture has sd 0; then any pixel off its neighbours' median is a defect.
+  // A uniform picture has sd 0; any deviation from the median of the neighbours is then a defect.
   const double limit = std::max(limit_sd * kMadToSd * double(quantile_low(some, 0.5)), 1e-6);
-  const float *distance = off.ptr<float>(), *better = median.ptr<float>();
+  const float *distance = off.ptr<float>(), *median_px = median.ptr<float>();
   for (std::size_t i = 0; i < grey.px.size(); ++i)
-    if (double(distance[i]) > limit) grey.px[i] = better[i];
+    if (double(distance[i]) > limit) grey.px[i] = median_px[i];
 }
 
-/// Standard deviation of the pixel noise, from the differences of neighbours without their largest tenth
-/// (edges).
+/// Standard deviation of the pixel noise from differences of neighbours, without the largest tenth (edges).
 double noise_sd(const GrayF& g) {
   std::vector<float> squares;
   const std::size_t stride = 1 + g.px.size() / 30000;
@@ -54,19 +53,18 @@ double noise_sd(const GrayF& g) {
   const auto cut = squares.begin() + std::ptrdiff_t(0.9 * double(squares.size()));
   std::nth_element(squares.begin(), cut, squares.end());
   const double mean = std::accumulate(squares.begin(), cut, 0.0) / double(cut - squares.begin());
-  // A Gaussian without its outer tenth keeps 0.623 of its variance; a difference has twice a pixel's.
+  // A Gaussian truncated to 90 % has 0.623 of its variance; a difference has twice the variance of a pixel.
   return std::sqrt(mean / 0.623 / 2);
 }
 
-/// Height of the contour lines in picture grey. Noise of sd s dithers steps q of the grey scale: the first
-/// harmonic of their staircase falls as exp(-2 pi^2 (s/q)^2).
+/// Height of quantisation contours, grey of the picture. Noise of sd s dithers steps q of the grey scale: the
+/// first harmonic of the staircase decreases as exp(-2 pi^2 (s/q)^2).
 double contour_height(std::vector<float> some, double noise) {
   std::sort(some.begin(), some.end());
   double step = 0;
   for (std::size_t i = 1; i < some.size(); ++i)
     if (const double d = double(some[i] - some[i - 1]); d > 0 && (step == 0 || d < step)) step = d;
-  if (double(some.back() - some.front()) <= step)
-    return 0;  // two values: a mask, whose steps are the edge itself
+  if (double(some.back() - some.front()) <= step) return 0;  // two grey values: a mask, its step is the edge
   const double ratio = step > 0 ? noise / step : 1;
   return step * std::min(1.0, 4 * std::exp(-2 * std::numbers::pi * std::numbers::pi * ratio * ratio));
 }
@@ -94,17 +92,18 @@ void check(const GrayF& picture, const DropEdgeOptions& o) {
   if (std::min(picture.width, picture.height) < kSmallestSide)
     throw Error(
         Errc::input, o.name,
-        fmt::format("the picture is {} x {} px; at least {} px each way are needed to tell a drop's edge",
-                    picture.width, picture.height, kSmallestSide));
+        fmt::format(
+            "the picture is {} x {} px; it must be at least {} px in each direction for drop detection",
+            picture.width, picture.height, kSmallestSide));
   if (!std::all_of(picture.px.begin(), picture.px.end(), [](float p) { return std::isfinite(p); }))
     throw Error(Errc::input, o.name,
-                "the picture holds values that are not finite; export it from the camera again");
+                "the picture has pixels that are not finite; export it from the camera again");
 }
 
 }  // namespace
 
 DropPicture prepare_drop_picture(const GrayF& picture, const DropEdgeOptions& o) {
-  // OpenCV would start threads of its own beside our pool.
+  // Prevents OpenCV threads in addition to the thread pool.
   [[maybe_unused]] static const bool one_thread = [] {
     cv::setNumThreads(1);
     return true;

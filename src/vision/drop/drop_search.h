@@ -11,28 +11,29 @@
 
 namespace faba {
 
-/// A circle that was moved to where the picture shows its edge. Lengths in px of the picture, not of a copy.
+/// A circle refined to the edge in the picture. Lengths in px of the picture, not of a pyramid level.
 struct DropCandidate {
-  Circle circle;             ///< place of the edge: fit plus the middle of the grey profile across it
-  CircleFit fit;             ///< to `points`, with standard deviations
+  Circle circle;             ///< circle at the edge position: fit plus the position of the edge profile
+  CircleFit fit;             ///< fit to `points`, with standard deviations
   double arc_rad = 0;        ///< angle between the outermost points
-  double seen_rad = 0;       ///< angle along which the edge is seen: arc_rad without long gaps
+  double seen_rad = 0;       ///< angle along which the edge is detected: arc_rad without long gaps
   std::vector<Vec2> points;  ///< sub-pixel edge points, along the arc
-  ArcEvidence evidence;      ///< in px of the copy
-  EdgeProfile profile;       ///< across the edge, in px of the copy
-  double scale = 1;          ///< px of the picture per px of the copy
-  std::string objection;     ///< why it is not accepted as a drop's edge; empty when it is
+  ArcEvidence evidence;      ///< in px of the level
+  EdgeProfile profile;       ///< across the edge, in px of the level
+  double scale = 1;          ///< px of the picture per px of the level
+  std::string rejection;     ///< reason for rejection; empty: accepted
 };
 
-/// What a search came to.
+/// Result of search_drop_edge.
 struct DropSearch {
-  std::optional<DropCandidate> accepted;  ///< the best of those without objection
-  std::optional<DropCandidate> refused;   ///< the best of the others
-  std::vector<EdgeSegment> segments;      ///< Hough segments along `accepted` in the copy that led to it
+  std::optional<DropCandidate> accepted;  ///< best accepted candidate
+  std::optional<DropCandidate> rejected;  ///< best rejected candidate
+  std::vector<EdgeSegment>
+      segments;  ///< Hough segments along `accepted` in the pyramid level where it was found
 };
 
-/// Looks for circular edges in the picture and its copies: pixels along Hough segments first, all edge pixels
-/// when that leads to nothing, long straight segments last (to be able to say that the edge is straight).
+/// Searches circular edges in all pyramid levels: first among pixels along Hough segments, then among all
+/// edge pixels, last along long straight segments (to report a straight edge).
 DropSearch search_drop_edge(const DropPicture& picture, const DropEdgeOptions& options);
 
 }  // namespace faba

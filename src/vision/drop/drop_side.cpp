@@ -10,12 +10,13 @@
 namespace faba {
 namespace {
 
-constexpr double kSpotSd = 7;  // a spot's height: noise alone gives none in a picture of 1e6 pixels
-constexpr int kBorder = 8;     // px, where the filters see the replicated border
+constexpr double kSpotSd =
+    7;                      // noise sd, minimum height of a spot: no false detections in 1e6 pixels of noise
+constexpr int kBorder = 8;  // px, affected by the replicated border in the filters
 
 double spread(std::vector<float>& v) { return v.empty() ? 0 : kMadToSd * double(median_high(v)); }
 
-/// A picture position by the side of the circle it is on: 1 inside, 0 outside, -1 within the margin.
+/// Side of the circle for a picture position: 1 inside, 0 outside, -1 within the margin.
 class Sides {
  public:
   Sides(const Circle& c, double margin) : centre_(c.centre) {
@@ -35,15 +36,17 @@ class Sides {
 };
 
 bool is_peak(const cv::Mat1f& m, int r, int c) {
-  const float here = m(r, c);
+  const float height = m(r, c);
   for (int i = -2; i <= 2; ++i)
     for (int j = -2; j <= 2; ++j)
-      if ((i || j) && (m(r + i, c + j) > here || (m(r + i, c + j) == here && (i < 0 || (i == 0 && j < 0)))))
+      if ((i || j) &&
+          (m(r + i, c + j) > height || (m(r + i, c + j) == height && (i < 0 || (i == 0 && j < 0)))))
         return false;
   return true;
 }
 
-/// log10 P(at most k of n) for success probability p, by its largest term: enough for a limit of 1e-6.
+/// log10 P(at most k of n) for success probability p, approximated by the largest term; sufficient for a
+/// limit of 1e-6.
 double log10_at_most(double k, double n, double p) {
   if (k >= n * p) return 0;
   return (std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) + k * std::log(p) +
@@ -60,7 +63,7 @@ bool cells_only_outside(const GrayF& picture, const Circle& circle, double margi
   cv::blur(fine, broad, {13, 13}, {-1, -1}, cv::BORDER_REPLICATE);
   cv::Mat1f spots;
   cv::absdiff(fine, broad, spots);
-  // The noise differs between the sides (more light, more noise), so each has its own scale.
+  // The noise level depends on the light, so each side has its own scale.
   const Sides side(circle, margin_px);
   std::vector<float> values[2];
   for (int r = kBorder; r < picture.height - kBorder; r += 2)
@@ -72,22 +75,22 @@ bool cells_only_outside(const GrayF& picture, const Circle& circle, double margi
   double count[2] = {0, 0};
   for (int r = kBorder; r < picture.height - kBorder; ++r)
     for (int c = kBorder; c < picture.width - kBorder; ++c)
-      if (const float here = spots(r, c); here > std::min(limit[0], limit[1]))
-        if (const int s = side(r, c); s >= 0 && here > limit[s] && is_peak(spots, r, c)) count[s] += 1;
+      if (const float height = spots(r, c); height > std::min(limit[0], limit[1]))
+        if (const int s = side(r, c); s >= 0 && height > limit[s] && is_peak(spots, r, c)) count[s] += 1;
   return count[0] >= 10 && count[0] / area[0] > 4 * count[1] / area[1] &&
          log10_at_most(count[1], count[0] + count[1], area[1] / (area[0] + area[1])) < -6;
 }
 
 Vec2 point_on_side(int width, int height, const Circle& circle, bool inside) {
   Vec2 sum, deepest;
-  double count = 0, depth_there = -1e300;
+  double count = 0, max_depth = -1e300;
   const int pitch = 1 + std::min(width, height) / 200;
   for (int r = 0; r < height; r += pitch)
     for (int c = 0; c < width; c += pitch) {
       const Vec2 p{double(c), double(r)};
       const double depth = (circle.radius - norm(p - circle.centre)) * (inside ? 1 : -1);
-      if (depth > depth_there) {
-        depth_there = depth;
+      if (depth > max_depth) {
+        max_depth = depth;
         deepest = p;
       }
       if (depth > 0) {
@@ -95,7 +98,7 @@ Vec2 point_on_side(int width, int height, const Circle& circle, bool inside) {
         count += 1;
       }
     }
-  // Disk and picture are convex, so the centroid of what they share lies in both.
+  // Disk and picture are convex, so the centroid of their intersection lies in both.
   return inside && count > 0 ? (1 / count) * sum : deepest;
 }
 

@@ -11,14 +11,13 @@ namespace {
 
 using Coefficients = std::array<double, 4>;
 
-/// One shape with its linear coefficients {offset, slope, first, second} at given position and
-/// width.
+/// One shape with its linear coefficients {offset, slope, first, second} at a given position and width.
 struct Trial {
   double position = 0, width = 1, residual = 1e300;
   Coefficients k{};
 };
 
-/// Which columns stand beside the straight line.
+/// Model columns in addition to the straight line.
 struct Columns {
   bool step, ring;
 };
@@ -88,7 +87,7 @@ Trial fit_shape(std::span<const double> t, std::span<const double> grey, Columns
     for (int i = 0; i <= steps; ++i) consider(-reach + i * mesh, width);
     width *= 1.8;
   }
-  // Zoom: each round halves the mesh about the best point.
+  // Each round halves the search mesh around the best point.
   double dp = std::max(pitch, best.width / 1.5), dw = 1.8;
   for (int round = 0; round < 9; ++round) {
     dp /= 2;
@@ -101,7 +100,7 @@ Trial fit_shape(std::span<const double> t, std::span<const double> grey, Columns
   return best;
 }
 
-/// Sum of squares that is left after the best straight line.
+/// Residual sum of squares of the linear fit.
 double line_residual(std::span<const double> t, std::span<const double> grey) {
   std::array<Coefficients, 4> a{};
   Coefficients b{};
@@ -125,7 +124,7 @@ EdgeProfile fit_edge_profile(std::span<const double> grey) {
   std::vector<double> offset;
   const auto middle = double(std::size_t{grey.size() / 2});
   for (std::size_t i = 0; i < grey.size(); ++i) offset.push_back(double(i) - middle);
-  // About a mean near zero the sums of squares keep their digits.
+  // The mean is subtracted for numerical accuracy of the sums of squares.
   double mean = 0;
   for (double g : grey) mean += g / double(grey.size());
   std::vector<double> centred;
@@ -133,17 +132,17 @@ EdgeProfile fit_edge_profile(std::span<const double> grey) {
   const double all = line_residual(offset, centred);
   EdgeProfile out;
   if (!(all > 0)) return out;
-  constexpr double kEnough = 0.99;  // of the variance
+  constexpr double kEnough = 0.99;  // fraction of the variance
   const Trial step = fit_shape(offset, centred, {true, false}),
               ring = fit_shape(offset, centred, {false, true});
-  // A line whose two sides differ by more than its own height is the shoulder of a step.
+  // A line whose sides differ by more than its height is the shoulder of a step.
   const double fall = std::fabs(ring.k[1]) * (offset.back() - offset.front());
   const bool is_ring = ring.residual < step.residual && fall < std::fabs(ring.k[2]);
   Trial best = is_ring ? ring : step;
   out.shape = is_ring ? EdgeShape::ring : EdgeShape::step;
   if (best.residual > (1 - kEnough) * all) {
     const Trial both = fit_shape(offset, centred, {true, true});
-    // The line must be higher than the step, or the step's place hangs on a detail beside it.
+    // The line must be higher than the step; otherwise a detail beside the step would determine its position.
     if (both.residual < 0.5 * best.residual && std::fabs(both.k[3]) > std::fabs(both.k[2])) {
       best = both;
       out.shape = EdgeShape::step_ring;

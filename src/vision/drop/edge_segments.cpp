@@ -34,7 +34,8 @@ Gradient roberts(const cv::Mat1f& s) {
     const float *top = s[r], *low = s[r + 1];
     float *dx = g.dx[r], *dy = g.dy[r], *power = g.power[r];
     for (int c = 0; c < cols; ++c) {
-      // g1 runs up-left, g2 up-right, each over sqrt(2) px: their half sum and difference are d/dx and d/dy.
+      // g1 points up-left, g2 up-right, each over sqrt(2) px: half their difference and sum are d/dx and
+      // -d/dy.
       const float g1 = top[c] - low[c + 1], g2 = top[c + 1] - low[c];
       dx[c] = 0.5f * (g2 - g1);
       dy[c] = -0.5f * (g1 + g2);
@@ -44,7 +45,7 @@ Gradient roberts(const cv::Mat1f& s) {
   return g;
 }
 
-/// Otsu's split of the gradient magnitudes, as a power.
+/// Otsu threshold of the gradient magnitude, squared.
 double otsu_power(const cv::Mat1f& power) {
   double top = 0;
   cv::minMaxLoc(power, nullptr, &top);
@@ -57,8 +58,8 @@ double otsu_power(const cv::Mat1f& power) {
   return level * level;
 }
 
-/// On pure noise the squared gradient is exponential, so its mean is median / ln 2 and 4 means let exp(-4)
-/// = 1.8 % of the pixels pass before thinning.
+/// For pure noise the squared gradient is exponential: its mean is median / ln 2, and a threshold of 4 means
+/// passes exp(-4) = 1.8 % of the pixels before thinning.
 double noise_power(const cv::Mat1f& power) {
   std::vector<float> sample;
   const std::size_t stride = 1 + power.total() / 30000;
@@ -74,7 +75,8 @@ double threshold_power(const cv::Mat1f& power, const EdgeSegmentOptions& o) {
   return 6 * cv::mean(power)[0];
 }
 
-/// Keeps what is above the threshold and not weaker than both neighbours across the edge.
+/// Non-maximum suppression: pixels above the threshold and not weaker than both neighbours along the
+/// gradient.
 cv::Mat1b thin(const Gradient& g, double power_limit) {
   cv::Mat1b edges(g.power.size(), uchar(0));
   for (int r = 1; r + 1 < edges.rows; ++r)
@@ -82,7 +84,7 @@ cv::Mat1b thin(const Gradient& g, double power_limit) {
       const float p = g.power(r, c);
       if (!(double(p) > power_limit)) continue;
       const float ax = std::fabs(g.dx(r, c)), ay = std::fabs(g.dy(r, c));
-      // 0.414 = tan(22.5 deg): the neighbour in whose sector of 45 deg the gradient points.
+      // 0.414 = tan(22.5 deg): selects the neighbour in the 45 deg sector of the gradient.
       const int along = g.dx(r, c) * g.dy(r, c) >= 0 ? 1 : -1;
       const int sc = ax > 0.414f * ay ? 1 : 0, sr = ay > 0.414f * ax ? (sc ? along : 1) : 0;
       if (p >= g.power(r + sr, c + sc) && p > g.power(r - sr, c - sc)) edges(r, c) = 255;
@@ -116,7 +118,7 @@ double length(const EdgeSegment& s) { return norm(s.b - s.a); }
 
 std::vector<EdgeSegment> hough_segments(const cv::Mat1b& edges, const EdgeSegmentOptions& o) {
   std::vector<cv::Vec4i> lines;
-  // Half the length in votes: a segment may be bridged from pieces, but must be mostly there.
+  // Votes: half the minimum length, because gaps are bridged.
   const int votes = std::max(6, int(o.min_length_px / 2));
   cv::HoughLinesP(edges, lines, 1, std::numbers::pi / 180, votes, o.min_length_px, o.fill_gap_px);
   std::vector<EdgeSegment> segments;
@@ -128,16 +130,16 @@ std::vector<EdgeSegment> hough_segments(const cv::Mat1b& edges, const EdgeSegmen
   return segments;
 }
 
-/// A segment as the test of its supporters needs it.
+/// A segment prepared for the test of supporting pixels.
 struct Strip {
   Vec2 start, along;
   double length = 0;
   explicit Strip(const EdgeSegment& s) : start(s.a), length(norm(s.b - s.a)) {
     along = (1 / length) * (s.b - s.a);
   }
-  bool holds(const EdgePixel& p) const {
+  bool supports(const EdgePixel& p) const {
     constexpr double kOff = 1.5, kOver = 2,
-                     kCos = 0.819;  // px, px, 35 deg: a chord of an arc, and pixel noise
+                     kCos = 0.819;  // px, px, cos 35 deg: tolerances for arcs and pixel noise
     const Vec2 across{-along.y, along.x}, d = p.pos - start;
     const double t = dot(d, along);
     return std::fabs(dot(d, across)) <= kOff && t >= -kOver && t <= length + kOver &&
@@ -159,7 +161,7 @@ EdgeSegments find_edge_segments(const GrayF& picture, const EdgeSegmentOptions& 
   out.pixels = list_pixels(edges, g);
   const std::vector<Strip> strips(out.segments.begin(), out.segments.end());
   for (const EdgePixel& p : out.pixels)
-    if (std::any_of(strips.begin(), strips.end(), [&](const Strip& s) { return s.holds(p); }))
+    if (std::any_of(strips.begin(), strips.end(), [&](const Strip& s) { return s.supports(p); }))
       out.support.push_back(p);
   return out;
 }

@@ -22,7 +22,7 @@ extern "C" {
 namespace faba {
 namespace {
 
-constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // a hostile header may claim anything
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // limit for corrupt or malicious headers
 
 using Frame = std::unique_ptr<AVFrame, libav::Freed<av_frame_free>>;
 using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
@@ -33,8 +33,9 @@ struct CloseIo {
 };
 using Io = std::unique_ptr<AVIOContext, CloseIo>;
 
-// Kinds that libavformat would draw or guess out of any bytes, or that are lists of other files.
-bool is_no_video(std::string_view kind) {
+// Formats that libavformat accepts for arbitrary bytes (text art, raw data), and formats that refer to other
+// files.
+bool is_refused_format(std::string_view kind) {
   constexpr std::array<std::string_view, 12> kRefused = {
       "tty", "bin", "xbin", "adf", "idf", "rawvideo", "hls", "concat", "dash", "applehttp", "sdp", "imf"};
   return std::find(kRefused.begin(), kRefused.end(), kind) != kRefused.end();
@@ -42,8 +43,8 @@ bool is_no_video(std::string_view kind) {
 
 bool is_still(std::string_view kind) { return kind.ends_with("_pipe") || kind == "image2"; }
 
-// An AVI states its own size; libavformat does not compare it with the file's.
-bool is_avi_cut_short(const std::filesystem::path& path) {
+// An AVI header stores the file size; libavformat does not compare it with the actual size.
+bool is_avi_truncated(const std::filesystem::path& path) {
   std::array<unsigned char, 8> head{};
   std::ifstream file(path, std::ios::binary);
   if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
@@ -52,16 +53,17 @@ bool is_avi_cut_short(const std::filesystem::path& path) {
   return stated > std::filesystem::file_size(path) + 1;  // the last chunk may lack its padding byte
 }
 
-// The decoder fills up the rest of a JPEG that lacks its end mark. The bytes FF DA (a scan begins) and FF D9
-// (the end) cannot occur inside coded data.
-bool is_jpeg_cut_short(const std::filesystem::path& path) {
+// The decoder pads a JPEG without end marker. The markers FF DA (start of scan) and FF D9 (end of image)
+// cannot occur inside entropy-coded data.
+bool is_jpeg_truncated(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
   const auto scan = bytes.rfind("\xFF\xDA");
   return scan == std::string::npos || bytes.find("\xFF\xD9", scan) == std::string::npos;
 }
 
-// FFmpeg reads PGM and PPM with any white space in the header, but recognizes only one field a line.
+// FFmpeg decodes PGM and PPM with any white space in the header, but detects only headers with one field per
+// line.
 const AVInputFormat* portable_map(AVIOContext& io) {
   unsigned char magic[3] = {};
   const int read = avio_read(&io, magic, 3);
@@ -76,20 +78,20 @@ const AVInputFormat* portable_map(AVIOContext& io) {
 
 struct AvStream::Impl {
   std::filesystem::path path;
-  Io io;  // outlives the container, which reads through it
+  Io io;  // declared before the container, which reads through it
   Container container;
   Codec codec;
-  // One packet is held back: only the next read tells whether the last one was cut.
+  // One packet is held back: only the next read reports whether it was truncated.
   Packet held{av_packet_alloc()}, incoming{av_packet_alloc()};
   Frame frame{av_frame_alloc()};
   AVStream* stream = nullptr;
 
   int width = 0, height = 0, pixel_bits = 0;
   double fps = 0;
-  bool still = false, frame_waiting = false, cut_short = false;
-  std::string probing_complaint;  // of a file so short that its end was met while it was opened
-  bool holding = false, complained = false, all_read = false;
-  // After damage: what is predicted from a lost frame is wrong as well.
+  bool still = false, frame_waiting = false, truncated = false;
+  std::string probing_error;  // error logged while the file was opened, when its end was already reached
+  bool holding = false, error_logged = false, all_read = false;
+  // After damage: frames predicted from a lost frame are wrong as well.
   bool need_key_packet = false, need_key_frame = false;
   std::int64_t damaged = 0, delivered = 0;
   std::string damage;
@@ -100,7 +102,7 @@ struct AvStream::Impl {
   void open();
   void open_codec();
   bool decode();
-  bool next(RawFrame& out, double& t_s);  // `out` is good until the next call
+  bool next(RawFrame& out, double& t_s);  // `out` is valid until the next call
   void feed();
   bool read_packet();
   void end_of_file(int result);
@@ -121,27 +123,26 @@ void AvStream::Impl::open() {
   AVFormatContext* raw = avformat_alloc_context();
   raw->pb = io.get();
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "protocol_whitelist", "none", 0);           // play lists may not open anything
+  av_dict_set(&options, "protocol_whitelist", "none", 0);           // play lists must not open other files
   result = avformat_open_input(&raw, "", kind_by_magic, &options);  // frees `raw` itself on failure
   av_dict_free(&options);
-  if (result < 0)
-    refuse("is no picture or video that can be read, or was cut short: " + libav::reason(result));
+  if (result < 0) refuse("is not a supported picture or video, or is truncated: " + libav::reason(result));
   container.reset(raw);
   const std::string_view kind = container->iformat->name;
-  if (is_no_video(kind)) refuse("is no picture or video");
+  if (is_refused_format(kind)) refuse("is not a picture or video");
   still = is_still(kind);
-  if (kind == "jpeg_pipe" && is_jpeg_cut_short(path))
-    refuse("is damaged or cut short: the end of the JPEG is missing");
+  if (kind == "jpeg_pipe" && is_jpeg_truncated(path))
+    refuse("is damaged or truncated: the end marker of the JPEG is missing");
 
   libav::forget_messages();
   result = avformat_find_stream_info(container.get(), nullptr);
-  if (result < 0) refuse("its streams cannot be read: " + libav::reason(result));
-  if (io->eof_reached != 0) probing_complaint = libav::first_message();
+  if (result < 0) refuse("the streams cannot be read: " + libav::reason(result));
+  if (io->eof_reached != 0) probing_error = libav::first_message();
   result = av_find_best_stream(container.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (result < 0) refuse("holds no picture stream");
+  if (result < 0) refuse("contains no video stream");
   stream = container->streams[result];
   if ((stream->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0)
-    refuse("is a sound file; its cover is no video");
+    refuse("is an audio file; its cover picture is not a video");
   open_codec();
 }
 
@@ -149,28 +150,27 @@ void AvStream::Impl::open_codec() {
   const char* name = avcodec_get_name(stream->codecpar->codec_id);
   const AVCodec* decoder = avcodec_find_decoder(stream->codecpar->codec_id);
   if (decoder == nullptr) {
-    refuse(std::string("is coded in a way that cannot be read here: ") + name +
-           "; convert it to H.264 or PNG");
+    refuse(std::string("codec not supported: ") + name + "; convert it to H.264 or PNG");
   }
   codec.reset(avcodec_alloc_context3(decoder));
   avcodec_parameters_to_context(codec.get(), stream->codecpar);
   codec->thread_count = 1;
   codec->max_pixels = kMaxPixels;
   codec->pkt_timebase = stream->time_base;
-  // A still is whole or refused; in a video a flaw in some side information must not cost the frame.
+  // A damaged still image is refused; in a video, damage to side information must not lose the frame.
   codec->err_recognition = AV_EF_CRCCHECK | (still ? AV_EF_EXPLODE | AV_EF_BITSTREAM | AV_EF_BUFFER : 0);
   libav::forget_messages();
   const int result = avcodec_open2(codec.get(), decoder, nullptr);
-  if (result < 0) refuse(std::string("its ") + name + " stream cannot be decoded: " + libav::reason(result));
+  if (result < 0) refuse(std::string("the ") + name + " stream cannot be decoded: " + libav::reason(result));
 
   frame_waiting = decode();
   if (!frame_waiting)
-    refuse("is damaged or cut short, no whole frame in it" + (damage.empty() ? "" : ": " + damage));
+    refuse("is damaged or truncated: no complete frame" + (damage.empty() ? "" : "; " + damage));
   width = frame->width;
   height = frame->height;
   pixel_bits = grey_bits(frame->format);
   if (pixel_bits == 0) {
-    refuse("has pixels of a kind that cannot be read: " + pixel_format_name(frame->format));
+    refuse("pixel format not supported: " + pixel_format_name(frame->format));
   }
   const AVRational mean = stream->avg_frame_rate;
   const AVRational rate = mean.num > 0 && mean.den > 0 ? mean : stream->r_frame_rate;
@@ -181,16 +181,16 @@ void AvStream::Impl::note_damage(const std::string& why) {
   ++damaged;
   need_key_packet = true;
   if (!damage.empty()) return;
-  damage = (delivered == 0 ? "" : "after " + std::to_string(delivered) + " whole frames ") + why;
+  damage = (delivered == 0 ? "" : "after " + std::to_string(delivered) + " complete frames ") + why;
 }
 
-// Decodes until a whole frame is in `frame`; false at the end.
+// Decodes until `frame` holds a complete frame; false at the end.
 bool AvStream::Impl::decode() {
   for (;;) {
     libav::forget_messages();
     const int result = avcodec_receive_frame(codec.get(), frame.get());
     if (result == AVERROR_EOF) {
-      if (need_key_packet) cut_short = true;
+      if (need_key_packet) truncated = true;
       return false;
     }
     if (result == AVERROR(EAGAIN)) {
@@ -209,7 +209,7 @@ bool AvStream::Impl::decode() {
   }
 }
 
-// Gives the decoder one packet, or word that there are no more.
+// Sends one packet to the decoder, or the end-of-stream signal.
 void AvStream::Impl::feed() {
   while (!all_read) {
     const bool more = read_packet();
@@ -220,14 +220,14 @@ void AvStream::Impl::feed() {
   avcodec_send_packet(codec.get(), nullptr);
 }
 
-// Reads the next packet of the stream into `incoming`. At the end of a file cut short the packet held is
+// Reads the next packet of the stream into `incoming`. At the end of a truncated file the held packet is
 // dropped.
 bool AvStream::Impl::read_packet() {
   for (;;) {
     libav::forget_messages();
     av_packet_unref(incoming.get());
     const int result = av_read_frame(container.get(), incoming.get());
-    complained = !libav::first_message().empty() || (result < 0 && complained);
+    error_logged = !libav::first_message().empty() || (result < 0 && error_logged);
     if (result < 0) {
       end_of_file(result);
       return false;
@@ -253,16 +253,16 @@ void AvStream::Impl::send(AVPacket& packet) {
 void AvStream::Impl::end_of_file(int result) {
   all_read = true;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
-  bool missing = container->iformat->name == std::string_view("avi") && is_avi_cut_short(path);
+  bool missing = container->iformat->name == std::string_view("avi") && is_avi_truncated(path);
   for (int i = 0; i < avformat_index_get_entries_count(stream) && !missing; ++i) {
     const AVIndexEntry* entry = avformat_index_get_entry(stream, i);
     missing = entry->pos + entry->size > size;
   }
-  cut_short = missing || complained || !probing_complaint.empty() || result != AVERROR_EOF;
-  const std::string complaint = libav::first_message().empty() ? probing_complaint : libav::first_message();
-  if (complained && holding) held->flags |= AV_PKT_FLAG_CORRUPT;
-  if (cut_short && damage.empty()) {
-    damage = "the file ends before it should" + (complaint.empty() ? "" : " (" + complaint + ")");
+  truncated = missing || error_logged || !probing_error.empty() || result != AVERROR_EOF;
+  const std::string complaint = libav::first_message().empty() ? probing_error : libav::first_message();
+  if (error_logged && holding) held->flags |= AV_PKT_FLAG_CORRUPT;
+  if (truncated && damage.empty()) {
+    damage = "the file is truncated" + (complaint.empty() ? "" : " (" + complaint + ")");
   }
 }
 
@@ -273,7 +273,7 @@ double AvStream::Impl::time_of_frame() {
   if (stamp != AV_NOPTS_VALUE && fps > 0) {
     if (first_stamp == AV_NOPTS_VALUE) first_stamp = stamp;
     const double stamped = static_cast<double>(stamp - first_stamp) * av_q2d(stream->time_base);
-    if (delivered == 0 || stamped > last_t) t = stamped;  // time never stands still, whatever a file says
+    if (delivered == 0 || stamped > last_t) t = stamped;  // times increase even if the time stamps do not
   }
   last_t = t;
   return t;
@@ -291,7 +291,7 @@ int AvStream::width() const { return impl_->width; }
 int AvStream::height() const { return impl_->height; }
 int AvStream::bits() const { return impl_->pixel_bits; }
 double AvStream::fps() const { return impl_->fps; }
-bool AvStream::truncated() const { return impl_->cut_short; }
+bool AvStream::truncated() const { return impl_->truncated; }
 std::int64_t AvStream::damaged_frames() const { return impl_->damaged; }
 const std::string& AvStream::damage() const { return impl_->damage; }
 
@@ -315,7 +315,7 @@ bool AvStream::Impl::next(RawFrame& out, double& t_s) {
   const AVFrame& raw = *frame;
   if (raw.width != width || raw.height != height || grey_bits(raw.format) != pixel_bits) {
     refuse("frame " + std::to_string(delivered) +
-           " has another size or depth than the first; cut the video there");
+           " differs in size or bit depth from the first; split the video there");
   }
   t_s = time_of_frame();
   out = {raw.data, raw.linesize, raw.width, raw.height, raw.format, raw.color_range, raw.colorspace};
@@ -333,7 +333,7 @@ bool AvStream::read(GrayF& frame, double& t_s) {
 bool AvStream::read_colours(RgbImage& frame, double& t_s) {
   RawFrame raw;
   if (!impl_->next(raw, t_s)) return false;
-  if (!to_colours(raw, frame)) impl_->refuse("colours of this kind are not understood");
+  if (!to_colours(raw, frame)) impl_->refuse("the pixel format cannot be converted to RGB");
   return true;
 }
 

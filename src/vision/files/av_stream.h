@@ -8,12 +8,13 @@
 
 namespace faba {
 
-/// A picture or video file as libavformat and libavcodec read it: what VideoReader uses for all but TIFF, and
-/// whose public functions mean the same. The kind of file is told from its content alone, never from its
-/// name; only the file itself is opened, whatever addresses a play list may hold.
+/// Decoder of picture and video files by libavformat and libavcodec. VideoReader uses it for every format
+/// except TIFF; the public functions have the meaning documented there. The format is detected from the
+/// content, not from the file name. Only the file itself is opened; addresses in a play list are not
+/// followed.
 class AvStream {
  public:
-  /// Throws Error(Errc::input, path) when the content is not understood or no frame can be decoded.
+  /// Throws Error(Errc::input, path) when the format is not supported or no frame can be decoded.
   explicit AvStream(const std::filesystem::path& path);
   ~AvStream();
   AvStream(AvStream&&) noexcept;
@@ -22,7 +23,7 @@ class AvStream {
   int width() const;                                ///< px
   int height() const;                               ///< px
   int bits() const;                                 ///< 8 or 16
-  double fps() const;                               ///< 0 for a still picture
+  double fps() const;                               ///< 0 for a still image
   std::int64_t frames_stated() const;               ///< 0 when not stated
   bool read(GrayF& frame, double& t_s);             ///< see VideoReader::read
   bool read_colours(RgbImage& frame, double& t_s);  ///< see VideoReader::read_colours

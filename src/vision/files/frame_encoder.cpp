@@ -33,7 +33,8 @@ void describe_h264(AVCodecContext& codec, FrameRate rate) {
   codec.pix_fmt = AV_PIX_FMT_YUV420P;
   codec.gop_size = std::max(1, (rate.numerator + rate.denominator / 2) / rate.denominator);
   codec.max_b_frames = 0;
-  // Untagged or limited range shifts greys in browsers, and an untagged matrix makes them guess by the size.
+  // Browsers shift grey values if the range is untagged or limited, and guess an untagged matrix from the
+  // picture size.
   codec.color_range = AVCOL_RANGE_JPEG;
   codec.colorspace = AVCOL_SPC_SMPTE170M;
   codec.color_primaries = AVCOL_PRI_BT709;
@@ -42,8 +43,8 @@ void describe_h264(AVCodecContext& codec, FrameRate rate) {
   av_opt_set(codec.priv_data, "preset", "veryfast", 0);
   av_opt_set(codec.priv_data, "tune", "zerolatency", 0);
   av_opt_set(codec.priv_data, "crf", "20", 0);
-  // Small cells on camera noise: split blocks and weighted prediction only cost time (a third of it) and even
-  // bytes.
+  // For small cells on camera noise, macroblock partitions and weighted prediction increase the encoding time
+  // by a third and even the file size.
   av_opt_set(codec.priv_data, "x264-params", "cpu-independent=1:partitions=none:weightp=0", 0);
 }
 
@@ -66,7 +67,7 @@ struct FrameEncoder::Impl {
   std::span<const std::uint8_t> code();
   template <class Pixel>
   void copy(const Image<Pixel>& picture);
-  void fill_up();
+  void pad_to_yuv420();
 };
 
 void FrameEncoder::Impl::open() {
@@ -78,8 +79,8 @@ void FrameEncoder::Impl::open() {
                                           : "png";
   const AVCodec* encoder = avcodec_find_encoder_by_name(name);
   if (encoder == nullptr) {
-    fail(std::string("this FFmpeg has no encoder ") + name +
-         (is_h264(kind) ? "; install one built with x264 or record lossless_avi" : ""));
+    fail(std::string("this FFmpeg does not have the encoder ") + name +
+         (is_h264(kind) ? "; install an FFmpeg with libx264, or record lossless_avi" : ""));
   }
   codec.reset(avcodec_alloc_context3(encoder));
   codec->width = width;
@@ -94,7 +95,7 @@ void FrameEncoder::Impl::open() {
                      : kind == Kind::png_colour || kind == Kind::ppm ? AV_PIX_FMT_RGB24
                                                                      : AV_PIX_FMT_GRAY8;
     codec->compression_level = 1;
-    // Camera noise packs best, and fastest, as it is. Encoders without such an option take no notice.
+    // Camera noise compresses best and fastest without prediction. Encoders without this option ignore it.
     av_opt_set(codec->priv_data, "pred", "none", 0);
   }
   libav::forget_messages();
@@ -105,7 +106,7 @@ void FrameEncoder::Impl::open() {
   frame->width = codec->width;
   frame->height = codec->height;
   frame->color_range = codec->color_range;
-  if (av_frame_get_buffer(frame.get(), 0) < 0) fail("no memory for a video frame");
+  if (av_frame_get_buffer(frame.get(), 0) < 0) fail("out of memory for a video frame");
   count = 0;
 }
 
@@ -118,8 +119,8 @@ void FrameEncoder::Impl::copy(const Image<Pixel>& picture) {
   }
 }
 
-// A grey picture in `frame` becomes 4:2:0 of even size.
-void FrameEncoder::Impl::fill_up() {
+// Pads a grey picture in `frame` to even size and sets neutral chroma (4:2:0).
+void FrameEncoder::Impl::pad_to_yuv420() {
   const std::ptrdiff_t stride = frame->linesize[0];
   if (width % 2 != 0)
     for (int row = 0; row < height; ++row) {
@@ -150,16 +151,17 @@ void FrameEncoder::Impl::check(const Image<Pixel>& picture, bool kind_fits) cons
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (!kind_fits || picture.width != width || picture.height != height || picture.px.size() != pixels) {
     fail("a frame of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-         " px does not fit this encoder of " + std::to_string(width) + " x " + std::to_string(height) +
-         " px");
+         " px does not match the encoder: wrong pixel type or size; it must be " + std::to_string(width) +
+         " x " + std::to_string(height) + " px");
   }
 }
 
 FrameEncoder::FrameEncoder(Kind kind, int width, int height, FrameRate rate, std::string where)
     : impl_(std::make_unique<Impl>(Impl{kind, width, height, rate, std::move(where)})) {
   if (width < 1 || height < 1 || width > kLongestVideoSide || height > kLongestVideoSide) {
-    impl_->fail("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                " px cannot be encoded; 1 to " + std::to_string(kLongestVideoSide) + " px are possible");
+    impl_->fail("picture size " + std::to_string(width) + " x " + std::to_string(height) +
+                " px is out of range; width and height must be between 1 and " +
+                std::to_string(kLongestVideoSide) + " px");
   }
   impl_->open();
 }
@@ -170,7 +172,7 @@ FrameEncoder& FrameEncoder::operator=(FrameEncoder&&) noexcept = default;
 std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
   Impl& self = *impl_;
   self.check(picture, self.kind == Kind::png_colour || self.kind == Kind::ppm || self.kind == Kind::h264);
-  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
+  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("out of memory for a video frame");
   if (self.kind == Kind::h264) {
     const AVFrame& to = *self.frame;
     to_yuv420(picture, {to.data[0], to.data[1], to.data[2], to.linesize[0], to.linesize[1], to.linesize[2]});
@@ -185,16 +187,16 @@ std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
   Impl& self = *impl_;
   self.check(picture, self.kind == Kind::png_grey || self.kind == Kind::pgm || self.kind == Kind::tiff ||
                           self.kind == Kind::h264_grey);
-  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
+  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("out of memory for a video frame");
   self.copy(picture);
-  if (self.kind == Kind::h264_grey) self.fill_up();
+  if (self.kind == Kind::h264_grey) self.pad_to_yuv420();
   return self.code();
 }
 
 std::span<const std::uint8_t> FrameEncoder::encode(const Image<std::uint16_t>& picture) {
   Impl& self = *impl_;
   self.check(picture, self.kind == Kind::png_grey16);
-  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("no memory for a video frame");
+  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("out of memory for a video frame");
   for (int row = 0; row < picture.height; ++row) {
     std::uint8_t* to = self.frame->data[0] + std::ptrdiff_t{row} * self.frame->linesize[0];
     const std::uint16_t* from = picture.px.data() + std::ptrdiff_t{row} * picture.width;

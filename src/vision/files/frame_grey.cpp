@@ -23,7 +23,7 @@ const AVPixFmtDescriptor* describe(int pixel_format) {
 
 bool has(const AVPixFmtDescriptor& format, std::uint64_t flag) { return (format.flags & flag) != 0; }
 
-// Grey as a linear function of the stored number, clipped to the scale.
+// Linear map from the stored value to grey, clipped to the scale.
 struct Scale {
   float black = 0, gain = 1, white = 255;
   float operator()(float stored) const { return std::clamp((stored - black) * gain, 0.0F, white); }
@@ -52,8 +52,8 @@ Scale scale_of(const RawFrame& frame, const AVPixFmtDescriptor& format) {
   return scale;
 }
 
-// One byte per pixel, and whatever it means by way of a table: 8-bit grey, 8-bit luma, palettes.
-void through_table(const RawFrame& frame, const std::array<float, 256>& table, GrayF& out) {
+// One byte per pixel, converted by a lookup table: 8-bit grey, 8-bit luma, palettes.
+void apply_lookup_table(const RawFrame& frame, const std::array<float, 256>& table, GrayF& out) {
   for (int row = 0; row < out.height; ++row) {
     const std::uint8_t* in = frame.planes[0] + std::ptrdiff_t{row} * frame.strides[0];
     float* grey = &out.at(0, row);
@@ -78,7 +78,7 @@ std::array<float, 256> luma_table(const Scale& scale) {
   return table;
 }
 
-// Any layout: libav unpacks one row of one channel at a time, whatever its order, padding and byte order.
+// Any memory layout: libav unpacks one row of one channel per call.
 class ChannelRows {
  public:
   ChannelRows(const RawFrame& frame, const AVPixFmtDescriptor& format) : frame_(frame), format_(format) {
@@ -137,9 +137,9 @@ void to_grey(const RawFrame& frame, GrayF& out) {
   const AVComponentDescriptor& luma = format.comp[0];
   const bool bytes = luma.depth == 8 && luma.step == 1 && luma.offset == 0 && luma.plane == 0;
   if (palette) {
-    through_table(frame, palette_table(frame), out);
+    apply_lookup_table(frame, palette_table(frame), out);
   } else if (bytes && !has(format, AV_PIX_FMT_FLAG_RGB)) {
-    through_table(frame, luma_table(scale), out);
+    apply_lookup_table(frame, luma_table(scale), out);
   } else {
     by_channels(frame, format, scale, out);
   }

@@ -8,8 +8,8 @@
 
 namespace faba {
 
-/// A video as analyses want it: frames in greys of 0 to 255 (see GreyScale), each averaged over squares of
-/// `side` px.
+/// A video for analysis: frames in grey values 0 to 255 (see GreyScale), averaged over squares of `side` px
+/// (binning).
 class GreyVideo {
  public:
   /// `side` >= 1, not larger than a frame.
@@ -24,7 +24,7 @@ class GreyVideo {
   int height() const { return reader_.height() / side_; }
   int side() const { return side_; }
   const VideoReader& reader() const { return reader_; }
-  /// What was done to its greys in words; empty when nothing was, or nothing has been read.
+  /// Description of the applied grey scaling; empty when no scaling was applied or no frame was read yet.
   std::string words() const { return greys_ ? greys_->words() : ""; }
 
  private:

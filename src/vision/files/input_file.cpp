@@ -14,17 +14,17 @@ InputKind check_input_file(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& why) { throw Error(Errc::input, path.string(), why); };
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
-  if (status.type() == std::filesystem::file_type::not_found) refuse("no such file; check the name");
-  if (failure) refuse("cannot be looked at: " + failure.message());
-  if (is_directory(status)) refuse("is a directory; name one picture or video file");
-  if (!is_regular_file(status)) refuse("is not an ordinary file; save the picture or video to a file first");
+  if (status.type() == std::filesystem::file_type::not_found) refuse("file not found; check the name");
+  if (failure) refuse("cannot be read: " + failure.message());
+  if (is_directory(status)) refuse("is a directory; specify one picture or video file");
+  if (!is_regular_file(status)) refuse("is not a regular file; save the picture or video to a file first");
 
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse("cannot be opened: " + std::generic_category().message(errno));
   std::array<char, 4> head{};
   file.read(head.data(), head.size());
-  if (file.gcount() == 0) refuse("is empty; the recording or copy did not complete");
+  if (file.gcount() == 0) refuse("the file is empty; the recording or copy is incomplete");
   const std::string_view magic(head.data(), head.size());
   using namespace std::string_view_literals;
   for (const auto tiff : {"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv}) {

@@ -3,14 +3,14 @@
 
 namespace faba {
 
-/// What a picture or video file is read with.
+/// Reader for a picture or video file.
 enum class InputKind {
-  tiff,    ///< begins with a TIFF or BigTIFF signature, whatever its name
-  stream,  ///< anything else: a picture or video for libavformat to recognise
+  tiff,    ///< starts with a TIFF or BigTIFF signature
+  stream,  ///< any other content; libavformat detects the format
 };
 
-/// Looks at the first bytes of a picture or video file. Throws Error(Errc::input, path) when `path` is
-/// missing, a directory, not a regular file, empty, or may not be read.
+/// Selects the reader by the first bytes of a file. Throws Error(Errc::input, path) when `path` does not
+/// exist, is a directory, is not a regular file, is empty, or cannot be opened.
 InputKind check_input_file(const std::filesystem::path& path);
 
 }  // namespace faba

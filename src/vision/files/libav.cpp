@@ -15,7 +15,7 @@ namespace {
 
 thread_local std::string message;
 
-void keep_first_complaint(void*, int level, const char* format, std::va_list arguments) {
+void keep_first_error(void*, int level, const char* format, std::va_list arguments) {
   if (level > AV_LOG_ERROR || !message.empty()) return;
   std::array<char, 256> line{};
   std::vsnprintf(line.data(), line.size(), format, arguments);
@@ -28,7 +28,7 @@ void keep_first_complaint(void*, int level, const char* format, std::va_list arg
 
 void quiet() {
   static std::once_flag once;
-  std::call_once(once, [] { av_log_set_callback(keep_first_complaint); });
+  std::call_once(once, [] { av_log_set_callback(keep_first_error); });
 }
 
 void forget_messages() { message.clear(); }

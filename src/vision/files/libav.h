@@ -3,21 +3,22 @@
 
 namespace faba::libav {
 
-/// Stops libavformat and libavcodec from printing; what they would have said is kept for reason(). Cheap, and
-/// safe to call from any thread: every entry into those libraries calls it first.
+/// Redirects the log of libavformat and libavcodec: nothing is printed, the first error is kept for reason().
+/// Cheap and thread-safe; every function that uses these libraries calls it first.
 void quiet();
 
-/// Forgets what the libraries said on this thread, so that the next reason() speaks of the next call only.
+/// Clears the log messages of this thread, so that the next reason() refers to the next call only.
 void forget_messages();
 
-/// The first complaint (level error or worse) of the libraries on this thread since forget_messages(); empty
-/// if none.
+/// First log message of level error or worse on this thread since forget_messages(); empty if there were no
+/// errors.
 std::string first_message();
 
-/// One line for a libav error number (negative), followed by first_message() in brackets when there is one.
+/// Description of a libav error code (negative) in one line, followed by first_message() in brackets, if
+/// there is one.
 std::string reason(int error_number);
 
-/// Deleter for the libraries' objects, all of which are freed by a function that takes the pointer's address.
+/// Deleter for libav objects, which are freed by a function that takes the address of the pointer.
 template <auto free_by_address>
 struct Freed {
   template <class T>

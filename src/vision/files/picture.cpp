@@ -42,7 +42,8 @@ Picture read_picture(const std::filesystem::path& path) {
 
 Gray8 stretched(const GrayF& picture, double low_fraction, double high_fraction) {
   if (!(low_fraction >= 0 && low_fraction < high_fraction && high_fraction <= 1)) {
-    throw Error(Errc::internal, "", "the fractions of a grey stretch must rise within 0 to 1");
+    throw Error(Errc::internal, "",
+                "stretched: the fractions must satisfy 0 <= low_fraction < high_fraction <= 1");
   }
   Gray8 out(picture.width, picture.height);
   std::vector<float> finite;

@@ -18,13 +18,13 @@ namespace {
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
 
-// From `at` on: the end of a run of digits.
+// End of the run of digits that starts at `at`.
 std::size_t digits_end(std::string_view s, std::size_t at) {
   while (at < s.size() && digit(s[at])) ++at;
   return at;
 }
 
-// Runs of digits compared as numbers, however long: without leading zeros the longer one is larger.
+// Compares runs of digits of any length by value: without leading zeros the longer one is larger.
 int compare_numbers(std::string_view a, std::string_view b) {
   const auto bare = [](std::string_view s) {
     const auto first = s.find_first_not_of('0');
@@ -43,7 +43,7 @@ bool has_picture_ending(const std::filesystem::path& file) {
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
-// "%d" or "%04d" at `at` of a pattern: its length and the least number of digits; length 0: none there.
+// Number field "%d" or "%04d" of a pattern: its length (0: none) and the minimum number of digits.
 struct NumberField {
   std::size_t length = 0, least_digits = 1;
 };
@@ -56,18 +56,18 @@ NumberField number_field(std::string_view pattern, std::size_t at) {
   return {end + 1 - at, std::max<std::size_t>(1, digits)};
 }
 
-// Whether `name` from `n` on fits `pattern` from `p` on.
-bool fits(std::string_view pattern, std::string_view name, std::size_t p = 0, std::size_t n = 0) {
+// Whether `name` from index `n` matches `pattern` from index `p`.
+bool matches(std::string_view pattern, std::string_view name, std::size_t p = 0, std::size_t n = 0) {
   for (; p < pattern.size(); ++p) {
     if (pattern[p] == '*') {
       for (std::size_t skip = n; skip <= name.size(); ++skip)
-        if (fits(pattern, name, p + 1, skip)) return true;
+        if (matches(pattern, name, p + 1, skip)) return true;
       return false;
     }
     if (const NumberField field = number_field(pattern, p); field.length > 0) {
       const std::size_t end = digits_end(name, n);
       if (end == n || end - n < field.least_digits) return false;
-      return fits(pattern, name, p + field.length, end);
+      return matches(pattern, name, p + field.length, end);
     }
     if (n >= name.size() || (pattern[p] != '?' && pattern[p] != name[n])) return false;
     ++n;
@@ -87,13 +87,13 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
   const std::filesystem::path where = folder ? path : path.has_parent_path() ? path.parent_path() : ".";
   std::error_code failure;
   std::filesystem::directory_iterator entries(where, failure);
-  if (failure) throw Error(Errc::input, where.string(), "cannot be listed: " + failure.message());
+  if (failure) throw Error(Errc::input, where.string(), "the folder cannot be read: " + failure.message());
   const std::string pattern = path.filename().string();
   std::vector<std::filesystem::path> files;
   for (const auto& entry : entries) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with('.') || !entry.is_regular_file(failure)) continue;
-    if (folder ? has_picture_ending(name) : fits(pattern, name)) files.push_back(entry.path());
+    if (folder ? has_picture_ending(name) : matches(pattern, name)) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     return natural_less(a.filename().string(), b.filename().string());
@@ -101,7 +101,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
   return files;
 }
 
-// A name cut into runs of digits and what is between them; digits at odd places.
+// Splits a name into alternating pieces: text at even indices, runs of digits at odd indices.
 std::vector<std::string> pieces_of(const std::string& name) {
   std::vector<std::string> pieces(1);
   for (std::size_t at = 0; at < name.size();) {
@@ -116,7 +116,7 @@ std::vector<std::string> pieces_of(const std::string& name) {
   return pieces;
 }
 
-// The one number in which all names differ; empty when there is none, or more than one.
+// Values of the single number in which the names differ; empty when they differ elsewhere or do not differ.
 std::vector<double> only_number(const std::vector<std::filesystem::path>& files) {
   std::vector<std::vector<std::string>> names;
   names.reserve(files.size());
@@ -157,7 +157,7 @@ bool natural_less(const std::string& a, const std::string& b) {
     }
   }
   if ((i < a.size()) != (j < b.size())) return j < b.size();
-  return a < b;  // 01 and 1
+  return a < b;  // leading zeros: 01 before 1
 }
 
 bool is_picture_sequence(const std::filesystem::path& path) {
@@ -170,29 +170,29 @@ PictureSequence::PictureSequence(const std::filesystem::path& path, double fps)
     : files_(files_of(path)), fps_(fps) {
   if (files_.empty())
     throw Error(Errc::input, path.string(),
-                std::filesystem::is_directory(path) ? "is a directory without pictures (.tif, .png, .jpg, "
-                                                      ".pgm ...); name a video or a folder of pictures"
-                                                    : "no file fits this pattern; check the name");
-  number();
+                std::filesystem::is_directory(path) ? "the folder contains no pictures (.tif, .png, .jpg, "
+                                                      ".pgm ...); specify a video or a folder of pictures"
+                                                    : "no file matches this pattern; check the name");
+  assign_times();
   Picture first = read_picture(files_.front());
   first_ = std::move(first.grey);
   bits_ = first.bits;
   first_page_count_ = first.pages;
 }
 
-void PictureSequence::number() {
-  for (std::size_t i = 0; i < files_.size(); ++i) place_.push_back(double(i));
+void PictureSequence::assign_times() {
+  for (std::size_t i = 0; i < files_.size(); ++i) step_index_.push_back(double(i));
   const std::vector<double> numbers = only_number(files_);
   if (numbers.size() < 2) return;
   double step = numbers[1] - numbers[0];
   for (std::size_t i = 1; i < numbers.size(); ++i) step = std::min(step, numbers[i] - numbers[i - 1]);
   if (!(step > 0)) return;
-  std::vector<double> place;
+  std::vector<double> steps;
   for (const double n : numbers) {
-    place.push_back((n - numbers[0]) / step);
-    if (place.back() != std::floor(place.back())) return;
+    steps.push_back((n - numbers[0]) / step);
+    if (steps.back() != std::floor(steps.back())) return;
   }
-  place_ = place;
+  step_index_ = steps;
 }
 
 bool PictureSequence::read(GrayF& frame, double& t_s) {
@@ -212,15 +212,20 @@ bool PictureSequence::read(GrayF& frame, double& t_s) {
     }
     const auto refuse = [&](const std::string& why) { throw Error(Errc::input, files_[at].string(), why); };
     if (picture.pages > 1)
-      refuse(fmt::format("has {} pages; name it alone to read them as a video", picture.pages));
+      refuse(
+          fmt::format("has {} pages, a picture of a sequence must have one; specify this file alone to read "
+                      "it as a video",
+                      picture.pages));
     if (picture.grey.width != first_.width || picture.grey.height != first_.height)
-      refuse(fmt::format("is {} x {} px, the pictures before it {} x {}; keep one size in a folder",
-                         picture.grey.width, picture.grey.height, first_.width, first_.height));
+      refuse(fmt::format(
+          "is {} x {} px, the previous pictures are {} x {} px; all pictures must have the same size",
+          picture.grey.width, picture.grey.height, first_.width, first_.height));
     if (picture.bits != bits_)
-      refuse(fmt::format("has {} bits, the pictures before it {}; keep one kind in a folder", picture.bits,
-                         bits_));
+      refuse(fmt::format(
+          "has {} bits per sample, the previous pictures have {}; all pictures must have the same bit depth",
+          picture.bits, bits_));
     frame = std::move(picture.grey);
-    t_s = place_[at] / (fps_ > 0 ? fps_ : 1);
+    t_s = step_index_[at] / (fps_ > 0 ? fps_ : 1);
     return true;
   }
   return false;

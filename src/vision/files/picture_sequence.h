@@ -8,25 +8,26 @@
 
 namespace faba {
 
-/// Whether `path` stands for many pictures: a folder, or a name with `*`, `?` or a printf number (`%d`,
-/// `%04d`) in its last part that is not itself a file.
+/// Whether `path` is a picture sequence: a folder, or a file name with `*`, `?` or a printf number (`%d`,
+/// `%04d`) that is not the name of an existing file.
 bool is_picture_sequence(const std::filesystem::path& path);
 
-/// Numbers inside names count as numbers: frame_9 comes before frame_10. True when `a` comes before `b`.
+/// Natural sort order: numbers in names are compared by value, frame_9 before frame_10. True when `a` is
+/// before `b`.
 bool natural_less(const std::string& a, const std::string& b);
 
-/// A folder of pictures, or a pattern such as `frames/frame_*.tif` and `frames/frame_%04d.tif`, read as a
-/// video: what VideoReader uses for them, and whose public functions mean the same. Of a folder every file
-/// that ends in .tif, .tiff, .png, .jpg, .jpeg, .pgm, .ppm, .bmp or .webp is taken, hidden ones left out;
-/// of a pattern every file that fits. Order is natural_less(). The memory is that of one picture and the
-/// names.
+/// Reads a folder of pictures, or a pattern such as `frames/frame_*.tif` or `frames/frame_%04d.tif`, as a
+/// video. VideoReader uses it; the public functions have the meaning documented there. In a folder, all files
+/// that end in .tif, .tiff, .png, .jpg, .jpeg, .pgm, .ppm, .bmp or .webp are used; with a pattern, all
+/// matching files. Hidden files are skipped. The order is natural_less(). Only one picture and the file names
+/// are held in memory.
 ///
-/// Times: when all names differ in one number only, and all differences of it are multiples of the smallest,
-/// a missing picture leaves a gap in time; else pictures are taken to be equally spaced.
+/// Times: when the names differ in exactly one number and all its differences are multiples of the smallest
+/// difference, a missing picture leaves a gap in time; otherwise the pictures are equally spaced.
 class PictureSequence {
  public:
-  /// `fps` > 0: pictures per second; 0: not known, time is then the count of pictures. Throws
-  /// Error(Errc::input, path) when there is no picture or the first cannot be read.
+  /// `fps` > 0: pictures per second; 0: unknown, the time of a picture is then its index. Throws
+  /// Error(Errc::input, path) when there is no picture or the first one cannot be read.
   PictureSequence(const std::filesystem::path& path, double fps);
 
   int width() const { return first_.width; }
@@ -35,17 +36,17 @@ class PictureSequence {
   double fps() const { return fps_; }
   std::int64_t pictures() const { return std::int64_t(files_.size()); }
 
-  /// See VideoReader::read. A picture that cannot be read is left out and counted. Throws Error(Errc::input)
-  /// naming the file when a picture has another size, another number of bits, or several pages.
+  /// See VideoReader::read. An unreadable picture is skipped and counted. Throws Error(Errc::input, file)
+  /// when a picture differs in size or bit depth from the first, or has several pages.
   bool read(GrayF& frame, double& t_s);
   std::int64_t damaged_pictures() const { return damaged_; }
   const std::string& damage() const { return damage_; }
 
  private:
-  void number();
+  void assign_times();
 
   std::vector<std::filesystem::path> files_;
-  std::vector<double> place_;  ///< in time, in steps from picture to picture
+  std::vector<double> step_index_;  ///< time of each picture in frame intervals
   GrayF first_;
   int bits_ = 8, first_page_count_ = 1;
   double fps_ = 0;

@@ -44,7 +44,7 @@ class Remuxer {
         mp4_(format == VideoFormat::mp4),
         rate_(rate),
         time_s_(mp4_ ? time_s : nullptr) {}
-  // Writes the whole of `temporary`; blames `to` for its failures.
+  // Writes the complete `temporary`; errors name `to`.
   long long write(const std::filesystem::path& temporary) {
     open_input();
     open_output(temporary);
@@ -81,10 +81,10 @@ void Remuxer::open_input() {
   const AVInputFormat* kind = av_find_input_format(mp4_ ? "h264" : "png_pipe");
   int result = avformat_open_input(&raw, file_url(part_).c_str(), kind, &options);
   av_dict_free(&options);
-  if (result < 0) fail(part_, "the recorded frames cannot be read back", result);
+  if (result < 0) fail(part_, "the recorded frames cannot be read", result);
   in_.reset(raw);
   result = avformat_find_stream_info(raw, nullptr);
-  if (result < 0) fail(part_, "the recorded frames cannot be read back", result);
+  if (result < 0) fail(part_, "the recorded frames cannot be read", result);
 }
 
 void Remuxer::open_output(const std::filesystem::path& temporary) {
@@ -92,9 +92,9 @@ void Remuxer::open_output(const std::filesystem::path& temporary) {
   AVFormatContext* raw = nullptr;
   int result =
       avformat_alloc_output_context2(&raw, nullptr, mp4_ ? "mp4" : "avi", file_url(temporary).c_str());
-  if (result < 0) fail(to_, "no such container in this FFmpeg", result);
+  if (result < 0) fail(to_, "this FFmpeg does not have the container format", result);
   out_.reset(raw);
-  raw->flags |= AVFMT_FLAG_BITEXACT;  // no version and no date: the same frames give the same file
+  raw->flags |= AVFMT_FLAG_BITEXACT;  // no version and no date: reproducible bytes
   AVStream* stream = avformat_new_stream(raw, nullptr);
   avcodec_parameters_copy(stream->codecpar, in_->streams[0]->codecpar);
   stream->codecpar->codec_tag = mp4_ ? MKTAG('a', 'v', 'c', '1') : MKTAG('M', 'P', 'N', 'G');
@@ -116,7 +116,7 @@ long long Remuxer::copy_frames() {
   for (;; ++frames) {
     int result = av_read_frame(in_.get(), packet.get());
     if (result == AVERROR_EOF) break;
-    if (result < 0) fail(part_, "the recorded frames cannot be read back", result);
+    if (result < 0) fail(part_, "the recorded frames cannot be read", result);
     packet->stream_index = 0;
     packet->pts = packet->dts = stamp(frames);
     packet->duration = std::max<std::int64_t>(1, stamp(frames + 1) - stamp(frames));
@@ -127,7 +127,7 @@ long long Remuxer::copy_frames() {
     if (result < 0) fail(to_, "cannot be written", result);
   }
   if (frames == 0)
-    throw Error(Errc::internal, part_.string(), "holds no frame, so there is no video to finish");
+    throw Error(Errc::internal, part_.string(), "contains no frames; the video cannot be finished");
   return frames;
 }
 

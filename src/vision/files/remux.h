@@ -6,13 +6,13 @@
 
 namespace faba {
 
-/// Puts the coded frames of `part` (a plain H.264 byte stream, or PNG files one after the other) unchanged
-/// into the container of `format`, at a constant frame rate or, in mp4, at the times that `time_s` says (s,
-/// rising, kept to the microsecond; empty: none), under a temporary name (`to` + ".tmp") that is
-/// renamed when the file is complete and on the disk. MP4 gets its index in front, so that browsers start at
-/// once. `part` is kept. Returns the number of frames. Throws Error(Errc::internal): with `part` when it
-/// holds no frame or cannot be read, with `to` when the place cannot be written or the disk is full; then no
-/// temporary file stays behind.
+/// Remuxes the encoded frames of `part` (an H.264 byte stream, or concatenated PNG files) without re-encoding
+/// into the container of `format`, at a constant frame rate or, in mp4, at the presentation times `time_s`
+/// (s, increasing, stored to the microsecond; empty: constant rate). The file is written as `to` + ".tmp" and
+/// renamed when it is complete and synced to disk. The index of an MP4 is at the start of the file, so that
+/// browsers start playing at once. `part` is kept. Returns the number of frames. Throws
+/// Error(Errc::internal): with `part` when it has no frame or cannot be read, with `to` when the file cannot
+/// be written or the disk is full; the temporary file is then removed.
 long long remux(const std::filesystem::path& part, VideoFormat format, FrameRate rate,
                 const std::filesystem::path& to, const std::function<double(long long frame)>& time_s = {});
 

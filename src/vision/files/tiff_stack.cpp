@@ -17,11 +17,11 @@
 namespace faba {
 namespace {
 
-constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;  // a hostile header may claim anything
-constexpr tmsize_t kMaxBuffer = tmsize_t{1} << 30;  // bytes libtiff, or one row or tile here, may take
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;  // limit for corrupt or malicious headers
+constexpr tmsize_t kMaxBuffer = tmsize_t{1} << 30;            // bytes, limit of one allocation
 
-// What libtiff complains of first goes into the Error; its later lines only repeat it.
-int keep_first_complaint(TIFF*, void* message_pointer, const char*, const char* format, va_list arguments) {
+// Only the first error of libtiff is reported; the later ones follow from it.
+int keep_first_tiff_error(TIFF*, void* message_pointer, const char*, const char* format, va_list arguments) {
   auto& message = *static_cast<std::string*>(message_pointer);
   if (message.empty()) {
     std::array<char, 256> line{};
@@ -42,7 +42,7 @@ struct Layout {
   int colours() const { return photometric == PHOTOMETRIC_RGB ? 3 : 1; }
 };
 
-// Whether the samples are read as they are; the rest goes through libtiff's own conversion to 8-bit colour.
+// Whether the samples are read directly; other layouts are converted by libtiff to 8-bit colour.
 bool is_direct(const Layout& page) {
   const bool grey = page.photometric == PHOTOMETRIC_MINISBLACK || page.photometric == PHOTOMETRIC_MINISWHITE;
   if (!grey && (page.photometric != PHOTOMETRIC_RGB || page.samples < 3)) return false;
@@ -67,7 +67,7 @@ void widen(const std::uint8_t* bytes, std::vector<float>& values) {
   }
 }
 
-// 9 to 15 bits are packed without gaps, highest bit first.
+// Samples of 9 to 15 bits are packed, most significant bit first.
 void unpack(const std::uint8_t* bytes, unsigned bits, std::vector<float>& values) {
   std::uint32_t store = 0;
   unsigned held = 0;
@@ -93,7 +93,7 @@ void to_float(const Layout& page, const std::uint8_t* bytes, std::vector<float>&
   }
 }
 
-// ImageJ's description is lines of key=value; the value of `key`, 0 when absent or no number.
+// Value of `key` in an ImageJ description (lines of key=value); 0 when absent or not a number.
 double description_number(const std::string& description, const std::string& key) {
   const auto at = description.find("\n" + key + "=");
   return at == std::string::npos ? 0 : std::strtod(description.c_str() + at + key.size() + 2, nullptr);
@@ -107,12 +107,12 @@ struct TiffStack::Impl {
   };
 
   std::filesystem::path path;
-  std::string message;  // libtiff's first complaint since forget()
+  std::string message;  // first error of libtiff since the last clear()
   std::unique_ptr<TIFF, Close> tiff;
-  Layout page;  // of the page about to be read
+  Layout page;  // layout of the next page
   int first_width = 0, first_height = 0, first_bits = 0;
   double fps = 0;
-  bool at_end = false, on_fresh_page = true;
+  bool at_end = false, page_unread = true;
   int page_number = 1;
   std::vector<std::uint8_t> buffer;
   std::vector<float> values;
@@ -134,11 +134,11 @@ struct TiffStack::Impl {
 void TiffStack::Impl::open() {
   const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(TIFFOpenOptionsAlloc(),
                                                                                  &TIFFOpenOptionsFree);
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_first_complaint, &message);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_first_tiff_error, &message);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), ignore_warning, nullptr);
   TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxBuffer);
   tiff.reset(TIFFOpenExt(path.c_str(), "r", options.get()));
-  if (!tiff) refuse("is not a readable TIFF");
+  if (!tiff) refuse("is not a valid TIFF file");
   read_layout();
   first_width = static_cast<int>(page.width);
   first_height = static_cast<int>(page.height);
@@ -171,10 +171,10 @@ void TiffStack::Impl::read_layout() {
   TIFFGetFieldDefaulted(file, TIFFTAG_PLANARCONFIG, &planar);
   page.planar = planar == PLANARCONFIG_SEPARATE;
   page.tiled = TIFFIsTiled(file) != 0;
-  if (page.width == 0 || page.height == 0) refuse("states no picture size");
+  if (page.width == 0 || page.height == 0) refuse("has no picture size");
   if (std::uint64_t{page.width} * page.height > kMaxPixels) {
-    refuse("states " + std::to_string(page.width) + " x " + std::to_string(page.height) +
-           " px, more than can be read; crop it");
+    refuse("picture size " + std::to_string(page.width) + " x " + std::to_string(page.height) +
+           " px exceeds the maximum of 2^28 pixels; crop it");
   }
 }
 
@@ -184,14 +184,14 @@ void TiffStack::Impl::advance() {
     at_end = TIFFLastDirectory(tiff.get()) != 0;
     if (at_end) return;
     ++page_number;
-    if (TIFFReadDirectory(tiff.get()) == 0) refuse("is missing; the file was cut short");
+    if (TIFFReadDirectory(tiff.get()) == 0) refuse("is missing; the file is truncated");
     kind = 0;
     TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SUBFILETYPE, &kind);
   } while ((kind & FILETYPE_REDUCEDIMAGE) != 0);
   read_layout();
 }
 
-// One row, or a piece of one: grey when the channels lie side by side, else the plane at hand.
+// Converts one row or part of a row: all channels when interleaved, else one plane.
 void TiffStack::Impl::convert(const std::uint8_t* bytes, std::uint32_t count, float* out) {
   const std::size_t step = page.planar ? 1 : page.samples;
   values.resize(count * step);
@@ -205,11 +205,11 @@ void TiffStack::Impl::convert(const std::uint8_t* bytes, std::uint32_t count, fl
 
 void TiffStack::Impl::read_strips(std::uint16_t plane, GrayF& out) {
   const tmsize_t size = TIFFScanlineSize(tiff.get());
-  if (size <= 0 || size > kMaxBuffer) refuse("has rows of a size that cannot be read");
+  if (size <= 0 || size > kMaxBuffer) refuse("row size is invalid or exceeds 1 GiB");
   buffer.resize(static_cast<std::size_t>(size));
   for (std::uint32_t row = 0; row < page.height; ++row) {
     if (TIFFReadScanline(tiff.get(), buffer.data(), row, plane) != 1) {
-      refuse("row " + std::to_string(row) + " cannot be read; the file is damaged or cut short");
+      refuse("row " + std::to_string(row) + " cannot be read; the file is damaged or truncated");
     }
     convert(buffer.data(), page.width, &out.at(0, static_cast<int>(row)));
   }
@@ -221,13 +221,13 @@ void TiffStack::Impl::read_tiles(std::uint16_t plane, GrayF& out) {
   TIFFGetField(tiff.get(), TIFFTAG_TILELENGTH, &tile_height);
   const tmsize_t size = TIFFTileSize(tiff.get()), row_size = TIFFTileRowSize(tiff.get());
   if (tile_width == 0 || tile_height == 0 || size <= 0 || size > kMaxBuffer) {
-    refuse("has tiles of a size that cannot be read");
+    refuse("tile size is invalid or exceeds 1 GiB");
   }
   buffer.resize(static_cast<std::size_t>(size));
   for (std::uint32_t top = 0; top < page.height; top += tile_height) {
     for (std::uint32_t left = 0; left < page.width; left += tile_width) {
       if (TIFFReadTile(tiff.get(), buffer.data(), left, top, 0, plane) < 0) {
-        refuse("a tile cannot be read; the file is damaged or cut short");
+        refuse("a tile cannot be read; the file is damaged or truncated");
       }
       const std::uint32_t columns = std::min(tile_width, page.width - left);
       const std::uint32_t rows = std::min(tile_height, page.height - top);
@@ -254,7 +254,9 @@ void TiffStack::Impl::read_samples(GrayF& out) {
   }
   if (page.photometric == PHOTOMETRIC_MINISWHITE) {
     if (page.format != SAMPLEFORMAT_UINT)
-      refuse("has white at 0 but no fixed black; save it with black at 0");
+      refuse(
+          "white is 0 (MINISWHITE) in signed or float samples, so black is undefined; save the file as "
+          "MINISBLACK");
     const auto black = static_cast<float>((std::uint64_t{1} << page.bits) - 1);
     for (float& value : out.px) value = black - value;
   }
@@ -263,13 +265,13 @@ void TiffStack::Impl::read_samples(GrayF& out) {
 void TiffStack::Impl::read_colour(GrayF& out) {
   std::array<char, 1024> why{};
   if (TIFFRGBAImageOK(tiff.get(), why.data()) == 0) {
-    refuse(std::string("is of a kind that cannot be read: ") + why.data() + "; save it as 8- or 16-bit grey");
+    refuse(std::string("TIFF layout not supported: ") + why.data() + "; save it as 8- or 16-bit grey");
   }
   std::vector<std::uint32_t> raster(out.px.size());
   std::uint16_t as_stored = ORIENTATION_TOPLEFT;
   TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_ORIENTATION, &as_stored);
   if (TIFFReadRGBAImageOriented(tiff.get(), page.width, page.height, raster.data(), as_stored, 1) != 1) {
-    refuse("cannot be read; the file is damaged or cut short");
+    refuse("cannot be read; the file is damaged or truncated");
   }
   for (std::size_t i = 0; i < raster.size(); ++i) {
     const std::uint32_t colour = raster[i];
@@ -300,9 +302,9 @@ int TiffStack::pages() const {
 bool TiffStack::read(GrayF& page) {
   Impl& self = *impl_;
   self.message.clear();
-  if (!self.on_fresh_page && !self.at_end) self.advance();
+  if (!self.page_unread && !self.at_end) self.advance();
   if (self.at_end) return false;
-  self.on_fresh_page = false;
+  self.page_unread = false;
   page.width = static_cast<int>(self.page.width);
   page.height = static_cast<int>(self.page.height);
   page.px.resize(std::size_t{self.page.width} * self.page.height);

@@ -6,17 +6,17 @@
 
 namespace faba {
 
-/// Reads the pages of a TIFF file one after the other as grey pictures. Memory is that of one page.
+/// Reads the pages of a TIFF file in order as grey pictures. Only one page is held in memory.
 ///
-/// Understood exactly: grey and RGB (interleaved or planar, further channels ignored) of 8 to 16 and 32 bits,
-/// signed or not, and 32- or 64-bit floats; strips and tiles; any compression libtiff has. Values keep the
-/// file's scale; where white is 0 they are turned round. Palettes, 1 to 4 bits, CMYK and YCbCr arrive as
-/// 8-bit colour and become grey. The orientation tag is not applied: pixels come as stored. Pages marked as
-/// reduced copies are skipped.
+/// Read directly, as floats: grey and RGB (interleaved or planar; further channels are ignored) of 8 to 16
+/// and 32 bits, signed or unsigned, and 32- or 64-bit floats; strips and tiles; all compressions of libtiff.
+/// Values keep the scale of the file; MINISWHITE pictures are inverted. Palettes, 1 to 4 bits, CMYK and YCbCr
+/// are converted to 8-bit colour and then to grey. The orientation tag is ignored: pixels are in storage
+/// order. Reduced-resolution pages are skipped.
 class TiffStack {
  public:
-  /// Opens `path` and reads the description of its first page. Throws Error(Errc::input, path) with libtiff's
-  /// reason.
+  /// Opens `path` and reads the tags of its first page. Throws Error(Errc::input, path) with the message of
+  /// libtiff.
   explicit TiffStack(const std::filesystem::path& path);
   ~TiffStack();
   TiffStack(TiffStack&&) noexcept;
@@ -24,19 +24,17 @@ class TiffStack {
 
   int width() const;   ///< of the first page, px
   int height() const;  ///< of the first page, px
-  /// Bits per sample of the first page: white is 2^bits - 1, except 32 and 64, which may be floats of any
-  /// scale.
+  /// Bits per sample of the first page: white is 2^bits - 1, except for 32 and 64 bits, which may be floats.
   int bits() const;
-  /// Number of pages, reduced copies included; walks the whole chain of pages, so its time grows with their
-  /// number.
+  /// Number of pages, including reduced-resolution pages. Reads all directories of the file: O(pages).
   int pages() const;
-  /// Frames per second as ImageJ states it in the first page (`fps=` or `finterval=` in seconds); 0 when not
-  /// stated.
+  /// Frames per second from the ImageJ description of the first page (`fps=` or `finterval=` in seconds); 0
+  /// when unknown.
   double fps() const;
 
-  /// The next page into `page` (resized as needed); false after the last one. A float TIFF may hold NaN: it
-  /// is kept. Throws Error(Errc::input, path) when the page is damaged, cut short, or of a kind that is not
-  /// understood.
+  /// Reads the next page into `page` (resized as needed); returns false after the last one. NaN values of a
+  /// float TIFF are kept. Throws Error(Errc::input, path) when the page is damaged, truncated or not
+  /// supported.
   bool read(GrayF& page);
 
  private:

@@ -12,7 +12,9 @@ namespace faba {
 
 FrameRate frame_rate_near(double fps) {
   if (!(fps >= kSlowestVideo && fps <= kFastestVideo)) {
-    throw Error(Errc::internal, "", "a video cannot have " + std::to_string(fps) + " frames per second");
+    throw Error(Errc::internal, "",
+                std::to_string(fps) +
+                    " frames per second is out of range; the frame rate must be between 0.001 and 10000");
   }
   const AVRational rate = av_d2q(fps, 100000);
   return {rate.num, rate.den};

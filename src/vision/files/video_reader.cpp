@@ -12,27 +12,27 @@
 
 namespace faba {
 
-// Exactly one of the three is there.
+// Exactly one of the three readers is set.
 struct VideoReader::Impl {
   std::optional<TiffStack> stack;
   std::optional<AvStream> stream;
   std::optional<PictureSequence> sequence;
 
-  double fps = 0;  // as given; 0: as the file states
+  double fps = 0;  // override; 0: frame rate of the file
 
   std::filesystem::path path;
   int width = 0, height = 0;
   std::int64_t pages_read = 0;
-  GrayF first_page;  // read on opening, so that a stack of which nothing can be read is refused there
-  bool stack_cut_short = false;
+  GrayF first_page;  // read by the constructor, which refuses an unreadable stack
+  bool stack_truncated = false;
   std::string stack_damage;
 
   bool read_page(GrayF& frame, double& t_s);
-  double rescaled(double t_s) const;  // a stack's or a stream's time, at the rate that was given
+  double rescaled(double t_s) const;  // time of a stack or stream at the overridden rate
 };
 
 bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
-  if (stack_cut_short) return false;
+  if (stack_truncated) return false;
   try {
     if (pages_read == 0) {
       std::swap(frame, first_page);
@@ -41,14 +41,14 @@ bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
       return false;
     }
   } catch (const Error& error) {
-    stack_cut_short = true;
+    stack_truncated = true;
     stack_damage = std::string(error.what()).substr(error.where().size() + 2);
     return false;
   }
   if (frame.width != width || frame.height != height) {
     throw Error(
         Errc::input, path.string(),
-        "page " + std::to_string(pages_read + 1) + " has another size than the first; split the stack there");
+        "page " + std::to_string(pages_read + 1) + " differs in size from the first; split the stack there");
   }
   t_s = static_cast<double>(pages_read) / (stack->fps() > 0 ? stack->fps() : 1);
   ++pages_read;
@@ -93,11 +93,11 @@ std::int64_t VideoReader::frames_stated() const {
 }
 bool VideoReader::truncated() const {
   if (impl_->sequence) return false;
-  return impl_->stack ? impl_->stack_cut_short : impl_->stream->truncated();
+  return impl_->stack ? impl_->stack_truncated : impl_->stream->truncated();
 }
 std::int64_t VideoReader::damaged_frames() const {
   if (impl_->sequence) return impl_->sequence->damaged_pictures();
-  return impl_->stack ? std::int64_t{impl_->stack_cut_short} : impl_->stream->damaged_frames();
+  return impl_->stack ? std::int64_t{impl_->stack_truncated} : impl_->stream->damaged_frames();
 }
 const std::string& VideoReader::damage() const {
   if (impl_->sequence) return impl_->sequence->damage();

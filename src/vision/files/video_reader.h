@@ -8,26 +8,26 @@
 
 namespace faba {
 
-/// Reads the frames of a video one after the other as grey pictures: any video FFmpeg reads, a TIFF stack, a
-/// still picture (one frame), or many pictures: a folder of them or a pattern such as `frames/frame_*.tif`
-/// and `frames/frame_%04d.tif` (see PictureSequence for their order and times). Memory does not grow with the
-/// length. Not to be shared between threads; several readers may work at the same time.
+/// Reads the frames of a video in order as grey pictures. Input: a video that FFmpeg supports, a TIFF stack,
+/// a still image (one frame), or a picture sequence: a folder or a pattern such as `frames/frame_*.tif` or
+/// `frames/frame_%04d.tif` (see PictureSequence for order and times). The memory use does not depend on the
+/// length. Not thread-safe; several readers can be used in parallel.
 ///
-/// Grey: see to_grey() in frame_grey.h (luma as it is, studio range spread to 0..255 or 0..65535) and
-/// TiffStack. Luma of coloured material weighs the colours as the video's own matrix says. Rotation tags and
-/// non-square pixels are not applied: pixels come as stored.
+/// Grey: see to_grey() in frame_grey.h (luma; studio range is stretched to 0..255 or 0..65535) and TiffStack.
+/// The luma of a colour video follows the colour matrix of the file. Rotation tags and non-square pixels are
+/// ignored: pixels are in storage order.
 ///
-/// Damage: a frame that cannot be decoded whole is not returned, nor are the frames predicted from it;
-/// reading goes on at the next key frame, so that no pixel is guessed. What a file cut short still holds is
-/// read, then read() gives false and truncated() is true. Limits: transport streams, bare H.264 and GIF do
-/// not say how long they should be, so a cut between two of their frames goes unnoticed; in streams with
-/// B-frames up to a few frames shown just before one that is damaged inside may have been predicted from it.
+/// Damage: a frame that cannot be decoded completely is skipped, as are all frames predicted from it; reading
+/// continues at the next key frame; there is no error concealment. All complete frames of a truncated file
+/// are read, then read() returns false and truncated() is true. Limits: transport streams, raw H.264 and GIF
+/// do not store their length, so truncation between two frames is not detected; in streams with B-frames, a
+/// few frames displayed just before a damaged frame may have been predicted from it.
 class VideoReader {
  public:
-  /// Opens the file and decodes its first frame. `fps` > 0: the mean frame rate, whatever the
-  /// file states (its time stamps are scaled); 0: as the file states. Throws Error(Errc::input, path) when it
-  /// is missing, a directory without pictures, empty, of no known kind, without a picture stream, or when not
-  /// even one frame can be decoded.
+  /// Opens the file and decodes its first frame. `fps` > 0 overrides the mean frame rate of the file (time
+  /// stamps are scaled); 0: frame rate of the file. Throws Error(Errc::input, path) when the file does not
+  /// exist, is a directory without pictures, is empty, has an unknown format or no video stream, or when no
+  /// frame can be decoded.
   explicit VideoReader(const std::filesystem::path& path, double fps = 0);
   ~VideoReader();
   VideoReader(VideoReader&&) noexcept;
@@ -35,28 +35,28 @@ class VideoReader {
 
   int width() const;   ///< px
   int height() const;  ///< px
-  /// Bits of the grey scale: white is 2^bits - 1 (8 or 16; for TIFF see TiffStack::bits).
+  /// Bit depth of the grey scale: white is 2^bits - 1 (8 or 16; for TIFF see TiffStack::bits).
   int bits() const;
-  /// Mean frames per second as given or as the file states it; 0 when it states none (TIFF without ImageJ's
-  /// text, still pictures, folders of pictures).
+  /// Mean frames per second, as given or from the file; 0 when unknown (TIFF without ImageJ description,
+  /// still images, folders of pictures).
   double fps() const;
-  /// Number of frames as the file states it, good for a progress bar only; 0 when not stated.
+  /// Number of frames according to the file header, for progress bars only; 0 when unknown.
   std::int64_t frames_stated() const;
 
-  /// The next frame into `frame` (resized as needed) and its presentation time in s, 0 at the first frame,
-  /// from the time stamps of the file, so that variable frame rates come out right. Without time stamps t_s
-  /// is frame / fps(), and where fps() is 0 it is the number of the frame. False when no frame is left.
-  /// Throws Error(Errc::input, path) when the picture size or format changes on the way.
+  /// Reads the next frame into `frame` (resized as needed) and its presentation time in s. The first frame
+  /// has time 0; times come from the time stamps of the file, so variable frame rates are supported. Without
+  /// time stamps t_s is frame / fps(), or the frame index when fps() is 0. Returns false after the last
+  /// frame. Throws Error(Errc::input, path) when the picture size or pixel format changes within the file.
   bool read(GrayF& frame, double& t_s);
 
-  /// The same in colours of 8 bits, for the eye; grey where the file has none.
+  /// As read(), in 8-bit RGB for display; grey when the file has no colours.
   bool read_colours(RgbImage& frame, double& t_s);
 
-  /// Whether the file ended before it should; final once read() has given false.
+  /// Whether the file is truncated; final after read() has returned false.
   bool truncated() const;
-  /// Frames (packets) skipped so far because they were damaged; 0 for an intact file.
+  /// Number of frames (packets) skipped so far because of damage; 0 for an intact file.
   std::int64_t damaged_frames() const;
-  /// The first trouble met in one line, empty when there was none: the reason behind the two above.
+  /// Description of the first error in one line; empty if there was none.
   const std::string& damage() const;
 
  private:

@@ -14,7 +14,7 @@ struct VideoWriter::Impl {
   FrameRate rate;
   FrameEncoder encoder;
   OutputFile file;
-  bool fresh = true;  // the encoder holds no earlier frame
+  bool fresh = true;  // the encoder has no previous frame
 
   void restart() {
     if (!fresh) encoder.restart();
@@ -28,7 +28,7 @@ FrameEncoder::Kind kind_of(VideoFormat format, VideoPixels pixels) {
   const bool mp4 = format == VideoFormat::mp4;
   if (pixels == VideoPixels::colour) return mp4 ? Kind::h264 : Kind::png_colour;
   if (pixels == VideoPixels::grey8) return mp4 ? Kind::h264_grey : Kind::png_grey;
-  if (mp4) throw Error(Errc::internal, "video", "mp4 has no grey of 16 bits");
+  if (mp4) throw Error(Errc::internal, "video", "mp4 does not support 16-bit grey; use lossless_avi");
   return Kind::png_grey16;
 }
 }  // namespace
@@ -53,7 +53,7 @@ void VideoWriter::append(const Image<Pixel>& frame) {
   try {
     self.file.append(coded);
   } catch (...) {
-    self.restart();  // what comes next must not be predicted from a frame that is not in the file
+    self.restart();  // the next frame must not be predicted from a frame that is not in the file
     throw;
   }
 }

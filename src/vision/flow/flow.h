@@ -8,33 +8,32 @@
 
 namespace faba {
 
-/// How everything moved from one frame to the next: u to the right, v down (image frame), px per pair of
-/// frames.
+/// Displacement field between two frames: u to the right, v down (image frame), px per frame pair.
 struct Flow {
   GrayF u, v;
   int width() const { return u.width; }
   int height() const { return u.height; }
 };
 
-/// What an iterative method took for a pair of frames.
+/// Iterations of an iterative method for one frame pair.
 struct FlowEffort {
   int iterations = 0;
-  bool converged = false;  ///< false: the limit of iterations came first
+  bool converged = false;  ///< false: the iteration limit was reached
 };
 
-/// A way to get the flow between two frames. Keeps memory from pair to pair: not to be shared between
-/// threads.
+/// Method that computes the optical flow between two frames. Reuses its memory from pair to pair: not
+/// thread-safe.
 class FlowMethod {
  public:
   virtual ~FlowMethod() = default;
-  /// `a` and `b` have the same size, greys on a scale of 0 to 255; `out` is resized as needed. Same frames,
-  /// same result.
+  /// Computes the flow from `a` to `b`: frames of the same size, grey values 0 to 255; `out` is resized as
+  /// needed. Deterministic.
   virtual void between(const GrayF& a, const GrayF& b, Flow& out) = 0;
-  /// What the last pair took; empty for a method that does not iterate.
+  /// Iterations for the last pair; empty for a method that does not iterate.
   virtual std::optional<FlowEffort> effort() const { return {}; }
 };
 
-/// What every flow part may use. Outlives the part.
+/// Context of flow parts. Outlives the part.
 struct FlowContext {
   Pool* pool;
 };

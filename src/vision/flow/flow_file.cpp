@@ -43,11 +43,11 @@ Flow read_flo(const std::filesystem::path& path) {
     std::memcpy(size, bytes.data() + 4, 8);
   }
   if (tag != kFloTag || size[0] < 1 || size[1] < 1 || size[0] > kLargestSide || size[1] > kLargestSide)
-    throw Error(Errc::input, path.string(), "is no flow in the Middlebury format (.flo)");
+    throw Error(Errc::input, path.string(), "is not a flow in the Middlebury format (.flo)");
   Flow flow{GrayF(size[0], size[1]), GrayF(size[0], size[1])};
   if (bytes.size() != 12 + 8 * flow.u.px.size())
     throw Error(Errc::input, path.string(),
-                fmt::format("has {} bytes where {} x {} px take {}", bytes.size(), size[0], size[1],
+                fmt::format("has {} bytes; a flow of {} x {} px must have {}", bytes.size(), size[0], size[1],
                             12 + 8 * flow.u.px.size()));
   for (std::size_t i = 0; i < flow.u.px.size(); ++i) {
     float uv[2];
@@ -93,7 +93,7 @@ void FlowFileWriter::write(std::uint64_t frame, double t0_s, double t1_s, const 
   impl_->u->append<float>(flow.u.px);
   impl_->v->append<float>(flow.v.px);
   impl_->t->append<double>(t);
-  impl_->frame->append<std::uint64_t>({&frame, 1});  // last: its rows are those that are whole
+  impl_->frame->append<std::uint64_t>({&frame, 1});  // written last: its rows count the complete flows
 }
 std::uint64_t FlowFileWriter::size() const { return impl_->frame->rows(); }
 void FlowFileWriter::sync() { impl_->file.sync(); }
@@ -116,8 +116,9 @@ FlowFileReader::FlowFileReader(const std::filesystem::path& path) {
   H5File f = H5File::open(path);
   const auto refuse = [&](const char* why) { throw Error(Errc::input, path.string(), why); };
   for (const char* name : {"frame", "t_s", "u_px", "v_px"})
-    if (!f.has(name)) refuse("is no file of flows as `faba flow` writes them");
-  if (f.text_attribute("/", "format") != kFormat) refuse("is a file of flows of another version");
+    if (!f.has(name)) refuse("is not a flow file of `faba flow`");
+  if (f.text_attribute("/", "format") != kFormat)
+    refuse("is a flow file of a different version; this program reads \"faba flow 1\"");
   FlowInfo info;
   const auto number = [&](const char* name) { return f.number_attribute("/", name); };
   info.width = int(number("width_px"));
@@ -129,7 +130,7 @@ FlowFileReader::FlowFileReader(const std::filesystem::path& path) {
   H5Table frame = f.table("frame"), t = f.table("t_s"), u = f.table("u_px"), v = f.table("v_px");
   const auto px = std::size_t(std::max(info.width, 0)) * std::size_t(std::max(info.height, 0));
   if (px == 0 || u.row_size() != px || v.row_size() != px || t.row_size() != 2 || frame.row_size() != 1)
-    refuse("holds flows of another size than it says");
+    refuse("the size of the flows does not match width_px and height_px");
   impl_ = std::make_unique<Impl>(Impl{std::move(f), frame, t, u, v, info});
 }
 FlowFileReader::~FlowFileReader() = default;

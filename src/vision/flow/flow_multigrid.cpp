@@ -5,9 +5,9 @@
 namespace faba {
 namespace {
 
-constexpr int kBefore = 2, kAfter = 2;  // sweeps
-constexpr int kCoarsest = 3;            // px, the larger side
-constexpr int kOnCoarsest = 12;         // sweeps there, where each leaves a third or less
+constexpr int kPreSmoothing = 2, kPostSmoothing = 2;  // sweeps
+constexpr int kCoarsest = 3;                          // px, the larger side
+constexpr int kCoarsestSweeps = 12;  // sweeps on the coarsest grid; each reduces the error to a third or less
 
 }  // namespace
 
@@ -33,7 +33,7 @@ void FlowMultigrid<T>::guess(const FlowSystem<T>& finest, FlowPlanes<T>& w, Flow
     restrict_right_side(*finer, g.system, pool);
     finer = &g.system;
   }
-  // A cycle leaves its own right sides on the grids below: they are needed no more by then.
+  // A cycle overwrites the right-hand sides of the coarser grids; they are no longer needed by then.
   for (std::size_t i = coarser_.size(); i-- > 0;) {
     Grid& g = coarser_[i];
     g.system.set_up_right_side(pool);
@@ -43,7 +43,7 @@ void FlowMultigrid<T>::guess(const FlowSystem<T>& finest, FlowPlanes<T>& w, Flow
   }
   w.clear();
   if (!coarser_.empty()) prolong_and_add(coarser_[0].w, w, pool);
-  sweep(finest, w, spare, kAfter, false, pool);
+  sweep(finest, w, spare, kPostSmoothing, false, pool);
 }
 
 template <class T>
@@ -54,15 +54,15 @@ T FlowMultigrid<T>::cycle(const FlowSystem<T>& finest, FlowPlanes<T>& w, FlowPla
 template <class T>
 T FlowMultigrid<T>::cycle(std::size_t below, const FlowSystem<T>& s, FlowPlanes<T>& w, FlowPlanes<T>& spare,
                           Pool& pool) {
-  if (below == coarser_.size()) return sweep(s, w, spare, kOnCoarsest, true, pool);
+  if (below == coarser_.size()) return sweep(s, w, spare, kCoarsestSweeps, true, pool);
   Grid& g = coarser_[below];
-  sweep(s, w, spare, kBefore, false, pool);
+  sweep(s, w, spare, kPreSmoothing, false, pool);
   restrict_residual(s, w, g.system, pool);
   g.system.set_up_right_side(pool);
   g.w.clear();
   cycle(below + 1, g.system, g.w, g.spare, pool);
   const T correction = prolong_and_add(g.w, w, pool);
-  return std::max(correction, sweep(s, w, spare, kAfter, true, pool));
+  return std::max(correction, sweep(s, w, spare, kPostSmoothing, true, pool));
 }
 
 template class FlowMultigrid<float>;

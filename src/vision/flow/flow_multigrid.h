@@ -5,19 +5,19 @@
 
 namespace faba {
 
-/// Solves a FlowSystem to the end: grids of half the size each carry the corrections that sweeps on the fine
-/// one would take thousands of to bring about. On each grid two sweeps before and two after the coarser ones;
-/// the nine-point mean lets a sweep leave a third or less of what only this grid can see. Keeps its memory
-/// from one solution to the next. Same bits for any pool. T is float or double.
+/// Multigrid solver of a FlowSystem: coarser grids of half the size correct the smooth error, for which
+/// sweeps on the fine grid alone would need thousands of iterations. V-cycle with two pre-smoothing and two
+/// post-smoothing sweeps per grid; with the nine-point mean a sweep reduces the high-frequency error to a
+/// third or less. Reuses its memory between solutions. Bit-identical for any pool. T is float or double.
 template <class T>
 class FlowMultigrid {
  public:
-  /// The coarser grids of `finest`, from where all solutions start.
+  /// Sets up the coarser grids of `finest`. Called before guess() and cycle().
   void set_up(const FlowSystem<T>& finest, Pool& pool);
-  /// A first guess from the coarsest grid up into `w`, which it replaces.
+  /// Initial guess from the coarsest grid up (full multigrid), written to `w`.
   void guess(const FlowSystem<T>& finest, FlowPlanes<T>& w, FlowPlanes<T>& spare, Pool& pool);
-  /// One cycle; returns the largest change of a component that it made (its last sweep or the correction from
-  /// the coarser grids, whichever is larger), px.
+  /// One V-cycle. Returns the largest change of a component, px: in the last sweep or in the coarse-grid
+  /// correction, whichever is larger.
   T cycle(const FlowSystem<T>& finest, FlowPlanes<T>& w, FlowPlanes<T>& spare, Pool& pool);
 
  private:
@@ -27,7 +27,7 @@ class FlowMultigrid {
   };
   T cycle(std::size_t below, const FlowSystem<T>& s, FlowPlanes<T>& w, FlowPlanes<T>& spare, Pool& pool);
 
-  std::vector<Grid> coarser_;  ///< from the next coarser one down
+  std::vector<Grid> coarser_;  ///< from fine to coarse, without the finest
 };
 
 }  // namespace faba

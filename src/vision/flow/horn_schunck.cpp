@@ -10,8 +10,8 @@
 namespace faba {
 namespace {
 
-constexpr int kSmallest = 32;  // px, the smaller side of the coarsest picture of a pyramid
-constexpr int kLook = 10;      // sweeps of Jacobi between two looks at how much still changes
+constexpr int kSmallest = 32;    // px, minimum of the smaller side of the coarsest pyramid level
+constexpr int kCheckEvery = 10;  // Jacobi sweeps between two convergence checks
 
 template <class T>
 void smooth(Plane<T>& p, double sd) {
@@ -22,7 +22,7 @@ void smooth(Plane<T>& p, double sd) {
 }
 
 template <class T>
-void halved(const Plane<T>& fine, Plane<T>& out) {
+void downscale_by_2(const Plane<T>& fine, Plane<T>& out) {
   out.resize((fine.width() + 1) / 2, (fine.height() + 1) / 2);
   for (int r = 0; r < out.height(); ++r) {
     const T *a = fine.row(2 * r), *b = fine.row(std::min(2 * r + 1, fine.height() - 1));
@@ -33,9 +33,9 @@ void halved(const Plane<T>& fine, Plane<T>& out) {
   }
 }
 
-// What left the picture is not known: there the neighbours decide.
+// Pixels warped from outside the picture have no data term: their flow follows from the neighbours.
 template <class T>
-void forget_unknown(FlowDerivatives<T>& d) {
+void clear_unknown_derivatives(FlowDerivatives<T>& d) {
   for (int r = 0; r < d.it.height(); ++r)
     for (int c = 0; c < d.it.width(); ++c)
       if (!std::isfinite(d.it.row(r)[c])) d.ix.row(r)[c] = d.iy.row(r)[c] = d.it.row(r)[c] = 0;
@@ -48,57 +48,51 @@ Schema<HornSchunckParams> HornSchunckParams::schema() {
   P published;
   published.solver = FlowSolver::jacobi;
   published.tolerance = 0;
-  return Schema<P>("horn_schunck",
-                   "Optical flow after Horn and Schunck: brightness stays, and neighbours move alike")
+  return Schema<P>("horn_schunck", "Optical flow of Horn and Schunck: constant brightness and smooth flow")
       .add("alpha2", &P::alpha2,
            {.min = 1e-6,
             .max = 1e12,
             .doc = "Weight of smoothness, grey levels squared on a scale of 0 to 255",
             .source = "assumed (A22): the thesis does not give it"})
       .add("solver", &P::solver,
-           {.doc = "multigrid: to the end; jacobi: the published iteration, from zero",
+           {.doc = "multigrid: solves to convergence; jacobi: the published iteration, starting at zero",
             .choices = {"multigrid", "jacobi"}})
       .add("iterations", &P::iterations,
            {.min = 1,
             .max = 1e6,
-            .doc = "At most so many cycles (multigrid) or sweeps (jacobi)",
+            .doc = "Maximum number of cycles (multigrid) or sweeps (jacobi)",
             .source = "A22"})
       .add("tolerance", &P::tolerance,
            {.unit = "px",
             .min = 0,
             .max = 1e3,
-            .doc = "Done when no component changes by more in a cycle, or in every tenth sweep; 0: take all "
-                   "iterations",
+            .doc = "Convergence: no component changes by more in a cycle, or in every tenth sweep; 0: always "
+                   "all iterations",
             .source = "A22"})
       .add("smooth", &P::smooth,
            {.unit = "px",
             .min = 0,
             .max = 50,
-            .doc = "Standard deviation of a Gaussian that frames are smoothed by"})
+            .doc = "Standard deviation of the Gaussian smoothing of the frames; 0: none"})
       .add("pyramid", &P::pyramid,
-           {.doc = "From coarse to fine with warping: for motion of more than two pixels between frames"})
-      .add("warps", &P::warps, {.min = 1, .max = 100, .doc = "Warps on each scale of the pyramid"})
+           {.doc = "Coarse-to-fine pyramid with warping, for displacements above 2 px per frame"})
+      .add("warps", &P::warps, {.min = 1, .max = 100, .doc = "Warps per pyramid level"})
       .preset("published", published,
-              "100 sweeps from zero, as in common programs of the thesis's time (A22): a measure of activity "
-              "that stays "
-              "near what moves")
+              "100 sweeps from zero, as in common implementations at the time of the thesis (A22): an "
+              "activity measure that stays local to moving objects")
       .validity(
-          "Without a pyramid motion of up to about twice the size of what moves (a spot of 1 px standard "
-          "deviation: "
-          "2 px per frame) is seen as it is; beyond, the flow is an index of activity and no velocity, and "
-          "may even "
-          "point backwards (A22). With a pyramid larger motion is seen of things that are still there when "
-          "the "
-          "picture is made smaller: not of single cells that jump further than their own size. Where nothing "
-          "is to "
-          "be seen the neighbours decide: 100 sweeps of jacobi reach about 10 px from there, multigrid any "
-          "distance.");
+          "Without pyramid, displacements of up to about twice the size of the moving object are measured "
+          "correctly (for a spot of 1 px standard deviation: 2 px per frame); for larger ones the flow is an "
+          "activity index, not a velocity, and its direction may be reversed (A22). With pyramid, larger "
+          "displacements are measured for objects that remain visible in the downscaled picture: not for "
+          "single cells that move by more than their size per frame. In uniform areas the flow is "
+          "extrapolated from the neighbours: 100 jacobi sweeps reach about 10 px, multigrid any distance.");
 }
 
 template <class T>
 void HornSchunck<T>::solve(Plane<T>& a, Plane<T>& b, bool warped) {
   differentiate(a, b, derivatives_, pool_);
-  if (warped) forget_unknown(derivatives_);
+  if (warped) clear_unknown_derivatives(derivatives_);
   system_.lambda = T(p_.alpha2);
   system_.set_up(derivatives_, warped ? &w_ : nullptr, p_.solver == FlowSolver::multigrid, pool_);
   spare_.resize(a.width(), a.height());
@@ -111,8 +105,8 @@ void HornSchunck<T>::solve(Plane<T>& a, Plane<T>& b, bool warped) {
     for (; n < p_.iterations && !converged_; ++n)
       converged_ = within(multigrid_.cycle(system_, w_, spare_, pool_));
   } else if (p_.tolerance > 0) {
-    for (; n < p_.iterations && !converged_; n += kLook)
-      converged_ = within(sweep(system_, w_, spare_, std::min(kLook, p_.iterations - n), true, pool_));
+    for (; n < p_.iterations && !converged_; n += kCheckEvery)
+      converged_ = within(sweep(system_, w_, spare_, std::min(kCheckEvery, p_.iterations - n), true, pool_));
     n = std::min(n, p_.iterations);
   } else {
     sweep(system_, w_, spare_, n = p_.iterations, false, pool_);
@@ -125,19 +119,19 @@ void HornSchunck<T>::coarse_to_fine() {
   for (std::size_t i = 1; std::min(levels_.back().a.width(), levels_.back().a.height()) >= 2 * kSmallest;
        ++i) {
     levels_.emplace_back();
-    halved(levels_[i - 1].a, levels_[i].a);
-    halved(levels_[i - 1].b, levels_[i].b);
+    downscale_by_2(levels_[i - 1].a, levels_[i].a);
+    downscale_by_2(levels_[i - 1].b, levels_[i].b);
   }
   for (std::size_t i = levels_.size(); i-- > 0;) {
     Level& level = levels_[i];
-    FlowPlanes<T> finer;
-    finer.resize(level.a.width(), level.a.height());
+    FlowPlanes<T> next_w;
+    next_w.resize(level.a.width(), level.a.height());
     if (i + 1 < levels_.size()) {
-      // Twice as many pixels are twice as long a way.
-      prolong_and_add(w_, finer, pool_);
-      prolong_and_add(w_, finer, pool_);
+      // Displacements in px double with the resolution: add the prolonged flow twice.
+      prolong_and_add(w_, next_w, pool_);
+      prolong_and_add(w_, next_w, pool_);
     }
-    w_ = std::move(finer);
+    w_ = std::move(next_w);
     done_ = 0;
     for (int k = 0; k < p_.warps; ++k) {
       warp(level.b, w_, warped_, pool_);
@@ -176,23 +170,23 @@ class HornSchunckFlow final : public FlowMethod {
   HornSchunckFlow(const Params& p, const FlowContext& c) : solver_(p, *c.pool) {}
 
   void between(const GrayF& a, const GrayF& b, Flow& out) override {
-    take(a, a_);
-    take(b, b_);
+    to_plane(a, a_);
+    to_plane(b, b_);
     const FlowPlanes<float>& w = solver_.between(a_, b_);
-    give(w.u, out.u);
-    give(w.v, out.v);
+    to_image(w.u, out.u);
+    to_image(w.v, out.v);
   }
   std::optional<FlowEffort> effort() const override {
     return FlowEffort{solver_.iterations(), solver_.converged()};
   }
 
  private:
-  static void take(const GrayF& from, Plane<float>& to) {
+  static void to_plane(const GrayF& from, Plane<float>& to) {
     to.resize(from.width, from.height);
     for (int r = 0; r < from.height; ++r)
       std::copy_n(&from.px[std::size_t(r) * std::size_t(from.width)], from.width, to.row(r));
   }
-  static void give(const Plane<float>& from, GrayF& to) {
+  static void to_image(const Plane<float>& from, GrayF& to) {
     if (to.width != from.width() || to.height != from.height()) to = GrayF(from.width(), from.height());
     for (int r = 0; r < to.height; ++r)
       std::copy_n(from.row(r), to.width, &to.px[std::size_t(r) * std::size_t(to.width)]);

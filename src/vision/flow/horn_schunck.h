@@ -21,18 +21,18 @@ struct HornSchunckParams {
   static Schema<HornSchunckParams> schema();
 };
 
-/// Optical flow after Horn and Schunck (1981) with the equations of theory A22. T is float, or double where
-/// the last digits are wanted. Keeps its memory from pair to pair. Same frames, same bits, for any pool.
+/// Optical flow of Horn and Schunck (1981) with the equations of theory A22. T is float, or double for high
+/// precision. Reuses its memory between pairs. Deterministic and bit-identical for any pool.
 template <class T>
 class HornSchunck {
  public:
   HornSchunck(const HornSchunckParams& p, Pool& pool) : p_(p), pool_(pool) {}
 
-  /// The flow from `a` to `b`, frames of one size with greys of 0 to 255; valid until the next call.
+  /// Flow from `a` to `b`: frames of the same size, grey values 0 to 255. Valid until the next call.
   const FlowPlanes<T>& between(const Plane<T>& a, const Plane<T>& b);
-  /// Sweeps (jacobi) or cycles (multigrid) on the finest grid for the last pair, warps added up.
+  /// Sweeps (jacobi) or cycles (multigrid) on the finest grid for the last pair, summed over warps.
   int iterations() const { return done_; }
-  /// Whether the last solution came within the tolerance before the iterations were used up.
+  /// Whether the last solution reached the tolerance within the iteration limit.
   bool converged() const { return converged_; }
 
  private:
@@ -44,7 +44,7 @@ class HornSchunck {
 
   HornSchunckParams p_;
   Pool& pool_;
-  std::vector<Level> levels_;  ///< from the finest one up
+  std::vector<Level> levels_;  ///< from fine to coarse
   Plane<T> warped_;
   FlowDerivatives<T> derivatives_;
   FlowSystem<T> system_;

@@ -3,8 +3,8 @@
 
 namespace faba {
 
-/// `b` as it would look had nothing moved: out(x) = b(x + w(x)), by cubic interpolation (Keys 1981, a =
-/// -1/2). Where that lies outside of `b` it is NaN. All of one size.
+/// Warps `b` backwards by the flow w: out(x) = b(x + w(x)), cubic interpolation (Keys 1981, a = -1/2).
+/// Positions outside of `b` give NaN. All planes have the same size.
 template <class T>
 void warp(const Plane<T>& b, const FlowPlanes<T>& w, Plane<T>& out, Pool& pool);
 

@@ -11,13 +11,14 @@
 namespace faba {
 namespace {
 
-constexpr float kLeastNoise = 0.25F;  // grey steps: quantisation alone makes 1 / sqrt(12)
-constexpr int kFewestFrames = 5;
+constexpr float kMinNoise = 0.25F;  // grey steps; quantisation noise is 1 / sqrt(12)
+constexpr int kMinFrames = 5;
 constexpr double kNoiseSmoothing = 3;  // px
 
-// Standard deviation of what lies within three robust ones: whole grey steps make the robust one coarse.
+// Standard deviation of the values within three robust ones; integer grey steps make the robust estimate
+// coarse.
 float fine_spread(const std::vector<float>& values) {
-  constexpr double kOfNormal = 0.98658;  // sd of a normal distribution cut off at three sd
+  constexpr double kTruncatedNormalSd = 0.98658;  // sd of a normal distribution truncated at three sd
   std::vector<float> work = values;
   const RobustSpread<float> rough = robust_spread_low(work);
   double n = 0, sum = 0, squares = 0;
@@ -28,7 +29,8 @@ float fine_spread(const std::vector<float>& values) {
     sum += d;
     squares += d * d;
   }
-  return n > 1 ? float(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) / kOfNormal) : 0.0F;
+  return n > 1 ? float(std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) / kTruncatedNormalSd)
+               : 0.0F;
 }
 
 }  // namespace
@@ -38,12 +40,12 @@ BackgroundSampler::BackgroundSampler(int most_frames, std::size_t most_bytes)
 
 void BackgroundSampler::take(const GrayF& frame) {
   if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
-    throw Error(Errc::internal, "", "frames of a background must have one size");
+    throw Error(Errc::internal, "", "the frame differs in size from the previous frames of the background");
   const bool wanted = seen_ % stride_ == 0;
   ++seen_;
   if (!wanted) return;
   const auto fit = most_bytes_ / std::max<std::size_t>(1, frame.px.size() * sizeof(float));
-  const auto most = std::clamp<std::size_t>(fit, std::size_t(std::min(kFewestFrames, most_frames_)),
+  const auto most = std::clamp<std::size_t>(fit, std::size_t(std::min(kMinFrames, most_frames_)),
                                             std::size_t(most_frames_));
   if (kept_.size() >= most) {
     std::size_t to = 0;
@@ -69,7 +71,7 @@ Background BackgroundSampler::background() const {
     b.noise_sd.px[i] = s.sd;
   }
   b.noise_sd = smoothed(b.noise_sd, kNoiseSmoothing);
-  for (float& v : b.noise_sd.px) v = std::max(v, kLeastNoise);
+  for (float& v : b.noise_sd.px) v = std::max(v, kMinNoise);
   return b;
 }
 
@@ -82,7 +84,7 @@ Background spatial_background(const GrayF& frame, double sd_px) {
     for (int col = 0; col + 1 < frame.width; ++col)
       steps.push_back(frame.at(col + 1, row) - frame.at(col, row));
   const float sd = steps.empty() ? 0 : fine_spread(steps) / std::sqrt(2.0F);
-  b.noise_sd = GrayF(frame.width, frame.height, std::max(sd, kLeastNoise));
+  b.noise_sd = GrayF(frame.width, frame.height, std::max(sd, kMinNoise));
   return b;
 }
 

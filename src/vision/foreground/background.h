@@ -6,37 +6,37 @@
 
 namespace faba {
 
-/// How what is looked for differs from the background.
+/// Contrast of the objects against the background.
 enum class Polarity {
-  automatic,  ///< told from the skewness of the differences
-  dark,       ///< darker than the background, as unstained cells in focus in bright field
-  bright,     ///< brighter, as in dark field and fluorescence
+  automatic,  ///< from the skewness of the differences
+  dark,       ///< darker than the background: unstained cells in focus in bright field
+  bright,     ///< brighter: dark field and fluorescence
   both        ///< either
 };
 
-/// What a video shows where nothing is.
+/// Background model of a video without its objects.
 struct Background {
-  GrayF level;     ///< grey, in the video's own scale
+  GrayF level;     ///< grey, in the scale of the video
   GrayF noise_sd;  ///< temporal standard deviation of each pixel, grey; > 0
-  int frames = 0;  ///< that it rests on
+  int frames = 0;  ///< number of frames used
 };
 
-/// The background of a video from frames spread over it, handed in one by one in the order of the video; how
-/// many there will be need not be known. Keeps at most `most_frames` of them, and fewer when they would not
-/// fit into `most_bytes`, by dropping every second one when full: memory does not grow with the length.
+/// Background model from frames sampled over a video of unknown length, passed in order. Keeps at most
+/// `most_frames` frames and at most `most_bytes` of memory: when full, every second frame is dropped and the
+/// stride is doubled.
 class BackgroundSampler {
  public:
   explicit BackgroundSampler(int most_frames = 50, std::size_t most_bytes = 256u << 20);
 
-  /// Looks at the next frame. All must have the size of the first, else Error(Errc::internal).
+  /// Offers the next frame. All frames must have the same size, else Error(Errc::internal).
   void take(const GrayF& frame);
-  /// Frames kept so far.
+  /// Frames sampled so far.
   const std::vector<GrayF>& kept() const { return kept_; }
 
-  /// Per pixel the median over the kept frames, and 1.4826 times the median absolute deviation from it as
-  /// noise, smoothed over 9 px since the scatter of the estimate itself is large (12 % for 50 frames); at
-  /// least a quarter of a grey step. A pixel that is covered in more than half of the frames is taken for
-  /// background as it is then: things that never move vanish. An empty Background when no frame was taken.
+  /// Per pixel, the median of the sampled frames; noise: 1.4826 times the median absolute deviation, smoothed
+  /// over 9 px because the statistical error of the estimate is large (12 % for 50 frames), at least a
+  /// quarter of a grey step. An object that covers a pixel in more than half of the frames becomes
+  /// background: immobile objects are not detected. An empty Background when there are no frames.
   Background background() const;
 
  private:
@@ -46,14 +46,13 @@ class BackgroundSampler {
   std::vector<GrayF> kept_;
 };
 
-/// Background of a single frame: the frame smoothed by a Gaussian of `sd_px`, which should be several times
-/// the size of what is looked for and smaller than what the light varies over. Noise: one value for all
-/// pixels, from the differences of neighbours in a row without the largest, which smooth structure hardly
-/// changes.
+/// Background of a single frame: Gaussian smoothing with `sd_px`, which should be several times the object
+/// size and smaller than the scale of the illumination. Noise: one value for all pixels, from the differences
+/// of horizontal neighbours without the largest ones, which is insensitive to smooth structure.
 Background spatial_background(const GrayF& frame, double sd_px);
 
-/// Dark or bright, by the sign of the third moment of the differences from their median, those beyond 3
-/// robust standard deviations only: the noise itself has no say. Dark when there is no such difference.
+/// Dark or bright, by the sign of the third moment of the differences about their median; only values beyond
+/// 3 robust standard deviations are used, so the noise has no influence. Dark when there are none.
 Polarity polarity_of(const std::vector<float>& differences);
 
 }  // namespace faba

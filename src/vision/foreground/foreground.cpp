@@ -17,23 +17,26 @@ namespace faba {
 namespace {
 
 constexpr double kFwhmToSd = 1 / 2.354820045;
-constexpr double kFollow_s = 2;  // in which uncovered background follows the picture
+constexpr double kFollow_s = 2;  // time constant of the update of uncovered background
 constexpr float kStillAfterChange_s = 1, kStillFromStart_s = 10;
-constexpr double kUncover = 0.6;  // share by which background that proves too dark (or bright) is corrected
-constexpr double kCellsPerLine = 9;  // length of the pieces that fill cells and leave lines, in cells
-constexpr float kOfLine = 0.3F;      // of a line's depth, below which a darker place on it is no cell
-constexpr double kTail = 0.7;   // of a cell's width, that it reaches beyond where it is above the threshold
-constexpr double kFew = 4.5;    // cells in a patch, of which a whole number is taken
-constexpr double kFirstSd = 4;  // of the smoothed noise, from which on the first picture shows a cell
-constexpr double kWholePicture_s = 20;  // twice what codecs let pass between whole pictures, 250 at 25 Hz
-constexpr double kSmoothedAway = 1.5;   // times less noise than lately: a codec's work, not chance
-constexpr double kLeastThreshold = 1;   // grey: rounding does not look like noise when the light changes
-constexpr double kCellMemory = 0.2;     // share of a new picture in what a cell is thought to weigh
+constexpr double kCorrection = 0.6;  // correction rate of background that is too dark (or bright)
+constexpr double kCellsPerLine =
+    9;  // length of the closing segments, in cell widths; fills cells but not lines
+constexpr float kMinLineDepth = 0.3F;  // minimum depth of a cell on a line, fraction of the depth of the line
+constexpr double kDilation = 0.7;      // dilation of the mask, fraction of the cell width
+constexpr double kMaxRounded = 4.5;    // maximum cells of a component that is rounded to an integer number
+constexpr double kFirstSd = 4;      // threshold of a cell in the first picture, in sd of the smoothed noise
+constexpr double kKeyFrame_s = 20;  // twice the key frame interval of codecs, 250 frames at 25 Hz
+constexpr double kCodecNoiseRatio =
+    1.5;  // noise ratio to the recent maximum that indicates smoothing by a codec
+constexpr double kMinThreshold =
+    1;  // grey; minimum, because rounding errors are not noise-like when the light changes
+constexpr double kCellUpdate = 0.2;  // weight of a new picture in the estimated signal of a cell
 
-// Brightness of the picture over that of the background: median of the quotients, where no cells are.
+// Brightness of the picture relative to the background: median of the ratios outside of cells.
 double common_gain(const GrayF& picture, const GrayF& background,
                    const std::vector<std::uint8_t>& leave_out) {
-  constexpr int kBins = 8192;  // of quotients from 0 to 4
+  constexpr int kBins = 8192;  // bins for ratios from 0 to 4
   constexpr float kPerUnit = kBins / 4.0F;
   std::vector<int> count(kBins);
   int total = 0;
@@ -62,7 +65,8 @@ double picture_noise(const Gray8& picture) {
   if (total == 0) return 0.3;
   int sum = 0, bin = 0;
   while (2 * (sum + count[std::size_t(bin)]) < total) sum += count[std::size_t(bin++)];
-  // A whole step stands for the values half a step about it; differences of nothing for half that width.
+  // An integer difference represents the interval of half a step to each side; a difference of 0 half that
+  // width.
   const double inside = (0.5 * total - sum) / count[std::size_t(bin)];
   const double median = bin == 0 ? 0.5 * inside : bin - 0.5 + inside;
   return std::max(0.3, median / (0.6744897502 * 1.4142135624));
@@ -73,39 +77,39 @@ Foreground::Foreground(ForegroundOptions options) : options_(options) {
   sign_ = options_.polarity == Polarity::dark ? -1 : options_.polarity == Polarity::bright ? 1 : 0;
 }
 
-// The first background: the picture without what is dark (or bright) and small in every direction.
+// The first background: the picture with dark (or bright) objects that are small in every direction filled.
 void Foreground::begin(const GrayF& picture, double noise) {
   const double s = std::max(sd_px_, 0.8);
   const GrayF fine = smoothed(picture, s);
   if (sign_ == 0) sign_ = spot_polarity(fine, s, noise);
-  GrayF turned = fine;  // cells dark
+  GrayF cells_dark = fine;  // inverted for bright cells, so that cells are dark
   if (sign_ > 0)
-    for (float& v : turned.px) v = -v;
-  const LineClosing closing = line_closing(turned, kCellsPerLine * options_.cell_px);
+    for (float& v : cells_dark.px) v = -v;
+  const LineClosing closing = line_closing(cells_dark, kCellsPerLine * options_.cell_px);
   const GrayF& closed = closing.least;
-  // What the noise lifts, where no cells are: most of the picture.
-  std::vector<float> lifted;
-  for (std::size_t i = 0; i < closed.px.size(); i += 7) lifted.push_back(closed.px[i] - turned.px[i]);
-  const float lift = lifted.empty() ? 0 : median_high(lifted);
-  const auto threshold = float(std::max(kLeastThreshold, kFirstSd * noise * smoothing_gain()));
+  // Bias of the closing by noise, from the median, because most of the picture has no cells.
+  std::vector<float> biases;
+  for (std::size_t i = 0; i < closed.px.size(); i += 7) biases.push_back(closed.px[i] - cells_dark.px[i]);
+  const float bias = biases.empty() ? 0 : median_high(biases);
+  const auto threshold = float(std::max(kMinThreshold, kFirstSd * noise * smoothing_gain()));
   covered_.assign(picture.px.size(), 0);
   for (std::size_t i = 0; i < closed.px.size(); ++i) {
     const float depth = closing.largest.px[i] - closed.px[i];
-    covered_[i] = closed.px[i] - lift - turned.px[i] > std::max(threshold, kOfLine * depth) ? 1 : 0;
+    covered_[i] = closed.px[i] - bias - cells_dark.px[i] > std::max(threshold, kMinLineDepth * depth) ? 1 : 0;
   }
   dilate(covered_, work_, picture.width, picture.height, std::max(1, int(std::ceil(0.7 * options_.cell_px))));
   background_ = picture;
-  guess_.assign(picture.px.size(), seen);
+  guess_.assign(picture.px.size(), observed);
   still_grey_.assign(picture.px.size(), 0);
   still_s_.assign(picture.px.size(), 0);
   for (std::size_t i = 0; i < closed.px.size(); ++i)
     if (covered_[i]) {
-      background_.px[i] = float(-sign_) * (closed.px[i] - lift);
+      background_.px[i] = float(-sign_) * (closed.px[i] - bias);
       guess_[i] = guessed;
     }
 }
 
-// What the smoothing leaves of white noise.
+// Gain of the smoothing for white noise.
 double Foreground::smoothing_gain() const {
   const std::vector<float> kernel = gaussian_weights(std::max(sd_px_, 0.6));
   double square = double(kernel[0]) * double(kernel[0]);
@@ -114,11 +118,11 @@ double Foreground::smoothing_gain() const {
 }
 
 void Foreground::know(const Background& background) {
-  constexpr double kOfMedian = 1.5707963268;  // variance of a median over that of a mean
+  constexpr double kMedianVariance = 1.5707963268;  // variance of a median over that of a mean
   background_ = background.level;
-  own_noise_ = kOfMedian / std::max(1, background.frames);
+  background_noise_ = kMedianVariance / std::max(1, background.frames);
   covered_.assign(background_.px.size(), 0);
-  known_ = true;
+  background_given_ = true;
 }
 
 void Foreground::take(const Gray8& picture, double dt_s) {
@@ -126,35 +130,35 @@ void Foreground::take(const Gray8& picture, double dt_s) {
   picture_.height = picture.height;
   picture_.px.resize(picture.px.size());
   to_float(picture.px.data(), picture_.px.data(), int(picture.px.size()));
-  look(picture_noise(picture), dt_s);
+  process(picture_noise(picture), dt_s);
 }
 
 void Foreground::take(const GrayF& picture, double noise, double dt_s) {
   picture_ = picture;
-  look(noise, dt_s);
+  process(noise, dt_s);
 }
 
-void Foreground::look(double noise, double dt_s) {
+void Foreground::process(double noise, double dt_s) {
   const GrayF& grey = picture_;
   const bool resized = background_.width != grey.width || background_.height != grey.height;
-  if (resized) known_ = false;
-  const bool anew = !known_ && (resized || !options_.learn);
-  const bool learns = options_.learn && !anew && !known_;
-  // Between its whole pictures a codec smooths noise away, and brings it back with the next.
-  noisiest_ = std::max(noise, anew ? 0 : noisiest_ * (1 - std::clamp(dt_s / kWholePicture_s, 0.0, 1.0)));
-  if (noisiest_ > kSmoothedAway * noise) noise = noisiest_;
-  if (anew) begin(grey, noise);
+  if (resized) background_given_ = false;
+  const bool reset = !background_given_ && (resized || !options_.learn);
+  const bool learns = options_.learn && !reset && !background_given_;
+  // Codecs smooth noise between key frames and restore it at the next key frame.
+  recent_noise_ = std::max(noise, reset ? 0 : recent_noise_ * (1 - std::clamp(dt_s / kKeyFrame_s, 0.0, 1.0)));
+  if (recent_noise_ > kCodecNoiseRatio * noise) noise = recent_noise_;
+  if (reset) begin(grey, noise);
   if (sign_ == 0) sign_ = spot_polarity(smoothed(grey, std::max(sd_px_, 0.8)), std::max(sd_px_, 0.8), noise);
   weights_.width = grey.width;
   weights_.height = grey.height;
   weights_.px.resize(grey.px.size());
-  const double common = anew ? 1 : common_gain(grey, background_, covered_);
+  const double common = reset ? 1 : common_gain(grey, background_, covered_);
   const auto gain = float(common);
-  // A background that rests on few frames has their noise.
-  if (anew) frames_ = 0;
-  find_covered(gain, noise * std::sqrt(1 + (anew ? 0 : own_noise_)));
-  if (anew) own_noise_ = 1;
-  // Strip by strip, so that what one step has read or written is still in the cache for the next.
+  // A background from few frames is noisy itself.
+  if (reset) frames_ = 0;
+  find_covered(gain, noise * std::sqrt(1 + (reset ? 0 : background_noise_)));
+  if (reset) background_noise_ = 1;
+  // In strips, so that the data of one step are still in the cache for the next.
   constexpr int kStrip = 1 << 13;  // px
   const LightLoss loss{gain, float(noise), sign_ < 0 ? gain * middle_brightness() : 0};
   const Learning learning = learns ? learn_at(common, dt_s, noise) : Learning{};
@@ -169,16 +173,17 @@ void Foreground::look(double noise, double dt_s) {
   count_cells();
 }
 
-// What most patches weigh: single cells are the commonest until they touch. 0 where there are too few.
+// Signal of one cell: the most frequent signal of the components, because single cells are the most frequent
+// ones unless they touch. 0 if there are too few.
 double Foreground::signal_of_one(std::vector<double> patches) const {
   constexpr std::size_t kEnough = 8;
-  constexpr double kAlike = 1.6;  // largest over smallest of what counts as one weight
+  constexpr double kModeRatio = 1.6;  // ratio of largest to smallest signal within one mode
   std::sort(patches.begin(), patches.end());
   std::size_t most = 0, at = 0;
   for (std::size_t first = 0, end = 0; first < patches.size(); ++first) {
     if (!(patches[first] > 0)) continue;
     end = std::max(end, first);
-    while (end < patches.size() && patches[end] < kAlike * patches[first]) ++end;
+    while (end < patches.size() && patches[end] < kModeRatio * patches[first]) ++end;
     if (end - first > most) {
       most = end - first;
       at = first;
@@ -200,11 +205,11 @@ void Foreground::count_cells() {
   const double found = signal_of_one(signal), now = found > 0 ? found : cell_guess_;
   if (now > 0)
     cell_signal_ =
-        cell_signal_ == 0 || frames_ == 1 ? now : cell_signal_ + kCellMemory * (now - cell_signal_);
-  if (!(found > 0)) return;  // what one cell weighs is but a guess
+        cell_signal_ == 0 || frames_ == 1 ? now : cell_signal_ + kCellUpdate * (now - cell_signal_);
+  if (!(found > 0)) return;  // the signal of one cell is only a rough estimate
   std::vector<float> factor(signal.size(), 1.0F);
   for (std::size_t k = 0; k < signal.size(); ++k)
-    if (const double cells = signal[k] / cell_signal_; cells < kFew)
+    if (const double cells = signal[k] / cell_signal_; cells < kMaxRounded)
       factor[k] = cells > 0.5 ? float(std::round(cells) / cells) : 0.0F;
   for (const PatchRun& r : runs_)
     if (const float by = factor[std::size_t(r.patch)]; by != 1)
@@ -220,8 +225,8 @@ float Foreground::middle_brightness() const {
   return float(sum / n);
 }
 
-// Cells in transmitted light take away a share of it, and so do cells behind cells: the logarithm of the
-// light that is left adds up, whatever the light (theory H5). In grey of the middle brightness.
+// Cells in transmitted light absorb a fraction of it, also behind other cells: the negative logarithm of the
+// transmission is additive and independent of the light (theory H5). In grey of the mean brightness.
 void Foreground::take_logarithms(const LightLoss& loss, int first, int end) {
   lost_light(picture_.px.data() + first, background_.px.data() + first, covered_.data() + first, loss,
              weights_.px.data() + first, end - first);
@@ -235,17 +240,17 @@ void Foreground::find_covered(float gain, double noise) {
     return &weights_.px[first];
   };
   smooth(w, picture_.height, row_of, std::max(sd_px_, 0.6), smooth_, scratch_);
-  // Codecs and focus leave noise that hangs together, and more of it after smoothing than white noise would.
-  const double left = std::max(noise * smoothing_gain(), known_ ? noise_below_background() : 0.0);
-  const auto threshold = float(std::max(kLeastThreshold, options_.threshold_sd * left));
+  // Codecs and defocus cause correlated noise, which is larger after smoothing than white noise.
+  const double left = std::max(noise * smoothing_gain(), background_given_ ? noise_below_background() : 0.0);
+  const auto threshold = float(std::max(kMinThreshold, options_.threshold_sd * left));
   covered_.resize(smooth_.px.size());
   above(smooth_.px.data(), threshold, covered_.data(), int(smooth_.px.size()));
   cell_guess_ = guess_cell_signal();
   dilate(covered_, work_, weights_.width, weights_.height,
-         std::max(1, int(std::lround(kTail * options_.cell_px))));
+         std::max(1, int(std::lround(kDilation * options_.cell_px))));
 }
 
-// Of the smoothed difference, from the values on the side where no cells are.
+// Noise of the smoothed difference, from the values with the sign opposite to that of cells.
 double Foreground::noise_below_background() const {
   std::vector<float> below;
   for (std::size_t i = 0; i < smooth_.px.size(); i += 7)
@@ -254,8 +259,8 @@ double Foreground::noise_below_background() const {
   return double(median_high(below)) / 0.6744897502;
 }
 
-// A cell's signal from the lower quartile of the maxima of the smoothed difference: the others are several
-// cells, or in them. 0 where there are too few to tell.
+// Signal of one cell from the lower quartile of the maxima of the smoothed difference; larger maxima are
+// overlapping cells. 0 if there are too few.
 double Foreground::guess_cell_signal() const {
   std::vector<float> peaks;
   const int w = smooth_.width;
@@ -265,7 +270,7 @@ double Foreground::guess_cell_signal() const {
     mark_peaks(&smooth_.px[second], w, covered_.data() + second, peak.data(), w - 2);
     each_set(peak.data(), w - 2, [&](int i) { peaks.push_back(smooth_.px[second + std::size_t(i)]); });
   }
-  if (peaks.size() < (known_ || !options_.learn ? 1 : 5)) return 0;
+  if (peaks.size() < (background_given_ || !options_.learn ? 1 : 5)) return 0;
   const float quartile = order_statistic(peaks, peaks.size() / 4);
   const double s = std::max(sd_px_, 0.6);
   return double(quartile) * 2 * portable::kPi * (sd_px_ * sd_px_ + s * s);
@@ -275,7 +280,7 @@ bool Foreground::proves_background(std::size_t i, float least_change, float dt_s
   const float grey = smooth_.px[i];
   const float change = std::fabs(grey - still_grey_[i]);
   if (change > least_change) {
-    // The first picture is no change.
+    // The first picture does not count as a change.
     if (guess_[i] == guessed && (still_grey_[i] != 0)) guess_[i] = changed;
     still_grey_[i] = grey;
     still_s_[i] = 0;
@@ -283,24 +288,25 @@ bool Foreground::proves_background(std::size_t i, float least_change, float dt_s
   }
   still_s_[i] += dt_s;
   if (still_s_[i] < (guess_[i] == changed ? kStillAfterChange_s : kStillFromStart_s)) return false;
-  still_grey_[i] = grey;  // which the background is about to take off
+  still_grey_[i] = grey;  // the background update subtracts it
   return true;
 }
 
 Foreground::Learning Foreground::learn_at(double gain, double dt_s, double noise) {
-  // At first the mean of all frames so far.
+  // Initially the mean of all frames so far.
   const auto follow =
       float(std::max(1.0 / double(frames_ + 1), std::min(0.5, std::max(0.0, dt_s) / kFollow_s)));
-  own_noise_ = (1 - double(follow)) * (1 - double(follow)) * own_noise_ + double(follow) * double(follow);
-  const auto smooth_uncovered = -float(std::max(kLeastThreshold, 4 * noise * smoothing_gain()));
+  background_noise_ =
+      (1 - double(follow)) * (1 - double(follow)) * background_noise_ + double(follow) * double(follow);
+  const auto smooth_uncovered = -float(std::max(kMinThreshold, 4 * noise * smoothing_gain()));
   return {.follow = {.follow = follow,
                      .absorb = float(std::min(1.0, std::max(0.0, dt_s) / options_.absorb_s)),
-                     .at_once = float(kUncover),
+                     .at_once = float(kCorrection),
                      .least_weight = float(-4 * noise),
                      .least_smooth = smooth_uncovered,
                      .back = float(1 / gain),
-                     .next = 1 + follow * (float(gain) - 1)},  // the common brightness is followed too
-          .least_change = -1.4142135F * smooth_uncovered,      // of two pictures, each with its noise
+                     .next = 1 + follow * (float(gain) - 1)},  // the common brightness is updated as well
+          .least_change = -1.4142135F * smooth_uncovered,      // difference of two pictures, each with noise
           .dt_s = float(dt_s)};
 }
 
@@ -309,7 +315,7 @@ void Foreground::learn(const Learning& l, int first, int end) {
     const auto i = std::size_t(first) + std::size_t(at);
     if (!covered_[i] || weights_.px[i] < l.follow.least_weight || smooth_.px[i] < l.follow.least_smooth)
       return;
-    if (proves_background(i, l.least_change, l.dt_s)) guess_[i] |= kProvedWrong;
+    if (proves_background(i, l.least_change, l.dt_s)) guess_[i] |= kDisproved;
   });
   follow_picture(picture_.px.data() + first, weights_.px.data() + first, smooth_.px.data() + first,
                  covered_.data() + first, l.follow, guess_.data() + first, background_.px.data() + first,
@@ -318,7 +324,7 @@ void Foreground::learn(const Learning& l, int first, int end) {
 
 SwarmMoments Foreground::moments() const {
   SwarmMoments m;
-  // About the middle of the picture, where the sums of squares lose the least.
+  // Coordinates relative to the picture centre, for numerical accuracy.
   const double x0 = 0.5 * (weights_.width - 1), y0 = 0.5 * (weights_.height - 1);
   double x = 0, y = 0;
   Mat2 square;
@@ -343,16 +349,16 @@ SwarmMoments Foreground::moments() const {
   x /= m.signal;
   y /= m.signal;
   m.centroid_image = {x0 + x, y0 + y};
-  const double own = sd_px_ * sd_px_;
-  m.cov_px2 = {std::max(0.0, square.xx / m.signal - x * x - own), square.xy / m.signal - x * y,
-               std::max(0.0, square.yy / m.signal - y * y - own)};
+  const double cell_variance = sd_px_ * sd_px_;
+  m.cov_px2 = {std::max(0.0, square.xx / m.signal - x * x - cell_variance), square.xy / m.signal - x * y,
+               std::max(0.0, square.yy / m.signal - y * y - cell_variance)};
   m.cells = std::max(1.0, m.signal / cell_signal_);
   return m;
 }
 
 void Foreground::archive(Archive& a) {
-  a& sign_& cell_signal_& own_noise_& noisiest_& frames_& background_.width& background_.height& background_
-      .px& covered_& guess_& still_grey_& still_s_;
+  a& sign_& cell_signal_& background_noise_& recent_noise_& frames_& background_.width& background_
+      .height& background_.px& covered_& guess_& still_grey_& still_s_;
 }
 
 }  // namespace faba

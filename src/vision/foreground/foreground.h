@@ -14,65 +14,65 @@ namespace faba {
 /// Parameters of Foreground.
 struct ForegroundOptions {
   double cell_px = 3;  ///< full width at half maximum of a cell in the picture, px, 1 to 20
-  Polarity polarity = Polarity::automatic;  ///< automatic: told by the first picture; not both
-  double threshold_sd = 5;  ///< of the smoothed noise, from which on a place counts as covered by cells
-  double absorb_s = 150;    ///< time in which what stands still becomes background, s
-  bool learn = true;        ///< false: the background is found in each picture anew
+  Polarity polarity = Polarity::automatic;  ///< automatic: from the first picture; `both` is not permitted
+  double threshold_sd = 5;                  ///< foreground threshold, in sd of the smoothed noise
+  double absorb_s = 150;  ///< time constant with which immobile objects become background, s
+  bool learn = true;      ///< false: the background is estimated from each picture separately
 };
 
-/// What a picture shows of a swarm. Image frame, px, y down.
+/// Moments of a swarm in a picture. Image frame, px, y down.
 struct SwarmMoments {
-  double signal = 0;  ///< integrated difference from the background, grey px^2; 0: no swarm is seen
+  double signal = 0;  ///< integrated difference from the background, grey px^2; 0: no swarm detected
   Vec2 centroid_image;
-  Mat2 cov_px2;      ///< of the cells' positions: the width of a cell is taken off; x right, y down
-  double cells = 0;  ///< estimate of their number, from the signal and that of patches of one or two
+  Mat2 cov_px2;      ///< covariance of the cell positions, corrected for the width of a cell; x right, y down
+  double cells = 0;  ///< estimated number of cells, from the total signal and the signal of one cell
 };
 
-/// Where a swarm is in a picture, without finding its cells one by one: the difference from a background,
-/// counted only where cells are. Differences are summed with their sign, so that noise cancels, over the
-/// places whose smoothed difference is above a threshold and their surroundings, so that uneven light far
-/// from cells does not count. Where cells are dark it is the logarithm of light over background that is
-/// summed, in grey of the mean background: light lost to one cell is lost to the next, and a cell takes the
-/// same share of it everywhere. A connected patch of a few cells is counted as a whole number of them,
-/// whatever its noise and however faint they are; of more its signal counts.
+/// Position and extent of a swarm in a picture without detection of single cells, by background subtraction
+/// in a foreground mask. The foreground mask contains the pixels whose smoothed difference exceeds a
+/// threshold, dilated. The differences inside the mask are summed with their sign, so that noise cancels;
+/// uneven light outside the mask has no influence. For dark cells the logarithm of the ratio of light to
+/// background is summed (in grey of the mean background): cells absorb the same fraction of the light
+/// everywhere, and the absorption of overlapping cells adds up. The signal of a connected component of a few
+/// cells is rounded to an integer number of cells, which removes the influence of noise and contrast; larger
+/// components contribute their signal.
 ///
-/// The background of the first picture is the picture itself, with what is small in every direction filled in
-/// (line_closing): lines, as the edge of a drop, are background. It then follows the picture within 2 s where
-/// no cells are, at once where the picture shows that the background is lighter (for dark cells) than
-/// believed, and where cells are by a share dt / absorb_s only: a swarm that stands still loses 6 % of its
-/// signal in ten seconds. What was filled in is a guess: a place of it where nothing moves for a second after
-/// something has, or for ten if nothing ever has, has no cells. A change of brightness by a common factor is
-/// taken off.
+/// Background model: the first one is the first picture with small objects filled by line_closing; long lines
+/// such as the edge of a drop remain background. Without cells the model follows the picture with a time
+/// constant of 2 s; where the background is lighter (for dark cells) than the model, it is corrected at once;
+/// under cells it follows with the fraction dt / absorb_s only: an immobile swarm loses 6 % of its signal in
+/// ten seconds. Filled pixels are a guess: such a pixel is assumed to be background when it is constant for
+/// one second after a change, or for ten seconds without any change. Common changes of brightness are
+/// corrected.
 ///
-/// Only additions, multiplications and square roots in a fixed order: same bits on every machine.
+/// Uses only additions, multiplications and square roots in a fixed order: bit-identical on every machine.
 class Foreground {
  public:
   explicit Foreground(ForegroundOptions options = {});
 
-  /// From now on this is the background, as a whole video shows it, and nothing is learnt from pictures.
+  /// Sets a given background, for example of a complete video, and disables the background update.
   void know(const Background& background);
 
-  /// Looks at the picture that was taken `dt_s` after the one before (any value for the first). When the size
-  /// changes it begins anew.
+  /// Processes a picture taken `dt_s` after the previous one (any value for the first). A change of size
+  /// resets the model.
   void take(const Gray8& picture, double dt_s);
-  /// The same for a picture of other than 8 bits, brought to greys of 0 to 255, with noise of `noise` grey.
+  /// As above for other bit depths: grey values scaled to 0..255, noise sd `noise` in grey.
   void take(const GrayF& picture, double noise, double dt_s);
 
-  /// What the last picture shows.
+  /// Moments of the last picture.
   SwarmMoments moments() const;
-  /// Difference from the background of each pixel, with its sign (positive where cells are), 0 where none
-  /// are.
+  /// Difference from the background of each pixel, positive for cells; 0 outside of the foreground mask.
   const GrayF& weights() const { return weights_; }
-  /// The stretches of rows that cells cover, and the patch that each is of, in the last picture.
+  /// Runs of the foreground mask of the last picture with the number of their connected component.
   const std::vector<PatchRun>& runs() const { return runs_; }
-  /// Of each pixel whether cells are there: not 0.
+  /// Foreground mask: non-zero where cells are.
   const std::vector<std::uint8_t>& covered() const { return covered_; }
   void archive(Archive& a);
 
  private:
   void begin(const GrayF& picture, double noise);
   bool proves_background(std::size_t i, float least_change, float dt_s);
-  void look(double noise, double dt_s);
+  void process(double noise, double dt_s);
   void find_covered(float gain, double noise);
   float middle_brightness() const;
   void take_logarithms(const LightLoss& loss, int first, int end);
@@ -89,25 +89,25 @@ class Foreground {
   double smoothing_gain() const;
 
   ForegroundOptions options_;
-  double sd_px_ = 1, sign_ = 0;  ///< of a cell; -1 dark, +1 bright, 0 not yet known
-  double cell_signal_ = 0;       ///< grey px^2
-  double cell_guess_ = 0;        ///< from the last picture alone
-  double noisiest_ = 0;          ///< of the pictures lately, grey
-  double own_noise_ = 0;         ///< variance of the background over that of the picture's noise
-  std::uint64_t frames_ = 0;     ///< that the background rests on
-  bool known_ = false;           ///< the background is given
+  double sd_px_ = 1, sign_ = 0;    ///< sd of a cell; -1 dark, +1 bright, 0 unknown
+  double cell_signal_ = 0;         ///< signal of one cell, grey px^2
+  double cell_guess_ = 0;          ///< estimate from the last picture, grey px^2
+  double recent_noise_ = 0;        ///< decaying maximum of the picture noise, grey
+  double background_noise_ = 0;    ///< noise variance of the background relative to that of a picture
+  std::uint64_t frames_ = 0;       ///< number of frames in the background
+  bool background_given_ = false;  ///< the background was set by know()
   GrayF background_, weights_, smooth_, picture_, scratch_;
   std::vector<std::uint8_t> covered_, work_;
-  std::vector<PatchRun> runs_;  ///< of the last picture
-  /// Of the pixels that were covered in the first picture, whose background is a guess: whether they have
-  /// changed since, the smoothed difference that they had when they last did, and for how long they have been
-  /// still, s.
-  enum Guess : std::uint8_t { seen, guessed, changed };
+  std::vector<PatchRun> runs_;  ///< runs of the last picture
+  /// State of the pixels that were covered in the first picture, whose background is a guess: whether they
+  /// have changed, their smoothed difference at the last change, and the time since then, s.
+  enum Guess : std::uint8_t { observed, guessed, changed };
   std::vector<std::uint8_t> guess_;
   std::vector<float> still_grey_, still_s_;
 };
 
-/// Standard deviation of a picture's noise, grey, from the differences of neighbours in a row; at least 0.3.
+/// Standard deviation of the noise of a picture, grey, from the differences of horizontal neighbours; at
+/// least 0.3.
 double picture_noise(const Gray8& picture);
 
 }  // namespace faba

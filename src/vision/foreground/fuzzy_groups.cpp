@@ -8,8 +8,8 @@
 namespace faba {
 namespace {
 
-constexpr int kRounds = 60;
-constexpr double kStill = 1e-5;  // of the whole spread: centroids that move less are at rest
+constexpr int kMaxIterations = 60;
+constexpr double kTolerance = 1e-5;  // fraction of the total spread; convergence limit of the centroids
 
 double squared(Vec2 v) { return dot(v, v); }
 
@@ -30,14 +30,14 @@ struct Sums {
   }
 };
 
-FuzzyGroup whole(const std::vector<WeightedPlace>& places) {
+FuzzyGroup single_group(const std::vector<WeightedPlace>& places) {
   Sums s;
   for (const auto& p : places) s.add(p.at, p.weight);
   return {s.mean(), s.cov(), 1};
 }
 
-// Memberships, in place; `u` has the size of the groups.
-void weigh(const std::vector<FuzzyGroup>& groups, Vec2 at, std::vector<double>& u) {
+// Computes the memberships into `u`, which has the size of groups.
+void compute_memberships(const std::vector<FuzzyGroup>& groups, Vec2 at, std::vector<double>& u) {
   double sum = 0;
   for (std::size_t k = 0; k < groups.size(); ++k) {
     const double d2 = std::max(squared(at - groups[k].centroid), 1e-300);
@@ -48,15 +48,16 @@ void weigh(const std::vector<FuzzyGroup>& groups, Vec2 at, std::vector<double>& 
   for (double& v : u) v = std::min(1.0, v / sum);
 }
 
-// Moves the centroids to where they rest.
-void settle(const std::vector<WeightedPlace>& places, std::vector<FuzzyGroup>& groups, double spread2) {
+// Iterates the centroids to convergence.
+void iterate_centroids(const std::vector<WeightedPlace>& places, std::vector<FuzzyGroup>& groups,
+                       double spread2) {
   std::vector<double> u(groups.size());
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kMaxIterations; ++round) {
     std::vector<Sums> sums(groups.size());
     std::vector<double> share(groups.size());
     double total = 0;
     for (const auto& p : places) {
-      weigh(groups, p.at, u);
+      compute_memberships(groups, p.at, u);
       total += p.weight;
       for (std::size_t k = 0; k < groups.size(); ++k) {
         sums[k].add(p.at, p.weight * u[k] * u[k]);
@@ -69,13 +70,13 @@ void settle(const std::vector<WeightedPlace>& places, std::vector<FuzzyGroup>& g
       moved = std::max(moved, squared(sums[k].mean() - groups[k].centroid));
       groups[k] = {sums[k].mean(), sums[k].cov(), share[k] / total};
     }
-    if (moved <= kStill * kStill * spread2) break;
+    if (moved <= kTolerance * kTolerance * spread2) break;
   }
 }
 
-// The widest group (by weight times variance) becomes two, one standard deviation each way along its main
-// axis.
-std::vector<FuzzyGroup> cut_in_two(std::vector<FuzzyGroup> groups) {
+// Splits the widest group (by weight times variance) into two, displaced by one standard deviation in both
+// directions of its main axis.
+std::vector<FuzzyGroup> split_widest(std::vector<FuzzyGroup> groups) {
   const auto widest =
       std::max_element(groups.begin(), groups.end(), [](const FuzzyGroup& a, const FuzzyGroup& b) {
         return a.share * (a.cov.xx + a.cov.yy) < b.share * (b.cov.xx + b.cov.yy);
@@ -99,31 +100,32 @@ struct Validity {
   double xie_beni = 0;
 };
 
-// With each place given wholly to its nearest group.
+// Validity with hard assignment of each position to its nearest group.
 Validity validity_of(const std::vector<WeightedPlace>& places, const std::vector<FuzzyGroup>& groups,
                      const FuzzyGroupOptions& o) {
-  std::vector<Sums> own(groups.size());
+  std::vector<Sums> hard_groups(groups.size());
   std::vector<double> u(groups.size());
   double within = 0, total = 0, nearest = std::numeric_limits<double>::max();
   for (const auto& p : places) {
-    weigh(groups, p.at, u);
+    compute_memberships(groups, p.at, u);
     const auto k = std::size_t(std::max_element(u.begin(), u.end()) - u.begin());
-    own[k].add(p.at - groups[k].centroid, p.weight);
+    hard_groups[k].add(p.at - groups[k].centroid, p.weight);
     total += p.weight;
     for (std::size_t i = 0; i < groups.size(); ++i)
       within += p.weight * u[i] * u[i] * squared(p.at - groups[i].centroid);
   }
   Validity v;
   for (std::size_t a = 0; a < groups.size(); ++a) {
-    if (own[a].n < o.least_share * total) return {false, 0};
+    if (hard_groups[a].n < o.least_share * total) return {false, 0};
     for (std::size_t b = a + 1; b < groups.size(); ++b) {
-      if (own[b].n < o.least_share * total) return {false, 0};
-      const Vec2 apart = groups[a].centroid + own[a].mean() - groups[b].centroid - own[b].mean();
+      if (hard_groups[b].n < o.least_share * total) return {false, 0};
+      const Vec2 apart =
+          groups[a].centroid + hard_groups[a].mean() - groups[b].centroid - hard_groups[b].mean();
       const double d2 = squared(apart);
       const auto along = [&](const Mat2& c) {
         return (c.xx * apart.x * apart.x + 2 * c.xy * apart.x * apart.y + c.yy * apart.y * apart.y) / d2;
       };
-      const double spread2 = 0.5 * (along(own[a].cov()) + along(own[b].cov()));
+      const double spread2 = 0.5 * (along(hard_groups[a].cov()) + along(hard_groups[b].cov()));
       if (!(d2 > o.separation * o.separation * spread2)) v.separated = false;
       nearest = std::min(nearest, squared(groups[a].centroid - groups[b].centroid));
     }
@@ -136,7 +138,7 @@ Validity validity_of(const std::vector<WeightedPlace>& places, const std::vector
 
 std::vector<double> memberships(const std::vector<FuzzyGroup>& groups, Vec2 at) {
   std::vector<double> u(groups.size());
-  weigh(groups, at, u);
+  compute_memberships(groups, at, u);
   return u;
 }
 
@@ -144,13 +146,13 @@ std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPlace>& places, c
   double total = 0;
   for (const auto& p : places) total += p.weight;
   if (!(total > 0)) return {};
-  std::vector<FuzzyGroup> groups{whole(places)}, best = groups;
+  std::vector<FuzzyGroup> groups{single_group(places)}, best = groups;
   const double spread2 = groups[0].cov.xx + groups[0].cov.yy;
   double best_index = std::numeric_limits<double>::max();
   const auto most = std::min<std::size_t>(std::size_t(o.count > 0 ? o.count : o.most), places.size());
   while (groups.size() < most && spread2 > 0) {
-    groups = cut_in_two(groups);
-    settle(places, groups, spread2);
+    groups = split_widest(groups);
+    iterate_centroids(places, groups, spread2);
     if (o.count > 0) {
       best = groups;
       continue;

@@ -5,43 +5,43 @@
 
 namespace faba {
 
-/// A place and how much of a swarm is there (cells, or signal); any unit of length.
+/// A position with its weight (number of cells, or signal); any unit of length.
 struct WeightedPlace {
   Vec2 at;
   double weight = 1;
 };
 
-/// A group of places; lengths in the unit of the places.
+/// A cluster; lengths in the unit of the positions.
 struct FuzzyGroup {
   Vec2 centroid;
   Mat2 cov;
-  double share = 0;  ///< of the whole weight, sum of memberships
+  double share = 0;  ///< fraction of the total weight: sum of memberships
 };
 
 /// Parameters of fuzzy_groups.
 struct FuzzyGroupOptions {
-  int count = 0;              ///< of groups; 0: found, 1 to `most`
-  int most = 4;               ///< 1 to 10
-  double least_share = 0.03;  ///< a group with less is none
-  /// Two groups are two only when their distance is over this many times their spread along the line between
-  /// them. Halves of one even band have 3.5, of one Gaussian 2.7 (theory H6).
+  int count = 0;              ///< number of groups; 0: estimated, 1 to `most`
+  int most = 4;               ///< maximum number of groups, 1 to 10
+  double least_share = 0.03;  ///< minimum fraction of the total weight in a group
+  /// Two groups are separate only if their distance exceeds this multiple of their spread along the
+  /// connecting line. Two halves of a uniform distribution have 3.5, of a Gaussian 2.7 (theory H6).
   double separation = 4.5;
 };
 
-/// Membership of a place in each group, 0 to 1, sum 1: inverse squares of the distances (fuzzy c-means with
-/// fuzzifier 2, theory H6). Near a centroid it is all of that one's.
+/// Membership of a position in each group, 0 to 1, sum 1: proportional to the inverse squared distances
+/// (fuzzy c-means with fuzzifier 2, theory H6). At a centroid the membership of its group is 1.
 std::vector<double> memberships(const std::vector<FuzzyGroup>& groups, Vec2 at);
 
-/// Fuzzy c-means (Bezdek) of weighted places. For a number that is not given every one up to `most` is tried,
-/// beginning with one group and cutting the widest in two along its main axis; those whose groups are all
-/// separated are compared by the index of Xie and Beni, and when none is separated there is one group. Groups
-/// come largest first. Only portable arithmetic; same places in the same order, same bits. Empty for no
-/// weight.
+/// Fuzzy c-means clustering (Bezdek) of weighted positions. If the number of groups is not given, every
+/// number up to `most` is tried, starting with one group and splitting the widest one along its main axis;
+/// among those whose groups are all separate, the index of Xie and Beni decides; otherwise the result is one
+/// group. Groups are sorted by weight, largest first. Portable arithmetic: bit-identical for the same input.
+/// Empty if the total weight is 0.
 std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPlace>& places,
                                      const FuzzyGroupOptions& options = {});
 
-/// The same places on a grid of at most `cells` by `cells` squares over what they cover, one place for each
-/// square that holds any, at the mean of its own.
+/// Bins the positions on a grid of at most `cells` x `cells` squares over their bounding box: one weighted
+/// mean position for each occupied square.
 std::vector<WeightedPlace> binned(const std::vector<WeightedPlace>& places, int cells);
 
 }  // namespace faba

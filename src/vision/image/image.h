@@ -6,7 +6,7 @@
 namespace faba {
 
 /// A grey picture. Pixel (col, row) has its centre at image position (col, row): x right, y down, unit px.
-/// T is uint8_t for what is shown and written, float (any grey scale) for what is measured.
+/// T is uint8_t for display and output, float (any grey scale) for measurements.
 template <class T>
 struct Image {
   int width = 0, height = 0;

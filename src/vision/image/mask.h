@@ -4,8 +4,8 @@
 
 namespace faba {
 
-/// Calls visit(i) for each of the n bytes that is not 0, in order. Quick where few are: eight are looked at
-/// at once.
+/// Calls visit(i) for each non-zero byte of n, in order. Fast for sparse masks: eight bytes are tested at
+/// once.
 template <class Visit>
 void each_set(const std::uint8_t* mask, int n, Visit&& visit) {
   int i = 0;
@@ -20,7 +20,7 @@ void each_set(const std::uint8_t* mask, int n, Visit&& visit) {
     if (mask[i]) visit(i);
 }
 
-/// Calls visit(first, end) for each stretch of bytes that are not 0, in order.
+/// Calls visit(first, end) for each run of non-zero bytes, in order.
 template <class Visit>
 void each_run(const std::uint8_t* mask, int n, Visit&& visit) {
   int i = 0;

@@ -8,25 +8,26 @@ namespace faba {
 
 int find_patches(const std::vector<std::uint8_t>& mask, int width, int height, std::vector<PatchRun>& runs) {
   runs.clear();
-  // Until the end `patch` is the number of a run of the same patch that came before it, or its own: a forest.
+  // Union-find forest: until the final numbering, `patch` is the index of an earlier run of the same
+  // component, or of the run itself.
   const auto root = [&](int k) {
     auto* r = &runs[std::size_t(k)];
     while (r->patch != k) {
-      r->patch = runs[std::size_t(r->patch)].patch;  // the way is shorter the next time
+      r->patch = runs[std::size_t(r->patch)].patch;  // path compression
       k = r->patch;
       r = &runs[std::size_t(k)];
     }
     return k;
   };
-  int above = 0, above_end = 0;  // runs of the row above that may still touch
+  int above = 0, above_end = 0;  // runs of the row above that may still be connected
   for (int row = 0; row < height; ++row) {
     const int row_begin = int(runs.size());
     each_run(mask.data() + std::size_t(row) * std::size_t(width), width, [&](int first, int end) {
-      const int own = int(runs.size());
-      runs.push_back({row, first, end, own});
+      const int index = int(runs.size());
+      runs.push_back({row, first, end, index});
       while (above < above_end && runs[std::size_t(above)].end < first) ++above;
       for (int k = above; k < above_end && runs[std::size_t(k)].first <= end; ++k) {
-        const int a = root(k), b = root(own);
+        const int a = root(k), b = root(index);
         if (a < b)
           runs[std::size_t(b)].patch = a;
         else
@@ -36,7 +37,7 @@ int find_patches(const std::vector<std::uint8_t>& mask, int width, int height, s
     above = row_begin;
     above_end = int(runs.size());
   }
-  // A root comes before all of its patch, so that it has its number by then.
+  // The root precedes all other runs of its component, so it is already numbered.
   int patches = 0;
   for (std::size_t k = 0; k < runs.size(); ++k)
     runs[k].patch = runs[k].patch == int(k) ? patches++ : runs[std::size_t(runs[k].patch)].patch;

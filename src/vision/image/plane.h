@@ -8,18 +8,18 @@
 
 namespace faba {
 
-/// A picture of numbers for kernels: every row begins on a 64-byte line and has a margin of a line on either
-/// side, so that the neighbours of its first and last pixel can be read without asking where the row ends.
-/// Margins hold what was written there last; extend() makes them copies of the border.
+/// A padded picture for kernels: every row starts at a 64-byte boundary and has a margin of 64 bytes on both
+/// sides, so kernels can read the neighbours of the first and last pixel without a bounds check. Margins keep
+/// the last values written; extend() copies the border pixels to them.
 template <class T>
 class Plane {
  public:
   static constexpr int kMargin = int(64 / sizeof(T));
 
   Plane() = default;
-  /// Holds zeros; sizes in px, 0 or more.
+  /// Initialised with zeros; sizes in px, >= 0.
   Plane(int width, int height) { resize(width, height); }
-  /// Makes it that size; all zero, unless it has the size already: then everything stays.
+  /// Resizes and sets all values to zero; no effect if the size is unchanged.
   void resize(int width, int height) {
     if (width == width_ && height == height_) return;
     width_ = width;
@@ -31,10 +31,10 @@ class Plane {
   void clear_row(int r) { std::fill(row(r), row(r) + width_, T{}); }
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Pixel (0, row); pixels -kMargin to width + kMargin - 1 are memory of the row.
+  /// Pixel (0, row); pixels -kMargin to width + kMargin - 1 can be accessed.
   T* row(int row) { return data_.data() + stride_ * std::size_t(row) + kMargin; }
   const T* row(int row) const { return data_.data() + stride_ * std::size_t(row) + kMargin; }
-  /// The pixels beside both ends of a row become copies of the ends.
+  /// Copies the first and last pixel of a row to the adjacent margin pixels.
   void extend(int r) {
     T* p = row(r);
     p[-1] = p[0];
@@ -59,13 +59,13 @@ class Plane {
   std::vector<T, Aligned<T>> data_;
 };
 
-/// job(begin, end) over shares of the rows [0, height), one to a thread where they are enough to pay.
+/// Calls job(begin, end) for contiguous parts of the rows [0, height), at most one part per thread.
 template <class Job>
 void for_rows(int height, Pool& pool, Job&& job) {
-  constexpr int kFewRows = 32;  // fewer are not worth waking another thread
-  const int shares = std::clamp(height / kFewRows, 1, int(pool.threads()));
-  pool.run(std::size_t(shares), [&](std::size_t i) {
-    const auto at = [&](std::size_t k) { return int(std::size_t(height) * k / std::size_t(shares)); };
+  constexpr int kFewRows = 32;  // minimum number of rows per thread
+  const int parts = std::clamp(height / kFewRows, 1, int(pool.threads()));
+  pool.run(std::size_t(parts), [&](std::size_t i) {
+    const auto at = [&](std::size_t k) { return int(std::size_t(height) * k / std::size_t(parts)); };
     job(at(i), at(i + 1));
   });
 }

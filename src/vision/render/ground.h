@@ -3,11 +3,11 @@
 
 namespace faba {
 
-/// What stays the same in a video, and how noisy it is: the light for a rendered one. Shares of white, which
-/// of frames of more than 8 bits is what GreyScale makes white.
+/// Background model of a video: static background and noise level; also the illumination of a rendered video.
+/// Light is a fraction of white; for more than 8 bits, white is the level that GreyScale maps to 255.
 struct VideoGround {
-  GrayF light;          ///< of each pixel where nothing is
-  double noise_sd = 0;  ///< of one pixel of one frame, quantisation taken out
+  GrayF light;          ///< background of each pixel
+  double noise_sd = 0;  ///< noise of one pixel in one frame, without quantisation noise
 };
 
 }  // namespace faba

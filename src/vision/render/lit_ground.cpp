@@ -11,21 +11,22 @@ namespace faba {
 namespace {
 
 constexpr int kWaves = 6;
-constexpr double kEdgeReach = 7;  // widths, beyond which the edge is nothing to 1e-10
+constexpr double kEdgeReach = 7;  // widths; the edge is below 1e-10 beyond
 
 struct Wave {
   double x, y, phase;  // rad per px, rad
 };
 
-// Wave lengths from the picture's longer side to its double.
+// Wavelengths between one and two times the longer side of the picture.
 std::vector<Wave> waves_of(const Frame& frame, std::uint64_t seed) {
   std::vector<Wave> waves;
   const double side = std::max(frame.width, frame.height);
   for (std::uint32_t i = 0; i < kWaves; ++i) {
     const auto word = draw(seed, kWaveDraws, i, 0);
-    const double number = 2 * portable::kPi / (side * (1 + double(uniform(word[0]))));
-    const auto way = portable::sincos(2 * portable::kPi * double(uniform(word[1])));
-    waves.push_back({number * way.cos, number * way.sin, 2 * portable::kPi * double(uniform(word[2]))});
+    const double wavenumber = 2 * portable::kPi / (side * (1 + double(uniform(word[0]))));
+    const auto direction = portable::sincos(2 * portable::kPi * double(uniform(word[1])));
+    waves.push_back({wavenumber * direction.cos, wavenumber * direction.sin,
+                     2 * portable::kPi * double(uniform(word[2]))});
   }
   return waves;
 }
@@ -53,8 +54,8 @@ void add_edge(const MicroscopeParams& p, double m_per_px, const Circle& edge, Gr
     for (int c = 0; c < ground.width; ++c) {
       const double t = (norm(Vec2{double(c), double(r)} - edge.centre) - edge.radius) / w;
       if (t < -kEdgeReach) continue;
-      const double share = t > kEdgeReach ? 1 : portable::normal_cdf(t);
-      double factor = 1 + (p.outside_level - 1) * share;
+      const double outside_fraction = t > kEdgeReach ? 1 : portable::normal_cdf(t);
+      double factor = 1 + (p.outside_level - 1) * outside_fraction;
       if (t < kEdgeReach) factor *= 1 + p.edge_contrast * portable::exp(-0.5 * t * t);
       ground.at(c, r) *= float(factor);
     }

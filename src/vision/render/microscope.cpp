@@ -14,11 +14,11 @@
 namespace faba {
 namespace {
 
-constexpr double kWidestSpot = 200;  // px, sd: tables of wider ones would fill the memory
+constexpr double kWidestSpot = 200;  // px, sd; limits the memory of the tables
 constexpr double kMostPixels = 1 << 28;
 constexpr double kDefaultExposure = 0.01;  // s
 
-// Sum over the pixels of what one cell adds: an optical density, or light scattered in.
+// Sum over the pixels of the contribution of one cell: optical density, or added light.
 double weight_of(const MicroscopeParams& p, double m_per_px) {
   const double d = p.cell_diameter / m_per_px, rod = (p.length() - p.cell_diameter) / m_per_px;
   const double area = portable::kPi / 4 * d * d + d * rod;
@@ -27,11 +27,10 @@ double weight_of(const MicroscopeParams& p, double m_per_px) {
 
 SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t seed) {
   if (std::max({p.psf_sd, p.cell_diameter / 4, p.length() / 64}) > kWidestSpot * m_per_px)
-    throw Error(
-        Errc::usage, "microscope",
-        fmt::format("a cell is blurred over more than {:g} px at this scale; smaller psf_sd, cell_diameter "
-                    "and cell_length, or a larger scale.um_per_px",
-                    kWidestSpot));
+    throw Error(Errc::usage, "microscope",
+                fmt::format("the blur of a cell exceeds {:g} px at this scale; reduce psf_sd, cell_diameter "
+                            "or cell_length, or increase scale.um_per_px",
+                            kWidestSpot));
   SplatShape s;
   s.psf_sd_px = p.psf_sd / m_per_px;
   s.diameter_px = p.cell_diameter / m_per_px;
@@ -45,18 +44,21 @@ SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t se
 double exposure_of(const MicroscopeParams& p, double frame_period) {
   const double t = p.exposure_time.value_or(std::min(kDefaultExposure, 0.5 * frame_period));
   if (t > frame_period * (1 + 1e-9))
-    throw Error(Errc::usage, "microscope.exposure_time",
-                fmt::format("{:g} s is longer than a frame ({:g} s); shorten it or lower camera.rate", t,
-                            frame_period));
+    throw Error(
+        Errc::usage, "microscope.exposure_time",
+        fmt::format("{:g} s is longer than the frame period of {:g} s; shorten it or lower camera.rate", t,
+                    frame_period));
   return t;
 }
 
-// Before anything of that size is made.
-const Frame& checked(const Frame& frame) {
+// Checks the size before any memory of that size is allocated.
+const Frame& checked_size(const Frame& frame) {
   if (double(frame.width) * double(frame.height) > kMostPixels)
     throw Error(
         Errc::usage, "arena",
-        fmt::format("a picture of {} x {} px cannot be rendered; a smaller view", frame.width, frame.height));
+        fmt::format(
+            "a picture of {} x {} px is too large to render; the maximum is 2^28 px, choose a smaller view",
+            frame.width, frame.height));
   return frame;
 }
 
@@ -67,7 +69,7 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
     : params_(p),
       seed_(seed),
       exposure_time_(exposure_of(p, frame_period)),
-      sum_(checked(frame).width, frame.height),
+      sum_(checked_size(frame).width, frame.height),
       splats_(shape_of(p, frame.m_per_px, seed)) {
   if (p.background.empty()) {
     ground_ = lit_ground(p, frame, edge, seed);
@@ -75,13 +77,13 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
     shot_ = 1 / p.full_well;
     constant_ = read * read;
   } else {
-    if (!ground) throw Error(Errc::internal, "microscope.background", "was not read");
+    if (!ground) throw Error(Errc::internal, "microscope.background", "the background video was not read");
     VideoGround video = *ground;
     if (video.light.width != frame.width || video.light.height != frame.height)
       throw Error(
           Errc::usage, "microscope.background",
-          fmt::format("{} is of {} x {} px, the view of {} x {} px; make the arena's view as large as "
-                      "the video",
+          fmt::format("{} is {} x {} px, but the view is {} x {} px; set the view of the arena to the size "
+                      "of the video",
                       p.background, video.light.width, video.light.height, frame.width, frame.height));
     ground_ = std::move(video.light);
     constant_ = video.noise_sd * video.noise_sd;

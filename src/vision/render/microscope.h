@@ -12,32 +12,34 @@
 
 namespace faba {
 
-/// What stands before the camera during one frame.
+/// Content of one camera frame.
 struct Exposure {
-  std::uint64_t frame = 0;  ///< number of the frame, which its noise is drawn by; below 2^32
-  double t = 0;             ///< s, mid-exposure: what the lamp's drift is reckoned by
+  std::uint64_t frame = 0;  ///< frame number, below 2^32; selects the random stream of the noise
+  double t = 0;             ///< s, mid-exposure; determines the lamp drift
   std::span<const CameraCell> cells;
 };
 
-/// Renders cells as a camera sees them through a microscope: optics, background, drop edge, motion blur,
-/// lamp, noise and quantisation (theory G). Same parameters, seed, frame and cells: same bytes, for any
-/// number of threads and on every machine. Not to be shared between threads.
+/// Renders a microscope picture of cells: optics, background, drop edge, motion blur, lamp, noise and
+/// quantisation (theory G). The same parameters, seed, frame and cells give the same bytes for any number of
+/// threads and on every machine. Not thread-safe.
 class Microscope {
  public:
-  /// `edge`: the drop, image frame, px; radius 0 for none. `frame_period` s. `ground`: what the video
-  /// params.background shows; needed when that is given. Throws Error(usage) when the picture has more than
-  /// 2^28 px, the exposure is longer than a frame or the background has another size than the view.
+  /// `edge`: the drop, image frame, px; radius 0: no drop. `frame_period`: s. `ground`: background model of
+  /// the video params.background, required when that is set. Throws Error(usage) when the picture has more
+  /// than 2^28 px, the exposure is longer than the frame period, or the background differs in size from the
+  /// view.
   Microscope(const MicroscopeParams& params, const Frame& frame, const Circle& edge, double frame_period,
              std::uint64_t seed, const VideoGround* ground = nullptr);
 
-  /// The picture, 8 bits: white is 255. `out` is resized.
+  /// Renders 8 bits: white is 255. `out` is resized.
   void render(const Exposure& e, Pool& pool, Gray8& out);
-  /// The same in 16 bits: white is 65535.
+  /// Renders 16 bits: white is 65535.
   void render(const Exposure& e, Pool& pool, Image<std::uint16_t>& out);
 
-  const GrayF& ground() const { return ground_; }  ///< the empty picture without noise, share of white
+  const GrayF& ground() const { return ground_; }          ///< background without noise, fraction of white
   double exposure_time() const { return exposure_time_; }  ///< s
-  /// Sd of the noise at this light, both as shares of white, quantisation not counted.
+  /// Standard deviation of the noise at intensity `light`, both as fractions of white, without quantisation
+  /// noise.
   double noise_sd(double light) const;
   int bits() const { return params_.bits; }
 
@@ -48,7 +50,7 @@ class Microscope {
   MicroscopeParams params_;
   std::uint64_t seed_;
   double exposure_time_;
-  double shot_ = 0, constant_ = 0;  ///< variance of the noise per light, and without light; shares of white
+  double shot_ = 0, constant_ = 0;  ///< noise variance per light, and without light; fractions of white
   GrayF ground_, sum_;
   CellSplats splats_;
 };

@@ -7,36 +7,36 @@
 
 namespace faba {
 
-constexpr int kLeastMarks = 4;  ///< fewer are no row
+constexpr int kMinMarks = 4;  ///< minimum number of marks in a row
 
-/// Places of the marks along one strip, by index: s of the turned frame, px. Indices may leave gaps.
+/// Positions of the marks along one strip, by index: s of the rotated frame, px. Indices may have gaps.
 using MarkChain = std::map<int, double>;
 
-/// One mark in one strip, as read.
+/// Position of one mark in one strip.
 struct StripReading {
   int index;         ///< as in the chain
-  double s, t;       ///< turned frame, px; t is the strip's middle
+  double s, t;       ///< rotated frame, px; t is the centre of the strip
   bool used = true;  ///< false for outliers
 };
 
-/// What was read in a row of strips, and how much there was to read.
+/// Positions read in a series of strips, and their expected number.
 struct StripReadings {
   std::vector<StripReading> list;
-  int possible = 0;  ///< marks of the chain that lie in the picture, summed over the strips
+  int expected = 0;  ///< number of marks of the chain inside the picture, summed over the strips
 };
 
-/// Slope of a straight line through a chain's places: the pitch, px. Needs two marks.
+/// Pitch of a chain, px: slope of the straight line through its positions. Needs two marks.
 double mean_gap(const MarkChain& chain);
 
-/// Finds the marks of one strip: from the place where it swings most strongly and purely at the pitch they
-/// are walked one by one to both sides, each looked for where the last ones lead, across up to three that
-/// cannot be seen. Places are those of the marks' middles. Empty when fewer than kLeastMarks are found, or
-/// when their distance is not what was said to 15 %.
-MarkChain walk_marks(const MarkProfile& profile, double pitch_px);
+/// Detects the marks of one strip. The trace starts where the component at the pitch is strongest and purest,
+/// and continues mark by mark in both directions, predicted from the previous marks, across up to three
+/// missing marks. Positions are the centres of the marks. Empty when fewer than kMinMarks are found, or when
+/// their pitch differs by more than 15 % from `pitch_px`.
+MarkChain trace_marks(const MarkProfile& profile, double pitch_px);
 
-/// Reads a chain's marks again on the strips below each other from t on (`step` 1) or above each other (-1),
-/// as long as half of those in the picture are there, across gaps of half a pitch. Each strip is looked at
-/// where the one before left off, so that leaning marks are followed.
+/// Reads the marks of a chain again in consecutive strips from t downwards (`step` 1) or upwards (-1), while
+/// at least half of the marks inside the picture are detected, across gaps of half a pitch. The offset of
+/// each strip is carried to the next, so that inclined marks are followed.
 void follow_marks(const TurnedPicture& turned, const MarkChain& chain, double pitch_px,
                   const MarkShape& shape, double t, int step, int strip_height, StripReadings& out);
 

@@ -14,10 +14,10 @@ namespace faba {
 namespace {
 
 constexpr int kPasses = 3;
-constexpr double kFloor = 0.02;     // px from end to end that shading may bring in (assumed)
-constexpr double kStraight = 3e-4;  // rad: marks leaning less need no other turned picture
+constexpr double kDistortion = 0.02;  // px, distortion from end to end by shading (assumed)
+constexpr double kStraight = 3e-4;    // rad: for a smaller inclination the picture is not rotated again
 
-/// place = offset + pitch * index + lean * t.
+/// Linear model position = offset + pitch * index + lean * t.
 struct Plane {
   double offset = 0, pitch = 0, lean = 0, sd = 0;
   double off(const StripReading& r) const { return r.s - offset - pitch * r.index - lean * r.t; }
@@ -61,26 +61,26 @@ std::optional<Plane> fit_plane(std::vector<StripReading>& readings) {
   return plane;
 }
 
-/// State of the search for one row: where to look, and what was read there last.
-struct Look {
+/// State of the measurement of one row: position, and the last readings.
+struct RowState {
   double angle, pitch, t;
   int height;
   StripReadings readings;
   Plane plane;
 };
 
-bool look(const TurnedPicture& turned, Look& at, int strip_height, MarkShape& shape) {
+bool read_row(const TurnedPicture& turned, RowState& at, int strip_height, MarkShape& shape) {
   const double top = turned.last_t() - (at.height - 1) / 2.0;
   at.t = std::clamp(at.t, std::min(-top, top), std::max(-top, top));
   const std::vector<double> raw = turned.profile(at.t, at.height);
   if (raw.empty()) return false;
   const MarkProfile y(turned.first_s(), raw, at.pitch);
-  const MarkChain chain = walk_marks(y, at.pitch);
-  if (int(chain.size()) < kLeastMarks) return false;
+  const MarkChain chain = trace_marks(y, at.pitch);
+  if (int(chain.size()) < kMinMarks) return false;
   at.pitch = mean_gap(chain);
-  std::vector<double> places;
-  for (const auto& [index, place] : chain) places.push_back(place);
-  shape = MarkShape({&y, 1}, {&places, 1}, at.pitch);
+  std::vector<double> positions;
+  for (const auto& [index, position] : chain) positions.push_back(position);
+  shape = MarkShape({&y, 1}, {&positions, 1}, at.pitch);
   at.readings = {};
   follow_marks(turned, chain, at.pitch, shape, at.t, 1, strip_height, at.readings);
   follow_marks(turned, chain, at.pitch, shape, at.t - strip_height, -1, strip_height, at.readings);
@@ -90,8 +90,8 @@ bool look(const TurnedPicture& turned, Look& at, int strip_height, MarkShape& sh
   return true;
 }
 
-/// Turns by the lean of the marks and moves to the middle of what was read.
-void turn(const TurnedPicture& turned, const GrayF& picture, Look& at) {
+/// Rotates by the inclination of the marks and moves to the centre of the readings.
+void realign(const TurnedPicture& turned, const GrayF& picture, RowState& at) {
   double s = 0, t = 0, count = 0, low = 1e300, high = -1e300;
   for (const StripReading& r : at.readings.list) {
     if (!r.used) continue;
@@ -110,8 +110,8 @@ void turn(const TurnedPicture& turned, const GrayF& picture, Look& at) {
   at.height = std::max(1, int(0.5 * (high - low)));
 }
 
-/// One place for each mark, the mean over its strips; few readings of a mark are not worth a place.
-std::vector<RowMark> marks_of(const Look& at, const TurnedPicture& turned) {
+/// One position per mark, the mean over its strips; marks with few readings are excluded.
+std::vector<RowMark> marks_of(const RowState& at, const TurnedPicture& turned) {
   std::map<int, std::vector<const StripReading*>> by_index;
   std::size_t most = 0;
   for (const StripReading& r : at.readings.list)
@@ -135,9 +135,9 @@ std::vector<RowMark> marks_of(const Look& at, const TurnedPicture& turned) {
   return marks;
 }
 
-/// Where only every second or third place has a mark, the pitch is twice or three times what was thought: how
-/// many places go to one mark.
-int places_for_one(const std::vector<RowMark>& marks) {
+/// When only every second or third index has a mark, the pitch is two or three times the assumed one: returns
+/// this factor.
+int index_step(const std::vector<RowMark>& marks) {
   for (const int step : {2, 3})
     for (int rest = 0; rest < step; ++rest) {
       const auto off = std::count_if(marks.begin(), marks.end(), [&](const RowMark& m) {
@@ -148,7 +148,7 @@ int places_for_one(const std::vector<RowMark>& marks) {
   return 1;
 }
 
-/// The line through the marks' places, by least squares; again without marks that stand far off.
+/// Least-squares line through the mark positions, with exclusion of outliers.
 void fit_line(MarkRow& row) {
   for (int round = 0; round < 4; ++round) {
     double n = 0, k = 0, s = 0, kk = 0, ks = 0;
@@ -176,11 +176,11 @@ void fit_line(MarkRow& row) {
       before = m.residual_px;
     }
     row.residual_px = std::sqrt(squares / (n - 2));
-    // Residuals that go along with their neighbours tell less than as many independent ones.
+    // Correlated residuals contain less information than independent ones (lag-1 autocorrelation).
     const double rho = squares > 0 ? std::clamp(neighbours / squares, 0.0, 0.9) : 0;
     row.se_pitch_px = row.residual_px / std::sqrt(kk) * std::sqrt((1 + rho) / (1 - rho));
     const double ends = row.marks.back().index - row.marks.front().index;
-    row.se_pitch_px = std::hypot(row.se_pitch_px, kFloor / ends);
+    row.se_pitch_px = std::hypot(row.se_pitch_px, kDistortion / ends);
     bool same = true;
     std::vector<double> sizes;
     for (const RowMark& m : row.marks) sizes.push_back(std::fabs(m.residual_px));
@@ -194,11 +194,11 @@ void fit_line(MarkRow& row) {
   }
 }
 
-std::optional<MarkRow> row_of(const Look& at, const TurnedPicture& turned, int strip,
+std::optional<MarkRow> row_of(const RowState& at, const TurnedPicture& turned, int strip,
                               const MarkShape& shape) {
   MarkRow row;
   row.marks = marks_of(at, turned);
-  if (int(row.marks.size()) < kLeastMarks) return std::nullopt;
+  if (int(row.marks.size()) < kMinMarks) return std::nullopt;
   fit_line(row);
   row.angle = at.angle - std::atan(at.plane.lean);
   const double shrink = 1 / std::hypot(1, at.plane.lean);
@@ -216,7 +216,7 @@ std::optional<MarkRow> row_of(const Look& at, const TurnedPicture& turned, int s
   row.height_px = high - low + strip;
   row.area_px = count * strip * row.pitch_px;
   const int span = row.marks.back().index - row.marks.front().index + 1;
-  row.complete = std::min(1.0, count / at.readings.possible * double(row.marks.size()) / span);
+  row.complete = std::min(1.0, count / at.readings.expected * double(row.marks.size()) / span);
   const Vec2 centre{shape.centre_px() * std::cos(row.angle), shape.centre_px() * std::sin(row.angle)};
   for (RowMark& m : row.marks) {
     m.from_image = m.from_image + centre;
@@ -232,12 +232,13 @@ int MarkRow::used() const {
 }
 
 const TurnedPicture& RowMeter::turned(double angle) {
-  const auto known = turned_.find(angle);
-  return known != turned_.end() ? known->second : turned_.try_emplace(angle, picture_, angle).first->second;
+  const auto existing = turned_.find(angle);
+  return existing != turned_.end() ? existing->second
+                                   : turned_.try_emplace(angle, picture_, angle).first->second;
 }
 
 std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint) {
-  // Thin strips forgive a wrong angle, tall ones a noisy picture.
+  // Thin strips tolerate an angle error, tall strips tolerate noise.
   auto thin =
       measure_marks(hint, std::clamp(int(hint.pitch_px / 3), 3, std::max(3, std::min(8, hint.height_px))));
   if ((thin && thin->complete > 0.8) || hint.height_px < 12) return thin;
@@ -246,29 +247,29 @@ std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint) {
 }
 
 std::optional<MarkRow> RowMeter::measure_marks(const PeriodHint& hint, int strip) {
-  auto row = measure_places(hint, strip);
-  const int places = row ? places_for_one(row->marks) : 1;
-  if (places == 1) return row;
+  auto row = measure_positions(hint, strip);
+  const int factor = row ? index_step(row->marks) : 1;
+  if (factor == 1) return row;
   PeriodHint wider = hint;
-  wider.pitch_px *= places;
-  const auto again = measure_places(wider, strip);
-  return again && places_for_one(again->marks) == 1 ? again : std::nullopt;
+  wider.pitch_px *= factor;
+  const auto again = measure_positions(wider, strip);
+  return again && index_step(again->marks) == 1 ? again : std::nullopt;
 }
 
-std::optional<MarkRow> RowMeter::measure_places(const PeriodHint& hint, int strip) {
-  Look at{hint.angle, hint.pitch_px, hint.across_px, hint.height_px, {}, {}};
+std::optional<MarkRow> RowMeter::measure_positions(const PeriodHint& hint, int strip) {
+  RowState at{hint.angle, hint.pitch_px, hint.across_px, hint.height_px, {}, {}};
   std::optional<TurnedPicture> straight;
   MarkShape shape({}, {}, at.pitch);
   for (int pass = 0; pass < kPasses; ++pass) {
     if (pass > 0) {
       const TurnedPicture& before = straight ? *straight : turned(hint.angle);
       const double lean = at.plane.lean;
-      turn(before, picture_, at);
+      realign(before, picture_, at);
       if (std::fabs(lean) > kStraight) straight.emplace(picture_, at.angle);
       strip = std::max(std::clamp(at.height / 5, 3, 16), std::min(strip, at.height));
     }
-    if (!look(straight ? *straight : turned(hint.angle), at, strip, shape)) return std::nullopt;
-    if (at.plane.sd > 0.25 * at.pitch || double(at.readings.list.size()) < 0.4 * at.readings.possible)
+    if (!read_row(straight ? *straight : turned(hint.angle), at, strip, shape)) return std::nullopt;
+    if (at.plane.sd > 0.25 * at.pitch || double(at.readings.list.size()) < 0.4 * at.readings.expected)
       return std::nullopt;
   }
   return row_of(at, straight ? *straight : turned(hint.angle), strip, shape);

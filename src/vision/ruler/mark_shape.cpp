@@ -10,31 +10,32 @@
 namespace faba {
 namespace {
 
-constexpr int kSteps = 480;         // of a tabulated shape
-constexpr double kLeastSloped = 6;  // px
+constexpr int kSteps = 480;            // number of steps of the tabulated shape
+constexpr double kMinSlopedPitch = 6;  // px, minimum pitch for the fit of a slope
 
 }  // namespace
 
 MarkProfile::MarkProfile(double first, std::vector<double> grey, double pitch_px)
     : first_s(first), raw(std::move(grey)), flat(raw.size()) {
-  // Sums of what is there and how much it is; the ends of the window count in part, so that it is two
-  // pitches exactly.
+  // Cumulative sums of the finite values and of their number; fractional window ends, so that the window is
+  // exactly two pitches.
   const int n = int(raw.size());
   std::vector<double> sum(raw.size() + 1, 0.0), count(raw.size() + 1, 0.0);
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    const bool there = std::isfinite(raw[i]);
-    sum[i + 1] = sum[i] + (there ? raw[i] : 0);
-    count[i + 1] = count[i] + (there ? 1 : 0);
+    const bool valid = std::isfinite(raw[i]);
+    sum[i + 1] = sum[i] + (valid ? raw[i] : 0);
+    count[i + 1] = count[i] + (valid ? 1 : 0);
   }
-  const auto upto = [n](const std::vector<double>& sums, double place) {
-    const double p = std::clamp(place, 0.0, double(n));
+  const auto cumulative = [n](const std::vector<double>& sums, double position) {
+    const double p = std::clamp(position, 0.0, double(n));
     const int i = std::min(int(p), n - 1);
     return sums[std::size_t(i)] + (p - i) * (sums[std::size_t(i) + 1] - sums[std::size_t(i)]);
   };
   for (int i = 0; i < n; ++i) {
     const double from = i + 0.5 - pitch_px, to = i + 0.5 + pitch_px;
-    flat[std::size_t(i)] = raw[std::size_t(i)] - (upto(sum, to) - upto(sum, from)) /
-                                                     std::max(0.5, upto(count, to) - upto(count, from));
+    flat[std::size_t(i)] =
+        raw[std::size_t(i)] - (cumulative(sum, to) - cumulative(sum, from)) /
+                                  std::max(0.5, cumulative(count, to) - cumulative(count, from));
   }
 }
 
@@ -88,9 +89,9 @@ void MarkShape::tabulate(std::span<const double> cosines, std::span<const double
 }
 
 double MarkShape::look_up(const std::vector<double>& table, double offset_px) const {
-  const double turns = offset_px / pitch_px_, place = (turns - std::floor(turns)) * kSteps;
-  const std::size_t i = std::min(std::size_t(place), std::size_t(kSteps - 1));
-  const double part = place - double(i);
+  const double turns = offset_px / pitch_px_, position = (turns - std::floor(turns)) * kSteps;
+  const std::size_t i = std::min(std::size_t(position), std::size_t(kSteps - 1));
+  const double part = position - double(i);
   return table[i] + part * (table[i + 1] - table[i]);
 }
 
@@ -102,7 +103,7 @@ void MarkShape::describe() {
   const int below = int(std::count_if(v.begin(), v.end(), [half](double x) { return x < half; }));
   dark_ = 2 * below <= kSteps;
   width_px_ = std::min(below, kSteps - below) * pitch_px_ / kSteps;
-  // Centre of gravity of what lies beyond the half level, about the extreme.
+  // Centroid of the part beyond the half level, around the extremum.
   const int top = int((dark_ ? low : high) - v.begin());
   double weight = 0, moment = 0;
   for (int k = -kSteps / 2; k < kSteps / 2; ++k) {
@@ -117,11 +118,13 @@ void MarkShape::describe() {
 
 namespace {
 
-/// One step of the fit of level, slope, size and shift about `at`; false when there is nothing to fit.
+/// One iteration of the fit of level, slope, size and shift around `at`; fit() returns false when it is not
+/// possible.
 struct MarkFit {
   double size = 0, shift = 0;
-  double slope = 0;  ///< of the ground, grey over the stretch
-  double share = 0;  ///< of what stands out from an even slope, how much the shape explains where it is
+  double slope = 0;  ///< slope of the background, grey over the interval
+  double explained =
+      0;  ///< fraction of the variance about the linear background that the shape without shift explains
   bool fit(const MarkProfile& y, double at, double pitch, const MarkShape& shape);
 };
 
@@ -129,8 +132,8 @@ bool MarkFit::fit(const MarkProfile& y, double at, double pitch, const MarkShape
   const double reach = std::max(pitch / 2, 2.5);
   const int from = int(std::ceil(at - reach - y.first_s)), to = int(std::floor(at + reach - y.first_s));
   if (from < 0 || to >= int(y.raw.size())) return false;
-  // A slope is told from a shift only where the shape has more than its first harmonic.
-  const bool sloped = pitch >= kLeastSloped;
+  // Slope and shift can be separated only when the shape has more than the first harmonic.
+  const bool sloped = pitch >= kMinSlopedPitch;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   double squares = 0;
@@ -145,13 +148,14 @@ bool MarkFit::fit(const MarkProfile& y, double at, double pitch, const MarkShape
   if (!sloped) normal(1, 1) = 1;
   const Eigen::Vector4d k = normal.ldlt().solve(right);
   const Eigen::Vector2d ground = normal.topLeftCorner<2, 2>().ldlt().solve(Eigen::Vector2d(right.head<2>()));
-  const Eigen::Vector3d still = normal.topLeftCorner<3, 3>().ldlt().solve(Eigen::Vector3d(right.head<3>()));
-  const double beside = squares - ground.dot(right.head<2>());
-  if (!k.allFinite() || !still.allFinite() || !(beside > 0) || k[2] == 0) return false;
+  const Eigen::Vector3d unshifted =
+      normal.topLeftCorner<3, 3>().ldlt().solve(Eigen::Vector3d(right.head<3>()));
+  const double variance = squares - ground.dot(right.head<2>());
+  if (!k.allFinite() || !unshifted.allFinite() || !(variance > 0) || k[2] == 0) return false;
   size = k[2];
   shift = k[3] / k[2];
   slope = 2 * k[1];
-  share = still[2] > 0 ? 1 - (squares - still.dot(right.head<3>())) / beside : 0;
+  explained = unshifted[2] > 0 ? 1 - (squares - unshifted.dot(right.head<3>())) / variance : 0;
   return true;
 }
 
@@ -165,8 +169,8 @@ MarkReading read_mark(const MarkProfile& y, double at, double pitch_px, const Ma
   if (!f.fit(y, at + first, pitch_px, shape)) return reading;
   reading.size = f.size;
   reading.shift_px = first + f.shift;
-  reading.there = f.size > 0.25 && f.size < 4 && std::fabs(f.shift) < 0.12 * pitch_px &&
-                  std::fabs(reading.shift_px) < 0.3 * pitch_px && f.share > 0.25 &&
+  reading.found = f.size > 0.25 && f.size < 4 && std::fabs(f.shift) < 0.12 * pitch_px &&
+                  std::fabs(reading.shift_px) < 0.3 * pitch_px && f.explained > 0.25 &&
                   std::fabs(f.slope) < 0.5 * f.size * shape.range();
   return reading;
 }

@@ -13,10 +13,11 @@ namespace faba {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kBins = 180;   // of 1 degree
-constexpr int kWindow = 24;  // px of a halved copy to each side over which light is taken to be even
-constexpr double kLeastLag = 2.7, kMostLag = 22;  // px of a halved copy; the next copy takes over
-constexpr double kLeastScore = 0.25, kLeastEvidence = 6;
+constexpr int kBins = 180;   // bins of 1 degree
+constexpr int kWindow = 24;  // px of a pyramid level, half width of the background estimate
+constexpr double kMinLag = 2.7,
+                 kMaxLag = 22;  // px of a pyramid level; larger lags are found in the next level
+constexpr double kMinScore = 0.25, kMinEvidence = 6;
 
 cv::Mat1f matrix(const GrayF& picture) {
   cv::Mat1f m(picture.height, picture.width);
@@ -30,7 +31,8 @@ GrayF image(const cv::Mat1f& m) {
   return out;
 }
 
-/// Squared gradient by direction, in bins of one degree over half a turn.
+/// Histogram of the gradient direction weighted by the squared gradient, in bins of one degree over half a
+/// turn.
 std::vector<double> direction_histogram(const cv::Mat1f& m, double smoothing) {
   cv::Mat1f smooth, gx, gy;
   cv::GaussianBlur(m, smooth, cv::Size(), smoothing, smoothing, cv::BORDER_REPLICATE);
@@ -40,7 +42,7 @@ std::vector<double> direction_histogram(const cv::Mat1f& m, double smoothing) {
   for (int r = 0; r < m.rows; ++r)
     for (int c = 0; c < m.cols; ++c) sizes.push_back(gx(r, c) * gx(r, c) + gy(r, c) * gy(r, c));
   std::vector<float> sorted = sizes;
-  // The edge of a scale bar must not outweigh a hundred faint marks, nor noise the edges.
+  // Clipping: a scale bar must not outweigh a hundred faint marks; noise below the median is ignored.
   const float most = quantile_low(sorted, 0.95), least = quantile_low(sorted, 0.5);
   std::vector<double> bins(kBins, 0.0);
   std::size_t i = 0;
@@ -48,9 +50,9 @@ std::vector<double> direction_histogram(const cv::Mat1f& m, double smoothing) {
     for (int c = 0; c < m.cols; ++c, ++i) {
       if (sizes[i] <= least) continue;
       const double direction = std::atan2(double(gy(r, c)), double(gx(r, c))) / kPi;  // -1..1 for -pi..pi
-      const double place = (direction - std::floor(direction)) * kBins;
-      const int bin = int(place);
-      const double weight = double(std::min(sizes[i], most)), part = place - bin;
+      const double position = (direction - std::floor(direction)) * kBins;
+      const int bin = int(position);
+      const double weight = double(std::min(sizes[i], most)), part = position - bin;
       bins[std::size_t(bin % kBins)] += weight * (1 - part);
       bins[std::size_t((bin + 1) % kBins)] += weight * part;
     }
@@ -68,7 +70,7 @@ std::vector<std::pair<double, double>> peaks(const std::vector<double>& raw) {
     for (int k = -2; k <= 2; ++k) bins[std::size_t(i)] += at_bin(raw, i + k) * (3 - std::abs(k)) / 9.0;
     mean += bins[std::size_t(i)] / kBins;
   }
-  std::vector<std::pair<double, double>> found;  // height over the mean, angle
+  std::vector<std::pair<double, double>> found;  // height relative to the mean, angle
   for (int i = 0; i < kBins; ++i) {
     const double b = at_bin(bins, i);
     bool top = b > mean;
@@ -89,7 +91,7 @@ double mean_of(const std::vector<double>& sums, int from, int to) {
   return (sums[std::size_t(to)] - sums[std::size_t(from)]) / (to - from);
 }
 
-/// The part of the profile that is there, with even light and even contrast, clipped.
+/// The finite part of the profile, normalised to uniform background and contrast, clipped.
 std::vector<double> flattened(const std::vector<double>& profile) {
   std::vector<double> y;
   for (double v : profile)
@@ -133,43 +135,43 @@ double between(const std::vector<double>& r, double lag) {
   return r[i] * (1 - f) + r[i + 1] * f;
 }
 
-/// How much better the profile repeats at multiples of `lag` than half-way between them.
+/// Autocorrelation at multiples of `lag` minus that half-way between them, normalised.
 double comb_score(const std::vector<double>& r, double lag) {
-  const int teeth = std::min(4, int(double(r.size() - 1) / lag));
-  if (teeth < 2) return 0;
+  const int multiples = std::min(4, int(double(r.size() - 1) / lag));
+  if (multiples < 2) return 0;
   double sum = 0;
-  for (int k = 1; k <= teeth; ++k) sum += between(r, k * lag) - between(r, (k - 0.5) * lag);
-  return sum / (teeth * r[0]);
+  for (int k = 1; k <= multiples; ++k) sum += between(r, k * lag) - between(r, (k - 0.5) * lag);
+  return sum / (multiples * r[0]);
 }
 
-/// Score and pitch of one strip, in px of the copy; score 0 when nothing repeats.
-std::pair<double, double> repeats(const std::vector<double>& profile) {
+/// Score and pitch of one strip, in px of the level; score 0 when it is not periodic.
+std::pair<double, double> score_and_pitch(const std::vector<double>& profile) {
   const std::vector<double> y = flattened(profile);
-  const int most = std::min(int(4 * kMostLag), int(y.size() * 2 / 3));
-  if (double(most) < 3 * kLeastLag) return {0, 0};
+  const int most = std::min(int(4 * kMaxLag), int(y.size() * 2 / 3));
+  if (double(most) < 3 * kMinLag) return {0, 0};
   const std::vector<double> r = autocorrelation(y, most);
   if (r[0] <= 0) return {0, 0};
-  std::vector<std::pair<double, double>> tops;  // lag, score
+  std::vector<std::pair<double, double>> maxima;  // lag, score
   double best = 0;
   constexpr double kStep = 0.02;  // relative
-  double before = 0, here = 0;
-  double next = kLeastLag;
-  while (next < std::min(kMostLag, most / 2.0) * (1 + kStep)) {
+  double previous = 0, current = 0;
+  double next = kMinLag;
+  while (next < std::min(kMaxLag, most / 2.0) * (1 + kStep)) {
     const double lag = std::exchange(next, next * (1 + kStep));
-    const double after = comb_score(r, lag);
-    if (here >= before && here > after && here > 0) {
-      tops.emplace_back(lag / (1 + kStep), here);
-      best = std::max(best, here);
+    const double next_score = comb_score(r, lag);
+    if (current >= previous && current > next_score && current > 0) {
+      maxima.emplace_back(lag / (1 + kStep), current);
+      best = std::max(best, current);
     }
-    before = here;
-    here = after;
+    previous = current;
+    current = next_score;
   }
-  for (const auto& [lag, score] : tops)
+  for (const auto& [lag, score] : maxima)
     if (score > 0.7 * best) return {score, lag};
   return {0, 0};
 }
 
-void search_copy(const GrayF& copy, double angle, double factor, std::vector<PeriodHint>& hints) {
+void search_level(const GrayF& copy, double angle, double factor, std::vector<PeriodHint>& hints) {
   const TurnedPicture turned(copy, angle);
   for (const int height : {6, 18, 54}) {
     if (height > copy.height && height > copy.width) break;
@@ -179,12 +181,12 @@ void search_copy(const GrayF& copy, double angle, double factor, std::vector<Per
     while (next <= turned.last_t()) {
       const double t = std::exchange(next, next + stride);
       const std::vector<double> profile = turned.profile(t, height);
-      const auto there =
+      const auto valid_count =
           std::count_if(profile.begin(), profile.end(), [](double v) { return std::isfinite(v); });
-      if (double(there) < 4 * kLeastLag) continue;
-      const auto [score, lag] = repeats(profile);
-      const double evidence = score * std::sqrt(double(there));
-      if (score > kLeastScore && evidence > kLeastEvidence)
+      if (double(valid_count) < 4 * kMinLag) continue;
+      const auto [score, lag] = score_and_pitch(profile);
+      const double evidence = score * std::sqrt(double(valid_count));
+      if (score > kMinScore && evidence > kMinEvidence)
         hints.push_back({angle, lag * factor, t * factor, int(std::lround(height * factor)), evidence});
     }
   }
@@ -199,15 +201,15 @@ std::vector<double> edge_directions(const GrayF& picture, int most) {
     for (const auto& p : peaks(direction_histogram(m, smoothing))) all.push_back(p);
   std::sort(all.rbegin(), all.rend());
   std::vector<double> out;
-  const auto take = [&](double angle) {
-    const bool known = std::any_of(out.begin(), out.end(), [angle](double b) {
+  const auto add_direction = [&](double angle) {
+    const bool duplicate = std::any_of(out.begin(), out.end(), [angle](double b) {
       return std::fabs(std::remainder(angle - b, kPi)) < 2.5 * kPi / 180;
     });
-    if (!known && int(out.size()) < most) out.push_back(angle - kPi * std::floor(angle / kPi + 0.5));
+    if (!duplicate && int(out.size()) < most) out.push_back(angle - kPi * std::floor(angle / kPi + 0.5));
   };
   for (const auto& [height, angle] : all) {
-    take(angle);
-    take(angle + kPi / 2);  // fine marks may be too faint for it, and the ruler's own edges are not
+    add_direction(angle);
+    add_direction(angle + kPi / 2);  // fine marks may be too faint, but the edges of the ruler are not
   }
   return out;
 }
@@ -218,7 +220,7 @@ std::vector<PeriodHint> find_periods(const GrayF& picture) {
   const std::vector<double> directions = edge_directions(picture, 8);
   for (double factor = 1; std::min(copy.cols, copy.rows) >= 12; factor *= 2) {
     const GrayF level = image(copy);
-    for (const double angle : directions) search_copy(level, angle, factor, hints);
+    for (const double angle : directions) search_level(level, angle, factor, hints);
     cv::Mat1f half;
     cv::resize(copy, half, cv::Size(copy.cols / 2, copy.rows / 2), 0, 0, cv::INTER_AREA);
     copy = half;

@@ -5,26 +5,26 @@
 
 namespace faba {
 
-/// A strip of a picture in which something repeats, as the marks of a ruler do. A guess to be measured.
+/// A strip of a picture with a periodic structure such as the marks of a ruler; a candidate for measurement.
 struct PeriodHint {
-  double angle = 0;      ///< rad, across the marks, from the picture's x axis towards its y axis
-  double pitch_px = 0;   ///< smallest distance at which the strip repeats, to some 2 %
-  double across_px = 0;  ///< the strip's middle: t of TurnedPicture(picture, angle)
-  int height_px = 0;     ///< of the strip
-  double evidence = 0;   ///< periodicity times the root of the strip's length; noise stays below about 5
+  double angle = 0;  ///< rad, direction across the marks, from the x axis of the picture towards its y axis
+  double pitch_px = 0;   ///< fundamental period of the strip, to about 2 %
+  double across_px = 0;  ///< centre of the strip: t of TurnedPicture(picture, angle)
+  int height_px = 0;     ///< height of the strip
+  double evidence = 0;   ///< periodicity times the square root of the strip length; below about 5 for noise
 };
 
-/// Directions that edges in the picture lie across, strongest first, rad in [-pi/2, pi/2): peaks of the
-/// histogram of the grey gradient's direction, over two smoothings, each with the direction at right angles.
-/// At most `most`.
+/// Gradient directions of the edges in the picture, strongest first, rad in [-pi/2, pi/2): peaks of the
+/// histogram of the gradient direction for two smoothing widths, each also with the perpendicular direction.
+/// At most `most` directions.
 std::vector<double> edge_directions(const GrayF& picture, int most);
 
-/// Looks for repeating marks of any direction and of a pitch from 3 px to a quarter of the picture: along
-/// each of the strongest edge directions the picture, and copies of it halved again and again, are cut into
-/// strips of three heights; each strip's grey profile is flattened and its autocorrelation searched. The
-/// fundamental is the smallest distance that repeats about as well as the best one does, where a distance
-/// counts that repeats at its multiples and not half-way between: so neither the two edges of a mark nor
-/// every fifth or tenth mark being longer is taken for the pitch. Strips that repeat, best first.
+/// Detects periodic marks of any direction with a pitch from 3 px to a quarter of the picture. For each of
+/// the strongest edge directions, all pyramid levels are divided into strips of three heights, and the
+/// autocorrelation of the flattened grey profile of each strip is searched. The fundamental is the smallest
+/// lag with a score close to the best one, where the score compares the autocorrelation at multiples of the
+/// lag with that half-way between; so neither the two edges of a mark nor longer marks (every fifth or tenth)
+/// are taken for the pitch. Returns periodic strips, best first.
 std::vector<PeriodHint> find_periods(const GrayF& picture);
 
 }  // namespace faba

@@ -21,7 +21,7 @@ Detector detector_for(const cells::Look& l, const GrayF& frame, double false_ala
 
 struct Found {
   int hit = 0, extra = 0;
-  double sum = 0, sum2 = 0, stated2 = 0;  // of errors of both axes
+  double sum = 0, sum2 = 0, reported2 = 0;  // sums over the errors of both axes
 };
 Found compare(const std::vector<Vec2>& truth, const std::vector<Spot>& spots, double within) {
   Found f;
@@ -44,14 +44,14 @@ Found compare(const std::vector<Vec2>& truth, const std::vector<Spot>& spots, do
       f.sum += e;
       f.sum2 += e * e;
     }
-    f.stated2 += 2 * s.sd_px * s.sd_px;
+    f.reported2 += 2 * s.sd_px * s.sd_px;
   }
   return f;
 }
 
 }  // namespace
 
-TEST_CASE("places are unbiased and as sure as is stated") {
+TEST_CASE("positions are unbiased and have the reported standard error") {
   for (const double noise : {1.0, 4.0, 8.0}) {
     CAPTURE(noise);
     cells::Look l;
@@ -62,22 +62,22 @@ TEST_CASE("places are unbiased and as sure as is stated") {
       const GrayF frame = cells::picture(l, truth, 20 + k);
       const Found f = compare(truth, detector_for(l, frame).find(frame), 2);
       CHECK(f.hit == int(truth.size()));
-      CHECK(f.extra <= 2);  // 0.1 expected of each frame
+      CHECK(f.extra <= 2);  // 0.1 per frame expected
       all.sum += f.sum;
       all.sum2 += f.sum2;
-      all.stated2 += f.stated2;
+      all.reported2 += f.reported2;
       all.hit += f.hit;
     }
-    const double n = 2.0 * all.hit, sd = std::sqrt(all.sum2 / n), stated = std::sqrt(all.stated2 / n);
+    const double n = 2.0 * all.hit, sd = std::sqrt(all.sum2 / n), stated = std::sqrt(all.reported2 / n);
     CHECK(std::fabs(all.sum / n) < 4 * sd / std::sqrt(n));
-    // 960 errors: their sd is known to 2.3 %; the window is not exactly as wide as the spot on pixels, and
-    // the offset of the surroundings costs some.
+    // 960 errors: relative error of their sd 2.3 %; the sampled window does not match the spot exactly, and
+    // the estimate of the local offset adds noise.
     CHECK(sd < 1.25 * stated);
     CHECK(sd > 0.85 * stated);
   }
 }
 
-TEST_CASE("noise alone gives about as many spots as was asked for") {
+TEST_CASE("noise gives about the requested number of false detections") {
   cells::Look l;
   l.width = 640;
   l.height = 480;
@@ -89,12 +89,12 @@ TEST_CASE("noise alone gives about as many spots as was asked for") {
     const GrayF frame = cells::picture(l, {}, 40 + k);
     found += int(detector_for(l, frame, 5).find(frame).size());
   }
-  // 30 expected; Poisson: 4 sd are 22. A third is lost at worst, where the fit finds no spot to settle on.
+  // 30 expected; Poisson: 4 sd are 22. At most a third is lost where the fit does not converge.
   CHECK(found > 8);
   CHECK(found < 52);
 }
 
-TEST_CASE("mass, size and shape are those of the spots") {
+TEST_CASE("mass, size and shape match those of the spots") {
   for (const double sd : {0.8, 1.27, 3.0, 6.0}) {
     CAPTURE(sd);
     cells::Look l;
@@ -115,13 +115,13 @@ TEST_CASE("mass, size and shape are those of the spots") {
       size += s.size_px / double(spots.size());
     }
     const double pixels = sd * sd;
-    // The wide smoothing that stands for the background takes some of the spot's foot with it.
+    // The smoothed background contains a part of the tails of the spot.
     CHECK(mass == doctest::Approx(2 * 3.14159 * pixels * 70).epsilon(0.08));
     CHECK(size == doctest::Approx(sd * kFwhmPerSd).epsilon(0.06));
   }
 }
 
-TEST_CASE("a rod shows its direction") {
+TEST_CASE("the direction of a rod is measured") {
   for (const double angle : {-1.2, 0.3, 1.0}) {
     GrayF frame(120, 90, 100.0F);
     for (int row = 0; row < 90; ++row)
@@ -141,7 +141,7 @@ TEST_CASE("a rod shows its direction") {
   }
 }
 
-TEST_CASE("two cells close together are two, and do not pull each other") {
+TEST_CASE("two close cells are resolved and do not bias each other") {
   cells::Look l;
   l.noise = 1;
   l.uneven = false;
@@ -156,7 +156,7 @@ TEST_CASE("two cells close together are two, and do not pull each other") {
   }
 }
 
-TEST_CASE("nothing is looked for outside of the drop, nor at the border") {
+TEST_CASE("no detection outside of the drop and at the border") {
   cells::Look l;
   l.noise = 1;
   l.uneven = false;
@@ -172,7 +172,7 @@ TEST_CASE("nothing is looked for outside of the drop, nor at the border") {
   CHECK(outside[0].x_px == doctest::Approx(200).epsilon(0.002));
 }
 
-TEST_CASE("the size is found") {
+TEST_CASE("the spot size is estimated") {
   for (const double sd : {1.0, 2.0, 4.0}) {
     CAPTURE(sd);
     cells::Look l;
@@ -180,7 +180,7 @@ TEST_CASE("the size is found") {
     l.noise = 3;
     const GrayF frame = cells::picture(l, cells::scattered(l, 40, 9 * sd, 4 * sd, 2), 3);
     const double size = spot_size(frame, spatial_background(frame, 30), Polarity::dark);
-    // Sizes are tried in steps of 20 %; the band pass stands out most for sizes up to another 15 % off.
+    // Sizes are tested in steps of 20 %; the maximum of the band-pass response can be off by another 15 %.
     CHECK(size > 0.68 * sd * kFwhmPerSd);
     CHECK(size < 1.38 * sd * kFwhmPerSd);
   }

@@ -29,14 +29,14 @@ std::vector<Track> track_all(Tracker& t, const std::vector<std::vector<Spot>>& f
   return t.finished();
 }
 
-// The best sum of gains by trying everything.
-double best_by_trial(int row, int rows, std::vector<bool>& used, const std::vector<PossiblePair>& all) {
+// Maximum sum of gains by exhaustive search.
+double best_exhaustive(int row, int rows, std::vector<bool>& used, const std::vector<PossiblePair>& all) {
   if (row == rows) return 0;
-  double best = best_by_trial(row + 1, rows, used, all);
+  double best = best_exhaustive(row + 1, rows, used, all);
   for (const PossiblePair& c : all)
     if (c.row == row && !used[std::size_t(c.column)]) {
       used[std::size_t(c.column)] = true;
-      best = std::max(best, c.gain + best_by_trial(row + 1, rows, used, all));
+      best = std::max(best, c.gain + best_exhaustive(row + 1, rows, used, all));
       used[std::size_t(c.column)] = false;
     }
   return best;
@@ -44,7 +44,7 @@ double best_by_trial(int row, int rows, std::vector<bool>& used, const std::vect
 
 }  // namespace
 
-TEST_CASE("the assignment is the best there is") {
+TEST_CASE("the assignment is optimal") {
   cells::Dice dice(3);
   for (int trial = 0; trial < 200; ++trial) {
     const int rows = 1 + int(dice.uniform() * 6), columns = 1 + int(dice.uniform() * 6);
@@ -64,11 +64,11 @@ TEST_CASE("the assignment is the best there is") {
     for (const int n : taken) CHECK(n <= 1);
     std::vector<bool> used(std::size_t(columns), false);
     CHECK(sum ==
-          doctest::Approx(best_by_trial(0, rows, used, all)).epsilon(1e-5));  // gains are rounded to 2^-20
+          doctest::Approx(best_exhaustive(0, rows, used, all)).epsilon(1e-5));  // gains are rounded to 2^-20
   }
 }
 
-TEST_CASE("cells that cross keep their tracks") {
+TEST_CASE("crossing cells keep their tracks") {
   std::vector<std::vector<Spot>> frames;
   cells::Dice dice(1);
   for (int k = 0; k < 40; ++k) {
@@ -90,7 +90,7 @@ TEST_CASE("cells that cross keep their tracks") {
   }
 }
 
-TEST_CASE("a cell unseen for a while keeps its track, for too long begins another") {
+TEST_CASE("a cell keeps its track after a short gap and starts a new one after a long gap") {
   for (const int gap : {1, 2, 3}) {
     std::vector<std::vector<Spot>> frames;
     for (int k = 0; k < 30; ++k) {
@@ -104,13 +104,14 @@ TEST_CASE("a cell unseen for a while keeps its track, for too long begins anothe
     const auto tracks = track_all(t, frames);
     CHECK(tracks.size() == (gap <= 2 ? 2u : 3u));
     for (const Track& track : tracks)
-      for (std::size_t i = 1; i < track.points.size(); ++i)  // the frames that were missed are missing
+      for (std::size_t i = 1; i < track.points.size();
+           ++i)  // frames without detection are missing in the track
         CHECK(track.points[i].t_s - track.points[i - 1].t_s ==
               doctest::Approx(0.1 * double(track.points[i].frame - track.points[i - 1].frame)));
   }
 }
 
-TEST_CASE("births, deaths and noise: tracks begin and end where cells do, single spots are no tracks") {
+TEST_CASE("tracks start and end with their cells; single spots are not tracks") {
   std::vector<std::vector<Spot>> frames;
   cells::Dice dice(4);
   for (int k = 0; k < 40; ++k) {
@@ -131,8 +132,8 @@ TEST_CASE("births, deaths and noise: tracks begin and end where cells do, single
   CHECK(t.uncertain_tracks() >= 4);
 }
 
-TEST_CASE("a thousand swimmers: nearly every link is right, reach and motion are found") {
-  // Density 0.0033 per px^2: mean distance to the nearest is 8.7 px; half of it is 4.4 px per frame.
+TEST_CASE("a thousand swimmers: nearly all links are correct; reach and motion model are estimated") {
+  // Density 0.0033 per px^2: mean nearest-neighbour distance 8.7 px; half of it is 4.4 px per frame.
   cells::Look l;
   l.width = 640;
   l.height = 480;
@@ -149,7 +150,7 @@ TEST_CASE("a thousand swimmers: nearly every link is right, reach and motion are
     for (std::size_t i = 0; i < at.size(); ++i) {
       at[i] = at[i] + v[i] + Vec2{0.1 * dice.normal(), 0.1 * dice.normal()};
       if (at[i].x < 0 || at[i].x > 639 || at[i].y < 0 || at[i].y > 479 || dice.uniform() < 0.02) continue;
-      s.push_back(spot(at[i], double(i)));  // the mass tells who it is
+      s.push_back(spot(at[i], double(i)));  // the mass identifies the cell
     }
     frames.push_back(s);
   }
@@ -172,7 +173,7 @@ TEST_CASE("a thousand swimmers: nearly every link is right, reach and motion are
   CHECK(length / (right + wrong) == doctest::Approx(4).epsilon(0.03));
 }
 
-TEST_CASE("what diffuses is followed by its place") {
+TEST_CASE("diffusing particles are tracked with the nearest model") {
   cells::Dice dice(2);
   std::vector<Vec2> at;
   for (int i = 0; i < 200; ++i) at.push_back({400 * dice.uniform(), 300 * dice.uniform()});
@@ -195,7 +196,7 @@ TEST_CASE("what diffuses is followed by its place") {
   CHECK(wrong < 0.02 * all);
 }
 
-TEST_CASE("uneven times: velocities are per second, not per frame") {
+TEST_CASE("uneven frame spacing: velocities are per second, not per frame") {
   TrackerOptions o;
   o.motion = Motion::velocity;
   o.reach_px = 6;
@@ -209,7 +210,7 @@ TEST_CASE("uneven times: velocities are per second, not per frame") {
   CHECK(t.finished().size() == 2);
 }
 
-TEST_CASE("long tracks are handed out in pieces; time must go on") {
+TEST_CASE("long tracks are returned in pieces; time must increase") {
   TrackerOptions o;
   o.most_points = 100;
   Tracker t(o);

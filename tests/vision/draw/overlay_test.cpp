@@ -6,7 +6,7 @@
 
 using namespace faba;
 
-TEST_CASE("the overlay keeps the picture and colours the edge") {
+TEST_CASE("the overlay keeps the grey picture and draws the edge in colour") {
   DropScene s;
   s.radius = 170;
   s.centre = {300, 220};
@@ -25,7 +25,7 @@ TEST_CASE("the overlay keeps the picture and colours the edge") {
   CHECK_FALSE(is_grey(300 + 170, 220));
   CHECK_FALSE(is_grey(300 - 170, 220));
   CHECK_FALSE(is_grey(300, 220 + 170));
-  CHECK_FALSE(is_grey(300, 220));  // the centre's cross
+  CHECK_FALSE(is_grey(300, 220));  // the cross at the centre
   // Blue and not red nor violet along the circle: sky blue has more blue than red.
   int blue = 0, coloured = 0;
   for (int k = 0; k < 360; ++k) {
@@ -39,7 +39,7 @@ TEST_CASE("the overlay keeps the picture and colours the edge") {
   CHECK(blue > 180);
 }
 
-TEST_CASE("a circle far larger than the picture, and no picture at all, can be drawn") {
+TEST_CASE("a circle much larger than the picture and an empty picture can be drawn") {
   DropEdge edge;
   edge.radius_px = 1e6;
   edge.centre_image = {320, 1e6 + 240};

@@ -28,7 +28,7 @@ std::vector<Vec2> noisy_arc(Vec2 centre, double radius, double from_deg, double 
   return points;
 }
 
-/// The fit everyone writes first: linear least squares of x^2 + y^2 + Bx + Cy + D. Small on short arcs.
+/// Kasa fit: linear least squares of x^2 + y^2 + Bx + Cy + D. Biased to small radii on short arcs.
 double kasa_radius(const std::vector<Vec2>& points) {
   Vec2 mean;
   for (Vec2 p : points) mean = mean + (1.0 / double(points.size())) * p;
@@ -74,7 +74,7 @@ Trials many_fits(CircleLoss loss) {
 
 }  // namespace
 
-TEST_CASE("three points give their circle, in either order, and a line gives none") {
+TEST_CASE("three points determine a circle in either order; collinear points do not") {
   const auto c = circle_through({13, 4}, {3, 14}, {-7, 4});
   REQUIRE(c);
   CHECK(c->centre.x == doctest::Approx(3));
@@ -85,12 +85,12 @@ TEST_CASE("three points give their circle, in either order, and a line gives non
   CHECK_FALSE(circle_through({1, 1}, {1, 1}, {3, 6}));
 }
 
-TEST_CASE("exact points give the exact circle, from ten degrees to all round") {
+TEST_CASE("exact points give the exact circle, from ten degrees to a full turn") {
   for (const double arc : {10.0, 25.0, 90.0, 350.0}) {
     const auto points = noisy_arc({-700, 1200}, 640, 70, 70 + arc, 40, 0, 1);
     const auto pratt = fit_circle_pratt(points);
     REQUIRE(pratt);
-    // Rounding of 1e-16 is magnified by 1/half-angle^4, 2e4 on ten degrees, and by the ratio of the
+    // Rounding errors of 1e-16 are amplified by 1/half-angle^4 (2e4 for ten degrees) and by the ratio of the
     // distances.
     CHECK(pratt->radius == doctest::Approx(640).epsilon(1e-8));
     const CircleFit fit = refine_circle(points, *pratt, CircleLoss::tukey);
@@ -103,33 +103,33 @@ TEST_CASE("exact points give the exact circle, from ten degrees to all round") {
   }
 }
 
-TEST_CASE("T17: on a noisy arc of 25 degrees the bias is below the sd, and the sd is the scatter") {
+TEST_CASE("T17: on a noisy arc of 25 degrees the bias is below the sd, and the sd equals the scatter") {
   const Trials square = many_fits(CircleLoss::square), tukey = many_fits(CircleLoss::tukey);
-  // sd(R) = sigma sqrt(45/n)/alpha^2 is the first term for small alpha and many points: the next ones are
+  // sd(R) = sigma sqrt(45/n)/alpha^2 is the leading term for small alpha and many points; the next terms are
   // alpha^2 = 5 % and 4/n = 4 %.
   const double alpha = 12.5 * kDegree, theory = std::sqrt(45.0 / 100) / (alpha * alpha);
   CHECK(square.reported == doctest::Approx(theory).epsilon(0.09));
   for (const Trials& t : {square, tukey}) {
     CHECK(std::fabs(t.bias) < t.scatter);
-    // The mean of 400 has a standard error of scatter / 20; four of them leave one failure in 16000. The true
-    // bias, of second order, is scatter^2 / R = 0.13.
+    // The mean of 400 has a standard error of scatter / 20; a limit of four gives one failure in 16000. The
+    // true bias is of second order, scatter^2 / R = 0.13.
     CHECK(std::fabs(t.bias) < 4 * t.scatter / 20 + 0.13);
-    // A scatter from 400 values is known to 1/sqrt(800) = 3.5 %; four of them, and for Tukey's weights 5 %
-    // more because its variance formula holds for many points.
+    // The relative error of a scatter from 400 values is 1/sqrt(800) = 3.5 %; limit four times that, and 5 %
+    // more for Tukey weights, whose variance formula holds for many points only.
     CHECK(t.reported / t.scatter == doctest::Approx(1).epsilon(0.14 + 0.05));
   }
-  // What this is good for: the simple fit is off by (theory A13: -18 px at alpha 0.2) about one sd.
+  // For comparison: the bias of the Kasa fit (theory A13: -18 px at alpha 0.2) is about one sd.
   CHECK(square.kasa_bias < -0.5 * square.scatter);
 }
 
-TEST_CASE("a third of wrong points moves the robust fit by less than its error bars") {
+TEST_CASE("a third of outliers moves the robust fit by less than its standard deviations") {
   auto points = noisy_arc({2000, 900}, 1800, 170, 200, 120, 0.7, 5);
   FrameNoise noise(6);
   for (int i = 0; i < 60; ++i) points.push_back({640 * noise.uniform(), 480 * noise.uniform()});
   CircleSearchOptions options;
   const CircleFit fit = fit_circle(points, options);
-  // Five standard deviations; a wrong point inside the tolerance may count, 60 * 9 px of a 640 px arc's 480
-  // px: few.
+  // Limit: five standard deviations; few outliers lie inside the tolerance (60 * 9 px along an arc of 640 px
+  // in 480 px).
   CHECK(std::fabs(fit.radius - 1800) < 5 * fit.sd_radius);
   CHECK(std::fabs(fit.centre.x - 2000) < 5 * fit.sd_centre.x);
   CHECK(std::fabs(fit.centre.y - 900) < 5 * fit.sd_centre.y);
@@ -139,7 +139,7 @@ TEST_CASE("a third of wrong points moves the robust fit by less than its error b
   CHECK(std::is_sorted(fit.inliers.begin(), fit.inliers.end()));
 }
 
-TEST_CASE("the random search is the same every time, and its seed matters only to chance") {
+TEST_CASE("RANSAC is reproducible, and different seeds agree within the uncertainty") {
   const auto points = noisy_arc({300, 200}, 150, 0, 330, 200, 0.5, 9);
   CircleSearchOptions options;
   const auto a = search_circles(points, {}, options), b = search_circles(points, {}, options);
@@ -152,8 +152,8 @@ TEST_CASE("the random search is the same every time, and its seed matters only t
   CHECK(c[0].radius == doctest::Approx(a[0].radius).epsilon(0.01));
 }
 
-TEST_CASE("normals tell an edge from clutter") {
-  // 80 points of an arc among 1200 points whose normals point anywhere: 6 % of the points.
+TEST_CASE("normals separate an edge from clutter") {
+  // 80 points of an arc among 1200 points with random normals: 6 % of the points.
   std::vector<Vec2> points = noisy_arc({320, 1000}, 800, 255, 285, 80, 0.4, 3), normals;
   for (Vec2 p : points) normals.push_back((1 / norm(p - Vec2{320, 1000})) * (p - Vec2{320, 1000}));
   FrameNoise noise(4);
@@ -167,11 +167,11 @@ TEST_CASE("normals tell an edge from clutter") {
   options.min_radius = 40;
   const auto found = search_circles(points, normals, options);
   REQUIRE(found.size() == 1);
-  // sd(R) = 0.4 sqrt(45/80)/0.26^2 = 4.4; five of them.
+  // sd(R) = 0.4 sqrt(45/80)/0.26^2 = 4.4; limit five sd.
   CHECK(std::fabs(found[0].radius - 800) < 22);
 }
 
-TEST_CASE("two circles are found one after the other") {
+TEST_CASE("two circles are found in turn") {
   auto points = noisy_arc({200, 200}, 100, 0, 350, 150, 0.3, 1);
   const auto second = noisy_arc({500, 260}, 60, 0, 350, 100, 0.3, 2);
   points.insert(points.end(), second.begin(), second.end());
@@ -183,7 +183,7 @@ TEST_CASE("two circles are found one after the other") {
   CHECK(found[1].radius == doctest::Approx(60).epsilon(0.01));
 }
 
-TEST_CASE("what is no circle is refused") {
+TEST_CASE("points that are not on a circle are refused") {
   std::vector<Vec2> line;
   for (int i = 0; i < 50; ++i) line.push_back({3.0 * i, 4 + 1.7 * i});
   CHECK_FALSE(fit_circle_pratt(line));
@@ -195,7 +195,7 @@ TEST_CASE("what is no circle is refused") {
   CHECK(search_circles({}, {}).empty());
 }
 
-TEST_CASE("the covered angle is the turn without its largest gap") {
+TEST_CASE("the covered angle is the full turn minus the largest gap") {
   CHECK(covered_angle(noisy_arc({0, 0}, 5, 170, 200, 31, 0, 1), {0, 0}) == doctest::Approx(30 * kDegree));
   CHECK(covered_angle(noisy_arc({0, 0}, 5, 0, 270, 28, 0, 1), {0, 0}) == doctest::Approx(270 * kDegree));
   CHECK(covered_angle({}, {0, 0}) == 0);

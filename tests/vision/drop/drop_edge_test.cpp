@@ -15,15 +15,15 @@ using namespace faba;
 
 namespace {
 
-/// Finds the edge and checks it against the truth in units of the reported error and in px.
+/// Detects the edge and compares it with the true circle, in units of the reported sd and in px.
 DropEdge check_found(const DropScene& s) {
   CAPTURE(s.radius);
   CAPTURE(s.seed);
   const DropEdge d = find_drop_edge(render(s));
-  // Four standard deviations: one failure in 16000 if they are honest.
+  // Four standard deviations: one failure in 16000 if the sd are correct.
   CHECK(std::fabs(d.radius_px - s.radius) < 4 * d.sd_radius_px);
-  // Along the arc in view the circle is known far better than its centre: a piece of 6 px is placed to about
-  // its blur times noise / contrast, at worst 2 px here, and some 50 pieces share the three unknowns.
+  // Along the visible arc the circle is more accurate than its centre: the position error of a piece of 6 px
+  // is about blur times noise / contrast, at worst 2 px here, and about 50 pieces determine three parameters.
   CHECK(arc_distance(s, d.centre_image, d.radius_px) < 4 * 2 * std::sqrt(3.0 / 50) * 2);
   CHECK(d.image_width == s.width);
   CHECK(d.image_height == s.height);
@@ -50,7 +50,7 @@ std::string refusal(const GrayF& picture, DropEdgeOptions options = {}) {
   }
 }
 
-bool says(const std::string& text, const char* part) {
+bool check_contains(const std::string& text, const char* part) {
   INFO(text);
   const bool found = text.find(part) != std::string::npos;
   CHECK(found);
@@ -66,7 +66,7 @@ void add_line(GrayF& im, Vec2 through, double angle_deg, double step) {
 
 }  // namespace
 
-TEST_CASE("short arcs of every kind are found") {
+TEST_CASE("short arcs of all edge shapes are detected") {
   std::uint64_t seed = 0;
   for (const double radius : {480.0, 900.0, 2000.0})
     for (const int bits : {8, 16})
@@ -88,7 +88,7 @@ TEST_CASE("short arcs of every kind are found") {
         }
 }
 
-TEST_CASE("whole drops, wide arcs and dim 16-bit pictures are found") {
+TEST_CASE("complete drops, wide arcs and dim 16-bit pictures are detected") {
   DropScene s;
   s.width = 518;
   s.height = 488;
@@ -98,20 +98,19 @@ TEST_CASE("whole drops, wide arcs and dim 16-bit pictures are found") {
   s.step = 60;
   s.noise = 15;
   s.bits = 16;
-  const DropEdge whole = check_found(s);
-  CHECK(whole.arc_deg > 350);
-  CHECK(whole.sd_radius_px < 1);
+  const DropEdge full = check_found(s);
+  CHECK(full.arc_deg > 350);
+  CHECK(full.sd_radius_px < 1);
   s.centre = {60, 200};
   s.radius = 240;
   s.seed = 2;
   const DropEdge wide = check_found(s);
-  // In view from -asin(200/240) = -56 to acos(-60/240) = 104 degrees; up to 6 px at either end are not looked
-  // at.
+  // Visible from -asin(200/240) = -56 to acos(-60/240) = 104 degrees; up to 6 px at either end are excluded.
   CHECK(wide.arc_deg > 161 - 2 * 12);
   CHECK(wide.arc_deg < 161);
 }
 
-TEST_CASE("an edge below the pixel noise is found in the halved copies") {
+TEST_CASE("an edge below the pixel noise is detected in coarser pyramid levels") {
   DropScene s;
   s.radius = 600;
   s.centre = centre_for({300, 230}, s.radius, 200);
@@ -121,7 +120,7 @@ TEST_CASE("an edge below the pixel noise is found in the halved copies") {
   check_found(s);
 }
 
-TEST_CASE("many cells inside do not hide the edge") {
+TEST_CASE("many cells inside do not prevent detection") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     DropScene s;
     s.seed = seed;
@@ -134,7 +133,7 @@ TEST_CASE("many cells inside do not hide the edge") {
   }
 }
 
-TEST_CASE("the same picture gives the same edge, bit for bit") {
+TEST_CASE("the result is reproducible bit for bit") {
   DropScene s;
   s.radius = 500;
   s.centre = centre_for({320, 240}, s.radius, 75);
@@ -147,7 +146,7 @@ TEST_CASE("the same picture gives the same edge, bit for bit") {
   CHECK(a.edge_points == b.edge_points);
 }
 
-TEST_CASE("stretching and hot pixels: the scale of the picture does not matter") {
+TEST_CASE("stretching and hot pixels: the result does not depend on the grey scale of the picture") {
   DropScene s;
   s.radius = 180;
   s.centre = {330, 210};
@@ -160,59 +159,59 @@ TEST_CASE("stretching and hot pixels: the scale of the picture does not matter")
         doctest::Approx(16 * find_drop_edge(picture).contrast).epsilon(1e-2));
 }
 
-TEST_CASE("pictures without any edge are refused") {
-  says(refusal(GrayF(640, 480, 88.f)), "uniform");
-  says(refusal(GrayF(40, 300, 88.f)), "40 x 300");
+TEST_CASE("pictures without an edge are refused") {
+  check_contains(refusal(GrayF(640, 480, 88.f)), "uniform");
+  check_contains(refusal(GrayF(40, 300, 88.f)), "40 x 300");
   GrayF hole(320, 240, 5.f);
   hole.at(3, 4) = std::numeric_limits<float>::quiet_NaN();
-  says(refusal(hole), "finite");
+  check_contains(refusal(hole), "finite");
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     DropScene s;
     s.seed = seed;
     s.noise = double(seed);
     s.vignette = 0.1 * double(seed - 1);
-    says(refusal(render(s)), "no edge of a drop");
+    check_contains(refusal(render(s)), "no drop edge detected");
     s.cells = 50 * int(seed);
     s.bits = 16;
     s.gain = 30;
     s.hot_pixels = 60;
-    says(refusal(render(s)), "no edge of a drop");
+    check_contains(refusal(render(s)), "no drop edge detected");
   }
 }
 
-TEST_CASE("contour lines of even light on a coarse grey scale are no edge") {
+TEST_CASE("quantisation contours of smooth light are not an edge") {
   DropScene s;
   s.noise = 0;
   s.vignette = 0.3;
-  says(refusal(render(s)), "no edge of a drop");
+  check_contains(refusal(render(s)), "no drop edge detected");
 }
 
-TEST_CASE("a straight edge is called straight") {
+TEST_CASE("a straight edge is reported as straight") {
   for (const double angle : {0.0, 20.0, 71.0, 90.0}) {
     DropScene s;
     s.seed = std::uint64_t(angle) + 1;
     s.cells = 30;
     GrayF picture = render(s);
     add_line(picture, {300, 250}, angle, 30);
-    says(refusal(picture), "straight");
+    check_contains(refusal(picture), "straight");
   }
 }
 
-TEST_CASE("an arc under ten degrees is refused with its angle") {
+TEST_CASE("an arc below ten degrees is refused; the error has its angle") {
   DropScene s;
-  s.radius = 5500;  // 480 px of it are 5 degrees
+  s.radius = 5500;  // 480 px are 5 degrees
   s.centre = centre_for({320, 240}, s.radius, 5);
   s.step = 40;
   const std::string why = refusal(render(s));
-  says(why, "covers only");
-  says(why, "10 degrees needed");
+  check_contains(why, "covers only");
+  check_contains(why, "10 degrees required");
   DropEdgeOptions lenient;
   lenient.min_arc_deg = 3;
   const DropEdge d = find_drop_edge(render(s), lenient);
   CHECK(std::fabs(d.radius_px - s.radius) < 4 * d.sd_radius_px);
 }
 
-TEST_CASE("a corner and a ruler are no drop") {
+TEST_CASE("a corner and a ruler are not a drop") {
   GrayF corner = render(DropScene{});
   for (int r = 0; r < corner.height; ++r)
     for (int c = 0; c < corner.width; ++c)
@@ -226,7 +225,7 @@ TEST_CASE("a corner and a ruler are no drop") {
   CHECK(refusal(ruler).find("found") == std::string::npos);
 }
 
-TEST_CASE("the drop is on the side of its centre, unless cells say otherwise or the user does") {
+TEST_CASE("the drop is on the side of the centre, unless cells or the user option indicate otherwise") {
   DropScene s;
   s.radius = 300;
   s.centre = {120, 420};
@@ -238,18 +237,18 @@ TEST_CASE("the drop is on the side of its centre, unless cells say otherwise or 
   CHECK_FALSE(away.centre_side_inside);
   CHECK(norm(away.inside_image - s.centre) > s.radius);
   CHECK(away.contrast < 0);
-  DropEdgeOptions told;
-  told.side = DropSide::centre;
-  const DropEdge centre = find_drop_edge(bubble, told);
+  DropEdgeOptions side_options;
+  side_options.side = DropSide::centre;
+  const DropEdge centre = find_drop_edge(bubble, side_options);
   CHECK(centre.centre_side_inside);
   CHECK(norm(centre.inside_image - s.centre) < s.radius);
-  told.side = DropSide::away;
+  side_options.side = DropSide::away;
   s.cells_outside = false;
   CHECK(find_drop_edge(render(s)).centre_side_inside);
-  CHECK_FALSE(find_drop_edge(render(s), told).centre_side_inside);
+  CHECK_FALSE(find_drop_edge(render(s), side_options).centre_side_inside);
 }
 
-TEST_CASE("points on either side of a circle are in the picture and on their side") {
+TEST_CASE("point_on_side gives a point in the picture and on the given side") {
   for (const Circle& c : {Circle{{320, 240}, 100}, Circle{{-900, 200}, 1000}, Circle{{320, -2000}, 2100}}) {
     for (const bool inside : {true, false}) {
       const Vec2 p = point_on_side(640, 480, c, inside);

@@ -11,7 +11,7 @@ using namespace faba;
 
 namespace {
 
-/// Dark left of column `from`, bright from there on.
+/// Dark left of column `from`, bright from column `from`.
 GrayF half_plane(int from) {
   GrayF im(160, 96, 50.f);
   for (int r = 0; r < im.height; ++r)
@@ -21,14 +21,14 @@ GrayF half_plane(int from) {
 
 }  // namespace
 
-TEST_CASE("an edge between columns 99 and 100 lies at 99.5, its normal from dark to bright") {
+TEST_CASE("an edge between columns 99 and 100 is at 99.5, with its normal from dark to bright") {
   for (const auto threshold :
        {EdgeThreshold::legacy, EdgeThreshold::otsu, EdgeThreshold::noise, EdgeThreshold::fixed}) {
     EdgeSegmentOptions options;
     options.threshold = threshold;
     options.fixed_threshold = 3;
     const EdgeSegments found = find_edge_segments(half_plane(100), options);
-    REQUIRE(found.support.size() > 80);  // of 95 rows; the border is left out
+    REQUIRE(found.support.size() > 80);  // of 95 rows; the border is excluded
     for (const EdgePixel& p : found.support) {
       CHECK(p.pos.x == 99.5);
       CHECK(p.normal.x == doctest::Approx(1));
@@ -39,7 +39,7 @@ TEST_CASE("an edge between columns 99 and 100 lies at 99.5, its normal from dark
   }
 }
 
-TEST_CASE("rows and columns are told apart") {
+TEST_CASE("rows and columns are distinguished") {
   GrayF im(160, 96, 90.f);
   for (int r = 40; r < im.height; ++r)
     for (int c = 0; c < im.width; ++c) im.at(c, r) = 50;
@@ -53,21 +53,21 @@ TEST_CASE("rows and columns are told apart") {
 TEST_CASE("the legacy threshold is the root of six mean squared gradients") {
   EdgeSegmentOptions options;
   options.sigma_px = 0;
-  // Without smoothing one of 159 columns has gradient 40 and the rest none.
+  // Without smoothing one of 159 columns has gradient 40, the others 0.
   CHECK(find_edge_segments(half_plane(100), options).threshold ==
         doctest::Approx(std::sqrt(6 * 1600.0 / 159)));
 }
 
-TEST_CASE("scattered cells and noise give edge pixels, but nothing along a line") {
+TEST_CASE("scattered cells and noise give edge pixels, but no segments") {
   DropScene scene;
   scene.cells = 60;
   const EdgeSegments found = find_edge_segments(render(scene));
   CHECK(found.pixels.size() > 500);
-  // A cell is some 8 px across; 40 px with gaps of 20 bridged need a chance row of several.
+  // A cell is about 8 px wide; a segment of 40 px with gaps of up to 20 px needs several cells in a row.
   CHECK(found.support.size() < found.pixels.size() / 4);
 }
 
-TEST_CASE("limits on segments and pixels hold, and nothing comes of nothing") {
+TEST_CASE("the limits on segments and pixels hold, and an empty picture gives no edges") {
   DropScene scene;
   scene.noise = 20;
   EdgeSegmentOptions options;

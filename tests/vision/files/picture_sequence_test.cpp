@@ -26,7 +26,7 @@ std::vector<std::pair<int, double>> read_all(const std::filesystem::path& path, 
 
 }  // namespace
 
-TEST_CASE("numbers in names count as numbers") {
+TEST_CASE("numbers in names are compared by value") {
   CHECK(natural_less("f9.png", "f10.png"));
   CHECK_FALSE(natural_less("f10.png", "f9.png"));
   CHECK(natural_less("f2a1", "f2a10"));
@@ -37,12 +37,12 @@ TEST_CASE("numbers in names count as numbers") {
   CHECK(natural_less("f00000000000000000000000000002", "f10000000000000000000000000000"));
 }
 
-TEST_CASE("a folder and patterns are videos, in natural order, with times from --fps") {
+TEST_CASE("a folder or a pattern is read as a video, in natural order, with times from --fps") {
   const media::ScratchFolder folder;
   for (const int k : {1, 2, 9, 10, 11}) write_grey(folder / fmt::format("f{}.pgm", k), 9, 6, 10 * k);
   write_grey(folder / "other.pgm", 9, 6, 255);
-  media::write_bytes(folder / "notes.txt", "no picture");
-  media::write_bytes(folder / ".hidden.pgm", "no picture");
+  media::write_bytes(folder / "notes.txt", "not a picture");
+  media::write_bytes(folder / ".hidden.pgm", "not a picture");
   CHECK(read_all(folder.path(), 0).size() == 6);
   for (const char* pattern : {"f*.pgm", "f%d.pgm"}) {
     CAPTURE(pattern);
@@ -64,10 +64,10 @@ TEST_CASE("a folder and patterns are videos, in natural order, with times from -
   CHECK_FALSE(reader.truncated());
 }
 
-TEST_CASE("what is no sequence is refused; a damaged picture is left out and said") {
+TEST_CASE("an empty sequence is refused; a damaged picture is skipped and reported") {
   const media::ScratchFolder folder;
-  CHECK_THROWS_WITH_AS(VideoReader(folder / "f*.png"), doctest::Contains("no file fits"), Error);
-  CHECK_THROWS_WITH_AS(VideoReader(folder.path()), doctest::Contains("without pictures"), Error);
+  CHECK_THROWS_WITH_AS(VideoReader(folder / "f*.png"), doctest::Contains("no file matches"), Error);
+  CHECK_THROWS_WITH_AS(VideoReader(folder.path()), doctest::Contains("contains no pictures"), Error);
   for (int k = 0; k < 3; ++k) write_grey(folder / fmt::format("a{}.pgm", k), 9, 6, 10 + k);
   media::write_bytes(folder / "a1.pgm", "P5 nothing");
   VideoReader reader(folder / "a*.pgm", 10);
@@ -83,9 +83,9 @@ TEST_CASE("what is no sequence is refused; a damaged picture is left out and sai
   CHECK_THROWS_WITH_AS(read_all(folder / "a*.pgm", 10), doctest::Contains("6 x 9"), Error);
 }
 
-TEST_CASE("a frame rate that is given scales the times of a video") {
+TEST_CASE("a frame rate override scales the times of a video") {
   const media::ScratchFolder folder;
   for (int k = 0; k < 3; ++k) write_grey(folder / fmt::format("a{}.pgm", k), 9, 6, 10 + k);
-  CHECK(read_all(folder / "a*.pgm", 0).back().second == 2);  // no rate: the count of pictures
+  CHECK(read_all(folder / "a*.pgm", 0).back().second == 2);  // no rate: index of the picture
   CHECK(read_all(folder / "a*.pgm", 4).back().second == doctest::Approx(0.5));
 }

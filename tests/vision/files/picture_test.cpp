@@ -43,7 +43,7 @@ std::string grey_rows(int bytes) {
   return rows;
 }
 
-// The Error that reading `path` ends in; fails when it does not.
+// The Error thrown when `path` is read; the test fails if there is no error.
 Error refusal(const std::filesystem::path& path) {
   try {
     read_picture(path);
@@ -52,17 +52,17 @@ Error refusal(const std::filesystem::path& path) {
     CHECK(error.where() == path.string());
     return error;
   }
-  FAIL("read without complaint: " << path.string());
+  FAIL("no error for " << path.string());
   return {Errc::internal, "", ""};
 }
 
-bool says(const Error& error, const std::string& word) {
+bool message_contains(const Error& error, const std::string& word) {
   return std::string(error.what()).find(word) != std::string::npos;
 }
 
 }  // namespace
 
-TEST_CASE("grey PNG and PGM of 8 and 16 bits: values to the last bit") {
+TEST_CASE("grey PNG and PGM of 8 and 16 bits: exact values") {
   const media::ScratchFolder folder;
   for (const int bytes : {1, 2}) {
     CAPTURE(bytes);
@@ -82,14 +82,14 @@ TEST_CASE("grey PNG and PGM of 8 and 16 bits: values to the last bit") {
   }
 }
 
-TEST_CASE("the kind of file is told by its content, not by its name") {
+TEST_CASE("the format is detected from the content, not from the file name") {
   const media::ScratchFolder folder;
   media::write_bytes(folder / "really_png.tif", media::png_file(kWidth, kHeight, 8, false, grey_rows(1)));
   CHECK(wrong_pixels(read_picture(folder / "really_png.tif").grey,
                      [](int c, int r) { return value_at(c, r, 256); }) == 0);
 }
 
-TEST_CASE("colour becomes grey by the weights; colours that are grey keep their value") {
+TEST_CASE("colour is converted to grey by the weights; r = g = b keeps its value") {
   const media::ScratchFolder folder;
   std::string rows;
   for (int i = 0; i < kWidth * kHeight; ++i) {
@@ -110,7 +110,7 @@ TEST_CASE("colour becomes grey by the weights; colours that are grey keep their 
   CHECK(wrong_pixels(picture.grey, expected) == 0);
 }
 
-TEST_CASE("what write_png writes reads back exactly, also at odd sizes and over an older file") {
+TEST_CASE("write_png round-trips exactly, also at odd sizes and over an existing file") {
   const media::ScratchFolder folder;
   RgbImage colour = media::scene(kWidth, kHeight, 3, true);
   write_png(folder / "colour.png", RgbImage(5, 7));
@@ -127,22 +127,22 @@ TEST_CASE("what write_png writes reads back exactly, also at odd sizes and over 
   CHECK(wrong_pixels(read_picture(folder / "grey.png").grey, [&](int c, int r) { return grey.at(c, r); }) ==
         0);
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) ==
-        2);  // no temporary file is left
+        2);  // no temporary file remains
 }
 
-TEST_CASE("write_png where nothing can be written") {
+TEST_CASE("write_png to a path that cannot be written") {
   const media::ScratchFolder folder;
   try {
     write_png(folder / "no such folder/p.png", Gray8(3, 2));
-    FAIL("no complaint");
+    FAIL("no error");
   } catch (const Error& error) {
     CHECK(error.code() == Errc::internal);
-    CHECK(says(error, "no such folder"));
+    CHECK(message_contains(error, "no such folder"));
   }
   CHECK_THROWS_AS(write_png(folder / "empty.png", Gray8()), Error);
 }
 
-TEST_CASE("a disk that fills up leaves the older picture and no temporary file") {
+TEST_CASE("on a full disk the existing picture is kept and no temporary file remains") {
   const media::ScratchFolder folder;
   write_png(folder / "p.png", Gray8(3, 2, 9));
   const std::string before = media::read_bytes(folder / "p.png");
@@ -164,12 +164,12 @@ TEST_CASE("a disk that fills up leaves the older picture and no temporary file")
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
 }
 
-TEST_CASE("what is no picture is refused with its name and a reason") {
+TEST_CASE("a file that is not a picture is refused; the error has the path and the reason") {
   const media::ScratchFolder folder;
-  CHECK(says(refusal(folder / "missing.png"), "no such file"));
-  CHECK(says(refusal(folder.path()), "directory"));
+  CHECK(message_contains(refusal(folder / "missing.png"), "file not found"));
+  CHECK(message_contains(refusal(folder.path()), "directory"));
   media::write_bytes(folder / "empty.png", "");
-  CHECK(says(refusal(folder / "empty.png"), "empty"));
+  CHECK(message_contains(refusal(folder / "empty.png"), "empty"));
   media::write_bytes(folder / "notes.txt", "These are notes, and no picture at all.\n");
   refusal(folder / "notes.txt");
   media::write_bytes(folder / "notes.png", "These are notes, and no picture at all.\n");
@@ -179,7 +179,7 @@ TEST_CASE("what is no picture is refused with its name and a reason") {
   refusal(folder / "list.m3u8");
 }
 
-TEST_CASE("a PGM may have its whole header on one line, or a field and a comment on each") {
+TEST_CASE("a PGM header may be on one line, or have one field and a comment per line") {
   const media::ScratchFolder folder;
   for (const char* header : {"P5 37 23 65535\n", "P5\n# a comment\n37\n23\n65535\n"}) {
     media::write_bytes(folder / "p.pgm", header + grey_rows(2));
@@ -188,11 +188,11 @@ TEST_CASE("a PGM may have its whole header on one line, or a field and a comment
   }
 }
 
-TEST_CASE("a PNG or PGM cut anywhere is refused, not filled up") {
+TEST_CASE("a PNG or PGM truncated anywhere is refused, not padded") {
   const media::ScratchFolder folder;
   const std::string png = media::png_file(kWidth, kHeight, 16, false, grey_rows(2));
   const std::string pgm = "P5\n37 23\n65535\n" + grey_rows(2);
-  const std::size_t png_end = 12;  // the last chunk says only that it is the last
+  const std::size_t png_end = 12;  // the IEND chunk has no data
   for (std::size_t length = 1; length < png.size() - png_end; length += 53) {
     CAPTURE(length);
     media::write_bytes(folder / "cut.png", png.substr(0, length));
@@ -205,11 +205,11 @@ TEST_CASE("a PNG or PGM cut anywhere is refused, not filled up") {
   }
 }
 
-TEST_CASE("stretched spreads the chosen quantiles over 0 to 255") {
+TEST_CASE("stretched maps the given quantiles to 0 and 255") {
   GrayF ramp(101, 1);
   for (int i = 0; i <= 100; ++i) ramp.at(i, 0) = static_cast<float>(1000 + 2 * i);
-  const Gray8 whole = stretched(ramp, 0, 1);
-  for (int i = 0; i <= 100; ++i) CHECK(whole.at(i, 0) == std::lround(2.55 * i));
+  const Gray8 full_range = stretched(ramp, 0, 1);
+  for (int i = 0; i <= 100; ++i) CHECK(full_range.at(i, 0) == std::lround(2.55 * i));
   const Gray8 middle = stretched(ramp, 0.1, 0.9);  // 1020 becomes 0, 1180 becomes 255
   CHECK(middle.at(0, 0) == 0);
   CHECK(middle.at(10, 0) == 0);
@@ -218,19 +218,19 @@ TEST_CASE("stretched spreads the chosen quantiles over 0 to 255") {
   CHECK(middle.at(100, 0) == 255);
 }
 
-TEST_CASE("stretched on even, sparse and hostile pictures") {
+TEST_CASE("stretched: uniform, sparse and non-finite pictures") {
   CHECK(stretched(GrayF(7, 5, 300.0F)).px == std::vector<std::uint8_t>(35, 128));
   CHECK(stretched(GrayF()).empty());
   GrayF spot(20, 10, 5.0F);
   spot.at(3, 4) = 9;
   CHECK(stretched(spot).at(3, 4) == 255);
   CHECK(stretched(spot).at(4, 3) == 0);
-  GrayF hostile(3, 2, std::numeric_limits<float>::quiet_NaN());
-  CHECK(stretched(hostile).px == std::vector<std::uint8_t>(6, 0));
-  hostile.at(0, 0) = std::numeric_limits<float>::infinity();
-  hostile.at(1, 0) = -std::numeric_limits<float>::max();
-  hostile.at(2, 0) = std::numeric_limits<float>::max();
-  CHECK(stretched(hostile, 0, 1).px == std::vector<std::uint8_t>{0, 0, 255, 0, 0, 0});
+  GrayF non_finite(3, 2, std::numeric_limits<float>::quiet_NaN());
+  CHECK(stretched(non_finite).px == std::vector<std::uint8_t>(6, 0));
+  non_finite.at(0, 0) = std::numeric_limits<float>::infinity();
+  non_finite.at(1, 0) = -std::numeric_limits<float>::max();
+  non_finite.at(2, 0) = std::numeric_limits<float>::max();
+  CHECK(stretched(non_finite, 0, 1).px == std::vector<std::uint8_t>{0, 0, 255, 0, 0, 0});
   CHECK_THROWS_AS(stretched(spot, 0.9, 0.1), Error);
   CHECK_THROWS_AS(stretched(spot, -0.1, 0.5), Error);
 }

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::uint32_t kWidth = 37, kHeight = 23;
 
-// A value that differs from its neighbours, below `limit`, and gives away swapped rows, columns and channels.
+// A value below `limit` that differs between neighbours, so that swapped rows, columns and channels are
+// detected.
 std::uint32_t value_at(std::uint32_t col, std::uint32_t row, std::uint32_t channel, std::uint32_t limit) {
   return (col * 1031 + row * 4099 + channel * 9973) % limit;
 }
@@ -70,7 +71,7 @@ int wrong_pixels(const GrayF& page, Expected expected) {
 
 }  // namespace
 
-TEST_CASE("grey TIFF of 8 and 16 bits, both byte orders, strips and tiles: values to the last bit") {
+TEST_CASE("grey TIFF of 8 and 16 bits, both byte orders, strips and tiles: exact values") {
   const media::ScratchFolder folder;
   for (const std::uint32_t bits : {8U, 16U}) {
     for (const bool big_endian : {false, true}) {
@@ -93,7 +94,7 @@ TEST_CASE("grey TIFF of 8 and 16 bits, both byte orders, strips and tiles: value
   }
 }
 
-TEST_CASE("where white is 0 the values are turned round") {
+TEST_CASE("MINISWHITE values are inverted") {
   const media::ScratchFolder folder;
   for (const std::uint32_t bits : {8U, 16U}) {
     TiffPage page{.width = kWidth, .height = kHeight, .bits = bits, .photometric = 0};
@@ -105,7 +106,8 @@ TEST_CASE("where white is 0 the values are turned round") {
 }
 
 TEST_CASE(
-    "colour TIFF becomes grey by the weights, interleaved or in planes, with or without a fourth channel") {
+    "colour TIFF is converted to grey by the weights, interleaved or planar, with or without a fourth "
+    "channel") {
   const media::ScratchFolder folder;
   for (const std::uint32_t planar : {1U, 2U}) {
     for (const std::uint32_t channels : {3U, 4U}) {
@@ -132,7 +134,7 @@ TEST_CASE(
 
 TEST_CASE("12 bits are unpacked, signed and floating samples keep their values") {
   const media::ScratchFolder folder;
-  SUBCASE("12 bits, rows padded to whole bytes") {
+  SUBCASE("12 bits, rows padded to full bytes") {
     TiffPage page{.width = kWidth, .height = kHeight, .bits = 12};
     for (std::uint32_t row = 0; row < kHeight; ++row) {
       std::uint32_t store = 0, held = 0;
@@ -173,7 +175,7 @@ TEST_CASE("12 bits are unpacked, signed and floating samples keep their values")
   }
 }
 
-TEST_CASE("a stack gives its pages in order, without reduced copies, and ImageJ's frame rate") {
+TEST_CASE("a stack gives its pages in order without reduced-resolution pages, and the frame rate of ImageJ") {
   const media::ScratchFolder folder;
   std::vector<TiffPage> pages;
   for (std::uint32_t number = 0; number < 4; ++number) {
@@ -196,21 +198,21 @@ TEST_CASE("a stack gives its pages in order, without reduced copies, and ImageJ'
   CHECK_FALSE(stack.read(page));
 }
 
-TEST_CASE("a TIFF cut anywhere is refused with the file's name and libtiff's reason") {
+TEST_CASE("a TIFF truncated anywhere is refused; the error has the path and the message of libtiff") {
   const media::ScratchFolder folder;
   TiffPage page{.width = kWidth, .height = kHeight, .bits = 16, .rows_per_strip = 4};
   page.pixels = samples(page, 65536, false);
-  const std::string whole = media::tiff_file({page});
+  const std::string complete = media::tiff_file({page});
   const auto path = folder / "cut.tif";
-  for (std::size_t length = 5; length + 1 < whole.size(); length += 97) {
+  for (std::size_t length = 5; length + 1 < complete.size(); length += 97) {
     CAPTURE(length);
-    media::write_bytes(path, whole.substr(0, length));
+    media::write_bytes(path, complete.substr(0, length));
     GrayF grey;
     try {
       TiffStack stack(path);
       stack.read(grey);
-      // Only the odd byte after the directory's last list may be missed by nobody.
-      CHECK(length + 2 >= whole.size());
+      // Only the padding byte after the last list of the directory may be missing.
+      CHECK(length + 2 >= complete.size());
     } catch (const Error& error) {
       CHECK(error.code() == Errc::input);
       CHECK(error.where() == path.string());
@@ -219,7 +221,7 @@ TEST_CASE("a TIFF cut anywhere is refused with the file's name and libtiff's rea
   }
 }
 
-TEST_CASE("a header that claims an enormous picture is refused before memory is asked for") {
+TEST_CASE("a header with an enormous picture size is refused before memory is allocated") {
   const media::ScratchFolder folder;
   TiffPage page{.width = 2'000'000, .height = 2'000'000, .rows_per_strip = 2'000'000};
   page.pixels = "too little";

@@ -25,7 +25,7 @@ Error refusal(const std::filesystem::path& path) {
     CHECK(error.where() == path.string());
     return error;
   }
-  FAIL("opened without complaint: " << path.string());
+  FAIL("no error for " << path.string());
   return {Errc::internal, "", ""};
 }
 
@@ -66,9 +66,9 @@ std::string studio_range_avi(const std::string& four_character_code, int bits, c
 
 }  // namespace
 
-TEST_CASE("what is no video is refused with its name and a reason") {
+TEST_CASE("a file that is not a video is refused; the error has the path and the reason") {
   const media::ScratchFolder folder;
-  CHECK(std::string(refusal(folder / "missing.mp4").what()).find("no such file") != std::string::npos);
+  CHECK(std::string(refusal(folder / "missing.mp4").what()).find("file not found") != std::string::npos);
   refusal(folder.path());
   media::write_bytes(folder / "empty.mp4", "");
   CHECK(std::string(refusal(folder / "empty.mp4").what()).find("empty") != std::string::npos);
@@ -76,7 +76,7 @@ TEST_CASE("what is no video is refused with its name and a reason") {
   refusal(folder / "noise.mp4");
 }
 
-TEST_CASE("time stamps are those of the file, also at a variable rate") {
+TEST_CASE("time stamps come from the file, also at a variable frame rate") {
   const media::ScratchFolder folder;
   media::write_bytes(folder / "v.gif", media::gif_file(13, 7, {{20, 10}, {60, 30}, {100, 5}, {140, 20}}));
   VideoReader reader(folder / "v.gif");
@@ -88,13 +88,13 @@ TEST_CASE("time stamps are those of the file, also at a variable rate") {
        {std::pair{20.0F, 0.0}, std::pair{60.0F, 0.10}, std::pair{100.0F, 0.40}, std::pair{140.0F, 0.45}}) {
     REQUIRE(reader.read(grey, t_s));
     CHECK(grey.at(12, 6) == level);
-    CHECK(std::abs(t_s - t) < 1e-12);  // whole hundredths of a second, rounded to double
+    CHECK(std::abs(t_s - t) < 1e-12);  // multiples of 1/100 of a second, rounded to double
   }
   CHECK_FALSE(reader.read(grey, t_s));
   CHECK_FALSE(reader.truncated());
 }
 
-TEST_CASE("studio range is spread to 0 and 255 and clipped outside") {
+TEST_CASE("studio range is stretched to 0..255 and clipped") {
   const media::ScratchFolder folder;
   // UYVY: chroma 128 between luma 16, 235, 126, 17 / 0, 255, 100, 200.
   media::write_bytes(folder / "v.avi",
@@ -112,7 +112,7 @@ TEST_CASE("studio range is spread to 0 and 255 and clipped outside") {
   }
 }
 
-TEST_CASE("grey without a stated range is taken as it is") {
+TEST_CASE("grey without a range tag is full range") {
   const media::ScratchFolder folder;
   media::write_bytes(folder / "v.avi",
                      studio_range_avi("Y800", 8, std::string("\x00\x01\x10\x11\x64\xEB\xFE\xFF", 8)));
@@ -123,7 +123,7 @@ TEST_CASE("grey without a stated range is taken as it is") {
   CHECK(grey.px == std::vector<float>{0, 1, 16, 17, 100, 235, 254, 255});
 }
 
-TEST_CASE("a TIFF stack is a video; its frame rate may be unknown") {
+TEST_CASE("a TIFF stack is read as a video; the frame rate may be unknown") {
   const media::ScratchFolder folder;
   for (const bool timed : {false, true}) {
     std::vector<media::TiffPage> pages(3);
@@ -149,7 +149,9 @@ TEST_CASE("a TIFF stack is a video; its frame rate may be unknown") {
   }
 }
 
-TEST_CASE("a TIFF stack cut short gives the pages that are whole and says so; another size is refused") {
+TEST_CASE(
+    "a truncated TIFF stack gives the complete pages and reports the truncation; a page of different size is "
+    "refused") {
   const media::ScratchFolder folder;
   std::vector<media::TiffPage> pages(3);
   for (auto& page : pages) {
@@ -157,8 +159,8 @@ TEST_CASE("a TIFF stack cut short gives the pages that are whole and says so; an
     page.height = 6;
     page.pixels = std::string(66, '7');
   }
-  const std::string whole = media::tiff_file(pages);
-  media::write_bytes(folder / "s.tif", whole.substr(0, whole.size() - 100));
+  const std::string complete = media::tiff_file(pages);
+  media::write_bytes(folder / "s.tif", complete.substr(0, complete.size() - 100));
   VideoReader reader(folder / "s.tif");
   CHECK(read_all(reader).size() == 2);
   CHECK(reader.truncated());
@@ -171,16 +173,16 @@ TEST_CASE("a TIFF stack cut short gives the pages that are whole and says so; an
   CHECK_THROWS_AS(read_all(changing), Error);
 }
 
-TEST_CASE("a video cut short gives exactly the frames of the whole one, then false and the reason") {
+TEST_CASE("a truncated video gives the frames of the complete one, then false and the reason") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     CAPTURE(int(format));
     const auto path = record(folder, format, 25);
-    VideoReader whole(path);
-    const std::vector<GrayF> frames = read_all(whole);
+    VideoReader complete(path);
+    const std::vector<GrayF> frames = read_all(complete);
     REQUIRE(frames.size() == 25);
     const std::string bytes = media::read_bytes(path);
-    std::size_t most = 0;
+    std::size_t most_frames = 0;
     for (int tenth = 1; tenth < 10; ++tenth) {
       CAPTURE(tenth);
       media::write_bytes(folder / "cut", bytes.substr(0, bytes.size() * std::size_t(tenth) / 10));
@@ -191,17 +193,17 @@ TEST_CASE("a video cut short gives exactly the frames of the whole one, then fal
         CHECK(cut.truncated());
         CHECK_FALSE(cut.damage().empty());
         for (std::size_t i = 0; i < some.size(); ++i) CHECK(some[i].px == frames[i].px);
-        most = std::max(most, some.size());
+        most_frames = std::max(most_frames, some.size());
       } catch (const Error& error) {
-        CHECK(error.code() == Errc::input);  // not one whole frame left
+        CHECK(error.code() == Errc::input);  // no complete frame is left
         CHECK(tenth < 5);
       }
     }
-    CHECK(most >= 15);
+    CHECK(most_frames >= 15);
   }
 }
 
-TEST_CASE("a video cut exactly between two frames is still known to be cut short") {
+TEST_CASE("truncation exactly between two frames of an mp4 is detected") {
   const media::ScratchFolder folder;
   const std::string bytes = media::read_bytes(record(folder, VideoFormat::mp4, 6));
   // The table of frame sizes: name, version, common size (0), count, then one number per frame.
@@ -216,26 +218,26 @@ TEST_CASE("a video cut exactly between two frames is still known to be cut short
   CHECK(cut.truncated());
 }
 
-TEST_CASE("no pixel is guessed: after damage inside, frames are left out until the next key frame") {
+TEST_CASE("no error concealment: after damage, frames are skipped until the next key frame") {
   const media::ScratchFolder folder;
   const auto path = record(folder, VideoFormat::mp4, 30);  // key frames at 0, 10 and 20
-  VideoReader whole(path);
-  const std::vector<GrayF> frames = read_all(whole);
+  VideoReader complete(path);
+  const std::vector<GrayF> frames = read_all(complete);
   const std::string bytes = media::read_bytes(path);
   const std::size_t data = bytes.find("mdat");
-  for (int place = 4; place < 20; ++place) {  // before that lies the encoder's signature
-    CAPTURE(place);
-    std::string hurt_bytes = bytes;
-    const std::size_t at = data + (bytes.size() - data) * std::size_t(place) / 20;
-    for (std::size_t i = at; i < at + 30; ++i) hurt_bytes[i] = place % 2 == 0 ? '\0' : '\xFF';
-    media::write_bytes(folder / "hurt.mp4", hurt_bytes);
-    VideoReader hurt(folder / "hurt.mp4");
+  for (int damage_at = 4; damage_at < 20; ++damage_at) {  // the first bytes are the encoder's signature
+    CAPTURE(damage_at);
+    std::string damaged_bytes = bytes;
+    const std::size_t at = data + (bytes.size() - data) * std::size_t(damage_at) / 20;
+    for (std::size_t i = at; i < at + 30; ++i) damaged_bytes[i] = damage_at % 2 == 0 ? '\0' : '\xFF';
+    media::write_bytes(folder / "damaged.mp4", damaged_bytes);
+    VideoReader damaged(folder / "damaged.mp4");
     GrayF grey;
     double t_s = 0;
     std::size_t count = 0;
-    // Time stamps count from the first frame that is whole, which need not be the first of the file.
+    // Time stamps count from the first complete frame, which may not be the first of the file.
     std::size_t offset = frames.size();
-    while (hurt.read(grey, t_s)) {
+    while (damaged.read(grey, t_s)) {
       const auto frame = std::size_t(std::lround(t_s * 10));
       if (offset == frames.size()) {
         for (offset = 0; offset < frames.size() && frames[offset].px != grey.px;) offset += 10;
@@ -245,12 +247,12 @@ TEST_CASE("no pixel is guessed: after damage inside, frames are left out until t
       ++count;
     }
     CHECK(count < frames.size());
-    CHECK(count + std::size_t(hurt.damaged_frames()) == frames.size());
-    CHECK_FALSE(hurt.damage().empty());
+    CHECK(count + std::size_t(damaged.damaged_frames()) == frames.size());
+    CHECK_FALSE(damaged.damage().empty());
   }
 }
 
-TEST_CASE("two readers do not disturb each other, and a reader can be moved") {
+TEST_CASE("two readers are independent, and a reader can be moved") {
   const media::ScratchFolder folder;
   const auto path = record(folder, VideoFormat::mp4, 4);
   VideoReader a(path), b(path);

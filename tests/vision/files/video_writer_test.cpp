@@ -51,7 +51,7 @@ double psnr(const GrayF& got, const RgbImage& wanted) {
   return 10 * std::log10(255.0 * 255.0 * double(wanted.px.size()) / sum);
 }
 
-// What a sink does: frames `first` to `last` - 1, safe on disk after frame `sync_after`.
+// Writes frames `first` to `last` - 1 and syncs after frame `sync_after`; returns the byte count of the sync.
 std::uint64_t record(VideoWriter& writer, int first, int last, int sync_after = -1) {
   std::uint64_t safe = 0;
   for (int frame = first; frame < last; ++frame) {
@@ -67,11 +67,11 @@ Error refusal(const std::function<void()>& action) {
   } catch (const Error& error) {
     return error;
   }
-  FAIL("no complaint");
+  FAIL("no error");
   return {Errc::usage, "", ""};
 }
 
-// Files of this process cannot grow beyond `bytes` as long as this lives: a full disk.
+// Simulates a full disk: limits the file size of this process to `bytes` during its lifetime.
 class FullDisk {
  public:
   explicit FullDisk(std::uint64_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -119,10 +119,9 @@ TEST_CASE("lossless_avi returns every pixel, at odd sizes and in colour") {
   }
 }
 
-TEST_CASE("mp4 keeps frames, times and greys") {
+TEST_CASE("mp4 preserves frames, times and grey values") {
   // Crf 20 quantises luma with steps of 0.625 * 2^(q/6) at q = 20, 3 more in predicted frames and up to 3
-  // more where the picture is busy: at most 12.6 at q = 26. Evenly spread within a step: rms 12.6 / sqrt(12)
-  // = 3.6, 37 dB.
+  // more in textured areas: at most 12.6 at q = 26. Uniform within a step: rms 12.6 / sqrt(12) = 3.6, 37 dB.
   constexpr double kLeastPsnr = 37;
   const media::ScratchFolder folder;
   VideoWriter writer(folder / "v.part", VideoFormat::mp4, kWidth, kHeight, 15);
@@ -145,9 +144,9 @@ TEST_CASE("mp4 keeps frames, times and greys") {
   MESSAGE("mp4: worst frame ", worst, " dB");
 }
 
-TEST_CASE("mp4: a flat grey stays that grey, black and white included") {
-  // The step at q = 23 is 8.9, but a flat field has one coefficient per block and prediction corrects it:
-  // half a grey level is the integer rounding of the decoder, another half that of the last correction.
+TEST_CASE("mp4: a uniform grey keeps its value, including black and white") {
+  // The step at q = 23 is 8.9, but a uniform picture has one coefficient per block and prediction corrects
+  // it: half a grey level for the integer rounding of the decoder, half for that of the last correction.
   const media::ScratchFolder folder;
   for (const int level : {0, 1, 16, 60, 128, 168, 200, 235, 254, 255}) {
     const auto v = static_cast<std::uint8_t>(level);
@@ -175,7 +174,7 @@ TEST_CASE("mp4 of odd size repeats the last column and row") {
   }
 }
 
-TEST_CASE("frame rates are kept as fractions") {
+TEST_CASE("frame rates are stored as fractions") {
   CHECK(frame_rate_near(15).numerator == 15);
   CHECK(frame_rate_near(13.65).numerator == 273);
   CHECK(frame_rate_near(13.65).denominator == 20);
@@ -193,7 +192,7 @@ TEST_CASE("frame rates are kept as fractions") {
       writer.finish(folder / "v");
       const Frames frames = read_all(folder / "v");
       REQUIRE(frames.t_s.size() == 31);
-      // Both containers count in ticks that divide the frame's time, so only double rounding is left.
+      // Frame times are integer multiples of the time base of both containers: only double rounding remains.
       for (int frame = 0; frame < 31; ++frame)
         CHECK(std::abs(frames.t_s[std::size_t(frame)] - frame / fps) < 1e-12 * frame / fps + 1e-15);
       CHECK(VideoReader(folder / "v").fps() == doctest::Approx(fps).epsilon(1e-12));
@@ -201,36 +200,36 @@ TEST_CASE("frame rates are kept as fractions") {
   }
 }
 
-TEST_CASE("a recording broken off and continued is the same file as one that was not") {
+TEST_CASE("an interrupted and resumed recording gives the same file as an uninterrupted one") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     CAPTURE(int(format));
-    VideoWriter whole(folder / "whole.part", format, kWidth, kHeight, 13.65);
-    record(whole, 0, 20, 12);
-    whole.finish(folder / "whole");
+    VideoWriter uninterrupted(folder / "uninterrupted.part", format, kWidth, kHeight, 13.65);
+    record(uninterrupted, 0, 20, 12);
+    uninterrupted.finish(folder / "uninterrupted");
 
     std::uint64_t safe = 0;
     {
-      VideoWriter broken(folder / "broken.part", format, kWidth, kHeight, 13.65);
-      safe = record(broken, 0, 17, 12);  // five frames after the last sync are lost in the crash
+      VideoWriter interrupted(folder / "interrupted.part", format, kWidth, kHeight, 13.65);
+      safe = record(interrupted, 0, 17, 12);  // five frames after the last sync are lost in the crash
     }
-    CHECK(std::filesystem::file_size(folder / "broken.part") > safe);
-    std::filesystem::resize_file(folder / "broken.part",
-                                 std::filesystem::file_size(folder / "broken.part") - 3);
-    VideoWriter resumed(folder / "broken.part", format, kWidth, kHeight, 13.65, safe);
+    CHECK(std::filesystem::file_size(folder / "interrupted.part") > safe);
+    std::filesystem::resize_file(folder / "interrupted.part",
+                                 std::filesystem::file_size(folder / "interrupted.part") - 3);
+    VideoWriter resumed(folder / "interrupted.part", format, kWidth, kHeight, 13.65, safe);
     record(resumed, 12, 20);
     resumed.finish(folder / "resumed");
 
     CHECK(read_all(folder / "resumed").grey.size() == 20);
-    CHECK(media::read_bytes(folder / "resumed") == media::read_bytes(folder / "whole"));
+    CHECK(media::read_bytes(folder / "resumed") == media::read_bytes(folder / "uninterrupted"));
   }
 }
 
-TEST_CASE("a finished recording can go on when its part was kept") {
+TEST_CASE("a finished recording can be resumed when its part was kept") {
   const media::ScratchFolder folder;
-  VideoWriter whole(folder / "whole.part", VideoFormat::mp4, kWidth, kHeight, 15);
-  record(whole, 0, 9, 4);
-  whole.finish(folder / "whole");
+  VideoWriter uninterrupted(folder / "uninterrupted.part", VideoFormat::mp4, kWidth, kHeight, 15);
+  record(uninterrupted, 0, 9, 4);
+  uninterrupted.finish(folder / "uninterrupted");
 
   VideoWriter first(folder / "v.part", VideoFormat::mp4, kWidth, kHeight, 15);
   const std::uint64_t safe = record(first, 0, 4, 4);
@@ -239,10 +238,10 @@ TEST_CASE("a finished recording can go on when its part was kept") {
   VideoWriter second(folder / "v.part", VideoFormat::mp4, kWidth, kHeight, 15, safe);
   record(second, 4, 9);
   second.finish(folder / "v");
-  CHECK(media::read_bytes(folder / "v") == media::read_bytes(folder / "whole"));
+  CHECK(media::read_bytes(folder / "v") == media::read_bytes(folder / "uninterrupted"));
 }
 
-TEST_CASE("the same frames and syncs give the same bytes, and a sync costs no frame wherever it falls") {
+TEST_CASE("the same frames and syncs give the same bytes, and no sync loses a frame") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     for (const char* name : {"a", "b"}) {
@@ -260,7 +259,7 @@ TEST_CASE("the same frames and syncs give the same bytes, and a sync costs no fr
   }
 }
 
-TEST_CASE("the growing file can be read after every frame") {
+TEST_CASE("the growing file is readable after every frame") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     CAPTURE(int(format));
@@ -274,7 +273,7 @@ TEST_CASE("the growing file can be read after every frame") {
   }
 }
 
-TEST_CASE("a recording cannot be continued beyond its end") {
+TEST_CASE("a recording cannot be resumed beyond its end") {
   const media::ScratchFolder folder;
   media::write_bytes(folder / "v.part", "0123456789");
   const auto resume = [&](const char* name, std::uint64_t at) {
@@ -286,7 +285,7 @@ TEST_CASE("a recording cannot be continued beyond its end") {
   CHECK(resume("missing.part", 5).code() == Errc::input);
 }
 
-TEST_CASE("a full disk and places that cannot be written") {
+TEST_CASE("a full disk and paths that cannot be written") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     VideoWriter writer("/dev/full", format, kWidth, kHeight, 15);
@@ -304,7 +303,8 @@ TEST_CASE("a full disk and places that cannot be written") {
   CHECK(refusal([&] { writer.finish(folder / "v.mp4"); }).code() == Errc::internal);  // no frame
 }
 
-TEST_CASE("when the disk fills up while recording, what was recorded stays whole and can go on") {
+TEST_CASE(
+    "when the disk fills up during recording, the recorded frames stay complete and recording can resume") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     CAPTURE(int(format));
@@ -323,7 +323,7 @@ TEST_CASE("when the disk fills up while recording, what was recorded stays whole
       CHECK(error.code() == Errc::internal);
       CHECK(error.where() == (folder / "v").string());
     }
-    CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);  // only the part
+    CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);  // only `part`
     CHECK(refusal([&] { writer.finish(folder / "no folder/v"); }).code() == Errc::internal);
     writer.finish(folder / "v");
     CHECK(read_all(folder / "v").grey.size() == 8);
@@ -331,7 +331,7 @@ TEST_CASE("when the disk fills up while recording, what was recorded stays whole
   }
 }
 
-TEST_CASE("colours are read back: exactly from lossless_avi, to coding noise from mp4") {
+TEST_CASE("colours are read back: exactly from lossless_avi, up to coding noise from mp4") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::lossless_avi, VideoFormat::mp4}) {
     VideoWriter writer(folder / "part", format, 120, 84, 15);
@@ -350,13 +350,13 @@ TEST_CASE("colours are read back: exactly from lossless_avi, to coding noise fro
         off += std::abs(got.px[i].r - wanted.px[i].r) + std::abs(got.px[i].g - wanted.px[i].g) +
                std::abs(got.px[i].b - wanted.px[i].b);
     }
-    // Chroma of mp4 is halved: a wrong matrix or range would be tens of grey levels off everywhere.
+    // Chroma of mp4 has half resolution; a wrong matrix or range would give errors of tens of grey levels.
     CHECK(off / (3.0 * 3 * 120 * 84) < 3);
     CHECK_FALSE(reader.read_colours(got, t_s));
   }
 }
 
-TEST_CASE("grey frames: mp4 codes them as it codes the same greys in colour, odd sizes included") {
+TEST_CASE("grey frames give the same mp4 as colour frames of the same greys, including odd sizes") {
   const media::ScratchFolder folder;
   VideoWriter colour(folder / "c.part", VideoFormat::mp4, 121, 83, 15);
   VideoWriter grey(folder / "g.part", VideoFormat::mp4, 121, 83, 15, 0, VideoPixels::grey8);
@@ -373,7 +373,7 @@ TEST_CASE("grey frames: mp4 codes them as it codes the same greys in colour, odd
   CHECK(media::read_bytes(folder / "c.mp4") == media::read_bytes(folder / "g.mp4"));
 }
 
-TEST_CASE("grey frames of 8 and 16 bits come back exactly from the lossless format") {
+TEST_CASE("grey frames of 8 and 16 bits round-trip exactly in the lossless format") {
   const media::ScratchFolder folder;
   Gray8 low(33, 21);
   Image<std::uint16_t> high(33, 21);

@@ -25,7 +25,7 @@ Flow some_flow(int width, int height, float seed) {
 
 }  // namespace
 
-TEST_CASE(".flo holds every bit, and what is unknown") {
+TEST_CASE(".flo stores exact values and unknown pixels") {
   const test::TemporaryFolder temporary("flow");
   const auto& folder = temporary.path();
   Flow f = some_flow(7, 5, 0.1F);
@@ -39,7 +39,7 @@ TEST_CASE(".flo holds every bit, and what is unknown") {
     CHECK(std::isfinite(back.u.px[i]) == known);
     if (known) CHECK((back.u.px[i] == f.u.px[i] && back.v.px[i] == f.v.px[i]));
   }
-  // The bytes themselves: tag, sizes, then u and v of pixel (0, 0).
+  // Byte layout: tag, size, then u and v of pixel (0, 0).
   const std::string bytes = read_file(folder / "a.flo");
   CHECK(bytes.substr(0, 4) == "PIEH");
   CHECK(int(bytes[4]) == 7);
@@ -52,7 +52,7 @@ TEST_CASE(".flo holds every bit, and what is unknown") {
   CHECK_THROWS_AS(read_flo(folder / "none.flo"), Error);
 }
 
-TEST_CASE("a series of flows comes back, with times and scale") {
+TEST_CASE("a series of flows round-trips, with times and scale") {
   const test::TemporaryFolder temporary("flow");
   const auto& folder = temporary.path();
   const auto path = folder / "f.h5";
@@ -79,7 +79,7 @@ TEST_CASE("a series of flows comes back, with times and scale") {
     CHECK(f.u.px == some_flow(31, 18, 1).u.px);
     CHECK(f.v.px == some_flow(31, 18, 1).v.px);
   }
-  write_file(folder / "x.h5", "no HDF5 at all");
+  write_file(folder / "x.h5", "not an HDF5 file");
   CHECK_FALSE(FlowFileReader::recognises(folder / "x.h5"));
   CHECK_THROWS_AS(FlowFileReader(folder / "x.h5"), Error);
 }

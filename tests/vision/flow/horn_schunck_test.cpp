@@ -1,5 +1,5 @@
-// Theory A22: the published iteration against a version written out pixel by pixel, the multigrid solution
-// against the equations themselves, and what follows from them.
+// Theory A22: the published iteration against a pixel-by-pixel reference implementation, the multigrid
+// solution against the equations, and derived properties.
 #include "vision/flow/horn_schunck.h"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ using namespace faba;
 
 namespace {
 
-/// A texture without end, moved by (dx, dy): bright where sines of several directions meet.
+/// An infinite texture shifted by (dx, dy): a sum of sines in several directions.
 template <class T>
 Plane<T> texture(int width, int height, double dx, double dy) {
   Plane<T> p(width, height);
@@ -27,7 +27,8 @@ Plane<T> texture(int width, int height, double dx, double dy) {
   return p;
 }
 
-/// The published algorithm (Horn & Schunck 1981, as corrected in A22), one pixel at a time.
+/// Reference implementation of the published algorithm (Horn & Schunck 1981, as corrected in A22), pixel by
+/// pixel.
 struct Slow {
   int w, h;
   std::vector<double> ix, iy, it, u, v;
@@ -85,19 +86,21 @@ HornSchunckParams jacobi(int sweeps) {
 
 }  // namespace
 
-TEST_CASE("the published iteration, for sizes that fill vectors and rows and for those that do not") {
+TEST_CASE("the published iteration, for sizes that are and are not multiples of vectors and strips") {
   Pool pool(1);
   for (const auto& [w, h] : {std::pair{16, 12}, {37, 50}, {1, 9}, {9, 1}, {2, 2}, {1, 1}, {70, 33}})
     for (const int sweeps : {1, 2, 9, 10, 11, 23}) {
       const auto a = texture<double>(w, h, 0, 0), b = texture<double>(w, h, 0.6, -0.3);
       HornSchunck<double> fast(jacobi(sweeps), pool);
-      // Rounding only: each sweep adds about one unit of 2e-16 to values below 1.
+      // Rounding only: each sweep adds an error of about 2e-16 to values below 1.
       CHECK(largest_difference(fast.between(a, b), Slow(a, b, 100, sweeps)) < 1e-12);
       CHECK(fast.iterations() == sweeps);
     }
 }
 
-TEST_CASE("float agrees with double to what float can hold, and threads change no bit") {
+TEST_CASE(
+    "float agrees with double within float precision, and the result does not depend on the number of "
+    "threads") {
   const int w = 213, h = 160;
   Pool one(1), three(3);
   HornSchunck<float> f1(jacobi(100), one), f3(jacobi(100), three);
@@ -106,7 +109,7 @@ TEST_CASE("float agrees with double to what float can hold, and threads change n
   const auto& q = f3.between(texture<float>(w, h, 0, 0), texture<float>(w, h, 0.5, 0.2));
   const auto& r = d.between(texture<double>(w, h, 0, 0), texture<double>(w, h, 0.5, 0.2));
   // Frames are rounded to 24 bits: 1.5e-5 of 255 grey levels, over gradients of 10 levels per px and more
-  // where the flow comes from; 1e-4 px leaves room for the hundred sweeps.
+  // where the flow is determined; 1e-4 px is a margin for the hundred sweeps.
   double off = 0;
   bool same = true;
   for (int row = 0; row < h; ++row)
@@ -118,7 +121,7 @@ TEST_CASE("float agrees with double to what float can hold, and threads change n
   CHECK(same);
 }
 
-TEST_CASE("multigrid ends where Jacobi would, for even and odd sizes") {
+TEST_CASE("multigrid converges to the same solution as Jacobi, for even and odd sizes") {
   Pool pool(2);
   for (const auto& [w, h] : {std::pair{64, 48}, {73, 49}, {37, 25}, {5, 3}, {17, 1}, {1, 1}}) {
     const auto a = texture<double>(w, h, 0, 0), b = texture<double>(w, h, 0.6, -0.3);
@@ -128,12 +131,12 @@ TEST_CASE("multigrid ends where Jacobi would, for even and odd sizes") {
     const auto& flow = solver.between(a, b);
     CHECK(solver.converged());
     CHECK(solver.iterations() < 60);
-    // Jacobi's own change per sweep is below rounding by then.
+    // The change per Jacobi sweep is then below rounding.
     CHECK(largest_difference(flow, Slow(a, b, p.alpha2, 20000)) < 1e-7);
   }
 }
 
-TEST_CASE("a moving texture is found: plainly for half a pixel, with a pyramid for seven") {
+TEST_CASE("the displacement of a texture is measured: half a pixel without pyramid, seven with pyramid") {
   const int w = 160, h = 120;
   Pool pool(2);
   const auto error_inside = [&](const HornSchunckParams& p, double dx, double dy) {
@@ -148,15 +151,15 @@ TEST_CASE("a moving texture is found: plainly for half a pixel, with a pyramid f
   };
   HornSchunckParams plain, pyramid;
   pyramid.pyramid = true;
-  // First differences over a step d of a wave of wavenumber k are off by (k d)^2 / 24 of the gradient, here k
-  // <= 0.64: below 1 % of half a pixel; smoothness takes less where all moves alike.
+  // First differences over a step d of a wave of wavenumber k have a relative error of (k d)^2 / 24 of the
+  // gradient, here k <= 0.64: below 1 % of half a pixel; smoothness has little effect on uniform motion.
   CHECK(error_inside(plain, 0.5, -0.25) < 0.01);
-  CHECK(error_inside(plain, 7, -3) > 1);  // beyond its range
-  // What is left after warping is a shift far below a pixel, and the error of cubic interpolation.
+  CHECK(error_inside(plain, 7, -3) > 1);  // out of range without pyramid
+  // The residual after warping is a shift far below a pixel and the error of cubic interpolation.
   CHECK(error_inside(pyramid, 7, -3) < 0.02);
 }
 
-TEST_CASE("nothing moves, nothing to see, and frames without a number") {
+TEST_CASE("a still scene, a black frame, and frames with NaN") {
   Pool pool(1);
   const auto still = texture<float>(40, 30, 0, 0);
   for (const bool pyramid : {false, true}) {
@@ -175,7 +178,7 @@ TEST_CASE("nothing moves, nothing to see, and frames without a number") {
   }
 }
 
-TEST_CASE("warping takes a picture back to where it came from") {
+TEST_CASE("warping by the true displacement restores the first picture") {
   Pool pool(1);
   const int w = 50, h = 40;
   const auto a = texture<double>(w, h, 0, 0), b = texture<double>(w, h, 2.3, -1.6);
@@ -188,8 +191,8 @@ TEST_CASE("warping takes a picture back to where it came from") {
     }
   Plane<double> back;
   warp(b, flow, back, pool);
-  // Cubic convolution is of third order: (k h)^3 of each wave's amplitude, k <= 0.64 over both directions,
-  // with a constant below 1/10 (Keys 1981): half a grey level of 95.
+  // Cubic convolution has third-order error: (k h)^3 of the amplitude of each wave, k <= 0.64 over both
+  // directions, with a constant below 1/10 (Keys 1981): half a grey level of 95.
   for (int r = 0; r < h; ++r)
     for (int c = 0; c < w; ++c) {
       const bool inside = c + 2.3 <= w - 1 && r - 1.6 >= 0;

@@ -8,7 +8,7 @@
 
 using namespace faba;
 
-TEST_CASE("the background of a video is what it shows without its cells") {
+TEST_CASE("the background of a video is the scene without cells") {
   cells::Look l;
   l.drop = true;
   l.noise = 3;
@@ -25,23 +25,23 @@ TEST_CASE("the background of a video is what it shows without its cells") {
       sum2 += off * off / double(b.level.px.size());
       noise += double(b.noise_sd.at(col, row)) / double(b.level.px.size());
     }
-  // A median of 50 has an sd of 1.25 * 3 / sqrt(50) = 0.53, whole grey steps add 0.29 in squares, and cells,
-  // which cover each pixel in 3 % of the frames, shift it by 0.03 * 1.25 * 3 = 0.11: 0.62. The largest of 77
-  // 000 reaches 4.5 sd.
+  // The median of 50 frames has an sd of 1.25 * 3 / sqrt(50) = 0.53; integer grey steps add 0.29 in
+  // quadrature; cells, which cover each pixel in 3 % of the frames, shift it by 0.03 * 1.25 * 3 = 0.11: 0.62
+  // in total. The maximum of 77 000 pixels is at 4.5 sd.
   CHECK(std::sqrt(sum2) < 0.66);
   CHECK(worst < 3.2);
-  // 1.4826 MAD of 50 values is low by 2 %; cells and rounding add as much.
+  // 1.4826 MAD of 50 values is biased by -2 %; cells and rounding add about the same.
   CHECK(noise == doctest::Approx(3).epsilon(0.06));
 }
 
-TEST_CASE("however long the video, a bounded number of frames spread over it is kept") {
+TEST_CASE("the number of sampled frames is bounded for videos of any length") {
   for (const int frames : {1, 5, 50, 51, 100, 101, 1000}) {
     CAPTURE(frames);
     BackgroundSampler sampler(50);
     for (int k = 0; k < frames; ++k) sampler.take(GrayF(4, 3, float(k)));
     CHECK(int(sampler.kept().size()) <= 50);
     CHECK(int(sampler.kept().size()) >= std::min(frames, 25));
-    // The values are the numbers of the frames: their median is the middle of the video.
+    // The grey values are frame numbers: their median is the middle of the video.
     CHECK(std::fabs(double(sampler.background().level.px[0]) - 0.5 * (frames - 1)) <= 0.04 * frames + 0.5);
   }
   BackgroundSampler small(50, 10 * 12 * sizeof(float));
@@ -49,7 +49,7 @@ TEST_CASE("however long the video, a bounded number of frames spread over it is 
   CHECK(small.kept().size() <= 10);
 }
 
-TEST_CASE("dark or bright is told from the differences, whatever the noise") {
+TEST_CASE("the polarity follows from the differences for all noise levels") {
   for (const double amplitude : {-40.0, 40.0}) {
     cells::Look l;
     l.noise = 5;
@@ -62,7 +62,7 @@ TEST_CASE("dark or bright is told from the differences, whatever the noise") {
   }
 }
 
-TEST_CASE("a smoothed frame is its own background, its noise that of the pixels") {
+TEST_CASE("background of a single frame: smoothed frame, noise of the pixels") {
   cells::Look l;
   l.noise = 4;
   const Background b = spatial_background(cells::picture(l, {}, 3), 12);
@@ -71,7 +71,7 @@ TEST_CASE("a smoothed frame is its own background, its noise that of the pixels"
   for (int row = 40; row < l.height - 40; ++row)
     for (int col = 40; col < l.width - 40; ++col)
       worst = std::max(worst, std::fabs(double(b.level.at(col, row)) - cells::ground(l, col, row)));
-  // Noise of a mean over 4 pi 144 px: 0.09; curvature of the light times 144: 150 * 0.35 * 2 * 144 / 320^2 /
-  // 2 each way.
+  // Noise of the mean over 4 pi 144 px: 0.09; curvature of the light times 144: 150 * 0.35 * 2 * 144 / 320^2
+  // / 2 per axis.
   CHECK(worst < 0.7);
 }

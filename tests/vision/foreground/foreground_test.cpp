@@ -28,10 +28,10 @@ namespace {
 
 struct Off {
   double first = 0, centroid = 0,
-         spread = 0;  // worst error of the first picture and from the twelfth on, px, px, share
+         spread = 0;  // error of the first picture; maximum from the twelfth picture; px, px, relative
 };
 
-// A swarm beside the arc that swims off at 6 px per frame.
+// A swarm beside the arc that moves away at 6 px per frame.
 Off swim_off(int n, double noise) {
   const cells::Look l = edge_look(noise);
   std::vector<Vec2> swarm = cells::at_the_edge(l, n, 70, 40, 8, 5);
@@ -55,9 +55,9 @@ Off swim_off(int n, double noise) {
 
 }  // namespace
 
-// The demand on what steers by the camera: centroid within 2 px and spread within 5 % for 200 to 2000 cells
-// at an arc of 25 degrees of a drop's edge, at three levels of noise, once the background has been seen; and
-// from the first picture on a place to steer by.
+// Requirement of camera-based control: centroid within 2 px and spread within 5 % for 200 to 2000 cells at an
+// arc of 25 degrees of a drop edge, at three noise levels, after the background was learnt; and a usable
+// centroid from the first picture.
 TEST_CASE("a swarm at the edge of a drop") {
   for (const int n : {200, 600, 2000})
     for (const double noise : {1.0, 4.0, 8.0}) {
@@ -70,7 +70,7 @@ TEST_CASE("a swarm at the edge of a drop") {
     }
 }
 
-TEST_CASE("a swarm that stands still is not absorbed in ten seconds") {
+TEST_CASE("an immobile swarm is not absorbed in ten seconds") {
   const cells::Look l = edge_look(3);
   const std::vector<Vec2> swarm = cells::at_the_edge(l, 300, 60, 30, 8, 6);
   Foreground f;
@@ -78,16 +78,16 @@ TEST_CASE("a swarm that stands still is not absorbed in ten seconds") {
   const double first = f.moments().signal;
   const Vec2 at = f.moments().centroid_image;
   for (int s = 1; s <= 20; ++s) f.take(cells::bytes(cells::picture(l, swarm, std::uint64_t(1 + s))), 0.5);
-  // exp(-10 / 150) = 0.94 is what absorption leaves.
+  // exp(-10 / 150) = 0.94 is the remaining signal after absorption.
   CHECK(f.moments().signal > 0.9 * first);
-  // Cells that the first picture took for background are found out as noise uncovers them.
+  // Cells that were background in the first picture are detected later, when noise exposes them.
   CHECK(norm(f.moments().centroid_image - at) < 3);
-  CHECK(norm(at - cells::spread(swarm).centroid) < 20);  // what the first picture is good for
+  CHECK(norm(at - cells::spread(swarm).centroid) < 20);  // accuracy of the first picture
 }
 
-TEST_CASE("where cells on the edge were at first, nothing is left of them once they are gone") {
+TEST_CASE("cells on the edge in the first picture leave no signal after they have left") {
   const cells::Look l = edge_look(1);
-  std::vector<Vec2> swarm = cells::at_the_edge(l, 200, 120, 3, 0, 9);  // on the line itself
+  std::vector<Vec2> swarm = cells::at_the_edge(l, 200, 120, 3, 0, 9);  // on the edge line
   Foreground f;
   for (int frame = 0; frame < 45; ++frame) {
     if (frame > 5)
@@ -97,7 +97,7 @@ TEST_CASE("where cells on the edge were at first, nothing is left of them once t
   CHECK(norm(f.moments().centroid_image - cells::spread(swarm).centroid) < 2);
 }
 
-TEST_CASE("with the background of a whole video the first picture is as good as any, and cells are counted") {
+TEST_CASE("with the background of a complete video, the first picture is accurate and cells are counted") {
   const cells::Look l = edge_look(2);
   Background b;
   b.level = cells::picture(edge_look(0), {}, 0);
@@ -111,7 +111,7 @@ TEST_CASE("with the background of a whole video the first picture is as good as 
   CHECK(f.moments().cells == doctest::Approx(200).epsilon(0.1));
 }
 
-TEST_CASE("an empty picture shows no swarm, however uneven, noisy or flickering") {
+TEST_CASE("an empty picture gives no swarm, also with uneven light, noise and flicker") {
   for (const double noise : {0.0, 2.0, 8.0}) {
     cells::Look l = edge_look(noise);
     Foreground f;
@@ -127,24 +127,24 @@ TEST_CASE("an empty picture shows no swarm, however uneven, noisy or flickering"
 }
 
 TEST_CASE(
-    "a codec smooths noise away between whole pictures, and what comes back with the next is no swarm") {
+    "a codec smooths noise between key frames; the noise of the next key frame is not detected as a swarm") {
   cells::Look l;
   l.noise = 2.3;
   Foreground f;
-  GrayF whole;
-  int wrong = 0;
+  GrayF key_frame;
+  int false_detections = 0;
   for (int frame = 0; frame < 60; ++frame) {
-    const bool anew = frame % 20 == 0;
-    if (anew) whole = cells::picture(l, {}, std::uint64_t(frame));
-    f.take(cells::bytes(anew ? whole : smoothed(whole, l.cell_sd_px)), 1.0 / 30);
-    wrong += f.moments().cells > 0;
+    const bool is_key_frame = frame % 20 == 0;
+    if (is_key_frame) key_frame = cells::picture(l, {}, std::uint64_t(frame));
+    f.take(cells::bytes(is_key_frame ? key_frame : smoothed(key_frame, l.cell_sd_px)), 1.0 / 30);
+    false_detections += f.moments().cells > 0;
   }
-  // Against a background with frozen noise of its own a whole picture's has 4.1 of its sd, not 5: three such
-  // pictures of some 3800 places that are independent show one in 0.2 cases.
-  CHECK(wrong <= 1);
+  // Relative to a background with frozen noise, a key frame has a threshold of 4.1 instead of 5 noise sd:
+  // three key frames with about 3800 independent positions give 0.2 false detections.
+  CHECK(false_detections <= 1);
 }
 
-TEST_CASE("a swarm that leaves where it was first seen leaves no ghost") {
+TEST_CASE("a swarm that leaves its initial position leaves no ghost") {
   const cells::Look l = edge_look(3);
   std::vector<Vec2> swarm = cells::at_the_edge(l, 1000, 60, 10, 6, 7);
   Foreground f;
@@ -158,7 +158,7 @@ TEST_CASE("a swarm that leaves where it was first seen leaves no ghost") {
   CHECK(norm(f.moments().centroid_image - cells::spread(swarm).centroid) < 2);
 }
 
-TEST_CASE("bright cells are told from dark ones, and the number of cells is about right") {
+TEST_CASE("bright and dark cells are distinguished, and the cell count is approximately correct") {
   for (const double amplitude : {-60.0, 60.0}) {
     cells::Look l;
     l.amplitude = amplitude;
@@ -171,7 +171,7 @@ TEST_CASE("bright cells are told from dark ones, and the number of cells is abou
   }
 }
 
-TEST_CASE("noise is measured in spite of structure") {
+TEST_CASE("noise is measured in the presence of structure") {
   for (const double noise : {1.0, 3.0, 10.0}) {
     cells::Look l = edge_look(noise);
     // Rounding adds 1/12 to the variance. 77 000 differences: standard error 0.4 %.
@@ -180,7 +180,7 @@ TEST_CASE("noise is measured in spite of structure") {
   }
 }
 
-TEST_CASE("what is archived goes on with the same bits") {
+TEST_CASE("a restored archive continues bit-identically") {
   const cells::Look l = edge_look(3);
   const std::vector<Vec2> swarm = cells::at_the_edge(l, 300, 60, 30, 8, 8);
   Foreground a;

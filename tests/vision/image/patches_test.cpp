@@ -8,7 +8,7 @@ using namespace faba;
 
 namespace {
 
-// The patch of each pixel, or -1, found by walking from pixel to pixel; patches in the order of their first.
+// Reference: component of each pixel by flood fill, or -1; components in the order of their first pixels.
 std::vector<int> walked(const std::vector<std::uint8_t>& mask, int w, int h, int& patches) {
   std::vector<int> of(mask.size(), -1);
   patches = 0;
@@ -36,7 +36,7 @@ std::vector<int> walked(const std::vector<std::uint8_t>& mask, int w, int h, int
 
 }  // namespace
 
-TEST_CASE("patches are what can be walked through, whatever the mask") {
+TEST_CASE("connected components match a flood fill for random masks") {
   std::mt19937 random(1);
   std::vector<PatchRun> runs;
   for (const auto& [w, h] : {std::pair{1, 1}, {1, 40}, {40, 1}, {7, 9}, {64, 48}, {133, 71}})

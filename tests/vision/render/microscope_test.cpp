@@ -19,7 +19,7 @@ using namespace faba;
 
 namespace {
 
-// Relative difference; doctest's own Approx counts numbers below 1 as if they were about 1.
+// Relative difference; doctest::Approx uses an absolute tolerance for numbers below 1.
 double off(double value, double expected) { return std::fabs(value / expected - 1); }
 
 Frame view(int width = 96, int height = 64) {
@@ -30,7 +30,7 @@ Frame view(int width = 96, int height = 64) {
   return f;
 }
 
-// Even light, no noise: what is left is cells and quantisation.
+// Uniform light, no noise: only cells and quantisation.
 MicroscopeParams still() {
   MicroscopeParams p;
   p.vignetting = 0;
@@ -90,7 +90,7 @@ double spot_variance(const MicroscopeParams& p) {
 
 }  // namespace
 
-TEST_CASE("a cell absorbs the same light and has its centroid where it is, wherever between pixels that is") {
+TEST_CASE("absorbed light and centroid of a cell do not depend on the sub-pixel position") {
   MicroscopeParams p = still();
   p.psf_sd = 0.6e-6;
   const double ground = std::floor(0.8 * kWhite16 + 0.5);
@@ -99,16 +99,16 @@ TEST_CASE("a cell absorbs the same light and has its centroid where it is, where
     for (int j = 0; j < 7; ++j) {
       const float x = 40 + float(i) / 23, y = 30 + float(j) / 7;
       const Moments m = moments(shot(p, {{x, y}}), ground);
-      // The table's weights are exact to 1e-7; what is left is rounding of some 60 pixels to whole levels,
-      // 0.3 rms each, against a sum of about 20 000: far below 0.02 px.
+      // The weights of the table are exact to 1e-7; the remaining error is rounding of about 60 pixels to
+      // integer levels, 0.3 rms each, against a sum of about 20 000: far below 0.02 px.
       CHECK(std::fabs(m.x - double(x)) < 0.02);
       CHECK(std::fabs(m.y - double(y)) < 0.02);
-      // 0.29 sqrt(60) = 2.2 levels rms from rounding, and the rim that is rounded away
+      // 0.29 sqrt(60) = 2.2 levels rms from rounding, and rounding to zero at the rim
       CHECK(off(m.density, area_px(p) * -std::log(0.7)) < 2e-3);
       least = std::min(least, m.absorbed);
       most = std::max(most, m.absorbed);
     }
-  // exp() makes the sum depend on the place, by exp(-2 pi^2 s^2) of the square's width s = 0.5 px: under 1 %
+  // exp() adds a dependence on the sub-pixel position of exp(-2 pi^2 s^2) with s = 0.5 px: below 1 %
   CHECK((most - least) / most < 0.01);
 }
 
@@ -119,20 +119,20 @@ TEST_CASE(
   p.psf_sd = 0.9e-6;
   p.cell_diameter = 2e-6;
   const double ground = std::floor(0.8 * kWhite16 + 0.5), round = spot_variance(p);
-  const double pixel = 1.0 / 12;  // light is summed over each pixel
+  const double pixel = 1.0 / 12;  // variance of the integration over a pixel
   const Moments disc = moments(shot(p, {{40.3F, 30.1F}}), ground);
-  // cut off at 4 sd: 4 * 2 * 4 phi(4) = 1e-3 of the variance is missing
+  // Truncation at 4 sd: 4 * 2 * 4 phi(4) = 1e-3 of the variance is missing.
   CHECK(off(disc.xx, round + pixel) < 4e-3);
   CHECK(off(disc.yy, round + pixel) < 4e-3);
 
-  for (const double way : {3.0, 9.0}) {  // n spots instead of a line: their variance is way^2 (1 - 1/n^2)/12
-    const double n = std::ceil(way / (1.2 * std::sqrt(round)));
-    const Moments moved = moments(shot(p, {{40.3F, 30.1F, 0, 0, 0, float(way)}}), ground);
-    CHECK(off(moved.yy, round + pixel + way * way / 12 * (1 - 1 / (n * n))) < 4e-3);
-    CHECK(moved.yy - round - pixel > way * way / 12 * 0.85);
+  for (const double displacement : {3.0, 9.0}) {  // variance of n spots: displacement^2 (1 - 1/n^2)/12
+    const double n = std::ceil(displacement / (1.2 * std::sqrt(round)));
+    const Moments moved = moments(shot(p, {{40.3F, 30.1F, 0, 0, 0, float(displacement)}}), ground);
+    CHECK(off(moved.yy, round + pixel + displacement * displacement / 12 * (1 - 1 / (n * n))) < 4e-3);
+    CHECK(moved.yy - round - pixel > displacement * displacement / 12 * 0.85);
     CHECK(off(moved.xx, round + pixel) < 4e-3);
     CHECK(off(moved.density, disc.density) < 2e-3);
-    CHECK(off(moved.y, 30.1) < 1e-3);  // smeared to both sides of where it is at mid-exposure
+    CHECK(off(moved.y, 30.1) < 1e-3);  // symmetric about the position at mid-exposure
   }
 
   p.cell_length = 8e-6;
@@ -140,13 +140,13 @@ TEST_CASE(
   CHECK(off(rod.xx, round + pixel + 6.0 * 6.0 / 12) < 0.08);
   CHECK(off(rod.yy, round + pixel) < 4e-3);
   CHECK(off(rod.density, area_px(p) * -std::log(0.7)) < 2e-3);
-  // without a heading it is round and of the same area
+  // Without a heading the cell is round and has the same area.
   const Moments unknown = moments(shot(p, {{40.3F, 30.1F}}), ground);
   CHECK(off(unknown.density, rod.density) < 2e-3);
   CHECK(off(unknown.xx, unknown.yy) < 4e-3);
 }
 
-TEST_CASE("cells out of focus are wider and absorb as much") {
+TEST_CASE("cells out of focus are wider and absorb the same light") {
   MicroscopeParams p = still();
   p.depth_spread = 20e-6;
   const double ground = std::floor(0.8 * kWhite16 + 0.5);
@@ -158,7 +158,7 @@ TEST_CASE("cells out of focus are wider and absorb as much") {
     wider += m.xx > 1.5 * sharp.xx;
   }
   CHECK(wider >=
-        12);  // beyond a third of the spread: 74 % of the cells; 12 of 20 or fewer has a chance of 1e-2
+        12);  // beyond a third of the spread: 74 % of the cells; 12 of 20 or fewer has a probability of 1e-2
   CHECK(wider < 20);
 }
 
@@ -184,27 +184,27 @@ TEST_CASE("noise: zero mean, variance = shot noise in proportion to the light + 
     Gray8 im, next;
     m.render({5, 0, {}}, pool, im);
     m.render({6, 0, {}}, pool, next);
-    double mean = 0, variance = 0, beside = 0, after = 0;
+    double mean = 0, variance = 0, neighbour = 0, next_frame = 0;
     for (const auto g : im.px) mean += double(g) / n;
     for (std::size_t i = 0; i < im.px.size(); ++i) {
       const double d = double(im.px[i]) - mean;
       variance += d * d / n;
-      if (i + 1 < im.px.size()) beside += d * (double(im.px[i + 1]) - mean) / n;
-      after += d * (double(next.px[i]) - mean) / n;
+      if (i + 1 < im.px.size()) neighbour += d * (double(im.px[i + 1]) - mean) / n;
+      next_frame += d * (double(next.px[i]) - mean) / n;
     }
     const double expected =
         255.0 * 255.0 * (level / p.full_well + std::pow(p.read_noise / p.full_well, 2)) + 1.0 / 12;
     CAPTURE(level);
-    // five standard errors each; rounding of noise of half a level and more is even to 1 % of a level
+    // Five standard errors each; with noise above half a level, the rounding bias is below 1 % of a level.
     CHECK(std::fabs(mean - 255 * level) < 5 * std::sqrt(expected / n) + 0.01);
     CHECK(std::fabs(variance / expected - 1) < 5 * std::sqrt(2 / n) + 0.02);
-    CHECK(std::fabs(beside) < 5 * expected / std::sqrt(n));
-    CHECK(std::fabs(after) < 5 * expected / std::sqrt(n));
+    CHECK(std::fabs(neighbour) < 5 * expected / std::sqrt(n));
+    CHECK(std::fabs(next_frame) < 5 * expected / std::sqrt(n));
     CHECK(m.noise_sd(level) * 255 == doctest::Approx(std::sqrt(expected - 1.0 / 12)));
   }
 }
 
-TEST_CASE("noise given as one number; lamp drift and flicker") {
+TEST_CASE("uniform noise; lamp drift and flicker") {
   const Frame frame = view(320, 240);
   const auto mean_of = [](const Image<std::uint16_t>& im) {
     return std::accumulate(im.px.begin(), im.px.end(), 0.0) / double(im.px.size()) / kWhite16;
@@ -219,7 +219,7 @@ TEST_CASE("noise given as one number; lamp drift and flicker") {
 
   p = still();
   p.drift = -0.1;
-  CHECK(off(mean_of(shot(p, {}, frame, 30)), 0.8 * 0.8) < 1e-4);  // frame 30 is at 2 s
+  CHECK(off(mean_of(shot(p, {}, frame, 30)), 0.8 * 0.8) < 1e-4);  // frame 30 is at t = 2 s
   p = still();
   p.flicker = 0.02;
   double sum = 0, square = 0;
@@ -232,10 +232,10 @@ TEST_CASE("noise given as one number; lamp drift and flicker") {
   CHECK(off(std::sqrt(square / 200), 0.02) < 5 / std::sqrt(400.0));
 }
 
-TEST_CASE("light: vignetting and the drop's edge follow their formulas, uneven light its rms") {
+TEST_CASE("illumination: vignetting and drop edge match the formulas, unevenness has the given rms") {
   MicroscopeParams p = still();
   p.vignetting = 0.3;
-  const Frame frame = view(97, 65);  // the middle is a pixel
+  const Frame frame = view(97, 65);  // odd size: the centre is a pixel
   const GrayF even = Microscope(p, frame, {}, 0.1, 1).ground();
   CHECK(off(double(even.at(48, 32)), 0.8) < 1e-6);
   for (const auto& [c, r] : {std::pair(0, 0), {96, 0}, {0, 64}, {96, 64}})
@@ -246,7 +246,7 @@ TEST_CASE("light: vignetting and the drop's edge follow their formulas, uneven l
   p.edge_contrast = -0.5;
   p.outside_level = 0.9;
   p.edge_width = 3e-6;
-  p.psf_sd = 4e-6;  // 5 px in all
+  p.psf_sd = 4e-6;  // total width 5 px
   const GrayF edge = Microscope(p, view(200, 64), {{-100, 32}, 200}, 0.1, 1).ground();
   CHECK(off(double(edge.at(20, 32)), 0.8) < 1e-4);
   CHECK(off(double(edge.at(199, 32)), 0.8 * 0.9) < 1e-4);
@@ -256,21 +256,21 @@ TEST_CASE("light: vignetting and the drop's edge follow their formulas, uneven l
   p = still();
   p.unevenness = 0.05;
   double square = 0;
-  int count = 0;  // over many light fields: over one picture a wave longer than it is no sample
+  int count = 0;  // many seeds, because one picture is shorter than a wavelength
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const GrayF ground = Microscope(p, frame, {}, 0.1, seed).ground();
     for (const float g : ground.px) {
       square += std::pow(double(g) / 0.8 - 1, 2);
       ++count;
     }
-    for (int c = 1; c < frame.width; ++c)  // slow: six waves of at least 97 px
+    for (int c = 1; c < frame.width; ++c)  // slow variation: six waves of at least 97 px
       REQUIRE(std::fabs(double(ground.at(c, 9) - ground.at(c - 1, 9))) <
               0.8 * 0.05 * std::sqrt(2.0 * 6) * 2 * std::numbers::pi / 97);
   }
-  CHECK(off(std::sqrt(square / count), 0.05) < 0.2);  // some 2 * 6 * 40 phases
+  CHECK(off(std::sqrt(square / count), 0.05) < 0.2);  // about 2 * 6 * 40 independent phases
 }
 
-TEST_CASE("same bytes for 1, 2, 3 and 7 threads, others for another frame or seed") {
+TEST_CASE("same bytes for 1, 2, 3 and 7 threads, different bytes for another frame or seed") {
   MicroscopeParams p;
   p.depth_spread = 5e-6;
   p.cell_length = 4e-6;
@@ -288,19 +288,19 @@ TEST_CASE("same bytes for 1, 2, 3 and 7 threads, others for another frame or see
   CHECK(shot(p, cells, frame, 9, 1, 2).px != one.px);
 }
 
-TEST_CASE("cells on the border and far outside: only their part in view is drawn") {
+TEST_CASE("cells at the border and far outside are clipped to the view") {
   MicroscopeParams p = still();
   p.psf_sd = 2e-6;
   const double ground = std::floor(0.8 * kWhite16 + 0.5);
-  const double whole = moments(shot(p, {{40, 30}}), ground).density;
-  CHECK(off(moments(shot(p, {{-0.5F, 30}}), ground).density, whole / 2) < 0.01);
-  CHECK(off(moments(shot(p, {{95.5F, 63.5F}}), ground).density, whole / 4) < 0.01);
+  const double complete = moments(shot(p, {{40, 30}}), ground).density;
+  CHECK(off(moments(shot(p, {{-0.5F, 30}}), ground).density, complete / 2) < 0.01);
+  CHECK(off(moments(shot(p, {{95.5F, 63.5F}}), ground).density, complete / 4) < 0.01);
   const float none = std::numeric_limits<float>::quiet_NaN(), far = 1e30F;
   const auto empty = shot(p, {});
   CHECK(shot(p, {{-100, 5}, {none, 5}, {far, far}, {-far, 3}, {5, 300}}).px == empty.px);
 }
 
-TEST_CASE("quantisation: white is clipped, 8 and 16 bits show the same") {
+TEST_CASE("quantisation: white is clipped, 8 and 16 bits agree") {
   MicroscopeParams p = still();
   p.level = 1;
   p.contrast = 3;
@@ -322,7 +322,7 @@ TEST_CASE("quantisation: white is clipped, 8 and 16 bits show the same") {
     REQUIRE(std::fabs(double(low.px[i]) / 255 - double(high.px[i]) / 65535) <= 0.501 / 255);
 }
 
-TEST_CASE("background and noise out of a video") {
+TEST_CASE("background and noise from a video") {
   const media::ScratchFolder folder;
   RenderedVideo v;
   v.width = 160;
@@ -331,7 +331,7 @@ TEST_CASE("background and noise out of a video") {
   v.microscope.vignetting = 0.4;
   v.microscope.unevenness = 0.05;
   v.microscope.contrast = -0.8;
-  v.cells = [](double t) {  // one cell that crosses the view
+  v.cells = [](double t) {  // one cell crosses the view
     return std::vector<CameraCell>{{float(10 + 30 * t), 40}};
   };
   write_rendered(v, folder / "real.avi");
@@ -346,8 +346,7 @@ TEST_CASE("background and noise out of a video") {
     worst = std::max(worst, double(std::fabs(truth.px[i] - m.ground().px[i])) * 255);
   CHECK(worst <
         6 * 1.25 * 2.1 / std::sqrt(48.0) + 0.5);  // sd of a median of 48 frames, 14 400 pixels, rounding
-  // The light falls by 40 % towards the corners, so one number lies between the noise there and in the
-  // middle.
+  // The light decreases by 40 % towards the corners: the noise is between those of corners and centre.
   CHECK(m.noise_sd(0.5) > Microscope(v.microscope, frame, {}, 0.1, 1).noise_sd(0.58 * 0.6));
   CHECK(m.noise_sd(0.5) < Microscope(v.microscope, frame, {}, 0.1, 1).noise_sd(0.58));
 
@@ -364,10 +363,10 @@ TEST_CASE("background and noise out of a video") {
   CHECK_THROWS_AS(Microscope(p, frame, {}, 0.1, 1, &ground), Error);
   p.background = (folder / "none.avi").string();
   CHECK_THROWS_AS(read_video_ground(folder / "none.avi"), Error);
-  CHECK_THROWS_AS(Microscope(p, view(160, 90), {}, 0.1, 1), Error);  // nobody has read the background
+  CHECK_THROWS_AS(Microscope(p, view(160, 90), {}, 0.1, 1), Error);  // background was not read
 }
 
-TEST_CASE("an exposure longer than a frame is refused, and a cell that fills the view; usual exposure") {
+TEST_CASE("exposure longer than a frame and a cell that fills the view are refused; default exposure") {
   MicroscopeParams p;
   CHECK(Microscope(p, view(), {}, 0.1, 1).exposure_time() == 0.01);
   CHECK(Microscope(p, view(), {}, 0.002, 1).exposure_time() == 0.001);
@@ -381,7 +380,7 @@ TEST_CASE("an exposure longer than a frame is refused, and a cell that fills the
   CHECK_THROWS_AS(Microscope(MicroscopeParams(), view(65536, 65536), {}, 0.1, 1), Error);
 }
 
-TEST_CASE("times of a rendered video: mp4 carries them, as VideoReader reads them") {
+TEST_CASE("frame times of a rendered video are stored in mp4 and returned by VideoReader") {
   const media::ScratchFolder folder;
   RenderedVideo v;
   v.width = 121;
@@ -396,5 +395,5 @@ TEST_CASE("times of a rendered video: mp4 carries them, as VideoReader reads the
   for (; reader.read(frame, t); ++k) CHECK(std::fabs(t - v.time_s(k)) < 2e-6);
   CHECK(k == 12);
   CHECK(off(reader.fps(), 15) < 0.05);
-  CHECK(std::fabs(double(frame.at(60, 40)) - 0.58 * 255) < 12);  // grey of the middle, to coding and noise
+  CHECK(std::fabs(double(frame.at(60, 40)) - 0.58 * 255) < 12);  // grey at the centre, up to coding and noise
 }

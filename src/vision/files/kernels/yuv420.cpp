@@ -5,14 +5,14 @@
 
 #include "core/vectorised.h"
 
-// Short loops over contiguous rows, one thing each, so that the compiler vectorises them.
+// Short loops over contiguous rows with one operation each, which the compiler vectorises.
 
 namespace faba {
 namespace {
 
 using Byte = std::uint8_t;
 
-// Fixed point with 16 bits of fraction; the weights add up exactly (to 65536, 0, 0), so greys stay grey.
+// Fixed point with 16 fractional bits; the weights sum to exactly 65536, 0 and 0, so grey stays grey.
 struct Weights {
   int r, g, b;
 };
@@ -20,7 +20,7 @@ constexpr Weights kLuma{19595, 38470, 7471}, kBlue{-11059, -21709, 32768}, kRed{
 static_assert(kLuma.r + kLuma.g + kLuma.b == 1 << 16);
 static_assert(kBlue.r + kBlue.g + kBlue.b == 0 && kRed.r + kRed.g + kRed.b == 0);
 
-// The channels of one row, apart; padded to an even number of pixels.
+// The channels of one row in separate arrays, padded to an even number of pixels.
 struct Row {
   explicit Row(int width) : r(padded(width)), g(padded(width)), b(padded(width)) {}
   static std::size_t padded(int width) {
@@ -59,7 +59,7 @@ FABA_VECTORISED void sum_squares(const Byte* upper, const Byte* lower, int count
   }
 }
 
-// From sums of four, which have two more bits of fraction.
+// The sums of four pixels have two more fractional bits.
 FABA_VECTORISED void chroma(Weights weights, const std::uint16_t* r, const std::uint16_t* g,
                             const std::uint16_t* b, int count, Byte* out) {
   for (int i = 0; i < count; ++i) {

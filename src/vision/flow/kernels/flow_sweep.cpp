@@ -10,11 +10,11 @@
 namespace faba {
 namespace {
 
-constexpr int kTogether = 10;  // sweeps that go over the rows together: their rows fit a second-level cache
-constexpr int kStrip = 6;      // rows of one sweep that are done together
+constexpr int kTogether = 10;  // interleaved sweeps: their rows fit the second-level cache
+constexpr int kStrip = 6;      // rows per strip of one sweep
 
-/// What one sweep reads and writes in a strip of rows, the rows above and below it included; every row can be
-/// read one pixel beyond its ends.
+/// Input and output rows of one sweep in a strip, including the rows above and below; every row is readable
+/// one pixel beyond both ends.
 template <class T>
 struct Strip {
   struct Row {
@@ -22,23 +22,24 @@ struct Strip {
     const T* c[5];  ///< coefficients: hx, hy, ht6 of the finest grid, or mxx, mxy, myy, cx, cy
     T *u_out, *v_out;
   };
-  int rows = 0;  ///< of the strip; row[0] lies above it, row[rows + 1] below
+  int rows = 0;  ///< rows of the strip: row[1] to row[rows]; row[0] is above, row[rows + 1] below
   Row row[kStrip + 2];
   int width = 0;
   bool finest = false;
 };
 
-/// The number of rows is a constant, so that the sums of rows stay in their registers instead of moving down.
+/// `rows` is a compile-time constant, so that the row sums stay in registers.
 template <int bytes, bool finest, int rows, class T>
 [[gnu::always_inline]] inline void update(const Strip<T>& s) {
   using V = typename Wide<T, bytes>::type;
   constexpr int kLanes = bytes / int(sizeof(T));
-  static_assert(Plane<T>::kMargin % kLanes == 0);  // whole vectors are read and written at the ends of rows
+  static_assert(Plane<T>::kMargin % kLanes == 0);  // full vectors are read and written at row ends
   const T half = T(0.5), sixth = T(1) / 6;
 #define FABA_LANES(p) (*reinterpret_cast<const V*>((p) + x))
   for (int x = 0; x < s.width; x += kLanes) {
-    // Six times the mean of the neighbours is what is beside, and of the rows above and below what is there
-    // and half of what is beside that. `beside` and `row` go down with the rows, so that each is added once.
+    // Six times the mean of the neighbours is the sum of the side neighbours plus, for the rows above and
+    // below, the pixel there and half of its side neighbours. The sums `beside` and `row` are passed down the
+    // rows, so each is computed once.
     V u_beside = FABA_LANES(s.row[0].u - 1) + FABA_LANES(s.row[0].u + 1);
     V v_beside = FABA_LANES(s.row[0].v - 1) + FABA_LANES(s.row[0].v + 1);
     V u_row_up = u_beside * half + FABA_LANES(s.row[0].u),
@@ -100,11 +101,11 @@ template <class T>
 FABA_VECTORISED float largest_change(const float* a, const float* b, int n) { return largest(a, b, n); }
 FABA_VECTORISED double largest_change(const double* a, const double* b, int n) { return largest(a, b, n); }
 
-constexpr int kRing = 8;  // rows of a sweep that the next one may still read
+constexpr int kRing = 8;  // rows of a sweep kept for the next sweep
 static_assert(kRing >= kStrip + 2);
 
-/// Rows between the sweeps of this thread, at least so wide; kept, since making them takes as long as a
-/// sweep.
+/// Row buffers between the sweeps of this thread, at least `width` px wide; kept, because allocation takes as
+/// long as a sweep.
 template <class T>
 FlowPlanes<T>& rings(int width) {
   thread_local FlowPlanes<T> kept;
@@ -112,9 +113,9 @@ FlowPlanes<T>& rings(int width) {
   return kept;
 }
 
-/// Several sweeps over the rows [begin, end) in one go: sweep n works one row and a strip behind sweep n - 1,
-/// so that what it reads is still in the cache. Rows beyond the band are computed too where later sweeps need
-/// them.
+/// Several interleaved sweeps over the rows [begin, end): sweep n runs one row and a strip behind sweep n -
+/// 1, so that its input is still in the cache. Rows outside the band are computed as well where later sweeps
+/// need them.
 template <class T>
 class Wavefront {
  public:
@@ -190,9 +191,9 @@ T sweep(const FlowSystem<T>& s, FlowPlanes<T>& w, FlowPlanes<T>& spare, int coun
   for (int done = 0; done < count;) {
     const int now = std::min(kTogether, count - done);
     done += now;
-    const bool look = watch && done == count;
+    const bool watch_now = watch && done == count;
     for_rows(s.height(), pool, [&](int begin, int end) {
-      const T change = Wavefront<T>(s, w, spare, now).run(begin, end, look);
+      const T change = Wavefront<T>(s, w, spare, now).run(begin, end, watch_now);
       const std::lock_guard lock(one);
       most = std::max(most, change);
     });

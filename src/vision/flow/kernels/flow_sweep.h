@@ -3,10 +3,10 @@
 
 namespace faba {
 
-/// `count` >= 1 sweeps of the system's iteration over the whole grid, all pixels from the sweep before
-/// (Jacobi). `w` is both start and result; `spare` has the same size and is left in disorder. Several sweeps
-/// go over the rows together, while these are in the cache. Returns the largest change of a component in the
-/// last sweep, px, or 0 without `watch`. Same bits for any pool. T is float or double.
+/// `count` >= 1 Jacobi sweeps over the grid. `w` is the initial value and the result; `spare` has the same
+/// size, its content is undefined afterwards. Several sweeps are interleaved row by row to stay in the cache.
+/// Returns the largest change of a component in the last sweep, px, or 0 without `watch`. Bit-identical for
+/// any pool. T is float or double.
 template <class T>
 T sweep(const FlowSystem<T>& s, FlowPlanes<T>& w, FlowPlanes<T>& spare, int count, bool watch, Pool& pool);
 

@@ -8,8 +8,8 @@
 namespace faba {
 namespace {
 
-// One row of each operation. The templates are compiled into the functions below them, for float and double
-// and for every instruction set.
+// Row kernels. The templates are instantiated by the functions below for float and double and for every
+// instruction set.
 
 template <class T>
 struct DerivativeRow {
@@ -31,11 +31,11 @@ template <class T>
   }
 }
 
-/// The iteration of the published method.
+/// Coefficients of the published iteration.
 template <class T>
 struct PublishedRow {
   const T *ix, *iy, *it;
-  const T *u, *v;  ///< the flow that the unknown contains already
+  const T *u, *v;  ///< flow by which the second frame was warped
   T *hx, *hy, *ht6;
   T lambda;
   int width;
@@ -145,36 +145,35 @@ template <class T>
   }
 }
 
-/// Two rows averaged over pairs of pixels. Where there is no pair nothing stands for the missing pixel: what
-/// is averaged belongs to an area, and a cell at the border that reaches only half over the finer grid has
-/// half of it.
+/// Mean of two rows over pairs of pixels. A missing pixel at the border counts as zero: the mean is an
+/// integral over an area, and a coarse pixel that is only half inside the fine grid has half of it.
 template <class T>
-struct HalvedRow {
+struct RestrictRow {
   const T *a, *b;
   T* out;
   int width;  ///< of a and b
 };
 template <class T>
-[[gnu::always_inline]] inline void row(const HalvedRow<T>& r) {
+[[gnu::always_inline]] inline void row(const RestrictRow<T>& r) {
   const T *a = r.a, *b = r.b;
   T* out = r.out;
-  const std::ptrdiff_t whole = r.width / 2;
+  const std::ptrdiff_t pairs = r.width / 2;
   FABA_ELEMENTWISE
-  for (std::ptrdiff_t x = 0; x < whole; ++x)
+  for (std::ptrdiff_t x = 0; x < pairs; ++x)
     out[x] = ((a[2 * x] + a[2 * x + 1]) + (b[2 * x] + b[2 * x + 1])) * T(0.25);
-  if (r.width % 2) out[whole] = (a[2 * whole] + b[2 * whole]) * T(0.25);
+  if (r.width % 2) out[pairs] = (a[2 * pairs] + b[2 * pairs]) * T(0.25);
 }
 
-/// A fine row gets the coarse row that it lies in and, by a quarter, the one on its other side.
+/// Linear interpolation: 3/4 of the coarse row that contains the fine row, 1/4 of the next nearest one.
 template <class T>
-struct DoubledRow {
+struct ProlongRow {
   const T *near, *far;
   T *mixed, *out;  ///< mixed: scratch
   int width;       ///< of out
   T most;          ///< largest value added
 };
 template <class T>
-[[gnu::always_inline]] inline void row(DoubledRow<T>& r) {
+[[gnu::always_inline]] inline void row(ProlongRow<T>& r) {
   const T *near = r.near, *far = r.far;
   T *mixed = r.mixed, *out = r.out;
   const int coarse = (r.width + 1) / 2;
@@ -200,30 +199,30 @@ template <class T>
   FABA_VECTORISED void do_row(const UpdateRow<type>& r) { row(r); }     \
   FABA_VECTORISED void do_row(const RightSideRow<type>& r) { row(r); }  \
   FABA_VECTORISED void do_row(const ResidualRow<type>& r) { row(r); }   \
-  FABA_VECTORISED void do_row(const HalvedRow<type>& r) { row(r); }     \
-  FABA_VECTORISED void do_row(DoubledRow<type>& r) { row(r); }
+  FABA_VECTORISED void do_row(const RestrictRow<type>& r) { row(r); }   \
+  FABA_VECTORISED void do_row(ProlongRow<type>& r) { row(r); }
 FABA_ROWS(float)
 FABA_ROWS(double)
 #undef FABA_ROWS
 
 template <class T>
-void halve(const Plane<T>& fine, Plane<T>& coarse, Pool& pool) {
+void restrict_plane(const Plane<T>& fine, Plane<T>& coarse, Pool& pool) {
   const Plane<T> none(fine.width(), 1);
   for_rows(coarse.height(), pool, [&](int begin, int end) {
     for (int r = begin; r < end; ++r)
-      do_row(HalvedRow<T>{fine.row(2 * r), 2 * r + 1 < fine.height() ? fine.row(2 * r + 1) : none.row(0),
-                          coarse.row(r), fine.width()});
+      do_row(RestrictRow<T>{fine.row(2 * r), 2 * r + 1 < fine.height() ? fine.row(2 * r + 1) : none.row(0),
+                            coarse.row(r), fine.width()});
   });
 }
 
 template <class T>
-T add_doubled(Plane<T>& coarse, Plane<T>& fine, Pool& pool) {
+T prolong_plane(Plane<T>& coarse, Plane<T>& fine, Pool& pool) {
   std::mutex one;
   T most = 0;
   for (int r = 0; r < coarse.height(); ++r) coarse.extend(r);
   for_rows(fine.height(), pool, [&](int begin, int end) {
     Plane<T> mixed(coarse.width(), 1);
-    DoubledRow<T> job{nullptr, nullptr, mixed.row(0), nullptr, fine.width(), 0};
+    ProlongRow<T> job{nullptr, nullptr, mixed.row(0), nullptr, fine.width(), 0};
     for (int r = begin; r < end; ++r) {
       const int near = r / 2, far = std::clamp(r % 2 ? near + 1 : near - 1, 0, coarse.height() - 1);
       job.near = coarse.row(near);
@@ -284,9 +283,9 @@ void FlowSystem<T>::set_up_coarser_than(const FlowSystem& fine, Pool& pool) {
   for (Plane<T>* p : {&mxx, &mxy, &myy, &cx, &cy}) p->resize(w, h);
   resize_data_term(w, h);
   lambda = fine.lambda / 4;
-  halve(fine.jxx, jxx, pool);
-  halve(fine.jxy, jxy, pool);
-  halve(fine.jyy, jyy, pool);
+  restrict_plane(fine.jxx, jxx, pool);
+  restrict_plane(fine.jxy, jxy, pool);
+  restrict_plane(fine.jyy, jyy, pool);
   for_rows(height(), pool, [&](int begin, int end) {
     for (int r = begin; r < end; ++r)
       do_row(UpdateRow<T>{jxx.row(r), jxy.row(r), jyy.row(r), mxx.row(r), mxy.row(r), myy.row(r), lambda,
@@ -321,21 +320,21 @@ void restrict_residual(const FlowSystem<T>& s, FlowPlanes<T>& w, FlowSystem<T>& 
                               s.jxx.row(r), s.jxy.row(r), s.jyy.row(r), s.fx.row(r), s.fy.row(r), rx.row(i),
                               ry.row(i), s.lambda, s.width()});
       }
-      do_row(HalvedRow<T>{rx.row(0), rx.row(1), coarse.fx.row(half), s.width()});
-      do_row(HalvedRow<T>{ry.row(0), ry.row(1), coarse.fy.row(half), s.width()});
+      do_row(RestrictRow<T>{rx.row(0), rx.row(1), coarse.fx.row(half), s.width()});
+      do_row(RestrictRow<T>{ry.row(0), ry.row(1), coarse.fy.row(half), s.width()});
     }
   });
 }
 
 template <class T>
 void restrict_right_side(const FlowSystem<T>& s, FlowSystem<T>& coarse, Pool& pool) {
-  halve(s.fx, coarse.fx, pool);
-  halve(s.fy, coarse.fy, pool);
+  restrict_plane(s.fx, coarse.fx, pool);
+  restrict_plane(s.fy, coarse.fy, pool);
 }
 
 template <class T>
 T prolong_and_add(FlowPlanes<T>& coarse, FlowPlanes<T>& w, Pool& pool) {
-  const T u = add_doubled(coarse.u, w.u, pool), v = add_doubled(coarse.v, w.v, pool);
+  const T u = prolong_plane(coarse.u, w.u, pool), v = prolong_plane(coarse.v, w.v, pool);
   return std::max(u, v);
 }
 

@@ -4,7 +4,7 @@
 
 namespace faba {
 
-/// A flow on the planes of a solver, px. T is float or double here and below.
+/// A flow on padded planes, px. T is float or double here and below.
 template <class T>
 struct FlowPlanes {
   Plane<T> u, v;
@@ -22,8 +22,8 @@ struct FlowPlanes {
   }
 };
 
-/// First differences of a pair of frames, each the mean of four over a cube of two by two pixels and both
-/// frames: it belongs to the point between these pixels, as published. Grey levels per px and per frame.
+/// First differences of a frame pair, each the mean of four over a cube of 2 x 2 pixels and both frames,
+/// located between these pixels, as published. Grey levels per px and per frame.
 template <class T>
 struct FlowDerivatives {
   Plane<T> ix, iy, it;
@@ -33,15 +33,15 @@ struct FlowDerivatives {
     it.resize(width, height);
   }
 };
-/// The frames have the same size; beyond the border they repeat it (their margins are written to).
+/// The frames have the same size; beyond the border their pixels are repeated (margins are written to).
 template <class T>
 void differentiate(Plane<T>& a, Plane<T>& b, FlowDerivatives<T>& out, Pool& pool);
 
-/// The equations of Horn and Schunck for a flow w = (u, v) on one grid (theory A22):
-/// lambda (w - K w) + J w = f, where K is the mean over the eight neighbours (1/6 beside, 1/12 across, border
-/// repeated), J = grad I grad I^T and f = -grad I It. Solved at one pixel with its neighbours held they are
-/// an iteration. On the finest grid, where J is of rank one, that is the published one, w <- K w - h (h . K w
-/// + ht) with (h, ht) = (grad I, It) / sqrt(lambda + |grad I|^2); on coarser ones it is w <- M K w + c.
+/// The equations of Horn and Schunck for a flow w = (u, v) on one grid (theory A22): lambda (w - K w) + J w =
+/// f, where K is the mean over the eight neighbours (weights 1/6 for side neighbours, 1/12 for diagonal ones,
+/// border repeated), J = grad I grad I^T and f = -grad I It. Solving at one pixel with fixed neighbours gives
+/// the iteration. On the finest grid J has rank one and the iteration is the published one, w <- K w - h (h .
+/// K w + ht) with (h, ht) = (grad I, It) / sqrt(lambda + |grad I|^2); on coarser grids it is w <- M K w + c.
 template <class T>
 struct FlowSystem {
   T lambda = 0;            ///< weight of smoothness, grey levels^2
@@ -49,30 +49,32 @@ struct FlowSystem {
   Plane<T> mxx, mxy, myy;  ///< coarser grids: M / 6, M = lambda (lambda + J)^-1
   Plane<T> cx, cy;         ///< coarser grids: (lambda + J)^-1 f
   Plane<T> jxx, jxy, jyy;  ///< data term
-  Plane<T> fx, fy;         ///< right side
+  Plane<T> fx, fy;         ///< right-hand side
 
   bool finest() const { return hx.width() > 0; }
   int width() const { return finest() ? hx.width() : cx.width(); }
   int height() const { return finest() ? hx.height() : cx.height(); }
-  /// The finest grid: h for these derivatives; and J and f, which only coarser grids need, with `data_term`.
-  /// With `around` (a flow that the second frame was warped by) the unknown stays the whole flow.
+  /// Sets up the finest grid: h from the derivatives and, with `data_term`, J and f, which only coarser grids
+  /// need. With `around` (the flow by which the second frame was warped) the unknown is still the total flow.
   void set_up(const FlowDerivatives<T>& d, const FlowPlanes<T>* around, bool data_term, Pool& pool);
-  /// J of the next finer grid averaged, and M; lambda is a quarter, since pixels are twice as large.
+  /// Sets up J (averaged from the next finer grid) and M; lambda is a quarter because pixels are twice as
+  /// large.
   void set_up_coarser_than(const FlowSystem& fine, Pool& pool);
-  /// c from f.
+  /// Computes c from f.
   void set_up_right_side(Pool& pool);
 
  private:
   void resize_data_term(int width, int height);
 };
 
-/// f - A w averaged over two by two pixels, into the right side f of the next coarser grid.
+/// Restricts the residual f - A w (mean over 2 x 2 pixels) to the right-hand side f of the next coarser grid.
 template <class T>
 void restrict_residual(const FlowSystem<T>& s, FlowPlanes<T>& w, FlowSystem<T>& coarse, Pool& pool);
-/// f averaged over two by two pixels.
+/// Restricts f (mean over 2 x 2 pixels) to the next coarser grid.
 template <class T>
 void restrict_right_side(const FlowSystem<T>& s, FlowSystem<T>& coarse, Pool& pool);
-/// Adds the flow of the next coarser grid, interpolated linearly. Returns the largest component added.
+/// Prolongs the flow of the next coarser grid by linear interpolation and adds it to `w`. Returns the largest
+/// component added.
 template <class T>
 T prolong_and_add(FlowPlanes<T>& coarse, FlowPlanes<T>& w, Pool& pool);
 

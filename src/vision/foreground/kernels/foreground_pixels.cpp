@@ -98,11 +98,11 @@ FABA_VECTORISED void follow_picture(const float* picture, const float* weights, 
   FABA_ELEMENTWISE
   for (int i = 0; i < n; ++i) {
     const bool lighter = (weights[i] < q.least_weight) | (smooth[i] < q.least_smooth);
-    const bool wrong = (guess[i] & kProvedWrong) != 0;
-    const float calm = covered[i] ? q.absorb : q.follow;
-    const float rate = (lighter | wrong) ? q.at_once : calm;
+    const bool wrong = (guess[i] & kDisproved) != 0;
+    const float normal_rate = covered[i] ? q.absorb : q.follow;
+    const float rate = (lighter | wrong) ? q.at_once : normal_rate;
     background[i] = q.next * (background[i] + rate * (q.back * picture[i] - background[i]));
-    guess[i] = lighter ? std::uint8_t(0) : std::uint8_t(guess[i] & std::uint8_t(~kProvedWrong));
+    guess[i] = lighter ? std::uint8_t(0) : std::uint8_t(guess[i] & std::uint8_t(~kDisproved));
   }
 }
 

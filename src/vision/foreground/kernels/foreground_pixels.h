@@ -4,12 +4,11 @@
 
 namespace faba {
 
-// What Foreground does to every pixel, in loops that the compiler makes vectors of. Same bits on every
-// machine.
+// Pixel operations of Foreground in vectorised loops. Bit-identical on every machine.
 
 void to_float(const std::uint8_t* picture, float* out, int n);
 
-/// Marks every pixel within `reach` of a marked one, in a square. `work` is memory that is used again.
+/// Dilates the mask by a square of half width `reach`. `work` is scratch memory.
 void dilate(std::vector<std::uint8_t>& mask, std::vector<std::uint8_t>& work, int width, int height,
             int reach);
 
@@ -19,13 +18,13 @@ void difference(const float* picture, const float* background, float gain, float
 /// mask = v > threshold
 void above(const float* v, float threshold, std::uint8_t* mask, int n);
 
-/// peak = 1 where v is covered and larger than its eight neighbours, or as large as those before it; rows are
-/// `width` apart. Else 0.
+/// peak = 1 where v is covered and is a local maximum of its 8-neighbourhood (>= the previous neighbours, >
+/// the next ones), else 0; rows are `width` apart.
 void mark_peaks(const float* v, int width, const std::uint8_t* covered, std::uint8_t* peak, int n);
 
-/// Where covered: weights = level (-log(left) - (noise / light)^2 / 2), light = gain background, at least
-/// one grey, left = picture / light, at least one grey or 2 % of it: noise alone makes the mean logarithm
-/// smaller by half its square. Elsewhere weights stay.
+/// Where covered: weights = level (-log(left) - (noise / light)^2 / 2), with light = gain background (at
+/// least one grey) and left = picture / light (at least one grey or 2 % of light); the second term corrects
+/// the bias of the mean logarithm by noise. Elsewhere weights are not changed.
 struct LightLoss {
   float gain, noise, level;
 };
@@ -35,12 +34,12 @@ void lost_light(const float* picture, const float* background, const std::uint8_
 /// v = 0 where not covered
 void clear_uncovered(const std::uint8_t* covered, float* v, int n);
 
-/// Bit of a pixel's guess: this picture has proved it wrong.
-constexpr std::uint8_t kProvedWrong = 4;
+/// Flag of a pixel: its guessed background was disproved by this picture.
+constexpr std::uint8_t kDisproved = 4;
 
-/// The background follows the picture: background = next (background + rate (back picture - background)), the
-/// rate being `at_once` where weight or smooth are below their bounds, and then guess = 0, or where the
-/// guess was proved wrong; else `absorb` where covered, `follow` elsewhere. kProvedWrong is taken off.
+/// Background update: background = next (background + rate (back picture - background)). The rate is
+/// `at_once` where weight or smooth are below their bounds (then guess = 0) or where the guess was disproved;
+/// else `absorb` where covered and `follow` elsewhere. kDisproved is cleared.
 struct Following {
   float follow, absorb, at_once;
   float least_weight, least_smooth;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kDirections = 24;
 
-// cos and sin of i * 180 / 24 degrees: written out, since the C library's differ from machine to machine.
+// cos and sin of i * 180 / 24 degrees: constants, because results of the C library differ between machines.
 constexpr std::array<std::array<double, 2>, kDirections> kAxes{{{1, 0},
                                                                 {0.9914448614, 0.1305261922},
                                                                 {0.9659258263, 0.2588190451},
@@ -53,10 +53,10 @@ struct Step {
   int col, row;
 };
 
-// out = the largest (or smallest) of the picture along the piece; what lies beyond the border does not count.
-void along(const GrayF& g, const std::vector<Step>& piece, bool largest, GrayF& out) {
+// out = maximum (or minimum) of the picture along the segment; pixels beyond the border are ignored.
+void extremum_along(const GrayF& g, const std::vector<Step>& segment, bool largest, GrayF& out) {
   out.px.assign(g.px.size(), (largest ? -1 : 1) * std::numeric_limits<float>::max());
-  for (const Step s : piece)
+  for (const Step s : segment)
     for (int row = std::max(0, -s.row); row < std::min(g.height, g.height - s.row); ++row) {
       const int first = std::max(0, -s.col), n = std::min(g.width, g.width - s.col) - first;
       if (n <= 0) continue;
@@ -75,12 +75,12 @@ LineClosing line_closing(const GrayF& picture, double length_px) {
   GrayF work(picture.width, picture.height), closed(picture.width, picture.height);
   const int half = std::max(1, int(length_px / 2)), n = int(picture.px.size());
   for (const auto& axis : kAxes) {
-    std::vector<Step> piece;
+    std::vector<Step> segment;
     for (int k = -half; k <= half; ++k)
-      piece.push_back({int(std::floor(k * axis[0] + 0.5)), int(std::floor(k * axis[1] + 0.5))});
-    along(picture, piece, true, work);
-    for (Step& s : piece) s = {-s.col, -s.row};
-    along(work, piece, false, closed);
+      segment.push_back({int(std::floor(k * axis[0] + 0.5)), int(std::floor(k * axis[1] + 0.5))});
+    extremum_along(picture, segment, true, work);
+    for (Step& s : segment) s = {-s.col, -s.row};
+    extremum_along(work, segment, false, closed);
     take_smaller(out.least.px.data(), closed.px.data(), n);
     take_larger(out.largest.px.data(), closed.px.data(), n);
   }

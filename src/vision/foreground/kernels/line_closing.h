@@ -3,17 +3,17 @@
 
 namespace faba {
 
-/// A picture without its small dark things: in each of 24 directions the closing by a straight piece (the
-/// least that a piece through the pixel has as its largest value).
+/// Morphological closings of a picture by a straight line segment in 24 directions: in each direction, the
+/// minimum over all segments through the pixel of the maximum along the segment.
 struct LineClosing {
-  /// Of all directions the least. A dark thing shorter than the piece in every direction is filled up to what
-  /// is around it; a dark line that is longer, as the edge of a drop, stays, up to its own brightest place
-  /// within the piece. Noise lifts it by about its standard deviation.
+  /// Minimum over all directions. A dark object shorter than the segment in every direction is filled to the
+  /// level of its surroundings; a longer dark line, such as the edge of a drop, remains, up to its brightest
+  /// pixel within the segment. Noise raises the result by about its standard deviation.
   GrayF least;
-  GrayF largest;  ///< of all directions the largest: lines are filled, too
+  GrayF largest;  ///< maximum over all directions: lines are filled as well
 };
 
-/// `length_px` of the piece, 3 or more. Same bits on every machine.
+/// `length_px`: length of the segment, at least 3. Bit-identical on every machine.
 LineClosing line_closing(const GrayF& picture, double length_px);
 
 }  // namespace faba

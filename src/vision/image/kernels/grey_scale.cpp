@@ -19,7 +19,7 @@ GreyScale::GreyScale(int bits, const GrayF& first_frame) {
   if (greys.empty()) return;
   black_ = quantile_low(greys, 0.001);
   white_ = quantile_low(greys, 0.999);
-  if (!(white_ > black_)) white_ = black_ + 255;  // an even frame has no scale of its own
+  if (!(white_ > black_)) white_ = black_ + 255;  // uniform frame: no range to map
 }
 
 void GreyScale::apply(GrayF& frame) const {
@@ -30,7 +30,9 @@ void GreyScale::apply(GrayF& frame) const {
 
 std::string GreyScale::words() const {
   if (black_ == 0 && white_ == 255) return "";
-  return fmt::format("greys {:g} to {:g} of the first frame were taken as 0 to 255", black_, white_);
+  return fmt::format(
+      "grey values {:g} to {:g} (0.1 % and 99.9 % percentiles of the first frame) were scaled to 0 to 255",
+      black_, white_);
 }
 
 namespace {
@@ -58,7 +60,7 @@ void shrink(const GrayF& frame, int side, GrayF& out) {
   }
   const int w = frame.width / side, h = frame.height / side;
   if (out.width != w || out.height != h) out = GrayF(w, h);
-  const float share = 1 / float(side * side);
+  const float weight = 1 / float(side * side);
   std::vector<float> column(std::size_t(w) * std::size_t(side));
   for (int r = 0; r < h; ++r) {
     std::fill(column.begin(), column.end(), 0.0F);
@@ -69,7 +71,7 @@ void shrink(const GrayF& frame, int side, GrayF& out) {
     for (int c = 0; c < w; ++c) {
       float sum = 0;
       for (int i = 0; i < side; ++i) sum += column[std::size_t(c) * std::size_t(side) + std::size_t(i)];
-      out.at(c, r) = sum * share;
+      out.at(c, r) = sum * weight;
     }
   }
 }

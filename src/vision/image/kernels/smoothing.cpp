@@ -10,10 +10,10 @@
 namespace faba {
 namespace {
 
-constexpr double kWidestSampled = 8;  // px; beyond it running means are faster and as good
+constexpr double kWidestSampled = 8;  // px; above, box filters are faster at the same accuracy
 constexpr int kMeans = 4;
 
-// Mirrored about the last pixel, for any distance beyond the border.
+// Index mirrored at the border pixels, for any distance.
 int mirrored(int i, int n) {
   if (n == 1) return 0;
   const int period = 2 * (n - 1);
@@ -24,7 +24,7 @@ int mirrored(int i, int n) {
 // out[i] = w0 middle[i] + w1 (before1[i] + after1[i]) + ..., added in this order.
 struct Taps {
   const std::vector<float>& weights;
-  const float* const* before;  ///< [k]: of weight k; [0] is the middle
+  const float* const* before;  ///< [k]: row of weight k; [0] is the centre
   const float* const* after;
 };
 
@@ -32,7 +32,7 @@ template <int bytes>
 [[gnu::always_inline]] inline void add_taps_in(const Taps& t, float* out, int n) {
   using V = typename Wide<float, bytes>::type;
   constexpr std::ptrdiff_t kLanes = bytes / int(sizeof(float)),
-                           kAtOnce = 4;  // sums, so that none waits for another
+                           kAtOnce = 4;  // independent sums, for instruction-level parallelism
   const int taps = int(t.weights.size());
   const float* w = t.weights.data();
   std::ptrdiff_t i = 0;
@@ -57,8 +57,8 @@ template <int bytes>
 }
 FABA_WIDE(add_taps, (const Taps& t, float* out, int n), (t, out, n))
 
-// Rows are smoothed along themselves when the first column sum needs them, and as many are kept as one needs:
-// they stay in the processor's second-level cache.
+// Separable convolution. Rows are smoothed horizontally when first needed, and only the rows of one vertical
+// kernel are kept, so they stay in the second-level cache.
 void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& weights, GrayF& out,
               GrayF& work) {
   const int reach = int(weights.size()) - 1;
@@ -91,18 +91,18 @@ void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& w
   }
 }
 
-// One running mean over 2 * half + 1 pixels along rows; `sum` in double, so that nothing builds up.
+// Horizontal box filter over 2 * half + 1 pixels; `sum` in double, so that rounding errors do not accumulate.
 void mean_rows(GrayF& picture, int half) {
   const int w = picture.width;
   std::vector<float> line(static_cast<std::size_t>(w));
-  const double share = 1.0 / (2 * half + 1);
+  const double weight = 1.0 / (2 * half + 1);
   for (int row = 0; row < picture.height; ++row) {
     float* at = &picture.px[std::size_t(row) * std::size_t(w)];
     std::copy(at, at + w, line.begin());
     double sum = 0;
     for (int i = -half; i <= half; ++i) sum += double(line[std::size_t(mirrored(i, w))]);
     for (int i = 0; i < w; ++i) {
-      at[i] = float(sum * share);
+      at[i] = float(sum * weight);
       sum += double(line[std::size_t(mirrored(i + half + 1, w))]) -
              double(line[std::size_t(mirrored(i - half, w))]);
     }
@@ -114,15 +114,15 @@ void mean_columns(GrayF& picture, int half) {
   const GrayF from = picture;
   const auto line = [&](int row) { return &from.px[std::size_t(mirrored(row, h)) * std::size_t(w)]; };
   std::vector<double> sum(std::size_t(w), 0.0);
-  const double share = 1.0 / (2 * half + 1);
+  const double weight = 1.0 / (2 * half + 1);
   for (int row = -half; row <= half; ++row)
     for (int i = 0; i < w; ++i) sum[std::size_t(i)] += double(line(row)[i]);
   for (int row = 0; row < h; ++row) {
     float* out = &picture.px[std::size_t(row) * std::size_t(w)];
-    const float *come = line(row + half + 1), *go = line(row - half);
+    const float *entering = line(row + half + 1), *leaving = line(row - half);
     for (int i = 0; i < w; ++i) {
-      out[i] = float(sum[std::size_t(i)] * share);
-      sum[std::size_t(i)] += double(come[i]) - double(go[i]);
+      out[i] = float(sum[std::size_t(i)] * weight);
+      sum[std::size_t(i)] += double(entering[i]) - double(leaving[i]);
     }
   }
 }
@@ -158,7 +158,7 @@ void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& ou
     convolve(width, height, row, gaussian_weights(sd_px), out, work);
     return;
   }
-  // The variance of a mean over 2 h + 1 pixels is h (h + 1) / 3.
+  // The variance of a box filter over 2 h + 1 pixels is h (h + 1) / 3.
   const double wanted = 3 * sd_px * sd_px / kMeans;
   const int half = std::max(1, int(std::floor(std::sqrt(wanted + 0.25))));
   for (int r = 0; r < height; ++r) {

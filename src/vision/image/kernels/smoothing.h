@@ -6,21 +6,21 @@
 
 namespace faba {
 
-/// The picture smoothed by a Gaussian of standard deviation `sd_px` > 0. Up to 8 px it is the sampled kernel
-/// out to 4 sd; wider ones are four running means, whose result differs from it by less than 1 % of a peak
-/// and whose time does not grow with the width. Beyond the border the picture counts as mirrored about its
-/// last pixel. Plain additions in a fixed order: same bits on every machine.
+/// Gaussian smoothing with standard deviation `sd_px` > 0. Up to 8 px: sampled kernel truncated at 4 sd;
+/// above: four box filters, whose kernel differs by less than 1 % of the peak and whose time does not depend
+/// on the width. Border: mirrored at the last pixel. Additions in a fixed order: bit-identical on every
+/// machine.
 GrayF smoothed(const GrayF& picture, double sd_px);
 
-/// Gives the pixels of a row; is asked for each once, from the first on.
+/// Returns the pixels of a row; called once per row, in order.
 using RowSource = std::function<const float*(int row)>;
 
-/// The same of a picture that is made row by row, into `out`, which must be another; `work` is scratch. Both
-/// keep their memory from call to call, which for pictures of one size after the other is half of the time.
+/// As smoothed(), for a picture that is produced row by row. `out` must be a different picture; `work` is
+/// scratch memory. Both keep their memory between calls, which halves the time for pictures of equal size.
 void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& out, GrayF& work);
 
-/// Weights of the sampled kernel that smoothed() uses up to 8 px: index 0 is the middle, the others count
-/// twice; they add up to one. `sd_px` in (0, 8].
+/// Weights of the sampled kernel of smoothed(): index 0 is the centre, the others count twice; their sum is
+/// 1. `sd_px` in (0, 8].
 std::vector<float> gaussian_weights(double sd_px);
 
 }  // namespace faba

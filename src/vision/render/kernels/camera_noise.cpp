@@ -12,9 +12,9 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kRow = PhiloxRow::kLength, kBlock = 4 * kRow;  // four normals from each draw
+constexpr std::size_t kRow = PhiloxRow::kLength, kBlock = 4 * kRow;  // four normals per draw
 
-struct Numbers {
+struct SensorConstants {
   float lamp, shot, constant, white;
   bool absorbing;
 };
@@ -29,15 +29,15 @@ FABA_VECTORISED void make_normals(const PhiloxRow& row, float* z) {
   }
 }
 
-FABA_VECTORISED void make_light(const Numbers& k, const float* ground, const float* cells, std::size_t n,
-                                float* light) {
+FABA_VECTORISED void make_light(const SensorConstants& k, const float* ground, const float* cells,
+                                std::size_t n, float* light) {
   if (k.absorbing)
     for (std::size_t i = 0; i < n; ++i) light[i] = k.lamp * ground[i] * portable::exp(-cells[i]);
   else
     for (std::size_t i = 0; i < n; ++i) light[i] = k.lamp * ground[i] * (1.0F + cells[i]);
 }
 
-FABA_VECTORISED void make_grey(const Numbers& k, const float* light, const float* z, std::size_t n,
+FABA_VECTORISED void make_grey(const SensorConstants& k, const float* light, const float* z, std::size_t n,
                                float* grey) {
   for (std::size_t i = 0; i < n; ++i) {
     const float noisy = light[i] + std::sqrt(k.shot * light[i] + k.constant) * z[i];
@@ -46,15 +46,15 @@ FABA_VECTORISED void make_grey(const Numbers& k, const float* light, const float
   }
 }
 
-FABA_VECTORISED void make_whole(const float* grey, std::size_t n, std::uint8_t* out) {
+FABA_VECTORISED void round_to_integer(const float* grey, std::size_t n, std::uint8_t* out) {
   for (std::size_t i = 0; i < n; ++i) {
-    const float half_up = grey[i] + 0.5F;  // not below 0: cutting off is rounding
+    const float half_up = grey[i] + 0.5F;  // >= 0, so truncation rounds
     out[i] = std::uint8_t(std::int32_t(half_up));
   }
 }
-FABA_VECTORISED void make_whole(const float* grey, std::size_t n, std::uint16_t* out) {
+FABA_VECTORISED void round_to_integer(const float* grey, std::size_t n, std::uint16_t* out) {
   for (std::size_t i = 0; i < n; ++i) {
-    const float half_up = grey[i] + 0.5F;  // not below 0: cutting off is rounding
+    const float half_up = grey[i] + 0.5F;  // >= 0, so truncation rounds
     out[i] = std::uint16_t(std::int32_t(half_up));
   }
 }
@@ -66,8 +66,8 @@ void expose_as(const CameraSensor& s, const GrayF& ground, const GrayF& cells, P
   out.width = ground.width;
   out.height = ground.height;
   out.px.resize(n);
-  const Numbers k{float(s.lamp), float(s.shot), float(s.constant), float(std::numeric_limits<T>::max()),
-                  s.absorbing};
+  const SensorConstants k{float(s.lamp), float(s.shot), float(s.constant),
+                          float(std::numeric_limits<T>::max()), s.absorbing};
   const bool noisy = s.shot > 0 || s.constant > 0;
   pool.for_blocks(n, kBlock, [&](std::size_t begin, std::size_t end) {
     alignas(64) float z[kBlock] = {}, light[kBlock], grey[kBlock];
@@ -78,7 +78,7 @@ void expose_as(const CameraSensor& s, const GrayF& ground, const GrayF& cells, P
     }
     make_light(k, &ground.px[begin], &cells.px[begin], end - begin, light);
     make_grey(k, light, z, end - begin, grey);
-    make_whole(grey, end - begin, &out.px[begin]);
+    round_to_integer(grey, end - begin, &out.px[begin]);
   });
 }
 

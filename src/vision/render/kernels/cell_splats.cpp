@@ -10,16 +10,16 @@
 namespace faba {
 namespace {
 
-constexpr int kPlaces = 64;                  // between two pixels
-constexpr double kReach = 4;                 // sd, where a spot ends
-constexpr double kSpacing = 1.2;             // sd between the spots of one cell: their sum is even to 1e-5
-constexpr int kMostSpots = 64;               // along one direction
-constexpr int kBand = 32;                    // rows that one thread adds to at a time
-constexpr int kSharpnesses = 9;              // each 2^(1/4) wider than the one before
+constexpr int kSubPixels = 64;               // sub-pixel positions per pixel
+constexpr double kReach = 4;                 // sd, cut-off of a spot
+constexpr double kSpacing = 1.2;             // sd between the spots of one cell: their sum is uniform to 1e-5
+constexpr int kMostSpots = 64;               // maximum number along one direction
+constexpr int kBand = 32;                    // rows per job of a thread
+constexpr int kBlurLevels = 9;               // each 2^(1/4) wider than the previous one
 constexpr double kStep = 1.189207115002721;  // 2^(1/4)
-constexpr std::size_t kLane = 16;            // rows of a table are padded to whole vectors
+constexpr std::size_t kLane = 16;            // rows of a table are padded to full vectors
 
-// Adds down[r] * across to `rows` rows of a picture that lie `stride` apart.
+// Adds the outer product down * across to `rows` rows of a picture with row stride `stride`.
 FABA_VECTORISED void add_product(float* to, std::ptrdiff_t stride, const float* across, std::size_t columns,
                                  const float* down, std::size_t rows) {
   for (std::size_t r = 0; r < rows; ++r, to += stride) {
@@ -29,12 +29,12 @@ FABA_VECTORISED void add_product(float* to, std::ptrdiff_t stride, const float* 
   }
 }
 
-// a + f (b - a): weights at a place between two of the table's, times `by`.
+// a + f (b - a), times `by`: interpolation between two rows of the table.
 FABA_VECTORISED void between(const float* a, const float* b, float f, float by, std::size_t n, float* out) {
   for (std::size_t i = 0; i < n; ++i) out[i] = by * (a[i] + f * (b[i] - a[i]));
 }
 
-// Distance from focus in sd, of a cell that keeps it.
+// Distance of a cell from focus in units of the sd; constant in time.
 double depth_of(std::uint64_t seed, std::uint32_t cell) {
   const auto word = draw(seed, kDepthDraws, cell, 0);
   return double(normals(word[0], word[1])[0]);
@@ -42,43 +42,44 @@ double depth_of(std::uint64_t seed, std::uint32_t cell) {
 
 }  // namespace
 
-/// Where a spot lies: its first pixel, its place between pixels, and how sharp it is.
+/// Position of a spot: first pixel, sub-pixel position, and blur level.
 struct CellSplats::Spot {
-  std::int32_t column, row;  // of its first pixel; may be outside
-  float at_x, at_y;          // between places of the table, [0, kPlaces)
+  std::int32_t column, row;  // first pixel; may be outside
+  float at_x, at_y;          // sub-pixel position in table rows, [0, kSubPixels)
   float weight;
-  std::uint16_t sharpness;
+  std::uint16_t blur_level;
 };
 
-/// Weights of a spot along one axis, for every place between two pixels.
+/// Weights of a spot along one axis for all sub-pixel positions.
 class CellSplats::Table {
  public:
   explicit Table(double sd_px)
       : sd_(sd_px),
         radius_(std::max(1, int(std::ceil(kReach * sd_px)))),
         stride_((2 * std::size_t(radius_) + 1 + kLane - 1) / kLane * kLane),
-        weight_(std::size_t(kPlaces + 1) * stride_) {
-    for (int place = 0; place <= kPlaces; ++place) {
-      const double middle = double(place) / kPlaces - 0.5;
-      float* w = &weight_[std::size_t(place) * stride_];
+        weight_(std::size_t(kSubPixels + 1) * stride_) {
+    for (int position = 0; position <= kSubPixels; ++position) {
+      const double middle = double(position) / kSubPixels - 0.5;
+      float* w = &weight_[std::size_t(position) * stride_];
       double sum = 0;
-      for (int k = -radius_; k <= radius_; ++k) sum += share(k, middle);
-      for (int k = -radius_; k <= radius_; ++k) w[k + radius_] = float(share(k, middle) / sum);
+      for (int k = -radius_; k <= radius_; ++k) sum += pixel_fraction(k, middle);
+      for (int k = -radius_; k <= radius_; ++k) w[k + radius_] = float(pixel_fraction(k, middle) / sum);
     }
   }
   double sd() const { return sd_; }
   int radius() const { return radius_; }
   std::size_t width() const { return 2 * std::size_t(radius_) + 1; }
   std::size_t stride() const { return stride_; }
-  // Weights at a place between two rows of the table, times `by`; padded with zeros to stride().
-  void at(float place, float by, float* out) const {
-    const int row = std::min(int(place), kPlaces - 1);
+  // Weights at a sub-pixel position (interpolated between two table rows), times `by`; padded with zeros to
+  // stride().
+  void at(float position, float by, float* out) const {
+    const int row = std::min(int(position), kSubPixels - 1);
     const float* a = &weight_[std::size_t(row) * stride_];
-    between(a, a + stride_, place - float(row), by, stride_, out);
+    between(a, a + stride_, position - float(row), by, stride_, out);
   }
 
  private:
-  double share(int k, double middle) const {
+  double pixel_fraction(int k, double middle) const {
     return portable::normal_cdf((k + 0.5 - middle) / sd_) - portable::normal_cdf((k - 0.5 - middle) / sd_);
   }
   double sd_;
@@ -88,22 +89,24 @@ class CellSplats::Table {
 };
 
 CellSplats::CellSplats(const SplatShape& shape) : shape_(shape) {
-  // a point without blur still has the width of a tenth of a pixel, which its table can hold
+  // The minimum blur is 0.02 px, because a spot of zero width cannot be tabulated.
   double blur = std::max(shape.psf_sd_px, 0.02);
-  for (int s = 0; s < (shape.depth_spread > 0 ? kSharpnesses : 1); ++s, blur *= kStep)
+  for (int s = 0; s < (shape.depth_spread > 0 ? kBlurLevels : 1); ++s, blur *= kStep)
     tables_.emplace_back(std::sqrt(blur * blur + shape.diameter_px * shape.diameter_px / 16));
 }
 CellSplats::~CellSplats() = default;
 CellSplats::CellSplats(CellSplats&&) noexcept = default;
 CellSplats& CellSplats::operator=(CellSplats&&) noexcept = default;
 
-void CellSplats::put(const CameraCell& cell, const Table& table, std::uint16_t sharpness, const GrayF& sum) {
+void CellSplats::add_spots(const CameraCell& cell, const Table& table, std::uint16_t blur_level,
+                           const GrayF& sum) {
   const double rod = cell.ux != 0.0F || cell.uy != 0.0F ? shape_.length_px - shape_.diameter_px : 0;
-  const double way = std::sqrt(double(cell.dx) * double(cell.dx) + double(cell.dy) * double(cell.dy));
-  const auto pieces = [&](double length) {
+  const double displacement =
+      std::sqrt(double(cell.dx) * double(cell.dx) + double(cell.dy) * double(cell.dy));
+  const auto spot_count = [&](double length) {
     return int(std::clamp(std::ceil(length / (kSpacing * table.sd())), 1.0, double(kMostSpots)));
   };
-  const int along = pieces(rod), moved = pieces(way);
+  const int along = spot_count(rod), moved = spot_count(displacement);
   const auto weight = float(shape_.weight / (along * moved));
   for (int a = 0; a < along; ++a)
     for (int m = 0; m < moved; ++m) {
@@ -114,33 +117,33 @@ void CellSplats::put(const CameraCell& cell, const Table& table, std::uint16_t s
       if (!(x > -reach && y > -reach && x < sum.width + reach && y < sum.height + reach)) continue;
       const double column = std::floor(x), row = std::floor(y);
       spots_.push_back({std::int32_t(column) - table.radius(), std::int32_t(row) - table.radius(),
-                        float((x - column) * kPlaces), float((y - row) * kPlaces), weight, sharpness});
+                        float((x - column) * kSubPixels), float((y - row) * kSubPixels), weight, blur_level});
     }
 }
 
-void CellSplats::lay_out(std::span<const CameraCell> cells, const GrayF& sum) {
+void CellSplats::make_spots(std::span<const CameraCell> cells, const GrayF& sum) {
   spots_.clear();
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    std::uint16_t sharpness = 0;
+    std::uint16_t blur_level = 0;
     if (tables_.size() > 1) {
       if (i >= depth_.size()) {
         const double z = shape_.depth_spread * depth_of(shape_.seed, std::uint32_t(i));
         double wider = std::sqrt(1 + z * z);
         std::uint8_t s = 0;
-        for (; s + 1 < kSharpnesses && wider > 1.0905077326652577; ++s) wider /= kStep;  // 2^(1/8): nearest
+        for (; s + 1 < kBlurLevels && wider > 1.0905077326652577; ++s) wider /= kStep;  // 2^(1/8): nearest
         depth_.push_back(s);
       }
-      sharpness = depth_[i];
+      blur_level = depth_[i];
     }
-    put(cells[i], tables_[sharpness], sharpness, sum);
+    add_spots(cells[i], tables_[blur_level], blur_level, sum);
   }
 }
 
-// Which spots touch which band, in the order of the cells.
+// Assigns the spots to all bands that they touch, in the order of the cells.
 void CellSplats::sort_into_bands(int height) {
   const int bands = (height + kBand - 1) / kBand;
   const auto range = [&](const Spot& s) {
-    const int last = s.row + 2 * tables_[s.sharpness].radius();
+    const int last = s.row + 2 * tables_[s.blur_level].radius();
     return std::pair(std::max(s.row, 0) / kBand, last < 0 ? -1 : std::min(last, height - 1) / kBand);
   };
   band_begin_.assign(std::size_t(bands) + 1, 0);
@@ -155,14 +158,14 @@ void CellSplats::sort_into_bands(int height) {
 }
 
 void CellSplats::add(std::span<const CameraCell> cells, GrayF& sum, Pool& pool) {
-  lay_out(cells, sum);
+  make_spots(cells, sum);
   sort_into_bands(sum.height);
   pool.run(band_begin_.size() - 1, [&](std::size_t band) {
     const int low = int(band) * kBand, high = std::min(low + kBand, sum.height);
     std::vector<float> across(tables_.back().stride()), down(tables_.back().stride());
     for (std::uint32_t k = band_begin_[band]; k < band_begin_[band + 1]; ++k) {
       const Spot& s = spots_[in_band_[k]];
-      const Table& table = tables_[s.sharpness];
+      const Table& table = tables_[s.blur_level];
       const int width = int(table.width());
       const int left = std::max(0, -s.column), right = std::min(width, sum.width - s.column);
       const int top = std::max(0, low - s.row), bottom = std::min(width, high - s.row);

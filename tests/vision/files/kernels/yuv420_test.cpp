@@ -28,7 +28,7 @@ double luma_of(Rgb p) { return 0.299 * p.r + 0.587 * p.g + 0.114 * p.b; }
 
 }  // namespace
 
-TEST_CASE("every grey keeps its value and has no colour") {
+TEST_CASE("every grey keeps its value and has neutral chroma") {
   for (int v = 0; v < 256; ++v) {
     const auto grey = static_cast<std::uint8_t>(v);
     Planes planes(6, 4);
@@ -39,9 +39,9 @@ TEST_CASE("every grey keeps its value and has no colour") {
   }
 }
 
-TEST_CASE("colours follow the definition, for even and odd sizes") {
-  // Rounding to integers is 0.5; 16-bit weights are off by at most 2^-17 each, times 3 channels of 255:
-  // 0.006; Cb and Cr of pure blue and red are cut from 255.5 to 255, which is within 0.5 as well.
+TEST_CASE("colours match the definition, for even and odd sizes") {
+  // Rounding to integers: 0.5. The 16-bit weights have errors of at most 2^-17 each, times 3 channels of 255:
+  // 0.006. Cb and Cr of pure blue and red are clipped from 255.5 to 255, which is within 0.5 as well.
   constexpr double kTolerance = 0.5 + 0.006;
   for (const auto& [width, height] : {std::pair{34, 20}, std::pair{37, 23}, std::pair{1, 3}}) {
     RgbImage picture(width, height);

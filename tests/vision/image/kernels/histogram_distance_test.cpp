@@ -1,5 +1,5 @@
-// Theory A18: the authors' test vector, the identities that follow from the definition, and the definition
-// itself, written out as two sums.
+// Theory A18: the authors' test vector, identities that follow from the definition, and the definition as an
+// explicit double sum.
 #include "vision/image/kernels/histogram_distance.h"
 
 #include <doctest/doctest.h>
@@ -46,7 +46,7 @@ TEST_CASE("the test vector of A18") {
   const double table[][4] = {{1, 2.449489742783, 1.581138830084, 1.447318999187},
                              {2, 2.236067977500, 0.957050245237, 0.652248645707},
                              {3, 2.449489742783, 0.837148187674, 0.403214730772}};
-  // Twelve decimals are printed: half of the last one.
+  // Twelve decimals are printed: tolerance is half of the last one.
   for (const auto& row : table) {
     CHECK(std::fabs(qc(p, q, 0, row[0]) - row[1]) < 5.1e-13);
     CHECK(std::fabs(qc(p, q, 0.5, row[0]) - row[2]) < 5.1e-13);
@@ -54,7 +54,7 @@ TEST_CASE("the test vector of A18") {
   }
 }
 
-TEST_CASE("a peak of 10 that moves: what A18 prints, and no further than the threshold") {
+TEST_CASE("a moving peak of 10: the values of A18, constant beyond the threshold") {
   const double printed[][2] = {{1, 0.649068}, {2, 1.122082}, {3, 1.780389}, {8, 1.780389}};
   std::vector<double> p(30, 0.0);
   p[10] = 10;
@@ -84,7 +84,7 @@ TEST_CASE("identities and the definition, over random histograms of many magnitu
       if (p[k] + q[k] > 0) chi2 += (p[k] - q[k]) * (p[k] - q[k]) / (p[k] + q[k]);
     const double half = qc(p, q, 0.5, 1);
     CHECK(half * half == doctest::Approx(chi2).epsilon(1e-12));
-    // Bins that hold nothing on either side change nothing, beyond the reach of the similarity.
+    // Empty bins on both sides, beyond the reach of the similarity, do not change the distance.
     auto longer_p = p, longer_q = q;
     longer_p.resize(n + 50, 0.0);
     longer_q.resize(n + 50, 0.0);
@@ -92,7 +92,7 @@ TEST_CASE("identities and the definition, over random histograms of many magnitu
   }
 }
 
-TEST_CASE("a matrix that is given is the same as the band it spells out") {
+TEST_CASE("a given matrix gives the same result as the equivalent band") {
   std::mt19937 g(5);
   const std::size_t n = 12;
   const auto p = random_histogram(g, n), q = random_histogram(g, n);
@@ -104,7 +104,7 @@ TEST_CASE("a matrix that is given is the same as the band it spells out") {
         doctest::Approx(qc(p, q, 0.7, 4.5)).epsilon(1e-12));
 }
 
-TEST_CASE("what the distance is not defined for is refused") {
+TEST_CASE("inputs for which the distance is undefined are refused") {
   const std::vector<double> p{1, 2}, negative{1, -2}, three{1, 2, 3}, nan{1, std::nan("")};
   CHECK_THROWS_AS(qc(p, p, 1, 3), Error);
   CHECK_THROWS_AS(qc(p, p, -0.1, 3), Error);
@@ -114,8 +114,9 @@ TEST_CASE("what the distance is not defined for is refused") {
   CHECK_THROWS_AS(qc(p, negative, 0.9, 3), Error);
   CHECK_THROWS_AS(qc(p, three, 0.9, 3), Error);
   CHECK_THROWS_AS(qc(nan, p, 0.9, 3), Error);
-  CHECK_THROWS_AS(BinSimilarity::given({1, 2, 0, 1}, 2, "a"), Error);   // more like another than itself
-  CHECK_THROWS_AS(BinSimilarity::given({1, -1, 0, 1}, 2, "a"), Error);  // truncation forgotten
+  CHECK_THROWS_AS(BinSimilarity::given({1, 2, 0, 1}, 2, "a"),
+                  Error);  // more similar to another bin than to itself
+  CHECK_THROWS_AS(BinSimilarity::given({1, -1, 0, 1}, 2, "a"), Error);  // negative similarity
   CHECK_THROWS_AS(BinSimilarity::given({1, 0, 1}, 2, "a"), Error);
   CHECK(qc({}, {}, 0.9, 3) == 0);
 }
