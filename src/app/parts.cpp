@@ -79,7 +79,7 @@ Parts builtin_parts() {
   p.readers.table = read_field_points;
   p.readers.library = open_library;
   p.readers.library_task = library_task;
-  p.readers.ground = [](const std::filesystem::path& video) { return read_video_ground(video); };
+  p.readers.ground = [](const std::filesystem::path& video) { return read_video_background(video); };
   return p;
 }
 

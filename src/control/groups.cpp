@@ -57,7 +57,7 @@ class EstimatorGroups final : public Estimator {
 
   Estimate update(const Observation& o, const Command&) override {
     double cells = 0;
-    const std::vector<WeightedPlace> places =
+    const std::vector<WeightedPosition> places =
         o.seen.empty() && o.image ? from_picture(o, cells) : from_cells(o, cells);
     FuzzyGroupOptions options;
     options.count = p_.count;
@@ -82,7 +82,7 @@ class EstimatorGroups final : public Estimator {
   void archive(Archive& a) override { a& foreground_& at_& t_& frame_t_& has_estimate_& has_frame_; }
 
  private:
-  std::vector<WeightedPlace> from_cells(const Observation& o, double& cells) {
+  std::vector<WeightedPosition> from_cells(const Observation& o, double& cells) {
     places_.clear();
     for (const Detection& d : o.seen)
       if (d.in_view && std::isfinite(d.x) && std::isfinite(d.y))
@@ -90,7 +90,7 @@ class EstimatorGroups final : public Estimator {
     cells = double(places_.size());
     return places_.size() > 2000 ? binned(places_, kBins) : places_;
   }
-  std::vector<WeightedPlace> from_picture(const Observation& o, double& cells) {
+  std::vector<WeightedPosition> from_picture(const Observation& o, double& cells) {
     foreground_.take(camera_picture(o, frame_), has_frame_ ? o.t - frame_t_ : 0);
     frame_t_ = o.t;
     has_frame_ = true;
@@ -102,15 +102,15 @@ class EstimatorGroups final : public Estimator {
   }
   // Splits rows of pixels into pieces of a quarter of a bin, so that the loss of spread is small compared
   // with that of the bins.
-  void add_pieces(const GrayF& weights, const std::vector<PatchRun>& runs) {
+  void add_pieces(const GrayF& weights, const std::vector<ComponentRun>& runs) {
     int low = weights.width, high = 0;
-    for (const PatchRun& r : runs) {
+    for (const ComponentRun& r : runs) {
       low = std::min(low, r.first);
       high = std::max(high, r.end);
     }
     if (!runs.empty()) high = low + std::max(high - low, runs.back().row - runs.front().row);
     const int piece = std::max(1, (high - low) / (4 * kBins));
-    for (const PatchRun& r : runs) {
+    for (const ComponentRun& r : runs) {
       const float* weight = &weights.px[std::size_t(r.row) * std::size_t(weights.width)];
       for (int i = r.first; i < r.end;) {
         const int stop = std::min(r.end, i + piece);
@@ -137,8 +137,8 @@ class EstimatorGroups final : public Estimator {
   Params p_;
   Frame frame_;
   Foreground foreground_;
-  std::vector<WeightedPlace> places_;  ///< scratch buffer, reused
-  Vec2 at_;                            ///< last centroid, m, world
+  std::vector<WeightedPosition> places_;  ///< scratch buffer, reused
+  Vec2 at_;                               ///< last centroid, m, world
   double t_ = 0, frame_t_ = 0;
   bool has_estimate_ = false, has_frame_ = false;
 };

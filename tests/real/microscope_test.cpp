@@ -30,7 +30,7 @@ TEST_CASE("the default light and noise are those of a real suspension") {
     writer.write(bytes);
   }
   writer.finish(folder / "real.avi");
-  const VideoGround real = read_video_ground(folder / "real.avi");
+  const VideoBackground real = read_video_background(folder / "real.avi");
   Frame frame;
   frame.width = 64;
   frame.height = 48;
@@ -42,7 +42,7 @@ TEST_CASE("the default light and noise are those of a real suspension") {
 
 TEST_CASE("a real video as background: what lies still stays, what moves does not") {
   if (test::skipped_without(kShared / "beads")) return;
-  const VideoGround real = read_video_ground(kShared / "beads" / "bulk-water.mov");
+  const VideoBackground real = read_video_background(kShared / "beads" / "bulk-water.mov");
   CHECK(real.light.width == 640);
   CHECK(real.light.height == 424);
   CHECK(real.noise_sd * 255 > 0.05);  // the coding of the file has smoothed most of it

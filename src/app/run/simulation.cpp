@@ -81,7 +81,7 @@ int steps_per_frame(const Scenario& s, double longest) {
 }
 
 std::unique_ptr<SimRig> make_rig(const Scenario& s, World& world, int steps, std::uint64_t seed, Pool& pool,
-                                 const VideoGround* ground) {
+                                 const VideoBackground* ground) {
   SimRig::Params p{steps, s.frame_period(), s.camera.delay_frames, s.camera.jitter};
   p.frames = s.camera.sensor == CameraParams::Sensor::frames;
   if (s.renders()) {
@@ -133,7 +133,7 @@ struct Simulation::Exchanged {
 };
 
 Simulation::Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
-                       const std::shared_ptr<const VideoGround>& ground)
+                       const std::shared_ptr<const VideoBackground>& ground)
     : events_(s.events) {
   const Scale scale = s.si_scale();
   WorldParts w;

@@ -18,7 +18,7 @@ class Simulation {
   /// Throws Error(usage) if the parts are incompatible. `ground`: content of the video microscope.background,
   /// so that repeated simulations read it only once; null: it is read.
   Simulation(const Scenario& s, std::uint64_t seed, Pool& pool,
-             const std::shared_ptr<const VideoGround>& ground = nullptr);
+             const std::shared_ptr<const VideoBackground>& ground = nullptr);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 

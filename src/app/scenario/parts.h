@@ -21,7 +21,7 @@ struct Readers {
   std::function<Table(const std::filesystem::path&)> table;  ///< measured fields
   std::function<std::shared_ptr<const FieldLibrary>(const std::filesystem::path&)> library;
   std::function<std::string(const std::filesystem::path&)> library_task;  ///< task of a library
-  std::function<VideoGround(const std::filesystem::path&)> ground;  ///< illumination and noise of a video
+  std::function<VideoBackground(const std::filesystem::path&)> ground;  ///< illumination and noise of a video
 };
 
 /// All parts that a scenario can name, by kind, and the readers of its files.

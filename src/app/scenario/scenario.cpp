@@ -46,11 +46,11 @@ Json Scenario::default_estimator() const {
 
 Json Scenario::default_reference() const { return steers() ? "hold" : "none"; }
 
-std::shared_ptr<const VideoGround> Scenario::ground() const {
+std::shared_ptr<const VideoBackground> Scenario::ground() const {
   if (microscope.background.empty()) return nullptr;
   if (!readers.ground)
     throw Error(Errc::usage, "microscope.background", "this build of the program cannot read videos");
-  return std::make_shared<const VideoGround>(readers.ground(microscope.background));
+  return std::make_shared<const VideoBackground>(readers.ground(microscope.background));
 }
 
 std::shared_ptr<const FieldLibrary> Scenario::field_library() const {

@@ -118,7 +118,7 @@ struct Scenario {
   int polarity() const;
   /// Illumination and noise of the video microscope.background, which is read; null if it is not set. Throws
   /// Error(usage) without a reader, and the errors of the reader.
-  std::shared_ptr<const VideoGround> ground() const;
+  std::shared_ptr<const VideoBackground> ground() const;
   /// The library of [library]; null if it is not set. Throws as ground().
   std::shared_ptr<const FieldLibrary> field_library() const;
   /// All keys with their values; as TOML it gives the same scenario when read.

@@ -32,14 +32,14 @@ class SimulatedFrames final : public FrameSource {
 
 void check_recording(const Record& record, const Frame& frame, double rate) {
   if (!record.video && !record.lossless) return;
-  if (std::max(frame.width, frame.height) > kLongestVideoSide)
+  if (std::max(frame.width, frame.height) > kMaxVideoSide)
     throw Error(
         Errc::usage, "arena",
         fmt::format("a video of {} x {} px is too large, the maximum is {} px; use a smaller view, or set "
                     "record.video = false",
-                    frame.width, frame.height, kLongestVideoSide));
+                    frame.width, frame.height, kMaxVideoSide));
   const double fps = rate / record.video_every;
-  if (fps < kSlowestVideo || fps > kFastestVideo)
+  if (fps < kMinFrameRate || fps > kMaxFrameRate)
     throw Error(Errc::usage, "camera.rate",
                 fmt::format("a video cannot have {:g} frames per second; change record.video_every, or set "
                             "record.video = false",

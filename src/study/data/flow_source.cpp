@@ -142,7 +142,7 @@ double FlowSource::fps() const {
 }
 std::uint64_t FlowSource::pairs() const {
   if (impl_->flows) return impl_->flows->size();
-  const std::int64_t frames = impl_->video->reader().frames_stated();
+  const std::int64_t frames = impl_->video->reader().frames_in_header();
   return frames > 1 ? std::uint64_t(frames - 1) : 0;
 }
 std::optional<double> FlowSource::um_per_px() const { return impl_->input.um_per_px; }

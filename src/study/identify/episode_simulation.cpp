@@ -145,7 +145,7 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
 
 EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
                                     const std::vector<double>& times_s, Look look,
-                                    const std::shared_ptr<const VideoGround>& ground) {
+                                    const std::shared_ptr<const VideoBackground>& ground) {
   Pool pool(1);
   Scenario scenario = s;
   scenario.record = {};

@@ -47,6 +47,6 @@ struct EpisodeObservation {
 /// Simulates an episode on the calling thread. `lead_s` as in SegmentTiming.
 EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
                                     const std::vector<double>& times_s, Look look,
-                                    const std::shared_ptr<const VideoGround>& ground);
+                                    const std::shared_ptr<const VideoBackground>& ground);
 
 }  // namespace faba

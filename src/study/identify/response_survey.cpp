@@ -146,15 +146,15 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
 // background.
 void estimate_background(ResponseVideo& v, Measure measure, double from_s, double to_s,
                          const std::function<void()>& tick) {
-  VideoGroundOptions o;
+  VideoBackgroundOptions o;
   o.fps = v.input.fps;
   o.side = v.side;
   o.tick = tick;
   if (measure == Measure::density)
-    o.share = v.view.cells.polarity == Polarity::bright ? 1 - kCoverage : kCoverage;
+    o.quantile = v.view.cells.polarity == Polarity::bright ? 1 - kCoverage : kCoverage;
   o.from_s = from_s - 0.5 * v.view.frame_s;
   o.to_s = to_s + 0.5 * v.view.frame_s;
-  v.ground = std::make_shared<const VideoGround>(read_video_ground(v.file, o));
+  v.ground = std::make_shared<const VideoBackground>(read_video_background(v.file, o));
   Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
   for (float& x : b.level.px) x *= float(kWhite);
   std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, v.ground->noise_sd * kWhite)));

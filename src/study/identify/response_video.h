@@ -39,8 +39,8 @@ struct ResponseVideo {
                  ///< of the averaged frames
   CellView view;
   double fps = 0, um_per_px = 0;
-  std::optional<DropEdge> edge;               ///< with Boundary::drop
-  std::shared_ptr<const VideoGround> ground;  ///< background and noise
+  std::optional<DropEdge> edge;                   ///< with Boundary::drop
+  std::shared_ptr<const VideoBackground> ground;  ///< background and noise
   double cell_px = 0, contrast = 0;  ///< of a rendered cell: width (FWHM), and contrast as in [microscope]
   std::optional<double> field_t;     ///< recorded field strength, T
   bool segments_detected = false;    ///< detected in the video, neither given nor recorded

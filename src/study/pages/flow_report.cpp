@@ -26,7 +26,7 @@ class FlowOutputs {
     }
     if (!job.overlay.empty())
       overlay_.emplace(part(job.overlay), VideoFormat::mp4, source.width(), source.height(),
-                       source.fps() > 0 ? std::clamp(source.fps(), kSlowestVideo, kFastestVideo) : 15);
+                       source.fps() > 0 ? std::clamp(source.fps(), kMinFrameRate, kMaxFrameRate) : 15);
   }
   FlowOutputs(const FlowOutputs&) = delete;
   FlowOutputs& operator=(const FlowOutputs&) = delete;

@@ -15,7 +15,7 @@ Detector CellView::detector() const {
 
 Foreground CellView::foreground_in(const GrayF& frame) const {
   Foreground foreground(cells);
-  foreground.know(*background);
+  foreground.set_background(*background);
   foreground.take(frame, noise(), frame_s);
   return foreground;
 }

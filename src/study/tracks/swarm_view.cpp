@@ -50,7 +50,7 @@ SwarmView::SwarmView(const TrackSurvey& survey, int bits) : foreground_(options_
   if (!survey.temporal) return;
   Background b = survey.background;
   multiply(b.level, scale_);
-  foreground_.know(b);
+  foreground_.set_background(b);
 }
 
 SwarmMoments SwarmView::take(const GrayF& frame, double t_s) {

@@ -80,7 +80,7 @@ class TrackPass {
   }
   TrackJoining joining() const {
     return {tracker_.reach_px(), tracker_.motion(), options_.tracker.memory, options_.tracker.least_points,
-            tracker_.uncertain_tracks()};
+            tracker_.discarded_tracks()};
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }

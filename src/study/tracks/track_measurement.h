@@ -34,7 +34,7 @@ struct TrackJoining {
   Motion motion = Motion::nearest;     ///< nearest or velocity
   int memory_frames = 0;               ///< see TrackerOptions::memory
   int least_points = 0;                ///< see TrackerOptions
-  std::uint64_t uncertain_tracks = 0;  ///< discarded because they had fewer than least_points
+  std::uint64_t discarded_tracks = 0;  ///< discarded because they had fewer than least_points
 };
 
 /// Result of tracking a video.

@@ -103,7 +103,7 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
     if (s.frames > 0 && t_s > last && gaps.size() < kGaps) gaps.push_back(t_s - last);
     last = t_s;
     sampler.take(frame);
-    tick(s.frames + 1, reader.frames_stated());
+    tick(s.frames + 1, reader.frames_in_header());
   }
   if (s.frames == 0) throw Error(Errc::input, video.string(), "contains no readable frames");
   s.duration_s = last;

@@ -65,9 +65,9 @@ class Tracker {
   /// was limited: identities are then not reliable.
   bool crowded() const { return crowded_; }
   Motion motion() const { return motion_; }  ///< current model
-  std::uint64_t sure_tracks() const { return confirmed_; }
+  std::uint64_t confirmed_tracks() const { return confirmed_; }
   /// Number of tracks that ended with fewer than `least_points` points.
-  std::uint64_t uncertain_tracks() const { return dropped_; }
+  std::uint64_t discarded_tracks() const { return dropped_; }
 
  private:
   struct Live {

@@ -12,7 +12,7 @@ Background video_background(const std::filesystem::path& path, int most_frames,
   std::int64_t done = 0;
   for (double t_s = 0; reader.read(frame, t_s);) {
     sampler.take(frame);
-    if (progress) progress(++done, reader.frames_stated());
+    if (progress) progress(++done, reader.frames_in_header());
   }
   return sampler.background();
 }

@@ -65,7 +65,7 @@ GrayF quantile_over_time(const std::vector<GrayF>& frames, double quantile) {
 
 }  // namespace
 
-VideoGround read_video_ground(const std::filesystem::path& video, const VideoGroundOptions& o) {
+VideoBackground read_video_background(const std::filesystem::path& video, const VideoBackgroundOptions& o) {
   constexpr float kWhite = 255;
   GreyVideo frames(video, o.fps, o.side);
   BackgroundSampler sampler(kMostFrames);
@@ -80,8 +80,8 @@ VideoGround read_video_ground(const std::filesystem::path& video, const VideoGro
   }
   if (sampler.kept().empty())
     throw Error(Errc::input, video.string(), "the video has no frames in the requested time range");
-  VideoGround ground{quantile_over_time(sampler.kept(), o.share), changes.sd()};
-  const auto off = o.share == 0.5 ? 0.0F : float(normal_quantile(o.share) * ground.noise_sd);
+  VideoBackground ground{quantile_over_time(sampler.kept(), o.quantile), changes.sd()};
+  const auto off = o.quantile == 0.5 ? 0.0F : float(normal_quantile(o.share) * ground.noise_sd);
   for (float& grey : ground.light.px) grey = (grey - off) / kWhite;
   ground.noise_sd /= double(kWhite);
   return ground;

@@ -6,13 +6,13 @@
 
 namespace faba {
 
-/// Options of read_video_ground.
-struct VideoGroundOptions {
+/// Options of read_video_background.
+struct VideoBackgroundOptions {
   double fps = 0;  ///< frame rate override, see VideoReader
   int side = 1;    ///< frames are averaged over squares of `side` px
   /// Temporal quantile of each pixel that is used as background, corrected for noise: 0.5 is the median;
   /// larger if dark objects cover the pixel most of the time, smaller for bright objects.
-  double share = 0.5;
+  double quantile = 0.5;
   double from_s = 0, to_s = 1e300;     ///< time range of the frames used
   std::function<void()> tick = [] {};  ///< called after each frame
 };
@@ -21,6 +21,7 @@ struct VideoGroundOptions {
 /// spaced; the noise is the 68.3 % quantile of the absolute difference between consecutive frames over
 /// sqrt(2), which is insensitive to moving objects that cover a small part of the picture; 0 for a single
 /// frame. Throws Error(input, path) as VideoReader, and when there are no frames in the time range.
-VideoGround read_video_ground(const std::filesystem::path& video, const VideoGroundOptions& options = {});
+VideoBackground read_video_background(const std::filesystem::path& video,
+                                      const VideoBackgroundOptions& options = {});
 
 }  // namespace faba

@@ -93,7 +93,7 @@ void field_arrow(cv::Mat& m, const SwarmScene& s) {
 
 }  // namespace
 
-RgbImage draw_ground(const SwarmScene& s) {
+RgbImage draw_static_part(const SwarmScene& s) {
   RgbImage out(s.width, s.height);
   cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
   ground(m, s);

@@ -29,10 +29,10 @@ struct SwarmScene {
 };
 
 /// Draws the static part: background, drop with edge, route.
-RgbImage draw_ground(const SwarmScene& scene);
+RgbImage draw_static_part(const SwarmScene& scene);
 
 /// Draws the complete picture: cells, crosses, scale bar, time and field arrow on the result of
-/// draw_ground(). Deterministic. Throws nothing.
+/// draw_static_part(). Deterministic. Throws nothing.
 RgbImage draw_swarm(const SwarmScene& scene, const RgbImage& ground);
 
 }  // namespace faba

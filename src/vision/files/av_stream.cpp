@@ -295,7 +295,7 @@ bool AvStream::truncated() const { return impl_->truncated; }
 std::int64_t AvStream::damaged_frames() const { return impl_->damaged; }
 const std::string& AvStream::damage() const { return impl_->damage; }
 
-std::int64_t AvStream::frames_stated() const {
+std::int64_t AvStream::frames_in_header() const {
   if (impl_->still) return 1;
   const AVStream& stream = *impl_->stream;
   if (stream.nb_frames > 0) return stream.nb_frames;

@@ -24,7 +24,7 @@ class AvStream {
   int height() const;                               ///< px
   int bits() const;                                 ///< 8 or 16
   double fps() const;                               ///< 0 for a still image
-  std::int64_t frames_stated() const;               ///< 0 when not stated
+  std::int64_t frames_in_header() const;            ///< 0 when not stated
   bool read(GrayF& frame, double& t_s);             ///< see VideoReader::read
   bool read_colours(RgbImage& frame, double& t_s);  ///< see VideoReader::read_colours
   bool truncated() const;                           ///< see VideoReader::truncated

@@ -158,10 +158,10 @@ void FrameEncoder::Impl::check(const Image<Pixel>& picture, bool kind_fits) cons
 
 FrameEncoder::FrameEncoder(Kind kind, int width, int height, FrameRate rate, std::string where)
     : impl_(std::make_unique<Impl>(Impl{kind, width, height, rate, std::move(where)})) {
-  if (width < 1 || height < 1 || width > kLongestVideoSide || height > kLongestVideoSide) {
+  if (width < 1 || height < 1 || width > kMaxVideoSide || height > kMaxVideoSide) {
     impl_->fail("picture size " + std::to_string(width) + " x " + std::to_string(height) +
                 " px is out of range; width and height must be between 1 and " +
-                std::to_string(kLongestVideoSide) + " px");
+                std::to_string(kMaxVideoSide) + " px");
   }
   impl_->open();
 }

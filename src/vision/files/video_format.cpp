@@ -11,7 +11,7 @@ extern "C" {
 namespace faba {
 
 FrameRate frame_rate_near(double fps) {
-  if (!(fps >= kSlowestVideo && fps <= kFastestVideo)) {
+  if (!(fps >= kMinFrameRate && fps <= kMaxFrameRate)) {
     throw Error(Errc::internal, "",
                 std::to_string(fps) +
                     " frames per second is out of range; the frame rate must be between 0.001 and 10000");

@@ -20,8 +20,8 @@ struct FrameRate {
   int numerator = 25, denominator = 1;
 };
 
-inline constexpr int kLongestVideoSide = 16384;                      ///< px, limit of H.264
-inline constexpr double kSlowestVideo = 0.001, kFastestVideo = 1e4;  ///< frames per second
+inline constexpr int kMaxVideoSide = 16384;                          ///< px, limit of H.264
+inline constexpr double kMinFrameRate = 0.001, kMaxFrameRate = 1e4;  ///< frames per second
 
 /// Nearest fraction to `fps` with numerator and denominator up to 100 000 (15/1, 273/20 for 13.65, 2997/50
 /// for 59.94; 30000/1001 for 29.97003). Throws Error(Errc::internal) unless 0.001 <= fps <= 10 000.

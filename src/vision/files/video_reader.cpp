@@ -87,9 +87,9 @@ double VideoReader::fps() const {
   if (impl_->fps > 0 || impl_->sequence) return impl_->fps;
   return impl_->stack ? impl_->stack->fps() : impl_->stream->fps();
 }
-std::int64_t VideoReader::frames_stated() const {
+std::int64_t VideoReader::frames_in_header() const {
   if (impl_->sequence) return impl_->sequence->pictures();
-  return impl_->stack ? impl_->stack->pages() : impl_->stream->frames_stated();
+  return impl_->stack ? impl_->stack->pages() : impl_->stream->frames_in_header();
 }
 bool VideoReader::truncated() const {
   if (impl_->sequence) return false;

@@ -41,7 +41,7 @@ class VideoReader {
   /// still images, folders of pictures).
   double fps() const;
   /// Number of frames according to the file header, for progress bars only; 0 when unknown.
-  std::int64_t frames_stated() const;
+  std::int64_t frames_in_header() const;
 
   /// Reads the next frame into `frame` (resized as needed) and its presentation time in s. The first frame
   /// has time 0; times come from the time stamps of the file, so variable frame rates are supported. Without

@@ -117,7 +117,7 @@ double Foreground::smoothing_gain() const {
   return square;
 }
 
-void Foreground::know(const Background& background) {
+void Foreground::set_background(const Background& background) {
   constexpr double kMedianVariance = 1.5707963268;  // variance of a median over that of a mean
   background_ = background.level;
   background_noise_ = kMedianVariance / std::max(1, background.frames);
@@ -194,9 +194,10 @@ double Foreground::signal_of_one(std::vector<double> patches) const {
 
 void Foreground::count_cells() {
   const std::size_t w = std::size_t(weights_.width);
-  const auto weights_of = [&](const PatchRun& r) { return &weights_.px[std::size_t(r.row) * w]; };
-  std::vector<double> signal(std::size_t(find_patches(covered_, weights_.width, weights_.height, runs_)));
-  for (const PatchRun& r : runs_) {
+  const auto weights_of = [&](const ComponentRun& r) { return &weights_.px[std::size_t(r.row) * w]; };
+  std::vector<double> signal(
+      std::size_t(connected_components(covered_, weights_.width, weights_.height, runs_)));
+  for (const ComponentRun& r : runs_) {
     const float* v = weights_of(r);
     double sum = 0;
     for (int i = r.first; i < r.end; ++i) sum += double(v[i]);
@@ -211,7 +212,7 @@ void Foreground::count_cells() {
   for (std::size_t k = 0; k < signal.size(); ++k)
     if (const double cells = signal[k] / cell_signal_; cells < kMaxRounded)
       factor[k] = cells > 0.5 ? float(std::round(cells) / cells) : 0.0F;
-  for (const PatchRun& r : runs_)
+  for (const ComponentRun& r : runs_)
     if (const float by = factor[std::size_t(r.patch)]; by != 1)
       for (int i = r.first; i < r.end; ++i) weights_of(r)[i] *= by;
 }
@@ -328,7 +329,7 @@ SwarmMoments Foreground::moments() const {
   const double x0 = 0.5 * (weights_.width - 1), y0 = 0.5 * (weights_.height - 1);
   double x = 0, y = 0;
   Mat2 square;
-  for (const PatchRun& r : runs_) {
+  for (const ComponentRun& r : runs_) {
     const float* v = &weights_.px[std::size_t(r.row) * std::size_t(weights_.width)];
     double one = 0, first = 0, second = 0;
     for (int i = r.first; i < r.end; ++i) {

@@ -51,7 +51,7 @@ class Foreground {
   explicit Foreground(ForegroundOptions options = {});
 
   /// Sets a given background, for example of a complete video, and disables the background update.
-  void know(const Background& background);
+  void set_background(const Background& background);
 
   /// Processes a picture taken `dt_s` after the previous one (any value for the first). A change of size
   /// resets the model.
@@ -64,7 +64,7 @@ class Foreground {
   /// Difference from the background of each pixel, positive for cells; 0 outside of the foreground mask.
   const GrayF& weights() const { return weights_; }
   /// Runs of the foreground mask of the last picture with the number of their connected component.
-  const std::vector<PatchRun>& runs() const { return runs_; }
+  const std::vector<ComponentRun>& runs() const { return runs_; }
   /// Foreground mask: non-zero where cells are.
   const std::vector<std::uint8_t>& covered() const { return covered_; }
   void archive(Archive& a);
@@ -95,10 +95,10 @@ class Foreground {
   double recent_noise_ = 0;        ///< decaying maximum of the picture noise, grey
   double background_noise_ = 0;    ///< noise variance of the background relative to that of a picture
   std::uint64_t frames_ = 0;       ///< number of frames in the background
-  bool background_given_ = false;  ///< the background was set by know()
+  bool background_given_ = false;  ///< the background was set by set_background()
   GrayF background_, weights_, smooth_, picture_, scratch_;
   std::vector<std::uint8_t> covered_, work_;
-  std::vector<PatchRun> runs_;  ///< runs of the last picture
+  std::vector<ComponentRun> runs_;  ///< runs of the last picture
   /// State of the pixels that were covered in the first picture, whose background is a guess: whether they
   /// have changed, their smoothed difference at the last change, and the time since then, s.
   enum Guess : std::uint8_t { observed, guessed, changed };

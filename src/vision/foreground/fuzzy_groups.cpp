@@ -30,7 +30,7 @@ struct Sums {
   }
 };
 
-FuzzyGroup single_group(const std::vector<WeightedPlace>& places) {
+FuzzyGroup single_group(const std::vector<WeightedPosition>& places) {
   Sums s;
   for (const auto& p : places) s.add(p.at, p.weight);
   return {s.mean(), s.cov(), 1};
@@ -49,7 +49,7 @@ void compute_memberships(const std::vector<FuzzyGroup>& groups, Vec2 at, std::ve
 }
 
 // Iterates the centroids to convergence.
-void iterate_centroids(const std::vector<WeightedPlace>& places, std::vector<FuzzyGroup>& groups,
+void iterate_centroids(const std::vector<WeightedPosition>& places, std::vector<FuzzyGroup>& groups,
                        double spread2) {
   std::vector<double> u(groups.size());
   for (int round = 0; round < kMaxIterations; ++round) {
@@ -101,7 +101,7 @@ struct Validity {
 };
 
 // Validity with hard assignment of each position to its nearest group.
-Validity validity_of(const std::vector<WeightedPlace>& places, const std::vector<FuzzyGroup>& groups,
+Validity validity_of(const std::vector<WeightedPosition>& places, const std::vector<FuzzyGroup>& groups,
                      const FuzzyGroupOptions& o) {
   std::vector<Sums> hard_groups(groups.size());
   std::vector<double> u(groups.size());
@@ -142,7 +142,8 @@ std::vector<double> memberships(const std::vector<FuzzyGroup>& groups, Vec2 at) 
   return u;
 }
 
-std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPlace>& places, const FuzzyGroupOptions& o) {
+std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& places,
+                                     const FuzzyGroupOptions& o) {
   double total = 0;
   for (const auto& p : places) total += p.weight;
   if (!(total > 0)) return {};
@@ -168,7 +169,7 @@ std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPlace>& places, c
   return best;
 }
 
-std::vector<WeightedPlace> binned(const std::vector<WeightedPlace>& places, int cells) {
+std::vector<WeightedPosition> binned(const std::vector<WeightedPosition>& places, int cells) {
   if (places.empty()) return {};
   Vec2 low = places[0].at, high = low;
   for (const auto& p : places) {
@@ -185,7 +186,7 @@ std::vector<WeightedPlace> binned(const std::vector<WeightedPlace>& places, int 
   const auto index = [&](double v) { return std::size_t(std::clamp(int(v / side), 0, cells - 1)); };
   for (const auto& p : places)
     sums[index(p.at.y - low.y) * std::size_t(cells) + index(p.at.x - low.x)].add(p.at, p.weight);
-  std::vector<WeightedPlace> out;
+  std::vector<WeightedPosition> out;
   for (const Sums& s : sums)
     if (s.n > 0) out.push_back({s.mean(), s.n});
   return out;

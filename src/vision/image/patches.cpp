@@ -6,7 +6,8 @@
 
 namespace faba {
 
-int find_patches(const std::vector<std::uint8_t>& mask, int width, int height, std::vector<PatchRun>& runs) {
+int connected_components(const std::vector<std::uint8_t>& mask, int width, int height,
+                         std::vector<ComponentRun>& runs) {
   runs.clear();
   // Union-find forest: until the final numbering, `patch` is the index of an earlier run of the same
   // component, or of the run itself.

@@ -65,7 +65,7 @@ const Frame& checked_size(const Frame& frame) {
 }  // namespace
 
 Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circle& edge, double frame_period,
-                       std::uint64_t seed, const VideoGround* ground)
+                       std::uint64_t seed, const VideoBackground* ground)
     : params_(p),
       seed_(seed),
       exposure_time_(exposure_of(p, frame_period)),
@@ -78,7 +78,7 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
     constant_ = read * read;
   } else {
     if (!ground) throw Error(Errc::internal, "microscope.background", "the background video was not read");
-    VideoGround video = *ground;
+    VideoBackground video = *ground;
     if (video.light.width != frame.width || video.light.height != frame.height)
       throw Error(
           Errc::usage, "microscope.background",

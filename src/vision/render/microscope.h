@@ -29,7 +29,7 @@ class Microscope {
   /// than 2^28 px, the exposure is longer than the frame period, or the background differs in size from the
   /// view.
   Microscope(const MicroscopeParams& params, const Frame& frame, const Circle& edge, double frame_period,
-             std::uint64_t seed, const VideoGround* ground = nullptr);
+             std::uint64_t seed, const VideoBackground* ground = nullptr);
 
   /// Renders 8 bits: white is 255. `out` is resized.
   void render(const Exposure& e, Pool& pool, Gray8& out);

@@ -102,7 +102,7 @@ TEST_CASE("pictures of every format and lossless videos have the grey values of 
     CHECK(p.grey.height == 14);
     CHECK(p.grey.at(3, 4) == 30);
     VideoReader all(folder, 10);
-    CHECK(all.frames_stated() == 18);
+    CHECK(all.frames_in_header() == 18);
   }
   capture(std::make_shared<TestCamera>(20), into(f.path() / "film.avi", "avi"));
   VideoReader video(f.path() / "film.avi");

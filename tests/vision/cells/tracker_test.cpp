@@ -129,7 +129,7 @@ TEST_CASE("tracks start and end with their cells; single spots are not tracks") 
   CHECK(tracks[0].points.front().frame == 5);
   CHECK(tracks[0].points.back().frame == 29);
   CHECK(tracks[1].points.front().frame == 20);
-  CHECK(t.uncertain_tracks() >= 4);
+  CHECK(t.discarded_tracks() >= 4);
 }
 
 TEST_CASE("a thousand swimmers: nearly all links are correct; reach and motion model are estimated") {

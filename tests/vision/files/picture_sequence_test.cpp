@@ -60,7 +60,7 @@ TEST_CASE("a folder or a pattern is read as a video, in natural order, with time
   VideoReader reader(folder / "f*.pgm", 10);
   CHECK(reader.fps() == 10);
   CHECK(reader.width() == 9);
-  CHECK(reader.frames_stated() == 5);
+  CHECK(reader.frames_in_header() == 5);
   CHECK_FALSE(reader.truncated());
 }
 

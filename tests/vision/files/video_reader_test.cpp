@@ -136,7 +136,7 @@ TEST_CASE("a TIFF stack is read as a video; the frame rate may be unknown") {
     media::write_bytes(folder / "s.tif", media::tiff_file(pages));
     VideoReader reader(folder / "s.tif");
     CHECK(reader.fps() == (timed ? 4 : 0));
-    CHECK(reader.frames_stated() == 3);
+    CHECK(reader.frames_in_header() == 3);
     GrayF grey;
     double t_s = 0;
     for (int page = 0; page < 3; ++page) {

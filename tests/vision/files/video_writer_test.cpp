@@ -132,7 +132,7 @@ TEST_CASE("mp4 preserves frames, times and grey values") {
   CHECK(reader.width() == kWidth);
   CHECK(reader.height() == kHeight);
   CHECK(reader.bits() == 8);
-  CHECK(reader.frames_stated() == 40);
+  CHECK(reader.frames_in_header() == 40);
   CHECK(reader.fps() == 15);
   const Frames frames = read_all(folder / "v.mp4");
   REQUIRE(frames.grey.size() == 40);

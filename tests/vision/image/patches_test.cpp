@@ -38,7 +38,7 @@ std::vector<int> walked(const std::vector<std::uint8_t>& mask, int w, int h, int
 
 TEST_CASE("connected components match a flood fill for random masks") {
   std::mt19937 random(1);
-  std::vector<PatchRun> runs;
+  std::vector<ComponentRun> runs;
   for (const auto& [w, h] : {std::pair{1, 1}, {1, 40}, {40, 1}, {7, 9}, {64, 48}, {133, 71}})
     for (const double share : {0.0, 0.05, 0.3, 0.42, 0.6, 0.9, 1.0}) {
       INFO(w, " x ", h, ", covered ", share);
@@ -47,9 +47,9 @@ TEST_CASE("connected components match a flood fill for random masks") {
       for (auto& m : mask) m = covered(random) ? 1 : 0;
       int expected = 0;
       const std::vector<int> truth = walked(mask, w, h, expected);
-      CHECK(find_patches(mask, w, h, runs) == expected);
+      CHECK(connected_components(mask, w, h, runs) == expected);
       std::vector<int> found(mask.size(), -1);
-      for (const PatchRun& r : runs) {
+      for (const ComponentRun& r : runs) {
         REQUIRE(r.first < r.end);
         for (int i = r.first; i < r.end; ++i) found[std::size_t(r.row * w + i)] = r.patch;
       }

@@ -339,7 +339,7 @@ TEST_CASE("background and noise from a video") {
   p.background = (folder / "real.avi").string();
   Frame frame = view(160, 90);
   const GrayF truth = Microscope(v.microscope, frame, {}, 1 / v.fps, v.seed).ground();
-  const VideoGround ground = read_video_ground(p.background);
+  const VideoBackground ground = read_video_background(p.background);
   const Microscope m(p, frame, {}, 1 / v.fps, 2, &ground);
   double worst = 0;
   for (std::size_t i = 0; i < truth.px.size(); ++i)
@@ -353,7 +353,7 @@ TEST_CASE("background and noise from a video") {
   Gray8 still_picture(160, 90, 100);
   write_png(folder / "one.png", still_picture);
   p.background = (folder / "one.png").string();
-  const VideoGround still_ground = read_video_ground(p.background);
+  const VideoBackground still_ground = read_video_background(p.background);
   const Microscope one(p, frame, {}, 0.1, 1, &still_ground);
   CHECK(double(one.ground().at(80, 40)) == doctest::Approx(100.0 / 255));
   CHECK(one.noise_sd(0.5) == 0);
@@ -362,7 +362,7 @@ TEST_CASE("background and noise from a video") {
   frame.width = 161;
   CHECK_THROWS_AS(Microscope(p, frame, {}, 0.1, 1, &ground), Error);
   p.background = (folder / "none.avi").string();
-  CHECK_THROWS_AS(read_video_ground(folder / "none.avi"), Error);
+  CHECK_THROWS_AS(read_video_background(folder / "none.avi"), Error);
   CHECK_THROWS_AS(Microscope(p, view(160, 90), {}, 0.1, 1), Error);  // background was not read
 }
 

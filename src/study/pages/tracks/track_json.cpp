@@ -121,7 +121,7 @@ Json joining_of(const TrackJoining& t) {
           {"motion", word_of(t.motion)},
           {"memory_frames", t.memory_frames},
           {"least_points", t.least_points},
-          {"uncertain_tracks", t.uncertain_tracks}};
+          {"discarded_tracks", t.discarded_tracks}};
 }
 
 Json supported_of(const TrackSummary& s) {

@@ -116,7 +116,7 @@ std::string table(const TrackMeasurement& m) {
   out += row(
       "Linking",
       fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
-                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.uncertain_tracks,
+                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.discarded_tracks,
                   t.least_points));
   out += row("Drift", drift(m));
   out += row("Diffusion", diffusion(m));

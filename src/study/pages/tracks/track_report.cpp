@@ -32,7 +32,7 @@ class Overlay {
         survey_(s),
         writer_(part(), path_.extension() == ".avi" ? VideoFormat::lossless_avi : VideoFormat::mp4,
                 s.first.width, s.first.height,
-                std::clamp(s.timed ? 1 / s.frame_s : 25.0, kSlowestVideo, kFastestVideo)),
+                std::clamp(s.timed ? 1 / s.frame_s : 25.0, kMinFrameRate, kMaxFrameRate)),
         tail_px_(std::max(10.0, std::sqrt(double(s.first.width) * s.first.height /
                                           double(std::max<std::int64_t>(1, s.spots))))) {}
   ~Overlay() {
