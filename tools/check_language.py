@@ -98,6 +98,7 @@ def plain(line):
 def findings(line):
     """(text, what to say instead) of each word in a line that is not used."""
     seen = {}
+    line = re.sub(r"\bis None\b", "", line)  # Python
     for text in (re.sub(r"\s+", " ", line.lower()), plain(line)):
         for m in PATTERN.finditer(text):
             seen[m.group().strip()] = INSTEAD[int(m.lastgroup[1:])]

@@ -99,7 +99,7 @@ def histograms(lab, found):
         f"mean distance {mean:.2f}; between two runs of one scenario {a['floor']:.2f}; to a video without motion {a['naive']:.2f}"
     )
     found.within(
-        "Mean distance", mean, None, a["naive"], "smaller than the distance to a video without motion, so the simulation has predictive value"
+        "Mean distance", mean, None, a["naive"], "smaller than the distance to a video without motion: the simulation is informative"
     )
     found.within(
         "Floor", a["floor"], None, a["naive"], "two runs of one scenario are closer to each other than to a video without motion"

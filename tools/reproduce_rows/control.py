@@ -260,7 +260,7 @@ def distance(lab, found):
         " other possible reading, Basic is faster. In both cases Basic stays closer to the setpoint."
     )
     found.show(
-        both("Distance to the setpoint", "distance (px)", "distance_px", runs, "Field in the direction of the setpoint; means of ten seeds."),
+        both("Distance to the setpoint", "distance (px)", "distance_px", runs, "Field towards the setpoint; means of ten seeds."),
         both("Distance, one command per axis", "distance (px)", "distance_px", signs, "direction = axis-sign; means of ten seeds."),
     )
 

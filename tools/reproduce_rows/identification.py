@@ -288,7 +288,7 @@ def best_parameter(model):
             f"`faba identify` {p['median']:.2f} [{low:.2f}, {high:.2f}] (90 %)"
         )
         found.within(
-            "True value, in the 90 % interval of `faba identify`", float(TRUTH[model]), low, high, "ground truth, which the study does not use"
+            "True value; accepted: 90 % interval of `faba identify`", float(TRUTH[model]), low, high, "ground truth, unknown to the study"
         )
         found.within(
             "Width of that interval divided by the true value",

@@ -46,6 +46,6 @@ def response_frames(lab, found):
     moved = s["true_centroid_x_px"][-1] - s["true_centroid_x_px"][0]
     found.value = f"frames from 0 to {s['t_s'][-1]:.2f} s; {100 * visible:.0f} % of the cells are in view at the end"
     found.about("Time of the last frame", float(s["t_s"][-1]), 4.16, 1 / 15, "time of the last frame of the figure, within one frame", "s")
-    found.within("Fraction of the swarm in view at the end", float(visible), None, 0.5, "more than half of the cells leave the field of view")
+    found.within("Fraction of the cells in view at the end", float(visible), None, 0.5, "at least half of the cells leave the field of view")
     found.within("Displacement of the centroid to the right", float(moved), 0, None, "the swarm moves away from the edge", "px")
     found.show(frames(step, "Step response in camera frames"))
