@@ -139,7 +139,7 @@ def row(x):
                      f"| {x['best']} | {x['evidence']} |")
     if "legacy" not in x:
         return found + " |"
-    return found + f" {100 * (x['legacy'] / x['value'] - 1):+.0f} %{' (not significant)' if x['legacy_means_nothing'] else ''} |"
+    return found + f" {100 * (x['legacy'] / x['value'] - 1):+.0f} %{' (unreliable)' if x['legacy_means_nothing'] else ''} |"
 
 
 def reduced(o):
@@ -208,7 +208,7 @@ def main():
         errors = [abs(x["found"] / x["value"] - 1) for x in good if x["model"] == m]
         if errors:
             verdict.append(f"- error for {m}: median {100 * statistics.median(errors):.1f} %, maximum {100 * max(errors):.0f} %")
-    verdict.append(f"- median error of the rule of the thesis: {100 * legacy:.0f} %; the program reports its result as not significant for "
+    verdict.append(f"- median error of the rule of the thesis: {100 * legacy:.0f} %; the program reports its result as unreliable for "
                    f"{sum(x['legacy_means_nothing'] for x in good)} of {len(good)} experiments")
     print("\n" + "\n".join(verdict))
     o.out.mkdir(parents=True, exist_ok=True)

@@ -78,6 +78,10 @@ ALLOWED = [
     ("CHANGELOG.md", r"`(drive|foretold|foretold90|fingerprint|rested|rests|share_of_range)`"),
     ("src/study/sweep/study_directory.cpp", r'"fingerprint"'),
     ("src/study/identify/identify_study.cpp", r'"drive"'),
+    # Measured with an earlier version of the scripts in bench/; the next measurement replaces these lines.
+    ("bench/results/agents.md", r"unless said"),
+    ("bench/results/loop.md", r"stood still"),
+    ("bench/results/recovery.md", r"is said to"),
 ]
 # The files that are checked: sources, tests, tools, pages and documentation.
 PLACES = ("*.md", "docs", "src", "tests", "tools", "bench", "web/src", "web/tests", "scenes", "rigs", "studies", "firmware",
