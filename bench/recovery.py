@@ -64,7 +64,7 @@ def scene(t):
         model = f'{{ type = "dipole", speed = "{t["value"]} um/s", speed_sd = "{0.2 * t["value"]:.3f} um/s" }}'
     x, y = drop_centre(t)
     lines = [f'duration = "{FIRST_S + SEGMENTS * SEGMENT_S} s"', f'exposure = "{t["exposure"]} s"', 'motility = "thesis"',
-             f"[scale]\num_per_px = {UM_PER_PX}", f'[camera]\nrate = "15 Hz"',
+             f"[scale]\num_per_px = {UM_PER_PX}", '[camera]\nrate = "15 Hz"',
              f'[microscope]\ncell_diameter = "2.5 um"\nnoise = {t["noise"]}\ncontrast = {t["contrast"]}',
              f'[arena]\ntype = "drop"\nview_px = [{WIDTH}, {HEIGHT}]\nradius_px = {t["radius"]}\ncentre_px = [{x}, {y}]',
              f'[[swarm]]\ncount = {t["cells"]}\nmodel = {model}',
