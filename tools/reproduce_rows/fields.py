@@ -11,7 +11,7 @@ TWO, FOUR = "rigs/thesis-two-coils.toml", "rigs/thesis-four-coils.toml"
 MU0 = 1.25663706127e-6
 # Reference coil system: values computed with 30 digits and rounded to the digits given; the tolerance is half of the last digit.
 PER_COIL_MT = 0.2966  # mT/A of one coil at the centre
-CUSP = (-0.0388, 0.0194)  # T/m, opposite currents of 0.5 A
+CUSP = (-0.0388, 0.0194)  # T/m, opposing fields, 0.5 A
 NULL_MM = 0.852  # distance of the zero from the middle, currents in the ratio 1.25 to 1
 
 
@@ -54,7 +54,7 @@ def concurring(lab, found):
     )
     found.show(
         plot.picture(
-            "Currents in the same sense",
+            "Fields in the same direction",
             step.folder / "field.png",
             "6 × 4.5 mm between the two coils; the coils are outside the picture on the left and on the right.",
             True,
@@ -77,7 +77,7 @@ def opposed(lab, found):
     found.about("Gradient across the axis", high, CUSP[1], 0.5e-4, "minus half of the gradient along the axis", "T/m")
     found.show(
         plot.picture(
-            "Opposite currents",
+            "Opposing fields",
             step.folder / "field.png",
             "The field points to the zero from the left and from the right, and away from it upwards and downwards.",
             True,
@@ -90,7 +90,7 @@ def computed(lab, found):
     four = field_map(lab, "coils-four", FOUR, "--current", "0.5,0.5,0.5,0.5", "--size", "130 mm, 130 mm")
     zeros = step.answer["zeros"]
     x = 1e3 * abs(zeros[0]["at_m"][0]) if zeros else math.nan
-    found.value = f"opposite currents of 0.5 A and 0.4 A: the zero is {x:.3f} mm from the middle"
+    found.value = f"opposing fields, currents of 0.5 A and 0.4 A: the zero is {x:.3f} mm from the middle"
     found.about(
         "Distance of the zero from the middle",
         x,
@@ -102,7 +102,7 @@ def computed(lab, found):
     found.show(
         plot.picture("Two coils, 0.5 A and 0.4 A", step.folder / "field.png", "The zero is displaced towards the weaker coil."),
         plot.picture(
-            "Four coils, 0.5 A each, field inwards",
+            "Four coils, 0.5 A each, fields inwards",
             four.folder / "field.png",
             "130 × 130 mm: with four coils the zero in the middle is a trap in the plane.",
         ),

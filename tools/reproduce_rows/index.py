@@ -32,9 +32,9 @@ ROWS = [
         "one unit along y", SAME,
         "All four rules hold. The tilt by the Earth's field and the fraction of cells that do not respond agree with the rules.",
         models.adapted, 6),
-    Row("Fig 3.11", "Field of two coils with currents in the same sense", "Field lines cross the sample in one direction", SAME,
+    Row("Fig 3.11", "Two coils with fields in the same direction", "Field lines cross the sample in one direction", SAME,
         "The field has the same direction everywhere in the sample.", fields.concurring),
-    Row("Fig 3.12", "Field of two coils with opposite currents", "A zero of the field between the coils, where a swarm should gather",
+    Row("Fig 3.12", "Two coils with opposing fields", "A zero of the field between the coils, where a swarm should gather",
         CORRECTED,
         "The zero exists, but it is a saddle point. The divergence and the curl of the field are zero, so a field that pulls cells in along"
         " the axis of the coils pushes them out across it. Two coils cannot gather a swarm.",
