@@ -28,8 +28,8 @@ OCTAVE = ["octave-cli", "--norc", "--no-history", "--quiet"]
 def arguments():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--quick", action="store_true", help="up to 1e5 agents, less than a minute")
-    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_agents")
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_agents", help="default build/bench/bench_agents")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     return p.parse_args()
 
 

@@ -41,8 +41,8 @@ def solenoid(rho, z):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_coils")
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_coils", help="default build/bench/bench_coils")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         raw = pathlib.Path(folder) / "points"

@@ -23,9 +23,9 @@ FRACTION, CUTOFF_S = 17 / 20, 60
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_exposure")
-    p.add_argument("--seeds", type=int, default=20)
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_exposure", help="default build/bench/bench_exposure")
+    p.add_argument("--seeds", type=int, default=20, help="number of seeds, default 20")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     rows = []
     with subprocess.Popen([str(o.program), str(SCENE), str(o.seeds)], stdout=subprocess.PIPE, text=True) as work:

@@ -110,10 +110,10 @@ def played(program, folder, file, size, estimator, fast):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba")
-    p.add_argument("--seconds", type=int, default=30)
-    p.add_argument("--seeds", type=int, default=5)
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba", help="the program, default build/faba")
+    p.add_argument("--seconds", type=int, default=30, help="duration of the latency measurement, default 30 s")
+    p.add_argument("--seeds", type=int, default=5, help="number of seeds, default 5")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     program = o.program.resolve()
     wrong = []

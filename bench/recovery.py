@@ -161,14 +161,14 @@ def keep(rows, o):
 
 
 def main():
-    a = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba")
-    a.add_argument("--experiments", type=int, default=40)
-    a.add_argument("--simulations", type=int, default=300)
-    a.add_argument("--seed", type=int, default=1)
-    a.add_argument("--keep", type=pathlib.Path, default=HERE.parent / "build/recovery")
-    a.add_argument("--out", type=pathlib.Path, default=HERE / "results")
-    a.add_argument("--reduced", action="store_true")
+    a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba", help="the program, default build/faba")
+    a.add_argument("--experiments", type=int, default=40, help="number of experiments, default 40")
+    a.add_argument("--simulations", type=int, default=300, help="number of simulations per model, default 300")
+    a.add_argument("--seed", type=int, default=1, help="seed of the random parameters, default 1")
+    a.add_argument("--keep", type=pathlib.Path, default=HERE.parent / "build/recovery", help="folder of the experiments")
+    a.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
+    a.add_argument("--reduced", action="store_true", help="two experiments, for the test suite")
     o = a.parse_args()
     o.program, o.keep, o.models = o.program.resolve(), o.keep.resolve(), MODELS
     if o.reduced:

@@ -93,11 +93,11 @@ def line(j):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba")
-    p.add_argument("--drops", type=int, default=4)
-    p.add_argument("--repeat", type=int, default=18)
-    p.add_argument("--every", type=float, default=40)
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba", help="the program, default build/faba")
+    p.add_argument("--drops", type=int, default=4, help="number of drops, default 4")
+    p.add_argument("--repeat", type=int, default=18, help="number of step responses per drop, default 18")
+    p.add_argument("--every", type=float, default=40, help="time between step responses, default 40 s")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     program = o.program.resolve()
     with tempfile.TemporaryDirectory() as name:

@@ -74,9 +74,9 @@ def timed(o, folder, look, legacy=False):
 
 def main():
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba")
-    a.add_argument("--simulations", type=int, default=2000)
-    a.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba", help="the program, default build/faba")
+    a.add_argument("--simulations", type=int, default=2000, help="number of simulations, default 2000")
+    a.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = a.parse_args()
     o.program = o.program.resolve()
     with tempfile.TemporaryDirectory() as name:

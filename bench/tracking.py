@@ -123,10 +123,10 @@ def speed_error(program, folder, cells, noise, seed):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba")
-    p.add_argument("--seeds", type=int, default=3)
-    p.add_argument("--noise", type=float, nargs="+", default=NOISE)
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba", help="the program, default build/faba")
+    p.add_argument("--seeds", type=int, default=3, help="number of seeds, default 3")
+    p.add_argument("--noise", type=float, nargs="+", default=NOISE, help="noise levels in grey levels of 255, default 1 2 3")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     met = True
 

@@ -31,8 +31,8 @@ DISTANCE_GOALS = {3: 6, 20: 12}
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_video")
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_video", help="default build/bench/bench_video")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     done = subprocess.run([str(o.program)], capture_output=True, text=True)
     rows = [json.loads(line) for line in done.stdout.splitlines()]

@@ -112,9 +112,9 @@ def misused(root, names):
 
 
 def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("--program", required=True)
-    options.add_argument("--root", type=pathlib.Path, required=True)
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--program", required=True, help="the program, for example build/faba")
+    options.add_argument("--root", type=pathlib.Path, required=True, help="folder of the project")
     o = options.parse_args()
     names = part_names(o.program)
     wrong = list(misused(o.root, names))
