@@ -44,10 +44,10 @@ TEST_CASE("schema series lists the columns that a run writes") {
     written.erase(at, written.find(',', at) + 1 - at);
   CHECK(header == written);
 
-  const Called words = faba_in(f.path, "schema series");
-  CHECK(words.exit == 0);
-  CHECK(std::count(words.out.begin(), words.out.end(), '\n') == std::ptrdiff_t(columns.size()));
-  CHECK(words.out.find("current_K_a") != std::string::npos);
+  const Called text = faba_in(f.path, "schema series");
+  CHECK(text.exit == 0);
+  CHECK(std::count(text.out.begin(), text.out.end(), '\n') == std::ptrdiff_t(columns.size()));
+  CHECK(text.out.find("current_K_a") != std::string::npos);
 }
 
 TEST_CASE("help is also a verb, and the next command printed by run works") {

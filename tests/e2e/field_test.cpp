@@ -129,7 +129,7 @@ TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
     const char* what;
     std::string rig, points;
     int exit;
-    const char* says;
+    const char* message;
   };
   for (const Bad& b :
        {Bad{"no coil", "[earth]\nfield = [0, 0, 0]\n", "", 2, "has no [[coil]]"},
@@ -150,7 +150,7 @@ TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
     INFO(b.what, ": ", c.err);
     CHECK(c.exit == b.exit);
     CHECK(one_clear_line(c.err));
-    CHECK(c.err.find(b.says) != std::string::npos);
+    CHECK(c.err.find(b.message) != std::string::npos);
     CHECK(c.out.empty());
   }
   CHECK(faba_in(f.path, "field at missing.toml --points ok.csv").exit == 2);
@@ -180,7 +180,7 @@ TEST_CASE("a scenario reads a coil system from a file, and the run stores its co
 
   struct Bad {
     const char* field;
-    const char* says;
+    const char* message;
   };
   for (const Bad& b :
        {Bad{"file = 'none.toml'", "there is no none.toml"}, Bad{"file = 3", "in quotes"},
@@ -193,7 +193,7 @@ TEST_CASE("a scenario reads a coil system from a file, and the run stores its co
     INFO(b.field, ": ", refused.err);
     CHECK(refused.exit == 2);
     CHECK(one_clear_line(refused.err));
-    CHECK(refused.err.find(b.says) != std::string::npos);
+    CHECK(refused.err.find(b.message) != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(f.path / "bad"));
   }
 }

@@ -15,7 +15,7 @@ namespace {
 struct Bad {
   const char* what;
   std::string scene;
-  const char* says;
+  const char* message;
 };
 
 }  // namespace
@@ -69,7 +69,7 @@ TEST_CASE("invalid scenarios: exit 2, one line with file, line, path and reason,
     INFO(b.what, ": ", c.err.substr(0, 400));
     CHECK(c.exit == 2);
     CHECK(one_clear_line(c.err));
-    CHECK(c.err.find(b.says) != std::string::npos);
+    CHECK(c.err.find(b.message) != std::string::npos);
     CHECK(c.out.empty());
     CHECK_FALSE(std::filesystem::exists(f.path / "out"));
   }
@@ -215,7 +215,7 @@ TEST_CASE("valid but probably unintended settings give a note of one line each")
   const TestFolder f;
   struct Odd {
     const char* set;
-    const char* says;
+    const char* message;
   };
   write_file(f.path / "s.toml", "duration = '0.5 s'\n[[swarm]]\ncount = 5\n[[swarm]]\ncount = 9\n");
   for (const Odd& o :
@@ -229,8 +229,8 @@ TEST_CASE("valid but probably unintended settings give a note of one line each")
     const Called c = faba_in(f.path, run);
     INFO(o.set, ": ", c.err);
     CHECK(c.exit == 0);
-    CHECK(c.err.find(o.says) != std::string::npos);
-    CHECK(c.err.empty() == std::string(o.says).empty());
+    CHECK(c.err.find(o.message) != std::string::npos);
+    CHECK(c.err.empty() == std::string(o.message).empty());
     CHECK(faba_in(f.path, run + " --quiet").err.empty());
   }
 }

@@ -26,11 +26,11 @@ void film(const std::filesystem::path& folder) {
 TEST_CASE("track: text and JSON output, files, and refused input") {
   const test::TemporaryFolder folder("track");
   film(folder.path() / "film");
-  const Called words =
+  const Called text =
       faba_in(folder.path(), "track film --fps 15 --um-per-px 0.5 --out t.csv --report t.html");
-  CHECK(words.exit == 0);
-  CHECK(words.out.find("um/s") != std::string::npos);
-  CHECK(words.out.find("t.csv") != std::string::npos);
+  CHECK(text.exit == 0);
+  CHECK(text.out.find("um/s") != std::string::npos);
+  CHECK(text.out.find("t.csv") != std::string::npos);
   CHECK(std::filesystem::exists(folder.path() / "t.html"));
 
   const Called json = faba_in(folder.path(), "track 'film/f%d.pgm' --fps 15 --json");
