@@ -1,30 +1,30 @@
-# Two commands do everything: `make run` and `make test`. Both set the machine up first where something is missing.
+# Start with `make run` and `make test`. Both install missing packages first.
 SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
 .PHONY: run lab page test setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
-run: build            ## build the program and run the main job: a swarm steered along a route
+run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
 
 lab: build            ## open the live lab in a browser: watch, steer and record a swarm
 	@build/faba lab $(SCENE)
 
-test:                 ## build and run every test
+test:                 ## build and run all tests
 	@$(SETUP) test
 	@cmake --preset release --log-level=WARNING > /dev/null
 	@cmake --build build -j $(JOBS)
 	@ctest --test-dir build --no-tests=error --output-on-failure -j $(JOBS)
 
-setup:                ## install what building needs (apt; with sudo when not root)
+setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)
 
 build: setup          ## build the program: build/faba
 	@cmake --preset release --log-level=WARNING -DBUILD_TESTING=OFF > /dev/null
 	@cmake --build build -j $(JOBS) --target faba
 
-bench: build          ## measure speed beside NumPy, Octave and the machine's limits; table in bench/results/
+bench: build          ## measure speed and compare it with NumPy, Octave and hardware limits; tables in bench/results/
 	@$(SETUP) test bench
 	@tools/page.sh install
 	@cmake --build build -j $(JOBS) --target bench_agents bench_coils bench_video
@@ -35,7 +35,7 @@ bench: build          ## measure speed beside NumPy, Octave and the machine's li
 	@/usr/bin/python3 bench/loop.py
 	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md
 
-accuracy: build       ## render studies with known truth and see whether it is found; SEEDS=20 EXPERIMENTS=40 takes two hours
+accuracy: build       ## test measurements on rendered videos with known ground truth; with SEEDS=20 EXPERIMENTS=40: two hours
 	@$(SETUP) test bench
 	@cmake --build build -j $(JOBS) --target bench_exposure
 	@/usr/bin/python3 bench/tracking.py
@@ -46,35 +46,35 @@ reproduce: build      ## reproduce the results of the 2016 thesis: runs/reproduc
 	@$(SETUP) test
 	@/usr/bin/python3 tools/reproduce.py
 
-format:               ## clang-format every source
+format:               ## format all C++ sources with clang-format
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
 
-lint:                 ## clang-format and clang-tidy as checks
+lint:                 ## check the sources with clang-format and clang-tidy
 	@$(SETUP) lint
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
 	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF -DFABA_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 	@git ls-files 'src/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p build/lint
 
-asan tsan dev: setup  ## build and run the tests under sanitizers, or without any optimisation
+asan tsan dev: setup  ## build and run the tests under sanitizers (asan, tsan) or without optimisation (dev)
 	@$(SETUP) test
 	@cmake --preset $@ --log-level=WARNING > /dev/null
 	@cmake --build build/$@ -j $(JOBS)
 	@ctest --test-dir build/$@ --no-tests=error --output-on-failure -j $(JOBS)
 
-fuzz: setup           ## fuzz the scenario loader, the lab's messages and the coil board's line for a minute each (SECONDS_TO_FUZZ=600 for longer)
+fuzz: setup           ## fuzz the scenario loader, the messages of the live lab and the serial line of the coil board, a minute each (SECONDS_TO_FUZZ=600: ten minutes)
 	@$(SETUP) fuzz
 	@tests/fuzz/run.sh $(or $(SECONDS_TO_FUZZ),60)
 
-page:                 ## build the lab's page from web/src into web/dist (needs Node 18 or newer)
+page:                 ## build the page of the live lab from web/src into web/dist (needs Node 18 or newer)
 	@$(SETUP) test
 	@tools/page.sh build
 
-docs: build           ## regenerate docs/reference from the parts' own descriptions, and the README's picture
+docs: build           ## regenerate docs/reference from the program, and the picture of README.md
 	@$(SETUP) docs
 	@/usr/bin/python3 tools/make_docs.py --picture
 
-clean:                ## remove the build; runs/ stays
+clean:                ## delete build/; runs/ is kept
 	@rm -rf build
 
-help:                 ## this list
+help:                 ## list the targets
 	@grep -E '^[a-z ]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 14

@@ -1,5 +1,5 @@
-// Nanoseconds per agent-step of the three models beside the machine's limits and a sequential program, as
-// JSON lines: what agents.py makes its table of. `bench_agents [--quick]`.
+// Measures ns per agent-step of the three models, of the limits of the machine and of a sequential program.
+// Prints JSON lines for agents.py. `bench_agents [--quick]`.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Effort {
   int least = 9;         ///< repeats
 };
 
-// Enough work for the clock, few enough steps that nobody crosses the box.
+// Enough steps for the resolution of the clock, few enough that no cell crosses the box.
 int steps(std::size_t agents) { return agents >= 1000000 ? 8 : agents >= 100000 ? 24 : 48; }
 
 bool all_ok = true;
@@ -48,7 +48,7 @@ Json verdict(const std::vector<Check>& all) {
   return j;
 }
 
-// The peers in other languages are given the very numbers that the models run on.
+// The parameters of the models, for the programs in other languages.
 Json description() {
   Json sizes = Json::array();
   for (const std::size_t n : Effort{}.agents) sizes.push_back({n, box(n).width, box(n).height});
@@ -128,7 +128,7 @@ class Group {
       s.restore();
       s.advance(kCycle);
     };
-    // Same bits for any number of threads: the swarm before has the same parts, but one thread.
+    // The state must be identical for any number of threads. The previous swarm is the same with one thread.
     const Swarm* alone = s.scene().threads == 2 ? swarms_[head_.size() - 1].get() : nullptr;
     const auto check = [&s, alone] {
       auto all = checks(s);
@@ -157,11 +157,11 @@ class Group {
         square += b.vx * b.vx / double(agents_);
       }
       const double variance = kBasicNoise * (kBasicNoise + 1) / 3.0;
-      // the fourth moment of a discrete uniform law is at most 1.8 variance^2
+      // The fourth moment of a discrete uniform distribution is at most 1.8 variance^2.
       return std::vector<Check>{
           {"mean vx", mean, -kDrift.x, 5 * std::sqrt(variance / double(agents_))},
           {"var vx", square - mean * mean, variance, 5 * variance * std::sqrt(0.8 / double(agents_))},
-          {"grid cells held", double(peer_->occupied()), double(agents_), 0}};
+          {"occupied sites", double(peer_->occupied()), double(agents_), 0}};
     };
     put(
         {{"kind", "sequential"}, {"order", "published"}, {"threads", 1}},

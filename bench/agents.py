@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""How fast the simulation is: ns per agent-step of its three models beside this machine's limits and beside the same
-step in plain NumPy, in vectorised Octave, in a plain sequential C++ program and in the thesis's own design, one after
-the other in one call. Prints the table and a verdict on every goal; keeps both in bench/results/.
+"""Measures the speed of the simulation: ns per agent-step of the three models, compared with the limits of this machine and with
+the same step in NumPy, vectorised Octave, a sequential C++ program and the design of the thesis. All programs run in one call, one
+after the other. Prints tables and a verdict for every goal, and writes them to bench/results/.
 
     bench/agents.py [--quick] [--program build/bench/bench_agents] [--out bench/results]
 
---quick: up to 1e5 agents, under a minute, kept as agents-quick. Exits 1 when an answer was wrong, not when it was slow.
+--quick: up to 1e5 agents, less than a minute, written as agents-quick. Exit status 1 if a result is wrong; slow results do not fail.
 """
 
 import argparse
@@ -27,20 +27,20 @@ OCTAVE = ["octave-cli", "--norc", "--no-history", "--quiet"]
 
 def arguments():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--quick", action="store_true", help="up to 1e5 agents, under a minute")
-    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_agents")
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--quick", action="store_true", help="up to 1e5 agents, less than a minute")
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/bench/bench_agents", help="default build/bench/bench_agents")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     return p.parse_args()
 
 
 class Measurements:
-    """The JSON lines of all programs; the first one of all describes the scene."""
+    """The JSON lines of all programs; the first line describes the scene."""
 
     def __init__(self):
         self.rows, self.scene, self.failed = [], {}, []
 
     def run(self, what, command):
-        """Adds what a program prints. A program that fails is an error, answers that are wrong are kept in mind."""
+        """Runs a program and adds its lines. Wrong results are collected in `failed`; exits if a program fails otherwise."""
         print(f"  {what} ...", end="", file=sys.stderr, flush=True)
         start = time.monotonic()
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -54,20 +54,20 @@ class Measurements:
             for c in row.get("checks", []):
                 if not c["ok"]:
                     case = " ".join(str(row.get(k, "")) for k in ("kind", "model", "agents", "order", "threads"))
-                    self.failed.append(f"{case}: {c['what']} is {c['value']:.6g}, not {c['expected']:.6g} "
+                    self.failed.append(f"{case}: {c['what']}: {c['value']:.6g}; expected {c['expected']:.6g} "
                                        f"+- {c['tolerance']:.2g}")
         if done.returncode != 0 and not self.failed:
             sys.exit(f"agents.py: {what} failed:\n{done.stderr}")
 
     def ns(self, kind, **case):
-        """Median ns of the one row that fits, None when it was not measured."""
+        """Median ns of the row with these values, None if it was not measured."""
         for r in self.rows:
             if r["kind"] == kind and all(r.get(k) == v for k, v in case.items()):
                 return r["ns"]
         return None
 
     def limit(self, model, agents, threads=1):
-        """What the draws and the traffic of one agent-step take at least, ns."""
+        """Lower limit of the time of one agent-step, ns: its random numbers, elementary functions and memory traffic."""
         part = {what: self.ns("limit", what=what, model=model, agents=agents, threads=threads)
                 for what in ("philox", "sincos", "log", "traffic")}
         if model == "dipole":  # two Box-Muller pairs from one block
@@ -81,9 +81,9 @@ class Measurements:
 def measure(options):
     m = Measurements()
     if not options.program.exists():
-        sys.exit(f"agents.py: {options.program} is not there; `make bench` builds it, or name it with --program")
+        sys.exit(f"agents.py: program not found: {options.program}; build it with `make bench` or give its path with --program")
     quick = options.quick
-    m.run("faba, the machine's limits, sequential C++", [options.program] + ["--quick"] * quick)
+    m.run("faba, limits of the machine, sequential C++", [options.program] + ["--quick"] * quick)
     sizes = [str(n) for n in m.sizes()]
     scene, seconds = json.dumps(m.scene), "0.1" if quick else "0.4"
     m.run("NumPy", [sys.executable, HERE / "peers/numpy_agents.py", scene, seconds, *sizes])
@@ -92,7 +92,7 @@ def measure(options):
         m.run("Octave, one object per bacterium",
               OCTAVE + [HERE / "peers/thesis_objects.m", scene, "2" if quick else "6", "1000", "10000"])
     else:
-        print("  Octave is not there (tools/setup.sh bench installs it): left out", file=sys.stderr)
+        print("  Octave not found (tools/setup.sh bench installs it): skipped", file=sys.stderr)
     return m
 
 
@@ -110,7 +110,7 @@ def first_line(command):
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[0].strip()
     except (OSError, subprocess.CalledProcessError, IndexError):
-        return "not there"
+        return "not found"
 
 
 def provenance(m, options, load):
@@ -132,7 +132,7 @@ def provenance(m, options, load):
 
 
 def number(v, digits=3):
-    """Three significant digits without an exponent, a dash for nothing."""
+    """Three significant digits without an exponent; "-" for None."""
     if v is None:
         return "-"
     if v >= 10 ** (digits - 1):
@@ -149,7 +149,7 @@ def times(v):
 
 
 def table(head, rows):
-    """Markdown that is also aligned for a terminal."""
+    """A Markdown table with aligned columns."""
     width = [max(len(r[i]) for r in [head] + rows) for i in range(len(head))]
     line = lambda cells: "| " + " | ".join(c.rjust(w) for c, w in zip(cells, width)) + " |"
     return "\n".join([line(head), "|" + "|".join("-" * (w + 1) + ":" for w in width) + "|"] + [line(r) for r in rows])
@@ -168,8 +168,8 @@ def main_table(m):
                              times(ratio(one, two)), times(ratio(one, m.limit(model, n))), number(numpy),
                              times(ratio(numpy, one)), number(octave), times(ratio(octave, one)), number(naive),
                              times(ratio(naive, one)), number(thesis), times(ratio(thesis, one))])
-    return table(["agents", "model", "excl.", "1 thread", "2 threads", "gain", "of limit", "NumPy", "faba is", "Octave",
-                  "faba is", "C++ seq.", "faba is", "objects", "faba is"], rows)
+    return table(["agents", "model", "excl.", "1 thread", "2 threads", "speedup", "of limit", "NumPy", "ratio", "Octave",
+                  "ratio", "C++ seq.", "ratio", "objects", "ratio"], rows)
 
 
 def published_table(m):
@@ -177,7 +177,7 @@ def published_table(m):
     for n in m.sizes():
         ours, naive = m.ns("faba", model="basic", agents=n, order="published"), m.ns("sequential", agents=n)
         rows.append([f"{n:.0e}".replace("e+0", "e"), number(ours), number(naive), times(ratio(naive, ours))])
-    return table(["agents", "faba", "C++ seq.", "faba is"], rows)
+    return table(["agents", "faba", "C++ seq.", "ratio"], rows)
 
 
 def limit_table(m):
@@ -200,7 +200,7 @@ def memory_table(m):
 
 
 def verdicts(m):
-    """(goal, figure, met) for every goal; met is None when it was not measured."""
+    """(goal, measured value, met) for every goal; met is None if it was not measured."""
     out = []
 
     def goal(text, value, good, figure):
@@ -210,16 +210,16 @@ def verdicts(m):
         return m.ns("faba", model=model, order=order, threads=threads, agents=agents)
 
     dipole, basic = faba("dipole", "none"), faba("basic", "two-phase")
-    goal("dipole within 3x of the machine's limit", ratio(dipole, m.limit("dipole", GOAL)), lambda v: v <= 3, "{:.2f}x")
-    goal("dipole at least 4x plain NumPy", ratio(m.ns("numpy", model="dipole", order="none", agents=GOAL), dipole),
+    goal("dipole: time at most 3x the limit of the machine", ratio(dipole, m.limit("dipole", GOAL)), lambda v: v <= 3, "{:.2f}x")
+    goal("dipole: at least 4x as fast as NumPy", ratio(m.ns("numpy", model="dipole", order="none", agents=GOAL), dipole),
          lambda v: v >= 4, "{:.2f}x")
-    goal("basic with exclusion at least as fast as sequential C++", ratio(m.ns("sequential", agents=GOAL), basic),
+    goal("basic with exclusion: at least as fast as sequential C++", ratio(m.ns("sequential", agents=GOAL), basic),
          lambda v: v >= 1, "{:.2f}x")
-    goal("basic with exclusion 10 000x the thesis's design (1e4 agents)",
+    goal("basic with exclusion: at least 10 000x as fast as the design of the thesis (1e4 agents)",
          ratio(m.ns("thesis", agents=10000), faba("basic", "two-phase", agents=10000)), lambda v: v >= 10000, "{:.0f}x")
     for model in MODELS:
         for order in ORDERS:
-            goal(f"{model} {'with' if order != 'none' else 'without'} exclusion: 2 threads at least 1.8x one",
+            goal(f"{model} {'with' if order != 'none' else 'without'} exclusion: 2 threads at least 1.8x as fast as 1",
                  ratio(faba(model, order), faba(model, order, 2)), lambda v: v >= 1.8, "{:.2f}x")
     largest = [r["bytes_per_agent"] for r in m.rows if r["kind"] == "faba" and r["agents"] == max(m.sizes())]
     goal("at most 64 bytes of state per agent", max(largest), lambda v: v <= 64, "{:.0f} bytes")
@@ -228,38 +228,39 @@ def verdicts(m):
 
 def verdict_table(all):
     word = {True: "met", False: "NOT MET", None: "-"}
-    return table(["goal at 1e5 agents, 1 thread unless said", "measured", ""], [[t, f, word[ok]] for t, f, ok in all])
+    return table(["goal (1e5 agents and 1 thread by default)", "measured", ""], [[t, f, word[ok]] for t, f, ok in all])
 
 
 def report(m, about):
-    own = [ratio(m.ns("limit", what=w, model="dipole", agents=GOAL, threads=1),
-                 m.ns("limit", what=w, model="dipole", agents=GOAL, threads=2)) for w in ("philox", "sincos", "log")]
+    scaling = [ratio(m.ns("limit", what=w, model="dipole", agents=GOAL, threads=1),
+                     m.ns("limit", what=w, model="dipole", agents=GOAL, threads=2)) for w in ("philox", "sincos", "log")]
     lines = [
         "# Speed of the simulation", "",
         f"{about['date']}{', quick run' if about['quick'] else ''}. {about['processor']}, {about['vector_unit']}; "
         f"faba {about['faba']}, {about['compiler']}, NumPy {about['numpy']}, {about['octave']}. "
-        f"Load before the run {about['load_before']:.2f}; loops that share nothing gain "
-        f"{min(own):.2f}-{max(own):.2f}x from a second thread here.", "",
-        "Times are medians in ns per agent-step, so only ratios inside one run count. Every program checked its own answer"
-        + (":" if m.failed else "; all were right."), *[f"- WRONG: {f}" for f in m.failed], "",
+        f"Load before the run {about['load_before']:.2f}. Speedup of loops without shared data with a second thread on this machine: "
+        f"{min(scaling):.2f}-{max(scaling):.2f}x.", "",
+        "Times are medians in ns per agent-step. Compare only times of the same run. Every program checks its results"
+        + (":" if m.failed else "; all are correct."), *[f"- WRONG: {f}" for f in m.failed], "",
         "## Goals", "", verdict_table(verdicts(m)), "",
         "## Models", "",
-        "One cell on every tenth pixel of a box; `basic` and `adapted` as published, `dipole` in 0.5 mT with 5 ms steps. "
-        "`of limit`: one thread over the sum of the random numbers, elementary functions and 36 bytes of traffic that its draws "
-        "need. `C++ seq.` and `objects` follow the thesis's sequential rule; the latter is one Octave object per bacterium.",
+        "A box with one cell per ten pixels; `basic` and `adapted` as published, `dipole` in 0.5 mT with 5 ms steps. "
+        "`of limit`: time with one thread divided by the time of the random numbers, elementary functions and 36 bytes of memory "
+        "traffic of a step. `C++ seq.` and `objects` use the sequential rule of the thesis; `objects` has one Octave object per "
+        "bacterium. `ratio`: time of the program in the column before, divided by the time of faba with one thread.",
         "", main_table(m), "",
-        "## The thesis's order (`exclusion.order = \"published\"`), `basic`, one thread", "", published_table(m), "",
-        "## The machine", "",
+        "## Order of the thesis (`exclusion.order = \"published\"`), `basic`, one thread", "", published_table(m), "",
+        "## Limits of the machine", "",
         "Million Philox blocks, sine-cosine pairs and logarithms per second, and GB/s of the 36-byte pattern and of the triad "
-        "over as much memory as the agents take.", "", limit_table(m), "",
-        "## Memory: bytes per agent, without the grid of exclusion", "", memory_table(m), ""]
+        "with the memory size of the agents.", "", limit_table(m), "",
+        "## Memory: bytes per agent, without the occupancy grid", "", memory_table(m), ""]
     return "\n".join(lines)
 
 
 def main():
     options = arguments()
     load = os.getloadavg()[0]
-    print("Measuring; other work on this machine shows in the figures.", file=sys.stderr)
+    print("Measuring; other programs on this machine affect the results.", file=sys.stderr)
     m = measure(options)
     about = provenance(m, options, load)
     text = report(m, about)

@@ -29,7 +29,8 @@ void velocities(const Swarm& s, std::vector<Check>& out) {
   const double length = norm(kDrift);
   for (const bool along_x : {true, false}) {
     const double drift = along_x ? kDrift.x : kDrift.y, u = drift / length;
-    // the last velocity of a cycle was drawn under the command's second half; innate speeds are 0 ... n
+    // The last velocity of a cycle is drawn in the second half of the command cycle; speeds of cells are 0
+    // ... n.
     const double mean = adapted ? -u * n / 2 : -drift;
     const double variance = n * (n + 1) / 3 + (adapted ? u * u * n * (n + 2) / 12 : 0);
     const Moments m = moments(s.world().state().agents[along_x ? "vx" : "vy"]);
@@ -40,7 +41,8 @@ void velocities(const Swarm& s, std::vector<Check>& out) {
 }
 
 void headings(const Swarm& s, std::vector<Check>& out) {
-  // Means over exp(kappa cos a): sums over equal angles converge faster than any power of their number.
+  // Means over exp(kappa cos a): sums over equally spaced angles converge faster than any power of the number
+  // of angles.
   double z = 0, c = 0, c2 = 0;
   for (int i = 0; i < 4096; ++i) {
     const double cosine = std::cos(2 * std::numbers::pi * i / 4096), w = std::exp(alignment() * (cosine - 1));
@@ -73,7 +75,7 @@ std::vector<Check> checks(const Swarm& s) {
     for (std::size_t i = 0; i < x.size(); ++i) home.push_back(g.index(x[i], y[i]));
     std::sort(home.begin(), home.end());
     const auto distinct = std::unique(home.begin(), home.end()) - home.begin();
-    out.push_back({"grid cells held", double(distinct), double(x.size()), 0});
+    out.push_back({"occupied sites", double(distinct), double(x.size()), 0});
   }
   return out;
 }

@@ -1,6 +1,6 @@
-// Nanoseconds per point for the field of one solenoid, beside the same formula on Boost.Math's Carlson
-// integrals, as JSON lines: what coils.py makes its table of. With a file name the points and our answers are
-// written there as raw doubles (rho, z, b_rho, b_z in turn), for peers to check themselves by.
+// Measures ns per point of the field of one solenoid, compared with the same formula with the Carlson
+// integrals of Boost.Math. Prints JSON lines for coils.py. With a file name, writes points and fields there
+// as raw doubles (all rho, z, b_rho, b_z), as reference for other programs.
 #include <fmt/format.h>
 
 #include <boost/math/special_functions/ellint_rd.hpp>
@@ -24,7 +24,7 @@ constexpr std::size_t kPoints = 100000, kBoostPoints = 5000;
 struct Coil {
   std::vector<double> rho, z, b_rho, b_z;
   explicit Coil(std::size_t n) : rho(n), z(n), b_rho(n), b_z(n) {
-    // A golden-ratio lattice over rho < 4 a and |z| < 2 b: no two points alike, none on the sheet.
+    // A golden-ratio lattice over rho < 4 a and |z| < 2 b: all points are different, none is on the sheet.
     for (std::size_t i = 0; i < n; ++i) {
       rho[i] = 4 * kRadius * (double(i) + 0.5) / double(n);
       z[i] = 2 * kHalf * (2 * std::fmod(double(i) * 0.61803398874989485, 1.0) - 1);
@@ -91,7 +91,8 @@ int measure(const char* file) {
     for (const auto* v : {&a.rho, &a.z, &a.b_rho, &a.b_z})
       out.write(reinterpret_cast<const char*>(v->data()), std::streamsize(v->size() * sizeof(double)));
   }
-  // Both sum up to ten roundings of each integral; Boost loses digits where B_rho cancels near the axis.
+  // Both have up to ten rounding errors per integral; Boost loses digits near the axis, where terms of B_rho
+  // cancel.
   return same && error < 1e-11 ? 0 : 1;
 }
 

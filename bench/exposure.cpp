@@ -1,6 +1,6 @@
-// Does `faba activity` find what it should in a study like the thesis's (theory A16, eq. 4.1)? Videos of four
-// experiments at eight exposures are rendered with the camera's noise and without, and measured. Prints one
-// JSON object per seed; bench/exposure.py makes the table.
+// Tests `faba activity` with a study as in the thesis (theory A16, eq. 4.1): renders videos of four
+// experiments at eight air exposure times, with camera noise and without, and measures them. Prints one JSON
+// object per seed for bench/exposure.py.
 //
 //   bench_exposure SCENE SEEDS [FOLDER]
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ Scenario scenario_of(const std::string& scene, const Sample& s) {
   return read_scenario(d, builtin_parts());
 }
 
-// The flows of one rendered video, from kFrom on, as `faba run` would record them.
+// Writes the optical flow of one rendered video from kFrom on, in the format of `faba run`.
 void record(const std::string& scene, const Sample& sample, const std::filesystem::path& file, Pool& pool) {
   const Scenario s = scenario_of(scene, sample);
   Simulation simulation(s, sample.seed, pool);
@@ -67,7 +67,8 @@ void record(const std::string& scene, const Sample& sample, const std::filesyste
   writer.close();
 }
 
-// Without noise, flow above `noise_free_above` counts; with it, what the videos themselves say.
+// `noise_free_above`: flow threshold of videos without noise, px; without a value, videos have camera noise
+// and the threshold is determined from them.
 ActivityResult study(const std::string& scene, std::uint64_t seed, std::optional<double> noise_free_above,
                      const std::filesystem::path& folder, Pool& pool) {
   ActivityJob job;

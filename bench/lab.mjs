@@ -1,5 +1,5 @@
-// How the live lab performs: pictures per second in a browser, bytes per picture, what watching costs the run, how soon
-// a click is answered. Table in bench/results/lab.md.
+// Measures the live lab: pictures per second in a browser, bytes per picture, slowdown of a run by clients, latency of a
+// click. Writes bench/results/lab.md.
 //
 //   node bench/lab.mjs --program build/faba --root . [--out bench/results/lab.md]
 
@@ -29,9 +29,9 @@ const lines = [], say = (l) => (lines.push(l), console.log(l));
 const ghz = () => (Math.max(...[...readFileSync('/proc/cpuinfo', 'utf8').matchAll(/cpu MHz\s*: ([\d.]+)/g)].map((m) => Number(m[1]))) / 1000).toFixed(2);
 const browser = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 
-say(`# The live lab\n\n\`node bench/lab.mjs --program build/faba --root .\` on ${cpus().length} cores (${cpus()[0].model.trim()}, ${ghz()} GHz when it began).`);
+say(`# The live lab\n\n\`node bench/lab.mjs --program build/faba --root .\` on ${cpus().length} cores (${cpus()[0].model.trim()}, ${ghz()} GHz at the start).`);
 
-// From the command to the first picture.
+// Time from the command to the first picture.
 {
   const times = [];
   for (let i = 0; i < 3; ++i) {
@@ -43,11 +43,11 @@ say(`# The live lab\n\n\`node bench/lab.mjs --program build/faba --root .\` on $
     await b.close();
     s.lab.kill();
   }
-  say(`\nFrom \`faba lab scenes/steer.toml\` to the first picture in a browser that is open already: ${(median(times) / 1000).toFixed(2)} s (median of ${times.length}; goal 2 s).`);
+  say(`\nTime from \`faba lab scenes/steer.toml\` to the first picture in an open browser: ${(median(times) / 1000).toFixed(2)} s (median of ${times.length}; goal 2 s).`);
 }
 
 // Pictures per second.
-say(`\n## In the page\n\nChromium without a graphics card: the page draws cells itself then, pixel by pixel.\n\n| cells | pictures/s in the page | frames/s of the run | drawing, ms | bytes per frame | bytes per cell |\n|---|---|---|---|---|---|`);
+say(`\n## Pictures in the page\n\nChromium without a graphics card: the page draws the cells pixel by pixel on the processor.\n\n| cells | pictures/s in the page | frames/s of the run | drawing, ms | bytes per frame | bytes per cell |\n|---|---|---|---|---|---|`);
 for (const cells of [1e3, 1e4, 1e5]) {
   const s = await serve(program, folder), c = await Client.open(s);
   assert.ok((await c.ask('start', { scenario: scene(cells), seed: 1 })).ok);
@@ -66,8 +66,8 @@ for (const cells of [1e3, 1e4, 1e5]) {
   s.lab.kill();
 }
 
-// What watching costs a run that goes as fast as it can.
-say(`\n## What pages cost the run\n\n10 000 cells at speed 32, which the machine cannot reach: frames per second of the run, each figure between two without a page.\n\n| who watches | frames/s | slower than unwatched by |\n|---|---|---|`);
+// Slowdown of a run at full speed by connected pages.
+say(`\n## Slowdown of the run by pages\n\n10 000 cells at speed factor 32, which is faster than the machine can simulate. Frames per second of the run; each measurement is compared with one before and one after it without a page.\n\n| connected | frames/s | slowdown |\n|---|---|---|`);
 {
   const s = await serve(program, folder, '--threads', '1');
   const first = await Client.open(s);
@@ -106,7 +106,7 @@ say(`\n## What pages cost the run\n\n10 000 cells at speed 32, which the machine
   s.lab.kill();
 }
 
-// A click while both cores have other work.
+// Latency of a click while all cores are busy.
 {
   const s = await serve(program, folder), c = await Client.open(s);
   assert.ok((await c.ask('start', { scenario: scene(1e5), seed: 1 })).ok);
@@ -133,13 +133,13 @@ say(`\n## What pages cost the run\n\n10 000 cells at speed 32, which the machine
     await wait(100);
   }
   busy.forEach((p) => p.kill());
-  const spread = (v) => `median ${median(v).toFixed(0)} ms, ${[...v].sort((x, y) => x - y)[Math.floor(0.95 * v.length)].toFixed(0)} ms in 19 of 20`;
-  say(`\n## A click\n\n100 000 cells, both cores busy with other work. From the click to the ring on the page that says it was heard: ${spread(marks)} (goal 100 ms). To the goal that the run has taken, between two of its frames: ${spread(times)}.`);
+  const spread = (v) => `median ${median(v).toFixed(0)} ms, 95th percentile ${[...v].sort((x, y) => x - y)[Math.floor(0.95 * v.length)].toFixed(0)} ms`;
+  say(`\n## Latency of a click\n\n100 000 cells, all cores busy with other work. Time from the click to the ring that confirms it on the page: ${spread(marks)} (goal 100 ms). Time to the new setpoint of the run, which changes between two frames: ${spread(times)}.`);
   await b.close();
   s.lab.kill();
 }
 
 const packed = ['index.html', 'app.js', 'app.css'].map((f) => gzipSync(readFileSync(join(root, 'web/dist', f))).length);
-say(`\nThe page: ${(packed.reduce((a, n) => a + n) / 1000).toFixed(1)} kB with gzip (goal 100 kB).`);
+say(`\nSize of the page: ${(packed.reduce((a, n) => a + n) / 1000).toFixed(1)} kB with gzip (goal 100 kB).`);
 if (out) writeFileSync(out, lines.join('\n') + '\n');
 rmSync(folder, { recursive: true, force: true });

@@ -1,10 +1,10 @@
-// The live lab without a browser: a socket that reads what it is sent, or that does not read at all.
+// A client of the live lab without a browser: a socket that reads all messages, or stops reading.
 
 import { spawn } from 'node:child_process';
 import { createHash, randomBytes } from 'node:crypto';
 import { createConnection } from 'node:net';
 
-/** Starts `faba lab` in `folder`; gives the process, its port and its token. */
+/** Starts `faba lab` in `folder`; returns the process, its address, port and token. */
 export async function serve(program, folder, ...words) {
   const lab = spawn(program, ['lab', '--no-browser', '--json', ...words], { cwd: folder, stdio: ['ignore', 'pipe', 'inherit'] });
   const address = await new Promise((give, fail) => {
@@ -20,7 +20,7 @@ export async function serve(program, folder, ...words) {
 }
 
 export class Client {
-  news = {}; // the newest of each kind
+  news = {}; // latest message of each kind
   frames = 0;
   bytes = 0;
   #waiting = new Map();
@@ -83,7 +83,7 @@ export class Client {
     this.#send(1, Buffer.from(JSON.stringify({ id, do: what, ...values })));
     return new Promise((r) => this.#waiting.set(id, r));
   }
-  /** Reads nothing more, and stays connected. */
+  /** Stops reading; the connection stays open. */
   stall() {
     this.socket.pause();
   }

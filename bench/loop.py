@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""The loop on a bench: how late pictures and commands are, whether estimators keep up with a camera on one core, and how the same scene
-settles on three rigs. Checks that the swarm came to its setpoint on each. Writes bench/results/loop.md.
+"""Measures the control loop on a bench: latency of pictures and commands, processing time per frame on one core, and settling times of
+one scene in simulations and on the bench. Checks that the swarm reaches its setpoint. Writes bench/results/loop.md.
 
     bench/loop.py [--program build/faba] [--seconds 30] [--seeds 5] [--out bench/results]
 
-The bench is simulated, in real time, on the same machine: its rendering takes a good part of one core.
+The bench is simulated in real time on the same machine; its rendering takes a large part of one core.
 """
 
 import argparse
@@ -23,7 +23,7 @@ STEP = ("--set", f"simulation.step={1 / 540}")
 ROLLERS = ROOT.parent / "shared/data/step-response/rollers.mp4"
 
 
-LATE = []  # runs that the guard ended: this is no real-time machine
+LATE = []  # messages of runs that the guard ended because this computer is not a real-time system
 
 
 def faba(program, *arguments, one_core=False):
@@ -54,24 +54,24 @@ print(*(late[min(len(late) - 1, int(q * len(late)))] for q in (0.5, 0.99, 0.999,
 
 
 def latency(program, folder, seconds):
-    """Rows of the latency table: with both videos recorded. Beside it, how late this machine wakes who sleeps for a millisecond: what no
-    program on it can be better than."""
+    """Rows of the latency table, with both videos recorded. The last row is the wake-up latency of a thread on this machine that sleeps for
+    1 ms: a lower limit for every program."""
     wake = subprocess.Popen([sys.executable, "-c", WAKE, str(seconds)], stdout=subprocess.PIPE, text=True)
     run = faba(program, "rig", "run", "scenes/bench.toml", "--arm", "--seed", 1, "--duration", f"{seconds} s", "--set", "record.lossless=true",
                "--out", folder / "latency")
     rows = []
-    for what, key, goals in (("from mid-exposure to the program", "arrival_ms", None),
-                             ("from there to the coils", "command_ms", (5, FRAME_MS))):
+    for what, key, goals in (("from mid-exposure to the arrival of the picture", "arrival_ms", None),
+                             ("from the arrival of the picture to the command", "command_ms", (5, FRAME_MS))):
         v = run[key]
         goal = f"{goals[0]:.0f} ms {verdict(v['median'], goals[0])}, {goals[1]:.1f} ms {verdict(v['p999'], goals[1])}" if goals else ""
         rows.append(f"| {what} | {v['median']:.1f} | {v['p99']:.1f} | {v['p999']:.1f} | {v['max']:.1f} | {goal} |")
     median, p99, p999, most = map(float, wake.communicate()[0].split())
-    rows.append(f"| how late the machine woke another thread meanwhile | {median:.1f} | {p99:.1f} | {p999:.1f} | {most:.1f} |  |")
+    rows.append(f"| wake-up latency of another thread at the same time | {median:.1f} | {p99:.1f} | {p999:.1f} | {most:.1f} |  |")
     return run, rows
 
 
 def film(program, folder):
-    """A lossless video of 640 x 480 px to play."""
+    """Records a lossless video of 640 x 480 px for playback."""
     faba(program, "run", "scenes/bench.toml", "--seed", 2, "--duration", "10 s", "--as-seen", "--set", "record.video=false", "--set",
          "record.lossless=true", "--out", folder / "film")
     return folder / "film/video.avi"
@@ -103,30 +103,31 @@ fast = {fast}
 def played(program, folder, file, size, estimator, fast):
     scene = folder / f"{file.stem}-{estimator}-{fast}.toml"
     scene.write_text(PLAYED.format(width=size[0], height=size[1], estimator=estimator, file=file, fast="true" if fast else "false"))
-    begun = time.monotonic()
+    started = time.monotonic()
     run = faba(program, "rig", "run", scene, "--arm", "--threads", 1, "--out", folder / scene.stem, one_core=True)
-    return run, time.monotonic() - begun
+    return run, time.monotonic() - started
 
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba")
-    p.add_argument("--seconds", type=int, default=30)
-    p.add_argument("--seeds", type=int, default=5)
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba", help="the program, default build/faba")
+    p.add_argument("--seconds", type=int, default=30, help="duration of the latency measurement, default 30 s")
+    p.add_argument("--seeds", type=int, default=5, help="number of seeds, default 5")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     program = o.program.resolve()
     wrong = []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         run, rows = latency(program, folder, o.seconds)
-        text = ["# The loop on a bench", "", "Made by `bench/loop.py` on 2 cores; the bench is simulated, on the same machine, in real time.", "",
-                f"640 × 480 px at 60 frames/s, estimator `image`, both videos recorded: {run['frames']} frames taken, {run['frames_dropped']} dropped; "
-                f"the recorder was {run['recorder_most_behind']} frames behind at most.", "",
-                "| latency | median, ms | 99 % | 99.9 % | most | goals: median, 99.9 % |", "|---|---|---|---|---|---|", *rows, ""]
+        text = ["# The control loop on a bench", "",
+                "Generated by `bench/loop.py` on 2 cores. The bench is simulated in real time on the same machine.", "",
+                f"640 × 480 px at 60 frames/s, estimator `image`, both videos recorded: {run['frames']} frames processed, {run['frames_dropped']} dropped; "
+                f"maximum queue of the recorder: {run['recorder_most_behind']} frames.", "",
+                "| latency | median, ms | 99 % | 99.9 % | maximum | goals: median, 99.9 % |", "|---|---|---|---|---|---|", *rows, ""]
 
-        text += ["A video played as a camera, as fast as frames are taken, on one core: reading, estimating, deciding.", "",
-                 "| video | estimator | ms per frame | a camera gives one every |", "|---|---|---|---|"]
+        text += ["Playback of a video on one core without waiting for the frame rate: reading, estimator and controller.", "",
+                 "| video | estimator | ms per frame | frame interval |", "|---|---|---|---|"]
         for file, size, rate in ((film(program, folder), (640, 480), 60), (ROLLERS, (2048, 1080), 15)):
             if not file.exists():
                 continue
@@ -136,16 +137,16 @@ def main():
                 text.append(f"| {size[0]} × {size[1]} px, {done['frames']} frames | `{estimator}` | {ms:.1f} | {1e3 / rate:.1f} ms at {rate} frames/s, {verdict(ms, 1e3 / rate)} |")
         if ROLLERS.exists():
             done, _ = played(program, folder, ROLLERS, (2048, 1080), "groups", False)
-            text += ["", f"The rollers at their own rate: {done['frames']} frames taken, {done['frames_dropped']} dropped, each {done['arrival_ms']['median']:.1f} ms old "
-                     f"(median) when it came, {done['command_ms']['median']:.1f} ms more to a command."]
+            text += ["", f"Playback of the video of rollers at its frame rate: {done['frames']} frames processed, {done['frames_dropped']} dropped; median latency "
+                     f"{done['arrival_ms']['median']:.1f} ms to the arrival of a picture and {done['command_ms']['median']:.1f} ms from there to the command."]
 
-        text += ["", "One scene, `scenes/bench.toml`, on three rigs: settling time, s, for each seed, and the rms distance in the last third, px. Simulations "
-                 "with the steps of the bench, a ninth of a frame.", "",
-                 "| rig | settling times | median | steady, px (median) |", "|---|---|---|---|"]
-        for what, arguments in (("simulation, all positions known", ["run", *STEP]),
-                                ("simulation, pictures of the microscope", ["run", *STEP, "--set", "camera.sensor=frames"]),
-                                ("simulation, pictures that come one frame late", ["run", *STEP, "--set", "camera.sensor=frames", "--set", "camera.delay_frames=1"]),
-                                ("bench: pictures in real time, coils behind an amplifier", ["rig", "run", "--arm"])):
+        text += ["", "`scenes/bench.toml` in simulations and on the bench: settling time for each seed, and rms distance to the setpoint in the last third. "
+                 "The simulations use the time step of the bench, 1/9 of a frame.", "",
+                 "| | settling times, s | median, s | rms distance, px (median) |", "|---|---|---|---|"]
+        for what, arguments in (("simulation, known positions", ["run", *STEP]),
+                                ("simulation, rendered pictures", ["run", *STEP, "--set", "camera.sensor=frames"]),
+                                ("simulation, rendered pictures, delay of one frame", ["run", *STEP, "--set", "camera.sensor=frames", "--set", "camera.delay_frames=1"]),
+                                ("bench: rendered pictures in real time, coils with amplifier", ["rig", "run", "--arm"])):
             settled, steady = [], []
             for seed in range(1, o.seeds + 1):
                 verb = ["rig", "run"] if arguments[0] == "rig" else ["run"]
@@ -157,7 +158,7 @@ def main():
             known = [s for s in settled if s is not None]
             text.append(f"| {what} | {', '.join('never' if s is None else f'{s:.1f}' for s in settled)} | {statistics.median(known) if known else float('nan'):.1f} "
                         f"| {statistics.median(steady):.1f} |")
-    text += ["", f"Runs that the guard ended because this machine stood still for longer than it allows, and that were made again: {len(LATE)}."]
+    text += ["", f"Number of runs that were repeated because this machine exceeded a timeout of the guard: {len(LATE)}."]
     page = "\n".join(text) + "\n"
     print(page, end="")
     o.out.mkdir(parents=True, exist_ok=True)

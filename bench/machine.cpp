@@ -8,7 +8,7 @@
 namespace faba::bench {
 namespace {
 
-constexpr std::size_t kBlock = 2048;  // as in World: what a block touches stays in the first cache
+constexpr std::size_t kBlock = 2048;  // as in World: the data of a block fit into the L1 cache
 
 FABA_VECTORISED void sincos_block(const float* __restrict angle, float* __restrict s, float* __restrict c,
                                   std::size_t n) {
@@ -29,7 +29,7 @@ FABA_VECTORISED void traffic_block(float* __restrict x, float* __restrict y, flo
     const float a = ux[i], b = uy[i];
     x[i] += speed[i] * a;
     y[i] += speed[i] * b;
-    ux[i] = b;  // a quarter turn: nothing grows
+    ux[i] = b;  // rotation by 90 degrees, so that values stay bounded
     uy[i] = -a;
   }
 }
@@ -39,7 +39,7 @@ FABA_VECTORISED void triad_block(float* __restrict a, const float* __restrict b,
   for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + 0.5f * c[i];
 }
 
-// Tells the compiler that what `p` points to is looked at.
+// Prevents the compiler from removing the computation of `*p`.
 void keep(const void* p) { asm volatile("" : : "r"(p) : "memory"); }
 
 }  // namespace

@@ -8,20 +8,21 @@
 
 namespace faba::bench {
 
-/// What the machine cannot do without: the random numbers, elementary functions and memory traffic of a step,
-/// each in a loop of its own that is vectorised as the models' loops are. One unit is what one agent needs.
+/// Lower limits of the time of a step on this machine: random numbers, elementary functions and memory
+/// traffic, each in a separate loop that is vectorised in the same way as the models. One unit is the work
+/// for one agent.
 /// - `philox`: one block, four random words
-/// - `sincos`, `log`: one value, from and to the first cache
-/// - `traffic`: positions and headings read and written, one constant read, 36 bytes, over all agents
+/// - `sincos`, `log`: one value, from and to the L1 cache
+/// - `traffic`: positions and headings are read and written, one constant is read, 36 bytes
 /// - `triad`: a = b + s c, 12 bytes
 class Machine {
  public:
   Machine(std::size_t agents, Pool& pool);
   ~Machine();
   static const std::vector<std::string>& names();
-  /// Goes `times` times over all agents.
+  /// Runs the loop `name` `times` times over all agents.
   void run(const std::string& name, int times);
-  /// What the two Box-Muller pairs of one agent-step take: 1 philox + 2 sincos + 2 log + traffic.
+  /// Work of the two Box-Muller pairs of one agent-step: 1 philox + 2 sincos + 2 log + traffic.
   static constexpr int kSinCos = 2, kLog = 2;
 
  private:
@@ -31,7 +32,7 @@ class Machine {
   std::unique_ptr<Memory> memory_;
 };
 
-/// Instruction set that the vectorised loops run on here.
+/// Instruction set that the vectorised loops use on this machine.
 const char* vector_unit();
 
 }  // namespace faba::bench

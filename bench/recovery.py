@@ -1,17 +1,18 @@
 #!/usr/bin/python3
-"""Whether `faba identify` finds what is known: experiments are rendered with a model, a speed and everything else drawn by chance,
-and identified from what a camera sees of them.
+"""Tests whether `faba identify` recovers known models and parameters: renders experiments with random parameters and identifies them
+from their videos.
 
-Each experiment is a drop of which an arc is in view, with a swarm at its edge and six field segments to and fro along a line. Drawn are
-the model (basic, adapted or dipole), its speed or largest displacement, 150 to 800 cells, the camera's noise, the time in air, the
-size and place of the drop and the line. The study is told the scale, the strength of the field and the time in air; a run keeps
-the moments at which its field turned; edge, light, cells, their number and where they begin are found. Prints a table and a verdict on every goal; keeps them in bench/results/.
+Each experiment is a drop, of which an arc is in view, with a swarm at its edge and six field segments in alternating directions along a
+line. Sampled at random are the model (basic, adapted or dipole), its speed or maximum displacement, 150 to 800 cells, camera noise, air
+exposure time, size and position of the drop, and the line. The study file gives the scale, the field strength and the air exposure
+time; the run directory has the times of the field reversals. Edge, illumination, cells, their number and their initial positions are
+measured. Prints a table and a verdict for every goal, and writes them to bench/results/.
 
     bench/recovery.py [--program build/faba] [--experiments 40] [--simulations 300] [--seed 1] [--keep DIR] [--out bench/results]
 
-Experiments are kept in DIR (build/recovery unless given), what was found in recovery.json of --out: called again it goes on where it was, also on
-another machine. Delete both when the program has changed. Exits 1 when a goal is not met.
---reduced makes two experiments with the two models of the thesis and keeps nothing: what `make test` has time for.
+Experiments are stored in DIR (default build/recovery), results in recovery.json of --out. A second call resumes from these files, also on
+another machine; delete both when the program has changed. Exit status 1 if a goal is not met.
+--reduced runs two experiments with the two models of the thesis in a temporary folder, for the test suite.
 """
 
 import argparse
@@ -27,7 +28,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 WIDTH, HEIGHT, UM_PER_PX, FIELD = 320, 240, 1.16, 115e-6
-DRIVE_S, FIRST_S, DRIVES = 2.0, 1.0, 6
+SEGMENT_S, FIRST_S, SEGMENTS = 2.0, 1.0, 6
 MODELS = ("basic", "adapted", "dipole")
 RANGE = {"basic": (1, 20), "adapted": (1, 20), "dipole": (20, 300)}
 TRUTH = {"basic": (3, 12), "adapted": (3, 12), "dipole": (60, 250)}
@@ -37,7 +38,7 @@ def draw(number, o):
     r = random.Random(f"recovery {o.seed} {number}")
     model = o.models[number % len(o.models)]
     value = r.uniform(*TRUTH[model])
-    # The models of the thesis draw whole numbers up to the nearest one.
+    # The models of the thesis draw integers up to the parameter rounded to an integer.
     return {"number": number, "model": model, "value": round(value, 2) if model == "dipole" else round(value), "cells": r.randint(150, 800),
             "noise": round(r.uniform(0.004, 0.02), 4), "exposure": r.randint(0, 300), "radius": r.randint(300, 700),
             "side": r.choice((0, 90, 180, 270)), "inset": r.randint(15, 45), "tilt": round(r.uniform(-10, 10), 1),
@@ -45,32 +46,32 @@ def draw(number, o):
 
 
 def drop_centre(t):
-    """So that the edge crosses the view `inset` px from the side on which the swarm begins."""
+    """Centre of the drop for which its edge is `inset` px from the side of the picture where the swarm starts."""
     along = t["radius"] + t["inset"]
     return {0: (along, HEIGHT / 2), 180: (WIDTH - along, HEIGHT / 2), 90: (WIDTH / 2, along), 270: (WIDTH / 2, HEIGHT - along)}[t["side"]]
 
 
 def scene(t):
-    # Image frame: cells swim away from the edge at `side`, and back; the world's y axis points up, and cells are south-seeking.
-    way = math.radians(t["side"] + t["tilt"])
+    # Angles in the image frame: cells swim away from the edge at `side` and back. y points up in the world; cells are south-seeking.
+    angle = math.radians(t["side"] + t["tilt"])
 
     def field(sign):
         b = -sign * FIELD * 1e6
-        return f'["{b * math.cos(way):.4f} uT", "{-b * math.sin(way):.4f} uT"]'
+        return f'["{b * math.cos(angle):.4f} uT", "{-b * math.sin(angle):.4f} uT"]'
 
     model = f'{{ type = "{t["model"]}", max_speed = {t["value"]} }}'
     if t["model"] == "dipole":
         model = f'{{ type = "dipole", speed = "{t["value"]} um/s", speed_sd = "{0.2 * t["value"]:.3f} um/s" }}'
     x, y = drop_centre(t)
-    lines = [f'duration = "{FIRST_S + DRIVES * DRIVE_S} s"', f'exposure = "{t["exposure"]} s"', 'motility = "thesis"',
-             f"[scale]\num_per_px = {UM_PER_PX}", f'[camera]\nrate = "15 Hz"',
+    lines = [f'duration = "{FIRST_S + SEGMENTS * SEGMENT_S} s"', f'exposure = "{t["exposure"]} s"', 'motility = "thesis"',
+             f"[scale]\num_per_px = {UM_PER_PX}", '[camera]\nrate = "15 Hz"',
              f'[microscope]\ncell_diameter = "2.5 um"\nnoise = {t["noise"]}\ncontrast = {t["contrast"]}',
              f'[arena]\ntype = "drop"\nview_px = [{WIDTH}, {HEIGHT}]\nradius_px = {t["radius"]}\ncentre_px = [{x}, {y}]',
              f'[[swarm]]\ncount = {t["cells"]}\nmodel = {model}',
              f'start = {{ type = "edge", direction = "{-(t["side"] + 180)} deg", visible = true }}',
              f'[controller]\ntype = "manual"\nfield = {field(-1)}']
-    for k in range(DRIVES):
-        lines.append(f'[[controller.segment]]\nat = "{FIRST_S + k * DRIVE_S} s"\nfield = {field(1 if k % 2 == 0 else -1)}')
+    for k in range(SEGMENTS):
+        lines.append(f'[[controller.segment]]\nat = "{FIRST_S + k * SEGMENT_S} s"\nfield = {field(1 if k % 2 == 0 else -1)}')
     return "\n".join(lines + ["[record]\nas_seen = true\nlossless = true\ntracks = false\n"])
 
 
@@ -98,7 +99,7 @@ def call(program, *words, cwd):
 
 
 def experiment(t, o):
-    """Renders it, identifies it, and reads the answer; a dictionary for the table."""
+    """Renders and identifies one experiment; returns a dictionary for the table."""
     folder = o.keep / f"{o.seed}-{t['number']:02d}"
     folder.mkdir(parents=True, exist_ok=True)
     answer = folder / "out/identify.json"
@@ -114,15 +115,15 @@ def experiment(t, o):
         if code:
             return {**t, "failed": error.strip().splitlines()[-1]}
     found = json.loads(answer.read_text())
-    own = next(m for m in found["models"] if m["name"] == t["model"])
-    if "failed" in own:
-        return {**t, "failed": own["failed"]}
+    fit = next(m for m in found["models"] if m["name"] == t["model"])
+    if "failed" in fit:
+        return {**t, "failed": fit["failed"]}
     unit = 1e-6 if t["model"] == "dipole" else 1
-    p = own["parameters"][main_parameter(t["model"])]
+    p = fit["parameters"][main_parameter(t["model"])]
     low, high = (x / unit for x in p["ci90"])
-    count = own["parameters"]["swarm[0].count"]
+    count = fit["parameters"]["swarm[0].count"]
     answer = {**t, "found": p["median"] / unit, "low": low, "high": high, "cells_found": count["median"], "cells_ci90": count["ci90"],
-              "best": found["best"], "evidence": found["evidence"], "fit_p": own["fit_p"]}
+              "best": found["best"], "evidence": found["evidence"], "fit_p": fit["fit_p"]}
     if not o.reduced:
         legacy = next(m for m in found["legacy"] if m["name"] == t["model"])
         answer |= {"legacy": legacy["zero"] / unit, "legacy_means_nothing": legacy["invalid_reason"] is not None}
@@ -138,11 +139,11 @@ def row(x):
                      f"| {x['best']} | {x['evidence']} |")
     if "legacy" not in x:
         return found + " |"
-    return found + f" {100 * (x['legacy'] / x['value'] - 1):+.0f} %{' (means nothing)' if x['legacy_means_nothing'] else ''} |"
+    return found + f" {100 * (x['legacy'] / x['value'] - 1):+.0f} %{' (unreliable)' if x['legacy_means_nothing'] else ''} |"
 
 
 def reduced(o):
-    """Two experiments: no error above a fifth, and not both intervals beside the truth, which 1 % would be by chance."""
+    """Two experiments: each error must be below 20 %, and at least one 90 % interval must contain the true value (probability 99 %)."""
     with tempfile.TemporaryDirectory() as keep:
         o.keep, o.simulations, o.models = pathlib.Path(keep), 120, MODELS[:2]
         rows = [experiment(draw(number, o), o) for number in range(2)]
@@ -160,14 +161,14 @@ def keep(rows, o):
 
 
 def main():
-    a = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba")
-    a.add_argument("--experiments", type=int, default=40)
-    a.add_argument("--simulations", type=int, default=300)
-    a.add_argument("--seed", type=int, default=1)
-    a.add_argument("--keep", type=pathlib.Path, default=HERE.parent / "build/recovery")
-    a.add_argument("--out", type=pathlib.Path, default=HERE / "results")
-    a.add_argument("--reduced", action="store_true")
+    a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba", help="the program, default build/faba")
+    a.add_argument("--experiments", type=int, default=40, help="number of experiments, default 40")
+    a.add_argument("--simulations", type=int, default=300, help="number of simulations per model, default 300")
+    a.add_argument("--seed", type=int, default=1, help="seed of the random parameters, default 1")
+    a.add_argument("--keep", type=pathlib.Path, default=HERE.parent / "build/recovery", help="folder of the experiments")
+    a.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
+    a.add_argument("--reduced", action="store_true", help="two experiments, for the test suite")
     o = a.parse_args()
     o.program, o.keep, o.models = o.program.resolve(), o.keep.resolve(), MODELS
     if o.reduced:
@@ -179,7 +180,7 @@ def main():
         table.append(line)
         print(line, flush=True)
 
-    say("| | model | truth | cells | noise, grey | in air, s | found | 90 % | error | named | evidence | legacy rule's error |")
+    say("| | model | true value | cells | noise, grey levels | air exposure, s | estimate | 90 % interval | error | best model | evidence | error of the rule of the thesis |")
     say("|---|---|---|---|---|---|---|---|---|---|---|---|")
     done = {}
     if (o.out / "recovery.json").exists():
@@ -198,22 +199,22 @@ def main():
     legacy = statistics.median(abs(x["legacy"] / x["value"] - 1) for x in good) if good else math.nan
     named = sum(x["best"] == x["model"] for x in clear)
     goals = [("identified", len(good), len(rows), len(good) == len(rows)),
-             ("90 % intervals hold the truth", covered, len(good), 0.8 * len(good) <= covered <= 0.98 * len(good)),
-             ("median error of the main parameter under 5 %", f"{100 * error:.1f} %", "", error < 0.05),
-             ("evidence is clear, half or more", len(clear), len(good), 2 * len(clear) >= len(good)),
-             ("where it is, the right model is named, nine in ten", named, len(clear), named >= 0.9 * len(clear))]
+             ("90 % intervals that contain the true value (80 to 98 %)", covered, len(good), 0.8 * len(good) <= covered <= 0.98 * len(good)),
+             ("median error of the main parameter (below 5 %)", f"{100 * error:.1f} %", "", error < 0.05),
+             ("evidence is clear (at least 50 %)", len(clear), len(good), 2 * len(clear) >= len(good)),
+             ("best model is the true model if the evidence is clear (at least 90 %)", named, len(clear), named >= 0.9 * len(clear))]
     verdict = [f"- {what}: {n}{f' of {of}' if of != '' else ''}{'' if met else ' NOT MET'}" for what, n, of, met in goals]
     for m in o.models:
-        own = [abs(x["found"] / x["value"] - 1) for x in good if x["model"] == m]
-        if own:
-            verdict.append(f"- median error with {m}: {100 * statistics.median(own):.1f} %, largest {100 * max(own):.0f} %")
-    verdict.append(f"- the legacy rule's median error: {100 * legacy:.0f} %; {sum(x['legacy_means_nothing'] for x in good)} of "
-                   f"{len(good)} times its answer is said to mean nothing")
+        errors = [abs(x["found"] / x["value"] - 1) for x in good if x["model"] == m]
+        if errors:
+            verdict.append(f"- error for {m}: median {100 * statistics.median(errors):.1f} %, maximum {100 * max(errors):.0f} %")
+    verdict.append(f"- median error of the rule of the thesis: {100 * legacy:.0f} %; the program reports its result as unreliable for "
+                   f"{sum(x['legacy_means_nothing'] for x in good)} of {len(good)} experiments")
     print("\n" + "\n".join(verdict))
     o.out.mkdir(parents=True, exist_ok=True)
     (o.out / "recovery.md").write_text(
-        "# What identification finds of known truths\n\n"
-        f"{datetime.date.today()}, {o.simulations} simulations with each model, seed {o.seed}; `bench/recovery.py` made this page.\n\n"
+        "# Identification of rendered experiments with known parameters\n\n"
+        f"{datetime.date.today()}, {o.simulations} simulations per model, seed {o.seed}. Generated by `bench/recovery.py`.\n\n"
         + "\n".join(verdict) + "\n\n" + "\n".join(table) + "\n")
     sys.exit(0 if all(g[3] for g in goals) else 1)
 

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""The step responses of ageing drops, recorded by `faba rig step-response` on simulated benches in real time, unattended, and what
-`faba activity` makes of them: the line of eq. 4.1 and the exposure beyond which nothing responds. Beside it the truth: the same drops under
-the same fields, simulated without a bench and rendered without noise. Writes bench/results/response.md. Takes half an hour.
+"""Records step responses of ageing drops with `faba rig step-response` on simulated benches in real time, and measures the line of eq. 4.1
+and the cut-off with `faba activity`. The ground truth comes from the same drops and fields, simulated without a bench and rendered without
+noise. Writes bench/results/response.md. Takes half an hour.
 
     bench/response.py [--program build/faba] [--drops 4] [--repeat 18] [--every 40] [--out bench/results]
 
-Exits 1 when the cut-off is off by more than one recording of a drop, since it lies between two of them and each of the two studies sees its own
-two, or when the slope's 95 % interval misses the truth.
+Exit status 1 if the cut-off differs by more than the time between two recordings of a drop, or if the 95 % interval of the slope does not
+contain the true slope.
 """
 
 import argparse
@@ -19,9 +19,9 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
 SCENE = ROOT / "scenes/exposure.toml"
-FIRST = 100  # s in air when a bench begins
-GATHER, BEFORE, RECORD = 20, 1, 11  # s, as the scene's [rig.step_response] says
-COUNT = (240, 40)  # cells of the first drop, and how many more each next one has
+FIRST = 100  # s, air exposure time when a bench starts
+GATHER, BEFORE, RECORD = 20, 1, 11  # s, values of [rig.step_response] in the scene
+COUNT = (240, 40)  # cells of the first drop, and additional cells of each following drop
 
 
 def faba(program, *arguments):
@@ -36,7 +36,7 @@ def count(drop):
 
 
 def record(program, folder, o):
-    """All drops side by side, each on a bench of its own."""
+    """Records all drops in parallel, each on a separate simulated bench."""
     running = []
     for drop in range(o.drops):
         command = [program, "rig", "step-response", SCENE, "--arm", *count(drop), "--exposure", f"{FIRST} s", "--repeat", o.repeat, "--every",
@@ -62,7 +62,7 @@ def study_of(file, responses, from_s, settings=""):
 
 
 def truth(program, folder, responses, threshold, o):
-    """The same drops under the same fields, without a bench: simulated in one go, and rendered without noise."""
+    """The activity of the same drops with the same fields, each simulated in one run without a bench and rendered without noise."""
     before, after = SCENE.read_text().split("[controller]")
     field = '["250 uT", "0 T"]', '["-250 uT", "0 T"]', '["0 T", "0 T"]'
     text = before + f'[controller]\ntype = "manual"\nfield = {field[0]}\n'
@@ -88,16 +88,16 @@ def truth(program, folder, responses, threshold, o):
 
 def line(j):
     low, high = j["ci95"]
-    return f"{j['slope']:.5f} s/s ({low:.5f} to {high:.5f}), {j['intercept']:.2f} s at no exposure"
+    return f"slope {j['slope']:.5f} s/s ({low:.5f} to {high:.5f}), intercept {j['intercept']:.2f} s"
 
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba")
-    p.add_argument("--drops", type=int, default=4)
-    p.add_argument("--repeat", type=int, default=18)
-    p.add_argument("--every", type=float, default=40)
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba", help="the program, default build/faba")
+    p.add_argument("--drops", type=int, default=4, help="number of drops, default 4")
+    p.add_argument("--repeat", type=int, default=18, help="number of step responses per drop, default 18")
+    p.add_argument("--every", type=float, default=40, help="time between step responses, default 40 s")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     program = o.program.resolve()
     with tempfile.TemporaryDirectory() as name:
@@ -110,28 +110,28 @@ def main():
     low, high = measured["peak_line"]["ci95"]
     slope = low <= true["peak_line"]["slope"] <= high
     if measured["cutoff_s"] is None or true["cutoff_s"] is None:
-        sys.exit(f"response.py: no cut-off among these exposures: {measured['cutoff_s']}, {true['cutoff_s']}")
-    # A recording begins a second or so sooner or later than the schedule has it.
+        sys.exit(f"response.py: no cut-off in the range of air exposure times: {measured['cutoff_s']}, {true['cutoff_s']}")
+    # The start of a recording differs from the schedule by about a second.
     between = max(b["exposure_s"] - a["exposure_s"] for d in responses for a, b in zip(d, d[1:]))
     cutoff = abs(measured["cutoff_s"] - true["cutoff_s"]) <= between
     text = f"""# Step responses of ageing drops, recorded unattended
 
-Made by `bench/response.py`: {o.drops} drops, {o.repeat} step responses each, one every {o.every:g} s, recorded in real time on simulated benches
-beside each other ({frames} frames, {dropped} dropped), measured by `faba activity`.
+Generated by `bench/response.py`: {o.drops} drops with {o.repeat} step responses each, one every {o.every:g} s, recorded in real time on
+simulated benches in parallel ({frames} frames, {dropped} dropped) and measured with `faba activity`.
 
 | | recorded on the bench | the same drops without bench and noise | |
 |---|---|---|---|
-| time of the maximum against exposure (eq. 4.1) | {line(measured["peak_line"])} | {line(true["peak_line"])} | {"met: the interval holds the true slope" if slope else "NOT MET"} |
-| no response beyond | {measured["cutoff_s"]:.0f} s | {true["cutoff_s"]:.0f} s | {"met" if cutoff else "NOT MET"}: within {between:.0f} s, the time between two recordings |
+| time of the maximum against air exposure time (eq. 4.1) | {line(measured["peak_line"])} | {line(true["peak_line"])} | {"met" if slope else "NOT MET"}: the 95 % interval contains the true slope |
+| cut-off of the response | {measured["cutoff_s"]:.0f} s | {true["cutoff_s"]:.0f} s | {"met" if cutoff else "NOT MET"}: difference at most {between:.0f} s, the time between two recordings |
 
-| drop | exposure, s | swarm before the reversal | maximum, s after it | responds |
+| drop | air exposure, s | swarm before the field reversal | maximum, s after the reversal | responds |
 |---|---|---|---|---|
 """
     videos = iter(measured["videos"])  # in the order of the study file
     for drop, recorded in enumerate(responses):
         for r in recorded:
             v = next(videos)
-            seen = f"{r['cells']:.0f} cells about ({r['swarm_px'][0]:.0f}, {r['swarm_px'][1]:.0f}) px" if r["swarm_px"] else "none seen"
+            seen = f"{r['cells']:.0f} cells, centroid ({r['swarm_px'][0]:.0f}, {r['swarm_px'][1]:.0f}) px" if r["swarm_px"] else "not detected"
             peak = v["gaussian"]["peak_s"] if v["responds"] else None
             text += f"| {drop + 1} | {r['exposure_s']:.0f} | {seen} | {'' if peak is None else f'{peak - 1:.2f}'} | {'yes' if v['responds'] else 'no'} |\n"
     print(text, end="")

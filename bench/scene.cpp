@@ -15,7 +15,7 @@ std::string toml(const Scene& s) {
   return fmt::format(
       "duration = 1\nexclusion = {{ order = '{}' }}\n"
       "arena = {{ type = 'box', size_px = [{}, {}], limits = 'clamp' }}\n"
-      "field = {{ type = 'uniform', gain = 1 }}\n"  // currents read as fields
+      "field = {{ type = 'uniform', gain = 1 }}\n"  // currents in A equal fields in T
       "scale = {{ um_per_px = {}, field_unit = {} }}\ncamera = {{ rate = {} }}\nsimulation = {{ step = {} "
       "}}\n"
       "[[swarm]]\ncount = {}\npolarity = 'north'\nstart = 'uniform'\nmodel = {{ {} }}\n",
@@ -42,7 +42,7 @@ Swarm::Swarm(const Scene& scene, Pool& pool) : scene_(scene) {
   const Scenario s = read_scenario(parse_toml(toml(scene), "bench"), builtin_parts());
   const double before = heap();
   simulation_ = std::make_unique<Simulation>(s, 1, pool);
-  advance(kCycle);  // brings what is made on the first step
+  advance(kCycle);  // the first steps allocate memory
   bytes_ = heap() - before;
   const Grid g = world().parts().arena->grid();
   if (scene.exclusive()) bytes_ -= double(g.columns) * g.rows;  // a byte each

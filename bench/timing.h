@@ -4,16 +4,16 @@
 
 namespace faba::bench {
 
-/// One piece of work whose time is wanted.
+/// A piece of work to be timed.
 struct Timed {
   std::function<void()> prepare;  ///< restores the state and warms up; not timed
   std::function<void()> work;
-  double units = 1;  ///< agent-steps, or whatever the time is to be divided by, in one call of work
+  double units = 1;             ///< number of units, e.g. agent-steps, in one call of `work`
   std::vector<double> ns = {};  ///< ns per unit, one entry per repeat
 };
 
-/// Times all of them in turn, again and again, so that what disturbs the machine for a while disturbs each
-/// of them: at least `least` rounds, then until `seconds` have passed.
+/// Times all items in turn, so that temporary load affects all of them equally: at least `least` rounds, and
+/// until `seconds` have passed.
 void time_in_turns(std::vector<Timed>& all, int least, double seconds);
 
 /// Median and quartiles of the repeats.

@@ -1,16 +1,15 @@
 #!/usr/bin/python3
-"""How exactly rendered cells are found: videos of the simulated microscope, in which every place is known, are measured as a
-camera's would be.
+"""Measures the accuracy of tracking on videos of the simulated microscope, in which all positions are known.
 
-Two kinds of video, each with 200, 600 and 2000 cells and three levels of noise. A swarm at the edge of a drop, of which an arc of
-25 degrees is in view, swims off when the field is reversed: its centroid and spread are found by `faba track --swarm`, and by the
-estimator `image` while it runs. Cells all over the picture swim each its own way, by 0.9 of half the mean distance to the nearest
-neighbour in a frame: their mean speed is found by `faba track`. Prints the tables and a verdict on every goal; keeps them in
-bench/results/.
+Two kinds of video, each with 200, 600 and 2000 cells and three noise levels. (1) A swarm at the edge of a drop, of which an arc of 25
+degrees is in view, swims away when the field is reversed; `faba track --swarm` and, during the run, the estimator `image` measure its
+centroid and spread. (2) Cells in the entire picture swim in random directions, with displacements of 0.9 times half the mean
+nearest-neighbour distance per frame; `faba track` measures their mean speed. Prints tables with a verdict for every goal, and writes
+them to bench/results/.
 
     bench/tracking.py [--program build/faba] [--seeds 3] [--noise 1 2 3] [--out bench/results]
 
-Exits 1 when a goal is not met.
+Exit status 1 if a goal is not met.
 """
 
 import argparse
@@ -27,7 +26,7 @@ import numpy
 
 HERE = pathlib.Path(__file__).resolve().parent
 SWARM = HERE.parent / "scenes/as-seen.toml"
-CROWD = """title = "Cells all over the picture"
+CROWD = """title = "Cells in the entire picture"
 duration = "{duration} s"
 
 [camera]
@@ -41,7 +40,7 @@ exposure_time = "1 ms"
 noise = {noise}
 
 [arena]
-type = "drop"        # of which only the middle is in view
+type = "drop"        # only its middle is in view
 radius_px = 1000
 centre_px = [320, 240]
 
@@ -61,9 +60,9 @@ SPEED_PX_S = 203  # 186 um/s (IT-1) at 0.9164 um/px
 FRAMES = 15
 VIEW = (640, 480)
 CELLS = (200, 600, 2000)
-NOISE = (1, 2, 3)  # grey steps of 255; the videos of docs/guide/tracks.md have 1.6 and 2.2
-LEAST = 190  # cells in view: of fewer, those that the border cuts weigh as much as the error that is asked for
-FIRST_ONLINE = 15  # frame, from which the estimator counts: before it has seen the swarm move it cannot know the background
+NOISE = (1, 2, 3)  # grey levels of 255; the videos of docs/guide/tracks.md have 1.6 and 2.2
+LEAST = 190  # minimum number of cells in view: with fewer, cells cut by the border contribute an error as large as the goal
+FIRST_ONLINE = 15  # first frame in which the estimator is evaluated: it needs the motion of the swarm to find the background
 GOALS = {"centroid": 2, "spread": 5, "speed": 5}  # px, %, %
 
 
@@ -86,7 +85,7 @@ def in_view(position):
 
 
 def swarm_errors(program, folder, cells, noise, seed):
-    """The worst frame of a video: centroid (px) and spread (%) by `track --swarm`; centroid by `image` from the 15th frame on."""
+    """Maximum errors over the frames of a video: centroid (px) and spread (%) by `track --swarm`, centroid by `image` from frame 15."""
     position = run(program, SWARM, folder, seed, f"swarm[0].count={cells}", f"microscope.noise={noise / 255}",
                    'microscope.cell_diameter="2.5 um"', 'estimator.type="image"')
     table = folder.parent / "swarm.csv"
@@ -110,24 +109,24 @@ def swarm_errors(program, folder, cells, noise, seed):
 
 
 def speed_error(program, folder, cells, noise, seed):
-    """Error of the mean speed by `track` (%), and the mean displacement in a frame (px)."""
-    step = 0.9 * 0.25 * numpy.sqrt(VIEW[0] * VIEW[1] / cells)  # a neighbour is 0.5 / sqrt(density) away in the mean
+    """Error of the mean speed by `track` (%), and the mean displacement per frame (px)."""
+    step = 0.9 * 0.25 * numpy.sqrt(VIEW[0] * VIEW[1] / cells)  # mean nearest-neighbour distance: 0.5 / sqrt(density)
     scene = folder.parent / "crowd.toml"
     scene.write_text(CROWD.format(rate=SPEED_PX_S / step, duration=FRAMES * step / SPEED_PX_S, cells=cells, noise=noise / 255))
     position = run(program, scene, folder, seed)
     found = json.loads(faba(program, "track", folder, "--json", "--quiet"))["speed"]
     gap = max(1, round(found["interval_s"] * SPEED_PX_S / step))
     both = in_view(position[gap:]) & in_view(position[:-gap])
-    way = numpy.linalg.norm(position[gap:] - position[:-gap], axis=-1)[both]
-    return 100 * (found["mean_px_s"] / (way.mean() / found["interval_s"]) - 1), way.mean() / gap
+    displacement = numpy.linalg.norm(position[gap:] - position[:-gap], axis=-1)[both]
+    return 100 * (found["mean_px_s"] / (displacement.mean() / found["interval_s"]) - 1), displacement.mean() / gap
 
 
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba")
-    p.add_argument("--seeds", type=int, default=3)
-    p.add_argument("--noise", type=float, nargs="+", default=NOISE)
-    p.add_argument("--out", type=pathlib.Path, default=HERE / "results")
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba", help="the program, default build/faba")
+    p.add_argument("--seeds", type=int, default=3, help="number of seeds, default 3")
+    p.add_argument("--noise", type=float, nargs="+", default=NOISE, help="noise levels in grey levels of 255, default 1 2 3")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
     met = True
 
@@ -136,8 +135,8 @@ def main():
         met = met and value <= goal
         return "" if value <= goal else " **NOT MET**"
 
-    swarm = "| cells | noise | centroid (px) | spread (%) | centroid by `image` while it runs (px) |\n|---|---|---|---|---|\n"
-    crowd = "| cells | noise | displacement in a frame (px) | error of the mean speed (%) |\n|---|---|---|---|\n"
+    swarm = "| cells | noise | centroid (px) | spread (%) | centroid by `image` during the run (px) |\n|---|---|---|---|---|\n"
+    crowd = "| cells | noise | displacement per frame (px) | error of the mean speed (%) |\n|---|---|---|---|\n"
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder) / "run"
@@ -152,12 +151,12 @@ def main():
                 crowd += f"| {cells} | {noise:g} | {step:.1f} | {speed:+.1f}{verdict(abs(speed), GOALS['speed'])} |\n"
                 rows.append({"cells": cells, "noise": noise, **worst, "speed": speed, "step_px": step})
                 print(json.dumps(rows[-1]), file=sys.stderr, flush=True)
-    text = "# How exactly rendered cells are found\n\n"
-    text += f"{datetime.date.today()}, the worst of {o.seeds} seeds; `bench/tracking.py` made this page. Noise in grey steps of 255.\n\n"
-    text += "A swarm at the edge of a drop that swims off: worst of all frames with 190 cells in view or more, by `faba track --swarm`\n"
+    text = "# Accuracy of tracking on rendered videos\n\n"
+    text += f"{datetime.date.today()}, maximum errors of {o.seeds} seeds. Generated by `bench/tracking.py`. Noise in grey levels of 255.\n\n"
+    text += "A swarm that leaves the edge of a drop: maximum errors over all frames with at least 190 cells in view, by `faba track --swarm`\n"
     text += f"(goals: {GOALS['centroid']} px, {GOALS['spread']} %), and by the estimator `image` from frame {FIRST_ONLINE} on.\n\n{swarm}\n"
-    text += "Cells all over the picture that swim each its own way, by 0.9 of half the mean distance to the nearest neighbour\n"
-    text += f"(goal: {GOALS['speed']} %).\n\n{crowd}"
+    text += "Cells in the entire picture that swim in random directions, with displacements of 0.9 times half the mean nearest-neighbour\n"
+    text += f"distance (goal: {GOALS['speed']} %).\n\n{crowd}"
     print(text)
     o.out.mkdir(parents=True, exist_ok=True)
     (o.out / "tracking.md").write_text(text)

@@ -1,6 +1,6 @@
-// Optical flow and histogram distance: time of the published iteration, of the converged solution and of the
-// distance, on one and two threads, beside a plain loop, OpenCV's methods and the machine's memory. Every
-// answer is checked. Prints one JSON object per line; bench/video.py makes the table.
+// Measures the time of the published iteration of optical flow, of the converged solution and of the
+// histogram distance with one and two threads, compared with a simple loop, methods of OpenCV and the memory
+// bandwidth. Checks all results. Prints one JSON object per line for bench/video.py.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -24,8 +24,8 @@ using namespace faba::bench;
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480, kSweeps = 100;
-constexpr int kPairs = 10;                // of frames one after the other, as a video has them
-constexpr double kDx = 0.5, kDy = -0.25;  // px, of the texture
+constexpr int kPairs = 10;                // frame pairs in one timed call
+constexpr double kDx = 0.5, kDy = -0.25;  // px, displacement of the texture
 
 // Waves of several lengths and directions, moved by (dx, dy).
 double texture(double x, double y) {
@@ -44,8 +44,8 @@ Plane<float> plane(const GrayF& f) {
   return p;
 }
 
-/// Mean endpoint error over all pixels and over those far from the border, px: there the published
-/// differences repeat the border's pixels, and see half of the slope.
+/// Mean endpoint error over all pixels and over the pixels far from the border, px. At the border, the
+/// published differences repeat pixels and give half of the gradient.
 struct EndpointError {
   double all = 0, inside = 0;
 };
@@ -62,15 +62,14 @@ EndpointError endpoint_error(const GrayF& u, const GrayF& v) {
   return e;
 }
 
-/// Additions that wait for each other take a cycle each: what the clock is as this process gets it.
+/// Dependent additions, which take one clock cycle each: measures the clock frequency.
 constexpr int kAdditions = 10000000;
 void add_in_a_row() {
   unsigned long x = 0;
   for (int i = 0; i < kAdditions; ++i) asm volatile("add $1, %0" : "+r"(x));
 }
 
-/// The published iteration as one writes it first: one loop over the pixels, borders by clamping, two copies
-/// of the flow.
+/// The published iteration as a simple loop over the pixels, with clamped borders and two copies of the flow.
 class PlainLoop {
  public:
   PlainLoop(const GrayF& a, const GrayF& b) : a_(a), b_(b), u(kWidth, kHeight), v(kWidth, kHeight) {}
@@ -175,7 +174,7 @@ std::vector<Row> flow_rows(const GrayF& a, const GrayF& b) {
   return rows;
 }
 
-// The distance of 640 and 480 bins, as a pair of frames has them.
+// Histograms with 640 and 480 bins, the sums over rows and columns of a frame.
 struct Bins {
   std::vector<double> p, q;
 };
@@ -211,8 +210,7 @@ double by_definition(const Bins& b, double m, double threshold) {
 int main() {
   const GrayF a = frame(0, 0), b = frame(kDx, kDy);
   std::vector<Row> rows = flow_rows(a, b);
-  // Memory: what one sweep over all pixels moves when nothing stays in a cache, nine planes of 32 bits
-  // (triad: three).
+  // Memory traffic of one sweep over all pixels without a cache: nine planes of 32 bits (triad: three).
   const std::size_t pixels = std::size_t(kWidth) * kHeight;
   for (const unsigned threads : {1u, 2u}) {
     const auto pool = std::make_shared<Pool>(threads);
@@ -245,7 +243,7 @@ int main() {
   }
   std::vector<Timed> all;
   for (Row& r : rows) {
-    // (The plain loop takes as long as ten pairs of the others.)
+    // The plain loop takes as long as ten frame pairs of the other methods.
     if (const auto what = r.about["what"]; what != "distance" && what != "clock" && what != "plain loop") {
       r.timed.units *= kPairs;
       r.timed.work = [one = std::move(r.timed.work)] {
@@ -265,7 +263,7 @@ int main() {
     rows[i].about["inside_px"] = e.inside;
     fmt::print("{}\n", rows[i].about.dump());
   }
-  // The plain loop is the answer to the published iteration, to what floats can hold.
+  // The plain loop and the published iteration must agree within 32-bit rounding errors.
   std::map<std::string, double> error;
   for (const Row& r : rows) error[r.about["what"].get<std::string>()] = r.about["error_px"].get<double>();
   right = right && std::fabs(error["jacobi"] - error["plain loop"]) < 1e-4;

@@ -16,7 +16,7 @@ void skip(const std::string& why) {
 
 bool skipped_without(const std::filesystem::path& path) {
   if (std::filesystem::exists(path)) return false;
-  skip(path.string() + " does not exist");
+  skip("file not found: " + path.string());
   return true;
 }
 

@@ -7,9 +7,9 @@
 
 namespace faba {
 
-/// The TOML of the reference rig's coils (theory C4) standing at these angles about the sample, in degrees,
-/// axes inward: solenoids of 5 mm radius, 40 mm length and 400 turns, their middles 35 mm away. `list` is
-/// what their table is called: "coil" in a rig, "field.coil" in a scenario.
+/// TOML of the coils of the reference coil system (theory C4) at these angles around the sample, degrees,
+/// with inward axes: solenoids of 5 mm radius, 40 mm length and 400 turns, with centres 35 mm from the
+/// sample. `list` is the name of the table: "coil" in the file of a coil system, "field.coil" in a scenario.
 inline std::string reference_coils(const std::string& list, const std::vector<double>& angles) {
   std::string t;
   for (const double a : angles) {

@@ -9,24 +9,24 @@
 
 namespace faba {
 
-/// A video whose truth is known: what to render, and where its cells are.
+/// A rendered video with known ground truth: parameters of the rendering and positions of the cells.
 struct RenderedVideo {
-  int width = 320, height = 240;  ///< px, never square
+  int width = 320, height = 240;  ///< px; different, to detect swapped axes
   double m_per_px = 1e-6;
   double fps = 15;
   int frames = 30;
   Circle edge{};  ///< the drop, image frame, px; radius 0: none
   MicroscopeParams microscope{};
   std::uint64_t seed = 1;
-  /// Where the cells are at time t, s; image frame, px. Their way during the exposure is worked out from it.
+  /// Cells at time t, s; image frame, px. Their displacement during the exposure is computed from it.
   std::function<std::vector<CameraCell>(double t)> cells = [](double) { return std::vector<CameraCell>(); };
-  /// When frame k is taken, s; empty: k / fps. Only mp4 holds other times.
+  /// Time of frame k, s; empty: k / fps. Other times are possible only with mp4.
   std::function<double(long long)> time_s = {};
 
   double time_of(long long frame) const { return time_s ? time_s(frame) : double(frame) / fps; }
 };
 
-/// The frames of the video one by one: take(frame, k).
+/// Renders the frames of the video and calls take(frame, k) for each.
 template <class Take>
 void render_frames(const RenderedVideo& v, Take&& take) {
   Frame frame;
@@ -50,7 +50,7 @@ void render_frames(const RenderedVideo& v, Take&& take) {
   }
 }
 
-/// Renders into `path`: exact when it ends in .avi, else H.264 in mp4.
+/// Renders to `path`: lossless if it ends in .avi, otherwise H.264 in mp4.
 inline void write_rendered(const RenderedVideo& v, const std::filesystem::path& path) {
   const bool avi = path.extension() == ".avi";
   VideoWriter writer(path.string() + ".part", avi ? VideoFormat::lossless_avi : VideoFormat::mp4, v.width,

@@ -9,7 +9,7 @@
 
 namespace faba {
 
-/// A scenario from text, brought to life for a test that steps the world by hand.
+/// A simulation of a scenario given as TOML text, for tests that step the world.
 struct TestSwarm {
   Pool pool;
   Scenario scenario;
@@ -22,7 +22,7 @@ struct TestSwarm {
   World& world() { return simulation.world(); }
   std::span<const float> column(const char* name) { return simulation.world().state().agents[name]; }
 
-  /// Replaces the state: `change(State&)`.
+  /// Modifies the state with `change(State&)`.
   template <class Change>
   void alter(Change&& change) {
     State s = world().state();
@@ -46,9 +46,9 @@ struct Sample {
   }
 };
 
-/// A lone-swimmer world in which the uniform field is one tesla per ampere, so that currents read as fields.
-/// Cells are north-seeking, start together at the origin, do not exclude each other and never meet a wall.
-/// `model` is the inside of the model's inline table; one frame is one step of `dt` s.
+/// A scenario without walls and exclusion, with a uniform field of 1 T/A, so that currents in A equal fields
+/// in T. Cells are north-seeking and start at the origin. `model` is the content of the inline table of the
+/// model; one frame is one step of `dt` s.
 inline std::string free_space(const std::string& model, double dt, int count) {
   return fmt::format(
       "duration = 1\nexclusion = {{ order = 'none' }}\narena = {{ type = 'box', size_px = [65536, 65536] }}\n"

@@ -6,8 +6,8 @@
 
 namespace faba::test {
 
-/// An empty folder of its own that is removed with all it holds. Tests may run side by side in several
-/// processes.
+/// An empty folder that the destructor removes with its content. Its name is unique, so tests can run in
+/// parallel in several processes.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name)

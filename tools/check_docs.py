@@ -1,21 +1,21 @@
 #!/usr/bin/python3
-"""Fails when the documentation and the program have drifted apart.
+"""Compares the documentation with the program; fails if they differ.
 
     tools/check_docs.py --program build/faba --root .
 
-Checks, each named in the message when it fails:
-- docs/reference/ and the table of columns in docs/formats/run-directory.md are what tools/make_docs.py would write now;
-- docs/formats/cli.md has a row and a section for every verb of `faba --help`, with all its options and verbs of its own;
-- the list of assumptions of docs/theory/README.md names every parameter whose source in docs/reference/ says "assumed";
-- every relative link of every .md file leads to a file of this tree, and to a heading of it where it names one;
-- every fenced block marked `toml scenario` is accepted by the program, and so is every one marked `toml part`, which is
-  an excerpt, once a swarm is added where it has none;
-- every block marked `console checked` prints, command by command, what the page says; `...` stands for anything;
-- every option that a `$ build/faba VERB ...` line uses exists, and so does every scene that it names;
-- the columns of docs/formats/run-directory.md are those of a series.csv;
-- docs/theory/README.md lists every section of docs/theory/ that has a label, A to H, and no other;
-- every label (A4, B3.4) and source tag ([S12]) that is cited in sources, tests, scenes, tools and pages is one of docs/theory/;
-- no file of src/ is longer than 400 lines.
+Checks:
+- docs/reference/ and the table of columns in docs/formats/run-directory.md equal the output of tools/make_docs.py;
+- docs/formats/cli.md has a row and a section for every verb of `faba --help`, with all its options and subcommands;
+- the list of assumptions in docs/theory/README.md has every parameter whose source in docs/reference/ contains "assumed";
+- every relative link in an .md file points to an existing file of the tree, and to an existing heading if it has an anchor;
+- the program accepts every fenced block marked `toml scenario`, and every block marked `toml part` (an excerpt), to which
+  a swarm is added if it has none;
+- every command of a block marked `console checked` prints the text of the page; `...` matches any text;
+- every option in a `$ build/faba VERB ...` line exists, and every scene and coil system in it exists;
+- docs/formats/run-directory.md lists the columns of a series.csv;
+- docs/theory/README.md lists all sections of docs/theory/ with a label, A to H, and no others;
+- every label (A4, B3.4) and source tag ([S12]) cited in sources, tests, scenes, tools and pages exists in docs/theory/;
+- no file of src/ has more than 400 lines.
 """
 
 import argparse
@@ -29,14 +29,14 @@ import make_docs
 
 MOST_LINES = 400
 SKIPPED = {"build", "runs", ".git", "node_modules"}
-FLOW_OPTIONS = "[FLOW OPTIONS]"  # on a page: those of `faba flow`
+FLOW_OPTIONS = "[FLOW OPTIONS]"  # on a page: the options of `faba flow`
 EVERYWHERE = {"--help", "--json", "--quiet", "--force"}  # options that docs/formats/cli.md explains once for all verbs
 # Where labels of the theory are cited, in files of these kinds.
 CITING = ("src", "tests", "docs", "bench", "scenes", "rigs", "studies", "firmware", "tools", "web/src", "*.md")
 CITING_KINDS = {".h", ".cpp", ".c", ".py", ".toml", ".md", ".ts", ".svelte"}
-# A letter and a number that is not one: a byte of JPEG, the C standard.
+# Not labels: a byte of JPEG, the C standard.
 NOT_A_LABEL = {"D9", "C99"}
-PLANTS = "tests/tools/"  # has wrong citations, for the test of this program
+PLANTS = "tests/tools/"  # contains wrong citations on purpose, for the test of this program
 
 
 class Checks:
@@ -61,33 +61,33 @@ class Checks:
         for name in sorted(set(wanted) | {p.name for p in folder.glob("*.md")}):
             page = folder / name
             if not page.exists() or wanted.get(name) != page.read_text():
-                self.fail(page, "differs from what the program says; run: tools/make_docs.py")
+                self.fail(page, "differs from the descriptions in the program; run: tools/make_docs.py")
         page = self.root / make_docs.COLUMNS_PAGE
         if page in self.text and make_docs.with_columns(self.program, self.text[page]) != self.text[page]:
-            self.fail(page, "the table of columns differs from what the program says; run: tools/make_docs.py")
+            self.fail(page, "the table of columns differs from the descriptions in the program; run: tools/make_docs.py")
 
     def verbs(self, folder):
         page = self.root / "docs/formats/cli.md"
         table = re.search(r"^\| verb \|.*?\n\n", self.text.get(page, ""), re.M | re.S)
-        said = re.findall(r"^\| \[`([\w-]+)`\]", table[0] if table else "", re.M)
-        there = re.findall(r"^  ([a-z][\w-]*)", self.faba("--help", cwd=folder).stdout.split("\nSubcommands:\n")[1], re.M)
-        if said != there:
-            self.fail(page, f"the program has the verbs {', '.join(there)}; the page lists {', '.join(said)}")
+        listed = re.findall(r"^\| \[`([\w-]+)`\]", table[0] if table else "", re.M)
+        existing = re.findall(r"^  ([a-z][\w-]*)", self.faba("--help", cwd=folder).stdout.split("\nSubcommands:\n")[1], re.M)
+        if listed != existing:
+            self.fail(page, f"the program has the verbs {', '.join(existing)}; the page lists {', '.join(listed)}")
         sections = dict(re.findall(r"^## faba ([\w-]+)\n(.*?)(?=^## |\Z)", self.text.get(page, ""), re.M | re.S))
-        for verb in there:
+        for verb in existing:
             text = sections.get(verb, "")
             if FLOW_OPTIONS in text:
                 text += sections.get("flow", "")
             for word in sorted(self.options_of(verb, folder)):
                 if not re.search(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text):
-                    self.fail(page, f"the section of faba {verb} does not name {word}")
+                    self.fail(page, f"the section of faba {verb} does not describe {word}")
 
     def options_of(self, verb, folder):
-        """The verb's options, and its own verbs with theirs; not what every verb has."""
+        """The options of the verb, its subcommands and their options, without those in EVERYWHERE."""
         text = self.faba(*verb.split(), "--help", cwd=folder).stdout
-        own = re.findall(r"^  ([a-z][\w-]*)", text.partition("\nSubcommands:\n")[2], re.M)
+        subcommands = re.findall(r"^  ([a-z][\w-]*)", text.partition("\nSubcommands:\n")[2], re.M)
         found = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.M)) - EVERYWHERE
-        return found.union(own, *(self.options_of(f"{verb} {one}", folder) for one in own))
+        return found.union(subcommands, *(self.options_of(f"{verb} {name}", folder) for name in subcommands))
 
     def assumptions(self):
         page = self.root / "docs/theory/README.md"
@@ -100,7 +100,7 @@ class Checks:
     # --- links -----------------------------------------------------------------------------------------------------
 
     def headings(self, page):
-        """Anchors as GitHub makes them from the headings outside code."""
+        """Anchors that GitHub generates from the headings outside code blocks."""
         found = set()
         for line in without_code(self.text[page]).splitlines():
             if not (m := re.match(r"#{1,6}\s+(.*?)\s*#*$", line)):
@@ -124,11 +124,11 @@ class Checks:
                     file = (page.parent / name).resolve() if name else page
                     place = f"{page.relative_to(self.root)}:{number}"
                     if not file.is_relative_to(self.root):
-                        self.fail(place, f"the link {target} leads out of the project")
+                        self.fail(place, f"link {target}: outside the project")
                     elif not file.exists():
-                        self.fail(place, f"the link {target} leads nowhere")
+                        self.fail(place, f"link {target}: file not found")
                     elif anchor and (file not in self.text or anchor not in self.headings(file)):
-                        self.fail(place, f"the link {target} names a heading that is not there")
+                        self.fail(place, f"link {target}: heading not found")
 
     # --- examples --------------------------------------------------------------------------------------------------
 
@@ -138,7 +138,7 @@ class Checks:
                 yield f"{page.relative_to(self.root)}:{text.count(chr(10), 0, m.start()) + 1}", m[1]
 
     def scenarios(self, folder):
-        """Runs each for one frame. `--duration` hides the block's own one, so that is tried once more as an exposure."""
+        """Runs each block for one frame. `--duration` overrides the duration of the block, so its value is checked as an exposure."""
         (pathlib.Path(folder) / "rigs").symlink_to(self.root / "rigs")
         for info in ("toml scenario", "toml part"):
             for place, block in self.blocks(info):
@@ -154,7 +154,7 @@ class Checks:
                         break
 
     def outputs(self, folder):
-        """The blocks of a page run one after the other in one folder, as a reader would do it."""
+        """Runs the blocks of a page in order in one folder."""
         for page in self.pages:
             work = pathlib.Path(folder) / f"outputs-{page.stem}"
             for m in re.finditer(r"^```console checked\n(.*?)^```", self.text[page], re.M | re.S):
@@ -165,9 +165,9 @@ class Checks:
                     (work / "build").mkdir()
                     (work / "build/faba").symlink_to(self.program)
                 place = f"{page.relative_to(self.root)}:{self.text[page].count(chr(10), 0, m.start()) + 1}"
-                for command, said in shell_session(m[1]):
+                for command, expected in shell_session(m[1]):
                     r = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=work)
-                    pattern = ".*".join(re.escape(piece) for piece in said.split("..."))
+                    pattern = ".*".join(re.escape(piece) for piece in expected.split("..."))
                     if r.returncode != 0 or not re.fullmatch(pattern, r.stdout.replace("\u00a0", " ")):
                         self.fail(place, f"{command!r} now prints:\n{r.stdout}{r.stderr}")
 
@@ -184,26 +184,26 @@ class Checks:
                     r = self.faba(*verb.split(), "--help", cwd=folder)
                     helps[verb] = r.stdout if r.returncode == 0 else None
                 if helps[verb] is None:
-                    self.fail(place, f"there is no verb {verb}")
+                    self.fail(place, f'unknown verb "{verb}"')
                     continue
                 for option in re.findall(r"(?<!\S)--[\w-]+", rest):
                     if not re.search(re.escape(option) + r"\b", helps[verb]):
-                        self.fail(place, f"faba {verb} has no option {option}")
+                        self.fail(place, f'unknown option "{option}" of faba {verb}')
                 for scene in re.findall(r"(?<!\S)(?:scenes|rigs)/\S+\.toml", rest):
                     if not (self.root / scene).exists():
-                        self.fail(place, f"there is no {scene}")
+                        self.fail(place, f"file not found: {scene}")
 
     def columns(self, folder):
         page = self.root / "docs/formats/run-directory.md"
         section = re.search(r"^## series\.csv\n(.*?)^## ", self.text.get(page, ""), re.M | re.S)
-        said = re.findall(r"^\| `(\w+)` \|", section[1] if section else "", re.M)
+        listed = re.findall(r"^\| `(\w+)` \|", section[1] if section else "", re.M)
         scene = pathlib.Path(folder) / "columns.toml"
         scene.write_text("[[swarm]]\ncount = 2\n")
         self.faba("run", "columns.toml", "--duration", "0 s", "--seed", "1", "--out", "columns", "--quiet", cwd=folder)
         header = (pathlib.Path(folder) / "columns/series.csv").read_text().splitlines()[0]
-        there = list(dict.fromkeys(re.sub(r"current_\d+_a", "current_K_a", header).split(",")))
-        if said != there:
-            self.fail(page, f"series.csv has the columns {', '.join(there)}; the page lists {', '.join(said)}")
+        existing = list(dict.fromkeys(re.sub(r"current_\d+_a", "current_K_a", header).split(",")))
+        if listed != existing:
+            self.fail(page, f"series.csv has the columns {', '.join(existing)}; the page lists {', '.join(listed)}")
 
     # --- sources ---------------------------------------------------------------------------------------------------
 
@@ -211,12 +211,12 @@ class Checks:
         for file in sorted((self.root / "src").rglob("*.[hc]*")):
             lines = len(file.read_text(errors="replace").splitlines())
             if lines > MOST_LINES:
-                self.fail(file, f"{lines} lines; at most {MOST_LINES}")
+                self.fail(file, f"{lines} lines; the maximum is {MOST_LINES}")
 
     # --- citations -------------------------------------------------------------------------------------------------
 
     def labels(self):
-        """Label -> text of its section, from the pages themselves, which the index must agree with."""
+        """Label -> text of its section in the pages; compares the labels with those of the index."""
         sections = {}
         for page in sorted((self.root / "docs/theory").glob("*.md")):
             for m in re.finditer(r"^(#+) ([A-H]\d+)\b(.*?)(?=^#{1,3} |\Z)", self.text[page], re.M | re.S):
@@ -224,7 +224,7 @@ class Checks:
         index = set(make_docs.theory_labels(self.root))
         for label in sorted(index ^ set(sections)):
             page = self.root / "docs/theory/README.md"
-            self.fail(page, f"lists {label}, which no page has" if label in index else f"does not list {label}")
+            self.fail(page, f"lists {label}, but no page has this section" if label in index else f"does not list {label}")
         return sections
 
     def citing(self):
@@ -249,12 +249,12 @@ class Checks:
                     if label in NOT_A_LABEL:
                         continue
                     if label not in sections:
-                        self.fail(place, f"cites {label}, which docs/theory/ does not have")
+                        self.fail(place, f"cites {label}, which is missing in docs/theory/")
                     elif item and not re.search(rf"^{item}\. ", sections[label], re.M):
-                        self.fail(place, f"cites {label}.{item}, which section {label} of docs/theory/ does not have")
+                        self.fail(place, f"cites {label}.{item}, which is missing in section {label} of docs/theory/")
                 for tag in re.findall(r"\[(S\d{1,2})\]", line):
                     if not re.search(rf"\b{tag}\b", tags):
-                        self.fail(place, f"cites [{tag}], which docs/theory/sources.md does not list")
+                        self.fail(place, f"cites [{tag}], which is missing in docs/theory/sources.md")
 
 
 def without_code(text, keep_lines=False):
@@ -265,17 +265,17 @@ def without_code(text, keep_lines=False):
 
 
 def shell_session(block):
-    """Pairs of a command, after `$ ` and on as many lines as the shell takes, and what is printed under it."""
-    command, said, pairs = "", "", []
+    """Pairs (command, expected output). A command starts with `$ ` and can have several lines."""
+    command, expected, pairs = "", "", []
     for line in block.splitlines(keepends=True):
         if line.startswith("$ "):
-            pairs += [(command, said)] if command else []
-            command, said = line[2:], ""
+            pairs += [(command, expected)] if command else []
+            command, expected = line[2:], ""
         elif unfinished(command):
             command += line
         else:
-            said += line
-    return pairs + [(command, said)]
+            expected += line
+    return pairs + [(command, expected)]
 
 
 def unfinished(command):
@@ -284,13 +284,13 @@ def unfinished(command):
 
 
 def main():
-    cli = argparse.ArgumentParser(description="Fail when the documentation and the program have drifted apart.")
-    cli.add_argument("--program", default="build/faba")
-    cli.add_argument("--root", default=".", type=pathlib.Path)
+    cli = argparse.ArgumentParser(description="Compare the documentation with the program; fail if they differ.")
+    cli.add_argument("--program", default="build/faba", help="the program, default build/faba")
+    cli.add_argument("--root", default=".", type=pathlib.Path, help="folder of the project, default .")
     options = cli.parse_args()
     program, root = pathlib.Path(options.program).resolve(), options.root.resolve()
     if not program.exists():
-        sys.exit(f"check_docs: no program {program}; build it first or name it with --program")
+        sys.exit(f"check_docs: program not found: {program}; build it or give its path with --program")
     checks = Checks(program, root)
     with tempfile.TemporaryDirectory() as folder:
         checks.reference()

@@ -1,15 +1,16 @@
 #!/usr/bin/python3
-"""Checks the structure of src/ (ARCHITECTURE.md has the same tables in words). Fails when
+"""Checks the structure of src/ (ARCHITECTURE.md describes the same tables). Reports
 
-- a file includes a folder that its layer may not see, or a subfolder that its own subfolder may not see,
-- a folder of study that measures makes JSON of its results itself,
-- files include each other in a circle (a file is the .h and .cpp of one name),
-- a third-party library is included outside its home or has none, or a header that shows a library's types leaves its folder,
-- two headers give different types one name, which no compiler notices and the linker makes one of,
-- two .cpp files of a folder of src have a name of their own in common, which compiling several at a time forbids,
-- a folder is not in the table, or has more files directly in it than a reader can take in.
+- an include of a folder or of a subfolder that the tables below do not permit,
+- a folder of measurements in src/study that creates JSON,
+- include cycles (the .h and .cpp of one name count as one file),
+- a third-party library that is included in a folder that may not include it or that is missing in the table, and a
+  header that exposes types of a library and is included by another folder,
+- two headers that define types with the same name: no compiler reports this, and the linker merges them,
+- two .cpp files of a folder of src that define the same local name, which is an error in a unity build,
+- a folder that is missing in the table, or that has more than MOST_FILES files directly in it.
 
-check_layers.py src    prints one line per violation and exits with 1 when there is one."""
+check_layers.py src    prints one line per violation; exit status 1 if there are any."""
 
 import pathlib
 import re
@@ -29,8 +30,8 @@ MAY = {
     "cli": "core app study server",
     "guard": "core rig",
 }
-# Subfolders and the siblings that each may include; "." is the folder itself. Folders that are not here have no rule
-# between their subfolders.
+# Subfolders and the sibling subfolders that each may include; "." is the folder itself. In folders that are not listed,
+# all subfolders may include each other.
 WITHIN = {
     "core": {".": "kernels", "kernels": ".", "h5": "."},
     "vision": {
@@ -79,19 +80,19 @@ WITHIN = {
         "pages": "data stats sweep plot scale drop flow tracks motion steering coils identify",
     },
 }
-# Folders whose results are structs: JSON is made of them in study/pages, cli and server. Files that name it for
-# another reason: activity_study reads a study file and gives its JSON Schema, field_fit writes the table of a scenario's
-# part, field_library makes the keys of its file.
+# Folders whose results are structs; study/pages, cli and server convert them to JSON. Files that use JSON for another
+# purpose: activity_study reads a study file and has its JSON Schema, field_fit writes the table of a part of a scenario,
+# field_library writes the keys of its file.
 NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion coils".split()]
 MAY_JSON = ["study/motion/activity_study", "study/coils/field_fit", "study/coils/field_library"]
-# What the engine is made of includes nothing else, whatever the tables above allow (CMakeLists.txt: faba_engine).
+# Folders of the engine include only each other, even if the tables above permit more (CMakeLists.txt: faba_engine).
 ENGINE = (
     "core core/kernels field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "
     "app/loop app/scenario app/run"
 ).split()
-# Headers that the engine may include though it does not have their sources: interfaces of parts that come on top.
+# Interfaces that the engine may include although their implementations are not part of it.
 ENGINE_INTERFACES = ["rig/rig.h", "rig/camera.h", "rig/coil_driver.h", "vision/flow/flow.h"]
-# The folders of src, for most a single one, that may include a third-party library.
+# Third-party libraries and the folders of src that may include them.
 HOME = {
     "opencv2/": {"vision", "rig"},
     "libav": {"vision"},
@@ -112,13 +113,13 @@ HOME = {
     "boost/beast": {"server"},
 }
 EVERYWHERE = ("fmt/", "nlohmann/")
-# What the engine may include of them, wherever else in its folders they have a home.
+# Third-party libraries that the engine may include.
 ENGINE_LIBRARIES = (*EVERYWHERE, "toml++", "Eigen/", "nanoflann", "boost/math")
-# Headers of the standard library and of the operating system; all others are of third parties.
+# Headers of the standard library and of the operating system; all others belong to third-party libraries.
 SYSTEM = re.compile(
     r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
 )
-# Folders that are compiled several files at a time (CMakeLists.txt: FABA_UNITY).
+# Folders with a unity build (CMakeLists.txt: FABA_UNITY), and their files that are compiled separately.
 UNITY = {"field", "sim", "control", "rig", "app", "study", "server", "cli"}
 ALONE = {"sim/agents/adapted.cpp", "sim/agents/basic.cpp", "sim/agents/dipole.cpp", "field/uniform.cpp", "app/parts.cpp"}
 SOURCES = (".h", ".cpp", ".c")
@@ -143,7 +144,7 @@ class Tree:
 
 
 def subfolder(path):
-    """The part of vision/image/kernels/x.h that WITHIN speaks of: image; "." for a file directly in its folder."""
+    """The key of WITHIN for a path: "image" for vision/image/kernels/x.h, "." for a file directly in its folder."""
     parts = path.split("/")
     return parts[1] if len(parts) > 2 else "."
 
@@ -151,18 +152,18 @@ def subfolder(path):
 def check_folders(tree):
     for file in sorted(tree.root.rglob("*")):
         if file.suffix in (".hpp", ".hh", ".cc", ".cxx", ".inc", ".inl"):
-            yield f"{file}: sources end in {', '.join(SOURCES)}"
+            yield f"{file}: unknown suffix; sources end in {', '.join(SOURCES)}"
     count = {}
     for file in tree.files:
         count[file.parent] = count.get(file.parent, 0) + 1
         folder = tree.name(file).split("/")[0]
         if folder not in MAY:
-            yield f"{file}: the folder {folder} is not in the table of tools/check_layers.py"
+            yield f"{file}: the folder {folder} is missing in the table of tools/check_layers.py"
         elif folder in WITHIN and subfolder(tree.name(file)) not in WITHIN[folder]:
-            yield f"{file}: the subfolder {subfolder(tree.name(file))} is not in the table of tools/check_layers.py"
+            yield f"{file}: the subfolder {subfolder(tree.name(file))} is missing in the table of tools/check_layers.py"
     for folder, files in count.items():
         if files > MOST_FILES:
-            yield f"{folder}: {files} files directly in one folder, at most {MOST_FILES} are allowed"
+            yield f"{folder}: {files} files directly in this folder; the maximum is {MOST_FILES}"
 
 
 def check_includes(tree):
@@ -170,7 +171,7 @@ def check_includes(tree):
         here, name = tree.name(file).split("/")[0], tree.name(file)
         there = path.split("/")[0]
         if not own and there in MAY and "/" in path:
-            yield f"{file}:{number}: {path} is a header of the project and stands in quotes"
+            yield f"{file}:{number}: {path} is a header of the project; include it in quotes"
         if not own or there not in MAY or here not in MAY:
             continue
         if here != there and there not in MAY[here].split():
@@ -200,18 +201,18 @@ def check_json(tree):
             continue
         for number, line in enumerate(file.read_text().splitlines(), 1):
             if re.search(r"\bJson\b|\bnlohmann\b", line.split("//")[0]):
-                yield f"{file}:{number}: a measurement gives a struct; JSON is made of it in study/pages, cli or server"
+                yield f"{file}:{number}: a measurement returns a struct; convert it to JSON in study/pages, cli or server"
 
 
-def check_circles(tree):
-    """Strongly connected files, by Tarjan's algorithm."""
+def check_cycles(tree):
+    """Reports strongly connected components of the include graph (Tarjan's algorithm)."""
     edges = {}
     for file in tree.files:
         edges.setdefault(tree.name(file).rsplit(".", 1)[0], set())
     for file, _, path, own in tree.includes:
         if own:
             edges[tree.name(file).rsplit(".", 1)[0]].add(path.rsplit(".", 1)[0])
-    index, low, stack, circles = {}, {}, [], []
+    index, low, stack, cycles = {}, {}, [], []
 
     def visit(node):
         index[node] = low[node] = len(index)
@@ -224,21 +225,21 @@ def check_circles(tree):
             if other in stack:
                 low[node] = min(low[node], low[other])
         if low[node] == index[node]:
-            circle = stack[stack.index(node) :]
+            cycle = stack[stack.index(node) :]
             del stack[stack.index(node) :]
-            if len(circle) > 1:
-                circles.append(sorted(circle))
+            if len(cycle) > 1:
+                cycles.append(sorted(cycle))
 
     sys.setrecursionlimit(10000)
     for node in sorted(edges):
         if node not in index:
             visit(node)
-    for circle in circles:
-        yield f"{tree.root}: an include circle: {', '.join(circle)}"
+    for cycle in cycles:
+        yield f"{tree.root}: include cycle: {', '.join(cycle)}"
 
 
 def check_libraries(tree):
-    shows = set()  # headers with a library's types in them
+    exposing = set()  # headers that contain types of a library
     headers = {}
     for file, number, path, own in tree.includes:
         here = tree.name(file).split("/")[0]
@@ -247,21 +248,21 @@ def check_libraries(tree):
                 headers.setdefault(tree.name(file), set()).add(path)
             continue
         if not SYSTEM.fullmatch(path) and not path.startswith((*HOME, *EVERYWHERE)):
-            yield f"{file}:{number}: <{path}> has no home in the table of tools/check_layers.py"
+            yield f"{file}:{number}: <{path}> is missing in the table of tools/check_layers.py"
         for prefix, homes in HOME.items():
             if not path.startswith(prefix):
                 continue
             if here not in homes:
-                yield f"{file}:{number}: <{path}> may be included by {', '.join(sorted(homes))} only"
+                yield f"{file}:{number}: <{path}> may be included only by {', '.join(sorted(homes))}"
             elif file.suffix == ".h":
-                shows.add(tree.name(file))
-    grown = True
-    while grown:
-        grown = {h for h, included in headers.items() if included & shows} - shows
-        shows |= grown
+                exposing.add(tree.name(file))
+    added = True
+    while added:
+        added = {h for h, included in headers.items() if included & exposing} - exposing
+        exposing |= added
     for file, number, path, own in tree.includes:
-        if own and path in shows and tree.name(file).split("/")[0] != path.split("/")[0]:
-            yield f"{file}:{number}: {path} shows a library's types and may be included by its own folder only"
+        if own and path in exposing and tree.name(file).split("/")[0] != path.split("/")[0]:
+            yield f"{file}:{number}: {path} exposes types of a library and may be included only by its own folder"
 
 
 def check_types(tree):
@@ -272,12 +273,11 @@ def check_types(tree):
         for number, line in enumerate(file.read_text().splitlines(), 1):
             defined = re.match(r"(?:struct|class|enum class) (\w+)[^;]*$", line)
             if defined and types.setdefault(defined[1], file) != file:
-                yield f"{file}:{number}: {defined[1]} is the name of another type in {types[defined[1]]}"
+                yield f"{file}:{number}: {defined[1]} is also the name of a type in {types[defined[1]]}; rename one of them"
 
 
-def own_names(text):
-    """Names that a .cpp file has to itself, in its anonymous namespace: of types and constants "Name", of functions
-    "name(types of parameters)"."""
+def local_names(text):
+    """Names in the anonymous namespaces of a .cpp file: "Name" of types and constants, "name(parameter types)" of functions."""
     for body in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", text, re.S | re.M):
         for line in body.splitlines():
             named = re.match(r"(?:struct|class|enum class) (\w+)", line) or re.match(
@@ -299,25 +299,25 @@ def function_key(match):
 
 
 def check_unity(tree):
-    """Where several files are compiled at a time, a name of one file's own would be that of another one's in the same
-    folder of src, and a function of its own could take the place of one that a header declares, without a warning."""
+    """In a unity build, a local name of one file collides with that of another file of the same folder of src, and a local
+    function can hide one that a header declares, without a warning."""
     declared = {}
     for file in tree.files:
         if file.suffix == ".h":
             for line in file.read_text().splitlines():
                 if (function := FUNCTION.match(line)) and line.rstrip().endswith((";", ",")):
                     declared[function_key(function)] = file
-    own = {}
+    local = {}
     for file in tree.files:
         folder = tree.name(file).split("/")[0]
         if file.suffix != ".cpp" or folder not in UNITY or tree.name(file) in ALONE:
             continue
-        for name in own_names(file.read_text()):
-            other = own.setdefault((folder, name), file)
+        for name in local_names(file.read_text()):
+            other = local.setdefault((folder, name), file)
             if other != file:
-                yield f"{file}: {name} is also a name of {other}'s own; give one of them another"
+                yield f"{file}: {name} is also defined in {other}; rename one of them"
             if name in declared:
-                yield f"{file}: {name} is also declared in {declared[name]}; give this one another name"
+                yield f"{file}: {name} is also declared in {declared[name]}; rename this one"
 
 
 def violations(root):
@@ -327,7 +327,7 @@ def violations(root):
         check_includes,
         check_engine,
         check_json,
-        check_circles,
+        check_cycles,
         check_libraries,
         check_types,
         check_unity,
@@ -337,5 +337,5 @@ def violations(root):
 
 if __name__ == "__main__":
     found = list(violations(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "src")))
-    print("\n".join(found) if found else "no violation")
+    print("\n".join(found) if found else "no violations")
     sys.exit(1 if found else 0)

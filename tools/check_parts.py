@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Fails when code knows a part by its name: a registered part's name may stand as a string in the part's own file, in
-src/app/parts.cpp, and where a default is chosen. Everything else asks a part for its traits (src/core/traits.h).
+"""Reports code that depends on the name of a part. The name of a registered part is permitted as a string in the file of
+the part, in src/app/parts.cpp, and where a default is selected. Other code uses the traits of a part (src/core/traits.h).
 
 check_parts.py --program build/faba --root .
 
-Many names are ordinary words that also mean other things, such as a key of a JSON object. Those places are listed here
-with what the word means there; an entry that is no longer needed is an error, too."""
+Many names are ordinary words with other meanings, such as a key of a JSON object. These uses are listed below with
+their meaning; an entry that is no longer needed is reported too."""
 
 import argparse
 import json
@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-# Where the default of a section is chosen, or the program writes a scenario.
+# Files that select the default of a section or write a scenario.
 CHOSEN = {
     "src/app/bench/step_response.cpp": {"image", "manual"},
     "src/app/files/from_picture.cpp": {"drop", "visible"},
@@ -28,7 +28,7 @@ CHOSEN = {
     "src/study/identify/episode_simulation.cpp": {"box", "drop", "dipole", "places", "none", "manual"},
     "src/study/identify/matched_look.cpp": {"dipole"},
 }
-# What else the name of a part means, and where: (name, meaning, files).
+# Other meanings of the names of parts: (name, meaning, files).
 OTHER_MEANINGS = (
     ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp"),
     ("box", "a word in a sentence", "src/app/run/notes.cpp"),
@@ -63,7 +63,7 @@ OTHER_MEANINGS = (
     ("visible", "a label, a parameter or a style",
      "src/sim/starts/edge.cpp src/study/pages/run_figures.cpp web/src/view/Microscope.svelte"),
 )
-# "x" is compared with p.type, p.name() or j["type"], from either side. Words of JSON Schema are no parts.
+# Comparison of a string with p.type, p.name() or j["type"], in either order. Types of JSON Schema are not parts.
 WHAT = r'(?:\.(?:type|name)(?:\(\))?|\["(?:type|name)"\])'
 KIND = "(?:number|integer|string|boolean|array|object|const)"
 COMPARED = re.compile(rf'{WHAT} *[!=]==? *["\'](?!{KIND}["\'])|["\'] *[!=]==? *[\w.\[\]>-]*{WHAT}')
@@ -77,12 +77,12 @@ def part_names(program):
 
 
 def own_file(text, name):
-    """Whether a file describes the part: its schema has the name, whatever the type of its parameters."""
+    """Whether the file describes the part: it has a schema with this name."""
     return re.search(r'(?:Schema<[\w:]+>(?: \w+)?\(|_schema\(|return \{)\s*"' + re.escape(name) + '"', text) is not None
 
 
 def strings_in(text):
-    """Line number and content of the string literals of C++ or TypeScript, comments left out."""
+    """Line number and content of the string literals in C++ or TypeScript code, without comments."""
     for number, line in enumerate(text.splitlines(), 1):
         code = re.sub(r"^\s*//.*$|(?<=[\s;{}])//.*$", "", line)
         for found in re.finditer(r'"((?:[^"\\]|\\.)*)"|\'([a-z_]+)\'', code):
@@ -90,7 +90,7 @@ def strings_in(text):
 
 
 def misused(root, names):
-    """Messages about names of parts that stand where they may not, and about entries that nothing needs."""
+    """Messages about names of parts that are not permitted where they are, and about unused entries."""
     chosen = {(file, name) for file, words in CHOSEN.items() for name in words}
     other = {(file, name) for name, _, files in OTHER_MEANINGS for file in files.split()}
     used = set()
@@ -99,26 +99,26 @@ def misused(root, names):
         text = file.read_text()
         for number, line in enumerate(text.splitlines(), 1):
             if COMPARED.search(line.split("//")[0]):
-                yield f"{here}:{number}: a type or a name is compared with a string; ask for a trait, a role or an enum"
+                yield f"{here}:{number}: a type or a name is compared with a string; use a trait, a role or an enum"
         for number, word in strings_in(text):
             if word not in names or here == LIST or own_file(text, word):
                 continue
             if (here, word) in chosen | other:
                 used.add((here, word))
             else:
-                yield f'{here}:{number}: "{word}" is the name of a part; ask for a trait, or state in tools/check_parts.py what it means'
+                yield f'{here}:{number}: "{word}" is the name of a part; use a trait, or add its other meaning to tools/check_parts.py'
     for here, word in sorted((chosen | other) - used):
-        yield f'tools/check_parts.py: "{word}" no longer stands in {here}; remove the entry'
+        yield f'tools/check_parts.py: {here} no longer contains "{word}"; remove the entry'
 
 
 def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("--program", required=True)
-    options.add_argument("--root", type=pathlib.Path, required=True)
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--program", required=True, help="the program, for example build/faba")
+    options.add_argument("--root", type=pathlib.Path, required=True, help="folder of the project")
     o = options.parse_args()
     names = part_names(o.program)
     wrong = list(misused(o.root, names))
-    print("\n".join(wrong) or f"{len(names)} names of parts stand as strings only where they may")
+    print("\n".join(wrong) or f"{len(names)} names of parts, no violations")
     return 1 if wrong else 0
 
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# The lab's page, from web/src. `page.sh build` writes web/dist, which is kept with the sources so that nobody needs
-# Node to build Faba; `page.sh check FOLDER` builds it in FOLDER, and fails when types are wrong or web/dist is another;
-# `page.sh unit` runs the unit tests in web/tests.
+# Builds the page of the live lab from web/src. `page.sh build` writes web/dist, which is committed so that building Faba
+# does not need Node; `page.sh check FOLDER` builds into FOLDER and fails if types are wrong or the result differs from
+# web/dist; `page.sh unit` runs the unit tests in web/tests; `page.sh install` only installs the npm packages.
 set -euo pipefail
 cd "$(dirname "$0")/../web"
-# Tests that run at the same time install the packages once.
+# The lock lets tests that run in parallel install the packages once.
 install_packages() {
   local installed=node_modules/.package-lock.json
   flock 9
@@ -15,13 +15,13 @@ install_packages() {
 }
 (install_packages) 9<package-lock.json
 case ${1:-} in
-  install) ;; # what has been done above: also the driver of a browser, for tests and benchmarks
+  install) ;; # done above; the packages include the browser driver of tests and benchmarks
   build) npm run --silent build ;;
   check)
     npm run --silent check
     npm run --silent build -- --outDir "$2" --emptyOutDir --logLevel warn
-    diff -rq dist "$2" || { echo "web/dist is not what web/src gives: make page" >&2; exit 1; }
+    diff -rq dist "$2" || { echo "page.sh: web/dist differs from the build of web/src; run: make page" >&2; exit 1; }
     ;;
   unit) npm run --silent unit ;;
-  *) echo "page.sh install | build | check FOLDER | unit" >&2; exit 2 ;;
+  *) echo "usage: page.sh install | build | check FOLDER | unit" >&2; exit 2 ;;
 esac

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what building Faba needs on Debian 12 and says what it does. With a word (test, bench, lint, ...) also what
-# that needs. Does nothing, in a few milliseconds, when all is there.
+# Installs the packages for building Faba on Debian 12, and those for the purposes given as arguments (test, bench, lint,
+# docs, fuzz). Prints the packages that it installs; does nothing if all of them are installed.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
@@ -10,7 +10,7 @@ for what in "$@"; do
   case $what in
     test)
       packages+=(doctest-dev python3 python3-numpy python3-h5py chromium)
-      # Node may have come from elsewhere than Debian.
+      # Node may be installed without a Debian package.
       command -v node > /dev/null || packages+=(nodejs)
       command -v npm > /dev/null || packages+=(npm)
       ;;
@@ -18,7 +18,7 @@ for what in "$@"; do
     lint) packages+=(clang-format clang-tidy) ;;
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
-    *) echo "setup.sh: nothing is known of \"$what\"" >&2; exit 2 ;;
+    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz" >&2; exit 2 ;;
   esac
 done
 
@@ -31,16 +31,16 @@ done
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo > /dev/null || { echo "setup.sh: as root, run: apt-get install ${missing[*]}" >&2; exit 1; }
+  command -v sudo > /dev/null || { echo "setup.sh: sudo not found; run as root: apt-get install ${missing[*]}" >&2; exit 1; }
   as_root=(sudo)
 fi
-command -v apt-get > /dev/null || { echo "setup.sh: needs Debian's apt; please install: ${missing[*]}" >&2; exit 1; }
+command -v apt-get > /dev/null || { echo "setup.sh: apt-get not found; install these packages: ${missing[*]}" >&2; exit 1; }
 echo "Installing with apt: ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 if ! { "${as_root[@]}" apt-get update && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y \
   --no-install-recommends "${missing[@]}"; } > "$log" 2>&1; then
   tail -20 "$log" >&2
-  echo "setup.sh: apt could not install the packages above" >&2
+  echo "setup.sh: apt-get failed to install the packages above" >&2
   exit 1
 fi

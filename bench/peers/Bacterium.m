@@ -1,6 +1,6 @@
 classdef Bacterium < handle
-  % One bacterium of the thesis's simulator, Basic model (REFERENCE.md A2, A4): an object that knows its position and
-  % speed, is asked for its next position on the grid, and is told when it has moved. In pixels and iterations.
+  % One bacterium of the simulator of the thesis, Basic model (theory A2, A4): an object with position and speed that
+  % computes its next position on the grid. In pixels and iterations.
   properties
     x
     y

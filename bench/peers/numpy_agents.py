@@ -1,6 +1,6 @@
-"""The three models in plain float64 NumPy, as a competent user would write them: whole arrays, NumPy's own generator,
-a uniform field as two numbers. `numpy_agents.py SCENE SECONDS AGENTS...` prints a JSON line per case; SCENE is the line
-that bench_agents begins with. In pixels, seconds and iterations."""
+"""The three models in float64 NumPy with array operations, the random generator of NumPy and a uniform field.
+`numpy_agents.py SCENE SECONDS AGENTS...` prints a JSON line per case; SCENE is the first line printed by bench_agents. In
+pixels, seconds and iterations."""
 
 import json
 import math
@@ -11,7 +11,7 @@ import numpy as np
 
 
 class Swarm:
-    """Cells in a box of width x height pixels, one per tenth pixel; `exclusion`: at most one per pixel."""
+    """Cells in a box of width x height pixels, one per ten pixels; `exclusion`: at most one per pixel."""
 
     def __init__(self, scene, model, agents, exclusion):
         self.scene, self.model, self.n, self.exclusion = scene, model, agents, exclusion
@@ -87,7 +87,7 @@ class Swarm:
         self.step_index += 1
 
     def resolve(self, x, y):
-        """All at once: free pixels are claimed in random order, the last one wins."""
+        """Simultaneous moves: cells claim free pixels in random order, and the last claim wins."""
         wish = (y + 0.5).astype(np.int64) * self.width + (x + 0.5).astype(np.int64)
         hopeful = np.flatnonzero(~self.occupied[wish])
         shuffled = self.random.permutation(hopeful)
@@ -100,7 +100,7 @@ class Swarm:
         self.x[moved], self.y[moved] = x[moved], y[moved]
 
     def checks(self):
-        """The same as bench_agents makes, five standard errors wide."""
+        """The checks of bench_agents, with a tolerance of five standard errors."""
         n, out = self.n, []
 
         def check(what, value, expected, tolerance):
@@ -126,12 +126,12 @@ class Swarm:
                 check("var " + what, v.var(), variance, 5 * math.sqrt((fourth - v.var() ** 2) / n))
         if self.exclusion:
             pixel = (self.y + 0.5).astype(np.int64) * self.width + (self.x + 0.5).astype(np.int64)
-            check("grid cells held", len(np.unique(pixel)), n, 0)
+            check("occupied sites", len(np.unique(pixel)), n, 0)
         return out
 
 
 def measure(swarm, seconds, least):
-    """ns per agent-step of every repeat: from one saved state, after a cycle of warming up."""
+    """ns per agent-step of each repeat; each starts from the saved state and runs one cycle before the measurement."""
     steps = 8 if swarm.n >= 10**5 else 24
     saved, ns, begin = swarm.save(), [], time.perf_counter()
     while len(ns) < least or time.perf_counter() - begin < seconds:

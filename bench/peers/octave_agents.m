@@ -1,6 +1,6 @@
-% The three models in Octave with whole arrays, the fast way to write them there.
-% octave-cli octave_agents.m SCENE SECONDS AGENTS... prints a JSON line per case; SCENE is the line that bench_agents
-% begins with. In pixels, seconds and iterations.
+% The three models in Octave with array operations.
+% octave-cli octave_agents.m SCENE SECONDS AGENTS... prints a JSON line per case; SCENE is the first line printed by
+% bench_agents. In pixels, seconds and iterations.
 1;
 
 function s = new_swarm(scene, model, n, exclusion)
@@ -87,7 +87,7 @@ function s = step(s, scene)
 end
 
 function s = resolve(s, x, y)
-  % All at once: free pixels are claimed in random order, the last one wins.
+  % Simultaneous moves: cells claim free pixels in random order, and the last claim wins.
   wish = floor(y + 0.5) * s.width + floor(x + 0.5) + 1;
   hopeful = find(!s.occupied(wish));
   shuffled = hopeful(randperm(numel(hopeful)));
@@ -107,7 +107,7 @@ function c = check(what, value, expected, tolerance)
 end
 
 function all = checks(s, scene)
-  % The same as bench_agents makes, five standard errors wide.
+  % The checks of bench_agents, with a tolerance of five standard errors.
   all = {};
   if strcmp(s.model, "dipole")
     k = scene.alignment;
@@ -134,12 +134,12 @@ function all = checks(s, scene)
     end
   end
   if s.exclusion
-    all{end + 1} = check("grid cells held", numel(unique(floor(s.y + 0.5) * s.width + floor(s.x + 0.5))), s.n, 0);
+    all{end + 1} = check("occupied sites", numel(unique(floor(s.y + 0.5) * s.width + floor(s.x + 0.5))), s.n, 0);
   end
 end
 
 function [s, ns] = measure(saved, scene, seconds, least)
-  % ns per agent-step of every repeat: from one saved state, after a cycle of warming up.
+  % ns per agent-step of each repeat; each starts from the saved state and runs one cycle before the measurement.
   steps = 24;
   if saved.n >= 1e5
     steps = 8;

@@ -5,14 +5,13 @@
 
 namespace faba::bench {
 
-/// The rules of the published Basic model as one would write them down first: a list of bacteria, an
-/// occupancy grid, the standard library's generator, one bacterium after the other, in place. In px and
-/// iterations.
+/// The rules of the published Basic model as a simple sequential program: a list of bacteria, an occupancy
+/// grid, the random generator of the standard library. In px and iterations.
 class Sequential {
  public:
   Sequential(std::size_t agents, int width, int height, int noise, int hold);
   void restore();
-  /// The drift (mx, my) is what a redraw in this iteration takes.
+  /// One iteration; (mx, my) is the drift for velocities drawn in it.
   void iterate(double mx, double my);
   long iteration() const { return iteration_; }
 

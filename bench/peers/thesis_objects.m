@@ -1,5 +1,5 @@
-% The thesis's own design: one object per bacterium, an occupancy grid, and a loop that asks each in turn, in place
-% (REFERENCE.md A1-A4). octave-cli thesis_objects.m SCENE ITERATIONS AGENTS... prints a JSON line per size.
+% The design of the thesis: one object per bacterium, an occupancy grid, and a sequential loop over the bacteria
+% (theory A1-A4). octave-cli thesis_objects.m SCENE ITERATIONS AGENTS... prints a JSON line per size.
 1;
 
 function grid = iterate(bacteria, grid, k, scene)
@@ -35,7 +35,7 @@ for n = cellfun(@str2double, arguments(3:end))'
     bacteria{i} = Bacterium(x, y);
   end
   ns = zeros(1, iterations);
-  for k = 0:iterations - 1  % each iteration is a repeat; those that draw speeds and those that do not take turns
+  for k = 0:iterations - 1  % each iteration is a repeat; every scene.hold-th iteration draws speeds
     start = tic;
     grid = iterate(bacteria, grid, k, scene);
     ns(k + 1) = toc(start) * 1e9 / n;
@@ -47,7 +47,7 @@ for n = cellfun(@str2double, arguments(3:end))'
   checks = {struct("what", "mean vx", "value", mean(vx), "expected", mean_vx, "tolerance", 5 * sqrt(variance / n)), ...
             struct("what", "var vx", "value", var(vx, 1), "expected", variance, "tolerance", ...
                    5 * variance * sqrt(0.8 / n)), ...
-            struct("what", "grid cells held", "value", nnz(grid), "expected", n, "tolerance", 0)};
+            struct("what", "occupied sites", "value", nnz(grid), "expected", n, "tolerance", 0)};
   for i = 1:numel(checks)
     checks{i}.ok = abs(checks{i}.value - checks{i}.expected) <= checks{i}.tolerance;
   end

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Prints the numbers of the theory pages that follow from formulas alone, under the label of the section they
-stand in. Needs NumPy. Nothing here is random: run it twice, get the same digits.
+"""Prints the numbers in the theory pages that follow from formulas, with the labels of their sections. Needs NumPy. The
+output is deterministic.
 
     python3 docs/theory/figures.py
 """

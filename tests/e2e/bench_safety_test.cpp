@@ -1,13 +1,14 @@
-// The bench as a user has it: `faba rig run` against `faba rig simulate`, whose log says when current flowed.
-// What may happen to a program happens to it here ("Safety" of docs/guide/bench.md).
+// Safety of the bench ("Safety" in docs/guide/bench.md): `faba rig run` with the bench of `faba rig
+// simulate`, whose log has the currents. Processes are killed and stopped; tests check when the coils are
+// off.
 #include "tests/e2e/on_bench.h"
 
 using namespace faba;
 
 namespace {
 
-// When the last current had gone, s.
-double rest_of(const std::vector<Flowing>& all) {
+// Time at which the last current ended, s.
+double off_time(const std::vector<Flowing>& all) {
   double t = 0;
   bool flowed = false;
   for (const Flowing& one : all) {
@@ -19,7 +20,7 @@ double rest_of(const std::vector<Flowing>& all) {
 
 }  // namespace
 
-TEST_CASE("whatever ends or stops the program, no current flows 100 ms later") {
+TEST_CASE("no current flows 100 ms after the program is killed or stopped by any signal") {
   for (const int signal : {SIGKILL, SIGSTOP, SIGTERM, SIGINT, SIGSEGV, SIGABRT})
     until_in_time([signal] {
       INFO("signal ", signal);
@@ -31,18 +32,18 @@ TEST_CASE("whatever ends or stops the program, no current flows 100 ms later") {
       if (!checked_in_time(b.flowed_after(t), kWithin, b.machine)) return false;
       if (signal != SIGTERM && signal != SIGINT) return true;
       const int exit = b.program->wait();
-      if (exit == 4 && b.was_kept_waiting()) return false;  // the guard was first
+      if (exit == 4 && b.was_kept_waiting()) return false;  // the guard tripped before the signal
       CHECK(exit == 130);
       CHECK(faba_in(b.f.path,
                     "run scene.toml --set camera.sensor=frames --duration '0.2 s' --quiet --out other")
-                .exit == 0);  // the scene runs without a bench, too
+                .exit == 0);  // the scene also runs without a bench
       CHECK(std::filesystem::exists(b.f.path / "run/series.csv"));
       return true;
     });
 }
 
-TEST_CASE("the same with National Instruments' library, and with a board on a serial line") {
-  // A camera is needed, and a driver that is not the simulated bench's.
+TEST_CASE("no current flows 100 ms after the program is killed or stopped: NI-DAQmx and serial board") {
+  // The camera is that of the simulated bench, the driver is another.
   const auto on = [](const Json& driver, const std::vector<std::string>& channels) {
     std::string text = "driver = " + Json(driver).dump() + "\n";
     std::replace(text.begin(), text.end(), ':', '=');
@@ -53,7 +54,7 @@ TEST_CASE("the same with National Instruments' library, and with a board on a se
   };
   for (const int signal : {SIGKILL, SIGSTOP, SIGTERM}) {
     INFO("signal ", signal);
-    const auto ends = [&](OnBench& b, const auto& flows, const auto& rest) {
+    const auto ends = [&](OnBench& b, const auto& flows, const auto& last_current) {
       if (!b.steer(flows)) return true;
       b.machine.begin();
       const double t = monotonic_now();
@@ -61,7 +62,7 @@ TEST_CASE("the same with National Instruments' library, and with a board on a se
       REQUIRE(soon([&] { return !flows(); }, 5));
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       CHECK_FALSE(flows());
-      return checked_in_time(rest() - t, kWithin, b.machine);
+      return checked_in_time(last_current() - t, kWithin, b.machine);
     };
     until_in_time([&] {
       const NiDevice ni;
@@ -72,7 +73,7 @@ TEST_CASE("the same with National Instruments' library, and with a board on a se
             std::vector<Flowing> all;
             for (const auto& l : ni.log())
               if (l.channel == "Dev1/ao0") all.push_back({l.t, std::fabs(l.value - kNeutral)});
-            return rest_of(all);
+            return off_time(all);
           });
     });
     until_in_time([&] {
@@ -83,13 +84,13 @@ TEST_CASE("the same with National Instruments' library, and with a board on a se
           [&] {
             std::vector<Flowing> all;
             for (const auto& l : board.log()) all.push_back({l.t, l.furthest});
-            return rest_of(all);
+            return off_time(all);
           });
     });
   }
 }
 
-TEST_CASE("a program that was stopped and goes on finds the coils at rest, and says so") {
+TEST_CASE("a program that is stopped and continued finds the coils off, and ends with an error") {
   OnBench b;
   if (!b.steer()) return;
   b.program->signal(SIGSTOP);
@@ -98,19 +99,19 @@ TEST_CASE("a program that was stopped and goes on finds the coils at rest, and s
   CHECK(b.program->wait() == 4);
   CHECK(one_clear_line(b.err()));
   CHECK_MESSAGE(b.err().find("coil guard: ") != std::string::npos,
-                b.err());  // no sign of life, or no fresh command
+                b.err());  // heartbeat timeout or command timeout
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   CHECK_FALSE(b.flows());
-  CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));  // what was recorded does not pass as whole
+  CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));
   CHECK(read_file(b.f.path / "run/coils.log").find("tripped ") != std::string::npos);
 }
 
-TEST_CASE("the guard itself is killed or stopped: the enable line lets no more current through") {
+TEST_CASE("the guard is killed or stopped: the enable line switches the currents off") {
   for (const int signal : {SIGKILL, SIGSTOP})
     until_in_time([signal] {
       OnBench b;
       if (!b.steer()) return true;
-      // Its only child: the bench was begun by the test.
+      // The guard is the only child of the program: the bench was started by the test.
       FILE* list = popen(("pgrep -P " + std::to_string(b.program->process())).c_str(), "r");
       int guard = 0;
       REQUIRE(std::fscanf(list, "%d", &guard) == 1);
@@ -126,20 +127,19 @@ TEST_CASE("the guard itself is killed or stopped: the enable line lets no more c
     });
 }
 
-TEST_CASE(
-    "a camera that hangs: no current after the larger of 100 ms and two frames, and an end that says so") {
+TEST_CASE("a camera that hangs: no current after the larger of 100 ms and two frames, and an error message") {
   until_in_time([] {
     OnBench b("freeze_after = 3\n", "guard = { heartbeat_deadline = '1 s' }\n");
     if (!b.steer()) return true;
     b.machine.begin();
     CHECK(b.program->wait() == 4);
-    // The log begins with the bench, whose camera hangs 3 s later.
+    // The log starts with the bench; its camera hangs 3 s later.
     double last = 0;
     for (const Flowing& one : b.log())
       if (one.most >= kZero) last = one.t;
     const double began = b.log().front().t;
     if (!checked_in_time(last - began, 3 + kWithin, b.machine)) return false;
-    if (b.was_kept_waiting()) return false;  // the guard was first, on a busy machine
+    if (b.was_kept_waiting()) return false;  // the guard tripped first because the machine was busy
     CHECK(last - began > 0.5);
     CHECK_MESSAGE(b.err().find("no frame for 2 s") != std::string::npos, b.err(), b.machine.longest());
     return true;

@@ -1,5 +1,4 @@
-// What a user does with a bench: run, capture, step-response, jog, check and replay against `faba rig
-// simulate`.
+// Use of a bench: run, capture, step-response, jog, check and replay with the bench of `faba rig simulate`.
 #include <fmt/format.h>
 
 #include "tests/e2e/on_bench.h"
@@ -7,7 +6,7 @@
 using namespace faba;
 
 TEST_CASE(
-    "a run on a bench is not gone on with as a simulation, and an old one stays when no device is there") {
+    "a run on a bench cannot be resumed as a simulation, and an old run is kept if the device is not found") {
   OnBench b("", kPatient);
   if (!b.steer()) return;
   b.program->signal(SIGKILL);
@@ -28,7 +27,7 @@ TEST_CASE(
   CHECK(std::filesystem::file_size(b.f.path / "run/commands.csv") == bytes);
 }
 
-TEST_CASE("who comes second to a bench is turned away, and the first goes on") {
+TEST_CASE("a second program cannot use a bench in use, and the first continues") {
   OnBench b("", kPatient);
   if (!b.steer()) return;
   const Called c = faba_in(b.f.path, "rig check scene.toml");
@@ -38,12 +37,13 @@ TEST_CASE("who comes second to a bench is turned away, and the first goes on") {
   CHECK(b.flows());
   b.program->signal(SIGINT);
   CHECK(b.program->wait() == 130);
-  // What was ended by hand does not pass as whole.
+  // A run that was interrupted is not complete.
   CHECK(std::filesystem::exists(b.f.path / "run/incomplete"));
   CHECK(read_file(b.f.path / "run/manifest.json").find("stopped by the user after") != std::string::npos);
 }
 
-TEST_CASE("coils begin disarmed: without --arm nothing is opened, and --arm is what it asks for") {
+TEST_CASE(
+    "coils are disarmed by default: without --arm no device is opened, and the message asks for --arm") {
   OnBench b;
   const Called c = faba_in(b.f.path, "rig run scene.toml --out run");
   CHECK(c.exit == 2);
@@ -65,7 +65,9 @@ TEST_CASE("a bench without an enable line is not armed") {
   for (const Flowing& one : b.log()) CHECK(one.most < kZero);
 }
 
-TEST_CASE("a coil that does not get what was asked for: the sensed current says so, and all goes to rest") {
+TEST_CASE(
+    "a coil current that differs from the command is detected by the sensor, and the coils are switched "
+    "off") {
   for (const char* fault : {"open", "weak"}) {
     INFO(fault);
     OnBench b(std::string("fault = '") + fault + "'\nfault_after = '1 s'\n", kPatient);
@@ -76,18 +78,17 @@ TEST_CASE("a coil that does not get what was asked for: the sensed current says 
   }
 }
 
-TEST_CASE("the device is unplugged: the run ends with one line, and what was recorded is kept") {
+TEST_CASE("the device is disconnected: the run ends with one line, and the recording is kept") {
   OnBench b("", kPatient);
   if (!b.steer()) return;
   b.simulated->signal(SIGKILL);
   CHECK(b.program->wait() == 4);
   CHECK(one_clear_line(b.err()));
-  // Nobody can tell such coils anything any more.
+  // These coils no longer receive commands.
   CHECK(b.err().find("switch them off by hand") != std::string::npos);
   CHECK(std::filesystem::file_size(b.f.path / "run/series.csv") > 200);
   CHECK(read_file(b.f.path / "run/report.html").find("stopped by an error") != std::string::npos);
-  // The name that the killed one has left is not in the next one's way, and one that is there is not
-  // replaced.
+  // A bench can use the socket name of a bench that was killed, but not that of a running bench.
   b.simulated->wait();
   CHECK(std::filesystem::is_socket(b.f.path / "bench"));
   const Child next(b.f.path, "'" FABA_PROGRAM "' rig simulate scene.toml --at bench --quiet 2> next.txt");
@@ -97,7 +98,7 @@ TEST_CASE("the device is unplugged: the run ends with one line, and what was rec
   CHECK(one_clear_line(second.err));
 }
 
-TEST_CASE("nothing there: one clear line, exit 4, and no directory") {
+TEST_CASE("device not found: one clear line, exit 4, and no directory") {
   const TestFolder f;
   write_file(f.path / "scene.toml", kScene +
                                         "\n[rig]\ncamera = { type = 'simulated', at = 'nowhere' }\ndriver = "
@@ -112,7 +113,7 @@ TEST_CASE("nothing there: one clear line, exit 4, and no directory") {
   CHECK(plain.err.find("[rig]") != std::string::npos);
 }
 
-TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with their times") {
+TEST_CASE("capture without coils: numbered pictures, one of four, with their times") {
   OnBench b;
   const Called c =
       faba_in(b.f.path, "rig capture scene.toml --frames 20 --one-of 4 --format pgm --out pictures --json");
@@ -125,14 +126,14 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
   CHECK(faba_in(b.f.path, "track a.avi --json").exit == 0);
   for (const Flowing& one : b.log()) CHECK(one.most < kZero);
 
-  // Five pictures are played in less time than a look at the camera's delay takes.
+  // Playback of five pictures ends before the camera's delay is measured.
   const Called over = faba_in(b.f.path,
                               "rig check scene.toml --set \"rig.camera={ type = 'playback', file = "
                               "'pictures', fps = '60 Hz' }\"");
   CHECK(over.exit == 4);
   CHECK(one_clear_line(over.err));
 
-  // Played as a camera it ends before the scene does, which is said.
+  // Playback ends before the duration of the scene, which is reported in a note.
   const Called played = faba_in(b.f.path,
                                 "rig run scene.toml --arm --json --out played --set rig.driver=none "
                                 "--set \"rig.camera={ type = 'playback', file = 'a.avi', fast = true }\"");
@@ -140,7 +141,7 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
   CHECK(played.err.find("the camera stopped after") != std::string::npos);
   CHECK(played.json()["notes"].size() == 1);
   CHECK(played.json()["complete"] == true);
-  // With coils of a bench that is begun with the run.
+  // With the coils of a simulated bench that is started with the run.
   const Called coils = faba_in(b.f.path,
                                "rig run scene.toml --arm --json --out coils --set rig.driver=simulated "
                                "--set \"rig.camera={ type = 'playback', file = 'a.avi', fast = true }\"");
@@ -149,7 +150,8 @@ TEST_CASE("the camera alone is recorded: numbered pictures, one of four, with th
 }
 
 TEST_CASE(
-    "a bench of its own: the swarm comes to its setpoint, and the recording is whole and decided again") {
+    "a bench started with the run: the swarm reaches its setpoint, the recording is complete and replays "
+    "identically") {
   const TestFolder f;
   const Called c = faba_in(f.path, "rig run '" FABA_SCENES
                                    "/bench.toml' --arm --seed 1 --duration '6 s' --json --out run "
@@ -158,8 +160,9 @@ TEST_CASE(
                                    "--set rig.camera_timeout=5");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   const auto j = c.json();
-  // It began 280 px away. How fast it comes depends on how busy this machine is, so that only that it comes
-  // counts. Where more pictures are missed than recorded, as with sanitizers, control was not tested.
+  // The initial distance is 280 px. The settling time depends on the load of this machine, so only the final
+  // distance is checked. If more pictures are dropped than recorded, as with sanitizers, control is not
+  // tested.
   if (j["frames"] > j["frames_dropped"])
     CHECK(j["steady_rms_px"].get<double>() < 70);
   else
@@ -174,7 +177,7 @@ TEST_CASE(
   REQUIRE_MESSAGE(again.exit == 0, again.err);
   CHECK(again.json()["same"] == true);
   CHECK(again.json()["equal_commands"] == j["frames"]);
-  // A run of the version before has another name for a column.
+  // Runs of the previous version have another name for a column.
   std::string commands = read_file(f.path / "run/commands.csv");
   const auto column = commands.find("coils_off");
   REQUIRE(column != std::string::npos);
@@ -182,7 +185,7 @@ TEST_CASE(
   std::ofstream(f.path / "run/commands.csv")
       << old.replace(column, std::string("coils_off").size(), "rested");
   CHECK(faba_in(f.path, "rig replay run --json").json()["same"] == true);
-  // A command that is another by its last bit is seen.
+  // A command that differs in its last bit is detected.
   const auto line = commands.find("\n30,");
   const auto end = commands.find('\n', line + 1), last = commands.rfind(',', end) + 1;
   const double now = std::stod(commands.substr(last, end - last));
@@ -197,7 +200,8 @@ TEST_CASE(
   CHECK(faba_in(f.path, "rig replay nowhere").exit == 3);
 }
 
-TEST_CASE("step responses on a schedule: gathered, reversed, recorded, and listed with their time in air") {
+TEST_CASE(
+    "step responses on a schedule: gathered, reversed, recorded, and listed with their air exposure time") {
   OnBench b("", kPatient +
                     "step_response = { gather = '1 s', before = '0.3 s', record = '0.7 s', field = '100 uT', "
                     "repeat = 2, every = '0 s' }\n");
@@ -221,13 +225,13 @@ TEST_CASE("step responses on a schedule: gathered, reversed, recorded, and liste
   double last = 90;
   for (const auto& r : responses) {
     const double exposure = r["exposure_s"];
-    CHECK(exposure > last + 0.9);  // at the beginning of the recording, a gathering later
+    CHECK(exposure > last + 0.9);  // at the start of the recording, after gathering
     last = exposure + 1;
     CHECK(r["frames"].get<int>() + r["frames_dropped"].get<int>() > 25);
     const auto dir = b.f.path / r["out"].get<std::string>();
     CHECK_FALSE(std::filesystem::exists(dir / "incomplete"));
     CHECK(std::filesystem::exists(dir / "report.html"));
-    // The field points one way until 0.3 s, and the other way afterwards.
+    // The field is reversed at 0.3 s.
     std::ifstream in(dir / "commands.csv");
     std::string line;
     std::getline(in, line);
@@ -248,7 +252,7 @@ TEST_CASE("step responses on a schedule: gathered, reversed, recorded, and liste
   CHECK(activity.json()["videos"].size() == 3);
   CHECK(activity.json()["videos"][0]["direction_deg"] == 0);
 
-  // Asked to stop: what was recorded is whole and listed, what was not is neither.
+  // After an interrupt, complete recordings are listed in the study file; an incomplete one is not.
   Child stopped(b.f.path, "'" FABA_PROGRAM
                           "' rig step-response scene.toml --arm --repeat 50 --out other --quiet 2> err.txt");
   REQUIRE(soon([&] { return std::filesystem::exists(b.f.path / "other/study.toml"); }));
@@ -258,7 +262,7 @@ TEST_CASE("step responses on a schedule: gathered, reversed, recorded, and liste
   CHECK_FALSE(b.flows());
 }
 
-TEST_CASE("currents by hand, from keys in a pipe: what a key says flows, and nothing after the last") {
+TEST_CASE("rig jog with keys from a pipe: a key sets the current, and no current flows after the last key") {
   OnBench b("", kPatient);
   const Called c = faba_in(b.f.path, "rig jog scene.toml --step '0.1 A'", "printf 'a+++2-q' | ");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
@@ -280,14 +284,14 @@ TEST_CASE("currents by hand, from keys in a pipe: what a key says flows, and not
   CHECK(one_clear_line(none.err));
 }
 
-TEST_CASE("currents that may change but slowly: the loop keeps to it, and so do keys") {
+TEST_CASE("the slew rate of currents is limited, in the control loop and with rig jog") {
   OnBench b("", kPatient);
   const std::string slow = " --set rig.guard.max_slew='2 A/s'";
   const Called keys = faba_in(b.f.path, "rig jog scene.toml --step '0.1 A'" + slow, "printf 'a+++   q' | ");
   CHECK_MESSAGE(keys.exit == 0, keys.err);
   const Called run = faba_in(b.f.path, "rig run scene.toml --arm --duration '1 s' --out slow --quiet" + slow);
   CHECK_MESSAGE(run.exit == 0, run.err);
-  // 0.25 A take 0.125 s, less a frame and its like: without the limit they take 10 ms.
+  // 0.25 A take 0.125 s, up to about a frame less; without the limit they take 10 ms.
   double none_until = 0;
   int rises = 0;
   bool below = true;

@@ -18,8 +18,8 @@ extern char** environ;
 
 namespace faba {
 
-/// A shell's command in the background, `exec`ed so that its process is the program itself. Killed when it
-/// goes.
+/// A shell command in the background, with `exec`, so that the child process is the program. The destructor
+/// kills it.
 class Child {
  public:
   Child(const std::filesystem::path& folder, const std::string& command) {
@@ -37,14 +37,14 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void signal(int s) const { ::kill(process_, s); }
-  /// Its exit code; 128 + signal when it was killed.
+  /// Waits for the end of the process; its exit code, or 128 + signal if it was killed.
   int wait() {
     int status = 0;
     waitpid(process_, &status, 0);
     process_ = -1;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
-  /// Whether it is over; wait() still tells how.
+  /// Whether the process has ended; wait() can still be called.
   bool ended() const {
     siginfo_t how{};
     return process_ <= 0 ||
@@ -56,12 +56,12 @@ class Child {
   pid_t process_ = -1;
 };
 
-/// How long this machine itself stood still: the longest that a thread which wakes every millisecond was not
-/// woken, s. What must be over in a tenth of a second is allowed that much more, up to a bound (kMostLate of
-/// tests/rig/devices.h); on a quiet machine it is a few milliseconds.
-class StandStill {
+/// Measures stalls of this machine: the longest interval, s, in which a thread that wakes every millisecond
+/// did not run. Deadlines of 0.1 s in tests are extended by it, up to kMostLate of tests/rig/devices.h. On an
+/// idle machine it is a few milliseconds.
+class StallMeter {
  public:
-  StandStill()
+  StallMeter()
       : thread_([this](const std::stop_token& stop) {
           for (double last = monotonic_now(); !stop.stop_requested();) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -70,7 +70,7 @@ class StandStill {
             last = now;
           }
         }) {}
-  /// From now on.
+  /// Starts a new measurement.
   void begin() { longest_ = 0; }
   double longest() const { return longest_; }
 
@@ -79,7 +79,7 @@ class StandStill {
   std::jthread thread_;
 };
 
-/// Whether it came true within `patience` s.
+/// Whether `happened` becomes true within `patience` s.
 inline bool soon(const std::function<bool()>& happened, double patience = 20) {
   for (const double until = monotonic_now() + patience; monotonic_now() < until;) {
     if (happened()) return true;

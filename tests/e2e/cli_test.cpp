@@ -44,13 +44,13 @@ TEST_CASE("schema series lists the columns that a run writes") {
     written.erase(at, written.find(',', at) + 1 - at);
   CHECK(header == written);
 
-  const Called words = faba_in(f.path, "schema series");
-  CHECK(words.exit == 0);
-  CHECK(std::count(words.out.begin(), words.out.end(), '\n') == std::ptrdiff_t(columns.size()));
-  CHECK(words.out.find("current_K_a") != std::string::npos);
+  const Called text = faba_in(f.path, "schema series");
+  CHECK(text.exit == 0);
+  CHECK(std::count(text.out.begin(), text.out.end(), '\n') == std::ptrdiff_t(columns.size()));
+  CHECK(text.out.find("current_K_a") != std::string::npos);
 }
 
-TEST_CASE("help is a verb too, and the summary names a next command that works") {
+TEST_CASE("help is also a verb, and the next command printed by run works") {
   const TestFolder f;
   CHECK(faba_in(f.path, "help").out == faba_in(f.path, "--help").out);
   CHECK(faba_in(f.path, "help drop").out == faba_in(f.path, "drop --help").out);
@@ -76,7 +76,7 @@ TEST_CASE("every scene in scenes/ is accepted and runs") {
   }
 }
 
-TEST_CASE("drop: a rendered drop is found; run --from-video keeps the swarm inside it") {
+TEST_CASE("drop: a rendered drop is detected; run --from-video keeps the swarm inside it") {
   const TestFolder f;
   const double cx = 130, cy = 80, r = 60;
   std::string pgm = "P5\n240 160\n255\n";
@@ -113,6 +113,6 @@ TEST_CASE("drop: a rendered drop is found; run --from-video keeps the swarm insi
     for (std::size_t i = 0; i < row.size(); i += 2)
       REQUIRE(std::hypot(double(row[i]) - j["center_px"][0].get<double>(),
                          double(row[i + 1]) - j["center_px"][1].get<double>()) <=
-              j["radius_px"].get<double>() + 1e-3);  // float pixels
+              j["radius_px"].get<double>() + 1e-3);  // 32-bit positions
   }
 }

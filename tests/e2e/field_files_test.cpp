@@ -1,4 +1,4 @@
-// `faba field fit` and `faba field library`, maps in rigs and libraries in scenarios, from the command line.
+// `faba field fit` and `faba field library`, measured maps in coil systems and libraries in scenarios.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -13,19 +13,18 @@ namespace {
 
 const std::string kRigs = FABA_SCENES "/../rigs/";
 
-void refused(const TestFolder& f, const std::string& command, int exit, const std::string& says) {
+void refused(const TestFolder& f, const std::string& command, int exit, const std::string& message) {
   const Called c = faba_in(f.path, command);
   INFO(command, ": ", c.err);
   CHECK(c.exit == exit);
   CHECK(one_clear_line(c.err));
-  CHECK(c.err.find(says) != std::string::npos);
+  CHECK(c.err.find(message) != std::string::npos);
   CHECK(c.out.empty());
 }
 
 }  // namespace
 
-TEST_CASE(
-    "field fit: finds where a coil is and how strong, and writes the rig that does not leave anything over") {
+TEST_CASE("field fit: finds position and strength of a coil, and the fitted coil system has no residual") {
   const TestFolder f;
   const std::string coil = "[[coil]]\ntype = 'loop'\nradius = '20 mm'\nturns = 50\ncurrent = 2\n";
   write_file(f.path / "drawn.toml", coil + "position = [0, 0, '-30 mm']\n");
@@ -41,7 +40,7 @@ TEST_CASE(
       faba_in(f.path, "field fit drawn.toml --map m.csv --out fitted.toml --picture left.svg --json");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   const auto j = c.json();
-  // Least squares of a model that is exact come to the truth until the steps are lost in forward differences.
+  // For an exact model the accuracy of least squares is limited by the forward differences.
   CHECK(j["gain"].get<double>() == doctest::Approx(0.9).epsilon(1e-5));
   CHECK(j["shift_m"][0].get<double>() == doctest::Approx(1e-3).epsilon(1e-5));
   CHECK(j["shift_m"][1].get<double>() == doctest::Approx(-0.5e-3).epsilon(1e-5));
@@ -72,7 +71,7 @@ TEST_CASE(
   refused(f, "field fit drawn.toml --map hole.csv", 3, "hole.csv:2");
 }
 
-TEST_CASE("a measured map is a coil: of `field map`'s own file, beside the rig, kept in the run") {
+TEST_CASE("a map is a coil: from a file of `field map`, relative to the coil system, stored in the run") {
   const TestFolder f;
   std::filesystem::create_directory(f.path / "rigs");
   const std::string two = "'" + kRigs + "thesis-two-coils.toml'";
@@ -113,7 +112,7 @@ TEST_CASE("a measured map is a coil: of `field map`'s own file, beside the rig, 
   refused(f, "field null empty.toml", 2, "needs file");
 }
 
-TEST_CASE("a library in a scenario: its grid and its currents, and what is refused") {
+TEST_CASE("a library in a scenario: the run uses its currents, and wrong libraries are refused") {
   const TestFolder f;
   const std::string four = "'" + kRigs + "thesis-four-coils.toml'";
   const auto made =
@@ -133,7 +132,7 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
       faba_in(f.path, "run s.toml --seed 1 --out solved --set controller.source=solve --json");
   REQUIRE(solved.exit == 0);
   CHECK(solved.json()["state_hash"] != run.json()["state_hash"]);
-  // From elsewhere the run's own scenario still finds its library, and another library in its place is
+  // scenario.toml of the run finds its library from any folder, and a different library in its place is
   // refused.
   std::filesystem::create_directory(f.path / "elsewhere");
   const Called again = faba_in(f.path / "elsewhere", "run ../run/scenario.toml --out again --json");
@@ -156,12 +155,13 @@ TEST_CASE("a library in a scenario: its grid and its currents, and what is refus
   CHECK_FALSE(std::filesystem::exists(f.path / "bad"));
 }
 
-TEST_CASE("kill -9 at any moment of building a library: the same command goes on, to the same library") {
+TEST_CASE(
+    "kill -9 at any time while a library is built: the same command resumes, and the library is the same") {
   const TestFolder f;
   const std::string build = "field library '" + kRigs + "thesis-four-coils.toml' --levels 12 --quiet --out ";
-  REQUIRE(faba_in(f.path, build + "whole.h5").exit == 0);
-  const auto kept_whole = open_library(f.path / "whole.h5");
-  const FieldLibrary& whole = *kept_whole;
+  REQUIRE(faba_in(f.path, build + "complete.h5").exit == 0);
+  const auto complete_file = open_library(f.path / "complete.h5");
+  const FieldLibrary& complete = *complete_file;
   for (int kill = 1; kill <= 6; ++kill) {
     const std::string name = "cut" + std::to_string(kill) + ".h5", after = std::to_string(0.05 * kill);
     for (int i = 0; i < 2; ++i) faba_in(f.path, build + name, "timeout -s KILL " + after);
@@ -169,13 +169,13 @@ TEST_CASE("kill -9 at any moment of building a library: the same command goes on
     if (!std::filesystem::exists(f.path / name)) c = faba_in(f.path, build + name, "timeout 900");
     INFO("killed after ", after, " s: ", c.err);
     REQUIRE(std::filesystem::exists(f.path / name));
-    const auto kept_cut = open_library(f.path / name);
-    const FieldLibrary& cut = *kept_cut;
-    REQUIRE(cut.entries().size() == whole.entries().size());
-    for (std::size_t i = 0; i < cut.entries().size(); ++i) {
-      CHECK(cut.entries()[i].current == whole.entries()[i].current);
-      CHECK(cut.entries()[i].zero == whole.entries()[i].zero);
+    const auto resumed_file = open_library(f.path / name);
+    const FieldLibrary& resumed = *resumed_file;
+    REQUIRE(resumed.entries().size() == complete.entries().size());
+    for (std::size_t i = 0; i < resumed.entries().size(); ++i) {
+      CHECK(resumed.entries()[i].current == complete.entries()[i].current);
+      CHECK(resumed.entries()[i].zero == complete.entries()[i].zero);
     }
-    CHECK(cut.field(0) == whole.field(0));
+    CHECK(resumed.field(0) == complete.field(0));
   }
 }

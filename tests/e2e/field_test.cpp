@@ -1,4 +1,4 @@
-// `faba field`: what it prints, and what it says to bad input.
+// `faba field`: output, and messages for wrong input.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ const std::string kRig = "'" FABA_SCENES "/../rigs/thesis-four-coils.toml'";
 
 }  // namespace
 
-TEST_CASE("field at: CSV in, CSV out, 17 digits, the coils' own currents") {
+TEST_CASE("field at: CSV input and output, 17 digits, currents from the file of the coil system") {
   const TestFolder f;
   std::string rig = read_file(FABA_SCENES "/../rigs/thesis-four-coils.toml");
   for (const auto& [name, amperes] : {std::pair{"right", "-0.25"}, std::pair{"left", "0.25"}}) {
@@ -23,7 +23,7 @@ TEST_CASE("field at: CSV in, CSV out, 17 digits, the coils' own currents") {
     rig.insert(rig.find(line) + line.size(), std::string("current = ") + amperes + "\n");
   }
   write_file(f.path / "rig.toml", rig);
-  write_file(f.path / "p.csv", "x_m,y_m,z_m\n0,0,0\n0.002,0.001,0");  // no line end: a line like the others
+  write_file(f.path / "p.csv", "x_m,y_m,z_m\n0,0,0\n0.002,0.001,0");  // the last line has no line end
   const Called c = faba_in(f.path, "field at rig.toml --points p.csv");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   std::istringstream lines(c.out);
@@ -34,7 +34,7 @@ TEST_CASE("field at: CSV in, CSV out, 17 digits, the coils' own currents") {
   CHECK(header == "x_m,y_m,z_m,bx_t,by_t,bz_t");
   double x = 0, y = 0, z = 0, bx = 0, by = 0, bz = 0;
   REQUIRE(std::sscanf(second.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &x, &y, &z, &bx, &by, &bz) == 6);
-  // fourcoil_reference.csv, "uniform+x", fourth point, to the digits printed there
+  // fourcoil_reference.csv, "uniform+x", fourth point, all its digits
   CHECK(bx == doctest::Approx(1.5457058382e-04).epsilon(1e-9));
   CHECK(by == doctest::Approx(-3.6805628574e-06).epsilon(1e-9));
   const auto j = faba_in(f.path, "field at rig.toml --points p.csv --json").json();
@@ -42,7 +42,7 @@ TEST_CASE("field at: CSV in, CSV out, 17 digits, the coils' own currents") {
   CHECK(j["currents_a"][0].get<double>() == -0.25);
 }
 
-TEST_CASE("field null: the fields of --json, a saddle and an unreachable place are said") {
+TEST_CASE("field null: keys of --json, polarity, a warning for a zero that the coils cannot produce") {
   const TestFolder f;
   const auto j = faba_in(f.path, "field null " + kRig + " --at '1 mm, 0 mm' --json").json();
   CHECK(j["currents_a"].size() == 4);
@@ -58,7 +58,7 @@ TEST_CASE("field null: the fields of --json, a saddle and an unreachable place a
       std::string::npos);
 }
 
-TEST_CASE("field map: zeros, a picture, HDF5 with the field of `at`, and the error of the table") {
+TEST_CASE("field map: zeros, picture, HDF5 file, and error of the table") {
   const TestFolder f;
   const std::string map = "field map " + kRig + " --current 0.5,0.5,0.5,0.5 ";
   const auto j =
@@ -80,7 +80,7 @@ TEST_CASE("field map: zeros, a picture, HDF5 with the field of `at`, and the err
   y.read<double>(0, {&top, 1});
   CHECK(left < 0);
   CHECK(top > 0);
-  CHECK(row[0] > 0);  // currents inwards: at the upper left the field points to the right and down
+  CHECK(row[0] > 0);  // fields point inwards: at the upper left to the right and down
   CHECK(row[1] < 0);
   for (const char* again : {"--picture m.png", "--picture n.png --out m.h5"})
     CHECK(faba_in(f.path, map + again).exit == 2);
@@ -96,7 +96,7 @@ TEST_CASE("field map: zeros, a picture, HDF5 with the field of `at`, and the err
   }
 }
 
-TEST_CASE("field tolerance: the shifts of C6, in proportion to what causes them") {
+TEST_CASE("field tolerance: the shifts of theory C6, proportional to their causes") {
   const TestFolder f;
   const std::string two = "'" FABA_SCENES "/../rigs/thesis-two-coils.toml'";
   const auto j = faba_in(f.path, "field tolerance " + two + " --picture t.svg --json").json();
@@ -105,7 +105,8 @@ TEST_CASE("field tolerance: the shifts of C6, in proportion to what causes them"
       if (row["cause"] == cause && row["amount"] == amount) return row["shift_m"].get<double>();
     return -1.0;
   };
-  // Theory C6: currents 1.1 to 1 put it at 0.364 mm; the worse side is 0.9 to 1, a ratio of 1.111.
+  // Theory C6: currents in the ratio 1.1 to 1 shift the zero by 0.364 mm; the worst case is 0.9 to 1, a ratio
+  // of 1.111.
   CHECK(shift("current", 10) > 0.364e-3);
   CHECK(shift("current", 10) < 0.364e-3 * 1.13);
   CHECK(shift("earth", 18) ==
@@ -117,10 +118,10 @@ TEST_CASE("field tolerance: the shifts of C6, in proportion to what causes them"
   CHECK(faba_in(f.path, "field tolerance " + two + " --picture t.svg").exit == 2);
   CHECK(faba_in(f.path, "field tolerance " + two + " --picture t.png").exit == 2);
   CHECK(faba_in(f.path, "field tolerance " + two + " --at '0 mm, 1 mm'").exit ==
-        2);  // no zero off their axis
+        2);  // two coils have no zero off their axis
 }
 
-TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
+TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
   const TestFolder f;
   const std::string coil = "[[coil]]\ntype = 'solenoid'\n";
   write_file(f.path / "ok.csv", "x_m,y_m,z_m\n0,0,0\n");
@@ -128,7 +129,7 @@ TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
     const char* what;
     std::string rig, points;
     int exit;
-    const char* says;
+    const char* message;
   };
   for (const Bad& b :
        {Bad{"no coil", "[earth]\nfield = [0, 0, 0]\n", "", 2, "[[coil]] not found"},
@@ -150,7 +151,7 @@ TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
     INFO(b.what, ": ", c.err);
     CHECK(c.exit == b.exit);
     CHECK(one_clear_line(c.err));
-    CHECK(c.err.find(b.says) != std::string::npos);
+    CHECK(c.err.find(b.message) != std::string::npos);
     CHECK(c.out.empty());
   }
   CHECK(faba_in(f.path, "field at missing.toml --points ok.csv").exit == 2);
@@ -164,7 +165,7 @@ TEST_CASE("bad rigs, points and places: exit 2 or 3, one line") {
   }
 }
 
-TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in it") {
+TEST_CASE("a scenario reads a coil system from a file, and the run stores its content") {
   const TestFolder f;
   std::filesystem::create_directory(f.path / "scenes");
   std::filesystem::copy_file(FABA_SCENES "/../rigs/thesis-four-coils.toml", f.path / "scenes/rig.toml");
@@ -180,7 +181,7 @@ TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in 
 
   struct Bad {
     const char* field;
-    const char* says;
+    const char* message;
   };
   for (const Bad& b :
        {Bad{"file = 'none.toml'", "none.toml not found"}, Bad{"file = 3", "expected a string"},
@@ -193,13 +194,12 @@ TEST_CASE("a scenario takes a rig from a file of its own, and keeps what was in 
     INFO(b.field, ": ", refused.err);
     CHECK(refused.exit == 2);
     CHECK(one_clear_line(refused.err));
-    CHECK(refused.err.find(b.says) != std::string::npos);
+    CHECK(refused.err.find(b.message) != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(f.path / "bad"));
   }
 }
 
-TEST_CASE(
-    "field: where a measured map does not reach, verbs and runs refuse or report it, and nothing crashes") {
+TEST_CASE("field: positions outside a measured map are refused or reported by verbs and runs") {
   const TestFolder f;
   REQUIRE(faba_in(f.path,
                   "field map " + kRig + " --current 1,0,0,0 --size '4 mm, 4 mm' --picture m.png --out m.h5")
@@ -224,7 +224,7 @@ TEST_CASE(
   const Called far = faba_in(f.path, "run far.toml --out far --json");
   REQUIRE_MESSAGE(far.exit == 0, far.err);
   CHECK(far.err.find("cannot produce a zero of the field at") != std::string::npos);
-  // A map as the only coil of a scenario names its file itself.
+  // A map can be the only coil of a scenario, without the file of a coil system.
   write_file(f.path / "one.toml",
              "duration = '0.2 s'\n[field]\ntype = 'map'\nfile = 'm.h5'\n[[swarm]]\ncount = 5\n"
              "[controller]\ntype = 'manual'\ncurrent = ['0.1 A']\n[reference]\ntype = 'none'\n");
@@ -232,7 +232,7 @@ TEST_CASE(
   CHECK_MESSAGE(one.exit == 0, one.err);
 }
 
-TEST_CASE("field: one name for two outputs is refused, and places are within a metre") {
+TEST_CASE("field: the same name for two outputs is refused, and positions are limited to 1 m") {
   const TestFolder f;
   CHECK(faba_in(f.path, "field map " + kRig + " --current 1,1,1,1 --picture a.png --out a.png").exit == 2);
   const Called far = faba_in(f.path, "field null " + kRig + " --at '1 km, 0 mm'");

@@ -1,4 +1,5 @@
-// Files that may not grow: a run is complete, or it ends with an error that names the file and stays marked.
+// A limit on file sizes: a run is complete, or it ends with an error that names the file and is marked
+// incomplete.
 #include <doctest/doctest.h>
 
 #include <sys/wait.h>
@@ -9,8 +10,8 @@ using namespace faba;
 
 namespace {
 
-// One run with files that may not grow beyond `blocks` of 512 bytes. The message comes through a pipe: a file
-// for it could not grow either.
+// One run with files of at most `blocks` of 512 bytes. The message comes through a pipe, because a file would
+// have the same limit.
 Called run_limited(const std::filesystem::path& folder, int blocks) {
   const std::string command = "cd '" + folder.string() + "' && rm -rf run && ulimit -f " +
                               std::to_string(blocks) +
@@ -26,12 +27,12 @@ Called run_limited(const std::filesystem::path& folder, int blocks) {
 
 }  // namespace
 
-TEST_CASE("files that may not grow: every recorder reports it by name, the run stays marked incomplete") {
+TEST_CASE("file size limit: every recorder reports the file, and the run is marked incomplete") {
   struct Recorder {
-    const char* record;  ///< what is written beside series.csv
-    const char* file;    ///< whose error some limit brings about
+    const char* record;  ///< keys of [record]
+    const char* file;    ///< the file that an error must name for at least one limit
   };
-  // Checkpoints of every frame: each recorder is flushed again and again.
+  // Checkpoints in every frame, so that each recorder is flushed often.
   for (const Recorder& r :
        {Recorder{"video = false\ntracks = false", "run/series.csv"},
         Recorder{"video = false\ntracks = false", "run/report.html"},
@@ -56,7 +57,7 @@ TEST_CASE("files that may not grow: every recorder reports it by name, the run s
   }
 }
 
-TEST_CASE("a full disk leaves the mark of an earlier incomplete run") {
+TEST_CASE("resume with a full disk keeps the mark of the incomplete run") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   REQUIRE(faba_in(f.path, "run s.toml --seed 1 --quiet --out run").exit == 0);

@@ -1,4 +1,4 @@
-// What a run does when the disk is full. Skipped where no small file system can be mounted.
+// Runs with a full disk. Skipped if no small file system can be mounted.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 
 using namespace faba;
 
-TEST_CASE("a disk that fills up at any moment: the run is complete or marked incomplete") {
+TEST_CASE("a disk that becomes full at any time: the run is complete or marked incomplete") {
   const TestFolder f;
   const auto disk = f.path / "disk";
   std::filesystem::create_directory(disk);
@@ -20,7 +20,7 @@ TEST_CASE("a disk that fills up at any moment: the run is complete or marked inc
         std::system(
             ("mount -t tmpfs -o size=" + size + " tmpfs '" + disk.string() + "' 2> /dev/null").c_str()) !=
             0) {
-      test::skip("no small file system can be mounted here");
+      test::skip("mounting a small file system is not permitted");
       return;
     }
     const Called c = faba_in(f.path, "run s.toml --seed 1 --quiet --out disk/run");
@@ -32,13 +32,13 @@ TEST_CASE("a disk that fills up at any moment: the run is complete or marked inc
   CHECK(complete == 1);
 }
 
-TEST_CASE("a full disk: exit 1, one line, the run stays marked incomplete") {
+TEST_CASE("a full disk: exit 1, one line, the run is marked incomplete") {
   const TestFolder f;
   const auto disk = f.path / "disk";
   std::filesystem::create_directory(disk);
   const std::string mount = "mount -t tmpfs -o size=1m tmpfs '" + disk.string() + "' 2> /dev/null";
   if (geteuid() != 0 || std::system(mount.c_str()) != 0) {
-    test::skip("no small file system can be mounted here");
+    test::skip("mounting a small file system is not permitted");
     return;
   }
   for (const char* record :

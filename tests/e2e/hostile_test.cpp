@@ -1,4 +1,4 @@
-// Bad input: one clear line, the documented exit code, nothing written.
+// Invalid input: one clear line, the documented exit code, nothing written.
 #include <doctest/doctest.h>
 
 #include <sys/wait.h>
@@ -15,12 +15,12 @@ namespace {
 struct Bad {
   const char* what;
   std::string scene;
-  const char* says;
+  const char* message;
 };
 
 }  // namespace
 
-TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reason, nothing written") {
+TEST_CASE("invalid scenarios: exit 2, one line with file, line, path and reason, nothing written") {
   const TestFolder f;
   const std::string swarm = "[[swarm]]\ncount = 50\n";
   for (const Bad& b : {
@@ -69,13 +69,13 @@ TEST_CASE("bad scenarios: exit 2, one line that names file, line, path and reaso
     INFO(b.what, ": ", c.err.substr(0, 400));
     CHECK(c.exit == 2);
     CHECK(one_clear_line(c.err));
-    CHECK(c.err.find(b.says) != std::string::npos);
+    CHECK(c.err.find(b.message) != std::string::npos);
     CHECK(c.out.empty());
     CHECK_FALSE(std::filesystem::exists(f.path / "out"));
   }
 }
 
-TEST_CASE("bad command lines: exit 2") {
+TEST_CASE("invalid command lines: exit 2") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   for (const char* arguments :
@@ -93,7 +93,7 @@ TEST_CASE("bad command lines: exit 2") {
   }
 }
 
-TEST_CASE("bad pictures: exit 3, nothing written") {
+TEST_CASE("invalid pictures: exit 3, nothing written") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   write_file(f.path / "empty.mp4", "");
@@ -121,7 +121,7 @@ TEST_CASE("bad pictures: exit 3, nothing written") {
   }
 }
 
-TEST_CASE("an output that cannot be written: exit 1 or 2, said in one line") {
+TEST_CASE("an output that cannot be written: exit 1, one line") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   const Called c = faba_in(f.path, "run s.toml --seed 1 --out /proc/nowhere/run");
@@ -129,7 +129,7 @@ TEST_CASE("an output that cannot be written: exit 1 or 2, said in one line") {
   CHECK(one_clear_line(c.err));
 }
 
-TEST_CASE("what is not ours is never overwritten, --force or not") {
+TEST_CASE("files that the program did not write are not overwritten, even with --force") {
   const TestFolder f;
   write_file(f.path / "s.toml", "duration = '1 s'\n[[swarm]]\ncount = 5\n");
   std::filesystem::create_directory(f.path / "thesis");
@@ -144,7 +144,8 @@ TEST_CASE("what is not ours is never overwritten, --force or not") {
   CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet").exit == 2);
   CHECK(faba_in(f.path, "run s.toml --seed 1 --out run --quiet --force").exit == 0);
 
-  // A file called as one of ours is not one of ours; what a run is made from is not to be replaced by it.
+  // A file with the name of an output is kept if the program did not write it; inputs of a run are not
+  // replaced by it.
   std::filesystem::create_directory(f.path / "notes");
   write_file(f.path / "notes/incomplete", "buy milk\n");
   write_file(f.path / "notes/series.csv", "mine");
@@ -172,7 +173,7 @@ TEST_CASE("what is not ours is never overwritten, --force or not") {
   CHECK(read_file(f.path / "drop.png") == "a picture");
 }
 
-TEST_CASE("four runs at once take four directories; an error is an exit code where nobody can be told") {
+TEST_CASE("four parallel runs use four directories; errors give the exit code if stderr cannot be written") {
   const TestFolder f;
   write_file(f.path / "s.toml", "duration = '1 s'\n[[swarm]]\ncount = 5\n");
   const std::string run = std::string("'") + FABA_PROGRAM + "' run s.toml --seed 1 --quiet";
@@ -188,9 +189,9 @@ TEST_CASE("four runs at once take four directories; an error is an exit code whe
   }
 }
 
-TEST_CASE("a stop is heeded within a frame of very many steps, and twice the same wish is one") {
+TEST_CASE("a signal stops a run within a frame of many steps, and a second signal has no effect") {
   const TestFolder f;
-  // A tiny hot cell turns so fast that a frame takes a hundred million steps.
+  // A small hot cell turns so fast that a frame has 1e8 steps.
   write_file(f.path / "slow.toml",
              "[[swarm]]\ncount = 50\nmodel = { type = 'dipole', temperature = 500, viscosity = 1e-5, radius "
              "= 1e-8 }\n");
@@ -210,11 +211,11 @@ TEST_CASE("a stop is heeded within a frame of very many steps, and twice the sam
   CHECK(std::filesystem::exists(f.path / "slow/incomplete"));
 }
 
-TEST_CASE("what is legal but probably not meant is noted, a line each") {
+TEST_CASE("valid but probably unintended settings give a note of one line each") {
   const TestFolder f;
   struct Odd {
     const char* set;
-    const char* says;
+    const char* message;
   };
   write_file(f.path / "s.toml", "duration = '0.5 s'\n[[swarm]]\ncount = 5\n[[swarm]]\ncount = 9\n");
   for (const Odd& o :
@@ -228,8 +229,8 @@ TEST_CASE("what is legal but probably not meant is noted, a line each") {
     const Called c = faba_in(f.path, run);
     INFO(o.set, ": ", c.err);
     CHECK(c.exit == 0);
-    CHECK(c.err.find(o.says) != std::string::npos);
-    CHECK(c.err.empty() == std::string(o.says).empty());
+    CHECK(c.err.find(o.message) != std::string::npos);
+    CHECK(c.err.empty() == std::string(o.message).empty());
     CHECK(faba_in(f.path, run + " --quiet").err.empty());
   }
 }

@@ -1,5 +1,5 @@
-// `faba identify`: the loop from a rendered video to a model, the same for one process and for shards and
-// after a kill, and what it says to bad input before it simulates anything.
+// `faba identify`: from a rendered video to a model, with the same result for one process, for shards and
+// after a kill; messages for invalid input before any simulation.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -49,24 +49,24 @@ void refused(const TestFolder& f, const std::string& study, int code, const std:
 
 }  // namespace
 
-TEST_CASE("a rendered step response: the model and its parameter; shards and a kill change nothing") {
+TEST_CASE("a rendered step response: model and parameter; shards and a kill do not change the result") {
   const TestFolder f;
   make_film(f);
   write_file(f.path / "study.toml", kHead + kBasic + kAdapted);
-  const Called c = faba_in(f.path, "identify study.toml --json --out whole");
+  const Called c = faba_in(f.path, "identify study.toml --json --out single");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   const auto j = c.json();
   CHECK(j["evidence"] == "none");  // one segment cannot predict another
   const auto p = j["models"][0]["parameters"]["swarm[0].model.max_speed"];
   CHECK(p["ci90"][0].get<double>() < p["median"].get<double>());
   CHECK(p["median"].get<double>() < p["ci90"][1].get<double>());
-  // The interval itself. It leaves out the truth with one film in ten; the seeds of this one are fixed.
+  // A 90 % interval does not contain the true value for one video in ten; the seeds of this one are fixed.
   CHECK(p["ci90"][0].get<double>() <= 4);
   CHECK(4 <= p["ci90"][1].get<double>());
 
-  // The loop closes: the scene of the best model runs as it is, and the page is whole.
-  CHECK(read_file(f.path / "whole/identify.html").find("</html>") != std::string::npos);
-  const Called again = faba_in(f.path, "run whole/best.toml --seed 1 --quiet --out again");
+  // The scene of the best model runs without changes, and the page is complete.
+  CHECK(read_file(f.path / "single/identify.html").find("</html>") != std::string::npos);
+  const Called again = faba_in(f.path, "run single/best.toml --seed 1 --quiet --out again");
   CHECK_MESSAGE(again.exit == 0, again.err);
 
   std::string parts;
@@ -78,9 +78,9 @@ TEST_CASE("a rendered step response: the model and its parameter; shards and a k
     parts += std::string(" --merge part") + k;
   }
   REQUIRE(faba_in(f.path, "identify study.toml --quiet --out merged" + parts).exit == 0);
-  CHECK(read_file(f.path / "whole/identify.json") == read_file(f.path / "merged/identify.json"));
+  CHECK(read_file(f.path / "single/identify.json") == read_file(f.path / "merged/identify.json"));
 
-  // Long enough to be killed in the middle.
+  // Long enough to be killed during the study.
   std::string longer = kHead + kBasic;
   longer.replace(longer.find("150"), 3, "3000");
   write_file(f.path / "longer.toml", longer);
@@ -94,11 +94,11 @@ TEST_CASE("a rendered step response: the model and its parameter; shards and a k
   REQUIRE(std::filesystem::exists(f.path / "killed/incomplete"));
   CHECK(std::filesystem::file_size(f.path / "killed/results.jsonl") > 0);
   REQUIRE(faba_in(f.path, "identify longer.toml --quiet --out killed").exit == 0);
-  REQUIRE(faba_in(f.path, "identify longer.toml --quiet --out calm").exit == 0);
-  CHECK(read_file(f.path / "calm/identify.json") == read_file(f.path / "killed/identify.json"));
+  REQUIRE(faba_in(f.path, "identify longer.toml --quiet --out uninterrupted").exit == 0);
+  CHECK(read_file(f.path / "uninterrupted/identify.json") == read_file(f.path / "killed/identify.json"));
 }
 
-TEST_CASE("the 90 % interval of a parameter covers the truth in nine films of ten, within chance") {
+TEST_CASE("the 90 % interval of a parameter contains the true value for about nine videos in ten") {
   const TestFolder f;
   write_file(f.path / "scene.toml", kScene);
   write_file(f.path / "study.toml", kHead + kBasic);
@@ -112,13 +112,13 @@ TEST_CASE("the 90 % interval of a parameter covers the truth in nine films of te
     const auto ci = c.json()["models"][0]["parameters"]["swarm[0].model.max_speed"]["ci90"];
     covered += ci[0].get<double>() <= 4 && 4 <= ci[1].get<double>();
   }
-  // Of eight intervals that cover with probability 0.9 each, four or fewer do so with probability 0.005.
+  // Eight intervals with a coverage of 0.9: four or fewer contain the true value with probability 0.005.
   CHECK(covered >= 5);
 }
 
 TEST_CASE(
-    "a video and the same backwards are told apart: a swarm that gathers in the open is none of the "
-    "model's") {
+    "a video and its time reversal are distinguished: a swarm that gathers away from the edge does not fit "
+    "the model") {
   const TestFolder f;
   make_film(f, "--set duration='3.2 s'");
   std::vector<Gray8> frames;
@@ -152,13 +152,14 @@ TEST_CASE(
     REQUIRE_MESSAGE(c.exit == 0, c.err);
     return c.json()["models"][0]["fit_p"].get<double>();
   };
-  // One in twenty true models has less than the first; a false one as little as the simulations can tell.
+  // A true model is below 0.05 once in twenty; a false one has the smallest value that the simulations allow.
   CHECK(fit_p("forwards") > 0.05);
   CHECK(fit_p("backwards") < 0.02);
 }
 
 TEST_CASE(
-    "a run tells how strong its field is; a direction may have its unit; the best scene has a goal in view") {
+    "the field strength is read from a run; a direction can have a unit; the best scene has a setpoint in "
+    "view") {
   const TestFolder f;
   make_film(f);
   const auto best = [&](const std::string& head) {
@@ -169,18 +170,18 @@ TEST_CASE(
     return read_file(f.path / "out/best.toml");
   };
   const std::string given = best(kHead);
-  std::string said = kHead, unsaid = kHead;
-  said.replace(said.find("direction = 0"), 13, "direction = \"0 deg\"");
-  unsaid.erase(unsaid.find("field_strength"), unsaid.find("[[video]]") - unsaid.find("field_strength"));
-  CHECK(best(said) == given);
-  CHECK(best(unsaid) == given);
+  std::string with_unit = kHead, without = kHead;
+  with_unit.replace(with_unit.find("direction = 0"), 13, "direction = \"0 deg\"");
+  without.erase(without.find("field_strength"), without.find("[[video]]") - without.find("field_strength"));
+  CHECK(best(with_unit) == given);
+  CHECK(best(without) == given);
   CHECK(given.find("6.9e-05 T") != std::string::npos);
   const Called run = faba_in(f.path, "run out/best.toml --set controller=fuzzy --out goal");
   CHECK_MESSAGE(run.exit == 0, run.err);
   CHECK_MESSAGE(run.err.find("reference") == std::string::npos, run.err);
 }
 
-TEST_CASE("another video under the same name is another study; damaged results are refused") {
+TEST_CASE("a different video with the same name is a different study; damaged results are refused") {
   const TestFolder f;
   make_film(f);
   write_file(f.path / "study.toml", kHead + kBasic);
@@ -198,7 +199,7 @@ TEST_CASE("another video under the same name is another study; damaged results a
   CHECK_MESSAGE(other.err.find("another study") != std::string::npos, other.err);
 }
 
-TEST_CASE("bad studies and bad videos: one line, before any simulation") {
+TEST_CASE("invalid studies and videos: one line, before any simulation") {
   const TestFolder f;
   make_film(f);
   refused(f, kHead, 2, "[[model]]");
@@ -240,7 +241,7 @@ TEST_CASE("bad studies and bad videos: one line, before any simulation") {
             "swarm[0].count");
   refused(f, kHead + "[[model]]\ntype = \"dipole\"\nfree = [\"swarm[0].model.speed\"]\n", 2,
           "narrower ranges");
-  // Rates and sizes that differ, and nothing that moves.
+  // Videos with different rates and sizes, and a video without motion.
   std::filesystem::rename(f.path / "film", f.path / "slow");
   make_film(f, "--set camera.rate='10 Hz'");
   refused(f, kHead + "[[video]]\nfile = \"slow\"\n" + kBasic, 3, "one rate");

@@ -5,8 +5,8 @@
 
 namespace faba {
 
-/// A run is complete, or it ended with an error that names one of its files and is marked incomplete. Its
-/// directory may be absent or empty when not even the mark could be written.
+/// Checks that a run is complete, or that it ended with an error that names one of its files and is marked
+/// incomplete. The directory may be absent or empty if the mark could not be written.
 inline void complete_or_marked(const std::filesystem::path& run, const Called& c) {
   INFO(c.exit, ": ", c.err);
   const bool marked = std::filesystem::exists(run / "incomplete");

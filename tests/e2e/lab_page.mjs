@@ -1,4 +1,4 @@
-// A lab in a folder of its own, and a browser with its page, for lab_test.mjs.
+// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -14,7 +14,7 @@ const option = (name) => {
 };
 export const program = option('program'), root = option('root'), pictures = option('pictures');
 const { chromium } = createRequire(join(root, 'web', 'package.json'))('playwright-core');
-const kPatience = 30000; // ms; a busy machine is no fault
+const kPatience = 30000; // ms; long enough for a busy machine
 
 export const workspace = mkdtempSync(join(tmpdir(), 'faba-lab-test-'));
 for (const folder of ['scenes', 'rigs', 'studies']) cpSync(join(root, folder), join(workspace, folder), { recursive: true });
@@ -22,7 +22,7 @@ if (pictures) mkdirSync(pictures, { recursive: true });
 
 export const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
 
-/** The server's process and its address; serveAgain() begins another. */
+/** The process of the server and its address; serveAgain() starts another server. */
 export let { lab, address } = await serve(program, workspace);
 export async function serveAgain(...more) {
   ({ lab, address } = await serve(program, workspace, ...more));
@@ -32,11 +32,11 @@ export const browser = await chromium.launch({ executablePath: process.env.CHROM
 export const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true });
 export const page = await context.newPage();
 page.setDefaultTimeout(kPatience);
-/** What the page said of itself that it should not have had to. */
+/** Errors that the page reported on the console. */
 export const complaints = [];
-/** What was asked of other machines. */
+/** Requests to other machines. */
 export const elsewhere = [];
-const expected = /WebSocket connection|ERR_CONNECTION_REFUSED|401/; // while the lab is away
+const expected = /WebSocket connection|ERR_CONNECTION_REFUSED|401/; // while the server is stopped
 page.on('console', (m) => m.type() === 'error' && !expected.test(m.text()) && complaints.push(m.text()));
 page.on('pageerror', (e) => complaints.push(String(e)));
 page.on('request', (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).hostname === '127.0.0.1' || elsewhere.push(r.url()));
@@ -51,12 +51,12 @@ export const step = async (what, does) => {
     console.error(`FAILED: ${what}`);
     throw e;
   }
-  assert.deepEqual(complaints, [], `the page complained: ${what}`);
+  assert.deepEqual(complaints, [], `the page reported errors: ${what}`);
   console.log(`ok ${what} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
 };
 export const tab = (name) => page.locator('nav').getByRole('button', { name: new RegExp(`^${name}`) }).click();
 export const panel = (name) => page.getByRole('tab', { name: new RegExp(`^${name}`) }).click();
-/** A number or two that the page shows. */
+/** The numbers in an element of the page. */
 export const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];
 export async function until(holds, what) {
   const end = Date.now() + kPatience;
@@ -64,9 +64,9 @@ export async function until(holds, what) {
     if (await holds()) return;
     await page.waitForTimeout(50);
   }
-  assert.fail(`never happened: ${what}`);
+  assert.fail(`timeout: ${what}`);
 }
-/** The canvas point of a place in the picture, from where the page itself puts it. */
+/** The canvas position of a point of the picture, px, computed by the page. */
 export async function place(x, y) {
   const box = await page.locator('.stage canvas.over').boundingBox();
   const [cx, cy, ratio] = await page.evaluate(([px, py]) => {

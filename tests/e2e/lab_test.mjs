@@ -1,5 +1,5 @@
-// The live lab in a real browser, as a person uses it. Ends with an error at the first thing that is not as it should
-// be. With --pictures FOLDER it leaves pictures of every state of the page there.
+// Test of the live lab in a browser. Stops with an error at the first failed step. With --pictures FOLDER it saves
+// screenshots of the page in FOLDER.
 //
 //   node tests/e2e/lab_test.mjs --program build/faba --root . [--pictures docs/pictures/lab]
 
@@ -8,7 +8,7 @@ import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync
 import { join } from 'node:path';
 import { address, browser, complaints, context, elsewhere, faba, lab, page, panel, pictures, place, read, serveAgain, shot, step, tab, until, workspace } from './lab_page.mjs';
 
-await step('the gallery opens, the token is out of the address', async () => {
+await step('the gallery opens, and the token is removed from the address', async () => {
   await page.goto(address);
   await page.getByRole('heading', { name: 'Scenes' }).waitFor();
   assert.equal(new URL(page.url()).search, '');
@@ -25,40 +25,40 @@ await step('a scene is started', async () => {
   await until(async () => (await read('swarm'))[0] > 0, 'the swarm is shown');
   await shot('first');
   await page.getByRole('button', { name: 'Close' }).click();
-  await until(async () => (await read('swarm'))[0] > 120, 'it swims along its route');
+  await until(async () => (await read('swarm'))[0] > 120, 'the swarm moves along its route');
   await shot('route');
 });
 
-await step('dragging the field pulls the swarm along', async () => {
+await step('dragging applies a field that moves the swarm', async () => {
   const [x, y] = await place(300, 200), [x1, y1] = await place(300, 420);
   await page.mouse.move(x, y);
   await page.mouse.down();
   for (let i = 1; i <= 10; ++i) await page.mouse.move(x + ((x1 - x) * i) / 10, y + ((y1 - y) * i) / 10);
   await shot('pull');
   const before = await read('swarm');
-  await until(async () => (await read('swarm'))[1] > before[1] + 25, 'the centroid follows downwards');
+  await until(async () => (await read('swarm'))[1] > before[1] + 25, 'the centroid moves downwards');
   await page.mouse.up();
   const there = await read('swarm');
-  assert.ok(Math.abs(there[0] - before[0]) < 25, `and not sideways: ${before} to ${there}`);
+  assert.ok(Math.abs(there[0] - before[0]) < 25, `the swarm moved sideways: ${before} to ${there}`);
 });
 
-await step('the field is reversed, the swarm turns back', async () => {
+await step('the field is reversed, and the swarm moves back', async () => {
   const before = await read('swarm');
   await page.getByRole('button', { name: 'Reverse field' }).click();
-  await until(async () => (await read('swarm'))[1] < before[1] - 20, 'upwards');
+  await until(async () => (await read('swarm'))[1] < before[1] - 20, 'the centroid moves upwards');
 });
 
-await step('arrow keys steer', async () => {
+await step('arrow keys apply a field', async () => {
   const before = await read('swarm');
   await page.keyboard.down('ArrowRight');
-  await until(async () => (await read('swarm'))[0] > before[0] + 15, 'to the right');
+  await until(async () => (await read('swarm'))[0] > before[0] + 15, 'the centroid moves to the right');
   await page.keyboard.up('ArrowRight');
 });
 
-await step('a click sets a goal, and it is reached', async () => {
+await step('a click sets a setpoint, and the swarm reaches it', async () => {
   await page.mouse.click(...(await place(250, 300)));
-  await until(async () => (await read('goal'))[0] > 0, 'there is a goal');
-  await until(async () => (await read('goal'))[0] < 12, 'it is reached');
+  await until(async () => (await read('goal'))[0] > 0, 'the distance to the setpoint is shown');
+  await until(async () => (await read('goal'))[0] < 12, 'the setpoint is reached');
   await shot('goal');
 });
 
@@ -83,11 +83,11 @@ await step('a route is drawn and followed', async () => {
   assert.equal(await page.locator('.panel ol li').count(), 3);
   await shot('sketch');
   await page.getByRole('button', { name: 'Follow route' }).click();
-  await until(async () => (await page.locator('.panel ol li').count()) === 0, 'it is sent');
-  await until(async () => (await read('swarm'))[0] > 350, 'the swarm goes along it');
+  await until(async () => (await page.locator('.panel ol li').count()) === 0, 'the route is sent');
+  await until(async () => (await read('swarm'))[0] > 350, 'the swarm follows the route');
 });
 
-await step('the model is changed while it runs', async () => {
+await step('a parameter of the model is changed during the run', async () => {
   await panel('Scenario');
   const swarm = page.locator('fieldset', { has: page.locator('legend', { hasText: /^swarm/ }) }).first();
   const speed = swarm.getByLabel('speed', { exact: true });
@@ -97,7 +97,7 @@ await step('the model is changed while it runs', async () => {
   await page.getByText('needs a unit such as').waitFor();
   await speed.fill('60 um/s');
   await page.getByRole('button', { name: 'Apply' }).click();
-  await until(async () => (await page.getByRole('button', { name: 'Apply' }).count()) === 0, 'it is taken');
+  await until(async () => (await page.getByRole('button', { name: 'Apply' }).count()) === 0, 'the change is applied');
   await shot('scenario');
 });
 
@@ -140,14 +140,14 @@ await step('the recording is replayed', async () => {
   await page.getByRole('button', { name: 'Replay' }).first().click();
   const slider = page.locator('input[type=range][aria-label="Replay"]');
   await slider.waitFor();
-  await until(async () => Number(await slider.inputValue()) > 5, 'it plays');
+  await until(async () => Number(await slider.inputValue()) > 5, 'the recording plays');
   await slider.fill('20');
   await page.waitForTimeout(300);
   assert.equal(await slider.inputValue(), '20');
   await shot('replay');
 });
 
-await step('a picture of a drop is dropped on the page', async () => {
+await step('the edge of a drop is detected in an uploaded video', async () => {
   faba('run', 'scenes/drop.toml', '--as-seen', '--duration', '0.2 s', '--out', 'seen', '--seed', '3');
   await tab('Gallery');
   await page.locator('.dropzone input').setInputFiles(join(workspace, 'seen/video.mp4'));
@@ -157,14 +157,14 @@ await step('a picture of a drop is dropped on the page', async () => {
   const radius = page.locator('.editor .numbers input').nth(2);
   const found = Number(await radius.inputValue());
   const truth = JSON.parse(readFileSync(join(workspace, 'seen/manifest.json'), 'utf8')).arena.radius_px;
-  assert.ok(Math.abs(found - truth) < 0.03 * truth, `${found} px, it is ${truth} px`);
+  assert.ok(Math.abs(found - truth) < 0.03 * truth, `radius ${found} px, true value ${truth} px`);
   await radius.fill(String(Math.round(found) + 5));
   await page.locator('.editor').getByRole('button', { name: 'Start' }).click();
-  await until(async () => (await read('swarm'))[0] > 0, 'a swarm is in it');
+  await until(async () => (await read('swarm'))[0] > 0, 'a swarm is shown in the drop');
   await shot('own-drop');
 });
 
-await step('what the camera sees', async () => {
+await step('camera picture, density and trails', async () => {
   await page.getByLabel('Camera picture').check();
   await page.waitForTimeout(700);
   await shot('camera');
@@ -177,7 +177,7 @@ await step('what the camera sees', async () => {
   await page.getByLabel('Trails').uncheck();
 });
 
-await step('WebGL draws the same', async () => {
+await step('the picture is drawn with WebGL', async () => {
   await page.evaluate(() => localStorage.setItem('faba.renderer', '"webgl"'));
   await page.reload();
   await until(async () => (await read('swarm'))[0] > 0, 'connected again');
@@ -198,7 +198,7 @@ await step('WebGL draws the same', async () => {
   await page.evaluate(() => localStorage.removeItem('faba.renderer'));
 });
 
-await step('a job survives that the page is loaded again, and is stopped', async () => {
+await step('a job continues when the page is reloaded, and is cancelled', async () => {
   await tab('Analyse');
   writeFileSync(join(workspace, 'studies/long.toml'), readFileSync(join(workspace, 'studies/controllers.toml'), 'utf8'));
   await page.reload();
@@ -215,7 +215,7 @@ await step('a job survives that the page is loaded again, and is stopped', async
   await shot('analyse');
 });
 
-await step('the map of a field and the activity of a video are shown', async () => {
+await step('a field map and the activity of a video are shown', async () => {
   const show = async (form, title, what) => {
     await page.locator('form', { hasText: form }).getByRole('button', { name: 'Start' }).click();
     const job = page.locator('li', { hasText: title }).first();
@@ -223,20 +223,20 @@ await step('the map of a field and the activity of a video are shown', async () 
     await page.locator(what).waitFor();
   };
   await show('Field map', 'field map', '.page img');
-  await until(() => page.evaluate(() => document.querySelector('.page > section > img').naturalWidth > 0), 'the map');
+  await until(() => page.evaluate(() => document.querySelector('.page > section > img').naturalWidth > 0), 'the field map is shown');
   await shot('field');
   await page.getByRole('button', { name: 'Close' }).click();
   faba('run', 'scenes/as-seen.toml', '--as-seen', '--duration', '3 s', '--out', 'runs/seen', '--seed', '3');
   await page.locator('form', { hasText: 'Activity' }).getByLabel('Video or run').fill('runs/seen');
   await show('Activity', 'activity', 'iframe');
-  assert.ok((await page.frameLocator('iframe').locator('svg').count()) > 0, 'with plots');
+  assert.ok((await page.frameLocator('iframe').locator('svg').count()) > 0, 'the page has no plots');
   await page.waitForTimeout(300);
   await shot('activity');
   await page.getByRole('button', { name: 'Close' }).click();
 });
 
-await step('through the camera of a bench: its picture, its gain, and a ruler', async () => {
-  // Marks every 12.4 px, each tenth longer, on light ground.
+await step('camera of a bench: picture, gain, and calibration with a ruler', async () => {
+  // A ruler with dark marks every 12.4 px on a bright background; every tenth mark is longer.
   const [w, h, pitch] = [640, 480, 12.4], grey = Buffer.alloc(w * h, 205);
   for (let k = 1; k * pitch < w - 6; k++)
     for (let y = 120; y < (k % 10 ? 260 : 340); y++)
@@ -254,24 +254,24 @@ await step('through the camera of a bench: its picture, its gain, and a ruler', 
   const open = async (scene) => {
     await page.getByLabel('Scene with a bench').selectOption(scene);
     await page.getByRole('button', { name: 'Open the camera' }).click();
-    await until(() => picture.evaluate((i) => i.naturalWidth === 640).catch(() => false), 'a picture');
+    await until(() => picture.evaluate((i) => i.naturalWidth === 640).catch(() => false), 'a picture is shown');
   };
   const mean = async () => Number((await page.getByText(/^mean grey/).textContent()).match(/\d+/)[0]);
   await open('bench');
   const first = await picture.getAttribute('src');
-  await until(async () => (await picture.getAttribute('src')) !== first, 'another picture');
-  await until(async () => /[1-9]\d*\.\d Hz/.test(await page.locator('figcaption').textContent()), 'a rate');
+  await until(async () => (await picture.getAttribute('src')) !== first, 'the picture is updated');
+  await until(async () => /[1-9]\d*\.\d Hz/.test(await page.locator('figcaption').textContent()), 'the frame rate is shown');
   const before = await mean();
   await page.getByLabel('Gain').fill('0.5');
   await page.getByLabel('Gain').press('Enter');
-  await until(async () => Math.abs((await mean()) - before / 2) < 3, 'half as bright');
+  await until(async () => Math.abs((await mean()) - before / 2) < 3, 'the picture has half the brightness');
   await page.getByLabel('Gain').fill('99');
   await page.getByLabel('Gain').press('Enter');
   await page.getByRole('alert').getByText('between 0.1 and 10').waitFor();
-  complaints.length = 0; // the browser's word on the refusal
+  complaints.length = 0; // the browser logs the refused request
   await page.getByLabel('Gain').fill('1');
   await page.getByLabel('Gain').press('Enter');
-  await until(async () => Math.abs((await mean()) - before) < 3, 'as bright as before');
+  await until(async () => Math.abs((await mean()) - before) < 3, 'the picture has the previous brightness');
   await shot('bench');
   await page.getByRole('button', { name: 'Close the camera' }).click();
   await open('ruler');
@@ -285,7 +285,7 @@ await step('through the camera of a bench: its picture, its gain, and a ruler', 
   await page.getByRole('button', { name: 'Close the camera' }).click();
 });
 
-await step('a second page watches, and takes over when it asks to', async () => {
+await step('a second page is read-only until it takes control', async () => {
   await tab('Lab');
   const other = await context.newPage();
   await other.goto(new URL('/', address).href);
@@ -297,16 +297,16 @@ await step('a second page watches, and takes over when it asks to', async () => 
   await page.getByText('Another page controls the swarm').waitFor({ state: 'detached' });
 });
 
-await step('a lost connection is said and heals', async () => {
-  lab.kill('SIGSTOP'); // hangs: nothing is closed, nothing is answered
+await step('a lost connection is reported, and the page reconnects', async () => {
+  lab.kill('SIGSTOP'); // the server hangs: the connection stays open without responses
   await page.getByText('Connection lost').waitFor();
   lab.kill('SIGCONT');
   await until(async () => (await page.getByText('Connection lost').count()) === 0, 'connected again');
   const before = await read('swarm');
-  await until(async () => String(await read('swarm')) !== String(before), 'it goes on');
+  await until(async () => String(await read('swarm')) !== String(before), 'the run continues');
 });
 
-await step('Portuguese, dark, a phone, 200 %', async () => {
+await step('Portuguese, dark theme, small screen, 200 % zoom', async () => {
   await page.getByLabel('Language').selectOption('pt');
   await page.getByRole('button', { name: 'Pausar' }).waitFor();
   await page.getByLabel('Tema claro ou escuro').click();
@@ -314,16 +314,16 @@ await step('Portuguese, dark, a phone, 200 %', async () => {
   await shot('dark-pt');
   await page.setViewportSize({ width: 390, height: 844 });
   await page.waitForTimeout(300);
-  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'nothing sticks out on a phone');
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'the page is wider than the screen of a phone');
   await shot('phone');
   await page.setViewportSize({ width: 640, height: 400 }); // 1280 x 800 at 200 %
   await page.waitForTimeout(300);
-  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 640, 'nothing sticks out at 200 %');
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 640, 'the page is wider than the window at 200 %');
   await page.setViewportSize({ width: 1280, height: 800 });
   await page.getByLabel('Idioma').selectOption('en');
 });
 
-await step('a lab that was started again asks for its own token', async () => {
+await step('a restarted server asks for its new token', async () => {
   const port = new URL(address).port;
   lab.removeAllListeners('exit');
   lab.kill('SIGINT');
@@ -336,9 +336,9 @@ await step('a lab that was started again asks for its own token', async () => {
   await page.getByRole('heading', { name: 'Scenes' }).waitFor();
 });
 
-assert.deepEqual(elsewhere, [], 'no request leaves the machine');
+assert.deepEqual(elsewhere, [], 'requests to other machines');
 await browser.close();
 lab.removeAllListeners('exit');
 lab.kill('SIGTERM');
 rmSync(workspace, { recursive: true, force: true });
-console.log(`all is as it should be${existsSync(pictures ?? '') ? `; pictures in ${pictures}` : ''}`);
+console.log(`all steps passed${existsSync(pictures ?? '') ? `; pictures in ${pictures}` : ''}`);

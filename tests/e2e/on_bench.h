@@ -10,8 +10,7 @@
 
 namespace faba {
 
-inline constexpr double kZero =
-    5e-3;  // A, a hundredth of full scale and four of a 12-bit output's steps of 1.2 mA
+inline constexpr double kZero = 5e-3;  // A, 1 % of full scale and four steps of 1.2 mA of a 12-bit output
 
 inline const std::string kScene =
     "duration = '20 s'\nseed = 1\ncamera = { rate = '30 Hz' }\n"
@@ -22,12 +21,12 @@ inline const std::string kScene =
 
 inline const std::string kSimulatedCoils = "driver = { type = 'simulated', at = 'bench' }\n";
 
-// Where deadlines are not what is tested: a busy machine may stand still for as long.
+// Long deadlines for tests of something else, because a busy machine can stall.
 inline const std::string kPatient =
     "camera_timeout = '5 s'\nguard = { heartbeat_deadline = '1 s', command_deadline = '1 s' }\n";
 
-// Whether a run was ended because the program was too slow, or a device, which is a program here and may not
-// have noticed yet that the run before is over.
+// Whether a run ended because the program or a device was too slow. Devices are programs here, and may not
+// have noticed yet that the previous run has ended.
 inline bool was_late(const std::string& err) {
   for (const char* what :
        {"command timeout", "heartbeat timeout", "stale command", "no answer for", "bench disconnected"})
@@ -35,12 +34,11 @@ inline bool was_late(const std::string& err) {
   return false;
 }
 
-inline constexpr double kBusy =
-    3e-3;  // s that a thread waits to be woken, which on a quiet machine is a millisecond
+inline constexpr double kBusy = 3e-3;  // s, wake-up latency of a busy machine; about 1 ms on an idle machine
 
 struct Flowing {
   double t;     // s, monotonic
-  double most;  // A, in any coil, or V beyond the voltage of none
+  double most;  // maximum over the coils: current, A, or voltage from neutral, V
 };
 
 inline std::vector<Flowing> read_coils_log(const std::filesystem::path& csv) {
@@ -62,7 +60,7 @@ inline std::vector<Flowing> read_coils_log(const std::filesystem::path& csv) {
   return all;
 }
 
-// A simulated bench with its log, and a run on it that has begun.
+// A simulated bench with its log, and a run on it.
 struct OnBench {
   explicit OnBench(const std::string& bench = "", const std::string& more = "")
       : f(),
@@ -73,14 +71,14 @@ struct OnBench {
         f.path, "'" FABA_PROGRAM "' rig simulate scene.toml --at bench --log coils.csv --quiet 2> bench.txt");
     REQUIRE(soon([&] { return std::filesystem::exists(f.path / "bench"); }));
   }
-  /// Begins it. See steer().
+  /// Starts the run. See steer().
   void run() {
     program = std::make_unique<Child>(
         f.path, "'" FABA_PROGRAM "' rig run scene.toml --arm --force --quiet --out run 2> err.txt");
   }
-  /// Begins it, and returns when current has flowed for a while, as `flows` tells. A machine that stands
-  /// still for a tenth of a second lets the guard end a run, as it should, whatever the test is of: it is
-  /// begun again. False when the machine was late every time: the test case is skipped then.
+  /// Starts the run and returns when current has flowed (`flows`) for 0.2 s. If the machine stalls for 0.1 s,
+  /// the guard ends the run, as intended; the run is then started again. After five attempts the test case is
+  /// skipped; returns false.
   [[nodiscard]] bool steer(const std::function<bool()>& flows) {
     for (int attempt = 0; attempt < 5; ++attempt) {
       machine.begin();
@@ -105,7 +103,7 @@ struct OnBench {
     const auto l = log();
     return !l.empty() && l.back().most > 0.1;
   }
-  // Seconds from `t` until the last moment when current flowed.
+  // Seconds from `t` to the last time at which current flowed.
   double flowed_after(double t) const {
     REQUIRE(soon([&] { return !log().empty() && log().back().most < kZero; }, 5));
     double last = t;
@@ -116,14 +114,14 @@ struct OnBench {
     }
     return last - t;
   }
-  /// Whether the guard ended the run because something was late, on a machine that kept it waiting.
+  /// Whether the guard ended the run because of a timeout while the machine was busy.
   bool was_kept_waiting() const { return was_late(err()) && machine.longest() > kBusy; }
   std::string err() const { return read_file(f.path / "err.txt"); }
 
   TestFolder f;
   std::string rig;
   std::unique_ptr<Child> simulated, program;
-  StandStill machine;
+  StallMeter machine;
 };
 
 }  // namespace faba

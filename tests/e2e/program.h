@@ -10,14 +10,14 @@
 
 namespace faba {
 
-/// What one call of the built program gave.
+/// Result of one call of the program.
 struct Called {
   int exit = -1;
   std::string out, err;
   nlohmann::json json() const { return nlohmann::json::parse(out); }
 };
 
-/// Runs `faba ARGUMENTS` through the shell, in `folder`.
+/// Runs `faba ARGUMENTS` in the shell, in `folder`; `before` comes before the program in the command line.
 inline Called faba_in(const std::filesystem::path& folder, const std::string& arguments,
                       const std::string& before = "") {
   const auto err = folder / "stderr.txt";
@@ -33,7 +33,7 @@ inline Called faba_in(const std::filesystem::path& folder, const std::string& ar
   return c;
 }
 
-/// Whether `text` is one line that begins "faba: error: ".
+/// Whether `text` is a single line that starts with "faba: error: ".
 inline bool one_clear_line(const std::string& text) {
   return text.starts_with("faba: error: ") && text.find('\n') == text.size() - 1;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/reproduce.py: it has every item of the thesis's index, makes a page that is whole, keeps what is done, and catches a wrong value.
+"""Tests tools/reproduce.py: items of the index of the thesis, completeness of the page, caching of steps, detection of a wrong value.
 
     reproduce_test.py --program build/faba --root .
 """
@@ -35,8 +35,8 @@ def call(*words):
 
 
 class List(unittest.TestCase):
-    @unittest.skipUnless(INDEX.exists(), "the thesis's index is not here")
-    def test_has_every_item_in_the_thesiss_order(self):
+    @unittest.skipUnless(INDEX.exists(), f"file not found: {INDEX}")
+    def test_lists_all_items_in_the_order_of_the_thesis(self):
         items = [line.split("|")[1].strip() for line in INDEX.read_text().splitlines() if line.startswith("| ")][1:]
         self.assertEqual([line[:18].strip() for line in call("--list").stdout.splitlines()], items)
 
@@ -68,7 +68,7 @@ class Page(unittest.TestCase):
             self.assertIn("Computed without the program", sections[page.anchor("Fig B.3")])
             self.assertNotIn('src="http', text)
             self.assertNotIn("<script", text)
-            # Called again it keeps what is done.
+            # A second call uses the cached steps.
             steps = {p: p.stat().st_mtime_ns for p in (pathlib.Path(folder) / "steps").iterdir()}
             self.assertGreater(len(steps), 10)
             self.assertEqual(call(*words).returncode, 0)
@@ -88,13 +88,13 @@ class Layers(unittest.TestCase):
             setattr(structure, name, right)
         return check.verdict(self.ROW.verdict, found), [c.what for c in found.checks if not c.ok]
 
-    def test_a_circle_in_the_table_is_caught(self):
+    def test_a_cycle_in_the_table_is_detected(self):
         table = structure.layers()
         wrong = self.verdict_with("layers", lambda: table | {"core": ["sim"]})
         self.assertEqual(wrong[0], check.DIFFERS)
-        self.assertIn("Layers without circles", wrong[1][0])
+        self.assertIn("include cycle", wrong[1][0])
 
-    def test_a_violation_in_the_sources_is_caught(self):
+    def test_a_violation_in_the_sources_is_detected(self):
         wrong = self.verdict_with("violations", lambda lab: ["src/core/a.h:1: core must not include sim"])
         self.assertEqual(wrong, (check.DIFFERS, ["Violations of the layers in the sources"]))
 
@@ -103,7 +103,7 @@ class Verdict(unittest.TestCase):
     def found(self, *values):
         f = check.Found()
         for v in values:
-            f.within("a value", v, 1, 2, "as the test wants it")
+            f.within("a value", v, 1, 2, "range of the test")
         return f
 
     def test_a_value_must_lie_in_its_range(self):
@@ -111,14 +111,14 @@ class Verdict(unittest.TestCase):
         for wrong in (0.999, 2.001, math.nan, math.inf, None, True):
             self.assertEqual(check.verdict(check.SAME, self.found(1.5, wrong)), check.DIFFERS, wrong)
 
-    def test_nothing_checked_and_nothing_made_prove_nothing(self):
+    def test_no_checks_and_failed_computations_differ(self):
         self.assertEqual(check.verdict(check.CORRECTED, check.Found()), check.DIFFERS)
         f = self.found(1.5)
         f.failed = "no such file"
         self.assertEqual(check.verdict(check.CORRECTED, f), check.DIFFERS)
         self.assertEqual(check.verdict(check.PENDING, check.Found()), check.PENDING)
 
-    def test_a_wrong_result_is_caught(self):
+    def test_a_wrong_result_is_detected(self):
         """The distance of appendix B.8 against a table with one digit wrong."""
         row, right = next(r for r in index.ROWS if r.item == "B.8"), flow.TABLE[(3, 0.9)]
         with tempfile.TemporaryDirectory() as folder:

@@ -7,7 +7,7 @@
 
 using namespace faba;
 
-TEST_CASE("run: files, JSON fields, same hash for any thread count and again") {
+TEST_CASE("run: files, JSON fields, same hash for any number of threads and for a repeated run") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   const Called a = faba_in(f.path, "run s.toml --seed 5 --out a --json --threads 1");
@@ -25,7 +25,7 @@ TEST_CASE("run: files, JSON fields, same hash for any thread count and again") {
     CHECK_MESSAGE(std::filesystem::exists(f.path / "a" / name), name);
   CHECK_FALSE(std::filesystem::exists(f.path / "a/incomplete"));
   const std::string page = read_file(f.path / "a/report.html");
-  std::size_t frames = 0;  // six, from 0 s to the last of 30 at 15 Hz
+  std::size_t frames = 0;  // six, from 0 s to the last of 30 frames at 15 Hz
   for (std::size_t at = 0; (at = page.find("alt=\"The frame at ", at)) != std::string::npos; ++at) ++frames;
   CHECK(frames == 6);
   CHECK(page.find("The frame at 0 s") != std::string::npos);
@@ -39,7 +39,7 @@ TEST_CASE("run: files, JSON fields, same hash for any thread count and again") {
   REQUIRE(faba_in(f.path, "run s.toml --seed 5 --out b --quiet --set record.flow=true").exit == 0);
   CHECK(std::filesystem::exists(f.path / "b/flow.h5"));
   REQUIRE(faba_in(f.path, "run s.toml --seed 5 --out b --quiet --force").exit == 0);
-  CHECK_FALSE(std::filesystem::exists(f.path / "b/flow.h5"));  // of the run that was replaced
+  CHECK_FALSE(std::filesystem::exists(f.path / "b/flow.h5"));  // the file of the replaced run is deleted
   for (const char* more : {"--threads 2", "--threads 3", ""})
     CHECK(faba_in(f.path, std::string("run s.toml --seed 5 --force --out b --json ") + more)
               .json()["state_hash"] == j["state_hash"]);
@@ -47,7 +47,7 @@ TEST_CASE("run: files, JSON fields, same hash for any thread count and again") {
   CHECK(faba_in(f.path, "run s.toml --seed 6 --out d --json").json()["state_hash"] != j["state_hash"]);
 }
 
-TEST_CASE("run: a drawn seed is printed, recorded, and repeats the run") {
+TEST_CASE("run: a random seed is printed and recorded, and repeats the run") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   const auto first = faba_in(f.path, "run s.toml --out a --json").json();
@@ -68,7 +68,7 @@ TEST_CASE("run: the tracks open in h5py with fps and um_per_px") {
   CHECK(read_file(f.path / "out.txt") == "(30, 50, 2) 15.0 0.9164 0.06666666666666667\n");
 }
 
-TEST_CASE("run --as-seen: the videos show what the camera sees, and say so") {
+TEST_CASE("run --as-seen: the videos have camera frames, and the run records this") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene + "[record]\nlossless = true\n");
   const Called drawn = faba_in(f.path, "run s.toml --seed 5 --out a --json");
@@ -96,32 +96,32 @@ TEST_CASE("run --as-seen: the videos show what the camera sees, and say so") {
   CHECK(idle.err.find("microscope: has no effect") != std::string::npos);
 }
 
-TEST_CASE("Ctrl-C: exit 130, what was recorded is readable, resume ends with the same hash") {
+TEST_CASE("Ctrl-C: exit 130, the recording is readable, resume gives the same hash") {
   const TestFolder f;
 
   const std::string scene =
       "duration = '100 s'\nexclusion = { order = 'none' }\n[[swarm]]\ncount = 4000\nmodel = 'basic'\n"
       "[record]\nvideo = false\ntracks_every = 50\ncheckpoint = '0.2 s'\n";
   write_file(f.path / "s.toml", scene);
-  const auto whole = faba_in(f.path, "run s.toml --seed 1 --out whole --json").json();
-  // The signal comes when some of the run is on the disk, however slow the machine.
+  const auto uninterrupted = faba_in(f.path, "run s.toml --seed 1 --out uninterrupted --json").json();
+  // The signal is sent when a part of the run is on the disk, independent of the speed of the machine.
   const std::string command = "cd '" + f.path.string() +
                               "' && { '" FABA_PROGRAM "' run s.toml --seed 1 --quiet --out cut & pid=$!; " +
                               "until [ $(cat cut/series.csv 2> /dev/null | wc -c) -gt 400 ] || ! kill -0 "
                               "$pid; do sleep 0.02; done; " +
                               "kill -INT $pid; wait $pid; }";
   const int status = std::system(command.c_str());
-  if (status == 0) return;  // a machine so fast that it was done before the signal came
+  if (status == 0) return;  // the run was complete before the signal
   CHECK(WEXITSTATUS(status) == 130);
   CHECK(std::filesystem::exists(f.path / "cut/incomplete"));
   CHECK(read_file(f.path / "cut/series.csv").size() > 200);
   const Called resumed = faba_in(f.path, "resume cut --json");
   REQUIRE_MESSAGE(resumed.exit == 0, resumed.err);
-  CHECK(resumed.json()["state_hash"] == whole["state_hash"]);
-  CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "whole/series.csv"));
+  CHECK(resumed.json()["state_hash"] == uninterrupted["state_hash"]);
+  CHECK(read_file(f.path / "cut/series.csv") == read_file(f.path / "uninterrupted/series.csv"));
 }
 
-TEST_CASE("setpoints_reached counts what the swarm came to, setpoints what the scenario gives") {
+TEST_CASE("setpoints_reached counts the setpoints that the swarm reached, setpoints those of the scenario") {
   const TestFolder f;
   const std::string run = "run '" FABA_SCENES "/steer.toml' --seed 1 --json --set record.video=false ";
   const Called on = faba_in(f.path, run + "--out on");
@@ -133,7 +133,7 @@ TEST_CASE("setpoints_reached counts what the swarm came to, setpoints what the s
   REQUIRE_MESSAGE(off.exit == 0, off.err);
   CHECK(off.json()["setpoints"] == 4);
   CHECK(off.json()["setpoints_reached"] == 0);
-  // A route that goes on by time alone gives setpoints that nothing comes to.
+  // With a timeout the route continues although the swarm does not reach a setpoint.
   const Called late = faba_in(f.path, run +
                                           "--out late --set 'controller={type=\"manual\"}' "
                                           "--set 'reference.timeout=\"1 s\"'");
@@ -141,26 +141,26 @@ TEST_CASE("setpoints_reached counts what the swarm came to, setpoints what the s
   CHECK(late.json()["setpoints_reached"] == 0);
 }
 
-TEST_CASE("kill -9 at any moment: resume ends with the same hash and the same series") {
+TEST_CASE("kill -9 at any time: resume gives the same hash and the same series") {
   const TestFolder f;
   write_file(f.path / "s.toml",
              "duration = '75 s'\nexclusion = { order = 'none' }\n[[swarm]]\ncount = 4000\nmodel = 'basic'\n"
              "[record]\nvideo_every = 30\ntracks_every = 50\ncheckpoint = '0.1 s'\n");
-  const auto whole = faba_in(f.path, "run s.toml --seed 1 --out whole --json").json();
+  const auto uninterrupted = faba_in(f.path, "run s.toml --seed 1 --out uninterrupted --json").json();
   for (int kill = 1; kill <= 6; ++kill) {
     const std::string dir = "cut" + std::to_string(kill);
     const std::string after = std::to_string(0.05 + 0.1 * kill);
     Called c = faba_in(f.path, "run s.toml --seed 1 --quiet --out " + dir, "timeout -s KILL " + after);
     for (int i = 0; i < 3 && std::filesystem::exists(f.path / dir / "incomplete");
-         ++i)  // killed again while resuming
+         ++i)  // also killed during resume
       c = faba_in(f.path, "resume " + dir + " --quiet", "timeout -s KILL " + after);
     if (std::filesystem::exists(f.path / dir / "incomplete"))
       c = faba_in(f.path, "resume " + dir + " --json");
     if (!std::filesystem::exists(f.path / dir / "manifest.json"))
-      continue;  // killed before the directory was made
+      continue;  // killed before the directory was created
     INFO("killed after ", after, " s: ", c.err);
     CHECK(nlohmann::json::parse(read_file(f.path / dir / "manifest.json"))["state_hash"] ==
-          whole["state_hash"]);
-    CHECK(read_file(f.path / dir / "series.csv") == read_file(f.path / "whole/series.csv"));
+          uninterrupted["state_hash"]);
+    CHECK(read_file(f.path / dir / "series.csv") == read_file(f.path / "uninterrupted/series.csv"));
   }
 }

@@ -1,4 +1,4 @@
-// `faba scale`: what it prints and writes, and what it says to bad input.
+// `faba scale`: output, files, and messages for invalid input.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -26,7 +26,7 @@ void write_ruler(const std::filesystem::path& file, int marks = 1000) {
 
 }  // namespace
 
-TEST_CASE("a table: numbers for people and programs, and a calibration that a scenario takes in") {
+TEST_CASE("scale with a table: text and JSON output, and a calibration file that a scenario reads") {
   const TestFolder f;
   write_file(f.path / "ruler.csv", kTable);
   const Called c = faba_in(f.path, "scale ruler.csv --out calibration.toml");
@@ -50,7 +50,7 @@ TEST_CASE("a table: numbers for people and programs, and a calibration that a sc
   CHECK(faba_in(f.path, "run r/scenario.toml --seed 1 --out r2 --quiet").exit == 0);
 }
 
-TEST_CASE("a picture") {
+TEST_CASE("scale with a picture of a ruler") {
   const TestFolder f;
   write_ruler(f.path / "ruler.png");
   const Called c = faba_in(f.path, "scale ruler.png --tick '10 um' --json --overlay marks.png");
@@ -62,7 +62,7 @@ TEST_CASE("a picture") {
   CHECK(faba_in(f.path, "scale ruler.png --tick '10 um' -q").out.empty());
 }
 
-TEST_CASE("bad input is one clear line with the right code") {
+TEST_CASE("scale with invalid input: one clear line and the documented exit code") {
   const TestFolder f;
   write_ruler(f.path / "ruler.png");
   write_ruler(f.path / "few.png", 1);

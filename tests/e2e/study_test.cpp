@@ -1,5 +1,5 @@
-// `faba compare-controllers`: what it writes, that shards and one process come to the same, that it goes on
-// where it was, and what it says to bad input.
+// `faba compare-controllers`: files, the same result for shards and one process, resuming, and messages for
+// invalid input.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -39,7 +39,7 @@ void refused(const std::string& study, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("a study of controllers: all combinations, and the numbers that single runs have") {
+TEST_CASE("a study of controllers: all combinations, with the same results as single runs") {
   const TestFolder f;
   write_study(f);
   const Called c = faba_in(f.path, "compare-controllers study.toml --out out --json");
@@ -53,7 +53,7 @@ TEST_CASE("a study of controllers: all combinations, and the numbers that single
   for (const char* name : {"controllers.json", "controllers.csv", "report.html"})
     CHECK(std::filesystem::exists(f.path / "out" / name));
   CHECK_FALSE(std::filesystem::exists(f.path / "out/incomplete"));
-  // The third combination by hand.
+  // The third combination, with single runs.
   double mean = 0;
   for (const char* seed : {"1", "2", "3"}) {
     const Called one = faba_in(f.path, std::string("run scene.toml --json --force --out one --seed ") + seed +
@@ -66,10 +66,10 @@ TEST_CASE("a study of controllers: all combinations, and the numbers that single
   CHECK(all[2]["metrics"]["steady_rms_px"]["n"] == 3);
 }
 
-TEST_CASE("four shards and their merger come to the same as one process, byte for byte") {
+TEST_CASE("four merged shards and one process give identical files") {
   const TestFolder f;
   write_study(f);
-  REQUIRE(faba_in(f.path, "compare-controllers study.toml --out whole --threads 2").exit == 0);
+  REQUIRE(faba_in(f.path, "compare-controllers study.toml --out single --threads 2").exit == 0);
   std::string parts;
   for (const char* k : {"1", "2", "3", "4"}) {
     const Called c = faba_in(
@@ -81,10 +81,10 @@ TEST_CASE("four shards and their merger come to the same as one process, byte fo
   const Called c = faba_in(f.path, "compare-controllers study.toml --out merged" + parts);
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   for (const char* name : {"controllers.json", "controllers.csv", "report.html"})
-    CHECK(read_file(f.path / "whole" / name) == read_file(f.path / "merged" / name));
+    CHECK(read_file(f.path / "single" / name) == read_file(f.path / "merged" / name));
 }
 
-TEST_CASE("a study is not overwritten, and goes on where it was") {
+TEST_CASE("a study is resumed and not overwritten") {
   const TestFolder f;
   write_study(f);
   REQUIRE(faba_in(f.path, "compare-controllers study.toml --shard 1/2 --out out").exit == 0);
@@ -100,7 +100,7 @@ TEST_CASE("a study is not overwritten, and goes on where it was") {
   CHECK(faba_in(f.path, "compare-controllers other.toml --out out --force").exit == 0);
 }
 
-TEST_CASE("bad studies: one line that says where and what, before anything is written") {
+TEST_CASE("invalid studies: one line with place and reason, before anything is written") {
   refused("seeds = 3\n", "scene");
   refused("scene = \"none.toml\"\n", "none.toml");
   refused("scene = \"scene.toml\"\nsseds = 3\n", "did you mean \"seeds\"");

@@ -23,14 +23,14 @@ void film(const std::filesystem::path& folder) {
 
 }  // namespace
 
-TEST_CASE("track: words, JSON, files, and what it refuses") {
+TEST_CASE("track: text and JSON output, files, and refused input") {
   const test::TemporaryFolder folder("track");
   film(folder.path() / "film");
-  const Called words =
+  const Called text =
       faba_in(folder.path(), "track film --fps 15 --um-per-px 0.5 --out t.csv --report t.html");
-  CHECK(words.exit == 0);
-  CHECK(words.out.find("um/s") != std::string::npos);
-  CHECK(words.out.find("t.csv") != std::string::npos);
+  CHECK(text.exit == 0);
+  CHECK(text.out.find("um/s") != std::string::npos);
+  CHECK(text.out.find("t.csv") != std::string::npos);
   CHECK(std::filesystem::exists(folder.path() / "t.html"));
 
   const Called json = faba_in(folder.path(), "track 'film/f%d.pgm' --fps 15 --json");
@@ -54,7 +54,7 @@ TEST_CASE("track: words, JSON, files, and what it refuses") {
   CHECK(faba_in(folder.path(), "track film --fps 15 --out t.csv --force --quiet").exit == 0);
 }
 
-TEST_CASE("image: from rendered frames at a drop's edge the loop knows where its swarm is") {
+TEST_CASE("estimator image: the centroid of a swarm at the edge of a drop from rendered frames") {
   const test::TemporaryFolder folder("as-seen");
   const Called run = faba_in(
       folder.path(), "run '" FABA_SCENES
@@ -62,7 +62,8 @@ TEST_CASE("image: from rendered frames at a drop's edge the loop knows where its
                      "--set camera.sensor=frames --set estimator.type=image --set record.video=false");
   REQUIRE(run.exit == 0);
   const Table t = read_table(folder.path() / "run/series.csv");
-  // All cells are in view till then. The first pictures, of a pile at the edge, are good for 20 px only.
+  // All cells are in view in these frames. The first pictures, with all cells at the edge, give an error of
+  // 20 px.
   for (std::size_t k = 10; k < t.size(); ++k) {
     CAPTURE(k);
     CHECK(std::hypot(t.column("estimated_centroid_x_px")[k] - t.column("true_centroid_x_px")[k],

@@ -1,4 +1,4 @@
-// faba flow, activity, compare and distance: files, notes and refusals, as a user meets them.
+// faba flow, activity, compare and distance: files, notes and error messages.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ void refused(const TestFolder& f, const std::string& arguments, int code, const 
   CHECK(c.err.find(words) != std::string::npos);
 }
 
-/// A grey picture, PGM, with a bright spot at (x, y).
+/// A greyscale PGM picture with a bright spot at (x, y).
 std::string spot(int width, int height, double x, double y, double grey = 120) {
   std::string out = "P5 " + std::to_string(width) + " " + std::to_string(height) + " 255\n";
   for (int r = 0; r < height; ++r)
@@ -31,7 +31,7 @@ std::string spot(int width, int height, double x, double y, double grey = 120) {
   return out;
 }
 
-/// A folder of frames in which a spot goes right for a second and back again, 15 frames a second.
+/// A folder of frames at 15 Hz in which a spot moves to the right for a second and back.
 void write_film(const TestFolder& f, const std::string& name, int frames = 30) {
   std::filesystem::create_directories(f.path / name);
   for (int k = 0; k < frames; ++k) {
@@ -44,7 +44,7 @@ void write_film(const TestFolder& f, const std::string& name, int frames = 30) {
 
 }  // namespace
 
-TEST_CASE("flow of two pictures: a file of flows, a picture, the truth, and what is refused") {
+TEST_CASE("flow of two pictures: flow file, picture, comparison with the truth, and refused input") {
   const TestFolder f;
   write_file(f.path / "a.pgm", spot(40, 30, 18, 15));
   write_file(f.path / "b.pgm", spot(40, 30, 18.5, 14.75));
@@ -74,7 +74,7 @@ TEST_CASE("flow of two pictures: a file of flows, a picture, the truth, and what
   CHECK_FALSE(std::filesystem::exists(f.path / "o.mp4"));
 }
 
-TEST_CASE("flow, activity and compare of a folder of frames and of its file of flows say the same") {
+TEST_CASE("flow, activity and compare give the same for a folder of frames and for its flow file") {
   const TestFolder f;
   write_film(f, "film");
   REQUIRE(faba_in(f.path, "flow film --preset published --out film.h5 --overlay o.mp4 --quiet").exit == 0);
@@ -92,7 +92,8 @@ TEST_CASE("flow, activity and compare of a folder of frames and of its file of f
   refused(f, "compare film none", 3, "file not found");
 }
 
-TEST_CASE("black frames, still frames, one frame and frames that change size: a result or one clear line") {
+TEST_CASE(
+    "black frames, identical frames, one frame and frames of different size: a result or one clear line") {
   const TestFolder f;
   for (const char* name : {"black", "still", "mixed"}) std::filesystem::create_directories(f.path / name);
   for (int k = 0; k < 12; ++k) {
@@ -116,14 +117,13 @@ TEST_CASE("black frames, still frames, one frame and frames that change size: a 
   refused(f, "activity one.pgm", 3, "one frame only");
 }
 
-TEST_CASE(
-    "a video that was cut off is measured as far as it goes, and said to be cut; an unknown codec is named") {
+TEST_CASE("a truncated video is measured up to its end, with a warning; an unknown codec is reported") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out r --as-seen --quiet --set record.lossless=true").exit ==
           0);
-  const std::string whole = read_file(f.path / "r/video.avi");
-  write_file(f.path / "cut.avi", whole.substr(0, whole.size() * 6 / 10));
+  const std::string complete = read_file(f.path / "r/video.avi");
+  write_file(f.path / "cut.avi", complete.substr(0, complete.size() * 6 / 10));
   for (const char* verb : {"activity cut.avi", "compare r/video.avi cut.avi --no-align",
                            "flow cut.avi --out cut.h5", "track cut.avi"}) {
     const Called c = faba_in(f.path, verb);
@@ -137,7 +137,7 @@ TEST_CASE(
   CHECK(pairs("cut.avi") > 5);
   CHECK(pairs("cut.avi") < pairs("r/video.avi"));
 
-  std::string odd = whole;
+  std::string odd = complete;
   for (std::size_t at; (at = odd.find("MPNG")) != std::string::npos;) odd.replace(at, 4, "ZZZZ");
   write_file(f.path / "odd.avi", odd);
   for (const char* verb :
@@ -145,7 +145,7 @@ TEST_CASE(
     refused(f, verb, 3, "odd.avi: codec not supported");
 }
 
-TEST_CASE("numbers, outputs and times that cannot be are refused before any work") {
+TEST_CASE("invalid numbers, outputs and times are refused before any measurement") {
   const TestFolder f;
   write_film(f, "film");
   refused(f, "activity film --direction nan", 2, "out of range");
@@ -160,7 +160,7 @@ TEST_CASE("numbers, outputs and times that cannot be are refused before any work
   CHECK_FALSE(std::filesystem::exists(f.path / "a.csv"));
 }
 
-TEST_CASE("a part of a video is measured with --from and --to, at the rate that --fps says") {
+TEST_CASE("a part of a video is measured with --from and --to, at the rate of --fps") {
   const TestFolder f;
   write_film(f, "film");
   const Called untimed = faba_in(f.path, "activity film --flow-threshold 0.05 --out all.csv --force");
@@ -179,7 +179,7 @@ TEST_CASE("a part of a video is measured with --from and --to, at the rate that 
   CHECK(part.column("activity")[0] == all.column("activity")[first]);
 }
 
-TEST_CASE("a single spot that moves is followed and summed up") {
+TEST_CASE("a single moving spot is tracked, and its speed is reported") {
   const TestFolder f;
   std::filesystem::create_directories(f.path / "dot");
   for (int k = 0; k < 10; ++k)
@@ -192,7 +192,7 @@ TEST_CASE("a single spot that moves is followed and summed up") {
     CHECK(t.column("x_px")[k] == doctest::Approx(12 + 3 * double(k)).epsilon(0.02));
 }
 
-TEST_CASE("at a variable rate the times of the frames count, not their numbers") {
+TEST_CASE("with a variable frame rate the times of the frames are used, not their indices") {
   const TestFolder f;
   write_file(f.path / "v.gif", media::gif_file(32, 24, {{20, 10}, {60, 30}, {100, 5}, {140, 20}}));
   REQUIRE(faba_in(f.path, "activity v.gif --out v.csv --flow-threshold 0.1 --quiet").exit == 0);
@@ -208,7 +208,7 @@ TEST_CASE("at a variable rate the times of the frames count, not their numbers")
   CHECK(c.json()["runs"][0]["mean"] == 0);
 }
 
-TEST_CASE("a drawing is no video to measure, and a run's own flows are") {
+TEST_CASE("a drawn video of a run is not measured, but the recorded flow of a run is") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
   REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out drawn --quiet").exit == 0);
@@ -223,7 +223,7 @@ TEST_CASE("a drawing is no video to measure, and a run's own flows are") {
   CHECK(d.json()["runs"][0]["mean"] == 0);
 }
 
-TEST_CASE("study files and distances: what is wrong is named") {
+TEST_CASE("study files and distances: errors name the file, the key or the line") {
   const TestFolder f;
   write_file(f.path / "none.toml", "direction = 0\n");
   refused(f, "activity none.toml", 2, "[[video]]");

@@ -1,4 +1,4 @@
-// What a program gets that links faba_engine alone: scenarios that run to the same bits as in faba itself.
+// A program that links only faba_engine runs scenarios with the same results as the program faba.
 #include <doctest/doctest.h>
 
 #include "app/run/simulation.h"
@@ -7,7 +7,7 @@
 
 using namespace faba;
 
-TEST_CASE("the engine alone runs the golden scenes to their literal state hashes") {
+TEST_CASE("the engine gives the golden state hashes") {
   const Parts parts = engine_parts();
   for (const Golden& g : kGolden) {
     INFO(g.scene);
@@ -19,14 +19,14 @@ TEST_CASE("the engine alone runs the golden scenes to their literal state hashes
   }
 }
 
-TEST_CASE("a scenario with a bench or optical flow can be read; what describes them is left alone") {
+TEST_CASE("a scenario with a bench or optical flow can be read; the engine ignores these sections") {
   const Scenario s = read_scenario(read_toml(std::string(FABA_SCENES) + "/bench.toml"), engine_parts());
   CHECK_FALSE(s.rig.has_value());
   CHECK(s.resolved().contains("controller"));
   CHECK_FALSE(s.resolved().contains("rig"));
 }
 
-TEST_CASE("what the engine cannot read is refused in words") {
+TEST_CASE("the engine refuses files that it cannot read with a clear message") {
   const auto refusal = [](const std::string& toml) -> std::string {
     try {
       const Scenario s = read_scenario(parse_toml(toml + "[[swarm]]\ncount = 3\n", "test"), engine_parts());

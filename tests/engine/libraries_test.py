@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Fails when a program that links faba_engine alone needs a library of pictures, videos or data files at run time."""
+"""Fails if a program that links only faba_engine depends on a shared library for pictures, videos or data files."""
 
 import re
 import subprocess
@@ -16,8 +16,8 @@ def needed(program):
 
 names = needed(sys.argv[1])
 found = sorted(n for n in names if any(n == u or n.startswith(u + "_") for u in UNWANTED))
-print("needs", ", ".join(sorted(names)))
+print("shared libraries:", ", ".join(sorted(names)))
 if "fmt" not in names:
-    sys.exit("the list of libraries was not understood: fmt is missing from it")
+    sys.exit("unexpected output of ldd: libfmt is missing")
 if found:
-    sys.exit(f"faba_engine must not need {', '.join(found)}")
+    sys.exit(f"faba_engine must not depend on {', '.join(found)}")

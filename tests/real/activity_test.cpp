@@ -1,5 +1,5 @@
-// Activity of real videos: when micro-rollers are driven and which way, against the list that was made by
-// eye; and that beads which diffuse are driven by nothing. Skipped where the videos are not there.
+// Activity in real videos: times and directions of the motion of micro-rollers, compared with a list made by
+// eye; no directed motion of diffusing beads. Skipped if the videos are absent.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ VideoActivity measured(const std::filesystem::path& video, int shrink) {
   job.videos.push_back({video, {}, "", {}});
   job.method = flow_part({}, published_flow());
   job.shrink = shrink;
-  job.cells = false;  // for the time that a test may take; study.swarm_view counts
+  job.cells = false;  // faster; study.swarm_view tests the counting of cells
   return measure_activity(job).videos.at(0);
 }
 
@@ -42,14 +42,13 @@ void compare_with_list(const std::vector<MotionSegment>& found, double slack_deg
 
 }  // namespace
 
-TEST_CASE("rollers: every stretch of driving within half a second, the direct reversal too") {
+TEST_CASE("rollers: all field segments within 0.5 s, also at a direct reversal") {
   if (test::skipped_without(kRollers)) return;
-  const VideoActivity a =
-      measured(kRollers, 4);  // a sixteenth of the pixels, for the time that a test may take
+  const VideoActivity a = measured(kRollers, 4);  // 1/16 of the pixels, because it is faster
   CHECK_FALSE(a.direction_given);
-  // The list says up and down; what drives them is not quite upright, and some go sideways.
+  // The list has the directions up and down; the field is tilted, and some rollers move sideways.
   compare_with_list(a.segments, 45);
-  // The same flow, taken along the line that the list goes by.
+  // The same flow, projected onto the direction of the list.
   compare_with_list(motion_segments(a.signature, 90), 1e-9);
 }
 

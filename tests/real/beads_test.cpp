@@ -13,16 +13,16 @@ namespace {
 const std::filesystem::path kVideo = std::filesystem::path(FABA_SHARED_DATA) / "beads" / "bulk-water.mov";
 }
 
-TEST_CASE("beads of 1 um in water diffuse as Stokes and Einstein say, and do not swim") {
+TEST_CASE("beads of 1 um in water diffuse with the Stokes-Einstein coefficient, and do not swim") {
   if (test::skipped_without(kVideo)) return;
   TrackOptions o;
   o.video = kVideo;
-  o.um_per_px = 100.0 / 285;  // as trackpy's walkthrough has it for these beads
+  o.um_per_px = 100.0 / 285;  // value of the trackpy walkthrough for these beads
   const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 480);
   CHECK(j["supported"] == "diffusion");
-  // kT / (6 pi eta a), a = 0.5 um: 0.40 um^2/s at 17 C, 0.49 at 25 C; the scale is good to some per cent,
-  // which counts twice.
+  // kT / (6 pi eta a), a = 0.5 um: 0.40 um^2/s at 17 C, 0.49 at 25 C. The scale has an error of some per
+  // cent, which doubles in D.
   const double d = j["diffusion"]["d_um2_s"];
   CHECK(d > 0.38);
   CHECK(d < 0.52);

@@ -1,4 +1,4 @@
-// A measured map of a flat coil, fitted. Skipped where it is not there.
+// Fit to the measured field map of a flat coil. Skipped if the file is absent.
 #include <doctest/doctest.h>
 
 #include "study/coils/field_fit.h"
@@ -10,7 +10,7 @@ TEST_CASE("the measured map of a flat coil is fitted to 0.024 G") {
   const std::filesystem::path file = std::filesystem::path(FABA_SHARED_DATA) / "coil/loop_bz_map.csv";
   if (test::skipped_without(file)) return;
   const FieldFit fit = field_fit(FABA_SCENES "/../rigs/flat-coil.toml", file, {}, {});
-  // As the data's own description says, to the digits that it gives.
+  // Values of the description of the data, to the digits given there.
   CHECK(fit.rms == doctest::Approx(0.024e-4).epsilon(0.02));
   CHECK(fit.best.gain == doctest::Approx(1.036).epsilon(0.0005));
   CHECK(-fit.best.shift[2] == doctest::Approx(1.88e-2).epsilon(0.003));

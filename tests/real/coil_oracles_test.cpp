@@ -1,5 +1,5 @@
-// The reference tables of theory C3 and C4, computed elsewhere with 30 digits. Skipped where they are not
-// there.
+// The reference tables of theory C3 and C4, computed with another program and 30 digits. Skipped if they are
+// absent.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 const std::filesystem::path kOracles = std::filesystem::path(FABA_SHARED_DATA) / "../oracles";
 
-// A CSV with words in some columns: by column name, row by row.
+// The rows of a CSV file with text in some columns.
 struct Rows {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;
@@ -42,7 +42,7 @@ struct Rows {
 
 }  // namespace
 
-TEST_CASE("solenoid_reference.csv, every row to 1e-10 of the field's magnitude") {
+TEST_CASE("solenoid_reference.csv: all rows agree to 1e-10 of the field magnitude") {
   if (test::skipped_without(kOracles / "solenoid_reference.csv")) return;
   const Rows r(read_file(kOracles / "solenoid_reference.csv"));
   REQUIRE(r.rows.size() == 32);
@@ -58,7 +58,7 @@ TEST_CASE("solenoid_reference.csv, every row to 1e-10 of the field's magnitude")
   }
 }
 
-TEST_CASE("fourcoil_reference.csv, every row to 1e-10 of the largest field of one coil there") {
+TEST_CASE("fourcoil_reference.csv: all rows agree to 1e-10 of the maximum field of one coil at the point") {
   if (test::skipped_without(kOracles / "fourcoil_reference.csv")) return;
   const auto field = read_rig(FABA_SCENES "/../rigs/thesis-four-coils.toml", builtin_parts()).make({});
   const Rows r(read_file(kOracles / "fourcoil_reference.csv"));

@@ -38,8 +38,8 @@ TEST_CASE("ten frames of one drop of E. coli") {
     const auto file = kShared / "drops" / fmt::format("{:05d}.tif", k);
     CAPTURE(file.string());
     const DropEdge d = find_drop_edge(read_picture(file).grey);
-    // A mask drawn by hand gives centre (258.5, 228.5); the steepest edge lies at radius 160 to 161, the half
-    // level at 163, the mask at 166.
+    // A mask drawn by hand gives the centre (258.5, 228.5). Radius of the steepest edge 160 to 161, of the
+    // half level 163, of the mask 166 px.
     CHECK(norm(d.centre_image - Vec2{258.5, 228.5}) < 2);
     CHECK(d.radius_px > 158);
     CHECK(d.radius_px < 167);
@@ -49,7 +49,7 @@ TEST_CASE("ten frames of one drop of E. coli") {
     CHECK(d.contrast > 0);  // bright inside
     radii.push_back(d.radius_px);
   }
-  // The drop does not change in ten frames: what the radii scatter is error.
+  // The drop does not change in ten frames, so the scatter of the radii is the error.
   double mean = 0, square = 0;
   for (double r : radii) mean += r / double(radii.size());
   for (double r : radii) square += (r - mean) * (r - mean) / double(radii.size() - 1);

@@ -1,5 +1,5 @@
-// Optical flow on material that was made elsewhere: the reference values of theory A22 and RubberWhale of the
-// Middlebury set. Skipped where they are not there.
+// Optical flow compared with external references: the values of theory A22 and RubberWhale of the Middlebury
+// set. Skipped if they are absent.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace {
 const std::filesystem::path kData = FABA_SHARED_DATA;
 const std::filesystem::path kReference = kData / "../oracles/hs_reference.csv";
 
-// The pictures that the reference was computed from: 16 x 16 px, a Gaussian of 200 grey levels and 2.5 px
-// standard deviation about (7, 7.5), moved by (0.6, -0.3).
+// The pictures of the reference: 16 x 16 px, a Gaussian with 200 grey levels and a standard deviation of 2.5
+// px at (7, 7.5), moved by (0.6, -0.3).
 Plane<double> spot(double dx, double dy) {
   Plane<double> p(16, 16);
   for (int r = 0; r < 16; ++r)
@@ -31,7 +31,7 @@ Plane<double> spot(double dx, double dy) {
 
 }  // namespace
 
-TEST_CASE("every row of the reference to 1e-9") {
+TEST_CASE("all rows of the reference agree to 1e-9") {
   if (test::skipped_without(kReference)) return;
   const Table table = read_table(kReference);
   Pool pool(1);
@@ -51,14 +51,14 @@ TEST_CASE("every row of the reference to 1e-9") {
     CHECK(std::fabs(flow.v.row(row)[col] - column("v")[i]) < 1e-9);
     FlowDerivatives<double> d;
     differentiate(a, b, d, pool);
-    // Twelve digits of numbers up to 40 are printed.
+    // The reference has twelve digits, with numbers up to 40.
     CHECK(std::fabs(d.ix.row(row)[col] - column("Ex")[i]) < 1e-9);
     CHECK(std::fabs(d.iy.row(row)[col] - column("Ey")[i]) < 1e-9);
     CHECK(std::fabs(d.it.row(row)[col] - column("Et")[i]) < 1e-9);
   }
 }
 
-TEST_CASE("RubberWhale: endpoint error of the plain method and with a pyramid") {
+TEST_CASE("RubberWhale: endpoint error without and with a pyramid") {
   if (test::skipped_without(kData / "flow")) return;
   const auto folder = kData / "flow";
   const auto error_of = [&](const FlowChoice& choice) {
@@ -69,6 +69,6 @@ TEST_CASE("RubberWhale: endpoint error of the plain method and with a pyramid") 
   };
   CHECK(error_of({}) < 0.35);
   CHECK(error_of({"horn_schunck", {{"pyramid", "true"}}}) < 0.25);
-  // A hundred sweeps from zero are far from the solution.
+  // A hundred sweeps starting from zero have not converged.
   CHECK(error_of(published_flow()) > error_of({}) + 0.05);
 }

@@ -19,7 +19,7 @@ namespace {
 const std::filesystem::path kShared = FABA_SHARED_DATA;
 }  // namespace
 
-TEST_CASE("the default light and noise are those of a real suspension") {
+TEST_CASE("the default light level and noise agree with a real video of a suspension") {
   if (test::skipped_without(kShared / "suspension")) return;
   const media::ScratchFolder folder;
   VideoWriter writer(folder / "part", VideoFormat::lossless_avi, 1376, 1096, 26.87, 0, VideoPixels::grey8);
@@ -40,14 +40,14 @@ TEST_CASE("the default light and noise are those of a real suspension") {
   MESSAGE("noise of the suspension ", real.noise_sd * 255, " grey levels of 255");
 }
 
-TEST_CASE("a real video as background: what lies still stays, what moves does not") {
+TEST_CASE("background of a real video: it contains objects at rest and not moving ones") {
   if (test::skipped_without(kShared / "beads")) return;
   const VideoBackground real = read_video_background(kShared / "beads" / "bulk-water.mov");
   CHECK(real.light.width == 640);
   CHECK(real.light.height == 424);
-  CHECK(real.noise_sd * 255 > 0.05);  // the coding of the file has smoothed most of it
+  CHECK(real.noise_sd * 255 > 0.05);  // the codec has removed most of the noise
   CHECK(real.noise_sd * 255 < 3);
-  // A fibre crosses the upper right corner: 10 grey levels darker than beside it. Elsewhere it is even to a
-  // few.
+  // A fibre in the upper right corner is 10 grey levels darker than its surroundings. Elsewhere the
+  // background varies by a few grey levels.
   CHECK(double(real.light.at(596, 48) - real.light.at(560, 48)) * 255 < -5);
 }

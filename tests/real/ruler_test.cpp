@@ -14,7 +14,7 @@ TEST_CASE("a stage micrometer through a 10x objective") {
   if (test::skipped_without(picture)) return;
   const TestFolder folder;
   const PictureScale s = report_scale_picture(picture, 10e-6, folder.path / "marks.png");
-  // Burnt into the picture: 688.33 px for 89 ticks of 10 um, 1.293 um/px.
+  // The picture has a label: 688.33 px for 89 ticks of 10 um, 1.293 um/px.
   CHECK(s.um_per_px == doctest::Approx(1.293).epsilon(0.01));
   CHECK(s.ratios.mean == doctest::Approx(1.293).epsilon(0.01));
   CHECK(s.ci95[0] < s.um_per_px);

@@ -13,7 +13,7 @@ namespace {
 const std::filesystem::path kFolder = std::filesystem::path(FABA_SHARED_DATA) / "suspension";
 }
 
-TEST_CASE("rods in a suspension swim, straight and each its own way") {
+TEST_CASE("rods in a suspension swim on straight paths in random directions") {
   if (test::skipped_without(kFolder)) return;
   TrackOptions o;
   o.video = kFolder / "frame_*.tif";
@@ -22,7 +22,7 @@ TEST_CASE("rods in a suspension swim, straight and each its own way") {
   const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 25);
   CHECK(j["supported"] == "persistent_walk");
-  // Swimming rods of this size are known for 10 to 40 um/s; most of the things that stand still are dirt and
+  // Typical swimming speeds of rods of this size: 10 to 40 um/s. Most objects that do not move are dirt and
   // spheres.
   const auto q = j["speed"]["quantiles_10_50_90_um_s"];
   CHECK(q[2].get<double>() > 25);

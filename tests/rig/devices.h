@@ -28,7 +28,7 @@ inline const double kMostLate = CoilGuard::Params{}.heartbeat_deadline;
 
 /// Checks s < within + stall of the machine. Returns false, without a check, if s >= within and the machine
 /// stalled for longer than kMostLate.
-[[nodiscard]] inline bool checked_in_time(double s, double within, const StandStill& machine) {
+[[nodiscard]] inline bool checked_in_time(double s, double within, const StallMeter& machine) {
   const double late = machine.longest();
   if (s >= within && late > kMostLate) return false;
   CHECK(s < within + std::min(late, kMostLate));
@@ -118,7 +118,7 @@ struct Firmware {
   }
   test::TemporaryFolder folder;
   std::unique_ptr<Child> child;
-  StandStill machine;
+  StallMeter machine;
 };
 
 /// A guard for coils of 0.2 A/V about 2.5 V on these channels. `patient`: timeouts of 1 s, for tests that do

@@ -5,7 +5,7 @@
 using namespace faba;
 
 TEST_CASE("NI: voltages follow the wiring, channels of two devices, the enable line toggles while armed") {
-  const StandStill machine;
+  const StallMeter machine;
   NiDevice ni;
   GuardLink g(coils_on(ni.driver(), {"Dev1/ao0", "Dev1/ao1", "Dev2/ao0"}, {"Dev1/ai0", "Dev1/ai1"}),
               FABA_GUARD);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/check_docs.py finds a wrong citation of each kind and an assumption that is not listed, and nothing in a tree that is right."""
+"""tools/check_docs.py detects planted wrong citations and a missing assumption, and reports nothing for a correct tree."""
 
 import pathlib
 import sys
@@ -18,19 +18,22 @@ CLEAN = {
     "src/sim/a.cpp": "// theory A1, B1.2 and C1-D1 [S3]; vectors F[1], B_0, 0xA7, #B3261E\n",
     "scenes/a.toml": "speed = 1  # (H1)\n",
 }
-# What is planted, and words of the message that must be printed for it.
-PLANTED = {f"a section of {x} that is not there": ({"src/sim/a.cpp": f"// as in ({x}8)\n"}, f"a.cpp:1: cites {x}8") for x in LETTERS} | {
-    "a letter that is not there": ({"src/sim/a.cpp": "// theory J1\n"}, "cites J1"),
-    "the second of a list": ({"tests/a.cpp": "// theory A1, H9\n"}, "tests/a.cpp:1: cites H9"),
+# Name of the case: planted files, and words of the expected message.
+PLANTED = {f"an unknown section of {x}": ({"src/sim/a.cpp": f"// as in ({x}8)\n"}, f"a.cpp:1: cites {x}8") for x in LETTERS} | {
+    "an unknown letter": ({"src/sim/a.cpp": "// theory J1\n"}, "cites J1"),
+    "the second label of a list": ({"tests/a.cpp": "// theory A1, H9\n"}, "tests/a.cpp:1: cites H9"),
     "the end of a range": ({"tests/a.cpp": "// theory B1-B4\n"}, "cites B4"),
-    "an item that is not there": ({"tests/a.cpp": "// theory B1.3\n"}, "cites B1.3"),
-    "a source of a parameter": ({"src/sim/a.cpp": '.source = "H7"\n'}, "cites H7"),
+    "an unknown item": ({"tests/a.cpp": "// theory B1.3\n"}, "cites B1.3"),
+    "the source of a parameter": ({"src/sim/a.cpp": '.source = "H7"\n'}, "cites H7"),
     "in a page": ({"docs/guide/a.md": "See C4.\n"}, "docs/guide/a.md:1: cites C4"),
     "in a scene": ({"scenes/a.toml": "# D5\n"}, "scenes/a.toml:1: cites D5"),
     "a source that is not listed": ({"src/sim/a.cpp": "// [S4]\n"}, "cites [S4]"),
-    "a section that the index lacks": ({"docs/theory/page.md": CLEAN["docs/theory/page.md"] + "## H2 New\n"}, "does not list H2"),
+    "a section missing in the index": ({"docs/theory/page.md": CLEAN["docs/theory/page.md"] + "## H2 New\n"}, "does not list H2"),
     "an assumption that is not listed": ({"docs/reference/start.md": "| `other` | 3 | px | Width | assumed (A1) |\n"}, "lacks `other`"),
-    "a section that only the index has": ({"docs/theory/page.md": "## A1 Name\n\n1. A law.\n2. Another one.\n"}, "lists H1, which no page has"),
+    "a section that only the index has": (
+        {"docs/theory/page.md": "## A1 Name\n\n1. A law.\n2. Another one.\n"},
+        "lists H1, but no page has this section",
+    ),
 }
 
 
@@ -52,7 +55,7 @@ def main():
         found = messages(CLEAN | files)
         if not any(words in m for m in found):
             wrong.append(f"{what}: no message has {words!r}: {found}")
-    print("\n".join(wrong) or f"{len(PLANTED)} planted mistakes found")
+    print("\n".join(wrong) or f"{len(PLANTED)} planted errors detected")
     return 1 if wrong else 0
 
 

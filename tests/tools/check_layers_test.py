@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/check_layers.py finds a planted violation of each kind, and nothing in a tree that has none."""
+"""tools/check_layers.py detects a planted violation of each kind and reports nothing for a correct tree."""
 
 import pathlib
 import sys
@@ -15,10 +15,10 @@ CLEAN = {
     "app/scenario/scenario.cpp": '#include "core/vec.h"\n#include "rig/camera.h"\n',
     "rig/camera.h": "",
 }
-# What is planted, and words of the line that must be printed for it.
+# Name of the case: planted files, and words of the expected line.
 PLANTED = {
-    "a folder of a higher row": ({"core/a.cpp": '#include "field/b.h"\n'}, "core must not include field"),
-    "a neighbour of its row": ({"sim/a.cpp": '#include "control/b.h"\n'}, "sim must not include control"),
+    "a folder of a higher layer": ({"core/a.cpp": '#include "field/b.h"\n'}, "core must not include field"),
+    "a folder of the same layer": ({"sim/a.cpp": '#include "control/b.h"\n'}, "sim must not include control"),
     "a sibling subfolder": (
         {"vision/image/a.cpp": '#include "vision/files/b.h"\n'},
         "vision/image must not include vision/files",
@@ -32,31 +32,31 @@ PLANTED = {
         {"vision/image/a.cpp": "#include <opencv2/core.hpp>\n"},
         "part of the engine and must not include <opencv2/core.hpp>",
     ),
-    "a header of the project as a library": ({"sim/a.cpp": "#include <control/b.h>\n"}, "stands in quotes"),
+    "a header of the project in angle brackets": ({"sim/a.cpp": "#include <control/b.h>\n"}, "include it in quotes"),
     "an include without a space": ({"sim/a.cpp": '#include"control/b.h"\n'}, "sim must not include control"),
-    "another kind of file": ({"core/a.hpp": ""}, "sources end in"),
-    "a measurement that gives JSON": (
+    "an unknown file suffix": ({"core/a.hpp": ""}, "unknown suffix"),
+    "a measurement that returns JSON": (
         {"study/drop/a.h": "nlohmann::ordered_json measure();\n"},
-        "a measurement gives a struct",
+        "a measurement returns a struct",
     ),
-    "a circle of two": (
+    "a cycle of two": (
         {"core/a.h": "", "core/a.cpp": '#include "core/b.h"\n', "core/b.h": '#include "core/a.h"\n'},
-        "an include circle: core/a, core/b",
+        "include cycle: core/a, core/b",
     ),
-    "a circle of three": (
+    "a cycle of three": (
         {f"core/{a}.h": f'#include "core/{b}.h"\n' for a, b in ("xy", "yz", "zx")},
-        "an include circle: core/x, core/y, core/z",
+        "include cycle: core/x, core/y, core/z",
     ),
-    "a library away from its home": ({"study/a.cpp": "#include <opencv2/core.hpp>\n"}, "may be included by"),
-    "a library without a home": ({"study/a.cpp": "#include <spdlog/spdlog.h>\n"}, "<spdlog/spdlog.h> has no home"),
-    "a library's types beyond its folder": (
+    "a library in a folder that may not include it": ({"study/a.cpp": "#include <opencv2/core.hpp>\n"}, "may be included only by"),
+    "an unknown library": ({"study/a.cpp": "#include <spdlog/spdlog.h>\n"}, "<spdlog/spdlog.h> is missing in the table"),
+    "a library's types in another folder": (
         {"server/a.h": "#include <boost/asio/ip/tcp.hpp>\n", "cli/b.cpp": '#include "server/a.h"\n'},
-        "shows a library's types",
+        "exposes types of a library",
     ),
-    "two types of one name": ({"vision/drop/a.h": "struct Vec {\n};\n"}, "is the name of another type"),
-    "two files' own types of one name": (
+    "two types with the same name": ({"vision/drop/a.h": "struct Vec {\n};\n"}, "is also the name of a type in"),
+    "two local types with the same name": (
         {f"study/plot/{n}.cpp": "namespace {\nstruct Mine {\n};\n}  // namespace\n" for n in "ab"},
-        "give one of them another",
+        "is also defined in",
     ),
     "a function that a header declares": (
         {
@@ -65,9 +65,9 @@ PLANTED = {
         },
         "is also declared in",
     ),
-    "an unknown folder": ({"utils/a.cpp": ""}, "is not in the table"),
-    "an unknown subfolder": ({"vision/misc/a.cpp": ""}, "is not in the table"),
-    "a folder with too many files": ({f"core/f{i}.cpp": "" for i in range(41)}, "files directly in one folder"),
+    "an unknown folder": ({"utils/a.cpp": ""}, "is missing in the table"),
+    "an unknown subfolder": ({"vision/misc/a.cpp": ""}, "is missing in the table"),
+    "a folder with too many files": ({f"core/f{i}.cpp": "" for i in range(41)}, "files directly in this folder"),
 }
 
 
@@ -84,6 +84,6 @@ wrong = [f"a clean tree: {v}" for v in found_in(CLEAN)]
 for what, (files, words) in PLANTED.items():
     lines = found_in(CLEAN | files)
     if not any(words in line for line in lines):
-        wrong.append(f"{what}: not found; found {lines}")
-print("\n".join(wrong) or f"{len(PLANTED)} planted violations were found")
+        wrong.append(f"{what}: not detected; lines: {lines}")
+print("\n".join(wrong) or f"{len(PLANTED)} planted violations detected")
 sys.exit(1 if wrong else 0)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/check_parts.py finds a planted violation of each kind, and nothing in a tree that has none."""
+"""tools/check_parts.py detects a planted violation of each kind and reports nothing for a correct tree."""
 
 import pathlib
 import sys
@@ -19,7 +19,7 @@ CLEAN = {
     "src/sim/disc.cpp": 'return Schema<Params>("disc", "Cells on a disc");\n',
     "src/sim/other.cpp": '// a "disc" in a comment\nuse("discs");\n',
 }
-# What is planted, and words of the message that must be printed for it.
+# Name of the case: planted files, and words of the expected message.
 PLANTED = {
     "a name in another file": ({"src/sim/other.cpp": 'if (kind == "disc") return;\n'}, 'src/sim/other.cpp:1: "disc"'),
     "a name on the page": ({"web/src/a.ts": "const it = 'box';\n"}, 'web/src/a.ts:1: "box"'),
@@ -29,7 +29,7 @@ PLANTED = {
     "a comparison of a JSON value": ({"src/sim/other.cpp": 'if (j["type"] == "x") return;\n'}, "compared with a string"),
     "a comparison from the other side": ({"src/sim/other.cpp": 'if ("x" == p.type) return;\n'}, "compared with a string"),
     "a comparison on the page": ({"web/src/a.ts": "if (p.type === 'x') return;\n"}, "compared with a string"),
-    "an entry that nothing needs": ({"src/server/frame.cpp": "\n"}, '"box" no longer stands in src/server/frame.cpp'),
+    "an unused entry": ({"src/server/frame.cpp": "\n"}, 'src/server/frame.cpp no longer contains "box"'),
 }
 
 
@@ -47,8 +47,8 @@ def main():
     for what, (files, words) in PLANTED.items():
         found = messages(CLEAN | files)
         if not any(words in m for m in found):
-            wrong.append(f"{what}: not found; messages: {found}")
-    print("\n".join(wrong) or f"{len(PLANTED)} planted violations found")
+            wrong.append(f"{what}: not detected; messages: {found}")
+    print("\n".join(wrong) or f"{len(PLANTED)} planted violations detected")
     return 1 if wrong else 0
 
 

@@ -1,2 +1,2 @@
-"""What `tools/reproduce.py` does: index.py lists every result, the modules named after subjects compute them with the program
-(faba.py), check.py judges them, page.py shows them."""
+"""The results of `tools/reproduce.py`. index.py lists them; one module per subject computes them by calling the program (faba.py);
+check.py checks the values and page.py writes the page."""

@@ -1,4 +1,4 @@
-"""What a video's flow says of it: Figs 3.26 to 3.29 and 4.9, on rendered experiments."""
+"""Optical-flow activity of rendered experiments: Figs 3.26 to 3.29 and 4.9."""
 
 import math
 
@@ -10,7 +10,7 @@ from reproduce_rows.models import frames
 
 
 def first(lab):
-    """One video of a fresh sample, its activity with all pictures."""
+    """One video of a fresh sample, and its measured activity with all pictures."""
     film = lab.all([a_film(lab, 0, 100, True)])[0]
     step = lab.call(
         "activity-first",
@@ -42,36 +42,36 @@ def procedure(lab, found):
     u, v = read.flo(pair.folder / "flow.flo")
     fast = np.hypot(u, v)
     kept = (fast > a["threshold_px"]) & (u >= math.cos(math.radians(45)) * fast)
-    own = float((np.abs(u) + np.abs(v))[kept].sum())
+    recomputed = float((np.abs(u) + np.abs(v))[kept].sum())
     s = read.table(step.folder / "series.csv")
-    told = float(s["activity"][np.abs(s["t0_s"] - k * a["frame_s"]).argmin()])
+    reported = float(s["activity"][np.abs(s["t0_s"] - k * a["frame_s"]).argmin()])
     found.value = (
-        f"activity of one pair of frames {told:.1f} px·px²; summed here from its flow {own:.1f}; {100 * kept.mean():.1f} % of the pixels"
-        " are kept"
+        f"activity of one frame pair {reported:.1f} px·px²; recomputed from its flow {recomputed:.1f} px·px²; the filter keeps"
+        f" {100 * kept.mean():.1f} % of the pixels"
     )
     found.about(
-        "Activity of the pair over the sum over its filtered flow",
-        told / own,
+        "Activity of the frame pair divided by the sum over its filtered flow",
+        reported / recomputed,
         1,
         1e-5,
-        "the same sum twice; the file of the flow has 32-bit floats",
+        "both are the same sum; the flow file has 32-bit floats",
     )
     found.within(
-        "Share of pixels that the filter keeps",
+        "Fraction of pixels that the filter keeps",
         float(kept.mean()),
         1 / kept.size,
         0.5,
-        "some, and fewer than half: noise has any direction, and most of the view is empty",
+        "at least one pixel and at most half of them: most of the picture has no cells, and noise has all directions",
     )
     found.show(
         plot.picture(
             "Flow before and after filtering",
             step.folder / "filtered.png",
-            "The pair of frames with the most flow. Hue: direction; strength: speed.",
+            "The frame pair with the largest activity. Hue: direction; saturation: speed.",
             True,
         ),
         plot.picture("A frame of the rendered experiment", pictures[k]),
-        plot.picture("Its flow to the next one", pair.folder / "flow.png"),
+        plot.picture("Optical flow from this frame to the next", pair.folder / "flow.png"),
     )
 
 
@@ -96,12 +96,14 @@ def histograms(lab, found):
     a, page = step.answer, step.folder / "report.html"
     mean = a["runs"][0]["mean"]
     found.value = (
-        f"distance {mean:.2f}; between two runs of one scenario {a['floor']:.2f}, to a video in which nothing moves {a['naive']:.2f}"
+        f"mean distance {mean:.2f}; between two runs of one scenario {a['floor']:.2f}; to a video without motion {a['naive']:.2f}"
     )
     found.within(
-        "Distance", mean, None, a["naive"], "nearer than a video in which nothing moves: the simulation shows some of the experiment"
+        "Mean distance", mean, None, a["naive"], "smaller than the distance to a video without motion: the simulation is informative"
     )
-    found.within("Floor", a["floor"], None, a["naive"], "two runs of one scenario are nearer to each other than to nothing")
+    found.within(
+        "Floor", a["floor"], None, a["naive"], "two runs of one scenario are closer to each other than to a video without motion"
+    )
     found.show(
         read.figure(page, "Reference", "Flow of the experiment"),
         read.figure(page, "Run", "Flow of the simulation"),
@@ -129,32 +131,32 @@ def signature(lab, found):
     ).answer["videos"][0]["gaussian"]
     g = a["gaussian"]
     found.value = (
-        f"(1) {a['onset_s'] - REVERSAL_S:.2f} s, (2) {a['maximum_s'] - REVERSAL_S:.2f} ± {g['se_peak_s']:.2f} s, (3)"
-        f" {a['departure_s'] - REVERSAL_S:.2f} s after the reversal"
+        f"(1) onset {a['onset_s'] - REVERSAL_S:.2f} s, (2) maximum {a['maximum_s'] - REVERSAL_S:.2f} ± {g['se_peak_s']:.2f} s, (3) departure"
+        f" {a['departure_s'] - REVERSAL_S:.2f} s after the field reversal"
         if g["good"]
-        else "no Gaussian"
+        else "no Gaussian fits"
     )
-    found.true("A Gaussian fits", g["good"], "as it does for a sample that responds")
+    found.true("A Gaussian fits", g["good"], "expected for a sample that responds")
     found.true(
-        "Onset, maximum, leaving in this order, the maximum after the reversal",
+        "Order in time: onset, maximum, departure; the maximum is after the field reversal",
         bool(g["good"]) and a["onset_s"] < a["maximum_s"] < a["departure_s"] and a["maximum_s"] > REVERSAL_S,
-        "what the three points mean",
+        "definition of the three points",
     )
     error = math.hypot(g["se_peak_s"], truth["se_peak_s"])
     found.about(
-        "Maximum with noise less without",
+        "Time of the maximum with camera noise minus the time without it",
         g["peak_s"] - truth["peak_s"],
         0,
         3 * error,
-        "the same cells rendered without the camera's noise; three standard errors",
+        "the same cells rendered without camera noise; three standard errors",
         "s",
     )
     found.note.append(
-        "Onset and leaving are where the Gaussian is at a tenth of its height. Activity rises faster than a Gaussian does, so that the"
-        " onset may lie before the reversal."
+        "Onset and leaving are the times at which the Gaussian has 10 % of its height. Activity rises faster than a Gaussian, so the onset"
+        " can be before the field reversal."
     )
     found.show(
-        wide(read.figure(step.folder / "report.html", "1-100", "Activity after the reversal at 20 s")),
+        wide(read.figure(step.folder / "report.html", "1-100", "Activity after the field reversal at 20 s")),
         frames(film, "The rendered experiment"),
     )
 
@@ -164,7 +166,7 @@ def wide(markup):
 
 
 def dead_sample(lab):
-    """Cells that do not swim: the film and its activity."""
+    """Cells that do not swim: the rendered video and its measured activity."""
     film = lab.run("exposure/dead", SCENE, *FILM, "exposure=900 s", "swarm[0].count=240", "swarm[0].model.motile=0")
     return film, lab.call(
         "activity-dead",
@@ -186,16 +188,16 @@ def dead(lab, found):
     live = first(lab)[1].answer["videos"][0]
     a = step.answer["videos"][0]
     found.value = (
-        f"mean activity {a['mean_activity']:.0f} px·px² ({live['mean_activity']:.0f} when fresh);"
+        f"mean activity {a['mean_activity']:.0f} px·px² (fresh sample: {live['mean_activity']:.0f});"
         f" {a['gaussian']['why'] or 'a Gaussian fits'}"
     )
-    found.true("No Gaussian fits", not a["gaussian"]["good"], "nothing rises and falls where nothing swims")
-    found.true("No response", not a["responds"], "none of the cells swims")
+    found.true("No Gaussian fits", not a["gaussian"]["good"], "cells that do not swim give no peak of activity")
+    found.true("No response", not a["responds"], "no cell swims")
     found.within(
-        "Mean activity over that of a fresh sample",
+        "Mean activity divided by that of a fresh sample",
         a["mean_activity"] / live["mean_activity"],
         None,
         1,
-        "a floor: what noise and diffusion make of it",
+        "only camera noise and diffusion contribute",
     )
     found.show(wide(read.figure(step.folder / "report.html", "dead", "A dead sample")), frames(film, "Cells that do not swim"))

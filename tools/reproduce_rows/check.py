@@ -1,4 +1,4 @@
-"""Checks and verdicts: what a result must be, with the reason for the range, and what follows for the page."""
+"""Checks of values against accepted ranges, and the verdict that follows from them."""
 
 import dataclasses
 import math
@@ -7,7 +7,7 @@ SAME, CORRECTED, VIDEOS, PENDING, DIFFERS = "same", "corrected", "needs the orig
 
 
 def shown(x, digits=4):
-    """A number as one writes it: significant digits, no needless exponent."""
+    """A value as text: numbers with `digits` significant digits, and an exponent only below 1e-3 and from 1e6."""
     if isinstance(x, bool) or x is None:
         return {True: "yes", False: "no", None: "none"}[x]
     if isinstance(x, int) or not math.isfinite(x):
@@ -21,7 +21,7 @@ def shown(x, digits=4):
 
 @dataclasses.dataclass
 class Check:
-    """A value that must lie in [low, high] (None: open), or be true, and why just there."""
+    """A value that must lie in [low, high] (None: no limit), or be true if both limits are None; `why` is the reason for the range."""
 
     what: str
     value: object
@@ -29,7 +29,7 @@ class Check:
     high: object
     why: str
     unit: str = ""
-    around: object = None  # (middle, tolerance) where the range was meant so
+    around: object = None  # (expected value, tolerance) if the range was given in this form
 
     @property
     def ok(self):
@@ -55,8 +55,8 @@ class Check:
 
 
 class Found:
-    """What a row's work comes to: our value in a line, checks, pictures, and words about them; `beside` says which of its values are
-    computed without the program, `chosen` which inputs are not the thesis's."""
+    """The result of a row: value in one line, checks, figures, notes. `beside` describes values that are computed without the program,
+    `chosen` inputs that the thesis does not give."""
 
     def __init__(self):
         self.value, self.note, self.checks, self.pictures, self.commands, self.files, self.failed = "", [], [], [], [], [], None
@@ -77,7 +77,7 @@ class Found:
 
 
 def verdict(intended, found):
-    """The verdict a row is meant to have, where every one of its checks holds; a row without checks proves nothing."""
+    """The intended verdict if all checks pass; DIFFERS if a check fails, if there are none, or if the computation failed."""
     if intended == PENDING and not found.failed:
         return PENDING
     if found.failed or not found.checks or not all(c.ok for c in found.checks):

@@ -1,4 +1,4 @@
-"""Controllers: Figs 3.15 to 3.19, 4.17 to 4.20, the route."""
+"""Controllers: Figs 3.15 to 3.19 and 4.17 to 4.20, route of setpoints."""
 
 import math
 
@@ -10,7 +10,7 @@ from reproduce_rows.models import frames
 SEEDS = range(1, 11)
 BASIC, ADAPTED = "scenes/thesis-basic.toml", "scenes/thesis-adapted.toml"
 NEITHER = ("record.video=false", "record.tracks=false")
-WHY = "what a faithful re-creation gives over seeds (theory, A21)"
+WHY = "range over seeds of an exact re-implementation of the thesis's model (theory, A21)"
 VECTOR = {0: 2.5, 40: 2.5, 60: 3.125, 80: 3.75, 100: 4.375, 120: 5, 300: 5}
 
 
@@ -19,7 +19,7 @@ def seeds(lab, name, scene, *settings):
 
 
 def arrival(s):
-    """Iterations until the swarm's mean is within 32 px of the setpoint."""
+    """Iterations until the centroid of the swarm is within 32 px of the setpoint."""
     near = np.flatnonzero(s["distance_px"] < 32)
     return float(near[0]) if len(near) else math.nan
 
@@ -34,48 +34,54 @@ def loops(lab, found):
     closed = lab.run("basic-film", BASIC)
     a, b = opened.answer, closed.answer
     found.value = (
-        f"open loop: {a['setpoints_reached']} of 3 setpoints, {a['final_distance_px']:.1f} px from the last one; closed loop: settled after "
-        f"{b['settling_time_s']:.2f} s, {b['steady_rms_px']:.1f} px rms"
+        f"open loop: {a['setpoints_reached']} of 3 setpoints reached, final distance {a['final_distance_px']:.1f} px; closed loop: settling"
+        f" time {b['settling_time_s']:.2f} s, steady-state distance {b['steady_rms_px']:.1f} px rms"
     )
     found.within(
-        "Open loop: setpoints that it came to", a["setpoints_reached"], 3, 3, "counted from the recording, with the route's own tolerance"
+        "Open loop: setpoints reached", a["setpoints_reached"], 3, 3, "counted from the recording, with the tolerance of the route"
     )
-    found.within("Open loop: distance to the last one", a["final_distance_px"], None, 20, "the route's own tolerance", "px")
-    found.within("Closed loop: distance over the last third", b["steady_rms_px"], 1.5, 3, WHY, "px rms")
+    found.within("Open loop: final distance to the last setpoint", a["final_distance_px"], None, 20, "the tolerance of the route", "px")
+    found.within("Closed loop: distance to the setpoint in the last third", b["steady_rms_px"], 1.5, 3, WHY, "px rms")
     chain = (
         (10, 20, 100, "setpoint"),
         (150, 20, 130, "nearest zero|library or solved"),
         (320, 20, 110, "coil currents"),
-        (470, 20, 120, "swarm|in the field's zero"),
+        (470, 20, 120, "swarm|at the zero"),
     )
     found.show(
-        plot.boxes("Open loop", chain, [(0, 1), (1, 2), (2, 3)], "Nothing comes back: the swarm gathers in the zero by itself.", (620, 80))
+        plot.boxes(
+            "Open loop",
+            chain,
+            [(0, 1), (1, 2), (2, 3)],
+            "There is no feedback: the field moves the cells to its zero.",
+            (620, 80),
+        )
     )
     loop = (
         (10, 20, 100, "setpoint"),
         (150, 20, 130, "fuzzy controller"),
         (320, 20, 110, "field"),
         (470, 20, 120, "swarm"),
-        (310, 100, 130, "estimate|mean of the cells"),
+        (310, 100, 130, "estimator|centroid of the cells"),
     )
     found.show(
         plot.boxes(
             "Closed loop",
             loop,
             [(0, 1), (1, 2), (2, 3), (3, 4), (4, 1)],
-            "The mean of the cells decides how strong the field is.",
+            "The distance of the centroid to the setpoint determines the field strength.",
             (620, 160),
             True,
         )
     )
     found.show(
-        read.figure(opened.folder / "report.html", "Path in the picture", "Open loop: the zero carries the swarm"),
+        read.figure(opened.folder / "report.html", "Path in the picture", "Open loop: path of the swarm"),
         read.figure(closed.folder / "report.html", "Distance to the setpoint", "Closed loop: distance to the setpoint"),
     )
 
 
 def strength(s, scene):
-    """Commanded strength in field units, frame by frame, and the distance it was commanded at."""
+    """Estimated distance to the setpoint and commanded field strength in field units, per frame."""
     unit, gain = _si(scene["scale"]["field_unit"], "T"), _si(scene["field"]["gain"], "T/A")
     m = np.hypot(s["current_0_a"], s["current_1_a"]) * gain / unit
     d = np.hypot(s["estimated_centroid_x_px"] - s["setpoint_x_px"], s["estimated_centroid_y_px"] - s["setpoint_y_px"])
@@ -83,12 +89,12 @@ def strength(s, scene):
 
 
 def _si(value, unit):
-    """A number of scenario.toml, which writes them in SI, with the unit or without."""
+    """A value of scenario.toml in SI units; the unit is optional."""
     return float(value.removesuffix(unit)) if isinstance(value, str) else float(value)
 
 
 def _law(lab):
-    """The breakpoints and the largest output, as the program describes them."""
+    """The properties of the fuzzy controller from `faba parts`, and the defaults of breakpoints and maximum output."""
     about = lab.call("parts", "parts").answer["controller"]["fuzzy"]["properties"]
     return about, tuple(float(about[k]["default"]) for k in ("near_px", "far_px", "max_output"))
 
@@ -103,31 +109,33 @@ def memberships(lab, found):
     d, m = strength(read.series(step), read.scenario(step))
     measured = 2 * m / most - 1
     off = float(np.abs(measured - far(d, near, far_px)).max())
-    found.value = f"close until {near:g} px, far from {far_px:g} px (assumed); the run's commands lie on them within {off:.1e}"
+    found.value = (
+        f"“close” up to {near:g} px, “far” from {far_px:g} px (assumed); memberships from the commands of a run deviate by at most {off:.1e}"
+    )
     found.within(
-        "Largest distance of a command from the trapezoids",
+        "Maximum deviation of the memberships from the trapezoids",
         off,
         None,
         1e-5,
         "series.csv has 9 digits, and d is a difference of two numbers up to 640",
     )
     found.true(
-        "The program says that the breakpoints are assumed",
+        "The program reports the breakpoints as assumed",
         all("assumed" in str(about[k]) for k in ("near_px", "far_px")),
-        "the thesis has them in a figure only",
+        "the thesis gives them only in a figure",
     )
     at = np.linspace(0, 160, 321)
     found.show(
         plot.plot(
-            "Memberships",
+            "Membership functions",
             "distance (px)",
             "membership",
             [
                 ("line", "close", at, 1 - far(at, near, far_px)),
                 ("line", "far", at, far(at, near, far_px)),
-                ("dots", "from the run's commands", d, measured),
+                ("dots", "from the commands of a run", d, measured),
             ],
-            "Dots: what the commands of a run say of \u201cfar\u201d.",
+            "Dots: membership in \u201cfar\u201d computed from the commands of a run.",
             x=(0, 160),
             wide=True,
         )
@@ -148,33 +156,37 @@ def sugeno(lab, found):
         )
         for d in VECTOR
     ]
-    told = []
+    commands = []
     for step in lab.all(calls):
         d, m = strength(read.series(step), read.scenario(step))
-        told.append((float(d[0]), float(m[0])))
-    worst = max(abs(m - most / 2 * (1 + far(d, near, far_px))) for d, m in told)
+        commands.append((float(d[0]), float(m[0])))
+    worst = max(abs(m - most / 2 * (1 + far(d, near, far_px))) for d, m in commands)
     step = lab.run("basic-film", BASIC)
     d, m = strength(read.series(step), read.scenario(step))
-    found.value = "M = " + ", ".join(f"{m:.3f}" for _, m in told) + " at " + ", ".join(f"{d:.0f}" for d, _ in told) + " px"
+    found.value = "M = " + ", ".join(f"{m:.3f}" for _, m in commands) + " at " + ", ".join(f"{d:.0f}" for d, _ in commands) + " px"
     found.within(
-        "Largest difference to the weighted mean of the rules", worst, None, 1e-6, "eq. 3.2 at the very distance; series.csv has 9 digits"
+        "Maximum difference to the weighted mean of the rules",
+        worst,
+        None,
+        1e-6,
+        "eq. 3.2 at the recorded distance; series.csv has 9 digits",
     )
-    for (d0, m0), (wanted, output) in zip(told, VECTOR.items()):
+    for (d0, m0), (wanted, output) in zip(commands, VECTOR.items()):
         found.about(
             f"M at {wanted} px",
             m0,
             output,
             1e-6 + abs(d0 - wanted) * most / 2 / (far_px - near),
-            f"test vector with m_max = 5, breakpoints 40 and 120 px; the cell was at {d0:.4f} px",
+            f"test vector with m_max = 5 and breakpoints at 40 and 120 px; the recorded distance is {d0:.4f} px",
         )
     at = np.linspace(0, 330, 331)
     found.show(
         plot.plot(
-            "Strength of the field",
+            "Field strength",
             "distance (px)",
             "command (field units)",
             [("line", "eq. 3.2", at, most / 2 * (1 + far(at, near, far_px))), ("dots", "commands of a run", d, m)],
-            "Half of the maximum near the setpoint, all of it far away.",
+            "Half of the maximum near the setpoint, the maximum far from it.",
             y=(0, 5.4),
             wide=True,
         )
@@ -191,16 +203,16 @@ def corner(lab, found):
     scene = read.scenario(film)
     swarm, field = scene["swarm"][0], [1e6 * _si(b, "T") for b in scene["controller"]["field"]]
     found.chosen = (
-        "The thesis states the size of the grid, the direction, and that the corner is reached after 4 s. Everything else is chosen by us:"
-        f" model Basic with {swarm['model']['max_speed']:g} px per iteration (its best model has 8.1181, and steps are whole),"
-        f" {swarm['count']} cells (as in its next experiment), a start in a disc of {swarm['start']['radius_px']:g} px about the centre, a"
-        f" constant field of {abs(field[0]):g} and {abs(field[1]):g} µT"
-        " along x and y (5 field units each), one iteration per frame at 15 Hz, and that the swarm counts as arrived when its mean is within"
-        " 30 px of where it is at the end."
+        "The thesis gives the size of the grid, the direction, and the arrival in the corner after 4 s. All other inputs are assumed:"
+        f" model Basic with {swarm['model']['max_speed']:g} px per iteration (the best model of the thesis has 8.1181, and steps are"
+        f" integers), {swarm['count']} cells (as in the next experiment of the thesis), a start in a disc with a radius of"
+        f" {swarm['start']['radius_px']:g} px at the centre, a constant field of {abs(field[0]):g} and {abs(field[1]):g} µT"
+        " along x and y (5 field units each), one iteration per frame at 15 Hz. The arrival is the first time at which the centroid of the"
+        " swarm is within 30 px of its final position."
     )
-    found.value = f"{mean:.2f} s (95 % of the mean {low:.2f} to {high:.2f} s; ten seeds from {min(times):.2f} to {max(times):.2f} s)"
-    found.within("Soonest of ten seeds", min(times), 3.5, 4.6, WHY, "s")
-    found.within("Latest of ten seeds", max(times), 3.5, 4.6, WHY, "s")
+    found.value = f"{mean:.2f} s (95 % interval of the mean {low:.2f} to {high:.2f} s; ten seeds: {min(times):.2f} to {max(times):.2f} s)"
+    found.within("Shortest of ten seeds", min(times), 3.5, 4.6, WHY, "s")
+    found.within("Longest of ten seeds", max(times), 3.5, 4.6, WHY, "s")
     found.show(frames(film, "Into the top-left corner"), read.figure(film.folder / "report.html", "Path in the picture"))
 
 
@@ -208,12 +220,12 @@ def to_the_centre(lab, found):
     films = lab.all([lab.a_run("basic-film", BASIC), lab.a_run("adapted-film", ADAPTED)])
     a = [s.answer for s in films]
     found.value = "; ".join(
-        f"{n}: settled after {x['settling_time_s']:.1f} s, {x['steady_rms_px']:.1f} px rms"
+        f"{n}: settling time {x['settling_time_s']:.1f} s, steady-state distance {x['steady_rms_px']:.1f} px rms"
         for n, x in zip(("Basic", "Adapted"), a)
         if x["settling_time_s"] is not None
     )
     for name, x, low, high in (("Basic", a[0], 1.5, 3), ("Adapted", a[1], 2.8, 4.5)):
-        found.within(f"{name}: distance over the last third", x["steady_rms_px"], low, high, WHY, "px rms")
+        found.within(f"{name}: distance to the setpoint in the last third", x["steady_rms_px"], low, high, WHY, "px rms")
     found.show(*(frames(s, f"{n}: from the edge to the centre") for n, s in zip(("Basic, 8", "Adapted, 9"), films)))
 
 
@@ -225,29 +237,31 @@ def distance(lab, found):
     even, even_low, even_high = stats.mean_ci95(np.subtract(straight["adapted"], straight["basic"]))
     rms = {n: stats.mean_ci95([steady(s) for s in of]) for n, of in runs.items()}
     found.value = (
-        f"within 32 px after {np.mean(straight['basic']):.0f} (Basic) and {np.mean(straight['adapted']):.0f} iterations (Adapted), then"
-        f" {rms['basic'][0]:.1f} [{rms['basic'][1]:.1f}, {rms['basic'][2]:.1f}] and {rms['adapted'][0]:.1f} [{rms['adapted'][1]:.1f},"
-        f" {rms['adapted'][2]:.1f}] px rms; with a command per axis Basic is {lead:.0f} [{low:.0f}, {high:.0f}] iterations faster"
+        f"within 32 px after {np.mean(straight['basic']):.0f} (Basic) and {np.mean(straight['adapted']):.0f} iterations (Adapted);"
+        f" steady-state distance {rms['basic'][0]:.1f} [{rms['basic'][1]:.1f}, {rms['basic'][2]:.1f}] and {rms['adapted'][0]:.1f}"
+        f" [{rms['adapted'][1]:.1f}, {rms['adapted'][2]:.1f}] px rms; with one command per axis Basic is {lead:.0f}"
+        f" [{low:.0f}, {high:.0f}] iterations faster"
     )
     for n, model in (("basic", "Basic"), ("adapted", "Adapted")):
-        found.within(f"{model}: iterations until within 32 px, mean of ten seeds", float(np.mean(straight[n])), 55, 75, WHY)
-    found.within("Basic: distance over the last third", rms["basic"][0], 1.5, 3, WHY, "px rms")
-    found.within("Adapted: distance over the last third", rms["adapted"][0], 2.8, 4.5, WHY, "px rms")
+        found.within(f"{model}: iterations until the distance is below 32 px, mean of ten seeds", float(np.mean(straight[n])), 55, 75, WHY)
+    found.within("Basic: distance to the setpoint in the last third", rms["basic"][0], 1.5, 3, WHY, "px rms")
+    found.within("Adapted: distance to the setpoint in the last third", rms["adapted"][0], 2.8, 4.5, WHY, "px rms")
     found.within(
-        "Adapted: later than Basic with a command per axis, 95 % from",
+        "Iterations of Adapted minus those of Basic, one command per axis: lower limit of the 95 % interval",
         low,
         0,
         None,
-        "Basic is faster, as published, when the whole interval of the paired difference says so",
+        "Basic is significantly faster, as published, if the interval of the paired difference is above zero",
         "it",
     )
     found.note.append(
-        f"The rules give a strength and no direction. Straight towards the setpoint the two arrive together ({even:+.1f} [{even_low:.1f},"
-        f" {even_high:.1f}] iterations); with the sign of each axis, the other reading, Basic arrives first. In both Basic stays nearer."
+        "The rules of the thesis determine the field strength but not its direction. With a field in the direction of the setpoint both"
+        f" models take the same time (difference {even:+.1f} [{even_low:.1f}, {even_high:.1f}] iterations). With one command per axis, the"
+        " other possible reading, Basic is faster. In both cases Basic stays closer to the setpoint."
     )
     found.show(
-        both("Distance to the setpoint", "distance (px)", "distance_px", runs, "Straight to the setpoint; means of ten seeds."),
-        both("Distance, a command per axis", "distance (px)", "distance_px", signs, "`axis-sign`; means of ten seeds.".replace("`", "")),
+        both("Distance to the setpoint", "distance (px)", "distance_px", runs, "Field towards the setpoint; means of ten seeds."),
+        both("Distance, one command per axis", "distance (px)", "distance_px", signs, "direction = axis-sign; means of ten seeds."),
     )
 
 
@@ -275,24 +289,24 @@ def dispersion(lab, found):
         found.within(f"{model}: σx at the end", last[n][0], low, high, WHY, "px")
         found.within(f"{model}: σy at the end", float(np.mean([s["true_sigma_y_px"][-1] for s in runs[n]])), 125, 155, WHY, "px")
     found.within(
-        "Adapted without its noise over Adapted, σx after 50 iterations",
+        "σx after 50 iterations: Adapted without noise divided by Adapted",
         at50["bare"][0] / at50["adapted"][0],
         0.75,
         None,
-        "more than half of the variance (0.75² = 0.56) is there without any randomness: cells differ in speed",
+        "more than half of the variance (0.75² = 0.56) remains without noise: it comes from the different speeds of the cells",
     )
     change, low, high = stats.mean_ci95([a["true_rms_radius_px"][-1] - b["true_rms_radius_px"][-1] for a, b in zip(three, runs["basic"])])
     found.within(
-        "Three fuzzy states less two: rms radius at the end, 95 % to",
+        "Final rms radius with three fuzzy states minus that with two: upper limit of the 95 % interval",
         high,
         0,
         None,
-        "not smaller beyond chance: a uniform field moves all cells alike",
+        "not significantly smaller: a uniform field moves all cells in the same way",
         "px",
     )
     found.note.append(
-        f"A third fuzzy state changes the rms radius by {change:+.1f} [{low:.1f}, {high:.1f}] px, that is, not at all. An evenly filled box"
-        " has σ = 185 × 139 px."
+        f"A third fuzzy state changes the rms radius by {change:+.1f} [{low:.1f}, {high:.1f}] px. Cells distributed uniformly in the box"
+        " would have σ = 185 × 139 px."
     )
     layers = [
         ("line", n, np.arange(400), np.mean([s["true_sigma_x_px"][:400] for s in of], axis=0))
@@ -300,14 +314,14 @@ def dispersion(lab, found):
     ]
     found.show(
         both(
-            "Dispersion", "rms radius (px)", "true_rms_radius_px", runs, "Root-mean-square distance from the swarm's mean; means of ten seeds."
+            "Dispersion", "rms radius (px)", "true_rms_radius_px", runs, "Root-mean-square distance to the centroid; means of ten seeds."
         ),
         plot.plot(
             "Dispersion along x",
             "iteration",
             "σx (px)",
             layers,
-            "What is left of the Adapted model without its noise is due to speeds alone.",
+            "The dispersion of Adapted without noise comes only from the different speeds of its cells.",
         ),
     )
 
@@ -318,18 +332,19 @@ def route(lab, found):
     a = step.answer
     error = a["path_tracking_rms_px"]
     found.value = (
-        f"{a['setpoints_reached']} of {len(goals)} setpoints, {a['final_distance_px']:.1f} px from the last; {error:.1f} px rms off the route"
+        f"{a['setpoints_reached']} of {len(goals)} setpoints reached, final distance {a['final_distance_px']:.1f} px; path tracking error"
+        f" {error:.1f} px rms"
         if error
         else ""
     )
     found.within(
-        "Setpoints that the swarm came to",
+        "Setpoints reached",
         a["setpoints_reached"],
         len(goals),
         len(goals),
-        "counted from the recording, with the route's own tolerance",
+        "counted from the recording, with the tolerance of the route",
     )
-    found.within("Distance to the last one", a["final_distance_px"], None, 10, "the route's tolerance", "px")
+    found.within("Final distance to the last setpoint", a["final_distance_px"], None, 10, "the tolerance of the route", "px")
     found.show(
         read.figure(step.folder / "report.html", "Path in the picture"),
         read.figure(step.folder / "report.html", "Distance to the setpoint"),

@@ -1,5 +1,5 @@
-"""Samples that were in air for some time: Figs 4.10 to 4.13, eq. 4.1, the cut-off. Four rendered experiments at eight
-exposures each, with the camera's noise, and the same cells without noise as the truth."""
+"""Activity against air exposure time: Figs 4.10 to 4.13, eq. 4.1, the cut-off. Four rendered experiments at eight air exposure
+times each, with camera noise; the same cells rendered without noise are the ground truth."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ FILM = ("--as-seen", "record.video=true", "record.lossless=true", "record.flow=f
 
 
 def a_film(lab, experiment, exposure, noise):
-    """One video; drops differ in their number of cells and in where their edge is."""
+    """The arguments of one video. The drops differ in their number of cells and in the position of their edge."""
     name = f"exposure/{experiment + 1}-{exposure}{'' if noise else '-plain'}"
     quiet = () if noise else ("microscope.noise=0",)
     return lab.a_run(
@@ -29,7 +29,7 @@ def a_film(lab, experiment, exposure, noise):
 
 
 def study(lab, name, films, *top):
-    """A study file of these videos, which lie beside it."""
+    """Writes a study file of these videos into their folder."""
     text = "\n".join(["direction = 0                      # the cells swim to the right", f'from = "{FROM_S} s"', *top, ""])
     for experiment, exposure, noise in films:
         text += (
@@ -45,7 +45,7 @@ def measured(lab, name, films, *top):
 
 
 def all_of(lab):
-    """The study of all videos, and that of the same cells without noise, above the same flow."""
+    """The studies of all videos with and without camera noise, with the same flow threshold."""
     noisy = measured(lab, "activity-noisy", [(e, t, True) for e in EXPERIMENTS for t in EXPOSURES])
     threshold = noisy.answer["videos"][0]["threshold_px"]
     return noisy, measured(
@@ -58,20 +58,20 @@ def pooled(lab, found):
     videos, cut = noisy.answer["videos"], noisy.answer["cutoff_s"]
     before = [v for v in videos if v["exposure_s"] < cut]
     fitted = sum(v["gaussian"]["good"] for v in before)
-    found.value = f"{len(videos)} videos of 4 experiments; {fitted} of the {len(before)} before the cut-off have a Gaussian"
+    found.value = f"{len(videos)} videos of 4 experiments; a Gaussian fits {fitted} of the {len(before)} videos before the cut-off"
     found.within(
         "Videos measured",
         len(videos),
         len(EXPERIMENTS) * len(EXPOSURES),
         len(EXPERIMENTS) * len(EXPOSURES),
-        "every video of every experiment",
+        "all videos of all experiments",
     )
     found.within(
-        "Share with a Gaussian before the cut-off",
+        "Fraction of videos before the cut-off to which a Gaussian fits",
         fitted / len(before),
         0.5,
         None,
-        "the maximum is read off most of the videos that show a response",
+        "the maximum can be measured in most videos that show a response",
     )
     for name, markup in read.figures(noisy.folder / "report.html"):
         if name.startswith(("1-100", "1-300", "1-500", "1-800")):
@@ -79,7 +79,7 @@ def pooled(lab, found):
 
 
 def one_experiment(lab, found):
-    # Filmed at 60 Hz, so that cells move by little more than their width from frame to frame, for 6 s after the reversal.
+    # 60 frames per second, so that cells move little more than their width between frames; 6 s after the field reversal.
     films = [
         lab.a_run(
             f"seven/{t}",
@@ -110,32 +110,36 @@ def one_experiment(lab, found):
     falls = stats.rank_correlation([v["exposure_s"] for v in videos], [v["mean_activity"] for v in videos])
     rises = stats.rank_correlation(*zip(*peaks))
     found.value = (
-        f"mean activity from {videos[0]['mean_activity']:.0f} to {videos[-1]['mean_activity']:.0f} px·px²; maximum from {peaks[0][1]:.2f} s"
-        f" at {peaks[0][0]:.0f} s to {peaks[-1][1]:.2f} s at {peaks[-1][0]:.0f} s in air"
+        f"mean activity decreases from {videos[0]['mean_activity']:.0f} to {videos[-1]['mean_activity']:.0f} px·px²; time of the maximum"
+        f" {peaks[0][1]:.2f} s at an air exposure time of {peaks[0][0]:.0f} s, {peaks[-1][1]:.2f} s at {peaks[-1][0]:.0f} s"
     )
     found.within(
-        "Rank correlation of mean activity and exposure, 7 videos", falls, None, -0.786, "falls: the two-sided 5 % point for seven values"
+        "Rank correlation of mean activity and air exposure time, 7 videos",
+        falls,
+        None,
+        -0.786,
+        "significant decrease: two-sided 5 % point for seven values",
     )
     # One-sided 5 % points of Spearman's coefficient.
     least = {4: 1.0, 5: 0.9, 6: 0.829, 7: 0.714}.get(len(peaks), 2)
     found.within(
-        f"Rank correlation of the maximum and exposure, {len(peaks)} videos with one",
+        f"Rank correlation of the time of the maximum and air exposure time, {len(peaks)} videos with a maximum",
         rises,
         least - 1e-9,
         None,
-        "rises: the one-sided 5 % point for as many values",
+        "significant increase: one-sided 5 % point for this number of values",
     )
     slow, _ = all_of(lab)
     mean = {t: np.mean([v["mean_activity"] for v in slow.answer["videos"] if v["exposure_s"] == t]) for t in EXPOSURES}
     top = max(mean, key=mean.get)
-    course = (
-        f"first rises, from {mean[100]:.0f} px·px² at 100 s to {mean[top]:.0f} at {top} s in air, and only then falls"
+    trend = (
+        f"increases from {mean[100]:.0f} px·px² at 100 s to {mean[top]:.0f} at {top} s and then decreases"
         if top > 100
-        else "falls"
+        else "decreases"
     )
     found.note.append(
-        "At 15 Hz a fresh cell jumps 11 px between frames, farther than flow can follow. There the mean activity of the four drops"
-        f" {course}, to {mean[700]:.0f} at 700 s: a fall at 15 Hz, as in the thesis, need not tell how fast cells are."
+        "At 15 Hz a cell of a fresh sample moves 11 px between frames, too far for optical flow. At that rate the mean activity of the four"
+        f" drops {trend} to {mean[700]:.0f} at 700 s. A decrease at 15 Hz, as in the thesis, is therefore no measure of cell speed."
     )
     page = step.folder / "report.html"
     found.show(read.figure(page, "Mean activity against air exposure time"), read.figure(page, "Time of the maximum against air exposure time"))
@@ -148,26 +152,36 @@ def line(lab, found):
     f = a["frames"]
     after = f["intercept"] - (REVERSAL_S - FROM_S) * f["rate_hz"]
     found.value = (
-        f"f = {f['slope']:.4f} t + {after:.1f} frames after the reversal; slope in seconds {a['slope']:.5f} [{low:.5f}, {high:.5f}] s/s, of"
-        f" the same cells without noise {truth['slope']:.5f}"
+        f"f = {f['slope']:.4f} t + {after:.1f} frames after the field reversal; slope {a['slope']:.5f} [{low:.5f}, {high:.5f}] s/s, for"
+        f" the same cells without noise {truth['slope']:.5f} s/s"
     )
     found.within(
         "Slope of the same cells without noise",
         truth["slope"],
         low,
         high,
-        "known truth: inside the 95 % interval of the slope measured with noise",
+        "ground truth: inside the 95 % interval of the slope measured with noise",
         "s/s",
     )
-    found.within("Intercept of the same cells without noise", truth["intercept"], *a["intercept_ci95"], "inside its 95 % interval", "s")
-    found.within("Slope: 95 % from", low, 0, None, "the maximum comes later the longer a sample was in air, beyond chance", "s/s")
+    found.within(
+        "Intercept of the same cells without noise",
+        truth["intercept"],
+        *a["intercept_ci95"],
+        "ground truth: inside the 95 % interval of the intercept measured with noise",
+        "s",
+    )
+    found.within(
+        "Slope: lower limit of the 95 % interval", low, 0, None, "the maximum occurs significantly later at longer air exposure times", "s/s"
+    )
     found.note.append(
-        "The drop, its place in view and the camera differ from the thesis's, so that its 0.078 and 14.89 frames are not to be expected"
-        " here; the rendered cells slow down by the law that eq. 4.1 implies, v(t) = v(0) / (1 + 0.00524 t). The thesis gives no interval."
+        "The drop, its position in the picture and the camera differ from those of the thesis, so 0.078 and 14.89 frames are not expected"
+        " here. The rendered cells slow down as eq. 4.1 implies: v(t) = v(0) / (1 + 0.00524 t). The thesis gives no confidence interval."
     )
     m = noisy.answer["mean_line"]["ci95"]
-    trend = "shows no trend beyond chance" if m[0] <= 0 <= m[1] else "has a trend"
-    found.note.append(f"Mean activity scatters, as in the thesis, and at 15 Hz {trend} (slope {m[0]:.2f} to {m[1]:.2f}); see Fig 4.11.")
+    trend = "has no significant trend" if m[0] <= 0 <= m[1] else "has a significant trend"
+    found.note.append(
+        f"Mean activity has a large scatter, as in the thesis, and {trend} at 15 Hz (slope {m[0]:.2f} to {m[1]:.2f}); see Fig 4.11."
+    )
     page = noisy.folder / "report.html"
     found.show(
         read.figure(page, "Mean activity against air exposure time"),
@@ -186,32 +200,37 @@ def cutoff(lab, found):
             s = read.series(Step(lab.steps[f"exposure/{e + 1}-{t}"].folder, None, ""))
             at = int(REVERSAL_S * 15)
             counts[t].append(s["responding_count"][at] / (240 + 40 * e))
-    share = {t: float(np.mean(c)) for t, c in counts.items()}
+    responsive = {t: float(np.mean(c)) for t, c in counts.items()}
     between = noisy.answer["cutoff_between_s"]
     found.value = (
-        f"{a:.0f} s (between videos at {between[0]:.0f} and {between[1]:.0f} s); {100 * share[600]:.0f} % of the cells respond after 600 s,"
-        f" {100 * share[700]:.0f} % after 700 s"
+        f"{a:.0f} s (between videos at {between[0]:.0f} and {between[1]:.0f} s); responsive fraction {100 * responsive[600]:.0f} % at 600 s"
+        f" and {100 * responsive[700]:.0f} % at 700 s"
     )
     found.about(
-        "Cut-off less that of the same cells without noise",
+        "Cut-off minus the cut-off of the same cells without noise",
         a - truth,
         0,
         60,
-        "the goal of `make accuracy`: within 60 s, where exposures are 100 s apart",
+        "the requirement of `make accuracy`: within 60 s, with air exposure times 100 s apart",
         "s",
     )
     found.within(
-        "Cut-off", a, 550, 750, "between 600 and 700 s as in the thesis (10 to 11 min, 700 s), to half of the 100 s between videos", "s"
+        "Cut-off",
+        a,
+        550,
+        750,
+        "600 to 700 s as in the thesis (10 to 11 min, 700 s), extended by half of the 100 s between videos",
+        "s",
     )
-    found.within("Cells that still respond at 700 s", share[700], None, 0.05, "no response to be seen: fewer than one in twenty")
-    t = list(share)
+    found.within("Responsive fraction at 700 s", responsive[700], None, 0.05, "no visible response: fewer than one cell in twenty")
+    t = list(responsive)
     found.show(
         plot.plot(
-            "Cells that respond",
-            "time in air (s)",
-            "share",
-            [("line", "", t, list(share.values())), ("dots", "", t, list(share.values()))],
-            "Known from the simulation; mean of four drops.",
+            "Responsive fraction",
+            "air exposure time (s)",
+            "fraction",
+            [("line", "", t, list(responsive.values())), ("dots", "", t, list(responsive.values()))],
+            "From the simulation; mean of four drops.",
             y=(0, 1.05),
             rules=[(a, "cut-off")],
         ),

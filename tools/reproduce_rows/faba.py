@@ -1,4 +1,4 @@
-"""Calls the program, and keeps what it said: a step that was done with the same program, words and inputs is not done again."""
+"""Calls the program and caches its output: a step with the same program, arguments and input files is not repeated."""
 
 import concurrent.futures
 import dataclasses
@@ -19,12 +19,12 @@ SHOWN = 60_000  # characters of an input that the page shows
 
 
 class Failed(Exception):
-    """The program did not do what it was asked."""
+    """A call of the program failed."""
 
 
 @dataclasses.dataclass
 class Step:
-    """One call: the folder with what it made, and what it said as JSON (or as lines of text)."""
+    """One call of the program: its output folder, and its standard output as parsed JSON (or as text)."""
 
     folder: pathlib.Path
     answer: object
@@ -32,7 +32,7 @@ class Step:
 
 
 class Lab:
-    """Where steps are done. Words that begin with @ are files in the step's own folder, those with @NAME/ in that of the step NAME."""
+    """Runs and caches steps. An argument "@FILE" is a file in the folder of the step, "@NAME/FILE" one in the folder of the step NAME."""
 
     def __init__(self, program, out, force, progress):
         self.program, self.force, self.progress = program, force, progress
@@ -46,7 +46,7 @@ class Lab:
         return self.out / name / file
 
     def write(self, name, file, content, shown=True):
-        """An input of the driver's own making, in OUT/NAME/FILE; its path as the program gets it."""
+        """Writes an input file to OUT/NAME/FILE; gives the path to pass to the program."""
         path = ROOT / self.at(name, file)
         path.parent.mkdir(parents=True, exist_ok=True)
         data = content.encode() if isinstance(content, str) else content
@@ -58,11 +58,11 @@ class Lab:
         return str(self.at(name, file))
 
     def call(self, name, *words, after=(), text=False):
-        """Does the step NAME; `after` are the steps whose files an input file speaks of."""
+        """Runs the step NAME; `after` are the steps whose output files an input file refers to."""
         return self.all([(name, *words)], after=after, text=text)[0]
 
     def run(self, name, scene, *words, seed=1, after=()):
-        """`faba run`, with `--set`s given as PATH=VALUE."""
+        """Runs `faba run`; words of the form PATH=VALUE become `--set PATH=VALUE`."""
         return self.all([self.a_run(name, scene, *words, seed=seed)], after=after)[0]
 
     @staticmethod
@@ -71,7 +71,7 @@ class Lab:
         return (name, "run", scene, "--seed", str(seed), *options)
 
     def all(self, calls, after=(), text=False):
-        """Several steps that do not need each other, side by side."""
+        """Runs independent steps in parallel."""
         jobs = [self._job(name, words, after, text) for name, *words in calls]
         self.commands += ["build/faba " + shlex.join(words) for _, words, _, _ in jobs]
         with concurrent.futures.ThreadPoolExecutor(min(len(jobs), os.cpu_count() or 1)) as pool:
@@ -94,31 +94,31 @@ class Lab:
     def _do(self, job, several):
         name, words, text, key = job
         marker, folder = ROOT / self.out / "steps" / f"{name.replace('/', '-')}.json", ROOT / self.at(name)
-        fresh = name in self.steps and self.steps[name].key == key  # done in this call, so that --force has had its way
+        fresh = name in self.steps and self.steps[name].key == key  # already computed in this call: --force need not repeat it
         if marker.exists() and folder.exists() and (fresh or not self.force):
             kept = json.loads(marker.read_text())
             if kept["key"] == key:
                 return Step(folder, kept["answer"], key)
         self.progress(name)
         marker.unlink(missing_ok=True)
-        if words[0] in WRITES_A_FOLDER:  # the program makes it, and takes none that is not its own
+        if words[0] in WRITES_A_FOLDER:  # the program creates the folder and refuses one that it did not create
             shutil.rmtree(folder, ignore_errors=True)
             folder.parent.mkdir(parents=True, exist_ok=True)
         else:
             folder.mkdir(parents=True, exist_ok=True)
-        begun = time.monotonic()
+        started = time.monotonic()
         quietly = ["--quiet", *([] if text else ["--json"]), *(["--threads", "1"] if several and words[0] == "run" else [])]
         done = self._run([*words, *quietly])
         if done.returncode:
             raise Failed(f"build/faba {shlex.join(words)}: {(done.stderr or done.stdout).strip()[-600:]}")
-        kept = {"key": key, "seconds": round(time.monotonic() - begun, 2), "answer": done.stdout if text else json.loads(done.stdout)}
+        kept = {"key": key, "seconds": round(time.monotonic() - started, 2), "answer": done.stdout if text else json.loads(done.stdout)}
         marker.parent.mkdir(parents=True, exist_ok=True)
         marker.with_suffix(".tmp").write_text(json.dumps(kept))
         marker.with_suffix(".tmp").rename(marker)
         return Step(folder, kept["answer"], key)
 
     def page(self, scene):
-        """The live lab while it is used: `with lab.page("scenes/x.toml") as page`."""
+        """A running live lab, as a context manager: `with lab.page("scenes/x.toml") as page`."""
         return Page(self.program, scene)
 
     def help(self, verb):
@@ -131,7 +131,7 @@ class Lab:
         return str(self.at(other or name, file))
 
     def _key_of(self, word, own):
-        """Of a word that names a file of another step, the key of that step; nothing for other words."""
+        """The key of the step whose file `word` names; "" if it names no file of another step."""
         within, _, path = word.partition(f"{self.out}/")
         parts = [] if within else path.split("/")
         for n in range(len(parts), 0, -1):
@@ -153,7 +153,7 @@ def _digest(*parts):
 
 
 class Page:
-    """`faba lab` as its page sees it."""
+    """A client of `faba lab`."""
 
     def __init__(self, program, scene):
         self.program, self.scene = program, scene
@@ -169,14 +169,14 @@ class Page:
         self.server.wait()
 
     def get(self, path):
-        """What an address answers."""
+        """The JSON response of a GET request."""
         origin, token = self.address.split("/?token=")
         request = urllib.request.Request(origin + path, headers={"Authorization": "Bearer " + token})
         with urllib.request.urlopen(request) as answer:
             return json.load(answer)
 
     def picture(self):
-        """What a browser shows, as PNG; nothing where there is none."""
+        """A screenshot of the page as PNG; None if no browser is installed."""
         browser = shutil.which("chromium")
         if not browser:
             return None

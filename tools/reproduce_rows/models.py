@@ -1,4 +1,4 @@
-"""The two published models and the box they live in: eq. 3.1, section 3.3.3.3, Fig 3.21."""
+"""The two published models and the box: eq. 3.1, section 3.3.3.3, Fig 3.21."""
 
 import math
 
@@ -7,12 +7,13 @@ import numpy as np
 from reproduce_rows import plot, read, stats
 
 SCENE = "scenes/corner.toml"
-FREE = ("exclusion.order=none", "arena.size_px=[4000, 3000]", "record.video=false")  # no walls and no crowding in the way
+FREE = ("exclusion.order=none", "arena.size_px=[4000, 3000]", "record.video=false")  # without walls and exclusion
 UNIT_UT = 23
 
 
 def steps_of(step):
-    """Displacements of the cells per iteration, y up, one for each draw (velocities are kept for two iterations), and both of a draw."""
+    """Displacements per iteration, y up. A velocity is kept for two iterations: the first displacement of each draw, shape (draws, 2),
+    and both displacements, shape (pairs, 2, cells, 2)."""
     places, _ = read.tracks(step)
     moves = np.diff(places, axis=0) * (1, -1)
     pairs = moves[: len(moves) // 2 * 2].reshape(-1, 2, *moves.shape[1:])
@@ -41,7 +42,7 @@ def basic(lab, found):
             mean,
             m[axis],
             4 * math.sqrt(v / count),
-            f"the drift m that is commanded, within four standard errors of {count} draws",
+            f"commanded drift m, within four standard errors of {count} draws",
             "px/it",
         )
         found.about(
@@ -53,35 +54,35 @@ def basic(lab, found):
             "px²/it²",
         )
         found.within(
-            f"Chi-square of the {2 * n + 1} whole numbers along {name}, p",
+            f"p of a chi-square test of the {2 * n + 1} integers along {name}",
             p,
             1e-3,
             None,
-            "all alike: a p below 1 in 1000 would say otherwise",
+            "no significant deviation from the uniform distribution",
         )
     found.within(
-        "Largest distance of step − m to a whole number",
+        "Maximum distance of step − m to an integer",
         float(np.abs(draws - m - k).max()),
         None,
         1e-3,
-        "places are kept as 32-bit floats, 1.2e-4 px apart at 2000 px, and a step has two",
+        "a step is the difference of two positions stored as 32-bit floats, with a spacing of 1.2e-4 px at 2000 px",
         "px",
     )
     found.within(
-        "Largest difference between the two iterations of a draw",
+        "Maximum difference between the two iterations of a draw",
         float(np.abs(pairs[:, 0] - pairs[:, 1]).max()),
         None,
         1e-3,
-        "velocities are redrawn every second iteration",
+        "velocities are drawn every second iteration",
         "px",
     )
     found.value = (
-        f"k + m with k in −8…8, all alike (p = {per_axis[0][4]:.2f} and {per_axis[1][4]:.2f}); mean ({per_axis[0][2]:.2f},"
-        f" {per_axis[1][2]:.2f}), variance {per_axis[0][3]:.2f} and {per_axis[1][3]:.2f} px²/it²"
+        f"k + m with k uniform on −8…8 (p = {per_axis[0][4]:.2f} and {per_axis[1][4]:.2f}); mean ({per_axis[0][2]:.2f},"
+        f" {per_axis[1][2]:.2f}) px/it, variance {per_axis[0][3]:.2f} and {per_axis[1][3]:.2f} px²/it²"
     )
     found.note.append(
-        "What the thesis calls maximum speed is the amplitude of a noise: the swarm drifts with m alone, and the 8.1181 found later can"
-        " only have been used as 8."
+        "The maximum speed of the thesis is a noise amplitude: the mean velocity of the swarm is m. Because steps are integers, the"
+        " identified value 8.1181 is equivalent to 8."
     )
     at = np.arange(-n, n + 1)
     for axis, (name, seen, *_) in enumerate(per_axis):
@@ -90,7 +91,7 @@ def basic(lab, found):
                 f"Steps along {name}",
                 f"step along {name} (px per iteration)",
                 "draws",
-                [("bars", "seen", at + m[axis], seen), ("dashed", "all alike", at + m[axis], np.full(len(at), count / (2 * n + 1)))],
+                [("bars", "observed", at + m[axis], seen), ("dashed", "uniform", at + m[axis], np.full(len(at), count / (2 * n + 1)))],
                 f"{count} draws with n = 8 and m = {m[axis]:g}.",
             )
         )
@@ -110,63 +111,72 @@ def adapted(lab, found):
     )
     draws, _ = steps_of(full)
     innate, weak = steps_of(bare)[0], steps_of(half)[0]
-    way = np.array([5, 1]) / math.sqrt(26)
+    along = np.array([5, 1]) / math.sqrt(26)
     places, _ = read.tracks(full)
-    own = (places[-1] - places[0]) / (len(places) - 1) @ (way * (1, -1))  # mean speed of each cell along the field
-    drift, error = stats.mean_and_error(own)
+    speeds = (places[-1] - places[0]) / (len(places) - 1) @ (along * (1, -1))  # mean speed of each cell along the field
+    drift, error = stats.mean_and_error(speeds)
     speed = np.linalg.norm(innate, axis=1)
-    still = float((speed < 0.5).mean())
+    unresponsive = float((speed < 0.5).mean())
     tilt = [math.degrees(math.atan2(s[:, 1].sum(), s[:, 0].sum())) for s in (innate, weak)]
-    share = 1 / (n + 1)
-    across = draws @ np.array([-way[1], way[0]])
+    expected = 1 / (n + 1)
+    across = draws @ np.array([-along[1], along[0]])
     v = n * (n + 1) / 3
     found.value = (
-        f"drift {drift:.2f} ± {error:.2f} px/it at 5 units, {100 * still:.1f} % of the cells do not respond, "
-        f"tilted by {tilt[0]:.2f}° (5 units) and {tilt[1]:.2f}° (2.5 units)"
+        f"mean drift {drift:.2f} ± {error:.2f} px/it at 5 field units; {100 * unresponsive:.1f} % of the cells do not respond; "
+        f"tilt {tilt[0]:.2f}° at 5 units and {tilt[1]:.2f}° at 2.5 units"
     )
-    found.about("Mean drift along the field", drift, n / 2, 4 * error, "speeds 0 to n, all alike: n/2 within four standard errors", "px/it")
     found.about(
-        "Mean drift at half the field, over that",
+        "Mean drift along the field", drift, n / 2, 4 * error, "speeds uniform on 0 to n: mean n/2, within four standard errors", "px/it"
+    )
+    found.about(
+        "Mean drift at half the field divided by the drift at the full field",
         float(np.linalg.norm(weak.mean(0)) / np.linalg.norm(innate.mean(0))),
         1,
         1e-3,
-        "the field sets the direction only; same cells, same speeds",
+        "the field determines only the direction; cells and speeds are the same",
     )
     found.about(
-        "Share of cells of speed zero",
-        still,
-        share,
-        4 * math.sqrt(share * (1 - share) / len(speed)),
-        "1/(n+1) within four standard errors of 4000 cells",
+        "Fraction of cells with speed zero",
+        unresponsive,
+        expected,
+        4 * math.sqrt(expected * (1 - expected) / len(speed)),
+        "1/(n+1), within four standard errors for 4000 cells",
     )
     found.about(
-        "Tilt by the Earth at 5 units",
+        "Tilt by the Earth's field at 5 units",
         tilt[0],
         math.degrees(math.atan2(1, 5)),
         0.01,
-        "one unit along y on five along x; steps are good to 1e-4 px",
+        "one unit along y and five along x; steps have an error of 1e-4 px",
         "°",
     )
-    found.about("Tilt by the Earth at 2.5 units", tilt[1], math.degrees(math.atan2(1, 2.5)), 0.01, "one on two and a half", "°")
+    found.about(
+        "Tilt by the Earth's field at 2.5 units",
+        tilt[1],
+        math.degrees(math.atan2(1, 2.5)),
+        0.01,
+        "one unit along y and 2.5 along x",
+        "°",
+    )
     found.about(
         "Variance across the field",
         float(across.var()),
         v,
         4 * v * math.sqrt(2 / len(across)),
-        "the \u201cinertia\u201d noise, n(n+1)/3, within four standard errors",
+        "variance of the \u201cinertia\u201d noise, n(n+1)/3, within four standard errors",
         "px²/it²",
     )
     found.note.append(
-        "The thesis says that the resulting speed is always the same, and adds a noise as large as the speed; both are options here"
-        " (`noise_amplitude`), with the published one the default."
+        "The thesis states that the resulting speed of a cell is constant, but adds a noise as large as the speed. The option"
+        " `noise_amplitude` selects either; the default is the noise, as published."
     )
     found.show(
         plot.plot(
-            "Innate speeds",
+            "Speeds of the cells",
             "speed (px per iteration)",
             "cells",
             [("bars", "cells", np.arange(n + 1), np.bincount(np.rint(speed).astype(int), minlength=n + 1))],
-            "Without the noise every cell's own speed shows; zero is the cell that does not respond.",
+            "Speed of each cell without noise. Cells with speed zero do not respond.",
         )
     )
 
@@ -180,16 +190,16 @@ def constrained(lab, found):
     squares = np.floor(places + 0.5).astype(int)
     shared = sum(len(f) - len(np.unique(f[:, 0] * 100_000 + f[:, 1])) for f in squares)
     found.value = (
-        f"{places.shape[1]} cells in {len(places)} frames of {width:g} × {height:g} px: {outside} outside, {shared} on a square that is"
-        " taken"
+        f"{places.shape[1]} cells in {len(places)} frames of {width:g} × {height:g} px: {outside} outside the box, {shared} on an occupied"
+        " site"
     )
-    found.within("Cells outside of the box, all frames", outside, 0, 0, "nobody leaves the grid")
-    found.within("Cells on a square that another one has", shared, 0, 0, "one cell per pixel at most")
-    found.show(frames(step, "Frames of the run", "The green cross is the swarm's mean, the purple one the setpoint."))
+    found.within("Cells outside the box, all frames", outside, 0, 0, "no cell leaves the grid")
+    found.within("Cells on a site that another cell occupies, all frames", shared, 0, 0, "at most one cell per pixel")
+    found.show(frames(step, "Frames of the run", "Green cross: centroid of the swarm; purple cross: setpoint."))
 
 
 def frames(step, title, caption=None):
-    """The report's pictures of the video; its path where the program does not make them."""
+    """The frames of the video from the report; the figure of the path if the report has no frames."""
     page = step.folder / "report.html"
     found = read.figure(page, "Frames", title, caption) or read.figure(page, "Path in the picture", title)
     return found.replace("<figure>", '<figure class="wide">', 1) if "<img" in found else found

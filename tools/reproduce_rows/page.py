@@ -1,4 +1,4 @@
-"""The page: a table of all results with their verdicts, then a section for each. One file, no script, no network."""
+"""The page: a table of all results with their verdicts, then one section per result. One file without scripts and network access."""
 
 import collections
 import html
@@ -6,7 +6,7 @@ import re
 
 from reproduce_rows.check import CORRECTED, DIFFERS, PENDING, SAME, VIDEOS, shown, verdict
 
-ENDS = 2  # commands in view at the beginning and at the end of many
+ENDS = 2  # of a long list of commands, this many at the start and at the end are not folded
 STYLE = """
 .badge{display:inline-block;border-radius:1rem;padding:.05rem .65rem;font-size:.82rem;font-weight:600;white-space:nowrap;
 color:#fff;text-decoration:none}
@@ -31,11 +31,11 @@ pre{white-space:pre-wrap;overflow-wrap:anywhere}
 """
 CLASS = {SAME: "same", CORRECTED: "corrected", VIDEOS: "videos", PENDING: "pending", DIFFERS: "differs"}
 WORDS = {
-    SAME: "as the thesis has it",
-    CORRECTED: "the thesis is wrong there, and why is said",
-    VIDEOS: "shown on rendered experiments of known truth",
+    SAME: "agrees with the thesis",
+    CORRECTED: "the thesis has an error here; the reason is given",
+    VIDEOS: "shown on rendered experiments with known parameters",
     PENDING: "not yet part of the program",
-    DIFFERS: "outside of the accepted range, or not made",
+    DIFFERS: "outside the accepted range, or not computed",
 }
 
 
@@ -44,13 +44,13 @@ def anchor(item):
 
 
 def text(words):
-    """Escaped text in which `code` is set as code, and numbers have a true minus sign."""
+    """Escaped text; `words` in backticks become <code>, and a hyphen before a number becomes a minus sign."""
     parts = html.escape(words, quote=False).split("`")
     return "".join(f"<code>{w}</code>" if i % 2 else re.sub(r"(?<![\w.)])-(?=\d)", "\u2212", w) for i, w in enumerate(parts))
 
 
-def badge(said):
-    return f'<span class="badge {CLASS[said]}">{said}</span>'
+def badge(result):
+    return f'<span class="badge {CLASS[result]}">{result}</span>'
 
 
 def count(results):
@@ -71,7 +71,7 @@ def _commands(row, found):
     lines = [html.escape(c, quote=False) for c in found.commands]
     first, last = (lines[:ENDS], lines[-ENDS:]) if len(lines) > 2 * ENDS else (lines, [])
     out = f"<pre>{chr(10).join(first)}</pre>"
-    if last:  # many of a kind, then what is concluded from them
+    if last:  # a long list: similar commands, then those that evaluate their results
         between = lines[ENDS:-ENDS]
         out += f"<details><summary>{len(between)} more</summary><pre>{chr(10).join(between)}</pre></details>"
         out += f"<pre>{chr(10).join(last)}</pre>"
@@ -87,7 +87,7 @@ def _checks(found):
     for c in found.checks:
         value = shown(c.value)
         unit = f" {html.escape(c.unit)}" if c.unit and not isinstance(c.value, bool) else ""
-        mark = "holds" if c.ok else '<span class="fails">fails</span>'
+        mark = "pass" if c.ok else '<span class="fails">fail</span>'
         rows += (
             f"<tr><td>{text(c.what)}<small>{text(c.why)}</small></td><td>{value}{unit}</td>"
             f"<td>{html.escape(c.accepted())}</td><td>{mark}</td></tr>\n"
@@ -99,40 +99,40 @@ def _checks(found):
 
 
 def section(row, found):
-    said = verdict(row.verdict, found)
+    result = verdict(row.verdict, found)
     words = text(row.reason)
     if found.failed:
-        words = f'<span class="fails">Could not be made:</span> {html.escape(found.failed)}'
-    elif said == DIFFERS:
+        words = f'<span class="fails">Computation failed:</span> {html.escape(found.failed)}'
+    elif result == DIFFERS:
         failed = [c.what for c in found.checks if not c.ok]
-        words = '<span class="fails">A check fails:</span> ' + text("; ".join(failed) if failed else "nothing was checked") + ". " + words
+        words = '<span class="fails">A check fails:</span> ' + text("; ".join(failed) if failed else "there are no checks") + ". " + words
     facts = (
         _fact("In the thesis", text(row.thesis))
         + _fact("Here", text(found.value))
-        + _fact("Chosen by us", text(found.chosen))
+        + _fact("Assumptions", text(found.chosen))
         + _fact("Computed without the program", text(found.beside))
-        + _fact("How", _commands(row, found))
-        + _fact("Verdict", f"{badge(said)} {words}")
+        + _fact("Commands", _commands(row, found))
+        + _fact("Verdict", f"{badge(result)} {words}")
     )
     notes = "".join(f'<p class="details">{text(n)}</p>\n' for n in found.note)
     figures = f'<div class="figures">\n{"".join(found.pictures)}</div>\n' if found.pictures else ""
     return (
-        f'<section id="{anchor(row.item)}">\n<h2><span>{html.escape(row.item)}. {text(row.shows)}</span>{badge(said)}</h2>\n'
+        f'<section id="{anchor(row.item)}">\n<h2><span>{html.escape(row.item)}. {text(row.shows)}</span>{badge(result)}</h2>\n'
         f'<table class="facts"><tbody>{facts}</tbody></table>\n{notes}{_checks(found)}{figures}</section>\n'
     )
 
 
 def extent(results, of):
-    """How many of all results are on the page, and what became of them."""
+    """A sentence with the number of results on the page and the number of each verdict."""
     counts = count(results)
     many = f"All {of}" if len(results) == of else f"{len(results)} of the {of}"
-    became = (
-        (counts[SAME] + counts[CORRECTED], "made again, each within the range that it must lie in"),
-        (counts[VIDEOS], "shown by the same procedure on rendered experiments, because the videos are not public"),
-        (counts[PENDING], "not made yet"),
-        (counts[DIFFERS], "outside of the accepted range, or not made"),
+    groups = (
+        (counts[SAME] + counts[CORRECTED], "reproduced, with every value in its accepted range"),
+        (counts[VIDEOS], "shown by the same procedure on rendered experiments, because the videos of the thesis are not public"),
+        (counts[PENDING], "not computed yet"),
+        (counts[DIFFERS], "outside the accepted range, or not computed"),
     )
-    return f"{many} results of the 2016 thesis that software can reproduce: " + "; ".join(f"{n} {words}" for n, words in became if n) + "."
+    return f"{many} results of the 2016 thesis that software can reproduce: " + "; ".join(f"{n} {words}" for n, words in groups if n) + "."
 
 
 def calls_the_program(found):
@@ -140,14 +140,14 @@ def calls_the_program(found):
 
 
 def origin(results, version):
-    """Where the values on the page come from."""
+    """A sentence about the source of the values on the page."""
     runs = sum(calls_the_program(found) for _, found in results)
     beside = [row.item for row, found in results if not calls_the_program(found)]
     return (
         f"{runs} of the {len(results)} results on this page come from runs of {html.escape(version)}"
         + (f"; computed without it: {html.escape(', '.join(beside))}" if beside else "")
-        + ". Means, intervals and reference values are computed by <code>tools/reproduce_rows</code>; where that is more than a comparison,"
-        " the result says so."
+        + ". <code>tools/reproduce_rows</code> computes means, confidence intervals and reference values from them; a result for which it"
+        " computes more has an entry “Computed without the program”."
     )
 
 
@@ -170,18 +170,18 @@ def page(results, of, style, version):
     )
     rows = ""
     for row, found in results:
-        said = verdict(row.verdict, found)
+        result = verdict(row.verdict, found)
         rows += (
             f'<tr><td><a href="#{anchor(row.item)}">{html.escape(row.item)}</a></td><td>{text(row.shows)}</td>'
             f'<td class="there">{text(row.thesis)}</td><td>{text(found.value)}</td>'
-            f'<td><a href="#{anchor(row.item)}">{badge(said)}</a></td></tr>\n'
+            f'<td><a href="#{anchor(row.item)}">{badge(result)}</a></td></tr>\n'
         )
     body = (
-        f'<h1>Faba reproduces a thesis</h1>\n<p class="lead">{extent(results, of)}</p>\n<p class="details">L. F. M. Diniz,'
+        f'<h1>Reproduction of the 2016 thesis</h1>\n<p class="lead">{extent(results, of)}</p>\n<p class="details">L. F. M. Diniz,'
         " <i>Experimental evaluation and computational modeling of the Magnetofaba itaipuensis bacteria</i>, UFMG 2016. Every verdict"
-        f" is computed: a result whose value leaves its accepted range is marked {DIFFERS}. {origin(results, version)} Commands are called"
-        f' in the project\'s folder.</p>\n<dl class="cards">{cards}</dl>\n{warning}<h2 id="summary">Results</h2>\n'
-        '<table class="index"><thead><tr><th>item</th><th>shows</th><th class="there">in the'
+        f" is computed: a result with a value outside its accepted range is marked {DIFFERS}. {origin(results, version)} Run the commands"
+        f' in the folder of the project.</p>\n<dl class="cards">{cards}</dl>\n{warning}<h2 id="summary">Results</h2>\n'
+        '<table class="index"><thead><tr><th>item</th><th>content</th><th class="there">in the'
         f" thesis</th><th>here</th><th>verdict</th></tr></thead>\n<tbody>{rows}</tbody></table>\n"
         + "".join(section(row, found) for row, found in results)
     )

@@ -1,4 +1,4 @@
-"""The few plots that the program does not draw itself, as SVG in the colours of its pages, and pictures made of numbers."""
+"""Plots that the program does not draw, as SVG in the colours of its pages, and PNG pictures of arrays."""
 
 import base64
 import html
@@ -23,14 +23,14 @@ def figure(heading, content, caption="", wide=False):
 
 
 def picture(heading, png, caption="", wide=False):
-    """A figure with a PNG inside, given as its bytes or its file."""
+    """A figure with a PNG picture, given as bytes or as a path."""
     data = png if isinstance(png, bytes) else png.read_bytes()
     src = base64.b64encode(data).decode()
     return figure(heading, f'<img alt="{html.escape(heading)}" src="data:image/png;base64,{src}" />\n', caption, wide)
 
 
 def png(grey, zoom=1):
-    """A grey PNG of an array of 0 to 255."""
+    """A greyscale PNG of an array with values from 0 to 255."""
     pixels = np.kron(np.clip(np.rint(grey), 0, 255).astype(np.uint8), np.ones((zoom, zoom), np.uint8))
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
 
@@ -52,7 +52,8 @@ def number(v):
 
 
 def plot(heading, x_label, y_label, layers, caption="", wide=False, x=None, y=None, rules=()):
-    """A figure of layers (kind, name, x, y), kind one of line, dashed, dots, bars; `x`, `y` fix ranges, `rules` are (x, words)."""
+    """A figure of layers (kind, name, x, y); kind is line, dashed, dots or bars. `x` and `y` set the axis ranges; `rules` are vertical
+    lines (x, label)."""
     layers = [(k, n, np.asarray(a, float), np.asarray(b, float)) for k, n, a, b in layers]
     xs, ys = (np.concatenate([layer[i] for layer in layers]) for i in (2, 3))
     x, y = (given or _range(values, any(k == "bars" for k, *_ in layers) and values is ys) for given, values in ((x, xs), (y, ys)))
@@ -128,13 +129,14 @@ def _range(values, from_zero):
 
 
 def boxes(heading, places, arrows, caption="", size=(620, 260), around=False):
-    """A block diagram: `places` are (x, y, width, words), words split at |, arrows are (from, to) by number; `around`: in and out at sides."""
+    """A block diagram. `places` are boxes (x, y, width, label), with | as line break; `arrows` are pairs of box indices (from, to).
+    `around`: arrows between rows start or end at the side of a box."""
     out = [
         f'<svg class="faba-plot own" viewBox="0 0 {size[0]} {size[1]}" role="img" aria-label="{html.escape(heading)}" '
         'xmlns="http://www.w3.org/2000/svg" font-size="12" fill="none">\n'
     ]
     for a, b in arrows:
-        out.append(f'<path class="s-muted" stroke="#5c6670" d="{_way(places[a][:3], places[b][:3], around)}"/>\n')
+        out.append(f'<path class="s-muted" stroke="#5c6670" d="{_arrow(places[a][:3], places[b][:3], around)}"/>\n')
     for x, y, w, words in places:
         out.append(f'<rect class="s-blue box" stroke="#0072b2" fill="#f4f6f7" x="{x}" y="{y}" width="{w}" height="40" rx="5"/>\n')
         lines = words.split("|")
@@ -147,8 +149,9 @@ def boxes(heading, places, arrows, caption="", size=(620, 260), around=False):
     return figure(heading, "".join(out) + "</svg>\n", caption, wide=True)
 
 
-def _way(a, b, around):
-    """From box to box, 40 high: straight along a row; around: down and then into a side, or out of a side and then up; else from edge to edge."""
+def _arrow(a, b, around):
+    """SVG path of an arrow between two boxes of height 40. In a row: straight. `around`: down and into a side, or out of a side and up.
+    Otherwise: from the bottom edge to the top edge, or outside the rows between the boxes."""
     (ax, ay, aw), (bx, by, bw) = a, b
     x1, x2, right = ax + aw / 2, bx + bw / 2, bx > ax
     if ay == by or (around and by > ay):
@@ -157,7 +160,7 @@ def _way(a, b, around):
         return f"{begin}H{end}" + _head(end, by + 20, 1 if right else -1, 0)
     if around:
         return f"M{ax + aw if right else ax} {ay + 20}H{x2}V{by + 40}" + _head(x2, by + 40, 0, -1)
-    if by - ay > 80:  # past a row of boxes: outside of them
+    if by - ay > 80:  # there is a row between the two boxes: outside of it
         begin, side, out = (ax + aw, bx + bw, 1) if x2 >= x1 else (ax, bx, -1)
         return f"M{begin} {ay + 20}H{side + 14 * out}V{by + 20}H{side}" + _head(side, by + 20, -out, 0)
     start, end = (ay + 40, by) if by > ay else (ay, by + 40)

@@ -1,4 +1,4 @@
-"""Reads what the program wrote: series, tracks, pictures, flows, figures of its pages."""
+"""Reads output files of the program: series, tracks, pictures, flow fields, figures of pages."""
 
 import re
 import struct
@@ -16,7 +16,7 @@ def series(step):
 
 
 def table(path):
-    """A CSV of numbers as arrays by column; words stay words."""
+    """A CSV file as arrays by column; columns that are not numeric are arrays of strings."""
     lines = path.read_text().splitlines()
     columns = list(zip(*(line.split(",") for line in lines[1:])))
     out = {}
@@ -29,7 +29,7 @@ def table(path):
 
 
 def tracks(step):
-    """Places (frames, cells, 2) in px of the picture, y down, and the times."""
+    """Positions, shape (frames, cells, 2), in image px with y down, and the times in s."""
     with h5py.File(step.folder / "tracks.h5") as f:
         return f["position_px"][:].astype(float), f["t_s"][:]
 
@@ -39,7 +39,7 @@ def scenario(step):
 
 
 def frames(step):
-    """The PNG pictures of video.avi, as bytes: without loss, one after the other."""
+    """The frames of a lossless video.avi as PNG files in memory, in order."""
     data = (step.folder / "video.avi").read_bytes()
     found, at = [], data.find(b"\x89PNG\r\n\x1a\n")
     while at >= 0:
@@ -50,7 +50,7 @@ def frames(step):
 
 
 def flo(path):
-    """(u, v) of a Middlebury file."""
+    """The components (u, v) of a Middlebury .flo file."""
     data = path.read_bytes()
     width, height = struct.unpack("<ii", data[4:12])
     both = np.frombuffer(data, "<f4", offset=12).reshape(height, width, 2)
@@ -58,19 +58,19 @@ def flo(path):
 
 
 def pgm(grey):
-    """A binary PGM of an array of greys."""
+    """A binary PGM file of an array of grey values."""
     height, width = grey.shape
     return b"P5\n%d %d\n255\n" % (width, height) + np.clip(np.rint(grey), 0, 255).astype(np.uint8).tobytes()
 
 
 def figures(page):
-    """The <figure> elements of one of the program's pages: (heading, markup) in their order."""
+    """The <figure> elements of a page of the program: (heading, markup), in order."""
     found = re.findall(r"<figure[^>]*>.*?</figure>", page.read_text(), re.S)
     return [(re.search(r"<h3>(.*?)</h3>", f, re.S)[1], f) for f in found]
 
 
 def figure(page, heading, title=None, caption=None):
-    """The first figure whose heading begins so, half as wide as the page, with another title and caption if wanted; or None."""
+    """The first figure whose heading starts with `heading`, at half the page width and with an optional new title and caption; or None."""
     for name, markup in figures(page):
         if name.startswith(heading):
             markup = re.sub(r"<figcaption>Figure \d+\. ", "<figcaption>", markup).replace('<figure class="wide">', "<figure>", 1)

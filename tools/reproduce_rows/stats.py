@@ -1,4 +1,4 @@
-"""The few statistics that the checks need."""
+"""Statistics used by the checks."""
 
 import functools
 import math
@@ -12,7 +12,7 @@ def mean_and_error(values):
 
 
 def chi_square_p(x, freedom):
-    """P(chi-square > x), for an even number of degrees of freedom: a finite sum."""
+    """P(chi-square > x) for an even number of degrees of freedom, as a finite sum."""
     term = total = math.exp(-x / 2)
     for k in range(1, freedom // 2):
         term *= x / 2 / k
@@ -21,7 +21,7 @@ def chi_square_p(x, freedom):
 
 
 def t_two_sided(t, freedom):
-    """P(|T| > |t|) of Student's t: with T = sqrt(freedom) tan a the density is a power of cos a."""
+    """P(|T| > |t|) for Student's t. With T = sqrt(freedom) tan a, the density is proportional to cos(a)^(freedom - 1)."""
 
     def area(low):
         a = np.linspace(low, math.pi / 2, 10_001)
@@ -33,7 +33,7 @@ def t_two_sided(t, freedom):
 
 @functools.cache
 def t_quantile_95(freedom):
-    """Two-sided 95 % of Student's t."""
+    """Two-sided 95 % quantile of Student's t."""
     low, high = 1.0, 1000.0
     for _ in range(60):
         middle = (low + high) / 2
@@ -48,13 +48,13 @@ def mean_ci95(values):
 
 
 def welch(mean1, sd1, n1, mean2, sd2, n2):
-    """Two-sided p of Welch's test."""
+    """Two-sided p-value of Welch's test."""
     a, b = sd1**2 / n1, sd2**2 / n2
     return t_two_sided((mean1 - mean2) / math.sqrt(a + b), (a + b) ** 2 / (a**2 / (n1 - 1) + b**2 / (n2 - 1)))
 
 
 def line(x, y):
-    """Least squares: slope, intercept, and their standard errors."""
+    """Slope and intercept of the least-squares line, and their standard errors."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     sxx = ((x - x.mean()) ** 2).sum()
     slope = ((x - x.mean()) * (y - y.mean())).sum() / sxx
@@ -64,7 +64,7 @@ def line(x, y):
 
 
 def zero_crossing(x, y):
-    """Where the line through the points is zero, and Fieller's 95 % interval of it: none where the slope may be zero."""
+    """Zero of the least-squares line and its 95 % interval by Fieller; None if the slope does not differ significantly from zero."""
     slope, intercept, se_slope, se_intercept = line(x, y)
     zero, t = -intercept / slope, t_quantile_95(len(x) - 2)
     a = slope**2 - (t * se_slope) ** 2
@@ -77,5 +77,5 @@ def zero_crossing(x, y):
 
 
 def rank_correlation(x, y):
-    """Spearman's, for values without ties."""
+    """Spearman's rank correlation of values without ties."""
     return float(np.corrcoef(np.argsort(np.argsort(x)), np.argsort(np.argsort(y)))[0, 1])

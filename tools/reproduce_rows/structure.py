@@ -1,4 +1,4 @@
-"""What the program is made of: the modules of Fig 3.10, the window of Fig 3.20."""
+"""Structure of the program: the modules of Fig 3.10 and the window of Fig 3.20."""
 
 import ast
 import subprocess
@@ -7,7 +7,7 @@ import sys
 from reproduce_rows import plot
 from reproduce_rows.faba import ROOT, Failed
 
-# A module of the thesis's figure, and the kind and name of the part that does its work here.
+# Parts (kind, name) that correspond to the modules in the figure of the thesis.
 MODULES = (
     ("model", "basic"),
     ("model", "adapted"),
@@ -22,14 +22,14 @@ MODULES = (
 
 
 def layers():
-    """Which folder may include which: the table that a test holds the sources to."""
+    """The permitted includes per folder: the table of tools/check_layers.py, which a test enforces."""
     tree = ast.parse((ROOT / "tools/check_layers.py").read_text())
     table = next(n.value for n in tree.body if isinstance(n, ast.Assign) and n.targets[0].id == "MAY")
     return {name: words.split() for name, words in ast.literal_eval(table).items()}
 
 
 def depth(may):
-    """The level of each folder, above everything that it includes, and the folders that have none because of a circle."""
+    """The level of each folder, above all folders that it may include; and the folders without a level, which are in a cycle."""
     level, left = {}, dict(may)
     while ready := [n for n, below in left.items() if all(b in level for b in below)]:
         for n in ready:
@@ -38,7 +38,7 @@ def depth(may):
 
 
 def violations(lab):
-    """Lines that tools/check_layers.py prints of the sources: what they include is compared with the table, folder by folder."""
+    """The violations that tools/check_layers.py prints: includes in the sources that the table does not permit."""
     words = ["tools/check_layers.py", "src"]
     lab.commands.append(" ".join(words))
     done = subprocess.run([sys.executable, *words], cwd=ROOT, capture_output=True, text=True)
@@ -57,29 +57,30 @@ def modules(lab, found):
         f" {len(parts)} kinds"
     )
     found.within(
-        "Modules of the thesis without a part",
+        "Modules of the thesis without a corresponding part",
         len(missing),
         0,
         0,
-        "its two models, field, controllers, grid and analysis are parts of the program: " + ", ".join(" ".join(m) for m in MODULES),
+        "the two models, the field, the controllers, the grid and the analysis are parts of the program: "
+        + ", ".join(" ".join(m) for m in MODULES),
     )
     found.within(
-        "Layers without circles: folders that the table lets include each other",
+        "Folders in an include cycle of the table of layers",
         len(circle),
         0,
         0,
-        "every folder may include lower ones only",
+        "a folder may include only folders of lower layers",
     )
     found.within(
         "Violations of the layers in the sources",
         len(wrong),
         0,
         0,
-        "`tools/check_layers.py` compares every include of `src` with that table, and finds files that include each other in a circle",
+        "`tools/check_layers.py` compares all includes in `src` with the table and reports include cycles of files",
     )
     if circle:
         return
-    does = {
+    purpose = {
         "cli": "verbs and options",
         "server": "live lab",
         "study": "analysis, reports",
@@ -90,29 +91,29 @@ def modules(lab, found):
         "vision": "pictures, flow",
         "field": "coils, fields",
         "core": "files, random numbers",
-        "guard": "process of the coils",
+        "guard": "coil watchdog process",
     }
     width, places, where = 150, [], {}
     for n in sorted(level, key=lambda n: (-level[n], n)):
         row = [m for m in sorted(level) if level[m] == level[n]]
         x = 310 + (row.index(n) - (len(row) - 1) / 2) * (width + 20) - width / 2
         where[n] = len(places)
-        places.append((x, 10 + 62 * (max(level.values()) - level[n]), width, f"{n}|{does.get(n, '')}"))
-    # Only the arrows that no detour shows.
+        places.append((x, 10 + 62 * (max(level.values()) - level[n]), width, f"{n}|{purpose.get(n, '')}"))
+    # Without arrows that follow from a path over another folder.
     may = layers()
     direct = [(a, b) for a in may for b in may[a] if not any(b in may[c] for c in may[a])]
     found.show(
         plot.boxes(
-            "The program's modules",
+            "Modules of the program",
             places,
             [(where[a], where[b]) for a, b in direct],
-            "From the table in tools/check_layers.py. An arrow: may include, and all below that.",
+            "From the table in tools/check_layers.py. Arrow: may include this folder and all folders below it.",
             (620, 70 + 62 * max(level.values())),
         )
     )
 
 
-# What the thesis's window sets, and where it stands in the form of the page: a path in the scenario's schema.
+# Settings in the window of the thesis, and their paths in the scenario schema, from which the page builds its form.
 SETTINGS = {
     "model": "swarm.items.model",
     "controller": "controller",
@@ -131,17 +132,21 @@ def window(lab, found):
     with lab.page(SCENE) as page:
         schema = page.get("/api/schema")
         missing = [name for name, path in SETTINGS.items() if not _in_form(schema, path)]
-        found.value = f"a page in the browser with {len(SETTINGS) - len(missing)} of the {len(SETTINGS)} settings, and all others of a scenario"
-        found.within("Settings of the window without a place in the form", len(missing), 0, 0, "the page makes its form of the scenario's schema")
+        found.value = (
+            f"a page in the browser with {len(SETTINGS) - len(missing)} of the {len(SETTINGS)} settings, and all other settings of a scenario"
+        )
+        found.within(
+            "Settings of the window that are missing in the form", len(missing), 0, 0, "the page builds its form from the scenario schema"
+        )
         started = page.get("/api/scenes/thesis-basic")["scenario"]
-        found.true("The published model can be chosen", started["swarm"][0]["model"]["type"] == "basic", "the scene in the gallery has it")
+        found.true("The published model can be selected", started["swarm"][0]["model"]["type"] == "basic", "a scene of the gallery uses it")
         picture = page.picture()
     if picture:
-        found.show(plot.picture("The page, with the published model", picture, "faba lab, a few seconds after it was opened"))
+        found.show(plot.picture("The page with the published model", picture, "faba lab, a few seconds after the page was opened."))
 
 
 def _in_form(schema, path):
-    """Whether a path such as "controller:manual.field" leads somewhere: names of keys, after a colon that of a part."""
+    """Whether the schema has a path such as "controller:manual.field": names of keys, and after a colon the type of a part."""
     for key in path.split("."):
         name, _, part = key.partition(":")
         schema = schema["items"] if name == "items" else schema.get("properties", {}).get(name)

@@ -81,7 +81,7 @@ VideoBackground read_video_background(const std::filesystem::path& video, const 
   if (sampler.kept().empty())
     throw Error(Errc::input, video.string(), "the video has no frames in the requested time range");
   VideoBackground ground{quantile_over_time(sampler.kept(), o.quantile), changes.sd()};
-  const auto off = o.quantile == 0.5 ? 0.0F : float(normal_quantile(o.share) * ground.noise_sd);
+  const auto off = o.quantile == 0.5 ? 0.0F : float(normal_quantile(o.quantile) * ground.noise_sd);
   for (float& grey : ground.light.px) grey = (grey - off) / kWhite;
   ground.noise_sd /= double(kWhite);
   return ground;

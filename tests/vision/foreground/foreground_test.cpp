@@ -105,7 +105,7 @@ TEST_CASE("with the background of a complete video, the first picture is accurat
   b.frames = 50;
   const std::vector<Vec2> swarm = cells::at_the_edge(l, 200, 120, 30, 0, 8);
   Foreground f({.polarity = Polarity::dark});
-  f.know(b);
+  f.set_background(b);
   f.take(cells::bytes(cells::picture(l, swarm, 1)), 0);
   CHECK(norm(f.moments().centroid_image - cells::spread(swarm).centroid) < 2);
   CHECK(f.moments().cells == doctest::Approx(200).epsilon(0.1));
