@@ -14,7 +14,7 @@ namespace {
 
 void summary(const Session& session, const Manifest& manifest, const Metrics& m, const std::string& next) {
   const auto& dir = session.dir();
-  fmt::print("{}\n", run_in_words(m, run_info(manifest)).outcome);
+  fmt::print("{}\n", run_summary(m, run_info(manifest)).outcome);
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
   if (m.setpoints > 0)
     fmt::print("settling time {}, steady-state error {} px rms, ",

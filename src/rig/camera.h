@@ -58,7 +58,7 @@ class Camera {
   virtual int width() const = 0;                ///< px
   virtual int height() const = 0;               ///< px
   virtual double rate() const = 0;              ///< Hz; 0 if unknown
-  virtual bool waits() const { return false; }  ///< no frame is lost while nobody reads, as with a file
+  virtual bool waits() const { return false; }  ///< no frame is lost while none is read, as with a file
   virtual std::uint64_t corrupt() const { return 0; }  ///< damaged frames skipped so far
   virtual std::vector<CameraControl> controls() { return {}; }
   /// Throws Error(usage), with the control's name, if the camera does not have the control or rejects the

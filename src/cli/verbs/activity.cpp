@@ -76,7 +76,7 @@ void print_video(const VideoActivity& a) {
     fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a.fit.peak_s, a.fit.se_peak_s,
                a.fit.sigma_s);
   else
-    fmt::print("  no Gaussian fit: {}\n", a.fit.why);
+    fmt::print("  no Gaussian fit: {}\n", a.fit.reason);
   for (const MotionSegment& s : a.segments)
     fmt::print("  {:7.2f} to {:7.2f} s  direction {:3} degrees\n", s.t0_s, s.t1_s,
                rounded_degrees(s.direction_deg));

@@ -69,7 +69,7 @@ Figure signature_figure(const VideoActivity& a) {
   if (!a.segments.empty()) f.caption += "Grey: motion in one direction. ";
   f.caption += a.fit.good ? "(1) Onset and (3) departure of the swarm: the fitted Gaussian is at 10 % of its "
                             "amplitude. (2) Maximum."
-                          : "No Gaussian fit: " + a.fit.why + ".";
+                          : "No Gaussian fit: " + a.fit.reason + ".";
   return f;
 }
 

@@ -79,7 +79,7 @@ int rig_run(const RigRunVerb& v, const Common& c) {
         if (!j.contains(k)) j[k] = value;
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
-    fmt::print("{}\n", run_in_words(metrics, run_info(manifest)).outcome);
+    fmt::print("{}\n", run_summary(metrics, run_info(manifest)).outcome);
     print_latency(manifest.frames, *manifest.bench);
     fmt::print("  report {}\n", (session.dir() / "report.html").string());
   }
