@@ -12,7 +12,7 @@ TEST_CASE(
   b.program->signal(SIGKILL);
   b.program->wait();
   const auto bytes = std::filesystem::file_size(b.f.path / "run/commands.csv");
-  CHECK(read_file(b.f.path / "run/incomplete").find("resume") == std::string::npos);
+  CHECK(read_file(b.f.path / "run/incomplete").find("cannot be resumed") != std::string::npos);
   const Called c = faba_in(b.f.path, "resume run");
   CHECK(c.exit == 2);
   CHECK(one_clear_line(c.err));

@@ -109,7 +109,7 @@ TEST_CASE("a map is a coil: from a file of `field map`, relative to the coil sys
   write_file(f.path / "none.toml", "[[coil]]\ntype = 'map'\nfile = 'none.csv'\n");
   refused(f, "field null none.toml", 3, "none.csv");
   write_file(f.path / "empty.toml", "[[coil]]\ntype = 'map'\n");
-  refused(f, "field null empty.toml", 2, "needs file");
+  refused(f, "field null empty.toml", 2, "file is missing");
 }
 
 TEST_CASE("a library in a scenario: the run uses its currents, and wrong libraries are refused") {
@@ -140,12 +140,12 @@ TEST_CASE("a library in a scenario: the run uses its currents, and wrong librari
   CHECK(again.json()["state_hash"] == run.json()["state_hash"]);
 
   refused(f, "field library " + four + " --levels 12 --out l.h5", 2, "already exists");
-  refused(f, "run s.toml --seed 1 --out bad --set arena.radius_px=700", 2, "library: covers 2 x 2 mm");
+  refused(f, "run s.toml --seed 1 --out bad --set arena.radius_px=700", 2, "the library covers 2 x 2 mm");
   refused(f, "run s.toml --seed 1 --out bad --set field.file=" + kRigs + "thesis-two-coils.toml", 3,
           "a different coil system");
   refused(f, "run s.toml --seed 1 --out bad --set controller.earth=false", 2, "earth");
   write_file(f.path / "no-library.toml", scene + "[controller]\ntype = 'gradient'\nsource = 'library'\n");
-  refused(f, "run no-library.toml --seed 1 --out bad", 2, "there is no library");
+  refused(f, "run no-library.toml --seed 1 --out bad", 2, "needs a library file");
   write_file(f.path / "cut.h5", read_file(f.path / "l.h5").substr(0, 20000));
   refused(f, "run s.toml --seed 1 --out bad --set library.file=cut.h5", 3, "not a complete field library");
   refused(f, "run s.toml --seed 1 --out bad --set library.file=s.toml", 3, "not a complete field library");

@@ -53,9 +53,8 @@ TEST_CASE("field null: keys of --json, polarity, a warning for a zero that the c
       faba_in(f.path, "field null " + kRig + " --at '1 mm, 0 mm' --polarity south --json").json();
   CHECK(south["currents_a"][0].get<double>() == doctest::Approx(-j["currents_a"][0].get<double>()));
   CHECK(faba_in(f.path, "field null " + kRig + " --at '20 mm, 0 mm' --json").exit == 0);
-  CHECK(
-      faba_in(f.path, "field null '" FABA_SCENES "/../rigs/helmholtz.toml'").err.find("cannot put a zero") !=
-      std::string::npos);
+  CHECK(faba_in(f.path, "field null '" FABA_SCENES "/../rigs/helmholtz.toml'")
+            .err.find("cannot produce a zero") != std::string::npos);
 }
 
 TEST_CASE("field map: zeros, picture, HDF5 file, and error of the table") {

@@ -196,7 +196,7 @@ TEST_CASE("a different video with the same name is a different study; damaged re
   make_film(f, "--set swarm[0].count=70");
   const Called other = faba_in(f.path, "identify study.toml --out out");
   CHECK(other.exit == 2);
-  CHECK_MESSAGE(other.err.find("another study") != std::string::npos, other.err);
+  CHECK_MESSAGE(other.err.find("a different study") != std::string::npos, other.err);
 }
 
 TEST_CASE("invalid studies and videos: one line, before any simulation") {

@@ -107,7 +107,7 @@ TEST_CASE("invalid studies: one line with place and reason, before anything is w
   refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzy\"\n", "did you mean \"fuzzy\"");
   refused("scene = \"scene.toml\"\n[[controller]]\nmax_output = 3\n", "type");
   refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzzy\"\n[[controller]]\ntype = \"fuzzy\"\n",
-          "name of its own");
+          "names must be unique");
   refused("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[3].count\" = 2 }\n",
           "swarm[3]");
   refused("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[0].cuont\" = 2 }\n",

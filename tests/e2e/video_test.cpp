@@ -68,7 +68,7 @@ TEST_CASE("flow of two pictures: flow file, picture, comparison with the truth, 
   refused(f, "flow a.pgm b.pgm --overlay o.mp4", 2, "--picture");
   refused(f, "flow a.pgm", 3, "one frame only");
   write_file(f.path / "c.pgm", spot(41, 30, 18, 15));
-  refused(f, "flow a.pgm c.pgm", 3, "one size");
+  refused(f, "flow a.pgm c.pgm", 3, "the same size");
   write_file(f.path / "t.flo", "no flow");
   refused(f, "flow a.pgm b.pgm --truth t.flo", 3, "not a flow in the Middlebury format");
   CHECK_FALSE(std::filesystem::exists(f.path / "o.mp4"));
@@ -242,7 +242,7 @@ TEST_CASE("study files and distances: errors name the file, the key or the line"
   write_file(f.path / "short", "1\n2\n");
   refused(f, "distance p short", 3, "has 2 bins");
   write_file(f.path / "below", "1\n-2\n");
-  refused(f, "distance below p", 3, "below 0");
-  refused(f, "distance p q --m 1", 2, "below 1");
+  refused(f, "distance below p", 3, "at least 0");
+  refused(f, "distance p q --m 1", 2, "< 1");
   refused(f, "distance p q --threshold 0", 2, "above 0");
 }

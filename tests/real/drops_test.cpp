@@ -60,8 +60,8 @@ TEST_CASE("pictures without a drop are refused") {
   if (test::skipped_without(kShared / "suspension")) return;
   for (const auto& entry : std::filesystem::directory_iterator(kShared / "suspension"))
     if (entry.path().extension() == ".tif")
-      CHECK(why_refused(entry.path()).find("no edge") != std::string::npos);
+      CHECK(why_refused(entry.path()).find("no drop edge") != std::string::npos);
   CHECK(why_refused(kShared / "ruler" / "cal10.png").find("straight") != std::string::npos);
-  CHECK(why_refused(kShared / "beads" / "bulk-water.mov").find("no edge") != std::string::npos);
-  CHECK(why_refused(kShared / "step-response" / "rollers.mp4").find("no edge") != std::string::npos);
+  CHECK(why_refused(kShared / "beads" / "bulk-water.mov").find("no drop edge") != std::string::npos);
+  CHECK(why_refused(kShared / "step-response" / "rollers.mp4").find("no drop edge") != std::string::npos);
 }

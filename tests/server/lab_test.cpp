@@ -234,6 +234,7 @@ TEST_CASE("a run with a damaged manifest does not hide the other runs") {
   for (const auto& [name, manifest] : manifests) {
     fs::create_directories(lab.folder() / "runs" / name);
     write_file(lab.folder() / "runs" / name / "manifest.json", manifest);
+    write_file(lab.folder() / "runs" / name / "scenario.toml", "title = 'x'\n");
   }
   const std::string a = lab.get("/api/runs");
   CHECK(status_of(a) == 200);

@@ -48,7 +48,7 @@ RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity) {
   const FieldNull& n = out.null;
   for (std::size_t k = 0; k < field->coils(); ++k) out.coils.push_back(field->circuit(k).name);
   out.note =
-      !n.reachable ? "the coils cannot make a zero of the field at this position within their current limits"
+      !n.reachable ? "the coils cannot produce a zero of the field at this position within their current limits"
       : n.saddle && (polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0
           ? "the zero repels cells along all directions: no currents within the limits make a trap"
       : n.saddle

@@ -24,7 +24,7 @@ struct FieldTolerance {
 
 /// Changes the current of a coil, its position along and across its axis, its direction, and the ambient
 /// field, for every coil and direction. Unless `picture` is empty the result is drawn there as SVG. Throws
-/// Error(usage) when the coil system cannot make a zero at `at`.
+/// Error(usage) when the coil system cannot produce a zero at `at`.
 FieldTolerance field_tolerance(const std::filesystem::path& rig, Vec2 at,
                                const std::filesystem::path& picture);
 

@@ -45,7 +45,7 @@ DropEdge report_drop(const std::filesystem::path& picture, const std::filesystem
     write_png(stages / kDropStages[0], stretched(grey, options.stretch_low, options.stretch_high));
     write_png(stages / kDropStages[1], edges);
   }
-  const DropEdge edge = find_drop_edge(grey, options);
+  DropEdge edge = find_drop_edge(grey, options);
   if (!stages.empty()) {
     write_png(stages / kDropStages[2], hough_picture(grey, edge));
     write_png(stages / kDropStages[3], drop_overlay(grey, edge));

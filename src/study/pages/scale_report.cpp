@@ -1,6 +1,7 @@
 #include "study/pages/scale_report.h"
 
 #include <fmt/format.h>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/toml.h"
@@ -30,13 +31,16 @@ void add_advice(Json& j, const Scale& s) {
 }  // namespace
 
 std::string scale_note(const TableScale& s) {
-  const std::string range = fmt::format("{:.1f} px (95 % {:.1f} to {:.1f})", s.intercept_px,
-                                        s.intercept_ci95_px[0], s.intercept_ci95_px[1]);
+  const bool larger = s.intercept_px > 0;
+  const double low = larger ? s.intercept_ci95_px[0] : -s.intercept_ci95_px[1];
+  const double high = larger ? s.intercept_ci95_px[1] : -s.intercept_ci95_px[0];
+  const std::string range =
+      fmt::format("{:.1f} px (95 % interval {:.1f} to {:.1f})", std::fabs(s.intercept_px), low, high);
   if (s.edge_excess_significant())
     return fmt::format(
-        "the readings have a constant offset of {} (too {}), an edge effect independent of the width. Use "
-        "the regression; the mean of the ratios is biased by {:+.1f} %",
-        range, s.intercept_px > 0 ? "wide" : "narrow", 100 * s.ratio_bias);
+        "every reading is {} too {}, independent of the width (edge effect). Use the regression; the "
+        "mean of the ratios is biased by {:+.1f} %",
+        range, larger ? "large" : "small", 100 * s.ratio_bias);
   return fmt::format(
       "the constant offset of the readings, {}, is not significantly different from 0, so no bias of either "
       "estimator is detected. Use the regression unless edge effects are excluded",

@@ -67,7 +67,7 @@ class TrackPass {
     d.polarity = survey_.polarity;
     d.temporal = survey_.temporal;
     d.background_frames = survey_.background.frames;
-    d.noise_grey = robust_spread_low(noise).median;
+    d.noise_grey = double(robust_spread_low(noise).median);
     d.threshold_snr = threshold_;
     d.spots_per_frame = spots_found_ / std::max(1.0, frames_);
     d.stationary_spots = survey_.stationary_spots;

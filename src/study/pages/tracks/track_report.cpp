@@ -121,7 +121,7 @@ TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progres
   });
   total = 2 * survey.frames;
   TrackFiles files(o, source, survey);
-  const TrackMeasurement m =
+  TrackMeasurement m =
       measure_tracks(o, source, survey, files, [&](std::int64_t done) { tick(survey.frames + done); });
   const RgbImage picture = draw_tracks(survey.first, survey.black, survey.white, files.drawn(), false, 0);
   const std::vector<Figure> figures = track_figures(m.summary, m.um_per_px.value_or(0));

@@ -153,7 +153,7 @@ TEST_CASE("track: unusual videos give a result or an error message") {
   CHECK_THROWS_WITH_AS(track("still"), doctest::Contains("50 x 50"), Error);
   std::filesystem::create_directories(folder / "run");
   media::write_bytes(folder / "run/manifest.json", R"({"version": "0.1.0"})");
-  CHECK_THROWS_WITH_AS(track("run"), doctest::Contains("without a video"), Error);
+  CHECK_THROWS_WITH_AS(track("run"), doctest::Contains("the run has no video"), Error);
   media::write_bytes(folder / "run/video.mp4", "");
   CHECK_THROWS_WITH_AS(track("run"), doctest::Contains("drawing"), Error);
   CHECK(std::filesystem::exists(folder / "t.csv"));
