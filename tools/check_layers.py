@@ -120,7 +120,7 @@ SYSTEM = re.compile(
     r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
 )
 # Folders with a unity build (CMakeLists.txt: FABA_UNITY), and their files that are compiled separately.
-UNITY = {"field", "sim", "control", "rig", "app", "study", "server", "cli"}
+UNITY = {"field", "vision", "sim", "control", "rig", "app", "study", "server", "cli"}
 ALONE = {"sim/agents/adapted.cpp", "sim/agents/basic.cpp", "sim/agents/dipole.cpp", "field/uniform.cpp", "app/parts.cpp"}
 SOURCES = (".h", ".cpp", ".c")
 MOST_FILES = 40
@@ -310,7 +310,7 @@ def check_unity(tree):
     local = {}
     for file in tree.files:
         folder = tree.name(file).split("/")[0]
-        if file.suffix != ".cpp" or folder not in UNITY or tree.name(file) in ALONE:
+        if file.suffix != ".cpp" or folder not in UNITY or tree.name(file) in ALONE or "/kernels/" in tree.name(file):
             continue
         for name in local_names(file.read_text()):
             other = local.setdefault((folder, name), file)

@@ -6,25 +6,20 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/draw/fixed_point.h"
 #include "vision/draw/scale_bar.h"
 
 namespace faba {
 namespace {
 
-constexpr int kShift = 4;          // sub-pixel bits of OpenCV drawing
 constexpr int kScaleWidth = 108;   // px, width of the colour bar at the right
 constexpr int kArrowSpacing = 40;  // px between arrows
 const cv::Scalar kInk{40, 40, 40}, kLight{250, 250, 250};
 
-cv::Point fixed(Vec2 p) {
-  const auto at = [](double v) { return int(std::lround(std::clamp(v, -2e4, 2e4) * (1 << kShift))); };
-  return {at(p.x), at(p.y)};
-}
-
 // Light line on a darker one, visible on any colour.
 void line(cv::Mat& m, Vec2 a, Vec2 b, int thickness = 1) {
-  cv::line(m, fixed(a), fixed(b), kInk, thickness + 2, cv::LINE_AA, kShift);
-  cv::line(m, fixed(a), fixed(b), kLight, thickness, cv::LINE_AA, kShift);
+  cv::line(m, fixed_point(a), fixed_point(b), kInk, thickness + 2, cv::LINE_AA, kShift);
+  cv::line(m, fixed_point(a), fixed_point(b), kLight, thickness, cv::LINE_AA, kShift);
 }
 
 void text(cv::Mat& m, const std::string& s, Vec2 at, bool on_paper = false) {
@@ -122,8 +117,8 @@ RgbImage draw_field(const FieldScene& s) {
   const Vec2 middle{(s.width - 1) / 2.0, (s.height - 1) / 2.0};
   if (s.drop_radius_px > 0) {
     for (const int thickness : {3, 1})
-      cv::circle(m, fixed(middle), fixed({s.drop_radius_px, 0}).x, thickness == 3 ? kInk : kLight, thickness,
-                 cv::LINE_AA, kShift);
+      cv::circle(m, fixed_point(middle), fixed_length(s.drop_radius_px), thickness == 3 ? kInk : kLight,
+                 thickness, cv::LINE_AA, kShift);
   }
   if (s.view_px) {
     const Vec2 h = 0.5 * *s.view_px, corner[] = {{-h.x, -h.y}, {h.x, -h.y}, {h.x, h.y}, {-h.x, h.y}};

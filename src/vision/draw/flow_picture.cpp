@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "core/statistics.h"
+#include "vision/draw/fixed_point.h"
 
 namespace faba {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 const cv::Vec3b kUnknown(128, 128, 128);
-constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
 
 // Hues from red over yellow, green, cyan, blue and magenta to red. The number of steps between two hues
 // follows the colour discrimination of the eye (Baker et al. 2011).
@@ -33,7 +33,7 @@ struct Wheel {
   cv::Vec3b colour(double u, double v) const {
     if (!std::isfinite(u) || !std::isfinite(v)) return kUnknown;
     const double strength = std::hypot(u, v);
-    const double turn = (std::atan2(-v, -u) / kPi + 1) / 2 * 55;  // red: to the right
+    const double turn = (std::atan2(-v, -u) / std::numbers::pi + 1) / 2 * 55;  // red: to the right
     const auto below = std::size_t(std::clamp(turn, 0.0, 54.999));
     const cv::Vec3d pure = hue[below] + (hue[below + 1] - hue[below]) * (turn - double(below));
     cv::Vec3b out;
@@ -51,10 +51,6 @@ const Wheel& wheel() {
 cv::Mat3b canvas_of(RgbImage& picture) {
   static_assert(sizeof(Rgb) == 3);
   return {picture.height, picture.width, reinterpret_cast<cv::Vec3b*>(picture.px.data())};
-}
-
-cv::Point fixed(double x, double y) {
-  return {int(std::lround(x * (1 << kShift))), int(std::lround(y * (1 << kShift)))};
 }
 
 constexpr double kMinArrowSpeed = 0.2;  // minimum speed of a flow with an arrow, fraction of the full speed
@@ -84,8 +80,8 @@ void draw_arrows(cv::Mat3b canvas, const Flow& flow, const FlowDrawing& how, dou
       const double speed = std::hypot(u, v);
       if (speed < kMinArrowSpeed * full) continue;
       const double scale = 0.9 * step / std::max(full, speed);
-      const cv::Point from = fixed(x0 - u * scale / 2, y0 - v * scale / 2),
-                      to = fixed(x0 + u * scale / 2, y0 + v * scale / 2);
+      const cv::Point from = fixed_point({x0 - u * scale / 2, y0 - v * scale / 2}),
+                      to = fixed_point({x0 + u * scale / 2, y0 + v * scale / 2});
       if (coloured) {  // hue only; the length shows the speed
         const cv::Vec3b k = wheel().colour(u / speed, v / speed);
         cv::arrowedLine(canvas, from, to, cv::Scalar(20, 20, 20), 3, cv::LINE_AA, kShift, 0.35);

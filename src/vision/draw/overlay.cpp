@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/draw/fixed_point.h"
 #include "vision/drop/drop_picture.h"
 #include "vision/files/picture.h"
 
@@ -14,11 +15,6 @@ namespace {
 // Okabe and Ito's colour-blind-safe palette.
 const cv::Scalar kSky(86, 180, 233), kYellow(240, 228, 66), kOrange(255, 170, 0), kViolet(204, 121, 167);
 const cv::Scalar kRim(0, 0, 0);
-constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
-
-cv::Point fixed(Vec2 p) {
-  return {int(std::lround(p.x * (1 << kShift))), int(std::lround(p.y * (1 << kShift)))};
-}
 
 cv::Mat3b grey_canvas(const GrayF& picture) {
   const Gray8 grey = stretched(picture, 0.001, 0.999);
@@ -37,7 +33,7 @@ std::vector<std::vector<cv::Point>> visible_arcs(const DropEdge& edge) {
     const double angle = 2 * CV_PI * i / n;
     const Vec2 p{c.x + edge.radius_px * std::cos(angle), c.y + edge.radius_px * std::sin(angle)};
     if (p.x > -8 && p.y > -8 && p.x < edge.image_width + 7 && p.y < edge.image_height + 7)
-      arcs.back().push_back(fixed(p));
+      arcs.back().push_back(fixed_point(p));
     else if (!arcs.back().empty())
       arcs.emplace_back();
   }
@@ -50,23 +46,22 @@ class Pen {
   Pen(cv::Mat3b canvas, int width, bool rim) : canvas_(std::move(canvas)), width_(width), rim_(rim) {}
 
   void line(Vec2 a, Vec2 b, const cv::Scalar& colour) {
-    cv::line(canvas_, fixed(a), fixed(b), ink(colour), stroke(), cv::LINE_AA, kShift);
+    cv::line(canvas_, fixed_point(a), fixed_point(b), ink(colour), stroke(), cv::LINE_AA, kShift);
   }
   void path(const std::vector<cv::Point>& points, const cv::Scalar& colour) {
     cv::polylines(canvas_, points, false, ink(colour), stroke(), cv::LINE_AA, kShift);
   }
   void ring(Vec2 at, double radius, const cv::Scalar& colour) {
-    cv::circle(canvas_, fixed(at), length(radius), ink(colour), stroke(), cv::LINE_AA, kShift);
+    cv::circle(canvas_, fixed_point(at), fixed_length(radius), ink(colour), stroke(), cv::LINE_AA, kShift);
   }
   void dot(Vec2 at, double radius, const cv::Scalar& colour) {
-    cv::circle(canvas_, fixed(at), length(radius + (rim_ ? 1 : 0)), ink(colour), cv::FILLED, cv::LINE_AA,
-               kShift);
+    cv::circle(canvas_, fixed_point(at), fixed_length(radius + (rim_ ? 1 : 0)), ink(colour), cv::FILLED,
+               cv::LINE_AA, kShift);
   }
 
  private:
   cv::Scalar ink(const cv::Scalar& colour) const { return rim_ ? kRim : colour; }
   int stroke() const { return rim_ ? width_ + 2 : width_; }
-  static int length(double px) { return int(std::lround(px * (1 << kShift))); }
 
   cv::Mat3b canvas_;
   int width_;

@@ -5,26 +5,23 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "vision/draw/fixed_point.h"
 #include "vision/files/picture.h"
 
 namespace faba {
 namespace {
 
 // Okabe and Ito's colour-blind-safe palette.
-const cv::Scalar kSky(86, 180, 233), kYellow(240, 228, 66), kOrange(255, 120, 0), kRim(0, 0, 0);
-constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
-
-cv::Point fixed(Vec2 p) {
-  return {int(std::lround(p.x * (1 << kShift))), int(std::lround(p.y * (1 << kShift)))};
-}
+const cv::Scalar kRulerSky(86, 180, 233), kRulerYellow(240, 228, 66), kRulerOrange(255, 120, 0),
+    kRulerRim(0, 0, 0);
 
 void label(cv::Mat3b& canvas, Vec2 at, const std::string& text, double size) {
   int below = 0;
   const cv::Size box = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, size, 1, &below);
   const cv::Point corner(int(std::lround(at.x)) - box.width / 2, int(std::lround(at.y)) + box.height / 2);
   const int width = std::max(1, int(size * 2));
-  cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, size, kRim, width + 2, cv::LINE_AA);
-  cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, size, kYellow, width, cv::LINE_AA);
+  cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, size, kRulerRim, width + 2, cv::LINE_AA);
+  cv::putText(canvas, text, corner, cv::FONT_HERSHEY_SIMPLEX, size, kRulerYellow, width, cv::LINE_AA);
 }
 
 }  // namespace
@@ -45,10 +42,10 @@ RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler) {
     const bool tenth = number % 10 == 0;
     // Every tenth line extends beyond the marks and is labelled with its number.
     const Vec2 end = tenth ? m.to_image + (10 * size * 2) * across : m.to_image;
-    cv::line(canvas, fixed(middle), fixed(end),
-             !m.used ? kOrange
-             : tenth ? kYellow
-                     : kSky,
+    cv::line(canvas, fixed_point(middle), fixed_point(end),
+             !m.used ? kRulerOrange
+             : tenth ? kRulerYellow
+                     : kRulerSky,
              width, cv::LINE_AA, kShift);
     if (number % every == 0) label(canvas, end + (14 * size * 2) * across, std::to_string(number), size);
   }

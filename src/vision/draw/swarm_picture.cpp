@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/draw/fixed_point.h"
 #include "vision/draw/scale_bar.h"
 
 namespace faba {
@@ -15,17 +16,11 @@ namespace {
 const cv::Scalar kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90, 20}};
 const cv::Scalar kPale{178, 182, 190}, kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
 const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kInk{60, 60, 60};
-constexpr int kShift = 4;  // sub-pixel bits of OpenCV drawing
 constexpr std::size_t kManyCells =
     20000;  // above, a cell is one pixel: anti-aliased discs would take longer than a simulation step
 
-cv::Point fixed(double x, double y) {
-  const auto clamped = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
-  return {clamped(x), clamped(y)};
-}
-
 void line(cv::Mat& m, Vec2 a, Vec2 b, const cv::Scalar& colour, int thickness = 1) {
-  cv::line(m, fixed(a.x, a.y), fixed(b.x, b.y), colour, thickness, cv::LINE_AA, kShift);
+  cv::line(m, fixed_point(a), fixed_point(b), colour, thickness, cv::LINE_AA, kShift);
 }
 
 void cross(cv::Mat& m, Vec2 at, double arm, const cv::Scalar& colour) {
@@ -49,17 +44,17 @@ void ground(cv::Mat& m, const SwarmScene& s) {
   }
   m.setTo(s.edge_radius_px > 0 ? kOutside : kGround);
   if (s.edge_radius_px > 0)
-    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kGround, cv::FILLED,
+    cv::circle(m, fixed_point(s.edge_centre), fixed_length(s.edge_radius_px), kGround, cv::FILLED,
                cv::LINE_AA, kShift);
 }
 
 void cells(cv::Mat& m, const SwarmScene& s) {
-  const int r = std::max(1, int(std::lround(s.cell_radius_px * (1 << kShift))));
+  const int r = std::max(1, fixed_length(s.cell_radius_px));
   for (const auto& c : s.cells) {
     if (c.x < -3 || c.y < -3 || c.x > float(s.width + 2) || c.y > float(s.height + 2)) continue;
     const cv::Scalar& colour = c.responding ? kSwarm[c.swarm % 4] : kPale;
     if (s.cells.size() <= kManyCells) {
-      cv::circle(m, fixed(double(c.x), double(c.y)), r, colour, cv::FILLED, cv::LINE_AA, kShift);
+      cv::circle(m, fixed_point({double(c.x), double(c.y)}), r, colour, cv::FILLED, cv::LINE_AA, kShift);
     } else if (const cv::Point p(int(std::lround(c.x)), int(std::lround(c.y)));
                p.x >= 0 && p.y >= 0 && p.x < m.cols && p.y < m.rows) {
       m.at<cv::Vec3b>(p) = {std::uint8_t(colour[0]), std::uint8_t(colour[1]), std::uint8_t(colour[2])};
@@ -79,7 +74,7 @@ void scale_bar(cv::Mat& m, const SwarmScene& s) {
 void field_arrow(cv::Mat& m, const SwarmScene& s) {
   const double b = norm(s.field_ut);
   const Vec2 at{s.width - 44.0, s.height - 44.0};
-  cv::circle(m, fixed(at.x, at.y), 2 << kShift, kInk, cv::FILLED, cv::LINE_AA, kShift);
+  cv::circle(m, fixed_point(at), 2 << kShift, kInk, cv::FILLED, cv::LINE_AA, kShift);
   if (b > 0.05) {
     const double length = std::min(40.0, 4 * std::sqrt(b));
     const Vec2 d{s.field_ut.x / b, -s.field_ut.y / b}, tip = at + length * d, across{-d.y, d.x};
@@ -98,8 +93,7 @@ RgbImage draw_static_part(const SwarmScene& s) {
   cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
   ground(m, s);
   if (s.edge_radius_px > 0)
-    cv::circle(m, fixed(s.edge_centre.x, s.edge_centre.y), fixed(s.edge_radius_px, 0).x, kEdge, 1,
-               cv::LINE_AA, kShift);
+    cv::circle(m, fixed_point(s.edge_centre), fixed_length(s.edge_radius_px), kEdge, 1, cv::LINE_AA, kShift);
   for (std::size_t i = 1; i < s.route.size(); ++i) line(m, s.route[i - 1], s.route[i], {210, 160, 210});
   return out;
 }

@@ -4,18 +4,14 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/draw/fixed_point.h"
+
 namespace faba {
 namespace {
 
 // Okabe-Ito palette without black and yellow, which have low contrast on grey.
 const cv::Scalar kInks[] = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
                             {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
-constexpr int kShift = 4;  // OpenCV draws at positions of 1/16 px
-
-cv::Point fixed(Vec2 p) {
-  const auto to_fixed = [](double v) { return int(std::lround(std::clamp(v, -3e4, 3e4) * (1 << kShift))); };
-  return {to_fixed(p.x), to_fixed(p.y)};
-}
 
 }  // namespace
 
@@ -33,11 +29,10 @@ RgbImage draw_tracks(const GrayF& frame, float black, float white, const std::ve
   for (const TrackLine& t : tracks) {
     const cv::Scalar& ink = kInks[t.number % std::size(kInks)];
     std::vector<cv::Point> points;
-    for (const Vec2 p : t.path) points.push_back(fixed(p));
+    for (const Vec2 p : t.path) points.push_back(fixed_point(p));
     cv::polylines(m, points, false, ink, width, cv::LINE_AA, kShift);
     if (rings && t.seen && !points.empty())
-      cv::circle(m, points.back(), int(std::lround(ring_px * (1 << kShift))), ink, width, cv::LINE_AA,
-                 kShift);
+      cv::circle(m, points.back(), fixed_length(ring_px), ink, width, cv::LINE_AA, kShift);
   }
   return out;
 }

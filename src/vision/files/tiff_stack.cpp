@@ -17,7 +17,7 @@
 namespace faba {
 namespace {
 
-constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;  // limit for corrupt or malicious headers
+constexpr std::uint64_t kMaxPagePixels = std::uint64_t{1} << 28;  // limit for corrupt or malicious headers
 constexpr tmsize_t kMaxBuffer = tmsize_t{1} << 30;            // bytes, limit of one allocation
 
 // Only the first error of libtiff is reported; the later ones follow from it.
@@ -172,7 +172,7 @@ void TiffStack::Impl::read_layout() {
   page.planar = planar == PLANARCONFIG_SEPARATE;
   page.tiled = TIFFIsTiled(file) != 0;
   if (page.width == 0 || page.height == 0) refuse("has no picture size");
-  if (std::uint64_t{page.width} * page.height > kMaxPixels) {
+  if (std::uint64_t{page.width} * page.height > kMaxPagePixels) {
     refuse("picture size " + std::to_string(page.width) + " x " + std::to_string(page.height) +
            " px exceeds the maximum of 2^28 pixels; crop it");
   }

@@ -13,9 +13,9 @@
 namespace faba {
 namespace {
 
-constexpr int kPasses = 3;
+constexpr int kFitPasses = 3;
 constexpr double kDistortion = 0.02;  // px, distortion from end to end by shading (assumed)
-constexpr double kStraight = 3e-4;    // rad: for a smaller inclination the picture is not rotated again
+constexpr double kMaxBend = 3e-4;    // rad: for a smaller inclination the picture is not rotated again
 
 /// Linear model position = offset + pitch * index + lean * t.
 struct Plane {
@@ -102,7 +102,7 @@ void realign(const TurnedPicture& turned, const GrayF& picture, RowState& at) {
     high = std::max(high, r.t);
   }
   const Vec2 middle = turned.image(s / count, t / count);
-  if (std::fabs(at.plane.lean) > kStraight) at.angle -= std::atan(at.plane.lean);
+  if (std::fabs(at.plane.lean) > kMaxBend) at.angle -= std::atan(at.plane.lean);
   at.pitch = at.plane.pitch / std::hypot(1, at.plane.lean);
   const Vec2 centre{(picture.width - 1) / 2.0, (picture.height - 1) / 2.0};
   const Vec2 d = middle - centre;
@@ -260,12 +260,12 @@ std::optional<MarkRow> RowMeter::measure_positions(const PeriodHint& hint, int s
   RowState at{hint.angle, hint.pitch_px, hint.across_px, hint.height_px, {}, {}};
   std::optional<TurnedPicture> straight;
   MarkShape shape({}, {}, at.pitch);
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kFitPasses; ++pass) {
     if (pass > 0) {
       const TurnedPicture& before = straight ? *straight : turned(hint.angle);
       const double lean = at.plane.lean;
       realign(before, picture_, at);
-      if (std::fabs(lean) > kStraight) straight.emplace(picture_, at.angle);
+      if (std::fabs(lean) > kMaxBend) straight.emplace(picture_, at.angle);
       strip = std::max(std::clamp(at.height / 5, 3, 16), std::min(strip, at.height));
     }
     if (!read_row(straight ? *straight : turned(hint.angle), at, strip, shape)) return std::nullopt;

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-constexpr int kSteps = 480;            // number of steps of the tabulated shape
+constexpr int kShapeSteps = 480;            // number of steps of the tabulated shape
 constexpr double kMinSlopedPitch = 6;  // px, minimum pitch for the fit of a slope
 
 }  // namespace
@@ -75,10 +75,10 @@ MarkShape::MarkShape(std::span<const MarkProfile> profiles, std::span<const std:
 
 void MarkShape::tabulate(std::span<const double> cosines, std::span<const double> sines) {
   const double unit = 2 * std::numbers::pi / pitch_px_;
-  grey_.assign(kSteps + 1, 0.0);
-  slope_.assign(kSteps + 1, 0.0);
-  for (std::size_t i = 0; i <= kSteps; ++i) {
-    const std::complex<double> turn = std::polar(1.0, 2 * std::numbers::pi * double(i) / kSteps);
+  grey_.assign(kShapeSteps + 1, 0.0);
+  slope_.assign(kShapeSteps + 1, 0.0);
+  for (std::size_t i = 0; i <= kShapeSteps; ++i) {
+    const std::complex<double> turn = std::polar(1.0, 2 * std::numbers::pi * double(i) / kShapeSteps);
     std::complex<double> wave = 1;
     for (std::size_t m = 0; m < cosines.size(); ++m) {
       wave *= turn;
@@ -89,8 +89,8 @@ void MarkShape::tabulate(std::span<const double> cosines, std::span<const double
 }
 
 double MarkShape::look_up(const std::vector<double>& table, double offset_px) const {
-  const double turns = offset_px / pitch_px_, position = (turns - std::floor(turns)) * kSteps;
-  const std::size_t i = std::min(std::size_t(position), std::size_t(kSteps - 1));
+  const double turns = offset_px / pitch_px_, position = (turns - std::floor(turns)) * kShapeSteps;
+  const std::size_t i = std::min(std::size_t(position), std::size_t(kShapeSteps - 1));
   const double part = position - double(i);
   return table[i] + part * (table[i + 1] - table[i]);
 }
@@ -101,18 +101,18 @@ void MarkShape::describe() {
   const double half = (*low + *high) / 2;
   range_ = *high - *low;
   const int below = int(std::count_if(v.begin(), v.end(), [half](double x) { return x < half; }));
-  dark_ = 2 * below <= kSteps;
-  width_px_ = std::min(below, kSteps - below) * pitch_px_ / kSteps;
+  dark_ = 2 * below <= kShapeSteps;
+  width_px_ = std::min(below, kShapeSteps - below) * pitch_px_ / kShapeSteps;
   // Centroid of the part beyond the half level, around the extremum.
   const int top = int((dark_ ? low : high) - v.begin());
   double weight = 0, moment = 0;
-  for (int k = -kSteps / 2; k < kSteps / 2; ++k) {
-    const double beyond = (v[std::size_t((top + k + kSteps) % kSteps)] - half) * (dark_ ? -1 : 1);
+  for (int k = -kShapeSteps / 2; k < kShapeSteps / 2; ++k) {
+    const double beyond = (v[std::size_t((top + k + kShapeSteps) % kShapeSteps)] - half) * (dark_ ? -1 : 1);
     if (beyond <= 0) continue;
     weight += beyond;
     moment += beyond * k;
   }
-  const double centre = (top + (weight > 0 ? moment / weight : 0)) * pitch_px_ / kSteps;
+  const double centre = (top + (weight > 0 ? moment / weight : 0)) * pitch_px_ / kShapeSteps;
   centre_px_ = std::remainder(centre, pitch_px_);
 }
 
