@@ -9,6 +9,7 @@ comments, messages, identifiers (`goes_on` and `kGoesOn` are read as "goes on"),
 """
 
 import argparse
+import functools
 import pathlib
 import re
 import subprocess
@@ -108,8 +109,9 @@ PLACES = ("*.md", "docs", "src", "tests", "tools", "bench", "web/src", "web/test
 KINDS = {".md", ".h", ".cpp", ".c", ".ino", ".py", ".toml", ".ts", ".mjs", ".svelte", ".sh", ".cmake", ".txt", ""}
 
 CAMEL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
-PATTERN = re.compile("|".join(rf"(?P<w{i}>\b(?:{word})\b)" if word[-1] != ")" else rf"(?P<w{i}>\b(?:{word}))"
-                              for i, word in enumerate(WORDS)))
+# One word boundary for all, so that most positions of a text are rejected at once.
+PATTERN = re.compile(r"\b(?:" + "|".join(rf"(?P<w{i}>(?:{word})\b)" if word[-1] != ")" else rf"(?P<w{i}>{word})"
+                                         for i, word in enumerate(WORDS)) + ")")
 INSTEAD = list(WORDS.values())
 
 
@@ -118,11 +120,12 @@ def plain(line):
     return re.sub(r"\s+", " ", CAMEL.sub(" ", line).replace("_", " ")).lower()
 
 
+@functools.lru_cache(None)
 def findings(line):
     """Pairs (word, term to use instead) for each word of the line that is not used."""
     seen = {}
     line = re.sub(r"\bis None\b", "", line)  # Python
-    for text in (re.sub(r"\s+", " ", line.lower()), plain(line)):
+    for text in {re.sub(r"\s+", " ", line.lower()), plain(line)}:
         for m in PATTERN.finditer(text):
             seen[m.group().strip()] = INSTEAD[int(m.lastgroup[1:])]
     return seen.items()
