@@ -1,7 +1,7 @@
 // Test of the live lab in a browser. Stops with an error at the first failed step. With --pictures FOLDER it saves
 // screenshots of the page in FOLDER.
 //
-//   node tests/e2e/lab_test.mjs --program build/faba --root . [--pictures docs/pictures/lab]
+//   node tests/e2e/lab_test.mjs --program build/faba --root . [--pictures docs/img/lab]
 
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
