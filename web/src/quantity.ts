@@ -119,6 +119,7 @@ export function showQuantity(value: number, unit: string): string {
         break;
       }
     }
-  const digits = Number(scaled.toPrecision(6));
+  // A count or a seed is shown with all its digits.
+  const digits = !unit && Number.isSafeInteger(scaled) ? scaled : Number(scaled.toPrecision(6));
   return unit ? `${digits} ${kMu[best] ?? best}` : String(digits);
 }

@@ -114,6 +114,10 @@ describe('showing a quantity', () => {
   ])('%d %s is %s', (value, unit, text) => {
     expect(showQuantity(value, unit)).toBe(text);
   });
+  test('a seed is shown with all its digits', () => {
+    expect(showQuantity(232237428458673, '')).toBe('232237428458673');
+    expect(showQuantity(0.123456789, '')).toBe('0.123457');
+  });
   test('six digits, and the unit is chosen before rounding', () => {
     expect(showQuantity(1.23456789e-4, 'm')).toBe(`123.457 ${kMicro}m`);
     expect(showQuantity(9.99999999e-4, 'm')).toBe(`1000 ${kMicro}m`);
