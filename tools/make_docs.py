@@ -137,7 +137,7 @@ def table(properties, labels):
 
 
 def preset_table(properties):
-    """The keys whose values differ between presets, with the value of each preset."""
+    """The keys whose values differ between presets or from the default, with the value of each preset."""
     values = properties["preset"]["x-values"]
     lines = ["| key | " + " | ".join(values) + " |", "|---|" + "---|" * len(values)]
     for key in properties:

@@ -15,7 +15,7 @@ namespace {
 /// and a field command of strength M towards the setpoint. Sets, rules and outputs are scenario data: each
 /// `[[controller.set]]` adds one fuzzy state. Without sets, the two of the thesis are used: near -> max/2,
 /// far -> max. The breakpoints 40 and 120 px are assumed: the thesis shows them in a figure only.
-/// Known to fail: the published sets never command zero, so the swarm circles its setpoint (rms 2.2 px with
+/// The published sets never command zero, so the swarm oscillates around its setpoint (rms 2.2 px with
 /// Basic, more with a camera delay). A set `at` with output 0 prevents that, but sets cannot reduce
 /// dispersion (F1).
 class Fuzzy final : public Controller {
@@ -106,7 +106,7 @@ Schema<Fuzzy::Params> Fuzzy::schema() {
       .check([](const Params& p) -> std::string {
         return p.near_px > p.far_px ? "near_px must not be larger than far_px" : "";
       })
-      .validity("The published sets never command zero: the swarm circles its setpoint.");
+      .validity("The published sets never command zero: the swarm oscillates around its setpoint.");
 }
 
 Fuzzy::Fuzzy(const Params& p, const ControlContext& c) : p_(p), c_(c) {

@@ -80,7 +80,7 @@ Schema<Manual::Params> Manual::schema() {
           if (p.segment[i].at <= p.segment[i - 1].at) return "segments must be in ascending order of `at`";
         return {};
       })
-      .validity("Sampled once per frame: a rotating field needs a frame rate well above its frequency.");
+      .validity("The field is set once per frame: a rotating field needs a frame rate well above its frequency.");
 }
 
 Manual::Manual(const Params& p, const ControlContext& c) : p_(p), c_(c) {

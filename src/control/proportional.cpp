@@ -87,7 +87,7 @@ Schema<Proportional::Params> Proportional::schema() {
                    "extrapolated with its present velocity; no prediction when absent",
             .source = "theory F2: ln(2 kappa) / w_B"})
       .validity(
-          "Linear law for an integrator plant. Reorientation that takes longer than a frame adds a delay "
+          "The law is linear, for an integrator plant. Reorientation that takes longer than a frame adds a delay "
           "that is compensated only with `lead`.");
 }
 

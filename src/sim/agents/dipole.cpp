@@ -243,8 +243,8 @@ Schema<Dipole::Params> Dipole::schema() {
      return {};
    })
       .validity(
-          "Planar; no helical paths, no flagellar limit of turning, no hydrodynamic interaction, no "
-          "field-gradient force (0.05 % of the thrust at 1 T/m).");
+          "The model is planar. It has no helical paths, no flagellar limit of turning, no hydrodynamic "
+          "interaction and no field-gradient force (0.05 % of the thrust at 1 T/m).");
   return s;
 }
 

@@ -132,8 +132,8 @@ Schema<MicroscopeParams> MicroscopeParams::schema() {
         return {};
       })
       .validity(
-          "Cells absorb or scatter light but do not refract it: no bright fringe around a dark cell and no "
-          "diffraction rings out of focus.");
+          "Cells absorb or scatter light but do not refract it: a dark cell has no bright fringe, and a cell "
+          "out of focus has no diffraction rings.");
 }
 
 void MicroscopeParams::settle(MicroscopeParams& p, const Node& n) {
