@@ -142,7 +142,7 @@ def preset_table(properties):
     lines = ["| key | " + " | ".join(values) + " |", "|---|" + "---|" * len(values)]
     for key in properties:
         cells = [value_text(v[key]) if key in v else "—" for v in values.values()]
-        if len(set(cells)) > 1:
+        if len({*cells, value_text(properties[key]["default"]) if "default" in properties[key] else "—"}) > 1:
             lines.append(f"| `{key}` | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 

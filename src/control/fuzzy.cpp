@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -72,7 +74,8 @@ Schema<Fuzzy::Set> Fuzzy::Set::schema() {
         if (s.trapezoid_px.size() != 4)
           return fmt::format("trapezoid_px has {} values; it must have 4", s.trapezoid_px.size());
         if (!std::is_sorted(s.trapezoid_px.begin(), s.trapezoid_px.end()))
-          return "trapezoid_px must be in ascending order";
+          return fmt::format("trapezoid_px = [{:g}]; the corners must be in ascending order",
+                             fmt::join(s.trapezoid_px, ", "));
         return {};
       });
 }
@@ -104,7 +107,8 @@ Schema<Fuzzy::Params> Fuzzy::schema() {
             .source = "assumed vector: the rules of the thesis define a strength only (A9)",
             .choices = {"vector", "axis-sign", "per-axis"}})
       .check([](const Params& p) -> std::string {
-        return p.near_px > p.far_px ? "near_px must not be larger than far_px" : "";
+        if (p.near_px <= p.far_px) return {};
+        return fmt::format("near_px = {:g} must not be larger than far_px = {:g}", p.near_px, p.far_px);
       })
       .validity("The published sets never command zero: the swarm oscillates around its setpoint.");
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -239,7 +241,9 @@ Schema<Dipole::Params> Dipole::schema() {
   describe_swimming(s);
   add_strains(s);
   s.check([](const Params& p) -> std::string {
-     if (p.speed > p.speed_max) return "speed is above speed_max";
+     if (p.speed > p.speed_max)
+       return fmt::format("speed = {:g} um/s is above speed_max = {:g} um/s", 1e6 * p.speed,
+                          1e6 * p.speed_max);
      return {};
    })
       .validity(

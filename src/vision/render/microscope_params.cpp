@@ -1,5 +1,7 @@
 #include "vision/render/microscope_params.h"
 
+#include <fmt/format.h>
+
 namespace faba {
 namespace {
 
@@ -128,7 +130,7 @@ Schema<MicroscopeParams> MicroscopeParams::schema() {
   return s
       .check([](const P& p) -> std::string {
         if (p.length() < p.cell_diameter) return "cell_length must not be smaller than cell_diameter";
-        if (p.bits != 8 && p.bits != 16) return "bits must be 8 or 16";
+        if (p.bits != 8 && p.bits != 16) return fmt::format("bits = {}; it must be 8 or 16", p.bits);
         return {};
       })
       .validity(
