@@ -96,7 +96,8 @@ class Map final : public Field {
           return p.measured_current == 0 ? "measured_current must not be 0" : "";
         })
         .validity(
-            "Not valid in a box that contains a winding or a core. The field is extrapolated up to 5 % of the diagonal "
+            "Not valid in a box that contains a winding or a core. The field is extrapolated up to 5 % of "
+            "the diagonal "
             "beyond the box and is NaN further out.");
   }
   static void settle(Params& p, const Node& n) {

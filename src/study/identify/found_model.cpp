@@ -140,8 +140,8 @@ void add_doubts(FoundModel& m, const MatrixXd& draws, const char* parts) {
                                           p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
     if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
-          "{} differs between {} by more than the model predicts: 90 % bootstrap interval over {} {:.3g} to "
-          "{:.3g}{}{}",
+          "{} differs between {} by more than the model predicts: the 90 % bootstrap interval over {} is "
+          "{:.3g} to {:.3g}{}{}",
           q.path, parts, parts, q.shown((*p.resampled90)[0]), q.shown((*p.resampled90)[1]),
           q.shown_unit().empty() ? "" : " ", q.shown_unit());
   }
