@@ -88,8 +88,7 @@ Schema<Proportional::Params> Proportional::schema() {
             .source = "theory F2: ln(2 kappa) / w_B"})
       .validity(
           "The law is linear, for an integrator plant. Reorientation that takes longer than a frame adds a "
-          "delay "
-          "that is compensated only with `lead`.");
+          "delay that is compensated only with `lead`.");
 }
 
 Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_(c) {

@@ -97,8 +97,7 @@ class Map final : public Field {
         })
         .validity(
             "Not valid in a box that contains a winding or a core. The field is extrapolated up to 5 % of "
-            "the diagonal "
-            "beyond the box and is NaN further out.");
+            "the diagonal beyond the box and is NaN further out.");
   }
   static void settle(Params& p, const Node& n) {
     if (p.expansion) return;

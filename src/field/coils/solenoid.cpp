@@ -76,9 +76,8 @@ Schema<Solenoid::Params> Solenoid::schema() {
       })
       .validity(
           "Not valid within five pitches of the winding, where the field of the single wires matters. The "
-          "rod "
-          "is a surrogate to be fitted: it has no saturation (0.3-0.5 T), no remanence and no interaction "
-          "with the rods of other coils.");
+          "rod is a surrogate to be fitted: it has no saturation (0.3-0.5 T), no remanence and no "
+          "interaction with the rods of other coils.");
 }
 
 Solenoid::Solenoid(const Params& p)
