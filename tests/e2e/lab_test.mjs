@@ -104,7 +104,7 @@ await step('a parameter of the model is changed during the run', async () => {
 let recorded = '';
 await step('the run is recorded, and the recording has the same state', async () => {
   await page.getByRole('button', { name: /Record$/ }).click();
-  await page.getByLabel('Name of the recording').fill('By hand');
+  await page.getByLabel('Recording name').fill('By hand');
   await page.keyboard.press('Enter');
   await panel('Jobs');
   const job = page.locator('.panel li').first();

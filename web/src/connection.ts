@@ -118,18 +118,25 @@ export class Connection {
 }
 
 export async function get<T = any>(path: string): Promise<T> {
-  return answer(await fetch(path));
+  return answer(await request(path));
 }
 export async function post<T = any>(path: string, body: unknown): Promise<T> {
   return answer(
-    await fetch(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) }),
+    await request(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) }),
   );
 }
 export async function upload<T = any>(path: string, file: Blob): Promise<T> {
-  return answer(await fetch(path, { method: 'POST', headers: { 'Content-Type': 'application/octet-stream' }, body: file }));
+  return answer(await request(path, { method: 'POST', headers: { 'Content-Type': 'application/octet-stream' }, body: file }));
 }
 export async function remove<T = any>(path: string): Promise<T> {
-  return answer(await fetch(path, { method: 'DELETE', headers: { 'Content-Type': 'application/json' } }));
+  return answer(await request(path, { method: 'DELETE', headers: { 'Content-Type': 'application/json' } }));
+}
+
+/** fetch() rejects only when there is no answer at all; its own message does not tell the user what to do. */
+function request(path: string, init?: RequestInit) {
+  return fetch(path, init).catch(() => {
+    throw new Error('The server does not answer. Start faba lab again and open the URL that it prints.');
+  });
 }
 
 async function answer(r: Response) {
