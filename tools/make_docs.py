@@ -137,12 +137,12 @@ def table(properties, labels):
 
 
 def preset_table(properties):
-    """The keys whose values differ between presets, with the value of each preset."""
+    """The keys whose values differ between presets or from the default, with the value of each preset."""
     values = properties["preset"]["x-values"]
     lines = ["| key | " + " | ".join(values) + " |", "|---|" + "---|" * len(values)]
     for key in properties:
         cells = [value_text(v[key]) if key in v else "—" for v in values.values()]
-        if len(set(cells)) > 1:
+        if len({*cells, value_text(properties[key]["default"]) if "default" in properties[key] else "—"}) > 1:
             lines.append(f"| `{key}` | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 

@@ -12,9 +12,11 @@
 namespace faba::cli {
 namespace {
 
-void summary(const Session& session, const Manifest& manifest, const Metrics& m, const std::string& next) {
+void print_run_summary(const Session& session, const Manifest& manifest, const Metrics& m,
+                       const std::string& next) {
   const auto& dir = session.dir();
-  fmt::print("{}\n", run_summary(m, run_info(manifest)).outcome);
+  const RunSummary summary = run_summary(m, run_info(manifest));
+  fmt::print("{}\n", summary.outcome);
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
   if (m.setpoints > 0)
     fmt::print("settling time {}, steady-state error {} px rms, ",
@@ -22,6 +24,10 @@ void summary(const Session& session, const Manifest& manifest, const Metrics& m,
                px(m.steady_rms_px));
   if (m.cross_track_95_px) fmt::print("cross-track error {} px (95th percentile), ", px(m.cross_track_95_px));
   fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));
+  if (!summary.setpoint.empty())
+    fmt::print(
+        "the settling time and the steady-state error refer to {}: the run ended before the last one\n",
+        summary.setpoint);
   const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
                                                        {"lossless", "video.avi"},
                                                        {"tracks", "tracks.h5"},
@@ -57,7 +63,7 @@ int run_session(Session& session, Progress& bar, const Common& c, const std::str
         if (!j.contains(k)) j[k] = v;  // the manifest has precedence
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
-    summary(session, manifest, metrics, next);
+    print_run_summary(session, manifest, metrics, next);
   }
   return 0;
 }

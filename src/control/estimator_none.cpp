@@ -12,7 +12,7 @@ class EstimatorNone final : public Estimator {
   static constexpr std::array kTraits = {Trait::no_estimate};
   static Schema<Params> schema() {
     return Schema<Params>("none", "No estimate, for runs without feedback")
-        .validity("A feedback controller commands zero current without an estimate.");
+        .validity("The program rejects this estimator together with a feedback controller.");
   }
   EstimatorNone(const Params&, const ControlContext&) {}
   Estimate update(const Observation& o, const Command&) override {

@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +17,7 @@ namespace {
 /// and a field command of strength M towards the setpoint. Sets, rules and outputs are scenario data: each
 /// `[[controller.set]]` adds one fuzzy state. Without sets, the two of the thesis are used: near -> max/2,
 /// far -> max. The breakpoints 40 and 120 px are assumed: the thesis shows them in a figure only.
-/// Known to fail: the published sets never command zero, so the swarm circles its setpoint (rms 2.2 px with
+/// The published sets never command zero, so the swarm oscillates around its setpoint (rms 2.2 px with
 /// Basic, more with a camera delay). A set `at` with output 0 prevents that, but sets cannot reduce
 /// dispersion (F1).
 class Fuzzy final : public Controller {
@@ -72,7 +74,8 @@ Schema<Fuzzy::Set> Fuzzy::Set::schema() {
         if (s.trapezoid_px.size() != 4)
           return fmt::format("trapezoid_px has {} values; it must have 4", s.trapezoid_px.size());
         if (!std::is_sorted(s.trapezoid_px.begin(), s.trapezoid_px.end()))
-          return "trapezoid_px must be in ascending order";
+          return fmt::format("trapezoid_px = [{:g}]; the corners must be in ascending order",
+                             fmt::join(s.trapezoid_px, ", "));
         return {};
       });
 }
@@ -104,9 +107,10 @@ Schema<Fuzzy::Params> Fuzzy::schema() {
             .source = "assumed vector: the rules of the thesis define a strength only (A9)",
             .choices = {"vector", "axis-sign", "per-axis"}})
       .check([](const Params& p) -> std::string {
-        return p.near_px > p.far_px ? "near_px must not be larger than far_px" : "";
+        if (p.near_px <= p.far_px) return {};
+        return fmt::format("near_px = {:g} must not be larger than far_px = {:g}", p.near_px, p.far_px);
       })
-      .validity("The published sets never command zero: the swarm circles its setpoint.");
+      .validity("The published sets never command zero: the swarm oscillates around its setpoint.");
 }
 
 Fuzzy::Fuzzy(const Params& p, const ControlContext& c) : p_(p), c_(c) {

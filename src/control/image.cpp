@@ -17,7 +17,7 @@ class EstimatorImage final : public Estimator {
   static Schema<Params> schema() {
     return foreground_schema("image", "Centroid, spread and visible fraction from the camera frame")
         .validity(
-            "Needs camera.sensor = \"frames\". Overlapping cells are undercounted; the cell count has an "
+            "It needs camera.sensor = \"frames\". Overlapping cells are undercounted; the cell count has an "
             "error of about 30 %. Dirt of the size of a cell counts as a cell until it is absorbed.");
   }
   EstimatorImage(const Params& p, const ControlContext& c) : frame_(c.frame), foreground_(p.options()) {}

@@ -77,10 +77,15 @@ Schema<Manual::Params> Manual::schema() {
       .add("segment", &Params::segment, {.doc = "Field segments by ascending time: [[controller.segment]]"})
       .check([](const Params& p) -> std::string {
         for (std::size_t i = 1; i < p.segment.size(); ++i)
-          if (p.segment[i].at <= p.segment[i - 1].at) return "segments must be in ascending order of `at`";
+          if (p.segment[i].at <= p.segment[i - 1].at)
+            return fmt::format(
+                "segments must be in ascending order of `at`; segment[{}].at = {:g} s is not later than "
+                "segment[{}].at = {:g} s",
+                i, p.segment[i].at, i - 1, p.segment[i - 1].at);
         return {};
       })
-      .validity("Sampled once per frame: a rotating field needs a frame rate well above its frequency.");
+      .validity(
+          "The field is set once per frame: a rotating field needs a frame rate well above its frequency.");
 }
 
 Manual::Manual(const Params& p, const ControlContext& c) : p_(p), c_(c) {

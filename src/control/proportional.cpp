@@ -87,8 +87,8 @@ Schema<Proportional::Params> Proportional::schema() {
                    "extrapolated with its present velocity; no prediction when absent",
             .source = "theory F2: ln(2 kappa) / w_B"})
       .validity(
-          "Linear law for an integrator plant. Reorientation that takes longer than a frame adds a delay "
-          "that is compensated only with `lead`.");
+          "The law is linear, for an integrator plant. Reorientation that takes longer than a frame adds a "
+          "delay that is compensated only with `lead`.");
 }
 
 Proportional::Proportional(const Params& p, const ControlContext& c) : p_(p), c_(c) {

@@ -12,7 +12,9 @@ class EstimatorVisible final : public Estimator {
   static constexpr std::array kTraits = {Trait::needs_positions};
   static Schema<Params> schema() {
     return Schema<Params>("visible", "Mean of the cells in view")
-        .validity("Biased towards the centre of the view when part of the swarm is outside the view.");
+        .validity(
+            "The estimate is biased towards the centre of the view when part of the swarm is outside the "
+            "view.");
   }
   EstimatorVisible(const Params&, const ControlContext&) {}
   Estimate update(const Observation& o, const Command&) override { return centroid_.update(o, true); }

@@ -53,8 +53,7 @@ Schema<Uniform::Params> Uniform::schema() {
             .doc = "Time constant L/R of the coils; 0: currents follow their commands at once",
             .source = "1-10 ms is typical (C4)"})
       .validity(
-          "Valid only near the centre of real coils; there are no gradients and therefore no zeros of the "
-          "field.");
+          "Valid only near the centre of real coils. The field has no gradients and therefore no zeros.");
 }
 
 void Uniform::eval(const Points&, std::span<const double> current, Vectors b) const {

@@ -13,6 +13,27 @@ namespace {
 constexpr std::size_t kBlock = 2048;        // field, headings and positions of a block fit into the L1 cache
 constexpr std::uint32_t kAttempts = 20000;  // per cell; reached only if the start region is full
 
+/// Sum and count of candidate positions outside of the arena (m, world).
+struct OutsidePositions {
+  Vec2 sum;
+  double count = 0;
+};
+
+// Message for a start region without a candidate position inside the arena.
+std::string outside_message(const Arena& arena, const OutsidePositions& outside) {
+  if (outside.count == 0) return "no position of this start is in the view; use another start";
+  const Outline o = arena.outline();
+  const Frame f = arena.frame();
+  const Vec2 mean = f.image_from_world((1 / outside.count) * outside.sum);
+  const std::string walls = o.radius_px > 0
+                                ? fmt::format("a circle of radius {:g} px around ({:.0f}, {:.0f}) px",
+                                              o.radius_px, o.centre_image.x, o.centre_image.y)
+                                : fmt::format("a rectangle of {} x {} px", f.width, f.height);
+  return fmt::format(
+      "the region around ({:.0f}, {:.0f}) px is outside of the arena, {}; move it, or use another start",
+      mean.x, mean.y, walls);
+}
+
 }  // namespace
 
 World::World(WorldParts parts, Pool& pool)
@@ -49,6 +70,7 @@ void World::place_all() {
   for (std::size_t k = 0; k < parts_.populations.size(); ++k) {
     const Population& p = parts_.populations[k];
     bool within = false;  // some candidate was inside the arena
+    OutsidePositions outside;
     for (std::size_t i = p.begin; i < p.end; ++i) {
       const auto id = std::uint32_t(i);
       for (std::uint32_t attempt = 0;; ++attempt) {
@@ -58,13 +80,17 @@ void World::place_all() {
               within ? fmt::format("no free site found for cell {} of {}: the region is too small; use fewer "
                                    "cells, a larger region, or exclusion.order = \"none\"",
                                    i - p.begin + 1, p.end - p.begin)
-                     : "the region is outside of the arena; move it, or use another start");
+                     : outside_message(*parts_.arena, outside));
         const auto w = draw(parts_.seed, kPositionDraws, id, attempt);
         const auto u = [&](int j) { return (double(w[std::size_t(j)]) + 0.5) * 0x1p-32; };
         const auto candidate = p.start->place({{u(0), u(1), u(2)}, i - p.begin, attempt});
         if (!candidate) continue;
         const Vec2 at = exclusion_.snapped(*candidate);
-        if (parts_.arena->depth(at) < 0) continue;
+        if (parts_.arena->depth(at) < 0) {
+          outside.sum = outside.sum + at;
+          outside.count += 1;
+          continue;
+        }
         within = true;
         if (exclusion_.active() && !exclusion_.place(at)) continue;
         x[i] = float(at.x);

@@ -18,8 +18,8 @@ struct Refused {
   std::string phrase;  ///< part of the error message
 };
 const std::vector<Refused> kRefused{
-    {"model dipole speed maximum", "speed is above speed_max"},
-    {"model dipole speed_max minimum", "speed is above speed_max"},
+    {"model dipole speed maximum", "is above speed_max"},
+    {"model dipole speed_max minimum", "is above speed_max"},
     {"field helmholtz radius minimum", "wire_radius must be smaller than radius"},
     {"field helmholtz wire_radius maximum", "wire_radius must be smaller than radius"},
     {"field loop radius minimum", "wire_radius must be smaller than radius"},
@@ -28,8 +28,8 @@ const std::vector<Refused> kRefused{
     {"field solenoid core_radius maximum", "core_radius must not be above radius"},
     {"field thick_coil inner_radius maximum", "outer_radius must be larger than inner_radius"},
     {"field thick_coil outer_radius minimum", "outer_radius must be larger than inner_radius"},
-    {"controller fuzzy near_px maximum", "near_px must not be larger than far_px"},
-    {"controller fuzzy far_px minimum", "near_px must not be larger than far_px"},
+    {"controller fuzzy near_px maximum", "must not be larger than far_px"},
+    {"controller fuzzy far_px minimum", "must not be larger than far_px"},
 };
 
 /// The key of a number in the tables of this file: a coil of a coil system has the rules of the coil part.

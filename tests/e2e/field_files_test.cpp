@@ -149,7 +149,8 @@ TEST_CASE("a library in a scenario: the run uses its currents, and wrong librari
   write_file(f.path / "cut.h5", read_file(f.path / "l.h5").substr(0, 20000));
   refused(f, "run s.toml --seed 1 --out bad --set library.file=cut.h5", 3, "not a complete field library");
   refused(f, "run s.toml --seed 1 --out bad --set library.file=s.toml", 3, "not a complete field library");
-  refused(f, "run s.toml --seed 1 --out bad --set library.file=none.h5", 3, "none.h5");
+  refused(f, "run s.toml --seed 1 --out bad --set library.file=none.h5", 3,
+          "file not found; create it with `faba field library");
   REQUIRE(faba_in(f.path, "field library " + four + " --levels 11 --out l.h5 --force -q").exit == 0);
   refused(f, "run run/scenario.toml --out bad", 3, "is not the library with which");
   CHECK_FALSE(std::filesystem::exists(f.path / "bad"));

@@ -7,7 +7,7 @@
 namespace faba {
 
 BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
-  if (!s.rig) throw Error(Errc::usage, "rig", "section is missing; a run on a bench needs a [rig] section");
+  if (!s.rig) throw Error(Errc::usage, "rig", "the table [rig] is missing; add it, as in scenes/bench.toml");
   if (!s.events.empty())
     throw Error(Errc::usage, "event", "a run on a bench cannot exchange parts; remove [[event]]");
   field = s.field.make({});

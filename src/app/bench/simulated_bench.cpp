@@ -214,7 +214,7 @@ void accept_client(BenchSocket client, Coils& coils, Sender& sender) {
 }  // namespace
 
 SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool& pool, const Options& o) {
-  if (!s.rig) throw Error(Errc::usage, "rig", "section is missing; a simulated bench needs a [rig] section");
+  if (!s.rig) throw Error(Errc::usage, "rig", "the table [rig] is missing; add it, as in scenes/bench.toml");
   const BenchParams bench = s.rig->bench;
   s = in_real_time(std::move(s));
   Simulation simulation(s, seed, pool);

@@ -34,7 +34,7 @@ Scenes scenes_of(Document d) {
   for (const char* key : {"reference", "controller", "event"}) d.root.erase(key);
   if (!d.root.contains("estimator")) d.set("estimator", Json("image"), "step-response");
   const Scenario s = read_scenario(d, builtin_parts());
-  if (!s.rig) throw Error(Errc::usage, "rig", "section is missing; a step response needs a [rig] section");
+  if (!s.rig) throw Error(Errc::usage, "rig", "the table [rig] is missing; add it, as in scenes/bench.toml");
   const StepResponseParams& p = s.rig->step_response;
   const auto direction = portable::sincos(p.direction * kDegree);
   // Angles in pictures are clockwise, the world's y is up; south-seeking cells swim against the field.

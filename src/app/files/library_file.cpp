@@ -44,16 +44,16 @@ Error invalid_library(const std::filesystem::path& file, const Error& reason) {
           std::string(reason.what()).substr(reason.where().empty() ? 0 : reason.where().size() + 2))};
 }
 
-H5File opened(const std::filesystem::path& file) {
-  try {
-    return H5File::open(file);
-  } catch (const Error& e) {
-    throw invalid_library(file, e);
-  }
+void require_library(const std::filesystem::path& file) {
+  std::error_code ec;
+  if (!std::filesystem::exists(file, ec))
+    throw Error(
+        Errc::input, file.string(),
+        fmt::format("file not found; create it with `faba field library RIG.toml --out {}`", file.string()));
 }
 
 FieldLibrary::Content content_of(const std::filesystem::path& path) {
-  const auto file = std::make_shared<const H5File>(opened(path));
+  const auto file = std::make_shared<const H5File>(H5File::open(path));
   FieldLibrary::Content c;
   c.source = path.string();
   if (file->text_attribute("/", "format") != kFormat) throw Error(Errc::input, "", "unknown format");
@@ -80,6 +80,7 @@ FieldLibrary::Content content_of(const std::filesystem::path& path) {
 }  // namespace
 
 std::shared_ptr<const FieldLibrary> open_library(const std::filesystem::path& file) {
+  require_library(file);
   try {
     return std::make_shared<const FieldLibrary>(content_of(file));
   } catch (const Error& e) {
@@ -88,9 +89,9 @@ std::shared_ptr<const FieldLibrary> open_library(const std::filesystem::path& fi
 }
 
 std::string library_task(const std::filesystem::path& file) {
-  const H5File h5 = opened(file);
+  require_library(file);
   try {
-    return h5.text_attribute("/", "task");
+    return H5File::open(file).text_attribute("/", "task");
   } catch (const Error& e) {
     throw invalid_library(file, e);
   }

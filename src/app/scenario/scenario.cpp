@@ -50,7 +50,11 @@ std::shared_ptr<const VideoBackground> Scenario::ground() const {
   if (microscope.background.empty()) return nullptr;
   if (!readers.ground)
     throw Error(Errc::usage, "microscope.background", "this build of the program cannot read videos");
-  return std::make_shared<const VideoBackground>(readers.ground(microscope.background));
+  try {
+    return std::make_shared<const VideoBackground>(readers.ground(microscope.background));
+  } catch (const Error& e) {  // names the key
+    throw Error(e.code(), "microscope.background", e.what());
+  }
 }
 
 std::shared_ptr<const FieldLibrary> Scenario::field_library() const {

@@ -8,7 +8,7 @@
 namespace faba::cli {
 
 void add_bench_scene(CLI::App* v, SceneOptions& o) {
-  v->add_option("scene", o.scene, "Scenario file (TOML) with a [rig] section")->required();
+  v->add_option("scene", o.scene, "Scenario file (TOML) with the table [rig]")->required();
   v->add_option("--set", o.set, "Set one value of the scenario: PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);
@@ -24,15 +24,21 @@ void add_arm(CLI::App* v, bool& arm) {
 Scenario read_bench_scene(const SceneOptions& o) {
   Document d = read_scene(o);
   d.set("camera.sensor", Json("frames"), "faba rig");
-  return read_scenario(d, builtin_parts());
+  Scenario s = read_scenario(d, builtin_parts());
+  require_rig(s, o);
+  return s;
+}
+
+void require_rig(const Scenario& s, const SceneOptions& o) {
+  if (s.rig) return;
+  throw Error(Errc::usage, o.scene, "the table [rig] is missing; add it, as in scenes/bench.toml");
 }
 
 void require_arm(bool arm) {
   if (arm) return;
   throw Error(Errc::usage, "--arm",
-              "option is missing; the coils stay disarmed without it. Give it while a person supervises the "
-              "coils, or "
-              "use `faba rig check`, which needs no current");
+              "option is missing; without it the coils stay disarmed. Use --arm only while a person "
+              "supervises the coils; `faba rig check` works without current");
 }
 
 }  // namespace faba::cli

@@ -90,7 +90,8 @@ int parts(const PartsVerb& v, const Common& c) {
   if (!v.name.empty()) {
     const Json& one = out[v.kind][v.name];
     fmt::print("{} \"{}\": {}\n", v.kind, v.name, one["description"].get<std::string>());
-    if (one.contains("x-validity")) fmt::print("Known to fail: {}\n", one["x-validity"].get<std::string>());
+    if (one.contains("x-validity"))
+      fmt::print("Limits of validity: {}\n", one["x-validity"].get<std::string>());
     fmt::print("\n");
     describe(one, "  ");
     return 0;

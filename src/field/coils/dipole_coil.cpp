@@ -23,7 +23,7 @@ class DipoleCoil {
               .min = 1e-9,
               .max = 10,
               .doc = "Radius of the body; inside it the field is that at its surface"})
-        .validity("Within about five times the size of the coil that it represents.");
+        .validity("Not valid within about five times the size of the coil.");
   }
   explicit DipoleCoil(const Params& p) : p_(p) {}
 

@@ -35,7 +35,7 @@ class Helmholtz {
         .check([](const Params& p) -> std::string {
           return p.wire_radius < p.radius ? "" : "wire_radius must be smaller than radius";
         })
-        .validity("At distances from the wires below the thickness of the windings.");
+        .validity("Not valid closer to a wire than the thickness of the winding.");
   }
   explicit Helmholtz(const Params& p)
       : p_(p), half_(0.5 * p.distance.value_or(p.opposed ? std::sqrt(3.0) * p.radius : p.radius)) {}

@@ -4,7 +4,7 @@ namespace faba {
 namespace {
 
 /// A circular loop, or a flat winding represented by `turns` loops at one position (theory C2).
-/// Known to fail at distances from the wire below the thickness of the winding.
+/// Not valid closer to the wire than the thickness of the winding.
 class Loop {
  public:
   struct Params {
@@ -24,7 +24,7 @@ class Loop {
         .check([](const Params& p) -> std::string {
           return p.wire_radius < p.radius ? "" : "wire_radius must be smaller than radius";
         })
-        .validity("At distances from the wire below the thickness of the winding.");
+        .validity("Not valid closer to the wire than the thickness of the winding.");
   }
   explicit Loop(const Params& p) : p_(p) {}
 

@@ -48,7 +48,7 @@ struct Expansion {
 
 /// A coil, with any cores, whose field was measured or computed by other software, represented by solid
 /// harmonics: divergence and curl are zero, and the fit smooths measurement errors (theory C7).
-/// Known to fail where the measured box contains a winding or a core.
+/// Not valid if the measured box contains a winding or a core.
 class Map final : public Field {
  public:
   struct Params {
@@ -96,8 +96,8 @@ class Map final : public Field {
           return p.measured_current == 0 ? "measured_current must not be 0" : "";
         })
         .validity(
-            "A box that contains a winding or a core. The field is extrapolated up to 5 % of the diagonal "
-            "beyond the box and is NaN further out.");
+            "Not valid in a box that contains a winding or a core. The field is extrapolated up to 5 % of "
+            "the diagonal beyond the box and is NaN further out.");
   }
   static void settle(Params& p, const Node& n) {
     if (p.expansion) return;

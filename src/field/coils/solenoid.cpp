@@ -6,7 +6,7 @@ namespace {
 /// A winding of one layer as a cylindrical current sheet, without approximation (theory C1), optionally with
 /// a ferrite rod (C5): a second sheet around the rod with the equivalent current of its magnetisation,
 ///   K_core = (permeability - 1) B_winding(centre) / mu0.
-/// Known to fail within five pitches of the winding, where the field of the single wires matters (C2). The
+/// Not valid within five pitches of the winding, where the field of the single wires matters (C2). The
 /// rod is a surrogate with two parameters to be fitted: it is uniformly magnetised, without saturation,
 /// remanence or interaction with the rods of other coils.
 class Solenoid {
@@ -75,9 +75,9 @@ Schema<Solenoid::Params> Solenoid::schema() {
         return {};
       })
       .validity(
-          "Within five pitches of the winding, where the field of the single wires matters. The rod is a "
-          "surrogate to be fitted: no saturation (0.3-0.5 T), no remanence, no interaction with the rods of "
-          "other coils.");
+          "Not valid within five pitches of the winding, where the field of the single wires matters. The "
+          "rod is a surrogate to be fitted: it has no saturation (0.3-0.5 T), no remanence and no "
+          "interaction with the rods of other coils.");
 }
 
 Solenoid::Solenoid(const Params& p)

@@ -5,7 +5,7 @@ namespace {
 
 /// A winding of many layers: uniform current density between two cylinders. Current sheets at the radii of a
 /// Gauss-Legendre rule (theory C2); the error is below 1e-12 beyond half the thickness of the winding.
-/// Known to fail inside the winding, where the field of the single sheets matters.
+/// Not valid inside the winding, where the field of the single sheets matters.
 class ThickCoil {
  public:
   struct Params {
@@ -25,7 +25,7 @@ class ThickCoil {
         .check([](const Params& p) -> std::string {
           return p.outer_radius > p.inner_radius ? "" : "outer_radius must be larger than inner_radius";
         })
-        .validity("Inside the winding and within a quarter of its thickness.");
+        .validity("Not valid inside the winding, or closer to it than a quarter of its thickness.");
   }
   explicit ThickCoil(const Params& p) : p_(p) {}
 

@@ -95,10 +95,9 @@ class NiDaqmx final : public CoilDriver {
               .max = 1,
               .doc = "Timeout of a call to the device; a longer call is a device error"})
         .validity(
-            "Channels have NI names: outputs \"Dev1/ao0\", inputs \"Dev1/ai0\". Tested with a mock of the "
-            "library, not tested on hardware. A USB-6009 keeps its last voltage if the computer fails and "
-            "has "
-            "no watchdog: without an enable line the guard does not arm.");
+            "Channels have NI names: outputs \"Dev1/ao0\", inputs \"Dev1/ai0\". The driver "
+            "was tested with a mock of the library, not on hardware. A USB-6009 keeps its last voltage if "
+            "the computer fails and has no watchdog: without an enable line the guard does not arm.");
   }
   NiDaqmx(const Params& p, const DriverContext& c) : p_(p), ni_(p.library) {
     for (std::size_t i = 0; i < c.channels.size(); ++i) {

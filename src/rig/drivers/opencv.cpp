@@ -35,8 +35,7 @@ class OpenCvCamera final : public Camera {
              {.unit = "K", .min = 0, .max = 1e5, .doc = "Colour temperature; unchanged when absent"})
         .validity(
             "Time stamps come from the driver if it uses the monotonic clock (V4L2); otherwise they are "
-            "arrival "
-            "times. Tested with videos in place of a camera, not tested on hardware.");
+            "arrival times. The driver was tested with videos in place of a camera, not on hardware.");
   }
   OpenCvCamera(const Params& p, const CameraContext&) : camera_(load()(p)) {}
 

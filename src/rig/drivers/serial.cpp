@@ -96,9 +96,8 @@ class Serial final : public CoilDriver {
               .max = 1,
               .doc = "Timeout of an answer; a later answer is a device error"})
         .validity(
-            "Channels and inputs are numbers, \"0\", \"1\" ... Tested with the firmware on a computer behind "
-            "a "
-            "pseudo-terminal, not tested on hardware.");
+            "Channels and inputs are numbers, \"0\", \"1\" ... The driver was tested with the "
+            "firmware on a computer behind a pseudo-terminal, not on hardware.");
   }
   Serial(const Params& p, const DriverContext& c)
       : p_(p),

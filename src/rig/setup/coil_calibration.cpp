@@ -25,7 +25,8 @@ std::vector<Vec2> swap_axes(const std::vector<Vec2>& table) {
 }
 
 std::string wrong_with(const WiredCoil& c) {
-  if (c.polarity != 1 && c.polarity != -1) return "polarity must be 1 or -1";
+  if (c.polarity != 1 && c.polarity != -1)
+    return fmt::format("polarity = {}; it must be 1 or -1", c.polarity);
   if (c.gain == 0) return "gain must not be 0";
   if (c.sense_gain == 0) return "sense_gain must not be 0";
   if (c.least_volts >= c.most_volts) return "least_volts must be below most_volts";
@@ -63,7 +64,7 @@ Schema<WiredCoil> WiredCoil::schema() {
       .add("neutral", &WiredCoil::neutral,
            {.unit = "V", .min = -1e3, .max = 1e3, .doc = "Voltage at which no current flows"})
       .add("polarity", &WiredCoil::polarity,
-           {.min = -1, .max = 1, .doc = "-1 if the coil is wired in reverse"})
+           {.min = -1, .max = 1, .doc = "1, or -1 if the coil is wired in reverse"})
       .add("table", &WiredCoil::table,
            {.doc = "Measured pairs [V, A] with increasing voltage, instead of gain and neutral"})
       .add(

@@ -68,8 +68,8 @@ Schema<Basic::Params> Basic::schema() {
             .doc = "Iterations for which a drawn velocity is kept",
             .source = "thesis 3.3.3 (A3)"})
       .validity(
-          "A random walk with drift: no heading, no turning time, and a drift that does not depend on "
-          "max_speed.");
+          "The model is a random walk with drift. It has no heading and no turning time, and its drift does "
+          "not depend on max_speed.");
 }
 
 Basic::Basic(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), clock_(c, p.hold) {}

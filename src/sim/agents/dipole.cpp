@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -239,12 +241,14 @@ Schema<Dipole::Params> Dipole::schema() {
   describe_swimming(s);
   add_strains(s);
   s.check([](const Params& p) -> std::string {
-     if (p.speed > p.speed_max) return "speed is above speed_max";
+     if (p.speed > p.speed_max)
+       return fmt::format("speed = {:g} um/s is above speed_max = {:g} um/s", 1e6 * p.speed,
+                          1e6 * p.speed_max);
      return {};
    })
       .validity(
-          "Planar; no helical paths, no flagellar limit of turning, no hydrodynamic interaction, no "
-          "field-gradient force (0.05 % of the thrust at 1 T/m).");
+          "The model is planar. It has no helical paths, no flagellar limit of turning, no hydrodynamic "
+          "interaction and no field-gradient force (0.05 % of the thrust at 1 T/m).");
   return s;
 }
 

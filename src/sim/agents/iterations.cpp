@@ -20,10 +20,9 @@ FABA_VECTORISED void advance(const float* x, const float* __restrict v, float* t
 Iterations::Iterations(const ModelContext& c, int hold) : hold_(std::uint64_t(hold)) {
   const double ratio = c.scale.iteration / c.step, steps = std::floor(ratio + 0.5);
   if (steps < 1 || std::fabs(ratio - steps) > 1e-6)
-    throw Error(Errc::usage, "simulation.step",
-                fmt::format("an iteration of the published models ({} s) must be an integer multiple of the "
-                            "step ({} s); change "
-                            "scale.iteration or simulation.step",
+    throw Error(Errc::usage, "scale.iteration",
+                fmt::format("{:.4g} s is not an integer multiple of the time step {:.4g} s; change "
+                            "scale.iteration, simulation.step or camera.rate",
                             c.scale.iteration, c.step));
   steps_ = std::uint64_t(steps);
 }

@@ -53,7 +53,7 @@ Schema<Drop::Params> Drop::schema() {
           return "view_px must be integers";
         return {};
       })
-      .validity("Round drops only; two-dimensional, without depth.");
+      .validity("The drop is round and two-dimensional, without depth.");
 }
 
 Drop::Drop(const Params& p, const ArenaContext& c)

@@ -70,7 +70,8 @@ Schema<MotilityThesis::Params> MotilityThesis::schema() {
             .doc = "Oxygen, as a fraction of saturation, that does not increase the dose",
             .source = "assumed 0"})
       .validity(
-          "Fitted to one thesis; uptake of oxygen by the cells, which protects dense drops, is neglected.");
+          "The model is fitted to one thesis. It neglects the oxygen uptake of the cells, which protects "
+          "dense drops.");
 }
 
 MotilityThesis::MotilityThesis(const Params& p, const MotilityContext& c) : p_(p), exposure_(c.exposure) {

@@ -1,5 +1,7 @@
 #include "study/coils/field_at.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "app/scenario/rig_file.h"
@@ -12,7 +14,16 @@ std::unique_ptr<Field> rig_of(const std::filesystem::path& file) {
   return read_rig(file, builtin_parts()).make({});
 }
 
+std::string in_mm(Vec2 at) { return fmt::format("({:g}, {:g}) mm", 1e3 * at.x, 1e3 * at.y); }
+
 }  // namespace
+
+std::string unreachable_null(Vec2 at) {
+  return fmt::format(
+      "the coils cannot produce a zero of the field at {} within their current limits; choose "
+      "another position with --at, or more coils",
+      in_mm(at));
+}
 
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points) {
   const auto field = rig_of(rig);
@@ -32,11 +43,13 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
 
 FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity) {
   if (!(field.clearance({at.x, at.y, 0}) > 0))
-    throw Error(Errc::usage, rig.string(),
-                "the field at this position is unknown: it is in a winding or outside a measured map");
+    throw Error(
+        Errc::usage, rig.string(),
+        fmt::format("the field at {} is unknown: the position is in a winding or outside a measured map",
+                    in_mm(at)));
   FieldNull n = null_at(field, at, polarity, current_limits(field));
   if (!std::isfinite(n.gradient[0] + n.gradient[1]))
-    throw Error(Errc::usage, rig.string(), "the field at this position could not be computed");
+    throw Error(Errc::usage, rig.string(), fmt::format("the field at {} could not be computed", in_mm(at)));
   return n;
 }
 
@@ -48,7 +61,7 @@ RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity) {
   const FieldNull& n = out.null;
   for (std::size_t k = 0; k < field->coils(); ++k) out.coils.push_back(field->circuit(k).name);
   out.note =
-      !n.reachable ? "the coils cannot produce a zero of the field at this position within their current limits"
+      !n.reachable ? unreachable_null(at)
       : n.saddle && (polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0
           ? "the zero repels cells along all directions: no currents within the limits make a trap"
       : n.saddle

@@ -17,6 +17,9 @@ struct FieldAtPoints {
 /// Error(input) for invalid points.
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points);
 
+/// Sentence for the case that the coils cannot produce a zero of the field at `at` (m).
+std::string unreachable_null(Vec2 at);
+
 /// null_at() with the current limits of the coils. Throws Error(usage) with the file name `rig` when the
 /// field is unknown at `at`: in a winding or outside a measured map.
 FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity);

@@ -123,8 +123,7 @@ FieldTolerance field_tolerance(const std::filesystem::path& file, Vec2 at,
   const RigEditor rig(parts.field, part.resolved);
   const auto field = part.make({});
   const FieldNull n = checked_null_at(*field, file, at, 1);
-  if (!n.reachable)
-    throw Error(Errc::usage, file.string(), "the coils cannot produce a zero of the field at this position");
+  if (!n.reachable) throw Error(Errc::usage, file.string(), unreachable_null(at));
   FieldTolerance out{at, n.current, n.saddle, {}};
   for (const Cause& cause : causes())
     for (const double amount : cause.amounts) {

@@ -112,7 +112,8 @@ void add_doubt(FoundParameter& p, const std::string& doubt) {
   if (!doubt.empty()) p.doubt += (p.doubt.empty() ? "" : "; ") + doubt;
 }
 
-void add_doubts(FoundModel& m, const MatrixXd& draws) {
+// `parts`: "experiments", or "field segments" when the videos belong to one experiment.
+void add_doubts(FoundModel& m, const MatrixXd& draws, const char* parts) {
   const MatrixXd off = draws.rowwise() - draws.colwise().mean();
   for (Index j = 0; j < draws.cols(); ++j) {
     FoundParameter& p = m.parameters[std::size_t(j)];
@@ -139,9 +140,9 @@ void add_doubts(FoundModel& m, const MatrixXd& draws) {
                                           p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
     if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
-          "{} differs between experiments by more than the model predicts: 90 % bootstrap interval over "
-          "experiments {:.3g} to {:.3g}{}{}",
-          q.path, q.shown((*p.resampled90)[0]), q.shown((*p.resampled90)[1]),
+          "{} differs between {} by more than the model predicts: the 90 % bootstrap interval over {} is "
+          "{:.3g} to {:.3g}{}{}",
+          q.path, parts, parts, q.shown((*p.resampled90)[0]), q.shown((*p.resampled90)[1]),
           q.shown_unit().empty() ? "" : " ", q.shown_unit());
   }
 }
@@ -172,8 +173,8 @@ std::string poor_fit(const FoundModel& m) {
 }  // namespace
 
 FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
-                       const std::vector<std::vector<Index>>& experiments, const VectorXd& scale,
-                       std::uint64_t seed) {
+                       const std::vector<std::vector<Index>>& experiments, const char* parts,
+                       const VectorXd& scale, std::uint64_t seed) {
   FoundModel m;
   const MatrixXd draws = s.posterior({}, kDraws, seed);
   const auto abc = s.abc_posterior();
@@ -192,7 +193,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
     const FreeParameter& p = m.parameters[j].parameter;
     m.parameters[j].resampled90 = {p.value(resampled[j][0]), p.value(resampled[j][1])};
   }
-  add_doubts(m, draws);
+  add_doubts(m, draws, parts);
   const SyntheticLikelihood l = s.likelihood({});
   for (Index j = 0; j < draws.cols(); ++j) {
     FoundParameter& p = m.parameters[std::size_t(j)];

@@ -11,10 +11,11 @@ namespace faba {
 Eigen::VectorXd noise_of(const ParameterSearch& search);
 
 /// Result of a finished search: parameters with intervals, goodness of fit, and the energy score of each
-/// experiment (the columns of its statistics), predicted from the other experiments. `scale`: unit of each
-/// statistic in the scores, equal for all models. The caller sets `name` and `failed`.
+/// experiment (the columns of its statistics), predicted from the other experiments. `parts`: their name in
+/// sentences, "experiments" or "field segments". `scale`: unit of each statistic in the scores, equal for all
+/// models. The caller sets `name` and `failed`.
 FoundModel found_model(const Candidate& candidate, const ParameterSearch& search,
-                       const std::vector<std::vector<Eigen::Index>>& experiments,
+                       const std::vector<std::vector<Eigen::Index>>& experiments, const char* parts,
                        const Eigen::VectorXd& scale, std::uint64_t seed);
 
 /// Selects the best model and rates the evidence for it. Throws Error(input) if no model could be identified.

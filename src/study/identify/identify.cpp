@@ -43,6 +43,7 @@ struct Observed {
   std::vector<Identification::Statistic> statistics;
   std::vector<std::string> experiments;
   std::vector<std::vector<Index>> columns;  ///< of each experiment
+  const char* parts_name = "experiments";   ///< "field segments" when these take the role of experiments
 };
 
 // With one experiment, its field segments take the role of experiments.
@@ -72,6 +73,7 @@ Observed gather(const std::vector<ResponseVideo>& videos) {
   const bool one =
       std::all_of(experiment.begin(), experiment.end(), [&](const auto& x) { return x == experiment[0]; });
   const auto& label = one ? segment : experiment;
+  if (one) o.parts_name = "field segments";
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto at = std::find(o.experiments.begin(), o.experiments.end(), label[k]);
     const auto i = std::size_t(at - o.experiments.begin());
@@ -326,7 +328,7 @@ std::vector<FoundModel> models_of(const std::vector<CandidateSearch>& searches, 
   for (std::size_t c = 0; c < searches.size(); ++c) {
     FoundModel m;
     if (searches[c].failed.empty())
-      m = found_model(study.candidates[c], *searches[c].search, o.columns, scale,
+      m = found_model(study.candidates[c], *searches[c].search, o.columns, o.parts_name, scale,
                       derived_seed(study.seed, SeedUse::found_model, c));
     m.name = study.candidates[c].model.name;
     m.failed = searches[c].failed;

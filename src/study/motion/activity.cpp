@@ -117,10 +117,11 @@ void note_motion(VideoActivity& a) {
   else if (!a.direction_given)
     a.notes.push_back(
         a.segments.empty()
-            ? fmt::format("no direction was given and no directed motion was detected; {:.0f} degrees is the "
-                          "direction of the total flow",
+            ? fmt::format("no direction was given and no directed motion was detected; the direction of the "
+                          "total flow is used: {:.0f} degrees",
                           a.direction_deg)
-            : fmt::format("no direction was given; {:.0f} degrees is that of the longest detected motion",
+            : fmt::format("no direction was given; the direction of the longest detected motion is used: "
+                          "{:.0f} degrees",
                           a.direction_deg));
 }
 

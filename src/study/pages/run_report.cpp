@@ -255,6 +255,9 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   summary.outcome = m.initial_error_px ? outcome_text(m, info)
                                        : fmt::format("The swarm had no setpoint and was recorded for {}.",
                                                      seconds(m.duration_s));
+  const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
+  if (m.setpoints > 0 && m.setpoints < given && given <= kMaxRouteSetpoints)
+    summary.setpoint = fmt::format("setpoint {} of {}", m.setpoints, given);
   if (m.cross_track_95_px) {
     summary.details =
         fmt::format("After the first setpoint, the swarm was within {} of the route in 95 % of the frames. ",

@@ -1,5 +1,7 @@
 #include "vision/render/microscope_params.h"
 
+#include <fmt/format.h>
+
 namespace faba {
 namespace {
 
@@ -128,12 +130,12 @@ Schema<MicroscopeParams> MicroscopeParams::schema() {
   return s
       .check([](const P& p) -> std::string {
         if (p.length() < p.cell_diameter) return "cell_length must not be smaller than cell_diameter";
-        if (p.bits != 8 && p.bits != 16) return "bits must be 8 or 16";
+        if (p.bits != 8 && p.bits != 16) return fmt::format("bits = {}; it must be 8 or 16", p.bits);
         return {};
       })
       .validity(
-          "Cells absorb or scatter light but do not refract it: no bright fringe around a dark cell and no "
-          "diffraction rings out of focus.");
+          "Cells absorb or scatter light but do not refract it: a dark cell has no bright fringe, and a cell "
+          "out of focus has no diffraction rings.");
 }
 
 void MicroscopeParams::settle(MicroscopeParams& p, const Node& n) {

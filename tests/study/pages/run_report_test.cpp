@@ -270,6 +270,7 @@ TEST_CASE("run report: the summary describes the outcome") {
     m.cross_track_95_px = 6;
     m.settling_band_px = 15;
     CHECK(has(run_summary(m, info).outcome, "had not reached setpoint 4 of 6; the final distance was 80.0"));
+    CHECK(run_summary(m, info).setpoint == "setpoint 4 of 6");
     m.final_distance_px = 3;
     CHECK(has(run_summary(m, info).outcome, "had reached setpoint 4 of 6; the final distance was 3.00"));
     m.setpoints = 6;

@@ -121,9 +121,6 @@ std::string line_of(const GuardReport& g, const std::vector<double>& requested, 
 
 int rig_jog(const JogVerb& v, const Common& c) {
   Scenario s = read_bench_scene(v.run);
-  if (!s.rig)
-    throw Error(Errc::usage, "rig",
-                "section is missing; the scenario must have a [rig] section, which describes the bench");
   const double step = quantity_of(v.step, "A", "--step", "50 mA");
   if (!(step > 0))
     throw Error(Errc::usage, "--step", fmt::format("{:g} A is out of range; it must be positive", step));

@@ -30,6 +30,7 @@ int rig_step_response(const StepResponseVerb& v, const Common& c) {
   if (v.repeat) job.scene.set("rig.step_response.repeat", *v.repeat, "--repeat");
   if (v.every) job.scene.set("rig.step_response.every", *v.every, "--every");
   const Scenario s = read_scenario(job.scene, builtin_parts());
+  require_rig(s, v.run);
   job.seed = s.params.seed.value_or(random_seed());
   require_arm(v.arm);
   job.experiment = v.experiment;
