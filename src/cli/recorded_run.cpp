@@ -17,8 +17,8 @@ void summary(const Session& session, const Manifest& manifest, const Metrics& m,
   fmt::print("{}\n", run_summary(m, run_info(manifest)).outcome);
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
   if (m.setpoints > 0)
-    fmt::print("settling time {}, steady-state error {} px rms, ",
-               m.settling_time_s ? three_digits(*m.settling_time_s) + " s" : "not settled",
+    fmt::print("settling time{}, steady-state error {} px rms, ",
+               m.settling_time_s ? " " + three_digits(*m.settling_time_s) + " s" : ": not settled",
                px(m.steady_rms_px));
   if (m.cross_track_95_px) fmt::print("cross-track error {} px (95th percentile), ", px(m.cross_track_95_px));
   fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));

@@ -120,7 +120,7 @@ Figure over_time(const ControllerComparison& r, const std::vector<const Combinat
 }
 
 Figure against_delay(const ControllerComparison& r, const Variant& model) {
-  Figure f{"Steady error against delay",
+  Figure f{"Steady-state error against delay",
            "Root mean square of the distance over the last third of the run, mean over the seeds.",
            {}};
   if (r.study.models.size() > 1) f.heading += ": " + model.name;
