@@ -32,8 +32,7 @@ class GradientFeedback final : public Controller {
               .min = 1e-2,
               .max = 1e6,
               .doc = "Integral time: with a constant error, the integral part grows by the proportional part "
-                     "in each "
-                     "integral time",
+                     "in each integral time",
               .source = "assumed"})
         .add("most_px", &Params::most_px,
              {.unit = "px", .min = 0, .max = 1e5, .doc = "Maximum distance of the zero from the setpoint"})

@@ -71,8 +71,7 @@ Schema<Proportional::Params> Proportional::schema() {
            {.min = 1, .max = 100, .doc = "Frames for which a cell keeps its velocity", .source = "A3: 2"})
       .add("actuation", &Params::actuation,
            {.doc = "Method to reduce the drift velocity. magnitude: a weaker field; duty: full field, "
-                   "reversed in a "
-                   "fraction of the frames",
+                   "reversed in a fraction of the frames",
             .choices = {"magnitude", "duty"}})
       .add("speed", &Params::speed,
            {.unit = "m/s",

@@ -18,8 +18,7 @@ Schema<Exclusion::Params> Exclusion::schema() {
   return Schema<Params>("exclusion", "At most one cell per site of the occupancy grid (one pixel)")
       .add("order", &Params::order,
            {.doc = "two-phase: all cells move simultaneously; published: the sequential loop of the thesis; "
-                   "none: no "
-                   "exclusion, cells overlap",
+                   "none: no exclusion, cells overlap",
             .source = "published: A2; two-phase: D4(iii)",
             .choices = {"two-phase", "published", "none"}})
       .add("follow", &Params::follow,

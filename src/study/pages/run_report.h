@@ -10,7 +10,7 @@ namespace faba {
 
 /// Summary of a run in sentences. Lengths in pixels, and in micrometres when the picture scale is known.
 struct RunSummary {
-  std::string outcome;  ///< one sentence: settling time and steady error
+  std::string outcome;  ///< one sentence: settling time and steady-state error
   std::string details;  ///< cross-track error and final dispersion; may be empty
 };
 RunSummary run_summary(const Metrics& metrics, const RunInfo& info);

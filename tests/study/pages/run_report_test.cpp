@@ -236,8 +236,7 @@ TEST_CASE("run report: the summary describes the outcome") {
     m.steady_rms_px = 2;
     CHECK(run_summary(m, info).outcome ==
           "The swarm reached its setpoint after 4.25\u00A0s; its rms distance to the setpoint over the last "
-          "third "
-          "of the run was 2.00\u00A0px (1.00\u00A0µm).");
+          "third of the run was 2.00\u00A0px (1.00\u00A0µm).");
     info.um_per_px.reset();
     CHECK(has(run_summary(m, info).outcome, "of the run was 2.00\u00A0px."));
   }
