@@ -70,7 +70,7 @@ class Checks:
         page = self.root / "docs/formats/cli.md"
         table = re.search(r"^\| verb \|.*?\n\n", self.text.get(page, ""), re.M | re.S)
         listed = re.findall(r"^\| \[`([\w-]+)`\]", table[0] if table else "", re.M)
-        existing = re.findall(r"^  ([a-z][\w-]*)", self.faba("--help", cwd=folder).stdout.split("\nSubcommands:\n")[1], re.M)
+        existing = re.findall(r"^  ([a-z][\w-]*)", self.faba("--help", cwd=folder).stdout.split("\nCommands:\n")[1], re.M)
         if listed != existing:
             self.fail(page, f"the program has the verbs {', '.join(existing)}; the page lists {', '.join(listed)}")
         sections = dict(re.findall(r"^## faba ([\w-]+)\n(.*?)(?=^## |\Z)", self.text.get(page, ""), re.M | re.S))
@@ -85,7 +85,7 @@ class Checks:
     def options_of(self, verb, folder):
         """The options of the verb, its subcommands and their options, without those in EVERYWHERE."""
         text = self.faba(*verb.split(), "--help", cwd=folder).stdout
-        subcommands = re.findall(r"^  ([a-z][\w-]*)", text.partition("\nSubcommands:\n")[2], re.M)
+        subcommands = re.findall(r"^  ([a-z][\w-]*)", text.partition("\nCommands:\n")[2], re.M)
         found = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.M)) - EVERYWHERE
         return found.union(subcommands, *(self.options_of(f"{verb} {name}", folder) for name in subcommands))
 

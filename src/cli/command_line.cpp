@@ -45,6 +45,14 @@ std::function<std::string(const std::string&)> between(double min, double max) {
   };
 }
 
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](std::string& text) -> std::string {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return "";
+            return fmt::format("\"{}\" is not one of {}", text, fmt::join(words, ", "));
+          },
+          fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
 const std::string& program() { return program_name; }
 void set_program(const char* name) { program_name = name; }
 

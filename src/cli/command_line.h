@@ -2,10 +2,12 @@
 #include <atomic>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace faba::cli {
 
@@ -31,6 +33,9 @@ CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char
 std::string not_empty(const std::string& text);
 /// Check of a numeric option: a finite number between `min` and `max`.
 std::function<std::string(const std::string&)> between(double min, double max);
+
+/// Check of an option with a list of permitted words; the help shows the list.
+CLI::Validator one_of(const std::vector<std::string>& words);
 
 /// The name under which the program was called, for commands in messages.
 const std::string& program();

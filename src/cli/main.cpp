@@ -42,7 +42,9 @@ int dispatch(int argc, char** argv) {
   app.name("faba");
   app.set_version_flag("--version", "faba " FABA_VERSION);
   app.require_subcommand(1);
-  app.footer("Options of a verb: faba VERB --help\nFirst run: faba run scenes/steer.toml");
+  app.group("Commands");  // heading of the list of commands, also in the help of all commands
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.footer("Options of a command: faba COMMAND --help\nFirst run: faba run scenes/steer.toml");
   CommandLine line;
   add_verbs(app, line);
 
@@ -56,7 +58,9 @@ int dispatch(int argc, char** argv) {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", e.what(), command));
+    std::string reason = e.what();
+    if (reason == "A subcommand is required") reason = "a command is required";
+    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", reason, command));
   }
   return line.code;
 }

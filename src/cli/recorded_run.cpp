@@ -19,8 +19,8 @@ void print_run_summary(const Session& session, const Manifest& manifest, const M
   fmt::print("{}\n", summary.outcome);
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
   if (m.setpoints > 0)
-    fmt::print("settling time {}, steady-state error {} px rms, ",
-               m.settling_time_s ? three_digits(*m.settling_time_s) + " s" : "not settled",
+    fmt::print("settling time{}, steady-state error {} px rms, ",
+               m.settling_time_s ? " " + three_digits(*m.settling_time_s) + " s" : ": not settled",
                px(m.steady_rms_px));
   if (m.cross_track_95_px) fmt::print("cross-track error {} px (95th percentile), ", px(m.cross_track_95_px));
   fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control/controller.h"
+#include "core/counted.h"
 #include "core/schema.h"
 
 namespace faba {
@@ -72,7 +73,7 @@ Schema<Fuzzy::Set> Fuzzy::Set::schema() {
       .add("output", &Set::output, {.min = 0, .max = 1000, .doc = "Command in field units"})
       .check([](const Set& s) -> std::string {
         if (s.trapezoid_px.size() != 4)
-          return fmt::format("trapezoid_px has {} values; it must have 4", s.trapezoid_px.size());
+          return fmt::format("trapezoid_px has {}; it must have 4", counted(s.trapezoid_px.size(), "value"));
         if (!std::is_sorted(s.trapezoid_px.begin(), s.trapezoid_px.end()))
           return fmt::format("trapezoid_px = [{:g}]; the corners must be in ascending order",
                              fmt::join(s.trapezoid_px, ", "));

@@ -27,16 +27,15 @@ class GradientFeedback final : public Controller {
               .max = 10,
               .doc = "Displacement of the zero from the setpoint, as a fraction of the error of the swarm",
               .source = "assumed"})
-        .add(
-            "integral_time", &Params::integral_time,
-            {.unit = "s",
-             .min = 1e-2,
-             .max = 1e6,
-             .doc =
-                 "Integral time: a constant error moves the zero by the proportional part once per this time",
-             .source = "assumed"})
+        .add("integral_time", &Params::integral_time,
+             {.unit = "s",
+              .min = 1e-2,
+              .max = 1e6,
+              .doc = "Integral time: with a constant error, the integral part grows by the proportional part "
+                     "in each integral time",
+              .source = "assumed"})
         .add("most_px", &Params::most_px,
-             {.unit = "px", .min = 0, .max = 1e5, .doc = "Largest distance of the zero from the setpoint"})
+             {.unit = "px", .min = 0, .max = 1e5, .doc = "Maximum distance of the zero from the setpoint"})
         .include(&Params::trap, Trap::Params::schema())
         .validity(
             "The response is limited by the relaxation of the swarm in the trap, which takes about the width "

@@ -29,14 +29,13 @@ class EstimatorGroups final : public Estimator {
         .add("count", &Params::count,
              {.min = 0, .max = 10, .doc = "Number of groups; 0: determined in every frame", .source = "H6"})
         .add("most", &Params::most,
-             {.min = 1, .max = 10, .doc = "Largest number of groups when count is 0", .source = "assumed"})
-        .add(
-            "separation", &Params::separation,
-            {.min = 1,
-             .max = 100,
-             .doc =
-                 "Smallest distance between two groups, relative to their spread along the line between them",
-             .source = "H6"})
+             {.min = 1, .max = 10, .doc = "Maximum number of groups when count is 0", .source = "assumed"})
+        .add("separation", &Params::separation,
+             {.min = 1,
+              .max = 100,
+              .doc =
+                  "Minimum distance between two groups, relative to their spread along the line between them",
+              .source = "H6"})
         .add("follow", &Params::follow,
              {.doc =
                   "Group used for the estimate: largest: the largest group, replaced when another is 25 % "

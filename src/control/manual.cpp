@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "control/controller.h"
+#include "core/counted.h"
 #include "core/portable_math.h"
 #include "core/schema.h"
 #include "field/allocate.h"
@@ -91,9 +92,9 @@ Schema<Manual::Params> Manual::schema() {
 Manual::Manual(const Params& p, const ControlContext& c) : p_(p), c_(c) {
   const auto check = [&](const std::vector<double>& current) {
     if (!current.empty() && current.size() != c.field->coils())
-      throw Error(
-          Errc::usage, "controller.current",
-          fmt::format("has {} values; it must have {}, one per coil", current.size(), c.field->coils()));
+      throw Error(Errc::usage, "controller.current",
+                  fmt::format("has {}; it must have {}, one per coil", counted(current.size(), "value"),
+                              c.field->coils()));
   };
   check(p.current);
   for (const Segment& s : p.segment) check(s.current);

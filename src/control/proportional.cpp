@@ -62,7 +62,7 @@ Schema<Proportional::Params> Proportional::schema() {
             .max = 10,
             .doc = "Integral gain per frame, relative to the proportional gain; compensates steady drift"})
       .add("max_output", &Params::max_output,
-           {.min = 0, .max = 1000, .doc = "Largest command in field units"})
+           {.min = 0, .max = 1000, .doc = "Maximum command in field units"})
       .add("dead_zone_px", &Params::dead_zone_px,
            {.unit = "px", .min = 0, .max = 1e4, .doc = "No command within this distance of the setpoint"})
       .add("delay_frames", &Params::delay_frames,
@@ -70,8 +70,8 @@ Schema<Proportional::Params> Proportional::schema() {
       .add("hold_frames", &Params::hold_frames,
            {.min = 1, .max = 100, .doc = "Frames for which a cell keeps its velocity", .source = "A3: 2"})
       .add("actuation", &Params::actuation,
-           {.doc = "Actuation of slow drift: magnitude: weaker field; duty: full field, reversed in a "
-                   "fraction of the frames",
+           {.doc = "Method to reduce the drift velocity. magnitude: a weaker field; duty: full field, "
+                   "reversed in a fraction of the frames",
             .choices = {"magnitude", "duty"}})
       .add("speed", &Params::speed,
            {.unit = "m/s",

@@ -31,7 +31,7 @@ class Registry {
  public:
   using PartType = Part<Interface, Context>;
 
-  /// `kind` is the name of the kind in messages ("agent model"), `doc` one sentence for `faba parts`.
+  /// `kind` is the name of the kind in messages ("model"), `doc` one sentence for `faba parts`.
   Registry(std::string kind, std::string doc) : kind_(std::move(kind)), doc_(std::move(doc)) {}
 
   /// T provides Params, static schema(), and a constructor T(Params, const Context&). An optional static

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
 #include "core/units.h"
 
 namespace faba {
@@ -37,6 +38,15 @@ std::string shown(const Json& j) {
 }
 
 constexpr double kOpen = std::numeric_limits<double>::max();
+
+// Advice if only the type of a part was set on the command line: the table has the keys of its old type.
+std::string set_type_advice(const Node& n) {
+  if (!n.document || !n.has("type") || !n.json->at("type").is_string()) return "";
+  const auto it = n.document->origin.find(n.path + ".type");
+  if (it == n.document->origin.end() || it->second != "--set") return "";
+  return fmt::format("; to change the type, replace the complete table: --set '{}={{type=\"{}\"}}'", n.path,
+                     n.json->at("type").get<std::string>());
+}
 
 }  // namespace
 
@@ -132,7 +142,7 @@ std::size_t read_choice(const Node& n, const FieldInfo& f) {
 void require_array(const Node& n, std::size_t exact) {
   if (!n.json->is_array()) n.fail(fmt::format("expected an array in [ ], got {}", shown(*n.json)));
   if (exact && n.json->size() != exact)
-    n.fail(fmt::format("expected {} values, got {}", exact, n.json->size()));
+    n.fail(fmt::format("expected {}, got {}", counted(exact, "value"), n.json->size()));
 }
 
 Json number_json(double v, const FieldInfo& f) {
@@ -198,7 +208,7 @@ void Fields::read(void* to, const Node& n, const std::vector<std::string>& extra
       std::vector<std::string> known = extra;
       for (const Field& field : fields_) known.push_back(field.key);
       if (!presets.empty()) known.emplace_back("preset");
-      throw Error(Errc::usage, n.where(key), "unknown key" + suggestion(key, known));
+      throw Error(Errc::usage, n.where(key), "unknown key" + set_type_advice(n) + suggestion(key, known));
     }
     if (key != f->key && n.has(f->key))
       throw Error(Errc::usage, n.where(key),

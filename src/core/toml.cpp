@@ -18,6 +18,7 @@ constexpr void require(bool holds) {
 #include <fstream>
 #include <sstream>
 
+#include "core/counted.h"
 #include "core/error.h"
 
 namespace faba {
@@ -216,6 +217,8 @@ void Document::set(const std::string& path, Json value, const std::string& origi
     };
     // `model = "dipole"` is short for `model = { type = "dipole" }`: setting a key of it keeps the type.
     if (at->is_string()) *at = Json{{"type", *at}};
+    if (at->is_array() && !at->empty() && at->front().is_object())
+      fail(fmt::format("\"{0}\" is an array; write {0}[0].{1}", prefix, s.key));
     if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", prefix));
     prefix = joined(prefix, s.key);
     if (!at->contains(s.key)) {
@@ -225,8 +228,8 @@ void Document::set(const std::string& path, Json value, const std::string& origi
     at = &(*at)[s.key];
     for (const std::size_t i : s.index) {
       if (!at->is_array() || i >= at->size())
-        fail(fmt::format("{0}[{1}] not found; \"{0}\" has {2} elements, add more in the file", prefix, i,
-                         at->is_array() ? at->size() : 0));
+        fail(fmt::format("{0}[{1}] not found; \"{0}\" has {2}; add more in the file", prefix, i,
+                         counted(at->is_array() ? at->size() : 0, "element")));
       at = &(*at)[i];
       prefix += fmt::format("[{}]", i);
     }

@@ -190,6 +190,8 @@ std::string dimension_name(const Dimension& d) {
                                                                    {"A m^2", "magnetic moment"},
                                                                    {"px", "number of pixels"},
                                                                    {"K", "temperature"},
+                                                                   {"V", "voltage"},
+                                                                   {"ohm", "resistance"},
                                                                    {"Pa s", "viscosity"},
                                                                    {"m^2/s", "diffusivity"},
                                                                    {"N m s", "rotational drag"},

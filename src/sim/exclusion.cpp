@@ -17,8 +17,8 @@ constexpr std::size_t kCopyBlock = 8192;
 Schema<Exclusion::Params> Exclusion::schema() {
   return Schema<Params>("exclusion", "At most one cell per site of the occupancy grid (one pixel)")
       .add("order", &Params::order,
-           {.doc = "Update order: simultaneous, the sequential loop of the thesis, or no exclusion (cells "
-                   "overlap)",
+           {.doc = "two-phase: all cells move simultaneously; published: the sequential loop of the thesis; "
+                   "none: no exclusion, cells overlap",
             .source = "published: A2; two-phase: D4(iii)",
             .choices = {"two-phase", "published", "none"}})
       .add("follow", &Params::follow,

@@ -121,6 +121,11 @@ TEST_CASE("--set changes one value and is named in error messages") {
   for (const char* bad :
        {"list[3].a", "swarm.count.x", "", "a..b", "a[", "a[x]", "swarm[0].count", "a.", "[0]", "a[-1]"})
     CHECK_THROWS_AS(d.set(bad, std::string("1"), "--set"), Error);
+  CHECK_THROWS_WITH_AS(d.set("list.a", std::string("1"), "--set"),
+                       "--set list.a: \"list\" is an array; write list[0].a", Error);
+  CHECK_THROWS_WITH_AS(d.set("list[3].a", std::string("1"), "--set"),
+                       "--set list[3].a: list[3] not found; \"list\" has 1 element; add more in the file",
+                       Error);
 }
 
 TEST_CASE("registry: parts by name or table; the message for an unknown name has the most similar one") {
@@ -148,6 +153,13 @@ TEST_CASE("registry: parts by name or table; the message for an unknown name has
   CHECK(r.resolve(Node(d).child("a")).make({})->legs() == 4);
   CHECK(r.resolve(Node(d).child("b")).make({})->legs() == 3);
   CHECK(r.resolve(Node(d).child("b")).resolved == Json{{"type", "dog"}, {"legs", 3}});
+  Document changed = parse_toml("b = { type = 'cat', claws = 3 }", "z.toml");
+  changed.set("b.type", std::string("dog"), "--set");
+  CHECK_THROWS_WITH_AS(
+      r.resolve(Node(changed).child("b")),
+      "z.toml:1: b.claws: unknown key; to change the type, replace the complete table: --set "
+      "'b={type=\"dog\"}'; known: type, legs",
+      Error);
   CHECK_THROWS_WITH(r.resolve(Node(d).child("c")),
                     "z.toml:3: c.type: unknown animal \"dgo\"; did you mean \"dog\"?");
   CHECK_THROWS_WITH(r.resolve(Node(d).child("e")),

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
+
 namespace faba {
 
 Schema<Limits::Params> Limits::schema() {
@@ -33,10 +35,9 @@ double Limits::limited(std::size_t coil, double current, double dt) const {
 
 bool Limits::apply(Command& c, double dt, double frame_age) {
   if (!max_currents_.empty() && c.current.size() != max_currents_.size())
-    throw Error(
-        Errc::usage, "controller",
-        fmt::format("the command has {} currents, but the field has {} coils; give one current per coil",
-                    c.current.size(), max_currents_.size()));
+    throw Error(Errc::usage, "controller",
+                fmt::format("the command has {}, but the field has {}; give one current per coil",
+                            counted(c.current.size(), "current"), counted(max_currents_.size(), "coil")));
   const std::vector<double> requested = c.current;
   last_.resize(c.current.size(), 0.0);
   if (!(frame_age <= p_.max_frame_age)) {

@@ -33,7 +33,7 @@ Session Session::resume(const Parts& parts, const RunOptions& o) {
     throw Error(Errc::input, o.out.string(), "run directory not found");
   if (!RunLock::marks(o.out)) {
     if (std::filesystem::exists(o.out / kManifest, ec))
-      throw Error(Errc::usage, o.out.string(), "this run is complete");
+      throw Error(Errc::usage, o.out.string(), "the run is complete; there is nothing to resume");
     throw Error(Errc::input, o.out.string(), "is not a run directory");
   }
   if (std::filesystem::exists(o.out / kCommands, ec) || std::filesystem::exists(o.out / kCoilsLog, ec))

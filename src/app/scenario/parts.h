@@ -26,7 +26,7 @@ struct Readers {
 
 /// All parts that a scenario can name, by kind, and the readers of its files.
 struct Parts {
-  ModelRegistry model{"agent model", "Law of motion of a swarm: [swarm.model]"};
+  ModelRegistry model{"model", "Law of motion of a swarm: [swarm.model]"};
   StartRegistry start{"start", "Initial positions of a swarm: [swarm.start]"};
   ArenaRegistry arena{"arena", "Region that contains the cells: [arena]"};
   FieldRegistry field{"field", "Magnetic field of the coils: [field]"};

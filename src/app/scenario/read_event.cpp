@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/scenario/control_rules.h"
+#include "core/counted.h"
 
 namespace faba {
 namespace {
@@ -25,8 +26,8 @@ Event read_event(const Node& n, Scenario& now, const Parts& parts) {
   e.swarm = std::size_t(when.swarm);
   if (n.has("model")) {
     if (e.swarm >= now.swarms.size())
-      n.child("swarm").fail(fmt::format("{} is out of range; the scenario has {} swarms, counted from 0",
-                                        e.swarm, now.swarms.size()));
+      n.child("swarm").fail(fmt::format("{} is out of range; the scenario has {}, and the first swarm is 0",
+                                        e.swarm, counted(now.swarms.size(), "swarm")));
     e.model = parts.model.resolve(n.child("model"));
   }
   if (n.has("estimator")) e.estimator = parts.estimator.resolve(n.child("estimator"));

@@ -34,7 +34,7 @@ void add_flow_options(CLI::App* v, FlowOptions& o) {
       ->check(CLI::Range(1, 1024));
   const Parts parts = builtin_parts();
   v->add_option("--method", o.method, "Flow part: " + fmt::format("{}", fmt::join(parts.flow.names(), ", ")))
-      ->check(CLI::IsMember(parts.flow.names()))
+      ->check(one_of(parts.flow.names()))
       ->group("Flow");
   std::vector<std::string> names = parts.flow.names();
   std::partition(names.begin(), names.end(), [&](const std::string& n) { return n == o.method; });

@@ -25,14 +25,15 @@ void summary(const Identification& r) {
       fmt::print("{}: {}\n", m.name, m.failed);
       continue;
     }
-    fmt::print("{}: predictive score {:.3f}, goodness-of-fit p {:.2g}, {} simulations\n", m.name, m.score,
-               m.fit_p, m.simulations);
+    fmt::print("{}: energy score {:.3f} (lower is better), goodness-of-fit p {:.2g}, {} simulations\n",
+               m.name, m.score, m.fit_p, m.simulations);
     for (const FoundParameter& p : m.parameters) print_parameter(p);
   }
   for (const LegacyModel& m : r.legacy)
-    fmt::print("legacy rule (unreliable): {}: slope is zero at {:.4g} {}{}\n", m.name,
-               m.parameter.shown(m.zero), m.parameter.shown_unit(),
-               m.invalid_reason.empty() ? "" : "; not meaningful: " + m.invalid_reason);
+    fmt::print("legacy rule (unreliable): {}: {}\n", m.name,
+               m.invalid_reason.empty() ? fmt::format("the slope is zero at {:.4g} {}",
+                                                      m.parameter.shown(m.zero), m.parameter.shown_unit())
+                                        : "no result, because " + m.invalid_reason);
   fmt::print("{}\n", r.words);
 }
 

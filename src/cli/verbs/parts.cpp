@@ -100,7 +100,7 @@ int parts(const PartsVerb& v, const Common& c) {
     if (!v.kind.empty() && v.kind != kind) return;
     fmt::print("{}: {}\n", kind, registry.doc());
     for (const auto& name : registry.names())
-      fmt::print("  {:<14}{}\n", name, registry.json_schema(name)["description"].template get<std::string>());
+      fmt::print("  {:<19}{}\n", name, registry.json_schema(name)["description"].template get<std::string>());
   });
   fmt::print("\nParameters of a part: faba parts KIND NAME, for example faba parts model dipole\n");
   return 0;

@@ -51,7 +51,7 @@ void add_schema(CLI::App& app, CommandLine& line) {
   v->add_option("file", *of,
                 "scenario (default) or rig; the verb that reads the study file; or series, which lists the "
                 "columns of series.csv")
-      ->check(CLI::IsMember({"scenario", "rig", "identify", "compare-controllers", "activity", "series"}));
+      ->check(one_of({"scenario", "rig", "identify", "compare-controllers", "activity", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 

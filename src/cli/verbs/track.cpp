@@ -117,8 +117,8 @@ void print_summary(const TrackMeasurement& m) {
   const char* about = !together ? "" : drifts ? "relative to the drift: " : "relative to the common motion: ";
   const SupportedWalk walk = supported_walk(s);
   if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))
-    fmt::print("speed    {} on average, over {:.3g} {}\n", units.velocity(s.mean_speed_px_s), s.interval_s,
-               units.time_unit());
+    fmt::print("speed    mean {} (displacements over {:.3g} {})\n", units.velocity(s.mean_speed_px_s),
+               s.interval_s, units.time_unit());
   if (drifts)
     fmt::print("drift    {} right, {} down\n", units.velocity(s.drift_x_px_s),
                units.velocity(s.drift_y_px_s));
@@ -179,10 +179,10 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("--size", t->size_px, "Full width of a cell at half its contrast, px; default: measured")
       ->check(between(1, 60));
   v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; default: measured")
-      ->check(CLI::IsMember({"auto", "dark", "bright", "both"}));
+      ->check(one_of({"auto", "dark", "bright", "both"}));
   v->add_option("--background", t->background,
                 "Background: median of the video, or spatial (each frame, smoothed)")
-      ->check(CLI::IsMember({"auto", "median", "spatial"}));
+      ->check(one_of({"auto", "median", "spatial"}));
   v->add_option("--threshold", t->threshold,
                 "Minimum signal-to-noise ratio of a spot; default: one false detection in 10 frames")
       ->check(between(1, 1e6));
@@ -190,7 +190,7 @@ void add_track(CLI::App& app, CommandLine& line) {
       ->check(between(0.1, 1e5));
   v->add_option("--motion", t->motion,
                 "Predict positions by velocity, or use the nearest spot; default: chosen for the video")
-      ->check(CLI::IsMember({"auto", "nearest", "velocity"}));
+      ->check(one_of({"auto", "nearest", "velocity"}));
   v->add_option("--memory", t->memory, "Maximum number of consecutive frames without a detection of the cell")
       ->check(CLI::Range(0, 1000));
   v->add_option("--least", t->least, "Minimum number of detections of a track")->check(CLI::Range(1, 100000));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/counted.h"
 #include "rig/setup/guard_message.h"
 
 namespace faba {
@@ -34,7 +35,8 @@ std::vector<WiredCoil> read_coils(const Node& list, std::size_t coils) {
   if (!list.json->is_array())
     list.fail("must be a list of tables [[rig.coil]], one for each coil of the field");
   if (list.json->size() != coils)
-    list.fail(fmt::format("has {} entries, but the field has {} coils", list.json->size(), coils));
+    list.fail(fmt::format("has {}, but the field has {}; give one [[rig.coil]] for each coil",
+                          counted(list.json->size(), "table"), counted(coils, "coil")));
   std::vector<WiredCoil> all;
   for (std::size_t k = 0; k < coils; ++k) {
     const Node n = list.item(k);
@@ -145,7 +147,9 @@ Json RigSetup::json_schema() {
   j["properties"]["guard"] = CoilGuard::schema().json_schema();
   j["properties"]["step_response"] = StepResponseParams::schema().json_schema();
   j["properties"]["bench"] = BenchParams::schema().json_schema();
-  j["properties"]["coil"] = {{"type", "array"}, {"items", WiredCoil::schema().json_schema()}};
+  j["properties"]["coil"] = {{"type", "array"},
+                             {"description", "Wiring and calibration of each coil"},
+                             {"items", WiredCoil::schema().json_schema()}};
   return j;
 }
 

@@ -87,8 +87,8 @@ Schema<Adapted::Params> Adapted::schema() {
       .add("continuous_speed", &Params::continuous_speed,
            {.doc = "Innate speeds are real numbers in [0, max_speed] instead of integers"})
       .validity(
-          "No turning time; the drift does not depend on the field strength; one of n+1 cells has speed "
-          "zero.");
+          "No turning time; the drift does not depend on the field strength; a fraction 1/(max_speed + 1) "
+          "of the cells has speed zero.");
 }
 
 Adapted::Adapted(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), clock_(c, p.hold) {}

@@ -166,9 +166,15 @@ void describe_body(DipoleSchema& s) {
       .add("temperature", &DipoleParams::temperature,
            {.unit = "K", .min = 1, .max = 500, .doc = "Temperature, for the diffusion constants"})
       .add("rotational_diffusion", &DipoleParams::rotational_diffusion,
-           {.unit = "1/s", .min = 0, .max = 1e4, .doc = "D_r instead of kT / f_r"})
+           {.unit = "1/s",
+            .min = 0,
+            .max = 1e4,
+            .doc = "Rotational diffusion coefficient; when absent, kT / f_r"})
       .add("translational_diffusion", &DipoleParams::translational_diffusion,
-           {.unit = "m^2/s", .min = 0, .max = 1e-6, .doc = "D_t instead of kT / f_t"});
+           {.unit = "m^2/s",
+            .min = 0,
+            .max = 1e-6,
+            .doc = "Translational diffusion coefficient; when absent, kT / f_t"});
 }
 
 // Parameters of speeds and random turning.
@@ -229,7 +235,7 @@ void add_strains(DipoleSchema& s) {
       .preset("MSR-1", msr1,
               "Magnetospirillum gryphiswaldense: moment (2.0 +- 0.6)e-16 A m^2 (Reufer et al., arXiv "
               "1307.2459), drag set so that it turns at 0.74 rad/(mT s) (Pichel et al., arXiv "
-              "1710.00405), speed 30-60 um/s from memory; spreads assumed")
+              "1710.00405), speed 30-60 um/s without a source; spreads assumed")
       .preset("MC-1", mc1,
               "Magnetococcus marinus: speeds 100-500 um/s (Bente et al. 2020, eLife); moment and spreads "
               "assumed");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/scenario/rig_file.h"
+#include "core/counted.h"
 #include "core/file.h"
 #include "core/h5/h5.h"
 #include "field/kernels/field_table.h"
@@ -139,14 +140,17 @@ FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
   const std::vector<double> current = o.current.empty() ? field->default_currents() : o.current;
   if (current.size() != field->coils())
     throw Error(Errc::usage, "--current",
-                fmt::format("has {} values; it must have {}, one per coil", current.size(), field->coils()));
+                fmt::format("has {}; it must have {}, one per coil", counted(current.size(), "value"),
+                            field->coils()));
   std::string note;
   for (std::size_t k = 0; k < current.size(); ++k) {
     if (!(std::fabs(current[k]) <= 1e4))
       throw Error(Errc::usage, "--current",
                   fmt::format("{:g} A is out of range; it must be between -10000 and 10000 A", current[k]));
     if (std::fabs(current[k]) > field->circuit(k).max_current)
-      note = fmt::format("{:g} A exceeds the max_current of {}", current[k], field->circuit(k).name);
+      note = fmt::format(
+          "{0:g} A exceeds max_current = {1:g} A of the coil \"{2}\"; the map is computed with {0:g} A",
+          current[k], field->circuit(k).max_current, field->circuit(k).name);
   }
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
     note = "all currents are zero; specify currents, such as --current 0.5,0.5";

@@ -226,6 +226,7 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
 IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   const Document d = read_toml(file);
   const Node root(d);
+  if (root.has("swarm")) root.fail("is a scenario, not a study file; see studies/ for study files");
   const IdentifyFile f = IdentifyFile::schema().parse(root, {"video", "model", "scene"});
   IdentifyStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;

@@ -97,9 +97,9 @@ void conclude(LegacyModel& m) {
     m.invalid_reason = fmt::format(
         "the slope does not depend significantly on {}, so the position of its zero is undetermined", p.path);
   else if (m.zero < *low || m.zero > *high)
-    m.invalid_reason =
-        fmt::format("its zero, {:.4g}, lies outside the tested values, {:.4g} to {:.4g}{}", p.shown(m.zero),
-                    p.shown(*low), p.shown(*high), p.shown_unit().empty() ? "" : " " + p.shown_unit());
+    m.invalid_reason = fmt::format(
+        "the slope is zero at {:.4g}, outside the tested values {:.4g} to {:.4g}{}", p.shown(m.zero),
+        p.shown(*low), p.shown(*high), p.shown_unit().empty() ? "" : " " + p.shown_unit());
 }
 
 }  // namespace

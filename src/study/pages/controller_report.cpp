@@ -32,7 +32,7 @@ std::string with_interval(const MeanOverSeeds* m) {
 
 constexpr std::pair<const char*, const char*> kColumns[] = {
     {"settling_time_s", "settling time (s)"},
-    {"steady_rms_px", "steady error (px rms)"},
+    {"steady_rms_px", "steady-state error (px rms)"},
     {"iae_px_s", "IAE (px s)"},
     {"cross_track_95_px", "cross-track error (px, 95 %)"},
     {"rms_radius_px", "final dispersion (px rms)"},
@@ -68,12 +68,13 @@ std::string table(const ControllerComparison& r) {
     for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
     out += table_row(cells, "td");
   }
-  return out + fmt::format(
-                   "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % confidence intervals "
-                   "(Student's t). Settling time: mean over the trials that settled. Difference to the best: "
-                   "mean difference in steady error, for equal seeds, to the controller with the smallest "
-                   "steady error.</p>\n",
-                   counted(std::uint64_t(r.study.seeds), "seed"));
+  return out +
+         fmt::format(
+             "</tbody></table></div>\n<p class=\"note\">Means over {} with 95 % confidence intervals "
+             "(Student's t). Settling time: mean over the trials that settled. Difference to the best: "
+             "mean difference in steady-state error, for equal seeds, to the controller with the smallest "
+             "steady-state error.</p>\n",
+             counted(std::uint64_t(r.study.seeds), "seed"));
 }
 
 // The combinations grouped by model and delay; those of one group are contiguous.
@@ -120,14 +121,14 @@ Figure over_time(const ControllerComparison& r, const std::vector<const Combinat
 }
 
 Figure against_delay(const ControllerComparison& r, const Variant& model) {
-  Figure f{"Steady error against delay",
+  Figure f{"Steady-state error against delay",
            "Root mean square of the distance over the last third of the run, mean over the seeds.",
            {}};
   if (r.study.models.size() > 1) f.heading += ": " + model.name;
   f.plot.description = f.heading;
   f.plot.inlined = true;
   f.plot.x.label = "delay (frames)";
-  f.plot.y.label = "steady error (px rms)";
+  f.plot.y.label = "steady-state error (px rms)";
   f.plot.y.lo = 0;
   for (std::size_t i = 0; i < r.study.controllers.size(); ++i) {
     Line line{
@@ -144,7 +145,7 @@ Figure against_delay(const ControllerComparison& r, const Variant& model) {
   return f;
 }
 
-// The controller with the smallest steady error: a sentence, or a table row for each model and delay.
+// The controller with the smallest steady-state error: a sentence, or a table row for each model and delay.
 std::string verdict(const ControllerComparison& r) {
   std::string rows, sentence;
   for (const auto& group : groups(r)) {
@@ -157,14 +158,14 @@ std::string verdict(const ControllerComparison& r) {
     if (!best || group.size() < 2) continue;
     const std::string at = fmt::format("{} px rms{}", three_digits(metric(*best, "steady_rms_px")->mean),
                                        significant ? "" : " (not significantly smaller than all others)");
-    sentence = fmt::format("<p class=\"lead\">{} has the smallest steady error, {}.</p>\n",
+    sentence = fmt::format("<p class=\"lead\">{} has the smallest steady-state error, {}.</p>\n",
                            escape_markup(best->controller), at);
     rows += table_row(
         {escape_markup(condition(r, *best)), fmt::format("{}, {}", escape_markup(best->controller), at)},
         "td");
   }
   if (groups(r).size() < 2 || rows.empty()) return sentence;
-  return "<p class=\"lead\">Controller with the smallest steady error</p>\n<table "
+  return "<p class=\"lead\">Controller with the smallest steady-state error</p>\n<table "
          "class=\"facts\"><tbody>\n" +
          rows + "</tbody></table>\n";
 }

@@ -17,8 +17,8 @@ nlohmann::ordered_json controllers_json(const ControllerComparison& comparison);
 /// The table as CSV, one line for each combination and metric.
 std::string controllers_csv(const ControllerComparison& comparison);
 
-/// Distance and dispersion over time for each model and delay; with several delays also the steady error
-/// against delay.
+/// Distance and dispersion over time for each model and delay; with several delays also the steady-state
+/// error against delay.
 std::vector<Figure> controllers_figures(const ControllerComparison& comparison);
 
 /// HTML report.

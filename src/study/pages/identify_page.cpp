@@ -58,7 +58,7 @@ std::string models_table(const Identification& r) {
                        escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
   }
   return out + fmt::format(
-                   "</tbody></table></div>\n<p class=\"note\">Energy score: mean predictive score of {} "
+                   "</tbody></table></div>\n<p class=\"note\">Energy score: mean over {} "
                    "experiments, each predicted from the others; lower is better. Fit p: fraction of the "
                    "simulations that deviate from their mean as much as the videos do; below 0.01 the model "
                    "does not explain the videos.{}</p>\n",

@@ -114,7 +114,7 @@ Figure holding_figure(const Series& series, const Metrics& m, const RunInfo& inf
   const auto t = series.column("t_s"), d = series.column("distance_px");
   const auto from = std::ptrdiff_t(2 * t.size() / 3);
   Figure figure{
-      "Steady error", "Distance to the setpoint over the last third of the frames.",
+      "Steady-state error", "Distance to the setpoint over the last third of the frames.",
       lengths_over_time("distance", "Distance to the setpoint over the last third of the run", info)};
   figure.plot.add(Line{{t.begin() + from, t.end()}, {d.begin() + from, d.end()}, "distance"});
   figure.plot.add(Line{{t[std::size_t(from)], t.back()},

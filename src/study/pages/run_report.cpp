@@ -20,7 +20,7 @@
 namespace faba {
 namespace {
 
-constexpr double kLate = 2.0 / 3;               // fraction of the run; start of the steady error
+constexpr double kLate = 2.0 / 3;               // fraction of the run; start of the steady-state error
 constexpr std::size_t kMaxRouteSetpoints = 50;  // more are a moving setpoint, not a route
 
 /// "12.3 px (9.86 µm)", or only pixels without a picture scale.
@@ -47,7 +47,7 @@ std::string outcome_text(const Metrics& m, const RunInfo& info) {
   const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
   const bool moving = given > kMaxRouteSetpoints, route = given > 1 && !moving;
   if (route && m.setpoints < given) {
-    return fmt::format("After {} the swarm {} setpoint {} of {}; the final distance was {}.",
+    return fmt::format("At the last frame ({}) the swarm {} setpoint {} of {}; the final distance was {}.",
                        seconds(m.duration_s),
                        *m.final_distance_px <= *m.settling_band_px ? "had reached" : "had not reached",
                        m.setpoints, given, length_text(*m.final_distance_px, info));
@@ -58,19 +58,19 @@ std::string outcome_text(const Metrics& m, const RunInfo& info) {
   if (!m.settling_time_s) {
     const std::string start =
         given > 1 ? "" : fmt::format("{} at the start and ", length_text(*m.initial_error_px, info));
-    return fmt::format("The swarm did not settle at {}: the distance was {}{} at the end, after {}.", goal,
+    return fmt::format("The swarm did not settle at {}: the distance was {}{} at the last frame ({}).", goal,
                        start, length_text(*m.final_distance_px, info), seconds(m.duration_s));
   }
-  if (*m.settling_time_s > kLate * m.duration_s) {  // the steady error would include the approach
-    return fmt::format("The swarm reached {} only after {} of {}; the final distance was {}.", goal,
-                       seconds(*m.settling_time_s), seconds(m.duration_s),
+  if (*m.settling_time_s > kLate * m.duration_s) {  // the steady-state error would include the approach
+    return fmt::format("The swarm reached {} only after {}; at the last frame ({}) the distance was {}.",
+                       goal, seconds(*m.settling_time_s), seconds(m.duration_s),
                        length_text(*m.final_distance_px, info));
   }
   std::string text = *m.settling_time_s == 0
                          ? fmt::format("The swarm was at {} from the start", goal)
                          : fmt::format("The swarm reached {} after {}", goal, seconds(*m.settling_time_s));
   if (m.steady_rms_px) {
-    text += fmt::format(" and stayed within {} rms of it over the last third of the run",
+    text += fmt::format("; its rms distance to the setpoint over the last third of the run was {}",
                         length_text(*m.steady_rms_px, info));
   }
   return text + ".";
@@ -119,7 +119,7 @@ std::string cards(const Metrics& m, const RunInfo& info) {
                 fmt::format("band ±{}\u00A0px", three_digits(*m.settling_band_px)));
   }
   if (m.steady_rms_px) {
-    out += card("Steady error, rms", three_digits(*m.steady_rms_px) + "\u00A0px",
+    out += card("Steady-state error, rms", three_digits(*m.steady_rms_px) + "\u00A0px",
                 in_um(*m.steady_rms_px, info, "last third"));
   }
   if (m.path_tracking_rms_px) {

@@ -10,7 +10,7 @@ namespace faba {
 
 /// Summary of a run in sentences. Lengths in pixels, and in micrometres when the picture scale is known.
 struct RunSummary {
-  std::string outcome;  ///< one sentence: settling time and steady error
+  std::string outcome;  ///< one sentence: settling time and steady-state error
   std::string details;  ///< cross-track error and final dispersion; may be empty
   /// Setpoint to which the settling time and the steady-state error refer when the run ended before the last
   /// setpoint of its route, such as "setpoint 2 of 4"; else empty.

@@ -43,7 +43,7 @@ struct Combination {
   std::array<double, 2> settled_ci95{};  ///< of the fraction of trials that settle (Wilson)
   /// Mean over the seeds and standard deviation, for each frame.
   std::vector<double> t_s, distance_px, distance_sd_px, rms_radius_px, rms_radius_sd_px;
-  /// Steady error minus that of the best controller with the same model and delay: mean of the paired
+  /// Steady-state error minus that of the best controller with the same model and delay: mean of the paired
   /// differences over the seeds, with interval. Empty for the best controller.
   std::optional<MeanOverSeeds> excess_over_best;
 };

@@ -123,9 +123,10 @@ TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& vi
         fmt::format("no spots above the noise at any size; a size of {} px is assumed", s.size_px));
   if (s.temporal && s.size_found && s.stationary_spots * 4 > s.spots)
     s.notes.push_back(fmt::format(
-        "{} stationary spots of this size are part of the median background and are excluded: they never "
-        "move, or their positions are often occupied; to include them, specify --background spatial",
-        s.stationary_spots));
+        "{} of the size of a cell {} excluded as part of the median background: objects that do not move, or "
+        "positions that are often occupied; to include them, use --background spatial",
+        counted(std::uint64_t(s.stationary_spots), "stationary spot"),
+        s.stationary_spots == 1 ? "is" : "are"));
   return s;
 }
 

@@ -113,8 +113,8 @@ void describe_camera(Schema<MicroscopeParams>& s) {
       .add("noise", &P::noise,
            {.min = 0,
             .max = 1,
-            .doc = "Standard deviation of the noise as a fraction of white, uniform; replaces shot noise and "
-                   "read noise; 0: no noise"})
+            .doc = "Standard deviation of the noise as a fraction of white, independent of the grey value; "
+                   "replaces shot noise and read noise; 0: no noise"})
       .add("bits", &P::bits, {.min = 8, .max = 16, .doc = "Bits per grey value: 8 or 16"});
 }
 

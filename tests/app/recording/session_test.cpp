@@ -183,8 +183,9 @@ TEST_CASE("resume: rejected without an unfinished run") {
   Session done = Session::begin(scenario_from(kScene), 1, options(f.path / "done"));
   done.run();
   done.complete();
-  CHECK_THROWS_WITH_AS(resume(f.path / "done"),
-                       (f.path / "done").string().append(": this run is complete").c_str(), Error);
+  CHECK_THROWS_WITH_AS(
+      resume(f.path / "done"),
+      (f.path / "done").string().append(": the run is complete; there is nothing to resume").c_str(), Error);
 }
 
 TEST_CASE("an existing run is not overwritten without force; force keeps files that do not belong to a run") {

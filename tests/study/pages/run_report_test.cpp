@@ -101,8 +101,8 @@ TEST_CASE(
   put(run.path() / "report.html", "an older one");
   const std::string html = report_of(run);
 
-  for (const char* heading : {"Distance to the setpoint", "Path in the picture", "Steady error", "Dispersion",
-                              "Magnetic field", "Coil currents", "Cells"}) {
+  for (const char* heading : {"Distance to the setpoint", "Path in the picture", "Steady-state error",
+                              "Dispersion", "Magnetic field", "Coil currents", "Cells"}) {
     CHECK_MESSAGE(has(html, std::string("<h3>") + heading + "</h3>"), heading);
   }
   for (const char* words :
@@ -226,7 +226,7 @@ TEST_CASE("run report: the summary describes the outcome") {
     CHECK(summary.outcome ==
           "The swarm did not settle at its setpoint: the distance was 300\u00A0px (150\u00A0µm) at the start "
           "and "
-          "80.0\u00A0px (40.0\u00A0µm) at the end, after 30.0\u00A0s.");
+          "80.0\u00A0px (40.0\u00A0µm) at the last frame (30.0\u00A0s).");
     CHECK(summary.details ==
           "At the end, the standard deviations of the cell positions in x and y were "
           "12.0\u00A0×\u00A034.5\u00A0px (6.00\u00A0×\u00A017.2\u00A0µm).");
@@ -235,11 +235,10 @@ TEST_CASE("run report: the summary describes the outcome") {
     m.settling_time_s = 4.25;
     m.steady_rms_px = 2;
     CHECK(run_summary(m, info).outcome ==
-          "The swarm reached its setpoint after 4.25\u00A0s and stayed within 2.00\u00A0px (1.00\u00A0µm) "
-          "rms of it over "
-          "the last third of the run.");
+          "The swarm reached its setpoint after 4.25\u00A0s; its rms distance to the setpoint over the last "
+          "third of the run was 2.00\u00A0px (1.00\u00A0µm).");
     info.um_per_px.reset();
-    CHECK(has(run_summary(m, info).outcome, "within 2.00\u00A0px rms"));
+    CHECK(has(run_summary(m, info).outcome, "of the run was 2.00\u00A0px."));
   }
   SUBCASE("settled within the last third of the run") {
     m.settling_time_s = 29;
@@ -251,7 +250,7 @@ TEST_CASE("run report: the summary describes the outcome") {
   SUBCASE("at the setpoint from the start") {
     m.settling_time_s = 0;
     m.steady_rms_px = 2;
-    CHECK(has(run_summary(m, info).outcome, "was at its setpoint from the start and stayed"));
+    CHECK(has(run_summary(m, info).outcome, "was at its setpoint from the start; its rms distance"));
   }
   SUBCASE("a route") {
     m.setpoints = 4;

@@ -40,7 +40,7 @@ void add_field_null(CLI::App& field, CommandLine& line) {
   add_rig_file(v, o->rig);
   v->add_option("--at", o->at, "Position in the plane of the sample, x and y");
   v->add_option("--polarity", o->polarity, "Cells to trap: north-seeking or south-seeking")
-      ->check(CLI::IsMember({"north", "south"}));
+      ->check(one_of({"north", "south"}));
   v->callback([o, &line] { line.code = field_null(*o, line.common); });
 }
 

@@ -88,7 +88,7 @@ void add_rig_capture(CLI::App& rig, CommandLine& line) {
       ->required()
       ->check(not_empty);
   v->add_option("--format", o->format, "Format of numbered pictures in a folder; default: png")
-      ->check(CLI::IsMember({"png", "pgm", "ppm", "tiff"}));
+      ->check(one_of({"png", "pgm", "ppm", "tiff"}));
   v->add_option("--frames", o->frames,
                 "Stop after this number of camera frames, or after --for if that is earlier")
       ->check(CLI::Range(std::uint64_t(1), std::uint64_t(1) << 40));
