@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/units.h"
 
@@ -26,9 +27,12 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 std::string example(const FieldInfo& f) {
-  return f.unit.empty()
-             ? "a number"
-             : fmt::format("a {} such as \"1 {}\"", dimension_name(parse_unit(f.unit).dimension), f.unit);
+  if (f.unit.empty()) return "a number";
+  if (f.unit == "deg") return "an angle such as 90 or \"90 deg\"";
+  const Dimension dimension = parse_unit(f.unit).dimension;
+  if (f.unit == "rad") return "an angle such as 1.5 or \"90 deg\"";
+  if (dimension == Dimension{}) return fmt::format("a number such as 1 or \"1 {}\"", f.unit);
+  return fmt::format("a {} such as \"1 {}\"", dimension_name(dimension), f.unit);
 }
 
 std::string shown(const Json& j) {
@@ -51,10 +55,11 @@ double in_si(const Json& written) {
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const std::string* best = nullptr;
-  // A word with more than a third of its characters wrong is not a typing error.
-  std::size_t d_best = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t d_best = std::numeric_limits<std::size_t>::max();
   for (const auto& k : known)
-    if (const std::size_t d = edit_distance(word, k); d < d_best) {
+    // A word with more than a third of its characters wrong is not a typing error.
+    if (const std::size_t d = edit_distance(word, k);
+        d < d_best && d <= std::max<std::size_t>(1, std::max(word.size(), k.size()) / 3)) {
       d_best = d;
       best = &k;
     }

@@ -33,7 +33,7 @@ struct ActivityVideoFile {
         .add("to", &ActivityVideoFile::to,
              {.unit = "s", .min = 0, .max = 1e9, .doc = "End time of the evaluation"})
         .check([](const ActivityVideoFile& v) -> std::string {
-          return v.file.empty() ? "file is missing; specify a video: file = \"video.avi\"" : "";
+          return v.file.empty() ? "key \"file\" is missing; specify a video: file = \"video.avi\"" : "";
         });
   }
 };
@@ -79,7 +79,9 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
   if (study.threshold) job.threshold_px = study.threshold;
   if (!study.noise.empty()) job.noise = root.file(study.noise);
-  if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
+  if (root.has("video") && !root.child("video").json->is_array())
+    root.child("video").fail("must be an array of tables; write [[video]] with file = \"video.avi\"");
+  if (!root.has("video") || root.child("video").json->empty())
     root.fail("has no videos; add one [[video]] for each");
   const Node list = root.child("video");
   for (std::size_t i = 0; i < list.json->size(); ++i) {

@@ -57,7 +57,7 @@ std::vector<double> gap_ratios(const MarkRow& row, double tick_um) {
 void require_line(std::size_t readings, std::size_t widths, const std::string& name) {
   if (widths >= 2 && readings >= 3) return;
   throw Error(Errc::input, name,
-              fmt::format("has {} of {}; at least three readings of two widths are needed",
+              fmt::format("has {} of {}; at least three readings of at least two widths are needed",
                           readings == 1 ? "one reading" : fmt::format("{} readings", readings),
                           widths == 1 ? "one width" : fmt::format("{} widths", widths)));
 }
