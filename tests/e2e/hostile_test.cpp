@@ -218,12 +218,12 @@ TEST_CASE("valid but probably unintended settings give a note of one line each")
     const char* message;
   };
   write_file(f.path / "s.toml", "duration = '0.5 s'\n[[swarm]]\ncount = 5\n[[swarm]]\ncount = 9\n");
-  for (const Odd& o :
-       {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px is outside the box"},
-        Odd{"limits.max_current=0", "there is no current in the coils"},
-        Odd{"swarm[0].polarity=north", "swarm[0]: the controller steers the south-seeking cells"},
-        Odd{"duration=0", "has only one frame"}, Odd{"exposure=100", "did you mean motility"},
-        Odd{"camera.rate=20", ""}}) {
+  for (const Odd& o : {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px is outside the box"},
+                       Odd{"limits.max_current=0", "there is no current in the coils"},
+                       Odd{"swarm[0].polarity=north",
+                           "swarm[0] is north-seeking, but the controller steers the south-seeking cells"},
+                       Odd{"duration=0", "has only one frame"}, Odd{"exposure=100", "did you mean motility"},
+                       Odd{"camera.rate=20", ""}}) {
     const std::string type = std::string(o.set).starts_with("reference") ? " --set reference.type=hold" : "";
     const std::string run = "run s.toml --seed 1 --force --out run" + type + " --set '" + o.set + "'";
     const Called c = faba_in(f.path, run);

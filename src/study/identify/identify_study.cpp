@@ -146,11 +146,11 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   for (std::size_t i = 0; i < v.segment.size(); ++i) {
     const SegmentFile& d = v.segment[i];
     if (d.from < last)
-      n.child("segment").item(i).fail(fmt::format("starts at {:g} s, before segment[{}] ends ({:g} s)",
-                                                  d.from, int(i) - 1, last));
-    if (!(d.to > d.from))
       n.child("segment").item(i).fail(
-          fmt::format("ends at {:g} s, but starts at {:g} s; \"to\" must be later than \"from\"", d.to, d.from));
+          fmt::format("starts at {:g} s, before segment[{}] ends ({:g} s)", d.from, int(i) - 1, last));
+    if (!(d.to > d.from))
+      n.child("segment").item(i).fail(fmt::format(
+          "ends at {:g} s, but starts at {:g} s; \"to\" must be later than \"from\"", d.to, d.from));
     r.segments.push_back({d.from, last = d.to, d.direction});
   }
   return r;

@@ -1,9 +1,12 @@
 #include "study/motion/activity_study.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 
 #include "app/scenario/parts.h"
+#include "core/error.h"
 #include "core/toml.h"
 
 namespace faba {
@@ -87,9 +90,13 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   for (std::size_t i = 0; i < list.json->size(); ++i) {
     const Node n = list.item(i);
     const ActivityVideoFile v = ActivityVideoFile::schema().parse(n);
-    job.videos.push_back({n.file(v.file), v.exposure, v.experiment,
-                          v.direction ? v.direction : study.direction,
-                          v.from.value_or(study.from.value_or(0)), v.to ? v.to : study.to});
+    const double from = v.from.value_or(study.from.value_or(0));
+    const std::optional<double> to = v.to ? v.to : study.to;
+    if (to && *to <= from)
+      throw Error(Errc::usage, n.where("to"),
+                  fmt::format("{:g} s is not later than from = {:g} s", *to, from));
+    job.videos.push_back(
+        {n.file(v.file), v.exposure, v.experiment, v.direction ? v.direction : study.direction, from, to});
   }
 }
 
