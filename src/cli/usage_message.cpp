@@ -53,7 +53,7 @@ std::string usage_of(const CLI::App& app, const std::string& command) {
       std::transform(name.begin(), name.end(), name.begin(),
                      [](unsigned char c) { return char(std::toupper(c)); });
       if (o->get_expected_max() > 1) name += "...";
-      usage += fmt::format(o->get_required() ? " {}" : " [{}]", name);
+      usage += o->get_required() ? " " + name : " [" + name + "]";
     } else if (o->get_required()) {
       usage += fmt::format(" {} {}", o->get_name(), o->get_type_name());
     }

@@ -73,7 +73,8 @@ void print_video(const VideoActivity& a) {
       a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a))
     fmt::print("  {:.3g} per visible cell ({} cells)\n", *per_cell,
-               fmt::format(*a.visible_cells < 1000 ? "{:.3g}" : "{:.0f}", *a.visible_cells));
+               *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
+                                       : fmt::format("{:.0f}", *a.visible_cells));
   if (a.fit.good)
     fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a.fit.peak_s, a.fit.se_peak_s,
                a.fit.sigma_s);

@@ -102,9 +102,7 @@ VideoFlow measure_flow(FlowSource& source, const std::string& name,
     sums.add(pair.flow);
     take(pair);
   }
-  if (r.pairs == 0)
-    throw Error(Errc::input, name,
-                "contains one frame only; motion needs at least two: give a second picture");
+  if (r.pairs == 0) throw Error(Errc::input, name, "contains one frame only; motion needs at least two");
   r.width = source.width();
   r.height = source.height();
   r.method = source.method();

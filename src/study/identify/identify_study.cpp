@@ -144,13 +144,13 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   r.duration_s = v.duration ? v.duration : study.duration;
   double last = 0;
   for (std::size_t i = 0; i < v.segment.size(); ++i) {
+    const Node at = n.child(n.has("segment") ? "segment" : "drive").item(i);
     const SegmentFile& d = v.segment[i];
     if (d.from < last)
-      n.child("segment").item(i).fail(
-          fmt::format("starts at {:g} s, before segment[{}] ends ({:g} s)", d.from, int(i) - 1, last));
+      at.fail(fmt::format("starts at {:g} s, before segment[{}] ends ({:g} s)", d.from, int(i) - 1, last));
     if (!(d.to > d.from))
-      n.child("segment").item(i).fail(fmt::format(
-          "ends at {:g} s, but starts at {:g} s; \"to\" must be later than \"from\"", d.to, d.from));
+      at.fail(fmt::format("ends at {:g} s, but starts at {:g} s; \"to\" must be later than \"from\"", d.to,
+                          d.from));
     r.segments.push_back({d.from, last = d.to, d.direction});
   }
   return r;
