@@ -93,6 +93,28 @@ TEST_CASE("invalid command lines: exit 2") {
   }
 }
 
+TEST_CASE("errors of the command line name the option or argument, with advice") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "a command is required"},
+      {"run", "scene: argument is missing; usage: "},
+      {"run s.toml --sed 1", "unknown option --sed; did you mean \"--seed\"?"},
+      {"run --sed 1", "unknown option --sed; did you mean \"--seed\"?"},
+      {"--json run s.toml", "unknown option --json; options follow the command"},
+      {"run s.toml extra", "unexpected argument \"extra\""},
+      {"run s.toml --seed", "--seed: a value is missing"},
+      {"run s.toml --seed 1 --seed 2", "--seed: may be given only once"},
+      {"run s.toml --seed x", "error: --seed: expected an integer between"},
+      {"run s.toml --threads x", "--threads: expected an integer between 1 and 1024, got \"x\""}};
+  for (const auto& [arguments, message] : cases) {
+    const Called c = faba_in(f.path, arguments);
+    INFO("faba ", arguments, " -> ", c.err);
+    CHECK(c.exit == 2);
+    CHECK(c.err.find(message) != std::string::npos);
+  }
+}
+
 TEST_CASE("invalid pictures: exit 3, nothing written") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
