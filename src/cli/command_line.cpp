@@ -27,9 +27,8 @@ CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char
   v->add_flag("-q,--quiet", line.common.quiet, "Print no progress bar, no notes and no summary");
   v->footer(
       fmt::format("Examples:\n{}\n\nExit codes: 0 success, 2 invalid command line, scenario, coil system or "
-                  "study file, 3 unreadable "
-                  "or unsuitable "
-                  "input, 4 camera or coil driver failure, 130 interrupted, 1 any other error",
+                  "study file, 3 unreadable or unsuitable input, 4 camera or coil driver failure, 130 "
+                  "interrupted, 1 any other error",
                   examples));
   return v;
 }

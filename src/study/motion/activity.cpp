@@ -219,8 +219,7 @@ ActivityResult measure_activity(const ActivityJob& job) {
     if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
       r.videos.back().notes.push_back(
           "the video has no interval without motion to determine the noise; specify a video of a dead sample "
-          "with "
-          "--noise, or --flow-threshold");
+          "with --noise, or --flow-threshold");
   }
   fit_exposure_lines(r);
   return r;

@@ -57,9 +57,8 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
     fmt::print("trap strength relative to the solver: median {:.3g}\n", *library.strength);
   if (library.entries == 0)
     print_stderr(
-        "faba: note: no set of currents gives an isolated zero of the field in this rectangle; the library "
-        "is "
-        "empty. Use at least two coils whose fields have gradients, or a larger --size");
+        "faba: note: no set of currents gives an isolated zero of the field in this rectangle; "
+        "the library is empty. Use at least two coils whose fields have gradients, or a larger --size");
   else if (library.traps == 0)
     print_stderr("faba: note: all zeros are saddles, which drive cells away along one direction");
   fmt::print("  {}\n", v.out.string());
