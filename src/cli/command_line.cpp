@@ -26,9 +26,9 @@ CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char
               "Print the result as one JSON object; standard output has no other text");
   v->add_flag("-q,--quiet", line.common.quiet, "Print no progress bar, no notes and no summary");
   v->footer(
-      fmt::format("Examples:\n{}\n\nExit codes: 0 success, 2 invalid command line or scenario, 3 unreadable "
-                  "or unsuitable "
-                  "input, 4 camera or coil driver failure, 130 interrupted, 1 any other error",
+      fmt::format("Examples:\n{}\n\nExit codes: 0 success, 2 invalid command line, scenario, coil system or "
+                  "study file, 3 unreadable or unsuitable input, 4 camera or coil driver failure, 130 "
+                  "interrupted, 1 any other error",
                   examples));
   return v;
 }

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "cli/command_line.h"
+#include "cli/usage_message.h"
 #include "core/schema.h"
 
 namespace faba::cli {
@@ -58,9 +59,7 @@ int dispatch(int argc, char** argv) {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    std::string reason = e.what();
-    if (reason == "A subcommand is required") reason = "a command is required";
-    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", reason, command));
+    throw Error(Errc::usage, "", fmt::format("{} (see {} --help)", usage_message(app, command, e), command));
   }
   return line.code;
 }

@@ -17,6 +17,9 @@ double quantity_of(const std::string& text, const char* unit, const std::string&
     const Quantity q = parse_quantity(text);
     const bool fits = q.bare || q.dimension == parse_unit(unit).dimension;
     if (fits && std::isfinite(q.value)) return q.value;
+    if (!fits)
+      reason = fmt::format("\"{}\" is a {}, not a {}", text, dimension_name(q.dimension),
+                           dimension_name(parse_unit(unit).dimension));
   } catch (const std::invalid_argument& e) {
     reason = e.what();
   }

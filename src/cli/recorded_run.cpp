@@ -36,7 +36,7 @@ void print_run_summary(const Session& session, const Manifest& manifest, const M
   for (const auto& [what, name] : files)
     if (std::filesystem::exists(dir / name)) fmt::print("  {:<9}{}\n", what, (dir / name).string());
   fmt::print("seed {}, state_hash {}\n", manifest.seed, manifest.simulated->state_hash);
-  if (!next.empty()) fmt::print("next: {}\n", next);
+  if (!next.empty()) fmt::print("To repeat the run with another seed: {}\n", next);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/counted.h"
 #include "core/units.h"
@@ -11,25 +12,28 @@
 namespace faba {
 namespace {
 
+// Number of inserted, removed, replaced or (two neighbours) exchanged characters.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t keep = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + std::size_t(a[i - 1] != b[j - 1])});
-      diagonal = keep;
+      d[i][j] =
+          std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + std::size_t(a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
-  }
-  return row[b.size()];
+  return d[a.size()][b.size()];
 }
 
 std::string example(const FieldInfo& f) {
-  return f.unit.empty()
-             ? "a number"
-             : fmt::format("a {} such as \"1 {}\"", dimension_name(parse_unit(f.unit).dimension), f.unit);
+  if (f.unit.empty()) return "a number";
+  if (f.unit == "deg") return "an angle such as 90 or \"90 deg\"";
+  const Dimension dimension = parse_unit(f.unit).dimension;
+  if (f.unit == "rad") return "an angle such as 1.5 or \"90 deg\"";
+  if (dimension == Dimension{}) return fmt::format("a number such as 1 or \"1 {}\"", f.unit);
+  return fmt::format("a {} such as \"1 {}\"", dimension_name(dimension), f.unit);
 }
 
 std::string shown(const Json& j) {
@@ -61,10 +65,11 @@ double in_si(const Json& written) {
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const std::string* best = nullptr;
-  // A word with more than a third of its characters wrong is not a typing error.
-  std::size_t d_best = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t d_best = std::numeric_limits<std::size_t>::max();
   for (const auto& k : known)
-    if (const std::size_t d = edit_distance(word, k); d < d_best) {
+    // A word with more than a third of its characters wrong is not a typing error.
+    if (const std::size_t d = edit_distance(word, k);
+        d < d_best && d <= std::max<std::size_t>(1, std::max(word.size(), k.size()) / 3)) {
       d_best = d;
       best = &k;
     }

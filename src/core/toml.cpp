@@ -149,6 +149,26 @@ std::size_t end_of_string(std::string_view text, std::size_t i) {
   return text.size();
 }
 
+// Advice if the text starts with a typographic quote, in UTF-8.
+std::string quote_advice(std::string_view text) {
+  for (const std::string_view quote : {"\u201c", "\u201d", "\u201e", "\u2018", "\u2019", "\u00ab", "\u00bb"})
+    if (text.starts_with(quote))
+      return fmt::format("{} is a typographic quote; write a straight quote (\"); ", quote);
+  return "";
+}
+
+// The parser's description of an error, with advice for frequent errors.
+std::string with_advice(std::string_view reason) {
+  static constexpr std::pair<std::string_view, std::string_view> kAdvice[] = {
+      {"could not determine value type", "text and quantities with a unit need quotes, such as \"60 Hz\""},
+      {"expected a comment or whitespace", "text and quantities with a unit need quotes, such as \"60 Hz\""},
+      {"cannot redefine existing", "remove one of the two"},
+      {"invalid utf-8", "the file is not UTF-8; save it as UTF-8"}};
+  for (const auto& [part, advice] : kAdvice)
+    if (reason.find(part) != reason.npos) return fmt::format("{}; {}", reason, advice);
+  return std::string(reason);
+}
+
 // TOML permits non-ASCII characters in strings and comments only. Elsewhere some of them cause undefined
 // behaviour in toml++ 3.3.
 void check_plain(std::string_view text, const std::string& name) {
@@ -160,7 +180,8 @@ void check_plain(std::string_view text, const std::string& name) {
     } else if (static_cast<unsigned char>(text[i]) >= 0x80) {
       const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(i), '\n');
       throw Error(Errc::usage, fmt::format("{}:{}", name, line),
-                  "non-ASCII characters are permitted in strings and comments only");
+                  fmt::format("{}non-ASCII characters are permitted in strings and comments only",
+                              quote_advice(text.substr(i))));
     } else {
       ++i;
     }
@@ -179,7 +200,7 @@ Document parse_toml(std::string_view text, const std::string& name) {
     const toml::table t = toml::parse(text, name);
     doc.root = convert(t, "", doc);
   } catch (const toml::parse_error& e) {
-    throw Error(Errc::usage, fmt::format("{}:{}", name, e.source().begin.line), std::string(e.description()));
+    throw Error(Errc::usage, fmt::format("{}:{}", name, e.source().begin.line), with_advice(e.description()));
   } catch (const NotToml&) {
     throw Error(Errc::usage, name, "is not valid TOML: a key or a [header] starts with an invalid character");
   }
@@ -282,7 +303,7 @@ std::string Node::where(const std::string& key) const {
       if (cut == std::string::npos) break;
       p.resize(cut);
     }
-  if (full.empty()) return label;
+  if (full.empty() || label == "--" + full) return label;
   return label.empty() ? full : fmt::format("{}: {}", label, full);
 }
 

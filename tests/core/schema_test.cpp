@@ -81,6 +81,14 @@ TEST_CASE("the former name of a key is read, but not together with the new name"
   CHECK_FALSE(Params::schema().to_json(read("number = 7")).contains("number"));
 }
 
+TEST_CASE("suggestion: only for a typing error, else the known words") {
+  const std::vector<std::string> known = {"run", "flow"};
+  CHECK(suggestion("rnu", known) == "; did you mean \"run\"?");
+  CHECK(suggestion("flwo", known) == "; did you mean \"flow\"?");
+  CHECK(suggestion("foo", known) == "; known: run, flow");
+  CHECK(suggestion("foo", {}).empty());
+}
+
 TEST_CASE("every error message is one line with file, line, path, reason and advice") {
   CHECK(refusal_of("count = 1\nsped = 1") == "scene.toml:2: sped: unknown key; did you mean \"speed\"?");
   CHECK(refusal_of("speed = '3 um'") ==

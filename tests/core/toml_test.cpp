@@ -33,6 +33,13 @@ TEST_CASE("non-ASCII characters: in strings and comments, not in keys") {
   CHECK(refusal("a = 1\nµ = 1\n") ==
         "t.toml:2: non-ASCII characters are permitted in strings and comments only");
   CHECK(refusal("a = 'x'\n\n[Ό]\n").starts_with("t.toml:3: non-ASCII"));
+  CHECK(refusal("a = “x”\n").starts_with("t.toml:1: “ is a typographic quote; write a straight quote"));
+}
+
+TEST_CASE("frequent errors of the parser have advice") {
+  CHECK(refusal("rate = 60 Hz\n").ends_with("need quotes, such as \"60 Hz\""));
+  CHECK(refusal("a = 1\na = 2\n").ends_with("; remove one of the two"));
+  CHECK(refusal("a = 'caf\xE9'\n").ends_with("; the file is not UTF-8; save it as UTF-8"));
 }
 
 TEST_CASE("invalid TOML is rejected, also where the parser accepts it") {

@@ -109,7 +109,7 @@ TEST_CASE("a map is a coil: from a file of `field map`, relative to the coil sys
   write_file(f.path / "none.toml", "[[coil]]\ntype = 'map'\nfile = 'none.csv'\n");
   refused(f, "field null none.toml", 3, "none.csv");
   write_file(f.path / "empty.toml", "[[coil]]\ntype = 'map'\n");
-  refused(f, "field null empty.toml", 2, "file is missing");
+  refused(f, "field null empty.toml", 2, "key \"file\" is missing");
 }
 
 TEST_CASE("a library in a scenario: the run uses its currents, and wrong libraries are refused") {

@@ -185,7 +185,7 @@ TEST_CASE("a scenario reads a coil system from a file, and the run stores its co
   for (const Bad& b :
        {Bad{"file = 'none.toml'", "none.toml not found"}, Bad{"file = 3", "expected a string"},
         Bad{"", "add at least one [[coil]]"},
-        Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "inside the sample plane"},
+        Bad{"coil = [{ type = 'loop', radius = '1 mm', wire_radius = '1 um' }]", "in the sample plane"},
         Bad{"coil = [{ type = 'loop', radius = '-1 mm' }]", "field.coil[0].radius"}}) {
     write_file(f.path / "bad.toml", "[field]\ntype = 'rig'\n" + std::string(b.field) + "\n" +
                                         "[arena]\ntype = 'drop'\nradius_px = 2000\n" + swarm);

@@ -93,6 +93,28 @@ TEST_CASE("invalid command lines: exit 2") {
   }
 }
 
+TEST_CASE("errors of the command line name the option or argument, with advice") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "a command is required"},
+      {"run", "scene: argument is missing; usage: "},
+      {"run s.toml --sed 1", "unknown option --sed; did you mean \"--seed\"?"},
+      {"run --sed 1", "unknown option --sed; did you mean \"--seed\"?"},
+      {"--json run s.toml", "unknown option --json; options follow the command"},
+      {"run s.toml extra", "unexpected argument \"extra\""},
+      {"run s.toml --seed", "--seed: a value is missing"},
+      {"run s.toml --seed 1 --seed 2", "--seed: may be given only once"},
+      {"run s.toml --seed x", "error: --seed: expected an integer between"},
+      {"run s.toml --threads x", "--threads: expected an integer between 1 and 1024, got \"x\""}};
+  for (const auto& [arguments, message] : cases) {
+    const Called c = faba_in(f.path, arguments);
+    INFO("faba ", arguments, " -> ", c.err);
+    CHECK(c.exit == 2);
+    CHECK(c.err.find(message) != std::string::npos);
+  }
+}
+
 TEST_CASE("invalid pictures: exit 3, nothing written") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
@@ -218,12 +240,12 @@ TEST_CASE("valid but probably unintended settings give a note of one line each")
     const char* message;
   };
   write_file(f.path / "s.toml", "duration = '0.5 s'\n[[swarm]]\ncount = 5\n[[swarm]]\ncount = 9\n");
-  for (const Odd& o :
-       {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px is outside the box"},
-        Odd{"limits.max_current=0", "there is no current in the coils"},
-        Odd{"swarm[0].polarity=north", "swarm[0]: the controller steers the south-seeking cells"},
-        Odd{"duration=0", "has only one frame"}, Odd{"exposure=100", "did you mean motility"},
-        Odd{"camera.rate=20", ""}}) {
+  for (const Odd& o : {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px is outside the box"},
+                       Odd{"limits.max_current=0", "there is no current in the coils"},
+                       Odd{"swarm[0].polarity=north",
+                           "swarm[0] is north-seeking, but the controller steers the south-seeking cells"},
+                       Odd{"duration=0", "has only one frame"}, Odd{"exposure=100", "did you mean motility"},
+                       Odd{"camera.rate=20", ""}}) {
     const std::string type = std::string(o.set).starts_with("reference") ? " --set reference.type=hold" : "";
     const std::string run = "run s.toml --seed 1 --force --out run" + type + " --set '" + o.set + "'";
     const Called c = faba_in(f.path, run);

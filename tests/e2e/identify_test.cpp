@@ -227,7 +227,7 @@ TEST_CASE("invalid studies and videos: one line, before any simulation") {
               "[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.segment]]\nfrom = \"1.5 s\"\nto = "
               "\"3 s\"\n" +
               kBasic,
-          2, "must not overlap");
+          2, "before segment[");
   refused(f, kHead + "reversal = \"1 s\"\n[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
           "only one of the two");
   refused(f, kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2, "taken from the video");

@@ -29,8 +29,9 @@ Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& 
 
 Session Session::resume(const Parts& parts, const RunOptions& o) {
   std::error_code ec;
+  if (!std::filesystem::exists(o.out, ec)) throw Error(Errc::input, o.out.string(), "directory not found");
   if (!std::filesystem::is_directory(o.out, ec))
-    throw Error(Errc::input, o.out.string(), "run directory not found");
+    throw Error(Errc::input, o.out.string(), "is a file; specify a run directory");
   if (!RunLock::marks(o.out)) {
     if (std::filesystem::exists(o.out / kManifest, ec))
       throw Error(Errc::usage, o.out.string(), "the run is complete; there is nothing to resume");

@@ -42,9 +42,9 @@ void note_polarities(const Scenario& s, Notes& notes) {
   for (std::size_t i = 0; i < s.swarms.size(); ++i) {
     if ((s.swarms[i].params.polarity == Swarm::Polarity::north) == north) continue;
     notes.push_back(fmt::format(
-        "swarm[{}]: the controller steers the {}-seeking cells; the same field drives the cells of "
-        "this swarm away from the setpoint",
-        i, north ? "north" : "south"));
+        "swarm[{0}] is {1}-seeking, but the controller steers the {2}-seeking cells; the field drives "
+        "swarm[{0}] away from the setpoint",
+        i, north ? "south" : "north", north ? "north" : "south"));
   }
 }
 

@@ -16,16 +16,17 @@ void add_rig_file(CLI::App* v, std::filesystem::path& rig) {
 }
 
 double metres(const std::string& option, const std::string& text) {
-  return quantity_of(text, "m", option, "1 mm, -0.5 mm");
+  return quantity_of(text, "m", option, "1 mm");
 }
 
 Vec2 position(const std::string& option, const std::string& text) {
+  const char* example = option == "--at" ? "1 mm, -0.5 mm" : "6 mm, 4.5 mm";
   const auto comma = text.find(',');
   if (comma == std::string::npos)
     throw Error(Errc::usage, option,
-                fmt::format("\"{}\" is one length; two are required, such as \"1 mm, -0.5 mm\"", text));
-  const Vec2 at{metres(option, text.substr(0, comma)),
-                metres(option, text.substr(std::min(comma + 1, text.size())))};
+                fmt::format("\"{}\" is one value; two lengths are required, such as \"{}\"", text, example));
+  const Vec2 at{quantity_of(text.substr(0, comma), "m", option, example),
+                quantity_of(text.substr(std::min(comma + 1, text.size())), "m", option, example)};
   if (!(std::fabs(at.x) <= 1 && std::fabs(at.y) <= 1))
     throw Error(Errc::usage, option,
                 fmt::format("\"{}\" is out of range; both lengths must be between -1 m and 1 m", text));

@@ -21,10 +21,15 @@ Shard shard_of(const std::string& text) {
     const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, out);
     return error == std::errc() && end == text.data() + to;
   };
-  if (slash == std::string::npos || !number(0, slash, s.index) || !number(slash + 1, text.size(), s.count) ||
-      s.index < 1 || s.index > s.count || s.count > 1000000)
+  if (slash == std::string::npos || !number(0, slash, s.index) || !number(slash + 1, text.size(), s.count))
     throw Error(Errc::usage, "--shard",
                 fmt::format("\"{}\" is not a shard; write INDEX/COUNT, such as 3/16", text));
+  if (s.count < 1 || s.count > 1000000)
+    throw Error(Errc::usage, "--shard",
+                fmt::format("\"{}\" is out of range; COUNT must be between 1 and 1000000", text));
+  if (s.index < 1 || s.index > s.count)
+    throw Error(Errc::usage, "--shard",
+                fmt::format("\"{}\" is out of range; INDEX must be between 1 and COUNT", text));
   return s;
 }
 

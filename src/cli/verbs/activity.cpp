@@ -67,11 +67,14 @@ std::string line_text(double intercept, double slope) {
 }
 
 void print_video(const VideoActivity& a) {
-  fmt::print("{}\n  mean activity {:.4g} px x px^2 per pair above {:.3g} px, direction {} degrees{}\n",
-             a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
-             a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
+  fmt::print(
+      "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees{}\n",
+      a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
+      a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a))
-    fmt::print("  {:.3g} per visible cell ({:.3g} cells)\n", *per_cell, *a.visible_cells);
+    fmt::print("  {:.3g} per visible cell ({} cells)\n", *per_cell,
+               *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
+                                       : fmt::format("{:.0f}", *a.visible_cells));
   if (a.fit.good)
     fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a.fit.peak_s, a.fit.se_peak_s,
                a.fit.sigma_s);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
@@ -17,9 +18,10 @@ void summary(const ControllerComparison& r) {
              "settling time s", "steady-state error px", "dispersion px");
   const auto mean_text = [](const Combination& combination, const char* name) {
     const auto it = combination.metrics.find(name);
-    return it == combination.metrics.end()
-               ? std::string("-")
-               : fmt::format("{:.3g} +- {:.2g}", it->second.mean, it->second.mean - it->second.ci95[0]);
+    if (it == combination.metrics.end()) return std::string("-");
+    const double half_width = it->second.mean - it->second.ci95[0];
+    return std::isfinite(half_width) ? fmt::format("{:.3g} +- {:.2g}", it->second.mean, half_width)
+                                     : fmt::format("{:.3g} (one trial)", it->second.mean);
   };
   for (const Combination& combination : r.combinations)
     fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", combination.controller, combination.model,

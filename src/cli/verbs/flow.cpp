@@ -26,6 +26,12 @@ void print_notes(const std::vector<std::string>& notes, const std::filesystem::p
   for (const std::string& note : notes) print_stderr(fmt::format("faba: note: {}: {}", file.string(), note));
 }
 
+void check_extension(const std::filesystem::path& out, const char* extension, const char* advice) {
+  if (!out.empty() && out.extension() != extension)
+    throw Error(Errc::usage, out.string(),
+                fmt::format("the file extension must be {}; {}", extension, advice));
+}
+
 FlowJob job_of(const FlowVerb& v) {
   FlowJob job;
   job.method = flow_part({v.flow.method, v.flow.values});
@@ -41,6 +47,7 @@ FlowJob job_of(const FlowVerb& v) {
 }
 
 int flow_pair(const FlowVerb& v, const Common& c) {
+  check_extension(v.out, ".flo", "the flow of two pictures is written as .flo (.h5 is for a video)");
   check_output(v.out, ".flo", v.force, {v.a, v.b, v.truth});
   check_output(v.picture, ".png", v.force, {v.a, v.b, v.truth});
   if (!v.overlay.empty())
@@ -70,6 +77,7 @@ int flow_pair(const FlowVerb& v, const Common& c) {
 }
 
 int flow_video(const FlowVerb& v, const Common& c) {
+  check_extension(v.out, ".h5", "the flow of a video is written as .h5 (.flo holds one pair only)");
   check_output(v.out, ".h5", v.force, {v.a});
   check_output(v.overlay, ".mp4", v.force, {v.a});
   for (const auto& [option, file] : {std::pair{"--picture", v.picture}, std::pair{"--truth", v.truth}})

@@ -64,7 +64,9 @@ void add_run(CLI::App& app, CommandLine& line) {
   v->add_option("--threads", o->threads,
                 "Number of threads; default: all threads of the machine. Does not change the result")
       ->check(CLI::Range(1, 1024));
-  v->add_option("-o,--out", o->out, "Run directory; default: runs/SCENE-SEED")->check(not_empty);
+  v->add_option("-o,--out", o->out,
+                "Run directory; default: runs/SCENE-SEED; if it exists, runs/SCENE-SEED-2, -3, ...")
+      ->check(not_empty);
   v->add_option("--duration", o->duration, "Simulated time, such as \"10 s\"");
   v->add_option("--from-video", o->from_video, "Detect the edge of the drop in this picture or video")
       ->check(not_empty);

@@ -92,7 +92,7 @@ class Map final : public Field {
              {.doc = "Result of the fit; computed from the file when absent"})
         .check([](const Params& p) -> std::string {
           if (p.file.empty() && !p.expansion)
-            return "file is missing; specify a CSV or HDF5 file: file = \"map.csv\"";
+            return "key \"file\" is missing; specify a CSV or HDF5 file: file = \"map.csv\"";
           return p.measured_current == 0 ? "measured_current must not be 0" : "";
         })
         .validity(

@@ -77,7 +77,7 @@ void FieldTable::fill(const Field& field) {
     if (field.clearance(p) <= grid_.spacing)
       throw Error(
           Errc::usage, "field",
-          fmt::format("a coil or the edge of a measured map is inside the sample plane z = 0, at "
+          fmt::format("a coil or the edge of a measured map is in the sample plane z = 0, at "
                       "({:.3g}, {:.3g}) mm from its centre; move the coil away, reduce the size of the "
                       "arena or use a larger map",
                       p.x * 1e3, p.y * 1e3));

@@ -5,12 +5,23 @@
 #include "app/scenario/parts.h"
 
 namespace faba {
+namespace {
+
+std::string not_a_parameter(const std::string& key, const std::string& method, const FlowRegistry& flows) {
+  std::string text = fmt::format("not a parameter of method {}", method);
+  for (const std::string& other : flows.names())
+    if (flows.json_schema(other)["properties"].contains(key))
+      return text + fmt::format("; it belongs to {0}: add --method {0}", other);
+  return text;
+}
+
+}  // namespace
 
 FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults) {
   const Parts parts = builtin_parts();
   for (const auto& [key, _] : choice.values)
     if (const Json& known = parts.flow.json_schema(choice.method)["properties"]; !known.contains(key))
-      throw Error(Errc::usage, "--" + key, fmt::format("not a parameter of method {}", choice.method));
+      throw Error(Errc::usage, "--" + key, not_a_parameter(key, choice.method, parts.flow));
   Document d;
   d.name = "--method " + choice.method;
   d.set("flow.type", Json(choice.method), "--method " + choice.method);

@@ -117,7 +117,9 @@ bool FlowSource::Impl::next_of_video(FlowPair& pair) {
     if (wanted) return true;
   }
   if (frame == 0)
-    throw Error(Errc::input, path.string(), "contains one frame only; motion needs at least two");
+    throw Error(Errc::input, path.string(),
+                "contains one frame only; motion needs at least two: give a video, or a second picture to "
+                "`faba flow`");
   return false;
 }
 

@@ -128,7 +128,7 @@ struct VideoFile {
 
 ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<double> um_per_px) {
   const VideoFile v = VideoFile::schema().parse(n);
-  if (v.file.empty()) n.fail("the key file is missing; give file = \"...\"");
+  if (v.file.empty()) n.fail("key \"file\" is missing; specify a video: file = \"video.avi\"");
   ResponseInput r;
   if (!v.segment.empty() && (v.reversal || v.direction || v.duration))
     n.fail("segment cannot be combined with reversal, direction or duration; give only one of the two");
@@ -143,9 +143,14 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   r.direction_deg = v.direction ? v.direction : study.direction;
   r.duration_s = v.duration ? v.duration : study.duration;
   double last = 0;
-  for (const SegmentFile& d : v.segment) {
-    if (!(d.to > d.from) || d.from < last)
-      n.fail("field segments must be in order of time, must not overlap, and must end after they start");
+  for (std::size_t i = 0; i < v.segment.size(); ++i) {
+    const Node at = n.child(n.has("segment") ? "segment" : "drive").item(i);
+    const SegmentFile& d = v.segment[i];
+    if (d.from < last)
+      at.fail(fmt::format("starts at {:g} s, before segment[{}] ends ({:g} s)", d.from, int(i) - 1, last));
+    if (!(d.to > d.from))
+      at.fail(fmt::format("ends at {:g} s, but starts at {:g} s; \"to\" must be later than \"from\"", d.to,
+                          d.from));
     r.segments.push_back({d.from, last = d.to, d.direction});
   }
   return r;
@@ -254,7 +259,9 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
     if (um_per_px) root.fail("um_per_px and scale are both given; give only one");
     um_per_px = parse_calibration(root.file(f.scale).string(), root.where("scale")).um_per_px;
   }
-  if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
+  if (root.has("video") && !root.child("video").json->is_array())
+    root.child("video").fail("must be an array of tables; write [[video]] with file = \"video.avi\"");
+  if (!root.has("video") || root.child("video").json->empty())
     root.fail("[[video]] is missing; give one for each video");
   const Node videos = root.child("video");
   std::set<std::filesystem::path> seen;

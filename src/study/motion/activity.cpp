@@ -219,8 +219,8 @@ ActivityResult measure_activity(const ActivityJob& job) {
     r.videos.push_back(measure(job, i, thresholds[i], pool));
     if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
       r.videos.back().notes.push_back(
-          "the video has no interval without motion to determine the noise; specify a dead sample with "
-          "--noise, or --flow-threshold");
+          "the video has no interval without motion to determine the noise; specify a video of a dead sample "
+          "with --noise, or --flow-threshold");
   }
   fit_exposure_lines(r);
   return r;

@@ -1,9 +1,12 @@
 #include "study/motion/activity_study.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 
 #include "app/scenario/parts.h"
+#include "core/error.h"
 #include "core/toml.h"
 
 namespace faba {
@@ -33,7 +36,7 @@ struct ActivityVideoFile {
         .add("to", &ActivityVideoFile::to,
              {.unit = "s", .min = 0, .max = 1e9, .doc = "End time of the evaluation"})
         .check([](const ActivityVideoFile& v) -> std::string {
-          return v.file.empty() ? "file is missing; specify a video: file = \"video.avi\"" : "";
+          return v.file.empty() ? "key \"file\" is missing; specify a video: file = \"video.avi\"" : "";
         });
   }
 };
@@ -79,15 +82,21 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
   if (study.threshold) job.threshold_px = study.threshold;
   if (!study.noise.empty()) job.noise = root.file(study.noise);
-  if (!root.has("video") || !root.child("video").json->is_array() || root.child("video").json->empty())
+  if (root.has("video") && !root.child("video").json->is_array())
+    root.child("video").fail("must be an array of tables; write [[video]] with file = \"video.avi\"");
+  if (!root.has("video") || root.child("video").json->empty())
     root.fail("has no videos; add one [[video]] for each");
   const Node list = root.child("video");
   for (std::size_t i = 0; i < list.json->size(); ++i) {
     const Node n = list.item(i);
     const ActivityVideoFile v = ActivityVideoFile::schema().parse(n);
-    job.videos.push_back({n.file(v.file), v.exposure, v.experiment,
-                          v.direction ? v.direction : study.direction,
-                          v.from.value_or(study.from.value_or(0)), v.to ? v.to : study.to});
+    const double from = v.from.value_or(study.from.value_or(0));
+    const std::optional<double> to = v.to ? v.to : study.to;
+    if (to && *to <= from)
+      throw Error(Errc::usage, n.where("to"),
+                  fmt::format("{:g} s is not later than from = {:g} s", *to, from));
+    job.videos.push_back(
+        {n.file(v.file), v.exposure, v.experiment, v.direction ? v.direction : study.direction, from, to});
   }
 }
 

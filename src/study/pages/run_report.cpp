@@ -23,10 +23,13 @@ namespace {
 constexpr double kLate = 2.0 / 3;               // fraction of the run; start of the steady-state error
 constexpr std::size_t kMaxRouteSetpoints = 50;  // more are a moving setpoint, not a route
 
-/// "12.3 px (9.86 µm)", or only pixels without a picture scale.
+/// "12.3 px (9.86 µm)", in mm from 1000 µm, or only pixels without a picture scale.
 std::string length_text(double px, const RunInfo& info) {
   std::string text = three_digits(px) + "\u00A0px";
-  if (info.um_per_px) text += fmt::format(" ({}\u00A0µm)", three_digits(px * *info.um_per_px));
+  if (!info.um_per_px) return text;
+  const double um = px * *info.um_per_px;
+  text += um < 1000 ? fmt::format(" ({}\u00A0µm)", three_digits(um))
+                    : fmt::format(" ({}\u00A0mm)", three_digits(um / 1000));
   return text;
 }
 

@@ -54,12 +54,15 @@ std::vector<double> gap_ratios(const MarkRow& row, double tick_um) {
   return ratios;
 }
 
-void require_line(std::size_t readings, std::size_t widths, const std::string& name) {
+void require_line(std::size_t readings, const std::map<double, std::vector<double>>& by_width,
+                  const std::string& name) {
+  const std::size_t widths = by_width.size();
   if (widths >= 2 && readings >= 3) return;
   throw Error(Errc::input, name,
-              fmt::format("has {} of {}; at least three readings of two widths are needed",
+              fmt::format("has {}{}; at least three readings of at least two widths are needed",
                           readings == 1 ? "one reading" : fmt::format("{} readings", readings),
-                          widths == 1 ? "one width" : fmt::format("{} widths", widths)));
+                          widths == 1 ? fmt::format(", all of the width {:g} um", by_width.begin()->first)
+                                      : fmt::format(" of {} widths", widths)));
 }
 
 Calibration calibration_with(const ScaleMeasurement& scale, std::string method) {
@@ -84,7 +87,7 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
     width_um.push_back(std::round(readings.width_m[i] * 1e18) / 1e12);
     by_width[width_um.back()].push_back(readings.reading_px[i]);
   }
-  require_line(width_um.size(), by_width.size(), name);
+  require_line(width_um.size(), by_width, name);
   const LineFit line = fit_line(width_um, readings.reading_px);
   TableScale s;
   s.slope_px_per_um = line.slope;

@@ -190,7 +190,7 @@ ControllerStudy read_controller_study(const std::filesystem::path& file) {
   const Node root(d);
   const StudyFile f = StudyFile::schema().parse(root, {"controller", "model"});
   if (f.scene.empty())
-    root.fail("scene is missing; specify the scenario of all trials: scene = \"scene.toml\"");
+    root.fail("key \"scene\" is missing; specify the scenario of all trials: scene = \"scene.toml\"");
   ControllerStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;
   study.scene = read_toml(root.file(f.scene));

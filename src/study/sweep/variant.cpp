@@ -38,7 +38,7 @@ std::vector<Variant> read_variants(const Node& study, const std::string& key,
     if (v.part.empty())
       v.part = Json();
     else if (!v.part.contains("type") || !v.part["type"].is_string())
-      n.fail("type is missing; specify type = \"...\"");
+      n.fail("key \"type\" is missing; specify type = \"...\"");
     if (v.name.empty())
       v.name = v.part.is_null() ? fmt::format("{} {}", key, i + 1) : v.part["type"].get<std::string>();
     if (!names.insert(v.name).second)

@@ -102,8 +102,8 @@ std::string describe_straight_or_short(const DropCandidate& d, const DropEdgeOpt
         "picture that shows a longer arc of the drop edge",
         sagitta, sd_sagitta, length);
   return fmt::format(
-      "the edge covers only {:.1f} degrees of a circle of radius {:.0f} px (at least {:.0f} degrees "
-      "required); use a lower magnification or show more of the edge",
+      "no drop edge detected: the best arc covers only {:.1f} degrees of a circle of radius {:.0f} px (at "
+      "least {:.0f} degrees required); use a lower magnification or show more of the edge",
       d.seen_rad * kDegrees, d.circle.radius, o.min_arc_deg);
 }
 

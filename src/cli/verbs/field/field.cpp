@@ -21,6 +21,7 @@ FABA_FIELD_VERBS(FABA_DECLARE)
 void add_field(CLI::App& app, CommandLine& line) {
   CLI::App* field = app.add_subcommand("field", "Magnetic field of a coil system");
   field->require_subcommand(1);
+  field->footer("Options of a command: faba field COMMAND --help");
 #define FABA_ADD(name) add_field_##name(*field, line);
   FABA_FIELD_VERBS(FABA_ADD)
 #undef FABA_ADD

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/command_line.h"
 #include "cli/options/field.h"
@@ -30,6 +31,10 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
   if (!(o.spacing >= 0))
     throw Error(Errc::usage, "--spacing",
                 fmt::format("{:g} m is negative; it must be at least 0 m", o.spacing));
+  if (o.spacing > std::max(o.width, o.height))
+    throw Error(Errc::usage, "--spacing",
+                fmt::format("{} is larger than the rectangle ({:g} mm x {:g} mm); use a smaller spacing",
+                            v.spacing, o.width * 1e3, o.height * 1e3));
   o.levels = v.levels;
   o.threads = v.threads;
   o.force = v.force;
@@ -52,9 +57,8 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
     fmt::print("trap strength relative to the solver: median {:.3g}\n", *library.strength);
   if (library.entries == 0)
     print_stderr(
-        "faba: note: no set of currents gives a zero of the field in this rectangle; a library needs at "
-        "least "
-        "two coils");
+        "faba: note: no set of currents gives an isolated zero of the field in this rectangle; "
+        "the library is empty. Use at least two coils whose fields have gradients, or a larger --size");
   else if (library.traps == 0)
     print_stderr("faba: note: all zeros are saddles, which drive cells away along one direction");
   fmt::print("  {}\n", v.out.string());

@@ -33,10 +33,11 @@ int field_null(const FieldNullVerb& v, const Common& c) {
 
 void add_field_null(CLI::App& field, CommandLine& line) {
   const auto o = std::make_shared<FieldNullVerb>();
-  CLI::App* v = verb(field, line, "null",
-                     "Compute currents for a zero of the field at a position that traps cells there",
-                     "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
-                     "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
+  CLI::App* v =
+      verb(field, line, "null",
+           "Compute the currents that produce a zero of the field at a position and trap cells there",
+           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
+           "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
   add_rig_file(v, o->rig);
   v->add_option("--at", o->at, "Position in the plane of the sample, x and y");
   v->add_option("--polarity", o->polarity, "Cells to trap: north-seeking or south-seeking")

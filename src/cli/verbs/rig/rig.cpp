@@ -23,6 +23,7 @@ FABA_RIG_VERBS(FABA_DECLARE)
 void add_rig(CLI::App& app, CommandLine& line) {
   CLI::App* rig = app.add_subcommand("rig", "The bench: a camera and coils, real or simulated");
   rig->require_subcommand(1);
+  rig->footer("Options of a command: faba rig COMMAND --help");
 #define FABA_ADD(name) add_rig_##name(*rig, line);
   FABA_RIG_VERBS(FABA_ADD)
 #undef FABA_ADD

@@ -128,13 +128,14 @@ FABA_VECTORISED bool all_valid_bins(const double* h, std::size_t n) {
 
 BinSimilarity BinSimilarity::truncated_linear(double threshold) {
   if (!(threshold > 0) || !std::isfinite(threshold))
-    throw Error(Errc::usage, "threshold",
-                fmt::format("{} is out of range; it must be a finite number of bins above 0", threshold));
+    throw Error(Errc::usage, "--threshold",
+                fmt::format("{} is out of range; it must be a finite number above 0", threshold));
   BinSimilarity s;
   for (std::size_t k = 0; double(k) < threshold; ++k) {
     s.taps_.push_back(1 - double(k) / threshold);
     if (k == 1000000)
-      throw Error(Errc::usage, "threshold", "is out of range; it must be at most 1000000 bins");
+      throw Error(Errc::usage, "--threshold",
+                  fmt::format("{} is out of range; it must be at most 1000000", threshold));
   }
   return s;
 }
@@ -169,7 +170,8 @@ void BinSimilarity::apply(const double* in, double* out, std::size_t n) const {
 HistogramDistance::HistogramDistance(BinSimilarity similarity, double m)
     : similarity_(std::move(similarity)), m_(m) {
   if (!(m >= 0 && m < 1))
-    throw Error(Errc::usage, "m", fmt::format("{} is out of range; it must be >= 0 and < 1", m));
+    throw Error(Errc::usage, "--m",
+                fmt::format("{} is out of range; it must be at least 0 and less than 1", m));
 }
 
 double HistogramDistance::operator()(std::span<const double> p, std::span<const double> q) {
