@@ -53,7 +53,7 @@ OTHER_MEANINGS = (
     ("none", "a text or a style of the page", "web/src/i18n.ts web/src/parts/export.ts"),
     ("rig", "the section [rig]",
      "src/app/bench/bench_controls.cpp src/app/bench/simulated_bench.cpp src/app/bench/step_response.cpp "
-     "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/cli/verbs/rig/jog.cpp src/rig/bench/bench_rig.cpp"),
+     "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/rig/bench/bench_rig.cpp"),
     ("rig", "the verb", "src/app/bench/bench_process.cpp src/cli/verbs/rig/rig.cpp"),
     ("rig", "the file of a coil system, as an argument or a key",
      "src/app/files/library_file.cpp src/cli/options/field.cpp src/cli/verbs/field/fit.cpp src/cli/verbs/schema.cpp "

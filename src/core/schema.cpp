@@ -68,8 +68,10 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   std::size_t d_best = std::numeric_limits<std::size_t>::max();
   for (const auto& k : known)
     // A word with more than a third of its characters wrong is not a typing error.
+    // Of two equally near words the longer one: characters are left out more often than exchanged.
     if (const std::size_t d = edit_distance(word, k);
-        d < d_best && d <= std::max<std::size_t>(1, std::max(word.size(), k.size()) / 3)) {
+        (d < d_best || (best && d == d_best && k.size() > best->size())) &&
+        d <= std::max<std::size_t>(1, std::max(word.size(), k.size()) / 3)) {
       d_best = d;
       best = &k;
     }

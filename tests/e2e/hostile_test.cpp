@@ -109,7 +109,7 @@ TEST_CASE("errors of the command line name the option or argument, with advice")
       {"run s.toml --threads x", "--threads: expected an integer between 1 and 1024, got \"x\""}};
   for (const auto& [arguments, message] : cases) {
     const Called c = faba_in(f.path, arguments);
-    INFO("faba ", arguments, " -> ", c.err);
+    INFO("faba ", std::string(arguments), " -> ", c.err);
     CHECK(c.exit == 2);
     CHECK(c.err.find(message) != std::string::npos);
   }

@@ -21,7 +21,7 @@ await step('the gallery opens, and the token is removed from the address', async
 
 await step('a scene is started', async () => {
   await page.getByRole('button', { name: 'Steer a swarm along a route' }).click();
-  await page.getByText('Drag on the picture to apply a field').waitFor();
+  await page.getByText('Drag on the picture: the swarm swims').waitFor();
   await until(async () => (await read('swarm'))[0] > 0, 'the swarm is shown');
   await shot('first');
   await page.getByRole('button', { name: 'Close' }).click();

@@ -186,7 +186,7 @@ TEST_CASE("a single moving spot is tracked, and its speed is reported") {
     write_file(f.path / ("dot/f" + std::to_string(k) + ".pgm"), spot(64, 48, 12 + 3 * k, 20));
   const Called c = faba_in(f.path, "track dot --fps 10 --swarm s.csv");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
-  CHECK(c.out.find("speed    30 px/s") != std::string::npos);
+  CHECK(c.out.find("speed    mean 30 px/s") != std::string::npos);
   const Table t = read_table(f.path / "s.csv");
   for (std::size_t k = 0; k < 10; ++k)
     CHECK(t.column("x_px")[k] == doctest::Approx(12 + 3 * double(k)).epsilon(0.02));
@@ -243,6 +243,6 @@ TEST_CASE("study files and distances: errors name the file, the key or the line"
   refused(f, "distance p short", 3, "has 2 bins");
   write_file(f.path / "below", "1\n-2\n");
   refused(f, "distance below p", 3, "at least 0");
-  refused(f, "distance p q --m 1", 2, "< 1");
+  refused(f, "distance p q --m 1", 2, "less than 1");
   refused(f, "distance p q --threshold 0", 2, "above 0");
 }

@@ -141,7 +141,7 @@ TEST_CASE("invalid tables are refused") {
   CHECK(says(refused("width_um,length_mm\n30,41\n50,63\n70,88\n"), "two columns of lengths"));
   CHECK(says(refused("width_um\n30\n50\n"), "no column of readings"));
   CHECK(says(refused("width_um,px\n"), "no readings"));
-  CHECK(says(refused("width_um,px_1,px_2,px_3\n30,41,42,40\n"), "one width"));
+  CHECK(says(refused("width_um,px_1,px_2,px_3\n30,41,42,40\n"), "all of the width"));
   CHECK(says(refused("width_um,px\n30,41\n50,63\n"), "three readings"));
   CHECK(says(refused("width_um,px\n-30,41\n50,63\n70,88\n"), "greater than 0"));
   CHECK(says(refused("width_um,px\n30,41\n50,0\n70,88\n"), ":3"));
