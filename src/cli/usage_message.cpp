@@ -65,8 +65,8 @@ std::string usage_of(const CLI::App& app, const std::string& command) {
 
 std::string usage_message(const CLI::App& app, const std::string& command, const CLI::ParseError& error) {
   const std::vector<const CLI::App*> chain = given_commands(app);
-  if (const std::string text = unexpected(chain); !text.empty()) return text;
-  const std::string reason = error.what();
+  if (std::string text = unexpected(chain); !text.empty()) return text;
+  std::string reason = error.what();
   if (reason == "A subcommand is required") return "a command is required";
   std::smatch part;
   const auto matches = [&](const char* pattern) {
