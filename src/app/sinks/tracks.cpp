@@ -8,8 +8,7 @@
 namespace faba {
 namespace {
 
-constexpr std::uint64_t kChunkBytes =
-    16u << 20;  // of the row of chunks being filled; fits into the cache of the file
+constexpr std::uint64_t kChunkBytes = 16u << 20;  // of the row of chunks being filled, which is in memory
 
 class Tracks final : public RunSink {
  public:
@@ -18,7 +17,7 @@ class Tracks final : public RunSink {
   Tracks(const SinkContext& c, std::uint64_t keep)
       : c_(c),
         path_(c.dir / "tracks.h5"),
-        file_(H5File::create(keep ? path_.string() + ".new" : path_.string())) {
+        file_(H5File::create(keep ? path_.string() + ".new" : path_.string(), c.pool)) {
     const auto n = std::uint64_t(c.truth->state().agents.size());
     const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
     frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, 1024, 1, false));

@@ -3,17 +3,22 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <mutex>
 #include <type_traits>
 #include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/h5/chunk_code.h"
+#include "core/parallel.h"
 
 namespace faba {
 namespace {
 
-constexpr std::size_t kCacheBytes = 64u << 20;
+// Cache of decoded chunks for readers, per table: a row of chunks of every file that this program writes
+// fits.
+constexpr std::size_t kCacheBytes = 64u << 20, kCacheSlots = 12421;
 
 template <class T>
 hid_t type_of() {
@@ -78,13 +83,23 @@ void quiet() {
 struct H5Table::Impl {
   Handle set;
   hid_t type = -1;
-  std::vector<hsize_t> dims;  ///< rows first
+  std::vector<hsize_t> dims, chunk;  ///< rows first
   std::string where;
+
+  // Of a table that is being written.
+  ChunkFilters filters;
+  Pool* pool = nullptr;
+  std::vector<std::uint8_t> waiting;  ///< rows of the row of chunks that is being filled
+  std::uint64_t first_waiting = 0;    ///< index of the first of these rows
+  bool unwritten = false;             ///< some of these rows are not in the file
+  std::vector<CodedChunk> coded;
+
   std::size_t row_size() const {
     std::size_t n = 1;
     for (std::size_t i = 1; i < dims.size(); ++i) n *= std::size_t(dims[i]);
     return n;
   }
+  std::size_t row_bytes() const { return row_size() * filters.element_bytes; }
   [[noreturn]] void fail(Errc code, const char* doing) const {
     throw Error(code, where, fmt::format("cannot {}: {}", doing, reason()));
   }
@@ -100,12 +115,62 @@ struct H5Table::Impl {
     H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
     return {Handle(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose), std::move(in_file)};
   }
+  void append(const void* row);
+  void encode(std::size_t column);
+  void write_waiting();
 };
+
+void H5Table::Impl::append(const void* row) {
+  const auto* bytes = static_cast<const std::uint8_t*>(row);
+  waiting.insert(waiting.end(), bytes, bytes + row_bytes());
+  ++dims[0];
+  unwritten = true;
+  if (dims[0] - first_waiting < chunk[0]) return;
+  write_waiting();
+  waiting.clear();
+  first_waiting = dims[0];
+}
+
+// Encodes a chunk of the waiting rows: the one that begins at element column * chunk[1] of their first
+// dimension. A chunk is always stored in its full size; elements beyond the table are zero.
+void H5Table::Impl::encode(std::size_t column) {
+  thread_local std::vector<std::uint8_t> raw;
+  std::size_t bytes = filters.element_bytes;  // of a row of the chunk
+  for (std::size_t i = 1; i < chunk.size(); ++i) bytes *= std::size_t(chunk[i]);
+  raw.assign(std::size_t(chunk[0]) * bytes, 0);
+  const std::size_t begin = column * bytes, row = row_bytes();
+  const std::size_t used = std::min(bytes, row - begin);
+  for (std::size_t r = 0; r < waiting.size() / row; ++r)
+    std::copy_n(waiting.data() + r * row + begin, used, raw.data() + r * bytes);
+  encode_chunk(raw, filters, coded[column]);
+}
+
+// HDF5 compresses in one thread and under its global lock. Complete encoded chunks are passed to it instead.
+void H5Table::Impl::write_waiting() {
+  if (!std::exchange(unwritten, false)) return;
+  const std::size_t columns = dims.size() > 1 ? std::size_t((dims[1] + chunk[1] - 1) / chunk[1]) : 1;
+  coded.resize(columns);
+  if (pool) {
+    pool->run(columns, [this](std::size_t column) { encode(column); });
+  } else {
+    for (std::size_t column = 0; column < columns; ++column) encode(column);
+  }
+  if (H5Dset_extent(set, dims.data()) < 0) fail(Errc::internal, "write");
+  std::vector<hsize_t> at(dims.size(), 0);
+  at[0] = first_waiting;
+  for (std::size_t column = 0; column < columns; ++column) {
+    if (at.size() > 1) at[1] = column * chunk[1];
+    const CodedChunk& c = coded[column];
+    if (H5Dwrite_chunk(set, H5P_DEFAULT, c.skipped, at.data(), c.bytes.size(), c.bytes.data()) < 0)
+      fail(Errc::internal, "write");
+  }
+}
 
 struct H5File::Impl {
   Handle file;
   std::filesystem::path path;
-  std::vector<std::weak_ptr<H5Table::Impl>> tables;
+  Pool* pool = nullptr;
+  std::vector<std::shared_ptr<H5Table::Impl>> tables;  ///< that are being written
   [[noreturn]] void fail(Errc code, const char* doing) const {
     throw Error(code, path.string(), fmt::format("cannot {}: {}", doing, reason()));
   }
@@ -117,11 +182,7 @@ void H5Table::append(std::span<const T> row) {
   quiet();
   if (row.size() != t.row_size() || type_of<T>() != t.type)
     throw Error(Errc::internal, t.where, "the row has the wrong shape or type");
-  ++t.dims[0];
-  if (H5Dset_extent(t.set, t.dims.data()) < 0) t.fail(Errc::internal, "write");
-  const auto at = t.select(t.dims[0] - 1);
-  if (H5Dwrite(t.set, t.type, at.memory, at.in_file, H5P_DEFAULT, row.data()) < 0)
-    t.fail(Errc::internal, "write");
+  t.append(row.data());
 }
 
 template <class T>
@@ -145,10 +206,11 @@ H5File::H5File(H5File&&) noexcept = default;
 H5File& H5File::operator=(H5File&&) noexcept = default;
 H5File::~H5File() = default;
 
-H5File H5File::create(const std::filesystem::path& file) {
+H5File H5File::create(const std::filesystem::path& file, Pool* pool) {
   quiet();
   auto impl = std::make_unique<Impl>();
   impl->path = file;
+  impl->pool = pool;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110,
                        H5F_LIBVER_V110);  // required for single writer, multiple readers
@@ -163,6 +225,7 @@ H5File H5File::open(const std::filesystem::path& file) {
   impl->path = file;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  H5Pset_cache(access, 0, kCacheSlots, kCacheBytes, 1.0);
   impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   // HDF5 retries to read partly written metadata, with a pause that doubles each time; the default number of
   // attempts takes hours. A millisecond in total is enough for a running writer.
@@ -187,18 +250,19 @@ H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>&
   chunk[0] = chunk_rows;
   if (chunk.size() > 1) chunk[1] = std::min<hsize_t>(chunk[1], chunk_columns);
   const Handle space(H5Screate_simple(int(t->dims.size()), t->dims.data(), max_dims.data()), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose),
-      access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(creation, int(chunk.size()), chunk.data());
   if (compress) {
     H5Pset_shuffle(creation);
     H5Pset_deflate(creation, 1);
   }
   H5Pset_fletcher32(creation);  // a flipped bit gives a read error
-  H5Pset_chunk_cache(access, 12421, kCacheBytes, 1.0);
-  t->set =
-      Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, creation, access), H5Dclose);
+  t->set = Handle(H5Dcreate2(impl_->file, name.c_str(), t->type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                  H5Dclose);
   if (t->set < 0) impl_->fail(Errc::internal, "create a table");
+  t->chunk = chunk;
+  t->filters = {sizeof(T), compress};
+  t->pool = impl_->pool;
   impl_->tables.push_back(t);
   return H5Table(t);
 }
@@ -266,6 +330,7 @@ void H5File::begin_writing() {
 
 void H5File::sync() {
   quiet();
+  for (const auto& t : impl_->tables) t->write_waiting();
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->fail(Errc::internal, "write");
   void* handle = nullptr;  // pointer to the file descriptor of HDF5
   if (H5Fget_vfd_handle(impl_->file, H5P_DEFAULT, &handle) < 0) impl_->fail(Errc::internal, "write");
@@ -276,14 +341,13 @@ void H5File::rename_complete(const std::filesystem::path& to) {
   sync();
   faba::rename_complete(impl_->path, to);
   impl_->path = to;
-  for (const auto& weak : impl_->tables)
-    if (const auto t = weak.lock()) t->where = to.string();
+  for (const auto& t : impl_->tables) t->where = to.string();
 }
 
 void H5File::close() {
   sync();
-  for (const auto& weak : impl_->tables)
-    if (const auto t = weak.lock(); t && !t->set.release()) impl_->fail(Errc::internal, "write");
+  for (const auto& t : impl_->tables)
+    if (!t->set.release()) impl_->fail(Errc::internal, "write");
   if (!impl_->file.release()) impl_->fail(Errc::internal, "close");
 }
 

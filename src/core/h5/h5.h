@@ -8,7 +8,10 @@
 
 namespace faba {
 
-/// An HDF5 dataset to which rows are appended. Element types: float, double, std::uint8_t, std::int32_t,
+class Pool;
+
+/// An HDF5 dataset to which rows are appended. Rows are kept in memory until a row of chunks is complete, or
+/// until H5File::sync(). Element types: float, double, std::uint8_t, std::int32_t,
 /// std::uint64_t. Valid as long as its file is open. Every failure throws Error(internal) with the file name
 /// and the reason given by HDF5.
 class H5Table {
@@ -32,8 +35,9 @@ class H5Table {
 /// several files, because Debian builds HDF5 thread-safe (its calls are serialised).
 class H5File {
  public:
-  /// Throws Error(internal) if the file cannot be created.
-  static H5File create(const std::filesystem::path& file);
+  /// `pool`: threads that compress the chunks; null: the calling thread. It must outlive the file. Throws
+  /// Error(internal) if the file cannot be created.
+  static H5File create(const std::filesystem::path& file, Pool* pool = nullptr);
   /// Opens for reading, also a file whose writer was killed. Throws Error(input).
   static H5File open(const std::filesystem::path& file);
   H5File(H5File&&) noexcept;
