@@ -38,8 +38,8 @@ RgbImage DrawnSwarm::draw(double t, Vec2 target) {
   for (const Vec2 p : loop_.reference->setpoints()) route_.push_back(frame.image_from_world(p));
   scene.route = route_;
   scene.field_ut = {b.x * 1e6, b.y * 1e6};
-  if (ground_.empty()) ground_ = draw_static_part(scene);
-  return draw_swarm(scene, ground_);
+  if (!picture_) picture_.emplace(scene);
+  return picture_->draw(scene);
 }
 
 }  // namespace faba

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "app/run/simulation.h"
 #include "vision/draw/swarm_picture.h"
 
@@ -19,7 +21,7 @@ class DrawnSwarm {
   double um_per_px_;
   std::vector<Vec2> route_;
   std::vector<SwarmScene::Cell> cells_;
-  RgbImage ground_;
+  std::optional<SwarmPicture> picture_;
 };
 
 }  // namespace faba

@@ -1,16 +1,23 @@
+#include <algorithm>
+
 #include "app/sinks/sinks.h"
+#include "core/background.h"
 #include "vision/files/video_writer.h"
 
 namespace faba {
 namespace {
 
+constexpr std::size_t kWaitingBytes = 64u << 20;  // of the pictures that wait for the encoder
+
+/// Encodes in its own thread.
 class Video final : public RunSink {
  public:
   Video(const SinkContext& c, bool lossless, std::uint64_t keep)
       : c_(c),
         lossless_(lossless),
         part_(c.dir / (lossless ? "video.avi.part" : "video.mp4.part")),
-        final_(c.dir / (lossless ? "video.avi" : "video.mp4")) {
+        final_(c.dir / (lossless ? "video.avi" : "video.mp4")),
+        encoding_(std::clamp<std::size_t>(kWaitingBytes / picture_bytes(c), 1, 16)) {
     // The process was killed after this file was completed and before the run was: the file is complete.
     if (keep > 0 && !std::filesystem::exists(part_) && std::filesystem::exists(final_)) return;
     writer_.emplace(part_, lossless ? VideoFormat::lossless_avi : VideoFormat::mp4, c.frame.width,
@@ -22,20 +29,22 @@ class Video final : public RunSink {
     if (!writer_) return;
     if (c_.jitter && !c_.frames->planned_time(t.index)) times_.push_back(c_.frames->time_of(t));
     if (c_.draw)
-      writer_->write(c_.draw(t));
+      encode(c_.draw(t));
     else if (lossless_ && c_.frames->bits() == 16)
-      writer_->write(c_.frames->deep_picture());
+      encode(c_.frames->deep_picture());
     else
-      writer_->write(*c_.frames->picture(t));
+      encoding_.add([this, picture = c_.frames->picture(t)] { writer_->write(*picture); });
   }
 
   void checkpoint(Archive& a) override {
+    encoding_.wait();
     std::uint64_t bytes = writer_ ? writer_->sync() : 1;
     a& bytes;
   }
 
   void finish(bool keep) override {
     if (!writer_) return;
+    encoding_.wait();
     if (c_.jitter) {
       const auto every = std::uint64_t(c_.record.video_every);
       writer_->finish(final_, keep, [&](long long frame) {
@@ -53,6 +62,13 @@ class Video final : public RunSink {
     if (frame < times_.size()) return times_[frame];
     return times_.back() + double(frame - times_.size() + 1) * c_.record.video_every / c_.frame_rate;
   }
+  template <class Picture>
+  void encode(Picture picture) {
+    encoding_.add([this, picture = std::move(picture)] { writer_->write(picture); });
+  }
+  static std::size_t picture_bytes(const SinkContext& c) {
+    return sizeof(Rgb) * std::size_t(c.frame.width) * std::size_t(c.frame.height);
+  }
   static VideoPixels grey(const SinkContext& c, bool lossless) {
     if (c.draw) return VideoPixels::colour;
     return lossless && c.frames->bits() == 16 ? VideoPixels::grey16 : VideoPixels::grey8;
@@ -63,6 +79,7 @@ class Video final : public RunSink {
   std::filesystem::path part_, final_;
   std::optional<VideoWriter> writer_;
   std::vector<double> times_;  ///< s, times of the frames of a bench, which are not known in advance
+  Background encoding_;        ///< last: its jobs use the other members
 };
 
 }  // namespace

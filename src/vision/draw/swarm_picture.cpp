@@ -13,11 +13,10 @@ namespace faba {
 namespace {
 
 // Okabe-Ito colours, safe for colour-blind readers.
-const cv::Scalar kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90, 20}};
-const cv::Scalar kPale{178, 182, 190}, kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
+constexpr Rgb kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90, 20}}, kPale{178, 182, 190};
+const cv::Scalar kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
 const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kInk{60, 60, 60};
-constexpr std::size_t kManyCells =
-    20000;  // above, a cell is one pixel: anti-aliased discs would take longer than a simulation step
+constexpr std::size_t kManyCells = 20000;  // above, a cell is one pixel: discs would cover each other
 
 void line(cv::Mat& m, Vec2 a, Vec2 b, const cv::Scalar& colour, int thickness = 1) {
   cv::line(m, fixed_point(a), fixed_point(b), colour, thickness, cv::LINE_AA, kShift);
@@ -48,20 +47,6 @@ void ground(cv::Mat& m, const SwarmScene& s) {
                cv::LINE_AA, kShift);
 }
 
-void cells(cv::Mat& m, const SwarmScene& s) {
-  const int r = std::max(1, fixed_length(s.cell_radius_px));
-  for (const auto& c : s.cells) {
-    if (c.x < -3 || c.y < -3 || c.x > float(s.width + 2) || c.y > float(s.height + 2)) continue;
-    const cv::Scalar& colour = c.responding ? kSwarm[c.swarm % 4] : kPale;
-    if (s.cells.size() <= kManyCells) {
-      cv::circle(m, fixed_point({double(c.x), double(c.y)}), r, colour, cv::FILLED, cv::LINE_AA, kShift);
-    } else if (const cv::Point p(int(std::lround(c.x)), int(std::lround(c.y)));
-               p.x >= 0 && p.y >= 0 && p.x < m.cols && p.y < m.rows) {
-      m.at<cv::Vec3b>(p) = {std::uint8_t(colour[0]), std::uint8_t(colour[1]), std::uint8_t(colour[2])};
-    }
-  }
-}
-
 void scale_bar(cv::Mat& m, const SwarmScene& s) {
   const ScaleBar bar = scale_bar_for(s.width, s.um_per_px);
   const double x = 12, y = s.height - 14;
@@ -88,20 +73,31 @@ void field_arrow(cv::Mat& m, const SwarmScene& s) {
 
 }  // namespace
 
-RgbImage draw_static_part(const SwarmScene& s) {
-  RgbImage out(s.width, s.height);
-  cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
+SwarmPicture::SwarmPicture(const SwarmScene& s) : ground_(s.width, s.height), disc_(s.cell_radius_px) {
+  cv::Mat m(s.height, s.width, CV_8UC3, ground_.px.data());
   ground(m, s);
   if (s.edge_radius_px > 0)
     cv::circle(m, fixed_point(s.edge_centre), fixed_length(s.edge_radius_px), kEdge, 1, cv::LINE_AA, kShift);
   for (std::size_t i = 1; i < s.route.size(); ++i) line(m, s.route[i - 1], s.route[i], {210, 160, 210});
-  return out;
 }
 
-RgbImage draw_swarm(const SwarmScene& s, const RgbImage& on_ground) {
-  RgbImage out = on_ground;
+void SwarmPicture::draw_cells(const SwarmScene& s, RgbImage& picture) const {
+  const bool discs = s.cells.size() <= kManyCells;
+  for (const SwarmScene::Cell& c : s.cells) {
+    const Rgb colour = c.responding ? kSwarm[c.swarm % 4] : kPale;
+    if (discs) {
+      disc_.draw(picture, double(c.x), double(c.y), colour);
+      continue;
+    }
+    const long x = std::lround(c.x), y = std::lround(c.y);
+    if (x >= 0 && y >= 0 && x < s.width && y < s.height) picture.at(int(x), int(y)) = colour;
+  }
+}
+
+RgbImage SwarmPicture::draw(const SwarmScene& s) const {
+  RgbImage out = ground_;
   cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
-  cells(m, s);
+  draw_cells(s, out);
   if (s.setpoint) cross(m, *s.setpoint, 10, kPurple);
   if (s.centroid) cross(m, *s.centroid, 7, kGreen);
   if (s.width >= 160 && s.height >= 120) {  // smaller pictures have no space for text

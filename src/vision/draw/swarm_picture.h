@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/vec.h"
+#include "vision/draw/disc_sprites.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -28,11 +29,19 @@ struct SwarmScene {
   const Gray8* background = nullptr;  ///< background picture of the same size, drawn faintly; nullptr: none
 };
 
-/// Draws the static part: background, drop with edge, route.
-RgbImage draw_static_part(const SwarmScene& scene);
+/// Draws pictures of a swarm. Deterministic.
+class SwarmPicture {
+ public:
+  /// Draws the part that all pictures have in common: background, drop with edge, route.
+  explicit SwarmPicture(const SwarmScene& scene);
+  /// Draws the cells, crosses, scale bar, time and field arrow of `scene` on it.
+  RgbImage draw(const SwarmScene& scene) const;
 
-/// Draws the complete picture: cells, crosses, scale bar, time and field arrow on the result of
-/// draw_static_part(). Deterministic. Throws nothing.
-RgbImage draw_swarm(const SwarmScene& scene, const RgbImage& ground);
+ private:
+  void draw_cells(const SwarmScene& scene, RgbImage& picture) const;
+
+  RgbImage ground_;
+  DiscSprites disc_;
+};
 
 }  // namespace faba

@@ -1,0 +1,49 @@
+#include "vision/draw/disc_sprites.h"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/draw/fixed_point.h"
+
+namespace faba {
+namespace {
+
+constexpr int kSteps = 1 << kShift;  // positions within a pixel, along each axis
+
+std::uint8_t blended(std::uint8_t ground, std::uint8_t colour, int coverage) {
+  return std::uint8_t((ground * (255 - coverage) + colour * coverage + 127) / 255);
+}
+
+}  // namespace
+
+DiscSprites::DiscSprites(double radius_px) : side_(2 * int(std::ceil(radius_px + 1)) + 1) {
+  const int radius = std::max(1, fixed_length(radius_px)), half = side_ / 2;
+  coverage_.resize(std::size_t(kSteps * kSteps * side_ * side_));
+  std::uint8_t* sprite = coverage_.data();
+  for (int y = 0; y < kSteps; ++y)
+    for (int x = 0; x < kSteps; ++x, sprite += side_ * side_) {
+      cv::Mat m(side_, side_, CV_8UC1, sprite);
+      cv::circle(m, {half * kSteps + x, half * kSteps + y}, radius, 255, cv::FILLED, cv::LINE_AA, kShift);
+    }
+}
+
+void DiscSprites::draw(RgbImage& picture, double x, double y, Rgb colour) const {
+  const cv::Point at = fixed_point({x, y});
+  const int left = (at.x >> kShift) - side_ / 2, top = (at.y >> kShift) - side_ / 2;
+  const int part = (at.y & (kSteps - 1)) * kSteps + (at.x & (kSteps - 1));
+  const std::uint8_t* sprite = coverage_.data() + std::ptrdiff_t(part) * side_ * side_;
+  const int first_row = std::max(0, -top), end_row = std::min(side_, picture.height - top);
+  const int first = std::max(0, -left), end = std::min(side_, picture.width - left);
+  for (int row = first_row; row < end_row; ++row) {
+    const std::uint8_t* coverage = sprite + std::ptrdiff_t(row) * side_;
+    Rgb* to = picture.px.data() + std::ptrdiff_t(top + row) * picture.width + left;
+    for (int column = first; column < end; ++column) {
+      const int c = coverage[column];
+      if (c == 0) continue;
+      to[column] = {blended(to[column].r, colour.r, c), blended(to[column].g, colour.g, c),
+                    blended(to[column].b, colour.b, c)};
+    }
+  }
+}
+
+}  // namespace faba
