@@ -1,0 +1,109 @@
+// chunk_code and h5: HDF5 reads the chunks that this program encodes, for all element sizes, shapes and
+// numbers of threads, and checks their checksums.
+#include "core/h5/chunk_code.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include "core/h5/h5.h"
+#include "core/parallel.h"
+#include "core/splitmix.h"
+#include "tests/app/run_directory.h"
+
+using namespace faba;
+
+namespace {
+
+// Values of which deflate saves nothing (`noise`), or much.
+template <class T>
+std::vector<T> row_of(std::size_t n, std::uint64_t row, bool noise) {
+  std::vector<T> v(n);
+  for (std::size_t i = 0; i < n; ++i) v[i] = T(noise ? splitmix64(i + n * row) >> 40 : (i + row) / 100);
+  return v;
+}
+
+template <class T>
+void check_round_trip(const std::filesystem::path& file, const std::vector<std::uint64_t>& shape, bool noise,
+                      Pool* pool) {
+  constexpr std::uint64_t kRows = 11;  // two complete chunks of 4 rows, and 3 rows
+  std::size_t n = 1;
+  for (const std::uint64_t side : shape) n *= std::size_t(side);
+  {
+    H5File f = H5File::create(file, pool);
+    H5Table compressed = f.table<T>("compressed", shape, 4, 7, true);
+    H5Table plain = f.table<T>("plain", shape, 4, 7, false);
+    f.begin_writing();
+    for (std::uint64_t r = 0; r < kRows; ++r) {
+      compressed.append<T>(row_of<T>(n, r, noise));
+      plain.append<T>(row_of<T>(n, r, noise));
+      if (r == 5) f.sync();  // in the middle of a chunk, which is written again
+    }
+    f.close();
+  }
+  const H5File f = H5File::open(file);
+  for (const char* name : {"compressed", "plain"}) {
+    const H5Table t = f.table(name);
+    REQUIRE(t.rows() == kRows);
+    std::vector<T> row(n);
+    for (std::uint64_t r = 0; r < kRows; ++r) {
+      t.read<T>(r, row);
+      CHECK(row == row_of<T>(n, r, noise));
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("HDF5 reads what encode_chunk wrote") {
+  const TestFolder folder;
+  const auto file = folder.path / "t.h5";
+  Pool pool(3);
+  for (Pool* threads : {static_cast<Pool*>(nullptr), &pool})
+    for (const bool noise : {false, true})
+      for (const std::vector<std::uint64_t>& shape :
+           {std::vector<std::uint64_t>{}, {1}, {7}, {20}, {20, 2}, {9, 13}}) {
+        check_round_trip<std::uint8_t>(file, shape, noise, threads);
+        check_round_trip<std::int32_t>(file, shape, noise, threads);
+        check_round_trip<float>(file, shape, noise, threads);
+        check_round_trip<double>(file, shape, noise, threads);
+      }
+}
+
+TEST_CASE("a changed byte of a chunk is detected by its checksum") {
+  const TestFolder folder;
+  const auto file = folder.path / "t.h5";
+  for (const bool compress : {false, true}) {
+    const std::vector<double> row = row_of<double>(500, 0, true);
+    {
+      H5File f = H5File::create(file);
+      H5Table t = f.table<double>("t", {500}, 1, 500, compress);
+      f.begin_writing();
+      t.append<double>(row);
+      f.close();
+    }
+    std::vector<double> read(500);
+    H5File::open(file).table("t").read<double>(0, read);
+    CHECK(read == row);
+    // The chunk is searched by its checksum, which ends it.
+    CodedChunk chunk;
+    encode_chunk({reinterpret_cast<const std::uint8_t*>(row.data()), 8 * row.size()}, {8, compress}, chunk);
+    std::string bytes = read_file(file);
+    const auto at = bytes.find(std::string(chunk.bytes.begin(), chunk.bytes.end()));
+    REQUIRE(at != std::string::npos);
+    bytes[at + chunk.bytes.size() / 2] ^= 1;
+    write_file(file, bytes);
+    const H5File damaged = H5File::open(file);
+    CHECK_THROWS_AS(damaged.table("t").read<double>(0, read), Error);
+  }
+}
+
+TEST_CASE("the bytes of a chunk do not depend on the thread") {
+  std::vector<std::uint8_t> bytes(40000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = std::uint8_t(i / 50 * (i % 3));
+  std::array<CodedChunk, 6> coded;
+  Pool pool(3);
+  pool.run(coded.size(), [&](std::size_t i) { encode_chunk(bytes, {4, true}, coded[i]); });
+  CHECK(coded[0].bytes.size() < bytes.size() / 4);
+  for (const CodedChunk& c : coded) CHECK(c.bytes == coded[0].bytes);
+}
