@@ -144,6 +144,8 @@ class Pages {
           const fs::path runs = workspace_.root() / "runs";
           fs::create_directories(runs);
           fs::path dir = runs / slug;
+          Json answer = Json::object();
+          if (fs::exists(dir) || fs::exists(dir.string() + ".toml")) answer["taken"] = slug;
           for (int i = 2; fs::exists(dir) || fs::exists(dir.string() + ".toml"); ++i)
             dir = runs / fmt::format("{}-{}", slug, i);
           const fs::path scene = dir.string() + ".toml", out = fs::relative(dir, workspace_.root());
@@ -151,6 +153,8 @@ class Pages {
           jobs_.add(fmt::format("{} ({})", dir.filename().string(), state_hash),
                     {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
                     out / "report.html", out);
+          answer["name"] = dir.filename().string();
+          return answer;
         },
         done);
   }
