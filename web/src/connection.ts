@@ -109,7 +109,7 @@ export class Connection {
     return new Promise((resolve) => {
       const late = window.setTimeout(() => {
         this.waiting.delete(id);
-        resolve({ ok: false, where: '', what: 'timeout', word: 'timeout' });
+        resolve({ ok: false, where: '', what: `timeout: no answer within ${kPatience / 1000} s`, word: 'timeout' });
       }, kPatience);
       this.waiting.set(id, (a) => {
         clearTimeout(late);

@@ -15,8 +15,8 @@ function translated(text: string, say: Say): string | undefined {
   const all = kProgram[say.language];
   return Object.hasOwn(all, text) ? all[text] : undefined;
 }
-/** A message of the program in the language of the page. */
-export const programText = (text: string, say: Say) => micro(translated(text, say) ?? text);
+/** A message of the program in the language of the page. Portuguese has the word "um", which is no unit. */
+export const programText = (text: string, say: Say) => translated(text, say) ?? micro(text);
 
 /** The title of a job, "activity: file": its verb in the language of the page. */
 export function jobTitle(title: string, say: Say): string {
@@ -31,10 +31,13 @@ export function failureText(t: { where?: string; what?: string; word?: Word }, s
   return t.where ? `${t.where}: ${what}` : what;
 }
 
-/** An exception as one line. */
-export function reason(e: unknown, say: Say): string {
-  return e instanceof RequestError ? failureText(e, say) : micro((e as Error).message);
+/** An exception as a negative answer of the program. */
+export function failure(e: unknown): { ok: false; where: string; what: string; word?: Word } {
+  if (e instanceof RequestError) return { ok: false, where: e.where, what: e.what, word: e.word };
+  return { ok: false, where: '', what: (e as Error).message };
 }
+/** An exception as one line. */
+export const reason = (e: unknown, say: Say) => failureText(failure(e), say);
 
 /** The place of an error in an imported file: it names the file once. */
 export const placeInFile = (file: string, where: string) => (where === file || where.startsWith(`${file}:`) ? where : where ? `${file}: ${where}` : file);
