@@ -10,12 +10,12 @@ import { kProgram, type Say, type Word } from './i18n';
 export const micro = (text: string) =>
   text.replace(/(?<![\w.`-])u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))/g, 'µ').replace(/(?<=\d ?)u(?=s\b)/g, 'µ');
 
-/** The translation of a fixed text of the program; undefined if there is none. */
+/** The translation of a fixed text of the program; undefined without a translation. */
 function translated(text: string, say: Say): string | undefined {
   const all = kProgram[say.language];
   return Object.hasOwn(all, text) ? all[text] : undefined;
 }
-/** A message of the program in the language of the page. Portuguese has the word "um", which is no unit. */
+/** A message of the program in the language of the page. The Portuguese word "um" is not a unit. */
 export const programText = (text: string, say: Say) => translated(text, say) ?? micro(text);
 
 /** The title of a job, "activity: file": its verb in the language of the page. */

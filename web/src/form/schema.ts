@@ -105,7 +105,7 @@ export function same(a: any, b: any, s: Schema): boolean {
 
 /**
  * The preset of a part's table: the one that it names, or the first one with exactly its values, because a resolved scenario has
- * all values and no preset. Empty if there is none.
+ * all values and no preset. Empty if no preset matches.
  */
 export function presetOf(part: Schema | undefined, table: Record<string, any>): string {
   if (typeof table.preset === 'string') return table.preset;
@@ -126,7 +126,7 @@ function hasValues(properties: Record<string, Schema>, table: Record<string, any
 
 /**
  * The text about the source of a value, as arguments of say(): the source of the schema belongs to its default, and the source of a
- * preset to the values that the preset gives. Null if there is none.
+ * preset to the values that the preset gives. Null without a source.
  */
 export function sourceOf(s: Schema, now: any, preset?: { value: any; source: string }): ['form.source' | 'form.default_source', Record<string, string>] | null {
   const own = typeof s['x-source'] === 'string' ? s['x-source'] : '';
