@@ -15,4 +15,16 @@ void skip(const std::string& why);
 /// Whether a file or folder of recordings is absent; if so, marks the running test case as skipped.
 bool skipped_without(const std::filesystem::path& path);
 
+/// Declares that the test program works with devices in real time, which are processes too. If a check then
+/// fails while other processes take all cores (see cores_taken()), the failure is printed and the program
+/// counts as skipped: a device that gets no processor says nothing about the tested code.
+void works_in_real_time();
+
+/// Processes that compete for the cores, as a mean over 0.5 s: n threads on n cores with m other busy
+/// processes get the share n / (n + m) of the time.
+double competing_processes();
+
+/// Whether as many other processes are busy as there are cores: competing_processes(), rounded.
+bool cores_taken();
+
 }  // namespace faba::test

@@ -152,6 +152,7 @@ TEST_CASE("capture without coils: numbered pictures, one of four, with their tim
 TEST_CASE(
     "a bench started with the run: the swarm reaches its setpoint, the recording is complete and replays "
     "identically") {
+  test::works_in_real_time();
   const TestFolder f;
   const Called c = faba_in(f.path, "rig run '" FABA_SCENES
                                    "/bench.toml' --arm --seed 1 --duration '6 s' --json --out run "

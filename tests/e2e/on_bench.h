@@ -66,6 +66,7 @@ struct OnBench {
       : f(),
         rig("\n[rig]\ncamera = { type = 'simulated', at = 'bench' }\n" +
             (more.starts_with("driver") ? "" : kSimulatedCoils) + more + "[rig.bench]\n" + bench) {
+    test::works_in_real_time();
     write_file(f.path / "scene.toml", kScene + rig);
     simulated = std::make_unique<Child>(
         f.path, "'" FABA_PROGRAM "' rig simulate scene.toml --at bench --log coils.csv --quiet 2> bench.txt");
