@@ -200,7 +200,8 @@ std::string rotated_label(PlotPoint p, const std::string& label, double axis_len
   return out;
 }
 
-std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, double per_unit, const Map& map) {
+std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, const SecondScale& second,
+                      const Map& map) {
   std::string grid, text;
   const double bottom = map.top + map.h, end = map.left + map.w;
   for (std::size_t i = 0; i < x.at.size(); ++i) {
@@ -214,7 +215,7 @@ std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, double
     text += text_at({map.left - 6, at + 4}, "end", shade(Ink::muted), y.labels[i]);
   }
   for (std::size_t i = 0; i < right.at.size(); ++i) {
-    const double at = map.top + map.to_y(right.at[i] / per_unit);
+    const double at = map.top + map.to_y((right.at[i] - second.offset) / second.per_unit);
     text += text_at({end + 6, at + 4}, "start", shade(Ink::muted), right.labels[i]);
   }
   text += text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label);
@@ -243,7 +244,8 @@ struct Layout {
   Scale left, right, below;
   std::vector<Ink> inks;
   Legend legend;
-  double per_unit = 1, height = 0;
+  SecondScale second = {};
+  double height = 0;
   bool blank = false;
 };
 
@@ -259,8 +261,10 @@ Layout layout_of(const Plot& plot) {
   map.h = plot.height - 50;
   out.left = scale_along(plot.y, map.y, std::max(2, int(map.h / 42)));
   if (plot.right) {
-    if (std::isfinite(plot.right->per_unit)) out.per_unit = plot.right->per_unit;
-    out.right = scale_of({map.y.lo * out.per_unit, map.y.hi * out.per_unit}, 5, plot.right->label);
+    const double per_unit = plot.right->per_unit, offset = plot.right->offset;
+    if (std::isfinite(per_unit) && std::isfinite(offset)) out.second = *plot.right;
+    const auto second = [&](double v) { return out.second.per_unit * v + out.second.offset; };
+    out.right = scale_of({second(map.y.lo), second(map.y.hi)}, 5, plot.right->label);
   }
   map.left = 26 + out.left.width + second_line_width(out.left.label, map.h);
   const double right_width =
@@ -314,7 +318,7 @@ std::string svg(const Plot& given) {
     out += text_at({at.map.left, 18}, "start", shade(Ink::text), plot.title,
                    R"( font-weight="600" font-size="14")");
   }
-  out += at.legend.drawing + draw_axes(at.below, at.left, at.right, at.per_unit, at.map);
+  out += at.legend.drawing + draw_axes(at.below, at.left, at.right, at.second, at.map);
   // A nested <svg> clips its content without an id, which could collide with another figure on the page.
   out += fmt::format(R"(<svg x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}">)", at.map.left, at.map.top,
                      at.map.w, at.map.h);
