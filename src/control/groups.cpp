@@ -33,8 +33,8 @@ class EstimatorGroups final : public Estimator {
         .add("separation", &Params::separation,
              {.min = 1,
               .max = 100,
-              .doc =
-                  "Minimum distance between two groups, relative to their spread along the line between them",
+              .doc = "Minimum distance between two groups, relative to their dispersion along the line "
+                     "between them",
               .source = "H6"})
         .add("follow", &Params::follow,
              {.doc =
@@ -48,7 +48,7 @@ class EstimatorGroups final : public Estimator {
               .doc = "Initial position of the group to follow with follow = \"first\", world frame"})
         .include(&Params::foreground, foreground_schema("", ""))
         .validity(
-            "Groups whose distance is below `separation` times their spread are merged. Single cells and "
+            "Groups whose distance is below `separation` times their dispersion are merged. Single cells and "
             "groups of a few cells are ignored.");
   }
   EstimatorGroups(const Params& p, const ControlContext& c)
@@ -99,7 +99,7 @@ class EstimatorGroups final : public Estimator {
     add_pieces(foreground_.weights(), foreground_.runs());
     return binned(places_, kBins);
   }
-  // Splits rows of pixels into pieces of a quarter of a bin, so that the loss of spread is small compared
+  // Splits rows of pixels into pieces of a quarter of a bin, so that the loss of dispersion is small compared
   // with that of the bins.
   void add_pieces(const GrayF& weights, const std::vector<ComponentRun>& runs) {
     int low = weights.width, high = 0;

@@ -142,9 +142,9 @@ std::string cards(const Metrics& m, const RunInfo& info) {
     out += card("Steady-state error, rms", three_digits(*m.steady_rms_px) + "\u00A0px",
                 in_um(*m.steady_rms_px, info, "last third"));
   }
-  if (m.path_tracking_rms_px) {
-    out += card("Tracking error, rms", three_digits(*m.path_tracking_rms_px) + "\u00A0px",
-                in_um(*m.path_tracking_rms_px, info, "from the second setpoint"));
+  if (m.cross_track_rms_px) {
+    out += card("Cross-track error, rms", three_digits(*m.cross_track_rms_px) + "\u00A0px",
+                in_um(*m.cross_track_rms_px, info, "from the second setpoint"));
   }
   if (m.rms_radius_px) {
     out += card("Dispersion, rms radius", three_digits(*m.rms_radius_px) + "\u00A0px",

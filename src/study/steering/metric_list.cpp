@@ -10,7 +10,7 @@ namespace faba {
 namespace {
 
 constexpr const char *kReaching = "Reaching the setpoint", *kStaying = "Holding the setpoint",
-                     *kPath = "Path", *kSpread = "Spread at the last frame", *kCommand = "Command";
+                     *kPath = "Path", *kDispersion = "Dispersion at the last frame", *kCommand = "Command";
 
 using M = Metrics;
 
@@ -98,14 +98,14 @@ constexpr MetricInfo kMetrics[] = {
      .in_um = "µm",
      .compared = true,
      .value = &M::path_length_px},
-    {.key = "path_tracking_rms_px",
+    {.key = "cross_track_rms_px",
      .group = kPath,
-     .name = "Tracking error",
-     .meaning = "rms distance to the route, after the first setpoint",
+     .name = "Cross-track error, rms",
+     .meaning = "root mean square of the distance to the route, after the first setpoint",
      .unit = "px",
      .in_um = "µm",
      .compared = true,
-     .value = &M::path_tracking_rms_px},
+     .value = &M::cross_track_rms_px},
     {.key = "cross_track_95_px",
      .group = kPath,
      .name = "Cross-track error, 95 %",
@@ -115,7 +115,7 @@ constexpr MetricInfo kMetrics[] = {
      .compared = true,
      .value = &M::cross_track_95_px},
     {.key = "sigma_x_px",
-     .group = kSpread,
+     .group = kDispersion,
      .name = "σx",
      .meaning = "standard deviation of the cell positions along x",
      .unit = "px",
@@ -123,7 +123,7 @@ constexpr MetricInfo kMetrics[] = {
      .compared = true,
      .value = &M::sigma_x_px},
     {.key = "sigma_y_px",
-     .group = kSpread,
+     .group = kDispersion,
      .name = "σy",
      .meaning = "standard deviation of the cell positions along y",
      .unit = "px",
@@ -131,7 +131,7 @@ constexpr MetricInfo kMetrics[] = {
      .compared = true,
      .value = &M::sigma_y_px},
     {.key = "rms_radius_px",
-     .group = kSpread,
+     .group = kDispersion,
      .name = "RMS radius",
      .meaning = "root-mean-square distance from the centroid",
      .unit = "px",

@@ -156,7 +156,7 @@ void measure_route(Metrics& m, const std::vector<Vec2>& centroid, const Route& r
     square += error.back() * error.back();
   }
   if (error.empty()) return;
-  m.path_tracking_rms_px = std::sqrt(square / double(error.size()));
+  m.cross_track_rms_px = std::sqrt(square / double(error.size()));
   m.cross_track_95_px = quantile(std::move(error), kQuantile);
 }
 

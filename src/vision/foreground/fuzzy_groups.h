@@ -23,7 +23,7 @@ struct FuzzyGroupOptions {
   int count = 0;              ///< number of groups; 0: estimated, 1 to `most`
   int most = 4;               ///< maximum number of groups, 1 to 10
   double least_share = 0.03;  ///< minimum fraction of the total weight in a group
-  /// Two groups are separate only if their distance exceeds this multiple of their spread along the
+  /// Two groups are separate only if their distance exceeds this multiple of their dispersion along the
   /// connecting line. Two halves of a uniform distribution have 3.5, of a Gaussian 2.7 (theory H6).
   double separation = 4.5;
 };
