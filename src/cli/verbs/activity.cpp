@@ -68,7 +68,9 @@ std::string line_text(double intercept, double slope) {
 
 void print_video(const VideoActivity& a) {
   fmt::print(
-      "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees{}\n",
+      "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees (0 right, "
+      "90 "
+      "down){}\n",
       a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
       a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a))

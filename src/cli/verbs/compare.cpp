@@ -26,8 +26,8 @@ struct CompareVerb {
 };
 
 void print_runs(const Comparison& result) {
-  fmt::print("alignment: {}; direction {} degrees, flow threshold {:.3g} px\n", result.alignment,
-             rounded_degrees(result.filter.direction_deg), result.filter.threshold_px);
+  fmt::print("alignment: {}; direction {} degrees (0 right, 90 down), flow threshold {:.3g} px\n",
+             result.alignment, rounded_degrees(result.filter.direction_deg), result.filter.threshold_px);
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
   for (const ComparedRun& r : result.runs) {
     const auto score = score_of(result, r);

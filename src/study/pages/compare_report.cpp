@@ -78,9 +78,12 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter, int& number
                                                       {&r.furthest.run, "Run"}};
   for (const auto& [flow, heading] : both)
     out += fmt::format(
-        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Figure {2}. Flow within 45° of the direction.</figcaption>\n"
+        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Figure {2}. Flow within 45° of the direction, {3:.0f}° in "
+        "the picture "
+        "frame (0 right, 90 down).</figcaption>\n"
         "</figure>\n",
-        heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading), ++number);
+        heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading), ++number,
+        filter.direction_deg);
   const int flows = number - 1;
   const auto sums = [&](const char* heading, const char* over, const Plot& plot) {
     return figure_markup(
