@@ -37,11 +37,11 @@ std::vector<double> memberships(const std::vector<FuzzyGroup>& groups, Vec2 at);
 /// among those whose groups are all separate, the index of Xie and Beni decides; otherwise the result is one
 /// group. Groups are sorted by weight, largest first. Portable arithmetic: bit-identical for the same input.
 /// Empty if the total weight is 0.
-std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& places,
+std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& positions,
                                      const FuzzyGroupOptions& options = {});
 
 /// Bins the positions on a grid of at most `cells` x `cells` squares over their bounding box: one weighted
 /// mean position for each occupied square.
-std::vector<WeightedPosition> binned(const std::vector<WeightedPosition>& places, int cells);
+std::vector<WeightedPosition> binned(const std::vector<WeightedPosition>& positions, int cells);
 
 }  // namespace faba

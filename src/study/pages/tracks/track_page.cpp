@@ -128,11 +128,10 @@ std::string table(const TrackMeasurement& m) {
   out += row("Background", d.temporal ? fmt::format("median of {} frames, with {} stationary spots",
                                                     d.background_frames, d.stationary_spots)
                                       : "spatial, from each frame");
-  out += row(
-      "Linking",
-      fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
-                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.discarded_tracks,
-                  t.least_points));
+  out += row("Linking", fmt::format("search radius {}, motion model {}, gaps of at most {} frames; {} tracks "
+                                    "with fewer than {} points ignored",
+                                    number(t.search_radius_px, " px"), word_of(t.motion), t.max_gap_frames,
+                                    t.discarded_tracks, t.min_points));
   out += row("Drift", drift(m));
   out += row("Diffusion", diffusion(m));
   out += row("Persistent walk", walk_speed(m) + ", persistence time " + walk_time(m));
