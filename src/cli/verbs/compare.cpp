@@ -26,18 +26,18 @@ struct CompareVerb {
 };
 
 void print_runs(const Comparison& result) {
-  fmt::print("alignment: {}; direction {} degrees, flow threshold {:.3g} px\n", result.alignment,
-             rounded_degrees(result.filter.direction_deg), result.filter.threshold_px);
+  fmt::print("alignment: {}; direction {} degrees (0 right, 90 down), flow threshold {:.3g} px\n",
+             result.alignment, rounded_degrees(result.filter.direction_deg), result.filter.threshold_px);
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
   for (const ComparedRun& r : result.runs) {
     const auto score = score_of(result, r);
     fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r.distance.mean, r.distance.sd,
                r.distance.line.slope, score ? fmt::format("{:.3f}", *score) : "-", r.file.string());
   }
-  if (result.floor)
-    fmt::print("{:10.4f} {:43}floor: {}\n", *result.floor, "", result.floor_from);
+  if (result.noise_floor)
+    fmt::print("{:10.4f} {:43}noise floor: {}\n", *result.noise_floor, "", result.noise_floor_from);
   else
-    fmt::print("{:>10} {:43}floor: {}\n", "-", "", result.floor_from);
+    fmt::print("{:>10} {:43}noise floor: {}\n", "-", "", result.noise_floor_from);
   fmt::print("{:10.4f} {:43}baseline: no motion\n", result.naive.mean, "");
 }
 
@@ -63,7 +63,7 @@ int compare(const CompareVerb& v, const Common& c) {
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
   job.threads = v.flow.threads;
-  job.simulate_floor = !v.no_floor;
+  job.simulate_noise_floor = !v.no_floor;
   std::string label;
   std::optional<Progress> bar;
   job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {

@@ -49,7 +49,8 @@ void print_table(const TableScale& s) {
 
 void print_picture(const PictureScale& s) {
   fmt::print(
-      "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees, scatter {:.2f} px: {}\n",
+      "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees clockwise from x, scatter "
+      "{:.2f} px: {}\n",
       s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px,
       word_of(s.quality));
   fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,

@@ -23,8 +23,8 @@ struct TrackVerb {
   std::vector<std::filesystem::path> out;
   std::string scale;  ///< number or calibration file
   std::string polarity = "auto", background = "auto", motion = "auto";
-  double fps = 0, size_px = 0, threshold = 0, reach_px = 0;
-  int memory = 2, least = 3, interval = 0;
+  double fps = 0, size_px = 0, threshold = 0, search_radius_px = 0;
+  int max_gap_frames = 2, min_points = 3, interval = 0;
   bool drop = false, force = false;
 };
 
@@ -51,9 +51,9 @@ TrackOptions options_of(const TrackVerb& v) {
   o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
   o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
   o.tracker.motion = chosen<Motion>(v.motion, {"auto", "nearest", "velocity"});
-  o.tracker.reach_px = v.reach_px;
-  o.tracker.memory = v.memory;
-  o.tracker.least_points = v.least;
+  o.tracker.search_radius_px = v.search_radius_px;
+  o.tracker.max_gap_frames = v.max_gap_frames;
+  o.tracker.min_points = v.min_points;
   return o;
 }
 
@@ -186,14 +186,17 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("--threshold", t->threshold,
                 "Minimum signal-to-noise ratio of a spot; default: one false detection in 10 frames")
       ->check(between(1, 1e6));
-  v->add_option("--reach", t->reach_px, "Maximum displacement between two frames, px; default: measured")
+  v->add_option("--reach", t->search_radius_px,
+                "Maximum displacement between two frames, px; default: measured")
       ->check(between(0.1, 1e5));
   v->add_option("--motion", t->motion,
                 "Predict positions by velocity, or use the nearest spot; default: chosen for the video")
       ->check(one_of({"auto", "nearest", "velocity"}));
-  v->add_option("--memory", t->memory, "Maximum number of consecutive frames without a detection of the cell")
+  v->add_option("--memory", t->max_gap_frames,
+                "Maximum number of consecutive frames without a detection of the cell")
       ->check(CLI::Range(0, 1000));
-  v->add_option("--least", t->least, "Minimum number of detections of a track")->check(CLI::Range(1, 100000));
+  v->add_option("--least", t->min_points, "Minimum number of detections of a track")
+      ->check(CLI::Range(1, 100000));
   v->add_option(
        "--interval", t->interval,
        "Number of frames over which displacements are measured for speeds and turns; default: measured")

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.h"
 #include "core/draw_blocks.h"
 #include "core/kernels/philox_row.h"
 #include "core/schema.h"
@@ -62,8 +63,6 @@ class Dipole final : public AgentModel {
   double turning_;  ///< median m / f_r, rad/(s T)
   double d_r_, d_t_;
 };
-
-constexpr double kBoltzmann = 1.380649e-23;  // J/K, exact in the SI
 
 struct Block {
   const float *bx, *by, *response, *turning, *speed, *x, *y;

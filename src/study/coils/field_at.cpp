@@ -33,7 +33,7 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m");
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (!std::isfinite(x[i] + y[i] + z[i]))
-      throw Error(Errc::input, table.place(i), "a coordinate is missing");
+      throw Error(Errc::input, table.location(i), "a coordinate is missing");
     out.at.push_back({x[i], y[i], z[i]});
   }
   out.b.resize(out.at.size());

@@ -79,8 +79,8 @@ class TrackPass {
     return d;
   }
   TrackJoining joining() const {
-    return {tracker_.reach_px(), tracker_.motion(), options_.tracker.memory, options_.tracker.least_points,
-            tracker_.discarded_tracks()};
+    return {tracker_.search_radius_px(), tracker_.motion(), options_.tracker.max_gap_frames,
+            options_.tracker.min_points, tracker_.discarded_tracks()};
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }

@@ -55,9 +55,9 @@ Off swim_off(int n, double noise) {
 
 }  // namespace
 
-// Requirement of camera-based control: centroid within 2 px and spread within 5 % for 200 to 2000 cells at an
-// arc of 25 degrees of a drop edge, at three noise levels, after the background was learnt; and a usable
-// centroid from the first picture.
+// Requirement of camera-based control: centroid within 2 px and dispersion within 5 % for 200 to 2000 cells
+// at an arc of 25 degrees of a drop edge, at three noise levels, after the background was learnt; and a
+// usable centroid from the first picture.
 TEST_CASE("a swarm at the edge of a drop") {
   for (const int n : {200, 600, 2000})
     for (const double noise : {1.0, 4.0, 8.0}) {
