@@ -61,6 +61,9 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
   out.current = field->default_currents();
   const Table table = read_table(points);
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m");
+  if (table.size() == 0)
+    throw Error(Errc::input, points.string(),
+                "has a header but no points; write one line per point, such as 0.001,0,0");
   for (std::size_t i = 0; i < table.size(); ++i) {
     if (!std::isfinite(x[i] + y[i] + z[i]))
       throw Error(Errc::input, table.place(i), "a coordinate is missing");

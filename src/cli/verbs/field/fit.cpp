@@ -7,6 +7,7 @@
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
+#include "cli/progress.h"
 #include "study/pages/field_report.h"
 
 namespace faba::cli {
@@ -29,7 +30,11 @@ int field_fit(const FieldFitVerb& v, const Common& c) {
   check_output(v.out, {".toml"}, v.force, {v.rig, v.measured});
   check_output(v.picture, {".svg"}, v.force, {v.rig, v.measured});
   check_distinct({v.out, v.picture});
-  const FieldFit fit = faba::field_fit(v.rig, v.measured, v.out, v.picture);
+  // The number of evaluations until convergence is not known.
+  Progress bar("fit, evaluations of the field", !c.quiet && !c.json);
+  const FieldFit fit = faba::field_fit(v.rig, v.measured, v.out, v.picture,
+                                       [&](std::uint64_t evaluations) { bar.update(evaluations, 0); });
+  bar.clear();
   if (c.json) {
     fmt::print("{}\n", field_json(fit).dump());
     return 0;
