@@ -18,11 +18,7 @@ void check_output(const std::filesystem::path& file, const std::vector<std::stri
   if (std::filesystem::is_directory(file, ec)) reject("is a directory; give a file name");
   if (const auto folder = file.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder, ec))
     reject(fmt::format("cannot be written: folder {} not found", folder.string()));
-  const std::string extension = file.extension().string();
-  if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-    reject(fmt::format("the file extension must be {}, not \"{}\"; change the name",
-                       fmt::join(extensions, " or "), extension));
-  if (!std::filesystem::exists(std::filesystem::symlink_status(file, ec))) return;
+  const bool exists = std::filesystem::exists(std::filesystem::symlink_status(file, ec));
   if (std::filesystem::exists(file, ec) && !std::filesystem::is_regular_file(file, ec))
     reject("is not a regular file; give another name");
   for (const auto& input : inputs)
@@ -30,9 +26,13 @@ void check_output(const std::filesystem::path& file, const std::vector<std::stri
       reject("is an input of this command; give another name");
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   for (const auto& input : inputs)
-    if (std::filesystem::is_directory(input, ec) && std::filesystem::equivalent(folder, input, ec))
+    if (exists && std::filesystem::is_directory(input, ec) && std::filesystem::equivalent(folder, input, ec))
       reject("is in a folder that this command reads; give another name");
-  if (!force) reject("already exists; give another name, or --force to replace it");
+  const std::string extension = file.extension().string();
+  if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    reject(fmt::format("the file extension must be {}, not \"{}\"; change the name",
+                       fmt::join(extensions, " or "), extension));
+  if (exists && !force) reject("already exists; give another name, or --force to replace it");
 }
 
 void check_output_folder(const std::filesystem::path& folder, const char* option) {

@@ -210,7 +210,8 @@ Document parse_toml(std::string_view text, const std::string& name) {
 Document read_toml(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMaxBytes = 4u << 20;
   std::error_code ec;
-  if (!std::filesystem::exists(file, ec)) throw Error(Errc::usage, file.string(), "file not found; check the name");
+  if (!std::filesystem::exists(file, ec))
+    throw Error(Errc::usage, file.string(), "file not found; check the name");
   if (std::filesystem::is_directory(file, ec))
     throw Error(Errc::usage, file.string(), "is a directory, not a TOML file");
   if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)

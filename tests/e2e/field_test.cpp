@@ -104,6 +104,11 @@ TEST_CASE("field map: zeros, picture, HDF5 file, and error of the table") {
   CHECK(row[1] < 0);
   for (const char* again : {"--picture m.png", "--picture n.png --out m.h5"})
     CHECK(faba_in(f.path, map + again).exit == 2);
+  const Called csv = faba_in(f.path, map + "--picture n.png --out n.csv");
+  CHECK(csv.exit == 2);
+  CHECK(csv.err.find("n.csv: the file extension must be .h5 or .hdf5, not \".csv\"") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(f.path / "n.csv"));
+  CHECK(faba_in(f.path, "field map --help").out.find("as PNG; default: field.png") != std::string::npos);
   CHECK(faba_in(f.path, "field map " + kRig + " --check").exit == 0);
   CHECK_FALSE(std::filesystem::exists(f.path / "field.png"));
   for (const char* bad :
@@ -164,6 +169,7 @@ TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
         Bad{"no number", coil, "x_m,y_m,z_m\n0,0,zero\n", 3, "is not a number"},
         Bad{"short line", coil, "x_m,y_m,z_m\n0,0\n", 3, "2 fields"},
         Bad{"empty field", coil, "x_m,y_m,z_m\n0,,0\n", 3, "a coordinate is missing"},
+        Bad{"no points", coil, "x_m,y_m,z_m\n", 3, "has a header but no points"},
         Bad{"blank file", coil, "\n", 3, "has no name"}}) {
     write_file(f.path / "rig.toml", b.rig);
     write_file(f.path / "p.csv", b.points.empty() ? "x_m,y_m,z_m\n0,0,0\n" : b.points);

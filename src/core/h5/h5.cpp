@@ -177,7 +177,8 @@ H5File H5File::open(const std::filesystem::path& file) {
     impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose);
   if (impl->file < 0)
     throw Error(Errc::input, file.string(),
-                fmt::format("cannot be opened as an HDF5 file ({}); check that it is a complete HDF5 file", reason()));
+                fmt::format("cannot be opened as an HDF5 file ({}); check that it is a complete HDF5 file",
+                            reason()));
   return H5File(std::move(impl));
 }
 

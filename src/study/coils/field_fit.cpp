@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kLargeResidual = 0.1;  // assumed: errors of probe and formulas are a few hundredths
 
-/// The field of the coils at the measured points for the last few shifts of the coils. Parameters other than the
-/// shift do not change it: most evaluations of a derivative use the field of a previous one.
+/// The field of the coils at the measured points for the last few shifts of the coils. Parameters other than
+/// the shift do not change it: most evaluations of a derivative use the field of a previous one.
 class ShiftedField {
  public:
   using Shift = std::array<double, 3>;
