@@ -160,9 +160,9 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("--fps", t->fps,
                 "Frames per second, if the video states none or a wrong value; default: that of the video")
       ->check(between(1e-6, 1e7));
-  v->add_option(
-       "--um-per-px", t->scale,
-       "Scale: micrometres per pixel, or a calibration file from `faba scale`; default: results in px")
+  v->add_option("--um-per-px", t->scale,
+                "Scale: micrometres per pixel, or a calibration file from `faba scale`; default: that of a "
+                "run directory, else results in px")
       ->check(not_empty);
   v->add_option("--out", t->out,
                 "Write the tracks, as CSV or HDF5 by the file extension; may be given twice");

@@ -84,9 +84,10 @@ void add_field_library(CLI::App& field, CommandLine& line) {
                 "Width and height of the rectangle of the zeros; default: \"" + o->size + '"');
   v->add_option("--spacing", o->spacing, "Spacing of the grid; default: a 64th of the longer side")
       ->check(not_empty);
-  v->add_option("--levels", o->levels,
-                "Number of steps from zero current to the maximum; default: the largest number with at most "
-                "4 million sets of currents")
+  v->add_option(
+       "--levels", o->levels,
+       "Number of steps from zero current to the maximum; default: the largest number up to 100 with at most "
+       "4 million sets of currents")
       ->check(integers(1, 100000));
   v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
       ->check(integers(1, 1024));
