@@ -56,7 +56,8 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
 
 std::string read_file(const std::filesystem::path& file) {
   std::error_code ec;
-  if (!std::filesystem::exists(file, ec)) throw Error(Errc::input, file.string(), "file not found");
+  if (!std::filesystem::exists(file, ec))
+    throw Error(Errc::input, file.string(), "file not found; check the name");
   if (std::filesystem::is_directory(file, ec))
     throw Error(Errc::input, file.string(), "is a directory, not a file");
   std::ifstream in(file, std::ios::binary);

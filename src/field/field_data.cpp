@@ -93,7 +93,7 @@ FieldData from_columns(const Table& t) {
 
 FieldData field_data(const Table& t) {
   FieldData d = from_columns(t);
-  if (d.at.empty()) throw Error(Errc::input, d.source, "has no points");
+  if (d.at.empty()) throw Error(Errc::input, d.source, "has no points; write one line per measured point");
   return d;
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "app/run/live_run.h"
 #include "app/scenario/read_scenario.h"
 #include "core/file.h"
 #include "server/api.h"
@@ -211,8 +212,12 @@ void serve_lab(const LabOptions& o) {
   }
   if (!o.scene.empty()) {
     const Document d = read_toml(o.scene);
-    const Scenario checked = read_scenario(d, builtin_parts());
-    live.start(d, checked.params.seed, [](const Json&) {});
+    const Parts parts = builtin_parts();
+    const std::optional<std::uint64_t> seed = read_scenario(d, parts).params.seed;
+    Pool pool(o.threads);
+    // The lab's own thread would report an error to pages only: construct the run here first.
+    const LiveRun check(d, seed.value_or(1), parts, pool);
+    live.start(d, seed, [](const Json&) {});
   }
   Api api(workspace, jobs, folder.path(), o.pages);
 

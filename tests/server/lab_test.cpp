@@ -352,4 +352,9 @@ TEST_CASE("a port in use and an invalid scene are errors before the server start
   write_file(lab.folder() / "wrong.toml", "swarm = 3\n");
   o.scene = lab.folder() / "wrong.toml";
   CHECK_THROWS_AS(serve_lab(o), const Error&);
+  // An error that is found only when the run is constructed.
+  write_file(lab.folder() / "full.toml",
+             "[arena]\ntype = 'box'\nsize_px = [40, 25]\n[[swarm]]\ncount = 100000\n");
+  o.scene = lab.folder() / "full.toml";
+  CHECK_THROWS_WITH_AS(serve_lab(o), doctest::Contains("do not fit into 1000 sites"), const Error&);
 }

@@ -113,9 +113,9 @@ int activity(const ActivityVerb& v, const Common& c) {
   std::vector<std::filesystem::path> inputs = v.videos;
   inputs.push_back(v.noise);
   check_distinct({v.out, v.report, v.picture});
-  check_output(v.out, ".csv", v.force, inputs);
-  check_output(v.report, ".html", v.force, inputs);
-  check_output(v.picture, ".png", v.force, inputs);
+  check_output(v.out, {".csv"}, v.force, inputs);
+  check_output(v.report, {".html"}, v.force, inputs);
+  check_output(v.picture, {".png"}, v.force, inputs);
   ActivityJob job = job_of(v);
   if (!v.picture.empty() && job.videos.size() != 1)
     throw Error(Errc::usage, "--picture",
@@ -161,8 +161,12 @@ void add_activity(CLI::App& app, CommandLine& line) {
   v->add_option("--noise", o->noise, "Video of a dead sample, from which the threshold is measured")
       ->check(not_empty)
       ->excludes("--flow-threshold");
-  v->add_option("--from", o->from, "Start of the analysis, s")->check(between(0, 1e9))->transform(in_seconds);
-  v->add_option("--to", o->to, "End of the analysis, s")->check(between(0, 1e9))->transform(in_seconds);
+  v->add_option("--from", o->from, "Start of the analysis, s; default: start of the video")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
+  v->add_option("--to", o->to, "End of the analysis, s; default: end of the video")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
   v->add_option("-o,--out", o->out, "Write the activity signatures, as CSV")->check(not_empty);
   v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
   v->add_option("--picture", o->picture,
@@ -170,7 +174,7 @@ void add_activity(CLI::App& app, CommandLine& line) {
                 "filtering, as PNG")
       ->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->flow);
+  add_flow_options(v, o->flow, published_flow());
   v->callback([o, &line] { line.code = activity(*o, line.common); });
 }
 

@@ -45,8 +45,8 @@ int compare(const CompareVerb& v, const Common& c) {
   std::vector<std::filesystem::path> inputs = v.runs;
   inputs.push_back(v.reference);
   check_distinct({v.out, v.report});
-  check_output(v.out, ".csv", v.force, inputs);
-  check_output(v.report, ".html", v.force, inputs);
+  check_output(v.out, {".csv"}, v.force, inputs);
+  check_output(v.report, {".html"}, v.force, inputs);
   CompareJob job;
   job.reference = v.reference;
   job.runs = v.runs;
@@ -116,17 +116,23 @@ void add_compare(CLI::App& app, CommandLine& line) {
   v->add_flag("--no-align", o->no_align, "Compare from the first frames, without alignment at the reversals")
       ->excludes("--t0")
       ->excludes("--reference-t0");
-  v->add_option("--duration", o->duration, "Duration of the comparison, s")
+  v->add_option("--duration", o->duration,
+                "Duration of the comparison, s; default: until one of the two videos ends")
       ->check(between(1e-9, 1e9))
       ->transform(in_seconds);
-  v->add_option("--m", o->m, "Exponent of the normalisation of the distance, at least 0 and less than 1");
-  v->add_option("--threshold", o->threshold,
-                "Distance of columns or rows at which their similarity is zero, px");
+  v->add_option(
+      "--m", o->m,
+      fmt::format("Exponent of the normalisation of the distance, at least 0 and less than 1; default: {:g}",
+                  o->m));
+  v->add_option(
+      "--threshold", o->threshold,
+      fmt::format("Distance of columns or rows at which their similarity is zero, px; default: {:g}",
+                  o->threshold));
   v->add_flag("--no-floor", o->no_floor, "Do not simulate the scenario again to measure the noise floor");
   v->add_option("-o,--out", o->out, "Write the distances, as CSV")->check(not_empty);
   v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->flow);
+  add_flow_options(v, o->flow, published_flow());
   v->callback([o, &line] { line.code = compare(*o, line.common); });
 }
 

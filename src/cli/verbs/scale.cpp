@@ -92,8 +92,8 @@ void scale_of_picture(const ScaleVerb& v, const Common& c) {
 }
 
 int scale(const ScaleVerb& v, const Common& c) {
-  check_output(v.out, ".toml", v.force, {v.ruler});
-  check_output(v.overlay, ".png", v.force, {v.ruler});
+  check_output(v.out, {".toml"}, v.force, {v.ruler});
+  check_output(v.overlay, {".png"}, v.force, {v.ruler});
   const bool table = is_ruler_table(v.ruler);
   if (table && !v.tick.empty())
     throw Error(Errc::usage, "--tick", "requires a picture; a table has the widths");

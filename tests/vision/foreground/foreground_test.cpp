@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "tests/vision/rendered_cells.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -195,4 +196,10 @@ TEST_CASE("a restored archive continues bit-identically") {
   b.take(next, 0.1);
   CHECK(a.weights().px == b.weights().px);
   CHECK(a.moments().centroid_image.x == b.moments().centroid_image.x);
+}
+
+TEST_CASE("the polarity both is refused") {
+  ForegroundOptions o;
+  o.polarity = Polarity::both;
+  CHECK_THROWS_WITH_AS(Foreground{o}, doctest::Contains("must be automatic, dark or bright"), const Error&);
 }
