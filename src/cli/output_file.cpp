@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/error.h"
 
@@ -40,9 +39,10 @@ void check_output_folder(const std::filesystem::path& folder, const char* option
   if (folder.empty() || std::filesystem::is_directory(folder, ec)) return;
   if (std::filesystem::exists(folder, ec))
     throw Error(Errc::usage, folder.string(), fmt::format("is a file; {} must be a folder", option));
-  // A dot in a name such as "run-0.5" is no extension of a file.
+  static const std::vector<std::string> kFiles = {".svg", ".png", ".jpg",  ".jpeg", ".tif", ".tiff",
+                                                  ".pdf", ".csv", ".html", ".h5",   ".mp4", ".avi"};
   const std::string extension = folder.extension().string();
-  if (extension.size() > 1 && std::isalpha(static_cast<unsigned char>(extension[1])))
+  if (std::find(kFiles.begin(), kFiles.end(), extension) != kFiles.end())
     throw Error(
         Errc::usage, folder.string(),
         fmt::format("is the name of a file; {} must be a folder, into which several files are written; give "

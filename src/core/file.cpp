@@ -137,6 +137,8 @@ void flush_descriptor(int descriptor, const std::filesystem::path& shown) {
     throw Error(Errc::internal, shown.string(), "cannot be flushed to the disk: " + advice(errno));
 }
 
+void sync_file(const std::filesystem::path& file) { flush_path(file, 0, file); }
+
 void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to) {
   flush_path(from, 0, to);
   std::error_code failure;

@@ -24,7 +24,7 @@ std::string in_seconds(std::string text) {
 namespace {
 
 // The default of a parameter as text: of the preset or the value in `defaults`, else of the part. Empty if
-// there is none.
+// it has no default.
 std::string default_of(const Json& schema, const std::string& method, const std::string& key,
                        const FlowChoice& defaults) {
   const Json& properties = schema.at("properties");

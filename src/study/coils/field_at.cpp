@@ -24,20 +24,22 @@ std::string coil_around(const Field& field, Vec2 at) {
 }
 
 // A zero aligns cells only where the field is larger than kT / m; closer to it they swim in random
-// directions. Empty unless this distance is larger than that to the nearest winding.
-std::string weak_gradient_note(const Field& field, const FieldNull& n, Vec2 at) {
+// directions. Empty unless this distance is larger than a sample.
+std::string weak_gradient_note(const FieldNull& n) {
   constexpr double kThermalEnergy = 1.380649e-23 * 298.15;  // J, at 25 C
   constexpr double kMoment = 1e-15;  // A m^2, assumed: a cell with ten crystals (theory B2)
+  constexpr double kSample = 10e-3;  // m, assumed: a large drop
   const double a = std::fabs(n.gradient[0]), b = std::fabs(n.gradient[1]);
   const double gradient = n.saddle ? std::max(a, b) : std::min(a, b);
-  const double reach = kThermalEnergy / kMoment / gradient;
-  if (reach <= field.clearance({at.x, at.y, 0})) return "";
+  const double field = kThermalEnergy / kMoment;
+  if (field <= gradient * kSample) return "";
   return fmt::format(
-      "the gradient of {:.2g} T/m is too weak to gather cells: the field reaches {:.2g} uT, at which a "
-      "moment of "
-      "{:g} A m^2 has the energy kT, at {:.2g} m from the zero, beyond the nearest coil; choose a position "
-      "further inside the coil system",
-      gradient, 1e6 * kThermalEnergy / kMoment, kMoment, reach);
+      "the gradient of {:.2g} T/m is too weak to gather cells in a sample of {:g} mm: the field reaches "
+      "{:.2g} uT, "
+      "at which a moment of {:g} A m^2 has the energy kT, only at {:.2g} m from the zero; choose a position "
+      "nearer "
+      "to the middle of the coils, or permit larger currents",
+      gradient, 1e3 * kSample, 1e6 * field, kMoment, field / gradient);
 }
 
 std::string null_note(const Field& field, const FieldNull& n, Vec2 at, int polarity) {
@@ -46,7 +48,7 @@ std::string null_note(const Field& field, const FieldNull& n, Vec2 at, int polar
         "the position {} is inside the coil \"{}\", in its bore, winding or core; choose a "
         "position between the coils with --at",
         in_mm(at), coil);
-  if (std::string weak = weak_gradient_note(field, n, at); !weak.empty()) return weak;
+  if (std::string weak = weak_gradient_note(n); !weak.empty()) return weak;
   if (!n.saddle) return "";
   if ((polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0)
     return "the zero repels cells along all directions: no currents within the limits make a trap";
