@@ -84,13 +84,12 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter, int& number
         "</figure>\n",
         heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading), ++number,
         filter.direction_deg);
-  const int flows = number - 1;
   const auto sums = [&](const char* heading, const char* over, const Plot& plot) {
     return figure_markup(
         {heading,
-         fmt::format("Sums of the flows of Figures {} and {} over the pixels of each {}. The "
-                     "distance of Figure 1 compares these sums.",
-                     flows, flows + 1, over),
+         fmt::format("Sums of the filtered flows of reference and run over the pixels of each {}. "
+                     "The distance over time compares these sums.",
+                     over),
          plot},
         ++number);
   };
