@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/splitmix64.h"
+#include "core/random/splitmix64.h"
 #include "core/vectorised.h"
 
 namespace faba {

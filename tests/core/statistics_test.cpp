@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/philox.h"
+#include "core/random/philox.h"
 
 using namespace faba;
 

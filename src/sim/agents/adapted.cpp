@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/draw_blocks.h"
 #include "core/kernels/philox_row.h"
+#include "core/random/draw_blocks.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
 #include "sim/agents/iterations.h"

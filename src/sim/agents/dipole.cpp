@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/constants.h"
-#include "core/draw_blocks.h"
 #include "core/kernels/philox_row.h"
+#include "core/random/draw_blocks.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
 #include "sim/agent_model.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/distributions.h"
 #include "core/error.h"
+#include "core/random/distributions.h"
 #include "core/statistics.h"
 #include "study/identify/derived_seed.h"
 #include "study/identify/experiment_bootstrap.h"

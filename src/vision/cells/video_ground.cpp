@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/error.h"
+#include "core/random/distributions.h"
 #include "core/statistics.h"
 #include "vision/files/grey_video.h"
 #include "vision/foreground/background.h"

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "core/error.h"
-#include "core/splitmix64.h"
+#include "core/random/splitmix64.h"
 #include "core/statistics.h"
 
 namespace faba {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/draw_blocks.h"
 #include "core/portable_math.h"
+#include "core/random/draw_blocks.h"
 
 namespace faba {
 namespace {

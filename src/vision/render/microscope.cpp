@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/draw_blocks.h"
 #include "core/error.h"
 #include "core/portable_math.h"
+#include "core/random/draw_blocks.h"
 #include "vision/render/illuminated_background.h"
 #include "vision/render/kernels/camera_noise.h"
 

@@ -1,4 +1,4 @@
-#include "core/splitmix64.h"
+#include "core/random/splitmix64.h"
 
 #include <doctest/doctest.h>
 
