@@ -3,7 +3,7 @@
 
 Two kinds of video, each with 200, 600 and 2000 cells and three noise levels. (1) A swarm at the edge of a drop, of which an arc of 25
 degrees is in view, swims away when the field is reversed; `faba track --swarm` and, during the run, the estimator `image` measure its
-centroid and spread. (2) Cells in the entire picture swim in random directions, with displacements of 0.9 times half the mean
+centroid and dispersion. (2) Cells in the entire picture swim in random directions, with displacements of 0.9 times half the mean
 nearest-neighbour distance per frame; `faba track` measures their mean speed. Prints tables with a verdict for every goal, and writes
 them to bench/results/.
 
@@ -85,7 +85,7 @@ def in_view(position):
 
 
 def swarm_errors(program, folder, cells, noise, seed):
-    """Maximum errors over the frames of a video: centroid (px) and spread (%) by `track --swarm`, centroid by `image` from frame 15."""
+    """Maximum errors over the frames of a video: centroid (px) and dispersion (%) by `track --swarm`, centroid by `image` from frame 15."""
     position = run(program, SWARM, folder, seed, f"swarm[0].count={cells}", f"microscope.noise={noise / 255}",
                    'microscope.cell_diameter="2.5 um"', 'estimator.type="image"')
     table = folder.parent / "swarm.csv"
@@ -135,7 +135,7 @@ def main():
         met = met and value <= goal
         return "" if value <= goal else " **NOT MET**"
 
-    swarm = "| cells | noise | centroid (px) | spread (%) | centroid by `image` during the run (px) |\n|---|---|---|---|---|\n"
+    swarm = "| cells | noise | centroid (px) | dispersion (%) | centroid by `image` during the run (px) |\n|---|---|---|---|---|\n"
     crowd = "| cells | noise | displacement per frame (px) | error of the mean speed (%) |\n|---|---|---|---|\n"
     rows = []
     with tempfile.TemporaryDirectory() as folder:

@@ -77,6 +77,9 @@ WORDS = {
     r"gives? back|gave back|given back": "returns; recovers",
     r"turned away": "rejected",
     r"(looks|looked) at": "checks; reads; inspects",
+    # quantities of a run
+    r"tracking error": "cross-track error",
+    r"spread of (a|the) swarm": "dispersion",
     # literary connectives
     r"sooner": "earlier; faster",
     r"the very": "exactly the; the same",

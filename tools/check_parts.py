@@ -31,9 +31,7 @@ CHOSEN = {
 # Other meanings of the names of parts: (name, meaning, files).
 OTHER_MEANINGS = (
     ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp"),
-    ("box", "a word in a sentence", "src/app/run/notes.cpp"),
     ("box", "a value of boundary", "src/study/identify/identify_study.cpp"),
-    ("drop", "a word in a sentence", "src/app/run/notes.cpp"),
     ("drop", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("drop", "the verb", "src/cli/verbs/drop.cpp"),
     ("edge", "a layer of the picture", "web/src/App.svelte"),
@@ -50,14 +48,14 @@ OTHER_MEANINGS = (
     ("none", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("none", "an option of FFmpeg",
      "src/vision/files/av_stream.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),
-    ("none", "a text or a style of the page", "web/src/i18n.ts web/src/parts/export.ts"),
+    ("none", "a text or a style of the page", "web/src/parts/export.ts"),
     ("rig", "the section [rig]",
      "src/app/bench/bench_controls.cpp src/app/bench/simulated_bench.cpp src/app/bench/step_response.cpp "
      "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/rig/bench/bench_rig.cpp"),
     ("rig", "the verb", "src/app/bench/bench_process.cpp src/cli/verbs/rig/rig.cpp"),
     ("rig", "the file of a coil system, as an argument or a key",
      "src/app/files/library_file.cpp src/cli/options/field.cpp src/cli/verbs/field/fit.cpp src/cli/verbs/schema.cpp "
-     "src/server/api.cpp src/study/coils/field_library.cpp"),
+     "src/server/api.cpp src/study/coils/field_library.cpp web/src/pages/Analyse.svelte"),
     ("route", "a label or a layer of a picture", "src/study/pages/run_figures.cpp web/src/App.svelte"),
     ("simulated", "the word of a trait", "src/core/traits.h"),
     ("visible", "a label, a parameter or a style",

@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 
@@ -16,6 +18,17 @@ namespace faba::cli {
 namespace {
 
 std::string program_name = "faba";
+
+/// CLI11 joins a type and its range by a colon, and has a name of its own for non-negative integers.
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    if (text.starts_with(" UINT")) text.erase(1, 1);
+    if (text.starts_with(" INT:")) text.replace(4, 1, ", ");
+    return text;
+  }
+};
 
 }  // namespace
 
@@ -44,6 +57,19 @@ std::function<std::string(const std::string&)> between(double min, double max) {
     return fmt::format("{} is out of range; it must be between {:g} and {:g}", text, min, max);
   };
 }
+
+CLI::Validator integers(std::int64_t min, std::int64_t max) {
+  return {[min, max](std::string& text) -> std::string {
+            char* end = nullptr;
+            errno = 0;
+            const long long value = std::strtoll(text.c_str(), &end, 0);
+            if (!text.empty() && *end == '\0' && errno == 0 && value >= min && value <= max) return "";
+            return fmt::format("expected an integer between {} and {}, got \"{}\"", min, max, text);
+          },
+          fmt::format("{} to {}", min, max)};
+}
+
+std::shared_ptr<CLI::FormatterBase> help_formatter() { return std::make_shared<HelpFormatter>(); }
 
 CLI::Validator one_of(const std::vector<std::string>& words) {
   return {[words](std::string& text) -> std::string {

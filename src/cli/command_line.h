@@ -1,11 +1,14 @@
 #pragma once
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace CLI {
 class App;
+class FormatterBase;
 class Validator;
 }  // namespace CLI
 
@@ -26,6 +29,8 @@ struct CommandLine {
 /// Adds all verbs with their options, in the order of the help. `line` must outlive the parsing.
 void add_verbs(CLI::App& app, CommandLine& line);
 
+/// Formatter of the help: the range of an integer in words, "INT, 1 to 64".
+std::shared_ptr<CLI::FormatterBase> help_formatter();
 /// Adds a verb to `parent`, with the flags and the help of all verbs.
 CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* description,
                const char* examples);
@@ -33,6 +38,9 @@ CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char
 std::string not_empty(const std::string& text);
 /// Check of a numeric option: a finite number between `min` and `max`.
 std::function<std::string(const std::string&)> between(double min, double max);
+
+/// Check of an option with an integer between `min` and `max`; the help shows the range.
+CLI::Validator integers(std::int64_t min, std::int64_t max);
 
 /// Check of an option with a list of permitted words; the help shows the list.
 CLI::Validator one_of(const std::vector<std::string>& words);

@@ -41,6 +41,7 @@ int dispatch(int argc, char** argv) {
   CLI::App app{
       "Faba, a laboratory for magnetotactic bacteria: simulate, steer and record swarms in magnetic fields"};
   app.name("faba");
+  app.formatter(help_formatter());
   app.set_version_flag("--version", "faba " FABA_VERSION);
   app.require_subcommand(1);
   app.group("Commands");  // heading of the list of commands, also in the help of all commands

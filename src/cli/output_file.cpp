@@ -1,6 +1,7 @@
 #include "cli/output_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -8,7 +9,7 @@
 
 namespace faba::cli {
 
-void check_output(const std::filesystem::path& file, const char* extension, bool force,
+void check_output(const std::filesystem::path& file, const std::vector<std::string>& extensions, bool force,
                   const std::vector<std::filesystem::path>& inputs) {
   if (file.empty()) return;
   const auto reject = [&](const std::string& reason) { throw Error(Errc::usage, file.string(), reason); };
@@ -16,9 +17,7 @@ void check_output(const std::filesystem::path& file, const char* extension, bool
   if (std::filesystem::is_directory(file, ec)) reject("is a directory; give a file name");
   if (const auto folder = file.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder, ec))
     reject(fmt::format("cannot be written: folder {} not found", folder.string()));
-  if (*extension && file.extension() != extension)
-    reject(fmt::format("the file extension must be {}", extension));
-  if (!std::filesystem::exists(std::filesystem::symlink_status(file, ec))) return;
+  const bool exists = std::filesystem::exists(std::filesystem::symlink_status(file, ec));
   if (std::filesystem::exists(file, ec) && !std::filesystem::is_regular_file(file, ec))
     reject("is not a regular file; give another name");
   for (const auto& input : inputs)
@@ -26,9 +25,29 @@ void check_output(const std::filesystem::path& file, const char* extension, bool
       reject("is an input of this command; give another name");
   const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
   for (const auto& input : inputs)
-    if (std::filesystem::is_directory(input, ec) && std::filesystem::equivalent(folder, input, ec))
+    if (exists && std::filesystem::is_directory(input, ec) && std::filesystem::equivalent(folder, input, ec))
       reject("is in a folder that this command reads; give another name");
-  if (!force) reject("already exists; give another name, or --force to replace it");
+  const std::string extension = file.extension().string();
+  if (!extensions.empty() && std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    reject(fmt::format("the file extension must be {}, not \"{}\"; change the name",
+                       fmt::join(extensions, " or "), extension));
+  if (exists && !force) reject("already exists; give another name, or --force to replace it");
+}
+
+void check_output_folder(const std::filesystem::path& folder, const char* option) {
+  std::error_code ec;
+  if (folder.empty() || std::filesystem::is_directory(folder, ec)) return;
+  if (std::filesystem::exists(folder, ec))
+    throw Error(Errc::usage, folder.string(), fmt::format("is a file; {} must be a folder", option));
+  static const std::vector<std::string> kFiles = {".svg", ".png", ".jpg",  ".jpeg", ".tif", ".tiff",
+                                                  ".pdf", ".csv", ".html", ".h5",   ".mp4", ".avi"};
+  const std::string extension = folder.extension().string();
+  if (std::find(kFiles.begin(), kFiles.end(), extension) != kFiles.end())
+    throw Error(
+        Errc::usage, folder.string(),
+        fmt::format("is the name of a file; {} must be a folder, into which several files are written; give "
+                    "a name without \"{}\"",
+                    option, extension));
 }
 
 void check_distinct(std::vector<std::filesystem::path> outputs) {

@@ -80,9 +80,6 @@ std::string usage_message(const CLI::App& app, const std::string& command, const
     return fmt::format("{}: a value is missing", part[1].str());
   if (matches("(\\S+): At Most 1 required but received \\d+"))
     return fmt::format("{}: may be given only once", part[1].str());
-  if (matches("(\\S+): Value (.*) not in range (\\S+) to (\\S+)"))
-    return fmt::format("{}: expected an integer between {} and {}, got \"{}\"", part[1].str(), part[3].str(),
-                       part[4].str(), part[2].str());
   if (matches("Could not convert: (\\S+) = (.*)"))
     return fmt::format("{}: expected a number, got \"{}\"", part[1].str(), part[2].str());
   return reason;

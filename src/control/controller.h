@@ -1,6 +1,8 @@
 #pragma once
+#include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "core/archive.h"
 #include "core/frame.h"
@@ -44,6 +46,11 @@ class Controller {
   /// of the field in place. Such an estimate does not change the internal state.
   virtual Command update(const Estimate& e, const Target& target, double dt) = 0;
   virtual void archive(Archive&) {}
+  /// Largest field that it ever commands, T; infinity if only the limits of the coils limit it. Does not
+  /// include the fields of given_currents().
+  virtual double max_field() const { return std::numeric_limits<double>::infinity(); }
+  /// The sets of coil currents that its parameters give directly, A; one current per coil.
+  virtual std::vector<std::vector<double>> given_currents() const { return {}; }
 };
 
 /// Inputs available to the constructors of estimators, references and controllers.

@@ -41,6 +41,7 @@ class Fuzzy final : public Controller {
   static Schema<Params> schema();
   Fuzzy(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
+  double max_field() const override;
 
   /// Strength of the command in field units at a distance in px.
   double strength(double distance_px) const;
@@ -128,6 +129,13 @@ double Fuzzy::strength(double d) const {
     sum += mu * s.output;
   }
   return weight > 0 ? sum / weight : 0;  // no set covers this distance: no command
+}
+
+// The strength is a weighted mean of the outputs; with one law per axis the vector is up to sqrt(2) longer.
+double Fuzzy::max_field() const {
+  double most = 0;
+  for (const Set& s : p_.set) most = std::max(most, s.output);
+  return (p_.direction == Direction::vector ? 1 : std::sqrt(2.0)) * most * c_.scale.field_unit;
 }
 
 Command Fuzzy::update(const Estimate& e, const Target& target, double) {

@@ -15,7 +15,7 @@ class GradientFeedback final : public Controller {
   struct Params {
     double gain = 0.5;
     double integral_time = 3;
-    double most_px = 2000;
+    double max_lead_px = 2000;
     Trap::Params trap;
   };
   static constexpr std::array kTraits = {Trait::feedback, Trait::seeks_null};
@@ -34,7 +34,7 @@ class GradientFeedback final : public Controller {
               .doc = "Integral time: with a constant error, the integral part grows by the proportional part "
                      "in each integral time",
               .source = "assumed"})
-        .add("most_px", &Params::most_px,
+        .add("most_px", &Params::max_lead_px,
              {.unit = "px", .min = 0, .max = 1e5, .doc = "Maximum distance of the zero from the setpoint"})
         .include(&Params::trap, Trap::Params::schema())
         .validity(
@@ -60,7 +60,7 @@ class GradientFeedback final : public Controller {
   }
 
  private:
-  double max_lead() const { return p_.most_px * m_per_px_; }
+  double max_lead() const { return p_.max_lead_px * m_per_px_; }
   Vec2 clipped(Vec2 v) const { return norm(v) > max_lead() ? (max_lead() / norm(v)) * v : v; }
 
   Params p_;

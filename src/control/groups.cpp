@@ -33,8 +33,8 @@ class EstimatorGroups final : public Estimator {
         .add("separation", &Params::separation,
              {.min = 1,
               .max = 100,
-              .doc =
-                  "Minimum distance between two groups, relative to their spread along the line between them",
+              .doc = "Minimum distance between two groups, relative to their dispersion along the line "
+                     "between them",
               .source = "H6"})
         .add("follow", &Params::follow,
              {.doc =
@@ -48,7 +48,7 @@ class EstimatorGroups final : public Estimator {
               .doc = "Initial position of the group to follow with follow = \"first\", world frame"})
         .include(&Params::foreground, foreground_schema("", ""))
         .validity(
-            "Groups whose distance is below `separation` times their spread are merged. Single cells and "
+            "Groups whose distance is below `separation` times their dispersion are merged. Single cells and "
             "groups of a few cells are ignored.");
   }
   EstimatorGroups(const Params& p, const ControlContext& c)
@@ -56,13 +56,13 @@ class EstimatorGroups final : public Estimator {
 
   Estimate update(const Observation& o, const Command&) override {
     double cells = 0;
-    const std::vector<WeightedPosition> places =
+    const std::vector<WeightedPosition> positions =
         o.seen.empty() && o.image ? from_picture(o, cells) : from_cells(o, cells);
     FuzzyGroupOptions options;
     options.count = p_.count;
     options.most = p_.most;
     options.separation = p_.separation;
-    const std::vector<FuzzyGroup> groups = fuzzy_groups(places, options);
+    const std::vector<FuzzyGroup> groups = fuzzy_groups(positions, options);
     Estimate e;
     e.t = o.t;
     e.centroid = at_;
@@ -82,24 +82,24 @@ class EstimatorGroups final : public Estimator {
 
  private:
   std::vector<WeightedPosition> from_cells(const Observation& o, double& cells) {
-    places_.clear();
+    positions_.clear();
     for (const Detection& d : o.seen)
       if (d.in_view && std::isfinite(d.x) && std::isfinite(d.y))
-        places_.push_back({{double(d.x), double(d.y)}, 1});
-    cells = double(places_.size());
-    return places_.size() > 2000 ? binned(places_, kBins) : places_;
+        positions_.push_back({{double(d.x), double(d.y)}, 1});
+    cells = double(positions_.size());
+    return positions_.size() > 2000 ? binned(positions_, kBins) : positions_;
   }
   std::vector<WeightedPosition> from_picture(const Observation& o, double& cells) {
     foreground_.take(camera_picture(o, frame_), has_frame_ ? o.t - frame_t_ : 0);
     frame_t_ = o.t;
     has_frame_ = true;
     cells = foreground_.moments().cells;
-    places_.clear();
+    positions_.clear();
     if (cells == 0) return {};
     add_pieces(foreground_.weights(), foreground_.runs());
-    return binned(places_, kBins);
+    return binned(positions_, kBins);
   }
-  // Splits rows of pixels into pieces of a quarter of a bin, so that the loss of spread is small compared
+  // Splits rows of pixels into pieces of a quarter of a bin, so that the loss of dispersion is small compared
   // with that of the bins.
   void add_pieces(const GrayF& weights, const std::vector<ComponentRun>& runs) {
     int low = weights.width, high = 0;
@@ -119,7 +119,7 @@ class EstimatorGroups final : public Estimator {
             sum += double(weight[i]);
             x += double(weight[i]) * i;
           }
-        if (sum > 0) places_.push_back({frame_.world_from_image({x / sum, double(r.row)}), sum});
+        if (sum > 0) positions_.push_back({frame_.world_from_image({x / sum, double(r.row)}), sum});
       }
     }
   }
@@ -136,8 +136,8 @@ class EstimatorGroups final : public Estimator {
   Params p_;
   Frame frame_;
   Foreground foreground_;
-  std::vector<WeightedPosition> places_;  ///< scratch buffer, reused
-  Vec2 at_;                               ///< last centroid, m, world
+  std::vector<WeightedPosition> positions_;  ///< scratch buffer, reused
+  Vec2 at_;                                  ///< last centroid, m, world
   double t_ = 0, frame_t_ = 0;
   bool has_estimate_ = false, has_frame_ = false;
 };

@@ -15,7 +15,7 @@ class EstimatorImage final : public Estimator {
   using Params = ForegroundParams;
   static constexpr std::array kTraits = {Trait::needs_pictures};
   static Schema<Params> schema() {
-    return foreground_schema("image", "Centroid, spread and visible fraction from the camera frame")
+    return foreground_schema("image", "Centroid, dispersion and visible fraction from the camera frame")
         .validity(
             "It needs camera.sensor = \"frames\". Overlapping cells are undercounted; the cell count has an "
             "error of about 30 %. Dirt of the size of a cell counts as a cell until it is absorbed.");

@@ -35,6 +35,8 @@ class Manual final : public Controller {
   Manual(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
   void archive(Archive& a) override { a& t_& started_; }
+  double max_field() const override;
+  std::vector<std::vector<double>> given_currents() const override;
 
   /// The segment active at time t; null before the first.
   const Segment* segment_at(double t) const;
@@ -114,6 +116,21 @@ Vec2 Manual::field_at(double t) const {
   if (!s) return p_.field;
   const auto turn = portable::sincos(2 * portable::kPi * s->frequency * (t - s->at));
   return {s->field.x + s->rotating * turn.cos, s->field.y + s->rotating * turn.sin};
+}
+
+double Manual::max_field() const {
+  double most = p_.current.empty() && !segment_at(0) ? norm(p_.field) : 0;
+  for (const Segment& s : p_.segment)
+    if (s.current.empty()) most = std::max(most, norm(s.field) + s.rotating);
+  return most;
+}
+
+std::vector<std::vector<double>> Manual::given_currents() const {
+  std::vector<std::vector<double>> all;
+  if (!p_.current.empty() && !segment_at(0)) all.push_back(p_.current);
+  for (const Segment& s : p_.segment)
+    if (!s.current.empty()) all.push_back(s.current);
+  return all;
 }
 
 Command Manual::update(const Estimate& e, const Target&, double dt) {

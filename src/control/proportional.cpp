@@ -36,6 +36,7 @@ class Proportional final : public Controller {
   static Schema<Params> schema();
   Proportional(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
+  double max_field() const override { return p_.gain > 0 ? p_.max_output * c_.scale.field_unit : 0; }
   void archive(Archive& a) override { a& integral_& duty_residual_& last_& has_last_; }
 
  private:

@@ -56,7 +56,8 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
 
 std::string read_file(const std::filesystem::path& file) {
   std::error_code ec;
-  if (!std::filesystem::exists(file, ec)) throw Error(Errc::input, file.string(), "file not found");
+  if (!std::filesystem::exists(file, ec))
+    throw Error(Errc::input, file.string(), "file not found; check the name");
   if (std::filesystem::is_directory(file, ec))
     throw Error(Errc::input, file.string(), "is a directory, not a file");
   std::ifstream in(file, std::ios::binary);
@@ -135,6 +136,8 @@ void flush_descriptor(int descriptor, const std::filesystem::path& shown) {
   if (errno != EINVAL && errno != ENOTSUP)
     throw Error(Errc::internal, shown.string(), "cannot be flushed to the disk: " + advice(errno));
 }
+
+void sync_file(const std::filesystem::path& file) { flush_path(file, 0, file); }
 
 void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to) {
   flush_path(from, 0, to);

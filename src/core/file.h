@@ -51,6 +51,10 @@ class OutputFile {
 /// Returns when everything written to an open file is on the disk. Throws Error(Errc::internal, shown).
 void flush_descriptor(int descriptor, const std::filesystem::path& shown);
 
+/// Returns when everything that any process has written to `file` is on the disk. Throws
+/// Error(Errc::internal, file), also if the file does not exist.
+void sync_file(const std::filesystem::path& file);
+
 /// Renames the complete file `from` to its final name in the same file system, replacing an existing file.
 /// Syncs content and name, so that both survive a power failure. Throws Error(Errc::internal, to).
 void rename_complete(const std::filesystem::path& from, const std::filesystem::path& to);

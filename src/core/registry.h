@@ -20,6 +20,7 @@ struct Part {
   std::vector<Trait> traits;
   Json resolved;  ///< `type` and every parameter, defaults included
   std::function<std::unique_ptr<Interface>(const Context&)> make;
+  std::vector<std::string> notes = {};  ///< on valid but probably unintended values (Schema::note)
 
   bool has(Trait t) const { return std::find(traits.begin(), traits.end(), t) != traits.end(); }
 };
@@ -55,7 +56,7 @@ class Registry {
       Json resolved = {{"type", s.name()}};
       resolved.update(s.to_json(p));
       return PartType{s.name(), traits, std::move(resolved),
-                      [p](const Context& c) { return std::make_unique<T>(p, c); }};
+                      [p](const Context& c) { return std::make_unique<T>(p, c); }, s.notes(p)};
     };
     if (!entries_.emplace(s.name(), std::move(e)).second)
       throw Error(Errc::internal, kind_ + " " + s.name(), "registered twice");

@@ -189,6 +189,8 @@ void Fields::include(const Fields& other, std::size_t at) {
   }
   for (const Rule& rule : other.rules)
     rules.emplace_back([rule, at](const void* p) { return rule(static_cast<const char*>(p) + at); });
+  for (const Rule& rule : other.advice)
+    advice.emplace_back([rule, at](const void* p) { return rule(static_cast<const char*>(p) + at); });
 }
 
 const Fields::Field* Fields::find(const std::string& key) const {
@@ -224,6 +226,13 @@ void Fields::read(void* to, const Node& n, const std::vector<std::string>& extra
   }
   for (const Rule& rule : rules)
     if (const std::string wrong = rule(to); !wrong.empty()) n.fail(wrong);
+}
+
+std::vector<std::string> Fields::notes(const void* of) const {
+  std::vector<std::string> all;
+  for (const Rule& rule : advice)
+    if (std::string text = rule(of); !text.empty()) all.push_back(std::move(text));
+  return all;
 }
 
 Json Fields::to_json(const void* from) const {

@@ -190,12 +190,14 @@ class Fields {
   /// Throws Error(usage).
   void read(void* to, const Node& n, const std::vector<std::string>& extra) const;
   Json to_json(const void* from) const;
+  std::vector<std::string> notes(const void* of) const;
   /// `preset_values`: the structs of the presets, in their order.
   Json json_schema(const std::vector<const void*>& preset_values) const;
 
   std::string name, summary, validity;
   std::vector<std::pair<std::string, std::string>> presets;  ///< name and source
-  std::vector<Rule> rules;
+  std::vector<Rule> rules;                                   ///< messages are errors
+  std::vector<Rule> advice;                                  ///< messages are notes
 
  private:
   struct Field {
@@ -248,6 +250,14 @@ class Schema {
         [rule = std::move(rule)](const void* p) -> std::string { return rule(*static_cast<const P*>(p)); });
     return *this;
   }
+  /// Adds a note on valid but probably unintended values: rule(const P&) returns its text, or "". The text
+  /// gives the value, its consequence and an advice. A run prints the notes of its parts at its start.
+  template <class Rule>
+  Schema& note(Rule rule) {
+    fields_.advice.emplace_back(
+        [rule = std::move(rule)](const void* p) -> std::string { return rule(*static_cast<const P*>(p)); });
+    return *this;
+  }
   /// Conditions under which the part is known to fail, shown by `faba parts` and the reference pages.
   Schema& validity(std::string text) {
     fields_.validity = std::move(text);
@@ -264,6 +274,8 @@ class Schema {
   }
   /// All parameters with their values, including defaults; parsing the result gives the same P.
   Json to_json(const P& p) const { return fields_.to_json(&p); }
+  /// The notes on these values.
+  std::vector<std::string> notes(const P& p) const { return fields_.notes(&p); }
   Json json_schema() const {
     std::vector<const void*> values;
     for (const P& p : presets_) values.push_back(&p);

@@ -26,6 +26,12 @@ T select_low(std::span<T> values, double p) {
 }
 
 template <class T>
+T select_nearest(std::span<T> values, double p) {
+  return values.empty() ? std::numeric_limits<T>::quiet_NaN()
+                        : select(values, std::size_t(std::lround(p * double(values.size() - 1))));
+}
+
+template <class T>
 double interpolate(std::span<const T> values, double p) {
   if (!(p >= 0 && p <= 1))
     throw Error(Errc::internal, "quantile", fmt::format("p is {}; it must be between 0 and 1", p));
@@ -65,6 +71,9 @@ float order_statistic(std::span<float> values, std::size_t k) { return select(va
 
 double quantile_low(std::span<double> values, double p) { return select_low(values, p); }
 float quantile_low(std::span<float> values, double p) { return select_low(values, p); }
+
+double quantile_nearest(std::span<double> values, double p) { return select_nearest(values, p); }
+float quantile_nearest(std::span<float> values, double p) { return select_nearest(values, p); }
 
 double median_low(std::span<double> values) {
   return select(values, values.empty() ? 0 : (values.size() - 1) / 2);

@@ -44,6 +44,10 @@ float order_statistic(std::span<float> values, std::size_t k);
 double quantile_low(std::span<double> values, double p);
 float quantile_low(std::span<float> values, double p);
 
+/// x_round(p (n - 1)), 0 <= p <= 1, a half is rounded up: the order statistic nearest to the quantile.
+double quantile_nearest(std::span<double> values, double p);
+float quantile_nearest(std::span<float> values, double p);
+
 /// x_floor((n - 1) / 2): the lower of the two middle values when n is even, as Python's
 /// statistics.median_low.
 double median_low(std::span<double> values);

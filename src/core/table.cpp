@@ -97,7 +97,7 @@ std::span<const double> Table::column(std::string_view name) const {
   return find(name);
 }
 
-std::string Table::place(std::size_t row) const {
+std::string Table::location(std::size_t row) const {
   return fmt::format("{}:{}", source_, header_line_ + row + 1);
 }
 

@@ -30,7 +30,7 @@ class Table {
   bool last_line_cut() const noexcept { return last_line_cut_; }
   const std::string& source() const noexcept { return source_; }
   /// `file:line` of a row (0-based), for messages.
-  std::string place(std::size_t row) const;
+  std::string location(std::size_t row) const;
 
  private:
   std::string source_;

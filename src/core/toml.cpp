@@ -210,7 +210,8 @@ Document parse_toml(std::string_view text, const std::string& name) {
 Document read_toml(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMaxBytes = 4u << 20;
   std::error_code ec;
-  if (!std::filesystem::exists(file, ec)) throw Error(Errc::usage, file.string(), "file not found");
+  if (!std::filesystem::exists(file, ec))
+    throw Error(Errc::usage, file.string(), "file not found; check the name");
   if (std::filesystem::is_directory(file, ec))
     throw Error(Errc::usage, file.string(), "is a directory, not a TOML file");
   if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)
@@ -257,8 +258,12 @@ void Document::set(const std::string& path, Json value, const std::string& origi
   }
   *at = std::move(value);
   // The line numbers of the replaced values are no longer valid.
+  // Paths of the same subtree continue with "." or "["; "a.bc" is not a part of "a.b".
+  const auto within = [&](const std::string& other) {
+    return other.size() == prefix.size() || other[prefix.size()] == '.' || other[prefix.size()] == '[';
+  };
   for (auto it = origin.lower_bound(prefix); it != origin.end() && it->first.starts_with(prefix);)
-    it = origin.erase(it);
+    it = within(it->first) ? origin.erase(it) : std::next(it);
   origin[prefix] = origin_label;
 }
 

@@ -8,6 +8,8 @@ namespace faba {
 
 /// One degree in radians.
 inline constexpr double kDegree = 3.14159265358979323846 / 180;
+/// One radian in degrees.
+inline constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
 
 /// Exponents of metre, kilogram, second, ampere, kelvin, mole and pixel. Angles are dimensionless (radian).
 struct Dimension {

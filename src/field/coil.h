@@ -50,6 +50,7 @@ class Axis {
 ///   Source(Params);
 ///   add(Places, Components): adds the field of 1 A through the coil;
 ///   clearance(rho, z): distance to the nearest winding, m;
+///   encloses(rho, z), optional: whether a point is in its bore, winding or core;
 ///   outline(Axis): strokes.
 template <class Source>
 class Coil final : public Field {
@@ -83,6 +84,14 @@ class Coil final : public Field {
     double rho = 0, z = 0;
     axis_.cylindrical({&at, 1}, {&rho, 1}, {&z, 1});
     return source_.clearance(rho, z);
+  }
+  bool encloses(std::size_t, Vec3 at) const override {
+    if constexpr (requires { source_.encloses(0.0, 0.0); }) {
+      double rho = 0, z = 0;
+      axis_.cylindrical({&at, 1}, {&rho, 1}, {&z, 1});
+      return source_.encloses(rho, z);
+    }
+    return false;
   }
   std::vector<Stroke> outline() const override { return source_.outline(axis_); }
 

@@ -47,6 +47,8 @@ class Field {
   /// Distance from a point to the nearest winding or magnet, m, not negative. Within a few winding pitches
   /// the field of the model differs from that of the single wires.
   virtual double clearance(Vec3) const { return std::numeric_limits<double>::infinity(); }
+  /// Whether a point is in the bore, winding or core of a coil.
+  virtual bool encloses(std::size_t /*coil*/, Vec3 /*at*/) const { return false; }
   virtual std::vector<Stroke> outline() const { return {}; }
   /// The in-plane part of B in T at many points, for `current` in A, one per coil. Cheap for uniform fields;
   /// other fields are tabulated (FieldTable) for simulation.

@@ -77,9 +77,9 @@ FieldData from_columns(const Table& t) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (place[k]) p[k] = (*place[k])[i];
       if (field[k]) b[k] = (*field[k])[i];
-      if (std::isnan(p[k]) || std::isnan(b[k])) throw Error(Errc::input, t.place(i), "a value is missing");
+      if (std::isnan(p[k]) || std::isnan(b[k])) throw Error(Errc::input, t.location(i), "a value is missing");
       if (std::fabs(p[k]) > kLargestValue || std::fabs(b[k]) > kLargestValue)
-        throw Error(Errc::input, t.place(i),
+        throw Error(Errc::input, t.location(i),
                     "a value is out of range; at most 1000 m and 1000 T are permitted");
     }
     d.at.push_back({p[0], p[1], p[2]});
@@ -93,7 +93,7 @@ FieldData from_columns(const Table& t) {
 
 FieldData field_data(const Table& t) {
   FieldData d = from_columns(t);
-  if (d.at.empty()) throw Error(Errc::input, d.source, "has no points");
+  if (d.at.empty()) throw Error(Errc::input, d.source, "has no points; write one line per measured point");
   return d;
 }
 

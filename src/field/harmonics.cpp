@@ -23,26 +23,26 @@ using Complex = std::complex<double>;
 // R_l^m = r^l P_l^m e^(i m phi) / (l + m)!, whose derivatives are neighbouring terms:
 //   d/dz R_l^m = R_(l-1)^m,  (d/dx + i d/dy) R_l^m = -R_(l-1)^(m+1),  (d/dx - i d/dy) R_l^m = R_(l-1)^(m-1).
 struct Solid {
-  static std::size_t place(int l, int m) { return std::size_t(l) * std::size_t(l + 1) / 2 + std::size_t(m); }
+  static std::size_t index(int l, int m) { return std::size_t(l) * std::size_t(l + 1) / 2 + std::size_t(m); }
   std::vector<Complex> value;
   Complex of(int l, int m) const {
     if (std::abs(m) > l) return 0;
-    return m < 0 ? -std::conj(value[place(l, -m)]) : value[place(l, m)];  // only m = -1 is used
+    return m < 0 ? -std::conj(value[index(l, -m)]) : value[index(l, m)];  // only m = -1 is used
   }
-  Solid(Vec3 at, int degree) : value(place(degree, degree) + 1) {
+  Solid(Vec3 at, int degree) : value(index(degree, degree) + 1) {
     const double r2 = at.x * at.x + at.y * at.y + at.z * at.z;
     value[0] = 1;
     for (int m = 0; m <= degree; ++m) {
       if (m > 0) {
-        const Complex before = value[place(m - 1, m - 1)];
-        value[place(m, m)] = Complex(at.x * before.real() - at.y * before.imag(),
+        const Complex before = value[index(m - 1, m - 1)];
+        value[index(m, m)] = Complex(at.x * before.real() - at.y * before.imag(),
                                      at.x * before.imag() + at.y * before.real()) /
                              double(2 * m);
       }
       for (int l = m + 1; l <= degree; ++l) {
-        Complex v = (2 * l - 1) * at.z * value[place(l - 1, m)];
-        if (l - 2 >= m) v -= r2 * value[place(l - 2, m)];
-        value[place(l, m)] = v / double((l + m) * (l - m));
+        Complex v = (2 * l - 1) * at.z * value[index(l - 1, m)];
+        if (l - 2 >= m) v -= r2 * value[index(l - 2, m)];
+        value[index(l, m)] = v / double((l + m) * (l - m));
       }
     }
   }
@@ -56,10 +56,10 @@ class Schmidt {
     for (std::size_t i = 1; i < factorial.size(); ++i) factorial[i] = factorial[i - 1] * double(i);
     for (int l = 0; l <= kMostHarmonicDegree; ++l)
       for (int m = 0; m <= l; ++m)
-        factor_[Solid::place(l, m)] = std::sqrt((m ? 2 : 1) * factorial[std::size_t(l) - std::size_t(m)] *
+        factor_[Solid::index(l, m)] = std::sqrt((m ? 2 : 1) * factorial[std::size_t(l) - std::size_t(m)] *
                                                 factorial[std::size_t(l) + std::size_t(m)]);
   }
-  double operator()(int l, int m) const { return factor_[Solid::place(l, m)]; }
+  double operator()(int l, int m) const { return factor_[Solid::index(l, m)]; }
 
  private:
   std::array<double, std::size_t(kMostHarmonicDegree + 1) * std::size_t(kMostHarmonicDegree + 2) / 2>

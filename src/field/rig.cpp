@@ -77,6 +77,9 @@ class Rig final : public Field {
     for (const auto& p : parts_) least = std::min(least, p->clearance(at));
     return least;
   }
+  bool encloses(std::size_t coil, Vec3 at) const override {
+    return parts_[index_[coil].part]->encloses(index_[coil].coil, at);
+  }
   std::vector<Stroke> outline() const override {
     std::vector<Stroke> all;
     for (const auto& p : parts_)

@@ -14,6 +14,7 @@
 #include "core/file.h"
 #include "server/embedded_page.h"
 #include "server/recorded_run.h"
+#include "server/request_values.h"
 #include "study/pages/drop_report.h"
 #include "study/pages/scale_report.h"
 #include "study/pages/thumbnail.h"
@@ -53,18 +54,6 @@ std::optional<std::string> below(const std::string& path, std::string_view prefi
 std::uint64_t number(const WebRequest& r, const char* key, std::uint64_t fallback) {
   const auto it = r.query.find(key);
   return it == r.query.end() ? fallback : std::strtoull(it->second.c_str(), nullptr, 10);
-}
-
-Json body_of(const WebRequest& r) {
-  Json j = Json::parse(r.body, nullptr, false);
-  if (!j.is_object()) throw Error(Errc::usage, "invalid request", "not a JSON object");
-  return j;
-}
-
-std::string text_of(const Json& j, const char* key) {
-  if (!j.contains(key) || !j[key].is_string() || j[key].get<std::string>().empty())
-    throw Error(Errc::usage, key, "missing; it must be a non-empty string");
-  return j[key];
 }
 
 // The comment at the top of a scene.
@@ -257,7 +246,7 @@ Json Api::check(const Json& asked) const {
   Document d;
   try {
     if (asked.contains("toml"))
-      d = parse_toml(text_of(asked, "toml"), "file");
+      d = parse_toml(text_of(asked, "toml"), file_name_of(asked));
     else if (asked.contains("scenario") && asked["scenario"].is_object())
       d = workspace_.page_document(asked["scenario"]);
     else
@@ -379,11 +368,9 @@ Json Api::start_job(const Json& asked) {
   } else if (verb == "field map") {
     out = fmt::format("runs/field-{}.png", stamp);
     words = {"field", "map", file("rig"), "--picture", out, "--json"};
-    if (const std::string c = asked.value("current", ""); !c.empty()) {
-      if (c.find_first_not_of("0123456789.-+e, ") != std::string::npos)
-        throw Error(Errc::usage, "current", "must be numbers separated by commas");
-      words.insert(words.begin() + 3, "--current=" + c);
-    }
+    // Without the key the default currents of the coil system are used.
+    if (asked.contains("current"))
+      words.insert(words.begin() + 3, "--current=" + numbers_of(asked, "current"));
   } else {
     throw Error(
         Errc::usage, "verb",

@@ -6,6 +6,7 @@
 #include <set>
 #include <thread>
 
+#include "app/run/live_run.h"
 #include "app/scenario/read_scenario.h"
 #include "core/file.h"
 #include "server/api.h"
@@ -144,6 +145,8 @@ class Pages {
           const fs::path runs = workspace_.root() / "runs";
           fs::create_directories(runs);
           fs::path dir = runs / slug;
+          Json answer = Json::object();
+          if (fs::exists(dir) || fs::exists(dir.string() + ".toml")) answer["taken"] = slug;
           for (int i = 2; fs::exists(dir) || fs::exists(dir.string() + ".toml"); ++i)
             dir = runs / fmt::format("{}-{}", slug, i);
           const fs::path scene = dir.string() + ".toml", out = fs::relative(dir, workspace_.root());
@@ -151,6 +154,8 @@ class Pages {
           jobs_.add(fmt::format("{} ({})", dir.filename().string(), state_hash),
                     {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
                     out / "report.html", out);
+          answer["name"] = dir.filename().string();
+          return answer;
         },
         done);
   }
@@ -207,8 +212,12 @@ void serve_lab(const LabOptions& o) {
   }
   if (!o.scene.empty()) {
     const Document d = read_toml(o.scene);
-    const Scenario checked = read_scenario(d, builtin_parts());
-    live.start(d, checked.params.seed, [](const Json&) {});
+    const Parts parts = builtin_parts();
+    const std::optional<std::uint64_t> seed = read_scenario(d, parts).params.seed;
+    Pool pool(o.threads);
+    // The lab's own thread would report an error to pages only: construct the run here first.
+    const LiveRun check(d, seed.value_or(1), parts, pool);
+    live.start(d, seed, [](const Json&) {});
   }
   Api api(workspace, jobs, folder.path(), o.pages);
 

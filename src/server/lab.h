@@ -20,8 +20,8 @@ struct LabOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Serves the live lab until `stop` is true. Throws Error(usage), before serving, if the port is in use or
-/// the scene is invalid.
+/// Serves the live lab until `stop` is true. Throws, before serving, Error(usage) if the port is in use, and
+/// for an invalid scene the Error that its run would throw.
 void serve_lab(const LabOptions& o);
 
 }  // namespace faba

@@ -283,13 +283,9 @@ void LiveLab::speed(double factor, Done done) {
       std::move(done));
 }
 
-void LiveLab::recorded(std::function<void(const Scenario&, std::string)> take, Done done) {
-  enqueue(
-      [this, take = std::move(take)] {
-        take(live().recorded(), live().state_hash());
-        return Json::object();
-      },
-      std::move(done));
+void LiveLab::recorded(std::function<Json(const Scenario&, std::string)> take, Done done) {
+  enqueue([this, take = std::move(take)] { return take(live().recorded(), live().state_hash()); },
+          std::move(done));
 }
 
 }  // namespace faba

@@ -49,7 +49,7 @@ class LiveLab {
   void speed(double factor, Done done);
   void restart(Done done);
   /// The scenario with all events up to now, for a recording.
-  void recorded(std::function<void(const Scenario&, std::string state_hash)> take, Done done);
+  void recorded(std::function<Json(const Scenario&, std::string state_hash)> take, Done done);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -27,6 +27,12 @@ struct ColumnSpec {
   std::string name, unit, doc;
 };
 
+/// A field that is just strong enough to move the cells of a model.
+struct WeakestField {
+  double tesla = 0;         ///< 0: any field moves them; infinity: none does
+  std::string reason = {};  ///< why a weaker field does not move them; ends a sentence
+};
+
 /// A law of motion. Stateless: all state is in columns. One virtual call per block of agents.
 class AgentModel {
  public:
@@ -38,6 +44,8 @@ class AgentModel {
   virtual void step(State& s, const StepContext& c) const = 0;
   /// Maximum time step, s, at which the integrator has its documented accuracy in a field of `b_max` T.
   virtual double longest_step(double b_max) const = 0;
+  /// The field below which cells move as without a field during `time` s, for notes on weak fields.
+  virtual WeakestField weakest_field(double /*time*/) const { return {}; }
 };
 
 /// Context for the construction of a model.

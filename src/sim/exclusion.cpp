@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/draw_blocks.h"
+#include "core/random/draw_blocks.h"
 
 namespace faba {
 namespace {

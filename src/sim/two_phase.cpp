@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/random/splitmix64.h"
 #include "core/vectorised.h"
 
 namespace faba {
@@ -24,12 +25,8 @@ FABA_VECTORISED void find_cells(const Grid& g, const float* x, const float* y, s
 
 }  // namespace
 
-// SplitMix64's finalizer (Steele, Lea and Flood 2014).
 std::uint64_t TwoPhase::priority(std::uint64_t key, std::int32_t cell, std::uint32_t agent) {
-  std::uint64_t z = key ^ (std::uint64_t(std::uint32_t(cell)) << 32 | agent);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
+  return splitmix64(key ^ (std::uint64_t(std::uint32_t(cell)) << 32 | agent));
 }
 
 TwoPhase::TwoPhase(const Grid& grid) : grid_(grid) {

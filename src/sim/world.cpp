@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/draw_blocks.h"
+#include "core/random/draw_blocks.h"
 
 namespace faba {
 namespace {

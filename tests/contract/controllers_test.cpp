@@ -204,6 +204,20 @@ TEST_CASE("every controller: one finite current for each coil; no current for un
   }
 }
 
+TEST_CASE("no controller commands a field above its max_field()") {
+  const ControlContext context = context_for("uniform");
+  for (const auto& name : contract::parts().controller.names())
+    for (const ControllerPart& part : variants(name)) {
+      INFO(part.resolved.dump());
+      for (const Hostile& h : hostile_inputs()) {
+        Started started(part, context);
+        const double most = started.controller->max_field() * (1 + 1e-9);
+        for (const Command& c : {started.last, started.take(h.estimate, h.target)})
+          CHECK_MESSAGE(norm(context.field->at({}, c.current)) <= most, h.what);
+      }
+    }
+}
+
 TEST_CASE("every controller with feedback acts on a valid estimate (validity of the checks above)") {
   for (const auto& name : contract::parts().controller.names_with(Trait::feedback)) {
     INFO(name);

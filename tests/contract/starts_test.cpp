@@ -6,7 +6,7 @@
 #include "tests/contract/contract.h"
 #include "tests/swarm.h"
 
-#include "core/draw_blocks.h"
+#include "core/random/draw_blocks.h"
 
 using namespace faba;
 using contract::Findings;

@@ -44,7 +44,8 @@ std::vector<Vec2> blob(Vec2 at, double sd, int n, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("image: centroid, spread, velocity in the world frame; the share decreases as the swarm leaves") {
+TEST_CASE(
+    "image: centroid, dispersion, velocity in the world frame; the share decreases as the swarm leaves") {
   cells::Look l;
   const Frame frame = frame_of(l);
   const auto e = estimator("{ type = 'image' }", frame);

@@ -174,3 +174,30 @@ TEST_CASE("registry: parts by name or table; the message for an unknown name has
                     "z.toml:4: e: key \"type\" is missing; known animals: dog");
   CHECK_THROWS_AS(r.resolve(Node(d).child("f")), Error);
 }
+
+namespace {
+
+struct Outer {
+  Inner inner;
+  int n = 0;
+  static Schema<Outer> schema() {
+    auto noted = Inner::schema();
+    noted.note([](const Inner& i) { return std::string(i.weight == 0 ? "weight is 0: no effect" : ""); });
+    return Schema<Outer>("outer", "With the fields and notes of another struct")
+        .add("n", &Outer::n, {})
+        .include(&Outer::inner, noted)
+        .note([](const Outer& o) { return std::string(o.n < 0 ? "n is negative" : ""); });
+  }
+};
+
+}  // namespace
+
+TEST_CASE("notes on values: of a schema and of those that it includes; notes are not errors") {
+  const auto notes = [](const char* toml) {
+    const Document d = parse_toml(toml, "t.toml");
+    return Outer::schema().notes(Outer::schema().parse(Node(d)));
+  };
+  CHECK(notes("n = 1\n").empty());
+  CHECK(notes("weight = 0\n") == std::vector<std::string>{"weight is 0: no effect"});
+  CHECK(notes("weight = 0\nn = -1\n").size() == 2);
+}

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/philox.h"
+#include "core/random/philox.h"
 
 using namespace faba;
 
@@ -56,6 +56,7 @@ void compare_with_sorting() {
       std::vector<T> work = v;
       CHECK(quantile_low(work, p) == x[std::size_t(std::floor(p * double(n - 1)))]);
       CHECK(sorted(work) == x);
+      CHECK(quantile_nearest(work, p) == x[std::size_t(std::floor(p * double(n - 1) + 0.5))]);
     }
     CHECK(median(v) == (double(x[(n - 1) / 2]) + double(x[n / 2])) / 2);
     std::vector<T> work = v;

@@ -38,6 +38,8 @@ TEST_CASE("files are written completely or not at all; appended files are trunca
   write_file(f.path / "a", "one");
   write_file(f.path / "a", "two");
   CHECK(read_file(f.path / "a") == "two");
+  sync_file(f.path / "a");
+  CHECK_THROWS_WITH_AS(sync_file(f.path / "missing"), doctest::Contains("missing: cannot be flushed"), Error);
   CHECK_THROWS_AS(write_file("/dev/full/x", "y"), Error);
   CHECK_THROWS_AS(read_file(f.path), Error);
   CHECK_THROWS_AS(read_file(f.path / "none"), Error);

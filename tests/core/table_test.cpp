@@ -24,7 +24,7 @@ TEST_CASE("table: comments above the header; a last line without a line end is r
   REQUIRE(kept.size() == 2);
   CHECK(kept.column("b")[1] == 4);
   CHECK_FALSE(kept.last_line_cut());
-  CHECK(kept.place(1) == file.string() + ":5");
+  CHECK(kept.location(1) == file.string() + ":5");
   CHECK(dropped.size() == 1);
   CHECK(dropped.last_line_cut());
 }

@@ -46,3 +46,18 @@ TEST_CASE("invalid TOML is rejected, also where the parser accepts it") {
   for (const char* text : {"[+a]", "a = \"", "a = '''x", "= 1", "[[a]", "a = 1 1", "a = \"\\", "'", "\"\"\""})
     CHECK(refusal(text) != "accepted");
 }
+
+TEST_CASE("a value that is set replaces the lines of its own subtree only") {
+  Document d = parse_toml("[a]\nb = { c = 1 }\nbc = 2\n[[a.list]]\nx = 1\n[[ab]]\ny = 1\n", "t.toml");
+  d.set("a.b", Json(3), "--set");
+  CHECK(d.origin.at("a.b") == "--set");
+  CHECK_FALSE(d.origin.contains("a.b.c"));
+  CHECK(d.origin.at("a.bc") == "t.toml:3");
+  d.set("a.list", Json::array(), "--set");
+  CHECK_FALSE(d.origin.contains("a.list[0]"));
+  CHECK_FALSE(d.origin.contains("a.list[0].x"));
+  d.set("a", Json::object(), "--set");
+  CHECK_FALSE(d.origin.contains("a.bc"));
+  CHECK(d.origin.at("ab[0].y") == "t.toml:7");
+  CHECK(Node(d).child("ab").item(0).where("y") == "t.toml:7: ab[0].y");
+}

@@ -26,6 +26,35 @@ TEST_CASE("help, version, parts, schema and doctor answer with exit 0") {
   CHECK(faba_in(f.path, "doctor --json").json().contains("threads"));
 }
 
+TEST_CASE("the help states defaults and ranges in words") {
+  const TestFolder f;
+  const auto help = [&](const char* verb) { return faba_in(f.path, std::string(verb) + " --help").out; };
+  const std::pair<const char*, const char*> stated[] = {
+      {"run", "--threads INT, 1 to 1024"},
+      {"run", "--seed INT"},
+      {"rig jog", "--seed INT"},
+      {"rig jog", "default: \"50 mA\""},
+      {"track", "--memory INT, 0 to 1000"},
+      {"track", "Minimum number of detections of a track; default: 3"},
+      {"distance", "default: 0.9"},
+      {"compare", "default: 0.9"},
+      {"field library", "default: \"2 mm, 2 mm\""},
+      {"field null", "default: north"},
+      {"flow", "(horn_schunck, default: multigrid)"},
+      {"activity", "(horn_schunck, default: jacobi)"},
+      {"compare", "(horn_schunck, default: jacobi)"},
+      {"compare", "(horn_schunck, default: published)"}};
+  for (const auto& [verb, text] : stated) {
+    INFO(verb, ": ", text);
+    CHECK(help(verb).find(text) != std::string::npos);
+  }
+  for (const char* verb : {"run", "lab", "track", "flow", "field library", "rig capture", "identify"}) {
+    const std::string text = help(verb);
+    CHECK(text.find("UINT") == std::string::npos);
+    CHECK(text.find("INT in [") == std::string::npos);
+  }
+}
+
 TEST_CASE("schema series lists the columns that a run writes") {
   const TestFolder f;
   write_file(f.path / "scene.toml", kSmallScene);

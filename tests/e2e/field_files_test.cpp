@@ -57,7 +57,11 @@ TEST_CASE("field fit: finds position and strength of a coil, and the fitted coil
   refused(f, "field fit drawn.toml --map m.csv --out ./drawn.toml --force", 2, "is an input of this command");
   refused(f, "field map drawn.toml --picture /dev/null --force", 2, "is not a regular file");
   refused(f, "field map drawn.toml --current 1e300 --picture m.png", 2, "out of range");
-  refused(f, "field fit drawn.toml --map nothing.csv", 3, "nothing.csv");
+  refused(f, "field fit drawn.toml --map nothing.csv", 3, "nothing.csv: file not found; check the name");
+  refused(f, "field fit drawn.toml --map nothing.h5", 3, "nothing.h5: file not found; check the name");
+  write_file(f.path / "text.h5", "no HDF5 file");
+  refused(f, "field fit drawn.toml --map text.h5", 3, "text.h5: cannot be opened as an HDF5 file");
+  refused(f, "field fit drawn.toml --map m.csv --out fitted.csv", 2, "the file extension must be .toml");
   refused(f, "field fit '" + kRigs + "thesis-four-coils.toml' --map m.csv", 2, "all currents are zero");
   write_file(f.path / "few.csv", "x_mm,y_mm,z_mm,bz_mt\n0,0,0,1\n0,0,1,1.1\n");
   refused(f, "field fit drawn.toml --map few.csv", 3, "2 values for 5 parameters");
@@ -140,6 +144,10 @@ TEST_CASE("a library in a scenario: the run uses its currents, and wrong librari
   CHECK(again.json()["state_hash"] == run.json()["state_hash"]);
 
   refused(f, "field library " + four + " --levels 12 --out l.h5", 2, "already exists");
+  refused(f, "field library " + four + " --out l.csv", 2, "the file extension must be .h5 or .hdf5");
+  for (const char* spacing : {"0", "0 um", "-1 um"})
+    refused(f, "field library " + four + " --out none.h5 --spacing '" + spacing + "'", 2,
+            "--spacing: \"" + std::string(spacing) + "\" is out of range; it must be positive");
   refused(f, "run s.toml --seed 1 --out bad --set arena.radius_px=700", 2, "the library covers 2 x 2 mm");
   refused(f, "run s.toml --seed 1 --out bad --set field.file=" + kRigs + "thesis-two-coils.toml", 3,
           "a different coil system");

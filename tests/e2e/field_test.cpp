@@ -42,7 +42,7 @@ TEST_CASE("field at: CSV input and output, 17 digits, currents from the file of 
   CHECK(j["currents_a"][0].get<double>() == -0.25);
 }
 
-TEST_CASE("field null: keys of --json, polarity, a warning for a zero that the coils cannot produce") {
+TEST_CASE("field null: keys of --json, polarity, an error for a zero that the coils cannot produce") {
   const TestFolder f;
   const auto j = faba_in(f.path, "field null " + kRig + " --at '1 mm, 0 mm' --json").json();
   CHECK(j["currents_a"].size() == 4);
@@ -52,9 +52,30 @@ TEST_CASE("field null: keys of --json, polarity, a warning for a zero that the c
   const auto south =
       faba_in(f.path, "field null " + kRig + " --at '1 mm, 0 mm' --polarity south --json").json();
   CHECK(south["currents_a"][0].get<double>() == doctest::Approx(-j["currents_a"][0].get<double>()));
-  CHECK(faba_in(f.path, "field null " + kRig + " --at '20 mm, 0 mm' --json").exit == 0);
-  CHECK(faba_in(f.path, "field null '" FABA_SCENES "/../rigs/helmholtz.toml'")
-            .err.find("cannot produce a zero") != std::string::npos);
+  CHECK(j["note"] == "");
+  std::string messages;
+  for (const char* verb : {"null", "tolerance"}) {
+    const Called c =
+        faba_in(f.path, std::string("field ") + verb + " '" FABA_SCENES "/../rigs/helmholtz.toml'");
+    INFO(verb, ": ", c.err);
+    CHECK(c.exit == 2);
+    CHECK(c.out.empty());
+    CHECK(c.err.find("cannot produce a zero of the field at (0, 0) mm") != std::string::npos);
+    messages = messages.empty() ? c.err : messages;
+    CHECK(c.err == messages);
+  }
+}
+
+TEST_CASE("field null: positions inside a coil and weak gradients give a note") {
+  const TestFolder f;
+  const auto note = [&](const char* at) {
+    return faba_in(f.path, "field null " + kRig + " --at '" + at + "' --json")
+        .json()["note"]
+        .get<std::string>();
+  };
+  CHECK(note("20 mm, 0 mm").find("inside the coil \"right\"") != std::string::npos);
+  CHECK(note("300 mm, 0 mm").find("too weak to gather cells") != std::string::npos);
+  CHECK(note("0 mm, 0 mm").empty());
 }
 
 TEST_CASE("field map: zeros, picture, HDF5 file, and error of the table") {
@@ -83,6 +104,11 @@ TEST_CASE("field map: zeros, picture, HDF5 file, and error of the table") {
   CHECK(row[1] < 0);
   for (const char* again : {"--picture m.png", "--picture n.png --out m.h5"})
     CHECK(faba_in(f.path, map + again).exit == 2);
+  const Called csv = faba_in(f.path, map + "--picture n.png --out n.csv");
+  CHECK(csv.exit == 2);
+  CHECK(csv.err.find("n.csv: the file extension must be .h5 or .hdf5, not \".csv\"") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(f.path / "n.csv"));
+  CHECK(faba_in(f.path, "field map --help").out.find("as PNG; default: field.png") != std::string::npos);
   CHECK(faba_in(f.path, "field map " + kRig + " --check").exit == 0);
   CHECK_FALSE(std::filesystem::exists(f.path / "field.png"));
   for (const char* bad :
@@ -143,6 +169,7 @@ TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
         Bad{"no number", coil, "x_m,y_m,z_m\n0,0,zero\n", 3, "is not a number"},
         Bad{"short line", coil, "x_m,y_m,z_m\n0,0\n", 3, "2 fields"},
         Bad{"empty field", coil, "x_m,y_m,z_m\n0,,0\n", 3, "a coordinate is missing"},
+        Bad{"no points", coil, "x_m,y_m,z_m\n", 3, "has a header but no points"},
         Bad{"blank file", coil, "\n", 3, "has no name"}}) {
     write_file(f.path / "rig.toml", b.rig);
     write_file(f.path / "p.csv", b.points.empty() ? "x_m,y_m,z_m\n0,0,0\n" : b.points);

@@ -5,17 +5,18 @@
 #include <sys/wait.h>
 
 #include "tests/e2e/incomplete_run.h"
+#include "tests/e2e/playback_scene.h"
 
 using namespace faba;
 
 namespace {
 
-// One run with files of at most `blocks` of 512 bytes. The message comes through a pipe, because a file would
-// have the same limit.
-Called run_limited(const std::filesystem::path& folder, int blocks) {
-  const std::string command = "cd '" + folder.string() + "' && rm -rf run && ulimit -f " +
-                              std::to_string(blocks) +
-                              " && exec '" FABA_PROGRAM "' run s.toml --seed 1 --quiet --out run 2>&1";
+// One call with files of at most `blocks` of 512 bytes, after `before`. The message comes through a pipe,
+// because a file would have the same limit.
+Called call_limited(const std::filesystem::path& folder, int blocks, const std::string& before,
+                    const std::string& arguments) {
+  const std::string command = "cd '" + folder.string() + "' && " + before + " && ulimit -f " +
+                              std::to_string(blocks) + " && exec '" FABA_PROGRAM "' " + arguments + " 2>&1";
   Called c;
   FILE* pipe = popen(command.c_str(), "r");
   char buffer[4096];
@@ -23,6 +24,10 @@ Called run_limited(const std::filesystem::path& folder, int blocks) {
   const int status = pclose(pipe);
   c.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return c;
+}
+
+Called run_limited(const std::filesystem::path& folder, int blocks) {
+  return call_limited(folder, blocks, "rm -rf run", "run s.toml --seed 1 --quiet --out run");
 }
 
 }  // namespace
@@ -54,6 +59,53 @@ TEST_CASE("file size limit: every recorder reports the file, and the run is mark
     CHECK(named);
     CHECK(failed > 2);
     CHECK(complete > 0);
+  }
+}
+
+TEST_CASE("file size limit: a capture names the file, and is complete or not under its name") {
+  const TestFolder f;
+  write_playback_scene(f.path, 12);
+  int failed = 0, complete = 0;
+  for (const int blocks : {0, 1, 4, 6, 8, 12, 40, 200, 4000}) {
+    INFO(blocks, " blocks");
+    const Called video = call_limited(f.path, blocks, "rm -rf a.avi*",
+                                      "rig capture bench.toml --frames 12 --quiet --out a.avi");
+    const Called pictures =
+        call_limited(f.path, blocks, "rm -rf pictures",
+                     "rig capture bench.toml --frames 12 --quiet --format pgm --out pictures");
+    for (const auto& [c, name] : {std::pair{&video, "a.avi"}, {&pictures, "pictures/"}}) {
+      INFO(c->exit, ": ", c->err);
+      (c->exit == 0 ? complete : failed) += 1;
+      if (c->exit == 0) continue;
+      CHECK(c->exit == 1);
+      CHECK(one_clear_line(c->err));
+      CHECK(c->err.find(name) != std::string::npos);
+    }
+    const auto folder = f.path / "pictures";
+    CHECK(std::filesystem::exists(f.path / "a.avi") == (video.exit == 0));
+    if (pictures.exit == 0) CHECK_FALSE(std::filesystem::exists(folder / "incomplete"));
+    if (pictures.exit != 0)
+      CHECK((std::filesystem::exists(folder / "incomplete") || std::filesystem::is_empty(folder)));
+  }
+  CHECK(failed > 5);
+  CHECK(complete > 2);
+}
+
+TEST_CASE("manifest or checkpoint cannot be written: exit 1, the file is named, the run stays marked") {
+  for (const std::string name : {"manifest.json", "checkpoint"}) {
+    INFO(name);
+    const TestFolder f;
+    write_file(f.path / "s.toml", kSmallScene);
+    // A folder takes the temporary name of the file; a run that replaces another keeps unknown files.
+    std::filesystem::create_directories(f.path / "run" / (name + ".tmp") / "x");
+    write_file(f.path / "run/incomplete",
+               "faba process 1\nThis run is not complete. Resume it with: faba resume run\n");
+    const Called c = faba_in(f.path, "run s.toml --seed 1 --force --quiet --out run");
+    complete_or_marked(f.path / "run", c);
+    CHECK(c.exit == 1);
+    CHECK_MESSAGE(c.err.find("run/" + name + ": cannot be written") != std::string::npos, c.err);
+    CHECK_FALSE(std::filesystem::exists(f.path / "run" / name));
+    CHECK_FALSE(std::filesystem::exists(f.path / "run/report.html"));
   }
 }
 

@@ -62,6 +62,10 @@ TEST_CASE("invalid scenarios: exit 2, one line with file, line, path and reason,
                "a video cannot have 100000"},
            Bad{"a picture that cannot be", swarm + "[arena]\ntype = 'drop'\nview_px = [20000, 10]\n",
                "the maximum is 16384 px"},
+           Bad{"an empty event", swarm + "[[event]]\n",
+               "s.toml:3: event[0]: names no part; add at least one of the keys model, estimator, reference, "
+               "controller"},
+           Bad{"an event with a frame only", swarm + "[[event]]\nframe = 3\n", "event[0]: names no part"},
            Bad{"a date", "seed = 2020-01-01\n" + swarm, "dates and times"},
        }) {
     write_file(f.path / "s.toml", b.scene);
@@ -106,6 +110,7 @@ TEST_CASE("errors of the command line name the option or argument, with advice")
       {"run s.toml --seed", "--seed: a value is missing"},
       {"run s.toml --seed 1 --seed 2", "--seed: may be given only once"},
       {"run s.toml --seed x", "error: --seed: expected an integer between"},
+      {"run s.toml --threads 2000", "--threads: expected an integer between 1 and 1024, got \"2000\""},
       {"run s.toml --threads x", "--threads: expected an integer between 1 and 1024, got \"x\""}};
   for (const auto& [arguments, message] : cases) {
     const Called c = faba_in(f.path, arguments);
@@ -240,12 +245,15 @@ TEST_CASE("valid but probably unintended settings give a note of one line each")
     const char* message;
   };
   write_file(f.path / "s.toml", "duration = '0.5 s'\n[[swarm]]\ncount = 5\n[[swarm]]\ncount = 9\n");
-  for (const Odd& o : {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px is outside the box"},
-                       Odd{"limits.max_current=0", "there is no current in the coils"},
-                       Odd{"swarm[0].polarity=north",
-                           "swarm[0] is north-seeking, but the controller steers the south-seeking cells"},
-                       Odd{"duration=0", "has only one frame"}, Odd{"exposure=100", "did you mean motility"},
-                       Odd{"camera.rate=20", ""}}) {
+  for (const Odd& o :
+       {Odd{"reference.setpoint_px=[900,9]", "(900, 9) px is outside the box"},
+        Odd{"limits.max_current=0", "there is no current in the coils"},
+        Odd{"swarm[0].polarity=north",
+            "swarm[0] is north-seeking, but the controller steers the south-seeking cells"},
+        Odd{"duration=0", "has only one frame"},
+        Odd{"exposure=100", "has no effect with motility = \"none\"; choose a motility law"},
+        Odd{"swarm[0].model={type=\"dipole\",motile=0}", "swarm[0].model: motile is 0: no cell swims"},
+        Odd{"camera.rate=20", ""}}) {
     const std::string type = std::string(o.set).starts_with("reference") ? " --set reference.type=hold" : "";
     const std::string run = "run s.toml --seed 1 --force --out run" + type + " --set '" + o.set + "'";
     const Called c = faba_in(f.path, run);

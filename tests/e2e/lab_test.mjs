@@ -89,12 +89,18 @@ await step('a route is drawn and followed', async () => {
 
 await step('a parameter of the model is changed during the run', async () => {
   await panel('Scenario');
-  const swarm = page.locator('fieldset', { has: page.locator('legend', { hasText: /^swarm/ }) }).first();
+  const swarm = page.locator('fieldset:not(.plain)', { has: page.locator('legend', { hasText: /^swarm/ }) }).first();
   const speed = swarm.getByLabel('speed', { exact: true });
   await speed.fill('-5 um/s');
   await page.getByText('must be at least').waitFor();
   await speed.fill('3 bananas');
   await page.getByText('needs a unit such as').waitFor();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  assert.match(await speed.inputValue(), /^[\d.]+ µm\/s$/);
+  assert.equal(await page.getByText('needs a unit such as').count(), 0);
+  // An error of the program that concerns two values is shown at their part.
+  await speed.fill('5000 um/s');
+  await page.locator('[data-refused="swarm[0].model"]').getByText('is above speed_max').waitFor();
   await speed.fill('60 um/s');
   await page.getByRole('button', { name: 'Apply' }).click();
   await until(async () => (await page.getByRole('button', { name: 'Apply' }).count()) === 0, 'the change is applied');
@@ -145,6 +151,19 @@ await step('the recording is replayed', async () => {
   await page.waitForTimeout(300);
   assert.equal(await slider.inputValue(), '20');
   await shot('replay');
+});
+
+await step('a recording with a name that is already used gets another name, and the page reports it', async () => {
+  await tab('Lab');
+  await panel('Jobs');
+  await page.getByRole('button', { name: /Record$/ }).click();
+  await page.getByLabel('Recording name').fill('By hand');
+  await page.keyboard.press('Enter');
+  await page.getByText('The name By-hand is already used: the recording is saved as runs/By-hand-2.').waitFor();
+  assert.ok(existsSync(join(workspace, 'runs/By-hand-2.toml')));
+  const job = page.locator('.panel li').first();
+  await job.getByRole('button', { name: 'Cancel' }).click();
+  await job.getByText('cancelled').waitFor();
 });
 
 await step('the edge of a drop is detected in an uploaded video', async () => {
@@ -222,6 +241,10 @@ await step('a field map and the activity of a video are shown', async () => {
     await job.getByRole('button', { name: 'Open' }).click({ timeout: 120000 });
     await page.locator(what).waitFor();
   };
+  await page.locator('form', { hasText: 'Field map' }).getByRole('button', { name: 'Start' }).click();
+  await page.getByText('must be numbers in A').waitFor();
+  await page.getByLabel('Coil system').selectOption('rigs/thesis-four-coils.toml');
+  await page.getByLabel('Currents, A').fill('0.5, 0.5, 0, 0');
   await show('Field map', 'field map', '.page img');
   await until(() => page.evaluate(() => document.querySelector('.page > section > img').naturalWidth > 0), 'the field map is shown');
   await shot('field');
@@ -230,6 +253,13 @@ await step('a field map and the activity of a video are shown', async () => {
   await page.locator('form', { hasText: 'Activity' }).getByLabel('Video or run').fill('runs/seen');
   await show('Activity', 'activity', 'iframe');
   assert.ok((await page.frameLocator('iframe').locator('svg').count()) > 0, 'the page has no plots');
+  // The report has the theme of the lab.
+  const ground = () => page.frameLocator('iframe').locator('body').evaluate((b) => getComputedStyle(b).backgroundColor);
+  assert.equal(await ground(), 'rgb(255, 255, 255)');
+  await page.getByLabel('Light or dark theme').click();
+  await until(async () => (await ground()) === 'rgb(23, 27, 31)', 'the report is dark');
+  await page.getByLabel('Light or dark theme').click();
+  await until(async () => (await ground()) === 'rgb(255, 255, 255)', 'the report is light');
   await page.waitForTimeout(300);
   await shot('activity');
   await page.getByRole('button', { name: 'Close' }).click();
@@ -267,7 +297,10 @@ await step('camera of a bench: picture, gain, and calibration with a ruler', asy
   await until(async () => Math.abs((await mean()) - before / 2) < 3, 'the picture has half the brightness');
   await page.getByLabel('Gain').fill('99');
   await page.getByLabel('Gain').press('Enter');
-  await page.getByRole('alert').getByText('between 0.1 and 10').waitFor();
+  const alert = page.getByRole('alert').filter({ hasText: 'between 0.1 and 10' });
+  await alert.waitFor();
+  await alert.getByRole('button', { name: 'Close' }).click();
+  await alert.waitFor({ state: 'detached' });
   complaints.length = 0; // the browser logs the refused request
   await page.getByLabel('Gain').fill('1');
   await page.getByLabel('Gain').press('Enter');
@@ -300,6 +333,8 @@ await step('a second page is read-only until it takes control', async () => {
 await step('a lost connection is reported, and the page reconnects', async () => {
   lab.kill('SIGSTOP'); // the server hangs: the connection stays open without responses
   await page.getByText('Connection lost').waitFor();
+  for (const name of ['Pause', 'One frame', 'Record']) assert.ok(await page.getByRole('button', { name }).isDisabled(), `${name} is enabled without a connection`);
+  assert.equal(await page.locator('aside button:enabled:not([role=tab])').count(), 0, 'the panel is enabled without a connection');
   lab.kill('SIGCONT');
   await until(async () => (await page.getByText('Connection lost').count()) === 0, 'connected again');
   const before = await read('swarm');

@@ -7,6 +7,7 @@
 import argparse
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -43,6 +44,18 @@ class List(unittest.TestCase):
     def test_an_item_is_found_by_its_number(self):
         self.assertEqual([r.item for r in index.wanted(["4.13"])], ["Eq 4.1, Fig 4.13"])
         self.assertNotEqual(call("--only", "Fig 9.99").returncode, 0)
+
+
+class Figures(unittest.TestCase):
+    def test_each_heading_exists_in_the_reports_of_the_program(self):
+        pages = "\n".join(p.read_text() for p in (ROOT / "src/study/pages").rglob("*.cpp"))
+        named_after_videos = {"1-100", "dead"}
+        headings = set()
+        for p in (ROOT / "tools/reproduce_rows").glob("*.py"):
+            headings |= set(re.findall(r'read\.figure\((?:\w+|[\w.]+ / "[\w.]+"), "([^"]+)"', p.read_text()))
+        self.assertGreater(len(headings), 10)
+        for heading in headings - named_after_videos:
+            self.assertRegex(pages, rf'(["]|<h3>){re.escape(heading)}', heading)
 
 
 class Page(unittest.TestCase):

@@ -115,6 +115,8 @@ TEST_CASE("invalid studies: one line with place and reason, before anything is w
   refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"manual\"\nset = { reference = \"none\" }\n",
           "setpoint");
   refused("scene = \"scene.toml\"\nseeds = 1\n", "seeds");
+  refused("scene = \"scene.toml\"\ndelays = []\n",
+          "study.toml:2: delays: is an empty list; list camera delays");
   const TestFolder f;
   write_study(f);
   for (const char* shard : {"5/4", "0/4", "1", "a/b", "1/4x"}) {

@@ -52,6 +52,18 @@ TEST_CASE("track: text and JSON output, files, and refused input") {
     CHECK(c.out.empty());
   }
   CHECK(faba_in(folder.path(), "track film --fps 15 --out t.csv --force --quiet").exit == 0);
+
+  const Called figures = faba_in(folder.path(), "track film --fps 15 --figures x.svg");
+  CHECK(figures.exit == 2);
+  CHECK(figures.err.find("x.svg: is the name of a file; --figures must be a folder") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "x.svg"));
+  CHECK(faba_in(folder.path(), "track film --fps 15 --figures run-0.5").exit == 0);
+
+  const Called interval = faba_in(folder.path(), "track film --fps 15 --interval 1000");
+  CHECK(interval.exit == 0);
+  CHECK(interval.err.find(
+            "--interval is 1000 frames, but no track has this length (the video has 12 frames)") !=
+        std::string::npos);
 }
 
 TEST_CASE("estimator image: the centroid of a swarm at the edge of a drop from rendered frames") {

@@ -125,6 +125,36 @@ TEST_CASE("the lab answers requests of its page") {
   }
 }
 
+TEST_CASE("an error in an imported file names the file once, with the line") {
+  const Served lab;
+  const auto check = [&](const char* name, const char* toml) {
+    const Json asked = {{"name", name}, {"toml", toml}};
+    const Json j = Json::parse(test::body_of(
+        lab.ask("POST /api/check", lab.own() + "Content-Type: application/json\r\n", asked.dump())));
+    CHECK(j["ok"] == false);
+    return j["where"].get<std::string>();
+  };
+  CHECK(check("bad1.toml", "title = 'x'\nseed =\n") == "bad1.toml:2");
+  CHECK(check("bad2.toml", "[[swarm]]\ncount = -1\n") == "bad2.toml:2: swarm[0].count");
+  CHECK(check("../../bad3.toml", "seed =\n") == "bad3.toml:1");
+  CHECK(check("", "seed =\n") == "file:1");
+}
+
+TEST_CASE("currents of a field map must be a list of numbers") {
+  const Served lab;
+  fs::create_directories(lab.folder() / "rigs");
+  write_file(lab.folder() / "rigs/a.toml", "");
+  for (const char* current : {"", " ", "0.5,", "0.5,,1", "a", "0.5 A", "nan", "1;2"}) {
+    INFO(current);
+    const Json asked = {{"verb", "field map"}, {"rig", "rigs/a.toml"}, {"current", current}};
+    const std::string a =
+        lab.ask("POST /api/jobs", lab.own() + "Content-Type: application/json\r\n", asked.dump());
+    CHECK(status_of(a) == 422);
+    CHECK(Json::parse(test::body_of(a))["where"] == "current");
+  }
+  CHECK(Json::parse(test::body_of(lab.get("/api/jobs"))).empty());
+}
+
 TEST_CASE("S1: bound to the loopback address only") {
   const Served lab;
   int listening = 0;
@@ -322,4 +352,9 @@ TEST_CASE("a port in use and an invalid scene are errors before the server start
   write_file(lab.folder() / "wrong.toml", "swarm = 3\n");
   o.scene = lab.folder() / "wrong.toml";
   CHECK_THROWS_AS(serve_lab(o), const Error&);
+  // An error that is found only when the run is constructed.
+  write_file(lab.folder() / "full.toml",
+             "[arena]\ntype = 'box'\nsize_px = [40, 25]\n[[swarm]]\ncount = 100000\n");
+  o.scene = lab.folder() / "full.toml";
+  CHECK_THROWS_WITH_AS(serve_lab(o), doctest::Contains("do not fit into 1000 sites"), const Error&);
 }

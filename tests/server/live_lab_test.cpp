@@ -127,14 +127,17 @@ TEST_CASE("a run is started, displayed, steered, paused, stepped and recorded wi
 
   std::optional<Scenario> recorded;
   std::string hash;
-  answer([&](auto done) {
+  const Json taken = answer([&](auto done) {
     lab.recorded(
         [&](const Scenario& s, const std::string& h) {
           recorded = s;
           hash = h;
+          return Json{{"name", "run"}};
         },
         done);
   });
+  CHECK(taken["ok"] == true);
+  CHECK(taken["name"] == "run");
   REQUIRE(recorded);
   CHECK(recorded->frames() == frame + 5);
   test::TemporaryFolder folder("live-lab");

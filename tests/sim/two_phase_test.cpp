@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "core/philox.h"
+#include "core/random/philox.h"
 
 using namespace faba;
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/philox.h"
+#include "core/random/philox.h"
 #include "core/vec.h"
 #include "vision/image/image.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/random/philox.h"
 #include "tests/rendered_video.h"
 #include "vision/drop/drop_edge.h"
 

@@ -152,7 +152,7 @@ def signature(lab, found):
         "s",
     )
     found.note.append(
-        "Onset and leaving are the times at which the Gaussian has 10 % of its height. Activity rises faster than a Gaussian, so the onset"
+        "Onset and departure are the times at which the Gaussian has 10 % of its height. Activity rises faster than a Gaussian, so the onset"
         " can be before the field reversal."
     )
     found.show(
@@ -189,7 +189,7 @@ def dead(lab, found):
     a = step.answer["videos"][0]
     found.value = (
         f"mean activity {a['mean_activity']:.0f} px·px² (fresh sample: {live['mean_activity']:.0f});"
-        f" {a['gaussian']['why'] or 'a Gaussian fits'}"
+        f" {a['gaussian']['reason'] or 'a Gaussian fits'}"
     )
     found.true("No Gaussian fits", not a["gaussian"]["good"], "cells that do not swim give no peak of activity")
     found.true("No response", not a["responds"], "no cell swims")

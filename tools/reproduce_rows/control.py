@@ -330,9 +330,9 @@ def route(lab, found):
     goals = [[320, 110], [540, 240], [320, 370], [320, 240]]
     step = lab.run("route", BASIC, f'reference={{type="route", setpoints_px={goals}}}')
     a = step.answer
-    error = a["path_tracking_rms_px"]
+    error = a["cross_track_rms_px"]
     found.value = (
-        f"{a['setpoints_reached']} of {len(goals)} setpoints reached, final distance {a['final_distance_px']:.1f} px; path tracking error"
+        f"{a['setpoints_reached']} of {len(goals)} setpoints reached, final distance {a['final_distance_px']:.1f} px; cross-track error"
         f" {error:.1f} px rms"
         if error
         else ""

@@ -1,10 +1,14 @@
 // WebSocket to the lab: requests with answers, news, frames; reconnects automatically.
 
+import type { Word } from './i18n';
+
 export type News = { say: string } & Record<string, any>;
 export interface Answer {
   ok: boolean;
   where?: string;
   what?: string;
+  /** Text of the page in place of `what`. */
+  word?: Word;
   [key: string]: any;
 }
 export interface Listener {
@@ -105,7 +109,7 @@ export class Connection {
     return new Promise((resolve) => {
       const late = window.setTimeout(() => {
         this.waiting.delete(id);
-        resolve({ ok: false, where: '', what: `timeout: no answer within ${kPatience / 1000} s` });
+        resolve({ ok: false, where: '', what: `timeout: no answer within ${kPatience / 1000} s`, word: 'timeout' });
       }, kPatience);
       this.waiting.set(id, (a) => {
         clearTimeout(late);
@@ -132,10 +136,21 @@ export async function remove<T = any>(path: string): Promise<T> {
   return answer(await request(path, { method: 'DELETE', headers: { 'Content-Type': 'application/json' } }));
 }
 
+/** An error of a request: its place, such as a key of the scenario, and the message of the program or a text of the page. */
+export class RequestError extends Error {
+  constructor(
+    readonly where: string,
+    readonly what: string,
+    readonly word?: Word,
+  ) {
+    super(where ? `${where}: ${what}` : what);
+  }
+}
+
 /** fetch() rejects only when there is no answer at all; its own message does not tell the user what to do. */
 function request(path: string, init?: RequestInit) {
   return fetch(path, init).catch(() => {
-    throw new Error('The server does not answer. Start faba lab again and open the URL that it prints.');
+    throw new RequestError('', 'The server does not answer.', 'no_answer');
   });
 }
 
@@ -147,6 +162,6 @@ async function answer(r: Response) {
   } catch {
     // plain text
   }
-  if (!r.ok) throw new Error(j?.what ? (j.where ? `${j.where}: ${j.what}` : j.what) : text.trim() || r.statusText);
+  if (!r.ok) throw new RequestError(j?.what ? (j.where ?? '') : '', j?.what ?? (text.trim() || r.statusText));
   return j;
 }

@@ -1,10 +1,21 @@
 // The scenario for a drop detected in an image.
 
 import { variant, type Schema } from './form/schema';
+import type { Word } from './i18n';
 import { findPart, sectionOf } from './part_traits';
 import type { Drop } from './parts/DropEditor.svelte';
 
 const kCells = 300;
+/** Minimum radius of a drop in the editor, px. */
+export const kLeastRadius = 5;
+
+/** The text about what the editor of a drop still needs before Start; null if nothing. An empty number input gives null. */
+export function missingForStart(d: Record<'x' | 'y' | 'r' | 'scale', number | null>, may: boolean): Word | null {
+  if (!may) return 'gallery.needs_control';
+  if (!Number.isFinite(d.x) || !Number.isFinite(d.y)) return 'gallery.needs_centre';
+  if (!((d.r ?? 0) >= kLeastRadius)) return 'gallery.needs_radius';
+  return (d.scale ?? 0) > 0 ? null : 'gallery.needs_scale';
+}
 
 /**
  * A swarm of the first preset in a drop of this size; null when the schema has no circular arena.

@@ -1,4 +1,5 @@
-// Texts of the page in English and Brazilian Portuguese. Messages of the program are in English.
+// Texts of the page in English and Brazilian Portuguese. The descriptions of parameters and the detailed messages of the
+// program are in English; kProgram has translations of its short fixed texts.
 
 const en = {
   'app.title': 'Faba live lab',
@@ -9,7 +10,8 @@ const en = {
   'bench.scale.help': 'Put a ruler under the microscope and measure it once for each objective.', 'bench.objective': 'Objective', 'bench.tick': 'Tick spacing', 'bench.measure': 'Measure the ruler',
   'bench.interval': '(95 %: {low} to {high})', 'bench.kept': '{n} marks found; saved as {file}.', 'bench.poor': '{n} marks found, too few or too uneven; not saved.', 'bench.marks': 'Detected marks',
   'tab.lab': 'Lab', 'tab.gallery': 'Gallery', 'tab.runs': 'Runs', 'tab.analyse': 'Analyse',
-  'lost': 'Connection lost. Reconnecting …', 'refused': 'The access token of this page is not valid any more. Open the URL printed by faba lab.', 'again': 'Retry now',
+  'lost': 'Connection lost: the controls are disabled. The page reconnects automatically. If it does not, check that faba lab still runs in its terminal, or start it again and open the URL that it prints.', 'refused': 'The access token of this page is not valid any more. Open the URL printed by faba lab.', 'again': 'Retry now',
+  'no_answer': 'The server does not answer. Start faba lab again and open the URL that it prints.', 'timeout': 'The server did not answer in time. Check that faba lab still runs, and try again.',
   'steer.other': 'Another page controls the swarm.', 'steer.take': 'Take control', 'pages': '{n} pages connected',
   'hint.1': 'Drag on the picture: the swarm swims in the direction of the drag.',
   'hint.2': 'Click to set a setpoint for the controller. Hold Shift and click to set the points of a route.',
@@ -17,22 +19,27 @@ const en = {
   'hint.close': 'Close',
   'run.pause': 'Pause', 'run.go': 'Resume', 'run.step': 'One frame', 'run.restart': 'Restart', 'run.speed': 'Speed', 'run.real': 'actual {x}×',
   'run.reverse': 'Reverse field', 'run.save': 'Record', 'run.name': 'Recording name', 'run.none': 'No simulation is running. Choose a scene in the gallery.', 'run.stopped': 'The run has ended',
+  'run.saved': 'The recording is saved as runs/{name}; the panel Jobs shows the progress.', 'run.renamed': 'The name {taken} is already used: the recording is saved as runs/{name}.',
   'steer': 'Steer', 'steer.hand': 'Manual field', 'steer.goal': 'Setpoint', 'steer.route': 'Route', 'steer.strength': 'Field strength', 'steer.stop': 'Zero field',
   'steer.hand.help': 'Drag on the picture, or use the arrow keys or a gamepad.', 'steer.goal.help': 'Click on the picture.',
   'steer.route.help': 'Hold Shift and click the points of the route in order, then press Follow route. Drag a point to move it.', 'steer.route.send': 'Follow route', 'steer.route.clear': 'Clear',
+  'steer.outside': 'The setpoint ({x}, {y}) px is outside the camera view, which is {width} × {height} px with (0, 0) at the upper left: the camera does not see the swarm there. Choose a point inside the dashed frame.',
   'scenario': 'Scenario', 'scenario.restart': 'Restart with these settings', 'scenario.live': 'Apply', 'scenario.save': 'Export', 'scenario.load': 'Import', 'scenario.copy': 'Copy command', 'scenario.copied': 'Copied',
-  'scenario.undo': 'Undo', 'scenario.advanced': 'All settings', 'seed.new': 'Another seed', 'seed.now': 'seed {n}', 'scenario.needs_restart': 'takes effect after a restart', 'scenario.changed_now': 'changed',
-  'read.swarm': 'Swarm', 'read.spread': 'spread', 'read.goal': 'distance to setpoint', 'read.responding': 'responsive', 'read.currents': 'coils', 'read.coil': 'Coil',
-  'run.as_seen': 'as the camera sees it (for analysis)', 'gallery.cancel': 'Cancel', 'scenario.from_first': 'The exported file uses these values from the first frame. A recording stores each change with its time.', 'scenario.needs_file': 'The command reads {file}: press Export first and save the file under this name.', 'form.range': 'from {low} to {high}', 'analyse.current': 'Currents, A',
+  'scenario.undo': 'Undo', 'scenario.advanced': 'All settings', 'seed.new': 'Another seed', 'seed.now': 'seed {n}', 'scenario.needs_restart': 'takes effect after a restart', 'scenario.changed_now': 'changed', 'scenario.show_error': 'Show the value',
+  'scenario.names': 'The names of the values are the keys of a scenario file.',
+  'read.swarm': 'Swarm', 'read.spread': 'dispersion', 'read.goal': 'distance to setpoint', 'read.responding': 'responsive', 'read.currents': 'coils', 'read.coil': 'Coil',
+  'run.as_seen': 'as the camera sees it (for analysis)', 'gallery.cancel': 'Cancel', 'scenario.from_first': 'The exported file uses these values from the first frame. A recording stores each change with its time.', 'scenario.needs_file': 'The command reads {file}: press Export first and save the file under this name.', 'form.range': 'from {low} to {high}', 'analyse.current': 'Currents, A', 'analyse.current_wrong': 'must be numbers in A, separated by commas, one per coil, such as 0.5, 0.5, 0, 0', 'analyse.direction_wrong': 'must be a number in degrees, such as 90; leave it empty to find the direction',
   'layers': 'Layers', 'layer.trails': 'Trails', 'layer.density': 'Density', 'layer.field': 'Field', 'layer.edge': 'Edge', 'layer.swarm': 'Swarm', 'layer.route': 'Setpoints', 'layer.camera': 'Camera picture', 'view.fit': 'Fit to view',
-  'plots': 'Plots', 'plot.distance': 'Distance to the setpoint', 'plot.dispersion': 'Dispersion', 'plot.field': 'Field', 'plot.responding': 'Responsive cells', 'plot.speed': 'Speed of the swarm', 'plot.activity': 'Activity: mean speed of the cells', 'plot.earlier': 'recorded',
+  'plots': 'Plots', 'plot.distance': 'Distance to the setpoint', 'plot.dispersion': 'Dispersion', 'plot.field': 'Field (y up)', 'plot.responding': 'Responsive cells', 'plot.speed': 'Speed of the swarm', 'plot.activity': 'Activity: mean speed of the cells', 'plot.earlier': 'recorded', 'plot.time': 'time (s)',
   'gallery.title': 'Scenes', 'gallery.start': 'Start', 'gallery.drop': 'Drop a picture or video of a real drop here, or choose a file', 'gallery.looking': 'Detecting the edge …', 'gallery.edge': 'Edge of the drop',
   'gallery.edge.help': 'Drag the circle to move it, or its rim to change the radius; then press Start.', 'gallery.cells': '{n} cells', 'gallery.no_drop': 'No arena with a circular edge is available.',
+  'gallery.needs_control': 'Start is disabled because this page does not control the swarm; press Take control at the top of the page.', 'gallery.needs_centre': 'Start is disabled because x and y must be numbers.', 'gallery.needs_radius': 'Start is disabled because the radius r must be at least {least} px.', 'gallery.needs_scale': 'Start is disabled because the scale must be above 0 µm/px.',
   'runs.title': 'Recorded runs', 'runs.none': 'No recorded runs. Press Record during a run.', 'runs.report': 'Report', 'runs.replay': 'Replay', 'runs.video': 'Video', 'runs.again': 'Use this scenario', 'runs.pin': 'Compare', 'runs.broken': 'incomplete',
   'jobs': 'Jobs', 'jobs.none': 'No jobs.', 'jobs.cancel': 'Cancel', 'job.waiting': 'queued', 'job.running': 'running', 'job.done': 'done', 'job.failed': 'failed', 'job.cancelled': 'cancelled', 'job.left': '{t} left', 'job.open': 'Open', 'job.close': 'Close', 'job.tab': 'Open in a new tab',
-  'analyse.title': 'Analyse', 'analyse.activity': 'Activity of a video', 'analyse.compare': 'Compare two videos', 'analyse.identify': 'Identify a model, compare controllers', 'analyse.field': 'Field map', 'analyse.start': 'Start', 'analyse.direction': 'Swimming direction, degrees (0 right, 90 down)', 'analyse.video': 'Video or run', 'analyse.reference': 'Reference', 'analyse.study': 'Study', 'analyse.rig': 'Coil system',
-  'form.number': 'must be a number', 'form.unit': 'needs a unit such as {unit}', 'form.integer': 'must be an integer', 'form.least': 'must be at least {limit}', 'form.most': 'must be at most {limit}', 'form.source': 'source: {source}', 'form.reset': 'Reset to default', 'form.add': 'Add', 'form.remove': 'Remove', 'form.none': 'none', 'form.pair': 'needs two numbers, x and y, on each line', 'form.type': 'type', 'form.preset': 'preset', 'form.no_preset': 'custom',
-  'view.label': 'Simulated microscope view of the swarm',
+  'analyse.title': 'Analyse', 'analyse.activity': 'Activity of a video', 'analyse.compare': 'Compare two videos', 'analyse.identify': 'Identify a model, compare controllers', 'analyse.field': 'Field map', 'analyse.start': 'Start', 'analyse.direction': 'Swimming direction in the picture, degrees clockwise, y down (0 right, 90 down)', 'analyse.video': 'Video or run', 'analyse.reference': 'Reference', 'analyse.study': 'Study', 'analyse.rig': 'Coil system',
+  'form.number': 'must be a number', 'form.unit': 'needs a unit such as {unit}', 'form.integer': 'must be an integer', 'form.least': 'must be at least {limit}', 'form.most': 'must be at most {limit}', 'form.source': 'source: {source}', 'form.reset': 'Reset to default', 'form.add': 'Add', 'form.remove': 'Remove', 'form.none': 'not set', 'form.pair': 'needs two numbers, x and y, on each line', 'form.type': 'type', 'form.preset': 'preset', 'form.no_preset': 'custom', 'form.default_preset': 'default',
+  'form.default_source': 'source of the default {value}: {source}', 'form.angle': 'Angles in a scenario count counter-clockwise, y up: 0 deg is right, 90 deg is up.',
+  'view.label': 'Simulated microscope view of the swarm', 'view.max': 'max',
   'language': 'Language', 'theme': 'Light or dark theme',
 } as const;
 
@@ -47,38 +54,70 @@ const pt: Record<Word, string> = {
   'bench.scale.help': 'Coloque uma régua sob o microscópio e meça-a uma vez para cada objetiva.', 'bench.objective': 'Objetiva', 'bench.tick': 'Espaçamento das marcas', 'bench.measure': 'Medir a régua',
   'bench.interval': '(95 %: {low} a {high})', 'bench.kept': '{n} marcas encontradas; salvo em {file}.', 'bench.poor': '{n} marcas encontradas, poucas ou irregulares; não salvo.', 'bench.marks': 'Marcas detectadas',
   'tab.lab': 'Laboratório', 'tab.gallery': 'Galeria', 'tab.runs': 'Gravações', 'tab.analyse': 'Análise',
-  'lost': 'Conexão perdida. Reconectando …', 'refused': 'O token de acesso desta página não é mais válido. Abra o endereço mostrado por faba lab.', 'again': 'Tentar agora',
+  'lost': 'Conexão perdida: os controles estão desativados. A página se reconecta automaticamente. Se isso não ocorrer, verifique se faba lab ainda está em execução no terminal, ou inicie-o novamente e abra o endereço mostrado.', 'refused': 'O token de acesso desta página não é mais válido. Abra o endereço mostrado por faba lab.', 'again': 'Tentar agora',
+  'no_answer': 'O servidor não responde. Inicie faba lab novamente e abra o endereço mostrado.', 'timeout': 'O servidor não respondeu a tempo. Verifique se faba lab ainda está em execução e tente novamente.',
   'steer.other': 'Outra página controla o enxame.', 'steer.take': 'Assumir o controle', 'pages': '{n} páginas conectadas',
   'hint.1': 'Arraste sobre a imagem: o enxame nada na direção do movimento do mouse.',
-  'hint.2': 'Clique para definir o setpoint do controlador. Segure Shift e clique para definir os pontos de uma rota.',
+  'hint.2': 'Clique para definir o ponto de referência do controlador. Segure Shift e clique para definir os pontos de uma rota.',
   'hint.3': 'Todos os outros ajustes estão no painel e podem ser alterados durante a execução. Espaço pausa.',
   'hint.close': 'Fechar',
   'run.pause': 'Pausar', 'run.go': 'Continuar', 'run.step': 'Um quadro', 'run.restart': 'Reiniciar', 'run.speed': 'Velocidade', 'run.real': 'efetiva {x}×',
   'run.reverse': 'Inverter campo', 'run.save': 'Gravar', 'run.name': 'Nome da gravação', 'run.none': 'Nenhuma simulação em execução. Escolha uma cena na galeria.', 'run.stopped': 'A execução terminou',
-  'steer': 'Controle', 'steer.hand': 'Campo manual', 'steer.goal': 'Setpoint', 'steer.route': 'Rota', 'steer.strength': 'Intensidade do campo', 'steer.stop': 'Campo nulo',
+  'run.saved': 'A gravação é salva em runs/{name}; o painel Tarefas mostra o progresso.', 'run.renamed': 'O nome {taken} já existe: a gravação é salva em runs/{name}.',
+  'steer': 'Controle', 'steer.hand': 'Campo manual', 'steer.goal': 'Ponto de referência', 'steer.route': 'Rota', 'steer.strength': 'Intensidade do campo', 'steer.stop': 'Campo nulo',
   'steer.hand.help': 'Arraste sobre a imagem, ou use as setas do teclado ou um gamepad.', 'steer.goal.help': 'Clique na imagem.',
   'steer.route.help': 'Segure Shift e clique nos pontos da rota em ordem, depois clique em Seguir rota. Arraste um ponto para movê-lo.', 'steer.route.send': 'Seguir rota', 'steer.route.clear': 'Limpar',
+  'steer.outside': 'O ponto de referência ({x}, {y}) px está fora da vista da câmera, de {width} × {height} px com (0, 0) no canto superior esquerdo: a câmera não vê o enxame ali. Escolha um ponto dentro da moldura tracejada.',
   'scenario': 'Cenário', 'scenario.restart': 'Reiniciar com estes ajustes', 'scenario.live': 'Aplicar', 'scenario.save': 'Exportar', 'scenario.load': 'Importar', 'scenario.copy': 'Copiar comando', 'scenario.copied': 'Copiado',
-  'scenario.undo': 'Desfazer', 'scenario.advanced': 'Todos os ajustes', 'seed.new': 'Outra semente', 'seed.now': 'semente {n}', 'scenario.needs_restart': 'vale após reiniciar', 'scenario.changed_now': 'alterado',
-  'read.swarm': 'Enxame', 'read.spread': 'dispersão', 'read.goal': 'distância ao setpoint', 'read.responding': 'responsivas', 'read.currents': 'bobinas', 'read.coil': 'Bobina',
-  'run.as_seen': 'como a câmera vê (para análise)', 'gallery.cancel': 'Cancelar', 'scenario.from_first': 'O arquivo exportado usa estes valores desde o primeiro quadro. Uma gravação registra cada alteração com o seu tempo.', 'scenario.needs_file': 'O comando lê {file}: clique antes em Exportar e salve o arquivo com este nome.', 'form.range': 'de {low} a {high}', 'analyse.current': 'Correntes, A',
-  'layers': 'Camadas', 'layer.trails': 'Rastros', 'layer.density': 'Densidade', 'layer.field': 'Campo', 'layer.edge': 'Borda', 'layer.swarm': 'Enxame', 'layer.route': 'Setpoints', 'layer.camera': 'Imagem da câmera', 'view.fit': 'Ajustar à vista',
-  'plots': 'Gráficos', 'plot.distance': 'Distância ao setpoint', 'plot.dispersion': 'Dispersão', 'plot.field': 'Campo', 'plot.responding': 'Células responsivas', 'plot.speed': 'Velocidade do enxame', 'plot.activity': 'Atividade: velocidade média das células', 'plot.earlier': 'gravada',
+  'scenario.undo': 'Desfazer', 'scenario.advanced': 'Todos os ajustes', 'seed.new': 'Outra semente', 'seed.now': 'semente {n}', 'scenario.needs_restart': 'vale após reiniciar', 'scenario.changed_now': 'alterado', 'scenario.show_error': 'Mostrar o valor',
+  'scenario.names': 'Os nomes dos valores são as chaves de um arquivo de cenário; as descrições estão em inglês.',
+  'read.swarm': 'Enxame', 'read.spread': 'dispersão', 'read.goal': 'distância ao ponto de referência', 'read.responding': 'responsivas', 'read.currents': 'bobinas', 'read.coil': 'Bobina',
+  'run.as_seen': 'como a câmera vê (para análise)', 'gallery.cancel': 'Cancelar', 'scenario.from_first': 'O arquivo exportado usa estes valores desde o primeiro quadro. Uma gravação registra cada alteração com o seu tempo.', 'scenario.needs_file': 'O comando lê {file}: clique antes em Exportar e salve o arquivo com este nome.', 'form.range': 'de {low} a {high}', 'analyse.current': 'Correntes, A', 'analyse.current_wrong': 'devem ser números em A, separados por vírgulas, um por bobina, como 0.5, 0.5, 0, 0', 'analyse.direction_wrong': 'deve ser um número em graus, como 90; deixe vazio para determinar a direção',
+  'layers': 'Camadas', 'layer.trails': 'Rastros', 'layer.density': 'Densidade', 'layer.field': 'Campo', 'layer.edge': 'Borda', 'layer.swarm': 'Enxame', 'layer.route': 'Pontos de referência', 'layer.camera': 'Imagem da câmera', 'view.fit': 'Ajustar à vista',
+  'plots': 'Gráficos', 'plot.distance': 'Distância ao ponto de referência', 'plot.dispersion': 'Dispersão', 'plot.field': 'Campo (y para cima)', 'plot.responding': 'Células responsivas', 'plot.speed': 'Velocidade do enxame', 'plot.activity': 'Atividade: velocidade média das células', 'plot.earlier': 'gravada', 'plot.time': 'tempo (s)',
   'gallery.title': 'Cenas', 'gallery.start': 'Iniciar', 'gallery.drop': 'Solte aqui uma imagem ou vídeo de uma gota real, ou escolha um arquivo', 'gallery.looking': 'Detectando a borda …', 'gallery.edge': 'Borda da gota',
   'gallery.edge.help': 'Arraste o círculo para movê-lo, ou a borda para mudar o raio; depois clique em Iniciar.', 'gallery.cells': '{n} células', 'gallery.no_drop': 'Não há arena com borda circular.',
+  'gallery.needs_control': 'Iniciar está desativado porque esta página não controla o enxame; clique em Assumir o controle no alto da página.', 'gallery.needs_centre': 'Iniciar está desativado porque x e y devem ser números.', 'gallery.needs_radius': 'Iniciar está desativado porque o raio r deve ser no mínimo {least} px.', 'gallery.needs_scale': 'Iniciar está desativado porque a escala deve ser maior que 0 µm/px.',
   'runs.title': 'Gravações', 'runs.none': 'Nenhuma gravação. Clique em Gravar durante uma execução.', 'runs.report': 'Relatório', 'runs.replay': 'Reproduzir', 'runs.video': 'Vídeo', 'runs.again': 'Usar este cenário', 'runs.pin': 'Comparar', 'runs.broken': 'incompleta',
   'jobs': 'Tarefas', 'jobs.none': 'Nenhuma tarefa.', 'jobs.cancel': 'Cancelar', 'job.waiting': 'na fila', 'job.running': 'em execução', 'job.done': 'concluída', 'job.failed': 'falhou', 'job.cancelled': 'cancelada', 'job.left': 'faltam {t}', 'job.open': 'Abrir', 'job.close': 'Fechar', 'job.tab': 'Abrir em nova aba',
-  'analyse.title': 'Análise', 'analyse.activity': 'Atividade de um vídeo', 'analyse.compare': 'Comparar dois vídeos', 'analyse.identify': 'Identificar um modelo, comparar controladores', 'analyse.field': 'Mapa do campo', 'analyse.start': 'Iniciar', 'analyse.direction': 'Direção do nado, graus (0 direita, 90 para baixo)', 'analyse.video': 'Vídeo ou gravação', 'analyse.reference': 'Referência', 'analyse.study': 'Estudo', 'analyse.rig': 'Sistema de bobinas',
-  'form.number': 'deve ser um número', 'form.unit': 'precisa de uma unidade como {unit}', 'form.integer': 'deve ser um número inteiro', 'form.least': 'deve ser no mínimo {limit}', 'form.most': 'deve ser no máximo {limit}', 'form.source': 'fonte: {source}', 'form.reset': 'Restaurar o padrão', 'form.add': 'Adicionar', 'form.remove': 'Remover', 'form.none': 'nenhum', 'form.pair': 'precisa de dois números, x e y, em cada linha', 'form.type': 'tipo', 'form.preset': 'predefinição', 'form.no_preset': 'personalizado',
-  'view.label': 'Vista simulada do enxame no microscópio',
+  'analyse.title': 'Análise', 'analyse.activity': 'Atividade de um vídeo', 'analyse.compare': 'Comparar dois vídeos', 'analyse.identify': 'Identificar um modelo, comparar controladores', 'analyse.field': 'Mapa do campo', 'analyse.start': 'Iniciar', 'analyse.direction': 'Direção do nado na imagem, graus no sentido horário, y para baixo (0 direita, 90 para baixo)', 'analyse.video': 'Vídeo ou gravação', 'analyse.reference': 'Referência', 'analyse.study': 'Estudo', 'analyse.rig': 'Sistema de bobinas',
+  'form.number': 'deve ser um número', 'form.unit': 'precisa de uma unidade como {unit}', 'form.integer': 'deve ser um número inteiro', 'form.least': 'deve ser no mínimo {limit}', 'form.most': 'deve ser no máximo {limit}', 'form.source': 'fonte: {source}', 'form.reset': 'Restaurar o padrão', 'form.add': 'Adicionar', 'form.remove': 'Remover', 'form.none': 'não definido', 'form.pair': 'precisa de dois números, x e y, em cada linha', 'form.type': 'tipo', 'form.preset': 'predefinição', 'form.no_preset': 'personalizado', 'form.default_preset': 'padrão',
+  'form.default_source': 'fonte do padrão {value}: {source}', 'form.angle': 'Os ângulos de um cenário contam no sentido anti-horário, y para cima: 0 deg é à direita, 90 deg é para cima.',
+  'view.label': 'Vista simulada do enxame no microscópio', 'view.max': 'máx.',
   'language': 'Idioma', 'theme': 'Tema claro ou escuro',
 };
 
 export type Language = 'en' | 'pt';
 export const kWords: Record<Language, Record<Word, string>> = { en, pt };
 
+/** Translations of fixed texts of the program: sections of a scenario, verbs, steps of a job, messages of the server. */
+export const kProgram: Record<Language, Record<string, string>> = {
+  en: {},
+  pt: {
+    swarm: 'enxame', model: 'modelo', start: 'posições iniciais', controller: 'controlador', reference: 'referência', estimator: 'estimador', field: 'campo', motility: 'motilidade', scale: 'escala', camera: 'câmera',
+    limits: 'limites', exclusion: 'exclusão', simulation: 'simulação', record: 'gravação', microscope: 'microscópio', flow: 'fluxo óptico', rig: 'bancada', library: 'biblioteca', coil: 'bobina', segment: 'segmento',
+    activity: 'atividade', compare: 'comparação', identify: 'identificação', 'compare-controllers': 'comparação de controladores', 'field map': 'mapa do campo',
+    simulating: 'simulando', 'simulating with another seed': 'simulando com outra semente', measuring: 'medindo', tracking: 'rastreando', trials: 'ensaios', capturing: 'capturando', replaying: 'reproduzindo',
+    'another page is steering; take control first': 'outra página controla o enxame; assuma antes o controle',
+    'no run; start a scenario first': 'nenhuma execução; inicie antes um cenário',
+    'no camera is open': 'nenhuma câmera está aberta',
+    'no image from the camera': 'não há imagem da câmera',
+    'camera: no more pictures; this is the last one': 'câmera: não há mais imagens; esta é a última',
+    'a value has the wrong type': 'um valor tem o tipo errado',
+    'file not found': 'arquivo não encontrado',
+    'file not found in the workspace of the lab': 'arquivo não encontrado na pasta do laboratório',
+    'outside of the workspace of the lab': 'fora da pasta do laboratório',
+    'scene not found': 'cena não encontrada',
+    'not found': 'não encontrado',
+    'job not found': 'tarefa não encontrada',
+    'missing; it must be a non-empty string': 'falta; deve ser um texto não vazio',
+    'the run has no tracks.h5; only its video can be displayed': 'a gravação não tem tracks.h5; só o vídeo pode ser mostrado',
+  },
+};
+
 export function words(language: Language) {
-  return (key: Word, values: Record<string, string | number> = {}) =>
+  const say = (key: Word, values: Record<string, string | number> = {}) =>
     kWords[language][key].replace(/\{(\w+)\}/g, (all, name) => (name in values ? String(values[name]) : all));
+  return Object.assign(say, { language });
 }
 export type Say = ReturnType<typeof words>;

@@ -1,8 +1,9 @@
 // State of the lab in the page: one object shared by all components.
 
-import { Connection, get, type Answer, type News } from './connection';
+import { Connection, get, type Answer, type News, type RequestError } from './connection';
 import type { Schema } from './form/schema';
 import { decodeFrame, runOf, type Frame } from './frame';
+import type { Word } from './i18n';
 import { Series } from './series';
 import type { Scene } from './view/overlay';
 
@@ -30,6 +31,8 @@ export interface Job {
 export interface Trouble {
   where: string;
   what: string;
+  /** Text of the page in place of `what`. */
+  word?: Word;
 }
 
 export class Lab {
@@ -62,7 +65,8 @@ export class Lab {
   readonly series = new Series();
   readonly link: Connection;
 
-  readonly steers = $derived(this.page !== 0 && this.page === this.steering);
+  /** This page controls the run. False without a connection: all controls of the run are disabled. */
+  readonly steers = $derived(this.connected && this.page !== 0 && this.page === this.steering);
 
   constructor() {
     this.link = new Connection({
@@ -71,7 +75,10 @@ export class Lab {
       state: (s) => {
         this.connected = s.connected;
         this.refused = s.refused;
-        if (!s.connected) return;
+        if (!s.connected) {
+          this.page = this.steering = 0; // the next connection gets another number
+          return;
+        }
         this.everConnected = true;
         void this.fetchSchema();
       },
@@ -81,7 +88,7 @@ export class Lab {
   /** Sends a request and shows its error. */
   async ask(what: string, values: Record<string, unknown> = {}): Promise<Answer> {
     const a = await this.link.ask(what, values);
-    if (!a.ok && a.what !== 'connection') this.trouble = { where: a.where ?? '', what: a.what ?? '' };
+    if (!a.ok && a.what !== 'connection') this.trouble = { where: a.where ?? '', what: a.what ?? '', word: a.word };
     else if (a.ok) this.trouble = null;
     return a;
   }
@@ -94,7 +101,8 @@ export class Lab {
     try {
       this.schema = await get<Schema>('/api/schema');
     } catch (e) {
-      this.trouble = { where: '/api/schema', what: (e as Error).message };
+      const { what, word } = e as RequestError;
+      this.trouble = { where: '/api/schema', what, word };
     }
   }
 

@@ -39,12 +39,16 @@ export function inline(v: Json): string {
   return JSON.stringify(v);
 }
 
-const quoted = (s: string) => (/^[\w@%+=:,./[\]-]+$/.test(s) && !/[[\]]/.test(s) ? s : `'${s.replaceAll("'", `'\\''`)}'`);
+/** A word of a shell command, in quotes if the shell would change it. */
+export const quoted = (s: string) => (/^[\w@%+=:,./[\]-]+$/.test(s) && !/[[\]]/.test(s) ? s : `'${s.replaceAll("'", `'\\''`)}'`);
 
 // --set parses TOML values, so a string that is also a TOML value needs quotes. A quantity such as "5 um" does not.
 const kQuantity = /^[-+]?[\d.]+(?:[eE][-+]?\d+)? [a-zA-Zµμ%]/;
 const isPlain = (s: string) => kQuantity.test(s) || (/^[^\s\d+\-.'"[{#]/.test(s) && !/^(true|false|inf|nan)\b/.test(s));
 const setValue = (v: Json) => (typeof v === 'string' && isPlain(v) ? v : inline(v));
+
+/** The place of an error in an event, as a place in the scenario: the model of an event belongs to a swarm. */
+export const placeInScenario = (e: Json, where: string) => (where === 'model' || where.startsWith('model.') ? `swarm[${e.swarm ?? 0}].${where}` : where);
 
 /** The equivalent command line; null if a file is needed. */
 export function command(file: string, from: Json, to: Json, seed: number): string | null {

@@ -5,6 +5,11 @@ import { defaultPart, handController, isOpenLoop, routeReference, sectionOf, set
 
 export const kWeakest = 5e-6, kStrongest = 5e-3; // T
 
+const rounded = ([x, y]: [number, number]): [number, number] => [Math.round(x * 10) / 10, Math.round(y * 10) / 10];
+
+/** Whether a point in pixels is in the view of the camera; (0, 0) is the centre of the first pixel. */
+export const inView = ([x, y]: [number, number], view: { width: number; height: number }) => x >= -0.5 && y >= -0.5 && x < view.width - 0.5 && y < view.height - 0.5;
+
 export class Steering {
   /** Field strength at full deflection, T. */
   strength = $state(115e-6);
@@ -14,6 +19,8 @@ export class Steering {
   direction = $state.raw<[number, number]>([0, 0]);
   /** Requested setpoint without an answer yet, px. */
   asked = $state.raw<[number, number] | null>(null);
+  /** The first requested setpoint outside of the camera view, and the size of the view, px; the page shows a note. */
+  outside = $state.raw<{ x: number; y: number; width: number; height: number } | null>(null);
   /** Controller and estimator before manual control. */
   private before: Record<string, any> | null = null;
   private sending = false;
@@ -80,6 +87,11 @@ export class Steering {
     this.direction = [0, 0];
     this.sketch = [];
     this.before = null;
+    this.outside = null;
+  }
+  private checkView(points: [number, number][]) {
+    const view = this.lab.scene?.view, point = view && points.find((q) => !inView(q, view));
+    this.outside = view && point ? { x: point[0], y: point[1], width: view.width, height: view.height } : null;
   }
 
   /** Parts that replace manual control: those before it, or the default controller. */
@@ -92,16 +104,19 @@ export class Steering {
     if (type === undefined) return;
     this.direction = [0, 0];
     this.asked = at;
-    await this.lab.exchange({ ...this.controller(), reference: { type, setpoint_px: at.map((v) => Math.round(v * 10) / 10) } });
+    const setpoint_px = rounded(at);
+    this.checkView([setpoint_px]);
+    await this.lab.exchange({ ...this.controller(), reference: { type, setpoint_px } });
     if (this.asked === at) this.asked = null;
   }
   point(at: [number, number], index: number | null) {
-    const q: [number, number] = [Math.round(at[0] * 10) / 10, Math.round(at[1] * 10) / 10];
+    const q = rounded(at);
     this.sketch = index === null ? [...this.sketch, q] : this.sketch.map((p, i) => (i === index ? q : p));
   }
   async route() {
     const type = routeReference(this.lab.schema);
     if (type === undefined) return;
+    this.checkView(this.sketch);
     const a = await this.lab.exchange({ ...this.controller(), reference: { type, setpoints_px: this.sketch } });
     if (a.ok) this.sketch = [];
   }

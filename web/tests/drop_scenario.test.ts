@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { dropScenario } from '../src/drop_scenario';
+import { dropScenario, kLeastRadius, missingForStart } from '../src/drop_scenario';
 import { sampleSchema } from './sample_schema';
 
 const drop = { picture: 'uploads/3/my drop.png', url: '/x', image_size: [640, 480] as [number, number], center_px: [320, 231] as [number, number], radius_px: 150, um_per_px: 0.9, found: true };
@@ -19,4 +19,15 @@ test('the swarm has the default model if no model has presets', () => {
 test('returns null without a circular arena or a schema', () => {
   expect(dropScenario({ properties: {} }, drop)).toBeNull();
   expect(dropScenario(null, drop)).toBeNull();
+});
+
+test('the editor gives the reason why a drop cannot be started', () => {
+  const complete = { x: 10, y: 0, r: kLeastRadius, scale: 0.9 };
+  expect(missingForStart(complete, true)).toBeNull();
+  expect(missingForStart(complete, false)).toBe('gallery.needs_control');
+  expect(missingForStart({ ...complete, x: null }, true)).toBe('gallery.needs_centre');
+  expect(missingForStart({ ...complete, r: null }, true)).toBe('gallery.needs_radius');
+  expect(missingForStart({ ...complete, r: kLeastRadius - 1 }, true)).toBe('gallery.needs_radius');
+  expect(missingForStart({ ...complete, scale: 0 }, true)).toBe('gallery.needs_scale');
+  expect(missingForStart({ ...complete, scale: null }, true)).toBe('gallery.needs_scale');
 });

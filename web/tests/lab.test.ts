@@ -97,6 +97,20 @@ describe('news', () => {
     newest().say({ say: 'pages', pages: 2, steering: 4 });
     expect(lab.steers).toBe(true);
   });
+  test('without a connection no page steers', () => {
+    const lab = connected();
+    newest().say({ say: 'hello', page: 4 });
+    newest().say({ say: 'pages', pages: 1, steering: 4 });
+    expect(lab.steers).toBe(true);
+    newest().close();
+    expect([lab.connected, lab.steers]).toEqual([false, false]);
+    vi.advanceTimersByTime(1000);
+    newest().open();
+    expect([lab.connected, lab.steers]).toEqual([true, false]); // until the program has sent the new number of the page
+    newest().say({ say: 'hello', page: 5 });
+    newest().say({ say: 'pages', pages: 1, steering: 5 });
+    expect(lab.steers).toBe(true);
+  });
   test('the polarity of most cells', () => {
     const lab = connected();
     newest().say(run(1, []));

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { command, differences, event, inline } from '../src/scenario';
+import { command, differences, event, inline, placeInScenario, quoted } from '../src/scenario';
 
 const base = () => ({
   title: 'A swarm',
@@ -126,5 +126,25 @@ describe('events of a running scenario', () => {
     for (const key of ['controller', 'reference', 'swarm', 'arena']) {
       expect(event(base(), changed((s) => delete s[key])), key).toBeNull();
     }
+  });
+});
+
+describe('words of a command', () => {
+  test.each([
+    ['./rigs/a.toml', './rigs/a.toml'],
+    ['--current=0.5, 0.5', "'--current=0.5, 0.5'"],
+    ['swarm[0].count=3', "'swarm[0].count=3'"],
+    ["it's", "'it'\\''s'"],
+    ['', "''"],
+  ])('%s', (word, line) => {
+    expect(quoted(word)).toBe(line);
+  });
+});
+
+describe('the place of an error in an event', () => {
+  test('is a place in the scenario', () => {
+    expect(placeInScenario({ swarm: 1, model: {} }, 'model.speed')).toBe('swarm[1].model.speed');
+    expect(placeInScenario({ model: {} }, 'model')).toBe('swarm[0].model');
+    expect(placeInScenario({ controller: {} }, 'controller.gain')).toBe('controller.gain');
   });
 });

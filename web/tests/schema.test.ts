@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { amount, check, kindOf, same, shown, variant, variants, type Schema } from '../src/form/schema';
+import { amount, check, hasDefaults, inputPath, kindOf, presetOf, same, shown, sourceOf, variant, variants, type Schema } from '../src/form/schema';
 import { sampleSchema } from './sample_schema';
 
 const speed: Schema = { type: ['number', 'string'], 'x-unit': 'm/s', minimum: 7e-6, maximum: 3.2e-4 };
@@ -103,5 +103,67 @@ describe('the parts of a section', () => {
     expect(variant(controllers, 'beta')?.title).toBe('beta');
     expect(variant(controllers, 'none')).toBeUndefined();
     expect(variants({})).toEqual([]);
+  });
+});
+
+describe('presets', () => {
+  const size: Schema = { type: ['number', 'string'], 'x-unit': 'm', default: '1 um', 'x-source': 'measured for first' };
+  const spread: Schema = { type: 'number', default: 0, 'x-source': 'assumed' };
+  const rate: Schema = { type: 'number' };
+  const preset: Schema = {
+    type: 'string',
+    enum: ['first', 'second'],
+    'x-source': { first: 'paper 1', second: 'paper 2' },
+    'x-values': { first: { size: '1 um', spread: 0.3 }, second: { size: '2 um', spread: 0.3 } },
+  };
+  const part: Schema = { properties: { type: { const: 'rod' }, preset, size, spread, rate } };
+
+  test('the preset that the table names', () => {
+    expect(presetOf(part, { type: 'rod', preset: 'second', size: '9 um' })).toBe('second');
+  });
+  test('the preset with the values of a resolved table, in any unit', () => {
+    expect(presetOf(part, { type: 'rod', size: '0.000002 m', spread: 0.3 })).toBe('second');
+    expect(presetOf(part, { type: 'rod', size: '0.000001 m', spread: 0.3 })).toBe('first');
+  });
+  test('none if a value differs, or if the preset does not have it', () => {
+    expect(presetOf(part, { type: 'rod', size: '2 um', spread: 0.4 })).toBe('');
+    expect(presetOf(part, { type: 'rod', size: '2 um', spread: 0.3, rate: 1 })).toBe('');
+    expect(presetOf(part, { type: 'rod' })).toBe('');
+    expect(presetOf({ properties: { type: { const: 'dot' } } }, { type: 'dot' })).toBe('');
+    expect(presetOf(undefined, {})).toBe('');
+  });
+  test('the defaults are not custom values', () => {
+    expect(hasDefaults(part, { type: 'rod', size: '0.001 mm' })).toBe(true);
+    expect(hasDefaults(part, { type: 'rod', size: '2 um' })).toBe(false);
+    expect(hasDefaults(part, { type: 'rod', rate: 2 })).toBe(false);
+  });
+  test('the source of a value is that of the preset that gives it, and that of the schema for the default', () => {
+    const second = { value: '2 um', source: 'paper 2' };
+    expect(sourceOf(size, '0.000002 m', second)).toEqual(['form.source', { source: 'paper 2' }]);
+    expect(sourceOf(size, '1 um', { value: '1 um', source: 'paper 1' })).toEqual(['form.source', { source: 'measured for first' }]);
+    expect(sourceOf(size, undefined)).toEqual(['form.source', { source: 'measured for first' }]);
+    expect(sourceOf(size, '3 um', second)).toEqual(['form.default_source', { source: 'measured for first', value: '1 µm' }]);
+    expect(sourceOf(rate, 3)).toBeNull();
+  });
+});
+
+describe('the input of an error', () => {
+  const scenario = { swarm: [{ model: { type: 'rod', preset: 'first' }, start: 'seen' }], controller: { type: 'alpha' }, reference: 'path' };
+  test.each([
+    ['swarm[0].count', 'swarm[0].count'],
+    ['scenes/x.toml:12: swarm[0].count', 'swarm[0].count'],
+    ['swarm[0].model.preset', 'swarm[0].model'],
+    ['swarm[0].model.type', 'swarm[0].model'],
+    ['swarm[0].model.unknown', 'swarm[0].model'],
+    ['swarm[0]', 'swarm[0]'],
+    ['controller.field[1]', 'controller.field'],
+    ['controller.current', 'controller'],
+    ['reference.setpoints_px[2][0]', 'reference.setpoints_px'],
+    ['title', 'title'],
+    ['nothing.at.all', ''],
+    ['', ''],
+    ['steer', ''],
+  ])('%s is at "%s"', (where, path) => {
+    expect(inputPath(sampleSchema, scenario, where)).toBe(path);
   });
 });

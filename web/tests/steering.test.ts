@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Lab } from '../src/lab.svelte';
-import { Steering } from '../src/steering.svelte';
+import { inView, Steering } from '../src/steering.svelte';
 import { sampleSchema } from './sample_schema';
 
 /** A mock of Lab; an exchange changes the scenario like the server. */
@@ -122,6 +122,36 @@ describe('a setpoint', () => {
     lab.scenario = { controller: { type: 'gamma' } };
     await steering.goal([1, 2]);
     expect(lab.sent.at(-1)!.controller).toEqual({ type: 'zeta' });
+  });
+});
+
+describe('a setpoint outside of the camera view', () => {
+  const view = { width: 640, height: 480 };
+  test.each<[[number, number], boolean]>([
+    [[0, 0], true],
+    [[-0.5, -0.5], true],
+    [[639.4, 479.4], true],
+    [[639.5, 10], false],
+    [[10, 479.5], false],
+    [[-0.6, 10], false],
+    [[700, 240], false],
+  ])('%j: in view %s', (at, inside) => {
+    expect(inView(at, view)).toBe(inside);
+  });
+  test('is reported with its position and the view; a setpoint in the view clears the report', async () => {
+    await steering.goal([700.04, 240]);
+    expect(steering.outside).toEqual({ x: 700, y: 240, ...view });
+    expect(lab.sent).toHaveLength(1);
+    await steering.goal([100, 240]);
+    expect(steering.outside).toBeNull();
+  });
+  test('is reported for a route', async () => {
+    steering.point([10, 10], null);
+    steering.point([10, -5], null);
+    await steering.route();
+    expect(steering.outside).toEqual({ x: 10, y: -5, ...view });
+    steering.begin();
+    expect(steering.outside).toBeNull();
   });
 });
 

@@ -33,6 +33,14 @@ void write_latency(const std::filesystem::path& file, const BenchRig& rig) {
   out.close();
 }
 
+// The guard does not sync its log while it runs, because it must answer in time. At the end of a run, also
+// after a trip, this process does; the guard syncs once more when it exits. In a series of step responses the
+// log is not in the directory of a run.
+void sync_log(const std::filesystem::path& log) {
+  std::error_code ec;
+  if (std::filesystem::exists(log, ec)) sync_file(log);
+}
+
 /// The camera of a bench: its pictures are part of the observations.
 class BenchFrames final : public FrameSource {
  public:
@@ -132,6 +140,7 @@ bool BenchSession::run() {
     const bool logged = guard.log_failure.front() == '\0';
     m.manifest.complete = m.manifest.complete && logged;
     m.recording.finish(m.manifest, false);
+    sync_log(dir() / run_files::kCoilsLog);
     if (!logged) throw Error(Errc::internal, "", guard.log_failure.data());
   };
   try {

@@ -6,8 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "app/sinks/run_files.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/file_lock.h"
 #include "core/monotonic.h"
 #include "rig/bench/camera_feed.h"
 #include "vision/files/frame_encoder.h"
@@ -77,12 +79,22 @@ class VideoStore final : public Store {
 
 class PictureStore final : public Store {
  public:
-  PictureStore(const CaptureJob& job, const Camera& camera)
+  /// `mark`: the file `incomplete` in the folder, which finish() removes.
+  PictureStore(const CaptureJob& job, const Camera& camera, FileLock mark)
       : Store(job.out / "times.csv"),
+        mark_(std::move(mark)),
         job_(job),
         colour_(job.format == "ppm"),
         encoder_(kind_of(job.format), camera.width(), camera.height(), {}, job.out.string()) {}
   std::string unfinished_path() const override { return job_.out.string(); }
+  void finish() override {
+    std::error_code ec;
+    if (at_.empty())  // without pictures no files are kept
+      std::filesystem::remove(job_.out / "times.csv", ec);
+    else
+      Store::finish();
+    mark_.complete();
+  }
 
  private:
   static FrameEncoder::Kind kind_of(const std::string& format) {
@@ -103,6 +115,7 @@ class PictureStore final : public Store {
                {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 
+  FileLock mark_;
   const CaptureJob& job_;
   bool colour_;
   FrameEncoder encoder_;
@@ -126,7 +139,9 @@ std::unique_ptr<Store> store_for(const CaptureJob& job, const Camera& camera) {
                 "already exists and is not an empty folder; choose another --out");
   std::filesystem::create_directories(job.out, ec);
   if (ec) throw Error(Errc::usage, job.out.string(), "cannot be created: " + ec.message());
-  return std::make_unique<PictureStore>(job, camera);
+  FileLock mark(job.out / run_files::kMarker, job.out,
+                "This capture is not complete. The pictures that times.csv lists are valid.\n");
+  return std::make_unique<PictureStore>(job, camera, std::move(mark));
 }
 
 bool memory_is_low() {

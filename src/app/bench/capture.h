@@ -35,7 +35,8 @@ struct Captured {
 
 /// Captures until a limit is reached, the camera has no more frames, or `stop` is set. The times of the
 /// frames are written to `out` + ".csv" for a video and to times.csv for pictures. The recorded frames are
-/// kept in any case; if the camera fails, a video keeps the name `out` + ".part". Throws Error(usage) for an
+/// kept in any case. During the capture a video has the name `out` + ".part", and a folder of pictures has a
+/// file `incomplete`; both stay if the camera fails or a file cannot be written. Throws Error(usage) for an
 /// unsuitable `out`, Error(device) if the camera fails or exceeds `timeout`, Error(internal) for a full disk.
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job);
 

@@ -15,7 +15,8 @@ Replayed replay_run(const std::filesystem::path& dir,
                     const std::function<bool(std::uint64_t done, std::uint64_t total)>& keep_running) {
   std::error_code ec;
   const auto commands = dir / run_files::kCommands, video = dir / "video.avi";
-  if (!std::filesystem::exists(dir, ec)) throw Error(Errc::input, dir.string(), "directory not found");
+  if (!std::filesystem::exists(dir, ec))
+    throw Error(Errc::input, dir.string(), "directory not found; give a run directory, such as runs/steer-1");
   if (!std::filesystem::is_directory(dir, ec))
     throw Error(Errc::input, dir.string(), "is a file; specify a run directory");
   if (!std::filesystem::exists(commands, ec))

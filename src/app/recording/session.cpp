@@ -29,13 +29,16 @@ Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& 
 
 Session Session::resume(const Parts& parts, const RunOptions& o) {
   std::error_code ec;
-  if (!std::filesystem::exists(o.out, ec)) throw Error(Errc::input, o.out.string(), "directory not found");
+  if (!std::filesystem::exists(o.out, ec))
+    throw Error(Errc::input, o.out.string(),
+                "directory not found; give a run directory, such as runs/steer-1");
   if (!std::filesystem::is_directory(o.out, ec))
     throw Error(Errc::input, o.out.string(), "is a file; specify a run directory");
   if (!RunLock::marks(o.out)) {
     if (std::filesystem::exists(o.out / kManifest, ec))
       throw Error(Errc::usage, o.out.string(), "the run is complete; there is nothing to resume");
-    throw Error(Errc::input, o.out.string(), "is not a run directory");
+    throw Error(Errc::input, o.out.string(),
+                "is not a run directory: it has no manifest.json; give the directory of a run");
   }
   if (std::filesystem::exists(o.out / kCommands, ec) || std::filesystem::exists(o.out / kCoilsLog, ec))
     throw Error(Errc::usage, o.out.string(),

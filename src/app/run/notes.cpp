@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "core/units.h"
+#include "core/counted.h"
 #include "field/null.h"
 
 namespace faba {
@@ -13,15 +14,7 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
-// Currents in A from a resolved scenario: "0.5 A".
-std::vector<double> currents_in(const Json& list) {
-  std::vector<double> a;
-  for (const Json& one : list)
-    a.push_back(one.is_string() ? parse_quantity(one.get<std::string>()).value : one.get<double>());
-  return a;
-}
-
-void note_setpoints(const Simulation& simulation, Notes& notes) {
+void note_setpoints(const Scenario& s, const Simulation& simulation, Notes& notes) {
   const Arena& arena = *simulation.world().parts().arena;
   for (const Vec2 at : simulation.reference().setpoints()) {
     const Vec2 px = simulation.frame().image_from_world(at);
@@ -33,7 +26,7 @@ void note_setpoints(const Simulation& simulation, Notes& notes) {
     }
     notes.push_back(
         fmt::format("reference: the setpoint ({:g}, {:g}) px is outside the {}; the swarm cannot reach it",
-                    px.x, px.y, arena.outline().radius_px > 0 ? "drop" : "box"));
+                    px.x, px.y, s.arena.type));
   }
 }
 
@@ -74,12 +67,9 @@ void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
 // Zero of the field near the sample for currents given per coil, and its effect on cells.
 void note_currents(const Scenario& s, const Simulation& simulation, Notes& notes) {
   const WorldParts& parts = simulation.world().parts();
-  const auto check_zero = [&](const Json& from) {
-    const std::vector<double> current =
-        from.value("current", Json::array()).empty() ? std::vector<double>() : currents_in(from["current"]);
-    if (current.empty()) return;
+  for (const std::vector<double>& current : simulation.controller().given_currents()) {
     const Vec2 at = find_null(*parts.field, current, {});
-    if (!std::isfinite(at.x) || parts.field->clearance({at.x, at.y, 0}) < 1e-4) return;
+    if (!std::isfinite(at.x) || parts.field->clearance({at.x, at.y, 0}) < 1e-4) continue;
     const std::string position = in_px(simulation.frame().image_from_world(at));
     const double outside = -parts.arena->depth(at);
     const NullGradient g = null_gradient(*parts.field, current, at);
@@ -93,9 +83,136 @@ void note_currents(const Scenario& s, const Simulation& simulation, Notes& notes
         traps    ? "a trap"
         : repels ? "a source, from which cells move away in all directions"
                  : kSaddle));
+  }
+}
+
+/// Largest field of an experiment, T, and what limits it.
+struct MaxField {
+  double tesla = 0;
+  bool by_coils = false;  ///< by the current limits of the coils, else by the controller
+};
+
+// Sum of the magnitudes of the fields of all coils, T, at its largest in the middle of the arena and halfway
+// to its corners; infinity if all these points are outside a measured map.
+double field_of(const WorldParts& w, std::span<const double> current) {
+  const Grid g = w.arena->grid();
+  std::vector<Vec3> b(w.field->coils());
+  double most = -1;
+  for (const Vec2 part : {Vec2{0.5, 0.5}, {0.25, 0.25}, {0.25, 0.75}, {0.75, 0.25}, {0.75, 0.75}}) {
+    const Vec2 at{double(g.left) + part.x * g.columns * double(g.cell),
+                  double(g.low) + part.y * g.rows * double(g.cell)};
+    w.field->basis({at.x, at.y, 0}, b, {});
+    double sum = 0;
+    for (std::size_t k = 0; k < b.size(); ++k) sum += std::fabs(current[k]) * norm(b[k]);
+    if (sum > most) most = sum;
+  }
+  return most < 0 ? std::numeric_limits<double>::infinity() : most;
+}
+
+// The largest field that the controllers of the run command and the coils produce.
+MaxField max_field(const Scenario& s, const Simulation& simulation) {
+  const WorldParts& w = simulation.world().parts();
+  double commanded = 0;
+  const auto add = [&](const Controller& c) {
+    commanded = std::max(commanded, c.max_field());
+    for (const std::vector<double>& current : c.given_currents())
+      commanded = std::max(commanded, field_of(w, current));
   };
-  check_zero(s.controller.resolved);
-  for (const Json& segment : s.controller.resolved.value("segment", Json::array())) check_zero(segment);
+  add(simulation.controller());
+  for (const Event& e : s.events)
+    if (e.controller) add(*e.controller->make(simulation.control()));
+  const double coils = field_of(w, simulation.control().max_current);
+  return {std::min(coils, commanded), coils < commanded};
+}
+
+// Fields that do not move the cells.
+void note_weak_field(const Scenario& s, const Simulation& simulation, Notes& notes) {
+  if (s.limits.max_current == 0 || s.frames() < 2) return;  // these have their own note
+  const MaxField field = max_field(s, simulation);
+  if (field.tesla == 0) {
+    notes.push_back(
+        fmt::format("{}: no field of the coils acts on the cells in this run; {}",
+                    field.by_coils ? "field" : "controller: every command is zero",
+                    field.by_coils ? "increase max_current of the coils" : "increase its field or output"));
+    return;
+  }
+  for (std::size_t i = 0; i < s.swarms.size(); ++i) {
+    if (s.swarms[i].params.responding == 0) continue;
+    const WeakestField least =
+        simulation.world().parts().populations[i].model->weakest_field(s.params.duration);
+    if (!(field.tesla < least.tesla) || !std::isfinite(least.tesla)) continue;
+    notes.push_back(fmt::format(
+        "{}: the field is at most {:.3g} uT, but the cells of swarm[{}] need at least {:.3g} uT: {}; "
+        "increase {}",
+        field.by_coils ? "field" : "controller", field.tesla * 1e6, i, least.tesla * 1e6, least.reason,
+        field.by_coils ? "limits.max_current and max_current of the coils" : "its field or output"));
+  }
+}
+
+// A camera delay with which no command depends on its effect.
+void note_delay(const Scenario& s, Notes& notes) {
+  const double age = s.camera.delay_frames * s.frame_period();
+  if (age > s.limits.max_frame_age)
+    notes.push_back(
+        fmt::format("camera.delay_frames is {}: every picture is {:.3g} s old, more than "
+                    "limits.max_frame_age = {:g} s, and all "
+                    "currents are zero; reduce the delay",
+                    s.camera.delay_frames, age, s.limits.max_frame_age));
+  else if (s.steers() && s.frames() > 1 && std::uint64_t(s.camera.delay_frames) >= s.frames())
+    notes.push_back(
+        fmt::format("camera.delay_frames is {}, but the run has {}: the controller gets only the "
+                    "first picture; reduce "
+                    "the delay or increase the duration",
+                    s.camera.delay_frames, counted(s.frames(), "frame")));
+}
+
+// A drop, or a swarm, of which the camera sees nothing at the start.
+void note_view(const Simulation& simulation, Notes& notes) {
+  const World& world = simulation.world();
+  const Frame f = simulation.frame();
+  // The point of the view nearest to the centre of the arena.
+  const Vec2 nearest{std::clamp(f.centre_image.x, -0.5, f.width - 0.5),
+                     std::clamp(f.centre_image.y, -0.5, f.height - 0.5)};
+  if (world.parts().arena->depth(f.world_from_image(nearest)) < 0) {
+    notes.push_back(fmt::format(
+        "arena: its centre is at {}, and no part of it is in the camera view of {} x {} px; move the centre "
+        "towards the view, or increase its size",
+        in_px(f.centre_image), f.width, f.height));
+    return;
+  }
+  const auto x = world.state().agents["x"], y = world.state().agents["y"];
+  const std::vector<Population>& swarms = world.parts().populations;
+  for (std::size_t k = 0; k < swarms.size(); ++k) {
+    std::size_t i = swarms[k].begin;
+    while (i < swarms[k].end && !f.in_view(f.image_from_world({double(x[i]), double(y[i])}))) ++i;
+    if (i < swarms[k].end) continue;
+    notes.push_back(
+        fmt::format("swarm[{}].start: no cell is in the camera view at the start; the camera sees only cells "
+                    "that swim into "
+                    "the view; start the swarm in the view of {} x {} px",
+                    k, f.width, f.height));
+  }
+}
+
+// Notes of the parts on their own parameters.
+void note_parts(const Scenario& s, Notes& notes) {
+  const auto add = [&](const std::string& where, const auto& part) {
+    for (const std::string& text : part.notes) notes.push_back(where + ": " + text);
+  };
+  add("arena", s.arena);
+  add("field", s.field);
+  add("motility", s.motility);
+  add("estimator", s.estimator);
+  add("reference", s.reference);
+  add("controller", s.controller);
+  for (std::size_t i = 0; i < s.swarms.size(); ++i) {
+    add(fmt::format("swarm[{}].model", i), s.swarms[i].model);
+    add(fmt::format("swarm[{}].start", i), s.swarms[i].start);
+  }
+  for (std::size_t i = 0; i < s.events.size(); ++i) {
+    if (s.events[i].model) add(fmt::format("event[{}].model", i), *s.events[i].model);
+    if (s.events[i].controller) add(fmt::format("event[{}].controller", i), *s.events[i].controller);
+  }
 }
 
 void note_without_effect(const Scenario& s, const Simulation& simulation, Notes& notes) {
@@ -104,8 +221,10 @@ void note_without_effect(const Scenario& s, const Simulation& simulation, Notes&
   if (std::all_of(s.swarms.begin(), s.swarms.end(), [](const Swarm& w) { return w.params.responding == 0; }))
     notes.emplace_back("responding is 0 for every swarm: no cell responds to the field");
   if (s.params.exposure > 0 && s.motility.has(Trait::inert))
-    notes.emplace_back(
-        "exposure has no effect with motility = \"none\"; did you mean motility = \"thesis\"?");
+    notes.push_back(fmt::format(
+        "exposure is {:g} s, but has no effect with motility = \"{}\"; choose a motility law with an "
+        "effect of air (faba parts motility)",
+        s.params.exposure, s.motility.type));
   if (!s.renders() &&
       MicroscopeParams::schema().to_json(s.microscope) != MicroscopeParams::schema().to_json({}))
     notes.emplace_back(
@@ -148,9 +267,13 @@ void note_size(const Scenario& s, std::size_t cells, std::filesystem::path out, 
 std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& simulation,
                                         const std::filesystem::path& out) {
   Notes notes;
+  note_parts(s, notes);
   note_without_effect(s, simulation, notes);
+  note_weak_field(s, simulation, notes);
+  note_delay(s, notes);
+  note_view(simulation, notes);
   if (s.steers()) {
-    note_setpoints(simulation, notes);
+    note_setpoints(s, simulation, notes);
     note_polarities(s, notes);
   }
   if (s.controller.has(Trait::seeks_null)) note_traps(s, simulation, notes);
@@ -160,7 +283,7 @@ std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& sim
                     "coil; a smaller "
                     "--spacing reduces it",
                     table->error()));
-  if (s.controller.has(Trait::open_loop)) note_currents(s, simulation, notes);
+  note_currents(s, simulation, notes);
   note_size(s, simulation.world().state().agents.size(), out, notes);
   return notes;
 }

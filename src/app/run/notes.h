@@ -6,8 +6,9 @@
 
 namespace faba {
 
-/// Warnings about valid but probably unintended settings, one line each: an unreachable setpoint, cells that
-/// do not respond, a recording larger than the free disk space. `out`: run directory.
+/// Warnings about valid but probably unintended settings, one line each: the notes of its parts
+/// (Schema::note), an unreachable setpoint, cells that do not respond, a field too weak to move them, a swarm
+/// out of view, a recording larger than the free disk space. `out`: run directory.
 std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& simulation,
                                         const std::filesystem::path& out);
 

@@ -27,6 +27,9 @@ class Simulation {
   Loop& loop() { return *loop_; }
   SimRig& rig() { return *rig_; }
   const Reference& reference() const { return *reference_; }
+  const Controller& controller() const { return *controller_; }
+  /// Context in which the estimator, reference and controller were constructed.
+  const ControlContext& control() const { return control_; }
   const Frame& frame() const { return frame_; }
   double step() const { return world_->parts().dt; }
   /// The complete state of the simulation, for checkpoints.

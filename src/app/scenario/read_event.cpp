@@ -1,6 +1,9 @@
 #include "app/scenario/read_event.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "app/scenario/control_rules.h"
 #include "core/counted.h"
@@ -21,6 +24,11 @@ void change(const Event& e, Scenario& s) {
 
 Event read_event(const Node& n, Scenario& now, const Parts& parts) {
   const EventTime when = EventTime::schema().parse(n, kParts);
+  if (std::none_of(kParts.begin(), kParts.end(), [&](const std::string& key) { return n.has(key); }))
+    n.fail(
+        fmt::format("names no part; add at least one of the keys {}, and the key frame with the frame before "
+                    "which the part is exchanged",
+                    fmt::join(kParts, ", ")));
   Event e;
   e.frame = when.frame;
   e.swarm = std::size_t(when.swarm);

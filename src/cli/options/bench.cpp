@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/scenario/read_scenario.h"
+#include "cli/command_line.h"
 #include "core/error.h"
 
 namespace faba::cli {
@@ -12,9 +13,11 @@ void add_bench_scene(CLI::App* v, SceneOptions& o) {
   v->add_option("--set", o.set, "Set one value of the scenario: PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);
-  v->add_option("--seed", o.seed, "Seed of all random numbers of a simulated bench");
+  v->add_option("--seed", o.seed,
+                "Seed of all random numbers of a simulated bench; default: that of the scenario")
+      ->type_name("INT");
   v->add_option("--threads", o.threads, "Number of threads; default: all threads of the machine")
-      ->check(CLI::Range(1, 1024));
+      ->check(integers(1, 1024));
 }
 
 void add_arm(CLI::App* v, bool& arm) {

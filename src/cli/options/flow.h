@@ -26,8 +26,9 @@ struct ResponseOptions {
 };
 
 /// Adds --shrink, --fps, --threads, --method, and an option for every parameter of every flow part, from
-/// their schemas.
-void add_flow_options(CLI::App* v, FlowOptions& o);
+/// their schemas. `defaults`: the values of the verb for parameters that are not given (flow_part), which the
+/// help states.
+void add_flow_options(CLI::App* v, FlowOptions& o, const FlowChoice& defaults = {});
 /// Adds --direction and --flow-threshold.
 void add_response_options(CLI::App* v, ResponseOptions& o);
 

@@ -56,7 +56,7 @@ void add_study_options(CLI::App* v, StudyOptions& o) {
   v->add_option("--merge", o.merge, "First import the results in these directories of the same study");
   v->add_option("--threads", o.threads,
                 "Number of threads; default: all threads of the machine. Does not change the result")
-      ->check(CLI::Range(1, 1024));
+      ->check(integers(1, 1024));
   v->add_flag("--force", o.force,
               "Replace another study in the directory, or write the pages of a complete study again");
 }

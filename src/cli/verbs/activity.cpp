@@ -68,7 +68,9 @@ std::string line_text(double intercept, double slope) {
 
 void print_video(const VideoActivity& a) {
   fmt::print(
-      "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees{}\n",
+      "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees (0 right, "
+      "90 "
+      "down){}\n",
       a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
       a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a))
@@ -76,10 +78,11 @@ void print_video(const VideoActivity& a) {
                *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
                                        : fmt::format("{:.0f}", *a.visible_cells));
   if (a.fit.good)
-    fmt::print("  maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n", a.fit.peak_s, a.fit.se_peak_s,
-               a.fit.sigma_s);
+    fmt::print("  {}maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n",
+               a.onset_s ? fmt::format("onset at {:.3g} +- {:.2g} s, ", *a.onset_s, *a.se_onset_s) : "",
+               a.fit.peak_s, a.fit.se_peak_s, a.fit.sigma_s);
   else
-    fmt::print("  no Gaussian fit: {}\n", a.fit.reason);
+    fmt::print("  the Gaussian fit failed: {}; no onset and no maximum\n", a.fit.reason);
   for (const MotionSegment& s : a.segments)
     fmt::print("  {:7.2f} to {:7.2f} s  direction {:3} degrees\n", s.t0_s, s.t1_s,
                rounded_degrees(s.direction_deg));
@@ -110,9 +113,9 @@ int activity(const ActivityVerb& v, const Common& c) {
   std::vector<std::filesystem::path> inputs = v.videos;
   inputs.push_back(v.noise);
   check_distinct({v.out, v.report, v.picture});
-  check_output(v.out, ".csv", v.force, inputs);
-  check_output(v.report, ".html", v.force, inputs);
-  check_output(v.picture, ".png", v.force, inputs);
+  check_output(v.out, {".csv"}, v.force, inputs);
+  check_output(v.report, {".html"}, v.force, inputs);
+  check_output(v.picture, {".png"}, v.force, inputs);
   ActivityJob job = job_of(v);
   if (!v.picture.empty() && job.videos.size() != 1)
     throw Error(Errc::usage, "--picture",
@@ -158,8 +161,12 @@ void add_activity(CLI::App& app, CommandLine& line) {
   v->add_option("--noise", o->noise, "Video of a dead sample, from which the threshold is measured")
       ->check(not_empty)
       ->excludes("--flow-threshold");
-  v->add_option("--from", o->from, "Start of the analysis, s")->check(between(0, 1e9))->transform(in_seconds);
-  v->add_option("--to", o->to, "End of the analysis, s")->check(between(0, 1e9))->transform(in_seconds);
+  v->add_option("--from", o->from, "Start of the analysis, s; default: start of the video")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
+  v->add_option("--to", o->to, "End of the analysis, s; default: end of the video")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
   v->add_option("-o,--out", o->out, "Write the activity signatures, as CSV")->check(not_empty);
   v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
   v->add_option("--picture", o->picture,
@@ -167,7 +174,7 @@ void add_activity(CLI::App& app, CommandLine& line) {
                 "filtering, as PNG")
       ->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->flow);
+  add_flow_options(v, o->flow, published_flow());
   v->callback([o, &line] { line.code = activity(*o, line.common); });
 }
 

@@ -26,18 +26,18 @@ struct CompareVerb {
 };
 
 void print_runs(const Comparison& result) {
-  fmt::print("alignment: {}; direction {} degrees, flow threshold {:.3g} px\n", result.alignment,
-             rounded_degrees(result.filter.direction_deg), result.filter.threshold_px);
+  fmt::print("alignment: {}; direction {} degrees (0 right, 90 down), flow threshold {:.3g} px\n",
+             result.alignment, rounded_degrees(result.filter.direction_deg), result.filter.threshold_px);
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
   for (const ComparedRun& r : result.runs) {
     const auto score = score_of(result, r);
     fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r.distance.mean, r.distance.sd,
                r.distance.line.slope, score ? fmt::format("{:.3f}", *score) : "-", r.file.string());
   }
-  if (result.floor)
-    fmt::print("{:10.4f} {:43}floor: {}\n", *result.floor, "", result.floor_from);
+  if (result.noise_floor)
+    fmt::print("{:10.4f} {:43}noise floor: {}\n", *result.noise_floor, "", result.noise_floor_from);
   else
-    fmt::print("{:>10} {:43}floor: {}\n", "-", "", result.floor_from);
+    fmt::print("{:>10} {:43}noise floor: {}\n", "-", "", result.noise_floor_from);
   fmt::print("{:10.4f} {:43}baseline: no motion\n", result.naive.mean, "");
 }
 
@@ -45,8 +45,8 @@ int compare(const CompareVerb& v, const Common& c) {
   std::vector<std::filesystem::path> inputs = v.runs;
   inputs.push_back(v.reference);
   check_distinct({v.out, v.report});
-  check_output(v.out, ".csv", v.force, inputs);
-  check_output(v.report, ".html", v.force, inputs);
+  check_output(v.out, {".csv"}, v.force, inputs);
+  check_output(v.report, {".html"}, v.force, inputs);
   CompareJob job;
   job.reference = v.reference;
   job.runs = v.runs;
@@ -63,7 +63,7 @@ int compare(const CompareVerb& v, const Common& c) {
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
   job.threads = v.flow.threads;
-  job.simulate_floor = !v.no_floor;
+  job.simulate_noise_floor = !v.no_floor;
   std::string label;
   std::optional<Progress> bar;
   job.progress = [&](const std::string& what, std::uint64_t done, std::uint64_t total) {
@@ -116,17 +116,23 @@ void add_compare(CLI::App& app, CommandLine& line) {
   v->add_flag("--no-align", o->no_align, "Compare from the first frames, without alignment at the reversals")
       ->excludes("--t0")
       ->excludes("--reference-t0");
-  v->add_option("--duration", o->duration, "Duration of the comparison, s")
+  v->add_option("--duration", o->duration,
+                "Duration of the comparison, s; default: until one of the two videos ends")
       ->check(between(1e-9, 1e9))
       ->transform(in_seconds);
-  v->add_option("--m", o->m, "Exponent of the normalisation of the distance, at least 0 and less than 1");
-  v->add_option("--threshold", o->threshold,
-                "Distance of columns or rows at which their similarity is zero, px");
+  v->add_option(
+      "--m", o->m,
+      fmt::format("Exponent of the normalisation of the distance, at least 0 and less than 1; default: {:g}",
+                  o->m));
+  v->add_option(
+      "--threshold", o->threshold,
+      fmt::format("Distance of columns or rows at which their similarity is zero, px; default: {:g}",
+                  o->threshold));
   v->add_flag("--no-floor", o->no_floor, "Do not simulate the scenario again to measure the noise floor");
   v->add_option("-o,--out", o->out, "Write the distances, as CSV")->check(not_empty);
   v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->flow);
+  add_flow_options(v, o->flow, published_flow());
   v->callback([o, &line] { line.code = compare(*o, line.common); });
 }
 

@@ -42,8 +42,12 @@ void add_distance(CLI::App& app, CommandLine& line) {
       "  faba distance p.csv q.csv\n  faba distance p.csv q1.csv q2.csv --m 0.5 --threshold 20");
   v->add_option("p", o->p, "Histogram")->required();
   v->add_option("q", o->q, "Histograms to compare with P; one line of output for each")->required();
-  v->add_option("--m", o->m, "Exponent of the normalisation, at least 0 and less than 1");
-  v->add_option("--threshold", o->threshold, "Distance of bins at which their similarity is zero");
+  v->add_option(
+      "--m", o->m,
+      fmt::format("Exponent of the normalisation, at least 0 and less than 1; default: {:g}", o->m));
+  v->add_option(
+      "--threshold", o->threshold,
+      fmt::format("Distance of bins at which their similarity is zero; default: {:g}", o->threshold));
   v->add_option("--similarity", o->similarity,
                 "Similarity matrix of the bins, as CSV, in place of --threshold")
       ->check(not_empty)

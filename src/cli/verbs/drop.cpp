@@ -17,12 +17,10 @@ struct DropVerb {
 };
 
 int drop(const DropVerb& v, const Common& c) {
-  check_output(v.overlay, ".png", v.force, {v.picture});
-  if (!v.stages.empty() && std::filesystem::exists(v.stages)) {
-    if (!std::filesystem::is_directory(v.stages))
-      throw Error(Errc::usage, v.stages.string(), "is a file; --stages must be a folder");
-    for (const char* stage : kDropStages) check_output(v.stages / stage, ".png", v.force, {v.picture});
-  }
+  check_output(v.overlay, {".png"}, v.force, {v.picture});
+  check_output_folder(v.stages, "--stages");
+  if (!v.stages.empty() && std::filesystem::exists(v.stages))
+    for (const char* stage : kDropStages) check_output(v.stages / stage, {".png"}, v.force, {v.picture});
   const DropEdge edge = report_drop(v.picture, v.overlay, v.stages);
   if (c.json) {
     fmt::print("{}\n", drop_json(edge).dump());

@@ -48,8 +48,8 @@ FlowJob job_of(const FlowVerb& v) {
 
 int flow_pair(const FlowVerb& v, const Common& c) {
   check_extension(v.out, ".flo", "the flow of two pictures is written as .flo (.h5 is for a video)");
-  check_output(v.out, ".flo", v.force, {v.a, v.b, v.truth});
-  check_output(v.picture, ".png", v.force, {v.a, v.b, v.truth});
+  check_output(v.out, {".flo"}, v.force, {v.a, v.b, v.truth});
+  check_output(v.picture, {".png"}, v.force, {v.a, v.b, v.truth});
   if (!v.overlay.empty())
     throw Error(Errc::usage, "--overlay", "requires a video; for two pictures use --picture");
   for (const auto& [option, given] :
@@ -78,8 +78,8 @@ int flow_pair(const FlowVerb& v, const Common& c) {
 
 int flow_video(const FlowVerb& v, const Common& c) {
   check_extension(v.out, ".h5", "the flow of a video is written as .h5 (.flo holds one pair only)");
-  check_output(v.out, ".h5", v.force, {v.a});
-  check_output(v.overlay, ".mp4", v.force, {v.a});
+  check_output(v.out, {".h5"}, v.force, {v.a});
+  check_output(v.overlay, {".mp4"}, v.force, {v.a});
   for (const auto& [option, file] : {std::pair{"--picture", v.picture}, std::pair{"--truth", v.truth}})
     if (!file.empty()) throw Error(Errc::usage, option, "requires two pictures, but one video is given");
   Progress bar("flow", !c.quiet && !c.json);

@@ -25,8 +25,10 @@ void summary(const Identification& r) {
       fmt::print("{}: {}\n", m.name, m.failed);
       continue;
     }
-    fmt::print("{}: energy score {:.3f} (lower is better), goodness-of-fit p {:.2g}, {} simulations\n",
-               m.name, m.score, m.fit_p, m.simulations);
+    fmt::print(
+        "{}: energy score {:.3f} (lower is better), goodness-of-fit p {:.2g}, {} valid simulations in {} "
+        "rounds\n",
+        m.name, m.score, m.fit_p, m.simulations, m.rounds);
     for (const FoundParameter& p : m.parameters) print_parameter(p);
   }
   for (const LegacyModel& m : r.legacy)

@@ -67,11 +67,11 @@ void add_lab(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<LabVerb>();
   CLI::App* v = verb(app, line, "lab", "Start the live lab: watch, steer and record a swarm in a browser",
                      "  faba lab\n  faba lab scenes/steer.toml\n  faba lab --no-browser --port 8765");
-  v->add_option("scene", o->scene, "Scenario file to open");
-  v->add_option("--port", o->port, "Port on 127.0.0.1; default: any free port")->check(CLI::Range(0, 65535));
+  v->add_option("scene", o->scene, "Scenario file to open; default: the page shows the gallery");
+  v->add_option("--port", o->port, "Port on 127.0.0.1; default: any free port")->check(integers(0, 65535));
   v->add_flag("--no-browser", o->no_browser, "Do not open a browser; print the address only");
   v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
-      ->check(CLI::Range(1, 1024));
+      ->check(integers(1, 1024));
   v->add_option("--www", o->pages, "Read the files of the page from this folder, for development")
       ->check(CLI::ExistingDirectory);
   v->callback([o, &line] { line.code = lab(*o, line.common); });

@@ -36,7 +36,7 @@ void add_resume(CLI::App& app, CommandLine& line) {
                      "  faba resume runs/steer-1");
   v->add_option("dir", o->dir, "Run directory")->required();
   v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
-      ->check(CLI::Range(1, 1024));
+      ->check(integers(1, 1024));
   v->callback([o, &line] { line.code = resume(*o, line.common); });
 }
 

@@ -60,14 +60,17 @@ void add_run(CLI::App& app, CommandLine& line) {
   v->add_option("--set", o->set, "Set one value of the scenario: PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);
-  v->add_option("--seed", o->seed, "Seed of all random numbers; default: a random seed, which is printed");
+  v->add_option(
+       "--seed", o->seed,
+       "Seed of all random numbers; default: that of the scenario, else a random seed, which is printed")
+      ->type_name("INT");
   v->add_option("--threads", o->threads,
                 "Number of threads; default: all threads of the machine. Does not change the result")
-      ->check(CLI::Range(1, 1024));
+      ->check(integers(1, 1024));
   v->add_option("-o,--out", o->out,
                 "Run directory; default: runs/SCENE-SEED; if it exists, runs/SCENE-SEED-2, -3, ...")
       ->check(not_empty);
-  v->add_option("--duration", o->duration, "Simulated time, such as \"10 s\"");
+  v->add_option("--duration", o->duration, "Simulated time, such as \"10 s\"; default: that of the scenario");
   v->add_option("--from-video", o->from_video, "Detect the edge of the drop in this picture or video")
       ->check(not_empty);
   v->add_flag("--as-seen", o->as_seen, "Record videos as the camera sees them, not drawings");

@@ -49,7 +49,8 @@ void print_table(const TableScale& s) {
 
 void print_picture(const PictureScale& s) {
   fmt::print(
-      "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees, scatter {:.2f} px: {}\n",
+      "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees clockwise from x, scatter "
+      "{:.2f} px: {}\n",
       s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px,
       word_of(s.quality));
   fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
@@ -91,8 +92,8 @@ void scale_of_picture(const ScaleVerb& v, const Common& c) {
 }
 
 int scale(const ScaleVerb& v, const Common& c) {
-  check_output(v.out, ".toml", v.force, {v.ruler});
-  check_output(v.overlay, ".png", v.force, {v.ruler});
+  check_output(v.out, {".toml"}, v.force, {v.ruler});
+  check_output(v.overlay, {".png"}, v.force, {v.ruler});
   const bool table = is_ruler_table(v.ruler);
   if (table && !v.tick.empty())
     throw Error(Errc::usage, "--tick", "requires a picture; a table has the widths");

@@ -23,8 +23,8 @@ struct TrackVerb {
   std::vector<std::filesystem::path> out;
   std::string scale;  ///< number or calibration file
   std::string polarity = "auto", background = "auto", motion = "auto";
-  double fps = 0, size_px = 0, threshold = 0, reach_px = 0;
-  int memory = 2, least = 3, interval = 0;
+  double fps = 0, size_px = 0, threshold = 0, search_radius_px = 0;
+  int max_gap_frames = 2, min_points = 3, interval = 0;
   bool drop = false, force = false;
 };
 
@@ -51,32 +51,25 @@ TrackOptions options_of(const TrackVerb& v) {
   o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
   o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
   o.tracker.motion = chosen<Motion>(v.motion, {"auto", "nearest", "velocity"});
-  o.tracker.reach_px = v.reach_px;
-  o.tracker.memory = v.memory;
-  o.tracker.least_points = v.least;
+  o.tracker.search_radius_px = v.search_radius_px;
+  o.tracker.max_gap_frames = v.max_gap_frames;
+  o.tracker.min_points = v.min_points;
   return o;
 }
 
 void check_outputs(const TrackVerb& v) {
-  for (const auto& path : v.out) {
-    if (path.extension() != ".csv" && path.extension() != ".h5")
-      throw Error(Errc::usage, path.string(), "the file extension must be .csv or .h5");
-    check_output(path, "", v.force, {v.video});
-  }
-  if (!v.overlay.empty() && v.overlay.extension() != ".mp4" && v.overlay.extension() != ".avi")
-    throw Error(Errc::usage, v.overlay.string(), "the file extension must be .mp4 or .avi");
+  for (const auto& path : v.out) check_output(path, {".csv", ".h5"}, v.force, {v.video});
   std::vector<std::filesystem::path> all = v.out;
   all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture});
   check_distinct(std::move(all));
-  check_output(v.swarm, ".csv", v.force, {v.video});
-  check_output(v.overlay, "", v.force, {v.video});
-  check_output(v.report, ".html", v.force, {v.video});
-  check_output(v.picture, ".png", v.force, {v.video});
-  if (!v.figures.empty() && std::filesystem::exists(v.figures) && !std::filesystem::is_directory(v.figures))
-    throw Error(Errc::usage, v.figures.string(), "is a file; --figures must be a folder");
+  check_output(v.swarm, {".csv"}, v.force, {v.video});
+  check_output(v.overlay, {".mp4", ".avi"}, v.force, {v.video});
+  check_output(v.report, {".html"}, v.force, {v.video});
+  check_output(v.picture, {".png"}, v.force, {v.video});
+  check_output_folder(v.figures, "--figures");
   if (!v.figures.empty() && std::filesystem::is_directory(v.figures))
     for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
-      check_output(v.figures / name, ".svg", v.force, {v.video});
+      check_output(v.figures / name, {".svg"}, v.force, {v.video});
 }
 
 // Formats numbers with their standard errors: in um if there is a scale, per frame if times are frame
@@ -164,10 +157,12 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("video", t->video,
                 "Video, TIFF stack, folder of pictures, quoted file name pattern, or run directory")
       ->required();
-  v->add_option("--fps", t->fps, "Frames per second, if the video states none or a wrong value")
+  v->add_option("--fps", t->fps,
+                "Frames per second, if the video states none or a wrong value; default: that of the video")
       ->check(between(1e-6, 1e7));
   v->add_option("--um-per-px", t->scale,
-                "Scale: micrometres per pixel, or a calibration file from `faba scale`")
+                "Scale: micrometres per pixel, or a calibration file from `faba scale`; default: that of a "
+                "run directory, else results in px")
       ->check(not_empty);
   v->add_option("--out", t->out,
                 "Write the tracks, as CSV or HDF5 by the file extension; may be given twice");
@@ -178,26 +173,33 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("--figures", t->figures, "Write the figures into this folder, as SVG");
   v->add_option("--size", t->size_px, "Full width of a cell at half its contrast, px; default: measured")
       ->check(between(1, 60));
-  v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; default: measured")
+  v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; default: auto, measured")
       ->check(one_of({"auto", "dark", "bright", "both"}));
   v->add_option("--background", t->background,
-                "Background: median of the video, or spatial (each frame, smoothed)")
+                "Background: median of the video, or spatial (each frame, smoothed); default: auto, chosen "
+                "for the video")
       ->check(one_of({"auto", "median", "spatial"}));
   v->add_option("--threshold", t->threshold,
                 "Minimum signal-to-noise ratio of a spot; default: one false detection in 10 frames")
       ->check(between(1, 1e6));
-  v->add_option("--reach", t->reach_px, "Maximum displacement between two frames, px; default: measured")
+  v->add_option("--reach", t->search_radius_px,
+                "Maximum displacement between two frames, px; default: measured")
       ->check(between(0.1, 1e5));
   v->add_option("--motion", t->motion,
-                "Predict positions by velocity, or use the nearest spot; default: chosen for the video")
+                "Predict positions by velocity, or use the nearest spot; default: auto, chosen for the video")
       ->check(one_of({"auto", "nearest", "velocity"}));
-  v->add_option("--memory", t->memory, "Maximum number of consecutive frames without a detection of the cell")
-      ->check(CLI::Range(0, 1000));
-  v->add_option("--least", t->least, "Minimum number of detections of a track")->check(CLI::Range(1, 100000));
+  v->add_option(
+       "--memory", t->max_gap_frames,
+       fmt::format("Maximum number of consecutive frames without a detection of the cell; default: {}",
+                   t->max_gap_frames))
+      ->check(integers(0, 1000));
+  v->add_option("--least", t->min_points,
+                fmt::format("Minimum number of detections of a track; default: {}", t->min_points))
+      ->check(integers(1, 100000));
   v->add_option(
        "--interval", t->interval,
        "Number of frames over which displacements are measured for speeds and turns; default: measured")
-      ->check(CLI::Range(1, 100000));
+      ->check(integers(1, 100000));
   v->add_flag("--drop", t->drop, "Detect the edge of the drop in the first frame and search inside it only");
   v->add_flag("--force", t->force, "Replace existing files");
   v->callback([t, &line] { line.code = track(*t, line.common); });

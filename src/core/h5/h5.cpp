@@ -221,6 +221,11 @@ H5File H5File::create(const std::filesystem::path& file, Pool* pool) {
 
 H5File H5File::open(const std::filesystem::path& file) {
   quiet();
+  std::error_code ec;
+  if (!std::filesystem::exists(file, ec))
+    throw Error(Errc::input, file.string(), "file not found; check the name of the HDF5 file");
+  if (std::filesystem::is_directory(file, ec))
+    throw Error(Errc::input, file.string(), "is a directory; give the name of an HDF5 file");
   auto impl = std::make_unique<Impl>();
   impl->path = file;
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -233,7 +238,10 @@ H5File H5File::open(const std::filesystem::path& file) {
   H5Pset_metadata_read_attempts(access, kReadAttempts);
   if (impl->file < 0)  // the writer was killed: the flag "open for writing" is still set
     impl->file = Handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose);
-  if (impl->file < 0) impl->fail(Errc::input, "open");
+  if (impl->file < 0)
+    throw Error(Errc::input, file.string(),
+                fmt::format("cannot be opened as an HDF5 file ({}); check that it is a complete HDF5 file",
+                            reason()));
   return H5File(std::move(impl));
 }
 

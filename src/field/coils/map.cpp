@@ -54,7 +54,7 @@ class Map final : public Field {
   struct Params {
     std::string file;
     double measured_current = 1;
-    std::optional<double> within;
+    std::optional<double> radius;
     Vec3 position;
     double turn = 0;
     CircuitParams circuit;
@@ -69,7 +69,7 @@ class Map final : public Field {
                      "system file, or to the current directory"})
         .add("measured_current", &Params::measured_current,
              {.unit = "A", .min = -1e4, .max = 1e4, .doc = "Current during the measurement"})
-        .add("within", &Params::within,
+        .add("within", &Params::radius,
              {.unit = "m",
               .min = 1e-6,
               .max = 10,
@@ -105,7 +105,7 @@ class Map final : public Field {
     if (data.about_axis || !data.given[0] || !data.given[1])
       throw Error(Errc::input, data.source,
                   "a map needs the columns x, y, bx and by, and preferably z and bz, such as x_mm and bx_mt");
-    if (p.within) keep_within(data, *p.within);
+    if (p.radius) keep_within(data, *p.radius);
     p.expansion = expanded(data, p.measured_current);
   }
 
@@ -135,11 +135,11 @@ class Map final : public Field {
   }
 
  private:
-  static void keep_within(FieldData& d, double distance) {
+  static void keep_within(FieldData& d, double radius) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < d.at.size(); ++i) {
       const Vec3 p = d.at[i];
-      if (norm(p) > distance) continue;
+      if (norm(p) > radius) continue;
       d.at[kept] = p;
       d.b[kept++] = d.b[i];
     }

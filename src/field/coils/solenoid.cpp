@@ -33,6 +33,10 @@ class Solenoid {
     const double winding = to_sheet(p_.radius, p_.length / 2);
     return core_sheet_ == 0 ? winding : std::min(winding, to_sheet(core_radius_, core_half_));
   }
+  bool encloses(double rho, double z) const {
+    const bool in_core = core_sheet_ != 0 && rho <= core_radius_ && std::fabs(z) <= core_half_;
+    return in_core || (rho <= p_.radius && std::fabs(z) <= p_.length / 2);
+  }
   std::vector<Field::Stroke> outline(const Axis& axis) const {
     std::vector<Field::Stroke> s;
     const double half = p_.length / 2;

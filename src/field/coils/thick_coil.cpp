@@ -41,6 +41,9 @@ class ThickCoil {
     const double out = std::max({p_.inner_radius - rho, rho - p_.outer_radius, 0.0});
     return norm(Vec2{out, std::max(0.0, std::fabs(z) - p_.length / 2)});
   }
+  bool encloses(double rho, double z) const {
+    return rho <= p_.outer_radius && std::fabs(z) <= p_.length / 2;
+  }
   std::vector<Field::Stroke> outline(const Axis& axis) const {
     std::vector<Field::Stroke> s;
     for (const double z : {-p_.length / 2, p_.length / 2})

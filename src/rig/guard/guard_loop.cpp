@@ -45,6 +45,17 @@ void GuardLoop::log_event(const std::string& what) {
   }
 }
 
+// Only after the coils are de-energised for the last time: a slow disk must not delay an answer of the guard.
+void GuardLoop::sync_log() {
+  if (!log_) return;
+  try {
+    log_->sync();
+  } catch (const Error& e) {
+    log_failure_ = e.what();
+    report();
+  }
+}
+
 void GuardLoop::report(std::uint64_t number, double sent) {
   reported_ = monotonic_now();
   GuardReport r;
@@ -190,7 +201,9 @@ bool GuardLoop::run() {
     serve(monotonic_now());
   }
   report();
-  return deenergise();
+  const bool coils_off = deenergise();
+  sync_log();
+  return coils_off;
 }
 
 }  // namespace faba

@@ -26,6 +26,7 @@ class GuardLoop {
   void write_outputs(double now);
   void report(std::uint64_t number = 0, double sent = 0);
   void log_event(const std::string& what);
+  void sync_log();
   bool deenergise();
 
   int link_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/draw_blocks.h"
+#include "core/random/draw_blocks.h"
 
 namespace faba {
 namespace {

@@ -1,7 +1,9 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
-#include "core/draw_blocks.h"
 #include "core/kernels/philox_row.h"
+#include "core/random/draw_blocks.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
 #include "sim/agents/iterations.h"
@@ -33,6 +35,7 @@ class Adapted final : public AgentModel {
   void start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const override;
   void step(State& s, const StepContext& c) const override;
   double longest_step(double) const override { return scale_.iteration; }
+  WeakestField weakest_field(double time) const override;
 
  private:
   Params p_;
@@ -86,6 +89,13 @@ Schema<Adapted::Params> Adapted::schema() {
             .source = "thesis 3.3.3 (A3)"})
       .add("continuous_speed", &Params::continuous_speed,
            {.doc = "Innate speeds are real numbers in [0, max_speed] instead of integers"})
+      .note([](const Params& p) -> std::string {
+        if (p.continuous_speed ? p.max_speed > 0 : std::lround(p.max_speed) > 0) return {};
+        return fmt::format(
+            "max_speed is {:g}{}: the innate speed of every cell is 0, and the field moves no cell; increase "
+            "max_speed",
+            p.max_speed, p.continuous_speed ? "" : ", rounded to 0");
+      })
       .validity(
           "No turning time; the drift does not depend on the field strength; a fraction 1/(max_speed + 1) "
           "of the cells has speed zero.");
@@ -106,6 +116,14 @@ void Adapted::start(State& s, std::size_t begin, std::size_t end, std::uint64_t 
     const auto w = draw(seed, kBirthDraws, std::uint32_t(i), 0)[0];
     speed[i] = p_.continuous_speed ? float(p_.max_speed) * uniform(w) : float(below(w, n + 1));
   }
+}
+
+// Without the Earth's field any field determines the direction. With it, a weak field B changes the direction
+// by B / earth.
+WeakestField Adapted::weakest_field(double) const {
+  constexpr double kDirection = 0.01;  // rad
+  return {kDirection * std::fabs(p_.earth) * scale_.field_unit,
+          "a weaker field changes the direction of the Earth's field by less than 0.01 rad"};
 }
 
 void Adapted::step(State& s, const StepContext& c) const {

@@ -29,6 +29,7 @@ class Basic final : public AgentModel {
   }  // all cells start with zero velocity
   void step(State& s, const StepContext& c) const override;
   double longest_step(double) const override { return scale_.iteration; }
+  WeakestField weakest_field(double time) const override;
 
  private:
   Params p_;
@@ -73,6 +74,12 @@ Schema<Basic::Params> Basic::schema() {
 }
 
 Basic::Basic(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), clock_(c, p.hold) {}
+
+// The drift is one pixel per iteration and field unit.
+WeakestField Basic::weakest_field(double time) const {
+  return {scale_.field_unit * scale_.iteration / time,
+          "a weaker field moves the cells by less than one pixel during the run"};
+}
 
 void Basic::step(State& s, const StepContext& c) const {
   auto& a = s.agents;

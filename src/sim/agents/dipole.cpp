@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "core/draw_blocks.h"
+#include "core/constants.h"
 #include "core/kernels/philox_row.h"
+#include "core/random/draw_blocks.h"
 #include "core/schema.h"
 #include "core/vectorised.h"
 #include "sim/agent_model.h"
@@ -48,6 +50,7 @@ class Dipole final : public AgentModel {
   void start(State& s, std::size_t begin, std::size_t end, std::uint64_t seed) const override;
   void step(State& s, const StepContext& c) const override;
   double longest_step(double b_max) const override;
+  WeakestField weakest_field(double time) const override;
 
   /// f_r, N m s.
   static double rotational_drag(const Params& p);
@@ -62,8 +65,6 @@ class Dipole final : public AgentModel {
   double turning_;  ///< median m / f_r, rad/(s T)
   double d_r_, d_t_;
 };
-
-constexpr double kBoltzmann = 1.380649e-23;  // J/K, exact in the SI
 
 struct Block {
   const float *bx, *by, *response, *turning, *speed, *x, *y;
@@ -241,11 +242,30 @@ void add_strains(DipoleSchema& s) {
               "assumed");
 }
 
+// Settings with which no cell swims, or none turns.
+void add_notes(DipoleSchema& s) {
+  s.note([](const DipoleParams& p) -> std::string {
+     if (p.moment > 0) return {};
+     return "moment is 0: the field does not turn the cells, and the coils cannot steer them; set a moment";
+   }).note([](const DipoleParams& p) -> std::string {
+    if (p.motile == 0)
+      return "motile is 0: no cell swims; the field turns the cells but does not move them; increase motile";
+    if (p.speed > 0) return {};
+    if (p.speed_sd == 0 || p.speed_max == 0)
+      return "speed is 0: the cells do not swim; the field turns them but does not move them; increase speed";
+    return fmt::format(
+        "speed is 0, but speed_sd is {:g} um/s: the cells swim at speeds between 0 and {:g} um/s; set "
+        "speed_sd = 0 for cells that do not swim",
+        1e6 * p.speed_sd, 1e6 * p.speed_max);
+  });
+}
+
 Schema<Dipole::Params> Dipole::schema() {
   Schema<Params> s("dipole", "Self-propelled magnetic dipole with rotational and translational diffusion");
   describe_body(s);
   describe_swimming(s);
   add_strains(s);
+  add_notes(s);
   s.check([](const Params& p) -> std::string {
      if (p.speed > p.speed_max)
        return fmt::format("speed = {:g} um/s is above speed_max = {:g} um/s", 1e6 * p.speed,
@@ -349,6 +369,17 @@ double Dipole::longest_step(double b_max) const {
   if (turning_ * b_max > 0) longest = std::min(longest, 0.5 / (turning_ * b_max));
   if (d_r_ > 0) longest = std::min(longest, 0.02 / d_r_);
   return longest;
+}
+
+// <cos delta> of cells with random headings grows by at most w_B / 2 per second, and rotational diffusion
+// limits it to I_1(k) / I_0(k) <= k / 2 with k = w_B / D_r, which is m B / kT unless D_r is given.
+WeakestField Dipole::weakest_field(double time) const {
+  constexpr double kAlignment = 0.01;
+  if (turning_ == 0) return {std::numeric_limits<double>::infinity(), "the cells have no moment"};
+  const bool thermal = d_r_ > 1 / time;
+  return {2 * kAlignment * std::max(d_r_, 1 / time) / turning_,
+          thermal ? "rotational diffusion keeps the mean alignment of cells with a weaker field below 1 %"
+                  : "the run ends before cells have turned into a weaker field by 1 %"};
 }
 
 }  // namespace

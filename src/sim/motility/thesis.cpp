@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/draw_blocks.h"
+#include "core/random/draw_blocks.h"
 #include "sim/motility.h"
 #include "sim/motility/oxygen.h"
 

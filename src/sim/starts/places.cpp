@@ -27,30 +27,30 @@ Vec2 inside(const Arena& arena, Vec2 at) {
 class StartPlaces final : public Start {
  public:
   struct Params {
-    std::vector<Vec2> places_px;
+    std::vector<Vec2> positions_px;
     double scatter_px = 1;
   };
   static Schema<Params> schema();
   StartPlaces(const Params& p, const StartContext& c) : scatter_(p.scatter_px * c.arena->frame().m_per_px) {
-    for (const Vec2 at : p.places_px)
-      places_.push_back(inside(*c.arena, c.arena->frame().world_from_image(at)));
-    if (places_.empty()) places_.emplace_back();
+    for (const Vec2 at : p.positions_px)
+      positions_.push_back(inside(*c.arena, c.arena->frame().world_from_image(at)));
+    if (positions_.empty()) positions_.emplace_back();
   }
   std::optional<Vec2> place(const PlaceDraw& d) const override {
     const auto a = portable::sincos(2 * portable::kPi * d.u[1]);
     // The scatter increases until a free site is found.
     const double far = scatter_ * (1 + d.attempt / kCrowded) * std::sqrt(-2 * portable::log(d.u[0]));
-    return places_[d.cell % places_.size()] + far * Vec2{a.cos, a.sin};
+    return positions_[d.cell % positions_.size()] + far * Vec2{a.cos, a.sin};
   }
 
  private:
-  std::vector<Vec2> places_;  ///< m, world
-  double scatter_;            ///< m
+  std::vector<Vec2> positions_;  ///< m, world
+  double scatter_;               ///< m
 };
 
 Schema<StartPlaces::Params> StartPlaces::schema() {
   return Schema<Params>("places", "At listed positions in the image, such as detected cells")
-      .add("places_px", &Params::places_px,
+      .add("places_px", &Params::positions_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,

@@ -17,11 +17,9 @@ struct FieldAtPoints {
 /// Error(input) for invalid points.
 FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::filesystem::path& points);
 
-/// Sentence for the case that the coils cannot produce a zero of the field at `at` (m).
-std::string unreachable_null(Vec2 at);
-
 /// null_at() with the current limits of the coils. Throws Error(usage) with the file name `rig` when the
-/// field is unknown at `at`: in a winding or outside a measured map.
+/// field is unknown at `at` (in a winding or outside a measured map), or the coils cannot produce a zero
+/// there.
 FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity);
 
 /// Currents for a zero of the field at a point in the plane of the sample.
@@ -29,7 +27,7 @@ struct RigNull {
   Vec2 at;                         ///< m
   std::vector<std::string> coils;  ///< their names
   FieldNull null;
-  std::string note;  ///< reason when the zero does not trap; else empty
+  std::string note;  ///< reason when the zero does not trap cells or is in a coil; else empty
 };
 /// The zero at `at` (m) that traps cells of `polarity` (+1 or -1). Throws Error(usage).
 RigNull null_of_rig(const std::filesystem::path& rig, Vec2 at, int polarity);

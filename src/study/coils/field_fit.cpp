@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <list>
 #include <unsupported/Eigen/LevenbergMarquardt>
 #include <unsupported/Eigen/NumericalDiff>
 
@@ -22,12 +24,61 @@ namespace {
 
 constexpr double kLargeResidual = 0.1;  // assumed: errors of probe and formulas are a few hundredths
 
+/// The field of the coils at the measured points for the last few shifts of the coils. Parameters other than
+/// the shift do not change it: most evaluations of a derivative use the field of a previous one.
+class ShiftedField {
+ public:
+  using Shift = std::array<double, 3>;
+  using Evaluated = std::function<void(std::uint64_t evaluations)>;
+
+  ShiftedField(const Field& field, const std::vector<Vec3>& points, Evaluated evaluated)
+      : field_(field),
+        points_(points),
+        current_(field.default_currents()),
+        evaluated_(std::move(evaluated)) {}
+
+  /// B at every point, T; valid until the next call.
+  const std::vector<Vec3>& at(const Shift& shift) {
+    const auto known =
+        std::find_if(kept_.begin(), kept_.end(), [&](const Entry& e) { return e.shift == shift; });
+    if (known != kept_.end()) {
+      kept_.splice(kept_.begin(), kept_, known);
+      return kept_.front().b;
+    }
+    if (kept_.size() < kKept)
+      kept_.emplace_front();
+    else
+      kept_.splice(kept_.begin(), kept_, std::prev(kept_.end()));
+    Entry& e = kept_.front();
+    e.shift = shift;
+    std::vector<Vec3> moved = points_;
+    for (Vec3& p : moved) p = p - Vec3{shift[0], shift[1], shift[2]};
+    e.b.resize(moved.size());
+    field_.at(moved, current_, e.b);
+    if (evaluated_) evaluated_(++evaluations_);
+    return e.b;
+  }
+
+ private:
+  static constexpr std::size_t kKept = 5;  // a shift, its three derivatives, and the next shift
+  struct Entry {
+    Shift shift;
+    std::vector<Vec3> b;
+  };
+  const Field& field_;
+  const std::vector<Vec3>& points_;
+  std::vector<double> current_;
+  Evaluated evaluated_;
+  std::uint64_t evaluations_ = 0;
+  std::list<Entry> kept_;  ///< the most recently used first
+};
+
 /// The measured values, and those predicted by the coil system with all fields multiplied by `gain`, the
 /// coils moved by `shift`, and `offset` added.
 class Model {
  public:
-  Model(const Field& field, const FieldData& data)
-      : field_(field), data_(data), current_(field.default_currents()) {
+  Model(const Field& field, const FieldData& data, const ShiftedField::Evaluated& evaluated)
+      : data_(data), ambient_(field.ambient()), field_(field, data.at, evaluated) {
     for (std::size_t i = 0; i < data.at.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k)
         if (data.given[k]) values_.push_back(part(data.b[i], k));
@@ -52,14 +103,11 @@ class Model {
   }
   std::vector<double> predicted(const Eigen::VectorXd& x) const {
     const FieldFit::Values m = meaning(x);
-    std::vector<Vec3> at = data_.at, b(at.size());
-    for (Vec3& p : at) p = p - Vec3{m.shift[0], m.shift[1], m.shift[2]};
-    field_.at(at, current_, b);
-    const Vec3 earth = field_.ambient();
     std::vector<double> out;
-    for (const Vec3& v : b)
+    out.reserve(values_.size());
+    for (const Vec3& v : field_.at(m.shift))
       for (std::size_t k = 0; k < 3; ++k)
-        if (data_.given[k]) out.push_back(m.gain * part(v - earth, k) + part(earth, k) + m.offset[k]);
+        if (data_.given[k]) out.push_back(m.gain * part(v - ambient_, k) + part(ambient_, k) + m.offset[k]);
     return out;
   }
 
@@ -75,9 +123,10 @@ class Model {
     return m;
   }
   static double part(Vec3 v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
-  const Field& field_;
   const FieldData& data_;
-  std::vector<double> current_, values_;
+  Vec3 ambient_;
+  mutable ShiftedField field_;  ///< keeps fields that predicted() has computed
+  std::vector<double> values_;
   double size_ = 1e-6, strength_ = 0;
   std::vector<std::size_t> moves_, offsets_;
 };
@@ -168,7 +217,8 @@ std::string note_on(double gain, double residual) {
 }  // namespace
 
 FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
-                   const std::filesystem::path& out, const std::filesystem::path& picture) {
+                   const std::filesystem::path& out, const std::filesystem::path& picture,
+                   const std::function<void(std::uint64_t)>& evaluated) {
   const Parts parts = builtin_parts();
   const auto part = read_rig(rig, parts);
   const auto field = part.make({});
@@ -177,7 +227,7 @@ FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path
     throw Error(Errc::usage, rig.string(),
                 "all currents are zero; set the `current` of its coils to that of the measurement");
   const FieldData data = field_data(read_field_points(measured));
-  const Model model(*field, data);
+  const Model model(*field, data, evaluated);
   const auto n = Eigen::Index(model.values().size());
   const Eigen::Index p = model.parameters();
   if (n <= p)

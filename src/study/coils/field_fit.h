@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace faba {
@@ -22,10 +24,12 @@ struct FieldFit {
 
 /// Least-squares fit to measured values (FieldData) with the default currents of the coils; for data about an
 /// axis the shift is along z only. Standard errors assume equal and independent measurement errors. Unless
-/// empty, `out` is written as the fitted coil system, `picture` as SVG with the residuals. Throws
+/// empty, `out` is written as the fitted coil system, `picture` as SVG with the residuals. `evaluated` is
+/// called after each evaluation of the field at all points with their number so far; may be empty. Throws
 /// Error(usage) for a coil system without current, Error(input) for data that are invalid, too few, or do not
 /// determine the parameters.
 FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
-                   const std::filesystem::path& out, const std::filesystem::path& picture);
+                   const std::filesystem::path& out, const std::filesystem::path& picture,
+                   const std::function<void(std::uint64_t evaluations)>& evaluated = {});
 
 }  // namespace faba

@@ -123,7 +123,6 @@ FieldTolerance field_tolerance(const std::filesystem::path& file, Vec2 at,
   const RigEditor rig(parts.field, part.resolved);
   const auto field = part.make({});
   const FieldNull n = checked_null_at(*field, file, at, 1);
-  if (!n.reachable) throw Error(Errc::usage, file.string(), unreachable_null(at));
   FieldTolerance out{at, n.current, n.saddle, {}};
   for (const Cause& cause : causes())
     for (const double amount : cause.amounts) {

@@ -20,7 +20,7 @@ using Series = Table;
 /// and `sigma_..` are estimates.
 Series read_series(const std::filesystem::path& path);
 
-/// Position and spread of the swarm in each row, px: ground truth where available, else the estimate.
+/// Position and dispersion of the swarm in each row, px: ground truth where available, else the estimate.
 struct SwarmColumns {
   std::string source;  ///< "true" or "estimated"
   std::span<const double> x, y;

@@ -67,8 +67,8 @@ class BurstStatistics final : public EpisodeStatistics {
  private:
   std::vector<Track> tracks_of_burst(const std::vector<std::vector<Spot>>& spots, std::size_t first) const {
     TrackerOptions o;
-    o.reach_px = view_.reach_px;
-    o.least_points = kMinDetections;
+    o.search_radius_px = view_.search_radius_px;
+    o.min_points = kMinDetections;
     Tracker tracker(o);
     for (std::size_t k = 0; k < kFrames; ++k) tracker.take(k, double(k) * view_.frame_s, spots[first + k]);
     tracker.finish();

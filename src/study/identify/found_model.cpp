@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/distributions.h"
 #include "core/error.h"
+#include "core/random/distributions.h"
 #include "core/statistics.h"
 #include "study/identify/derived_seed.h"
 #include "study/identify/experiment_bootstrap.h"
@@ -212,6 +212,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
     }
   }
   m.simulations = std::size_t(s.simulations().size());
+  m.rounds = s.rounds();
   m.fit_p = fit_p(s, middle, s.observed());
   const VectorXd mean = s.emulator().mean(middle), noise = noise_of(s);
   m.predicted.assign(mean.begin(), mean.end());

@@ -41,8 +41,11 @@ struct FoundModel {
   std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior median
   /// 90 % posterior predictive interval of each statistic; of the best model only.
   std::vector<std::array<double, 2>> predicted90 = {};
+  /// Valid simulations of all rounds, for each video. More than the study requests when the last round was
+  /// repeated, fewer when some failed.
   std::size_t simulations = 0;
-  Json best;  ///< posterior medians of the parameters, by path
+  std::size_t rounds = 0;  ///< 4, up to 6 with repetitions of the last round
+  Json best;               ///< posterior medians of the parameters, by path
 };
 
 /// Comparison of one simulation with one segment of a video by the method of the thesis.
@@ -83,6 +86,7 @@ struct Identification {
   };
   std::vector<Statistic> statistics;
   std::vector<std::string> experiments;  ///< in the order of FoundModel::scores
+  std::string parts = "experiments";     ///< "field segments" when these take the role of experiments
   std::vector<FoundModel> models;
   std::size_t best = 0;
   std::string evidence;   ///< "clear", "weak" or "none"

@@ -364,6 +364,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   r.models = models_of(searches, study, r.videos, o);
   r.statistics = o.statistics;
   r.experiments = o.experiments;
+  r.parts = o.parts_name;
   judge(r);
   if (!predict(study, r, *searches[r.best].search, o, parts, results, options)) return {};
   if (study.legacy) {

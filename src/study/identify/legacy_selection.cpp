@@ -9,8 +9,8 @@
 
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
-#include "core/distributions.h"
 #include "core/hash.h"
+#include "core/random/distributions.h"
 #include "study/data/flow_choice.h"
 #include "study/motion/flow_histograms.h"
 #include "study/motion/signature.h"

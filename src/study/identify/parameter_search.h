@@ -54,7 +54,9 @@ class ParameterSearch {
   };
   WeightedDraws abc_posterior() const;
   const Eigen::VectorXd& observed() const { return observed_; }
-  /// The simulations of all rounds.
+  /// Number of rounds, repetitions of the last one included.
+  std::size_t rounds() const { return proposals_.size(); }
+  /// The valid simulations of all rounds.
   const SimulationTable& simulations() const { return all_; }
 
  private:

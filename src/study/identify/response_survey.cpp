@@ -220,7 +220,7 @@ void set_tracking(ResponseVideo& v, const std::vector<GrayF>& frames) {
     count += double(one.size()) / double(frames.size());
   }
   const double spacing = std::sqrt(double(v.view.width) * v.view.height / count);
-  v.view.reach_px = std::min(kReach * displacement_reach(spots), 0.75 * spacing);
+  v.view.search_radius_px = std::min(kReach * estimated_search_radius(spots), 0.75 * spacing);
 }
 
 void check_segments(const std::vector<FieldSegment>& segments, const ResponseInput& input, Measure measure,

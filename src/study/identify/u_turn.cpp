@@ -4,12 +4,12 @@
 #include <limits>
 #include <numbers>
 
+#include "core/constants.h"
 #include "study/identify/free_parameter.h"
 
 namespace faba {
 
 double u_turn_s(const Json& model, double moment, double field_t) {
-  constexpr double kBoltzmann = 1.380649e-23;  // J/K, exact (SI)
   const Json scenario{{"swarm", {{{"model", model}}}}};
   const auto of = [&](const char* name) {
     return scenario_number(std::string("swarm[0].model.") + name, scenario).value_or(std::nan(""));

@@ -41,7 +41,8 @@ double detected_direction(const VideoActivity& a) {
 void mark_points(VideoActivity& a) {
   if (!a.fit.good) return;
   a.maximum_s = a.fit.peak_s;
-  const double half_width = a.fit.sigma_s * std::sqrt(-2 * std::log(kEdgeFraction));
+  const double widths = std::sqrt(-2 * std::log(kEdgeFraction)), half_width = a.fit.sigma_s * widths;
+  a.se_onset_s = std::hypot(a.fit.se_peak_s, widths * a.fit.se_sigma_s);
   if (a.fit.peak_s - half_width > a.t_s.front()) a.onset_s = a.fit.peak_s - half_width;
   if (a.fit.peak_s + half_width < a.t_s.back()) a.departure_s = a.fit.peak_s + half_width;
 }
@@ -218,9 +219,13 @@ ActivityResult measure_activity(const ActivityJob& job) {
   for (std::size_t i = 0; i < job.videos.size(); ++i) {
     r.videos.push_back(measure(job, i, thresholds[i], pool));
     if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
-      r.videos.back().notes.push_back(
-          "the video has no interval without motion to determine the noise; specify a video of a dead sample "
-          "with --noise, or --flow-threshold");
+      r.videos.back().notes.push_back(fmt::format(
+          "no part of the video is without motion: its quietest tenth has more than half of the motion of "
+          "its "
+          "busiest part. The threshold of {:.3g} px per pair therefore contains motion of cells, and slower "
+          "motion is not counted. Measure the threshold in a video of a dead sample with --noise, or set it "
+          "with --flow-threshold",
+          thresholds[i]));
   }
   fit_exposure_lines(r);
   return r;

@@ -56,6 +56,8 @@ struct VideoActivity {
   GaussianFit fit;                      ///< of `amount`
   std::optional<double> onset_s, maximum_s,
       departure_s;  ///< points (1), (2), (3) of Fig. 4.9 of the thesis; only with a good fit
+  /// Standard error of onset and departure, from those of the peak and the width, taken as independent.
+  std::optional<double> se_onset_s;
   /// Mean flow along the direction over its standard error, estimated from the flow across. Only for a given
   /// direction: a detected one is biased towards the largest flow. Infinite when the flow across is exactly
   /// zero, as in computed flows.

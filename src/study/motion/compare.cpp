@@ -260,7 +260,7 @@ class RepeatedRun {
 };
 
 /// Mean distance between runs of one scenario with different seeds. The first such run is the reference.
-void find_floor(const CompareJob& job, Comparison& c) {
+void find_noise_floor(const CompareJob& job, Comparison& c) {
   std::vector<std::filesystem::path> same_scenario;
   std::string scenario;
   for (const auto& file : job.runs) {
@@ -270,25 +270,26 @@ void find_floor(const CompareJob& job, Comparison& c) {
     if (info.scenario_hash == scenario) same_scenario.push_back(file);
   }
   if (same_scenario.empty()) {
-    c.floor_from = "unknown: no run directory was given, and a video cannot be repeated with another seed";
+    c.noise_floor_from =
+        "unknown: no run directory was given, and a video cannot be repeated with another seed";
     return;
   }
   std::optional<RepeatedRun> repeated;
   if (same_scenario.size() < 2) {
-    if (!job.simulate_floor) {
-      c.floor_from = "not computed, because of --no-floor";
+    if (!job.simulate_noise_floor) {
+      c.noise_floor_from = "not computed, because of --no-floor";
       return;
     }
     repeated.emplace(same_scenario.front(), job);
     same_scenario.push_back(repeated->run());
-    c.floor_from =
+    c.noise_floor_from =
         fmt::format("{} and a run of its scenario with another seed", same_scenario.front().string());
   } else {
-    c.floor_from = fmt::format("{} runs of the same scenario", same_scenario.size());
+    c.noise_floor_from = fmt::format("{} runs of the same scenario", same_scenario.size());
   }
-  CompareJob floor_job = job;
-  floor_job.reference = same_scenario.front();
-  Comparer comparer(floor_job);
+  CompareJob noise_floor_job = job;
+  noise_floor_job.reference = same_scenario.front();
+  Comparer comparer(noise_floor_job);
   double sum = 0;
   for (std::size_t i = 1; i < same_scenario.size(); ++i) {
     double t0 = 0;
@@ -297,14 +298,14 @@ void find_floor(const CompareJob& job, Comparison& c) {
     sum += comparer.compare(same_scenario[i], t0, t0, c.filter)
                .distance.mean;  // one scenario: equal field schedules
   }
-  c.floor = sum / double(same_scenario.size() - 1);
+  c.noise_floor = sum / double(same_scenario.size() - 1);
 }
 
 }  // namespace
 
 std::optional<double> score_of(const Comparison& c, const ComparedRun& run) {
-  if (!c.floor || !(c.naive.mean > *c.floor)) return {};
-  return (run.distance.mean - *c.floor) / (c.naive.mean - *c.floor);
+  if (!c.noise_floor || !(c.naive.mean > *c.noise_floor)) return {};
+  return (run.distance.mean - *c.noise_floor) / (c.naive.mean - *c.noise_floor);
 }
 
 Comparison compare_videos(const CompareJob& job) {
@@ -342,7 +343,7 @@ Comparison compare_videos(const CompareJob& job) {
   }
   c.naive = comparer.compare({}, c.reference_t0_s, 0, c.filter).distance;
   for (const std::string& note : comparer.reference_notes()) c.notes.push_back("the reference: " + note);
-  find_floor(job, c);
+  find_noise_floor(job, c);
   return c;
 }
 

@@ -27,7 +27,8 @@ struct CompareJob {
   double fps = 0;                 ///< see FlowSourceOptions
   std::string options_text = {};  ///< see FlowSourceOptions
   unsigned threads = 0;
-  bool simulate_floor = true;  ///< repeat the scenario with another seed when only one run of it is given
+  bool simulate_noise_floor =
+      true;  ///< repeat the scenario with another seed when only one run of it is given
   std::function<void(const std::string& what, std::uint64_t done, std::uint64_t total)> progress =
       [](auto&, auto, auto) {};
   std::function<bool()> stop = [] { return false; };
@@ -64,14 +65,14 @@ struct Comparison {
   double reference_t0_s = 0;
   std::string alignment;  ///< description of how t0 was determined
   std::vector<ComparedRun> runs;
-  std::optional<double> floor;  ///< mean distance between runs of one scenario with different seeds
-  std::string floor_from;       ///< how the floor was determined, or why it was not
-  DistanceSeries naive;         ///< distance to a video without motion
+  std::optional<double> noise_floor;  ///< mean distance between runs of one scenario with different seeds
+  std::string noise_floor_from;       ///< how the noise floor was determined, or why it was not
+  DistanceSeries naive;               ///< distance to a video without motion
   std::vector<std::string> notes;
 };
 
 /// The mean distance of a run on a scale from 0, the distance to the same scenario with another seed, to 1,
-/// the distance to a video without motion. Empty when the floor is unknown or not below the latter.
+/// the distance to a video without motion. Empty when the noise floor is unknown or not below the latter.
 std::optional<double> score_of(const Comparison& c, const ComparedRun& run);
 
 /// Compares every run with the reference, pair by pair. Throws Error(input) when sizes differ or the videos

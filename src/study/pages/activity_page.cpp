@@ -67,9 +67,13 @@ Figure signature_figure(const VideoActivity& a) {
   f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
                           a.direction_deg, compass(a.direction_deg));
   if (!a.segments.empty()) f.caption += "Grey: motion in one direction. ";
-  f.caption += a.fit.good ? "(1) Onset and (3) departure of the swarm: the fitted Gaussian is at 10 % of its "
-                            "amplitude. (2) Maximum."
-                          : "No Gaussian fit: " + a.fit.reason + ".";
+  f.caption +=
+      a.fit.good
+          ? fmt::format(
+                "(1) Onset and (3) departure of the swarm: the fitted Gaussian is at 10 % of its "
+                "amplitude; standard error {} s. (2) Maximum; standard error {} s.",
+                three_digits(a.se_onset_s.value_or(0)), three_digits(a.fit.se_peak_s))
+          : "The Gaussian fit failed: " + a.fit.reason + ". No onset, maximum and departure are given.";
   return f;
 }
 
@@ -140,32 +144,47 @@ std::string text_row(std::vector<std::string> cells, const char* tag) {
   return table_row(cells, tag);
 }
 
-std::string table(const ActivityResult& r) {
-  std::string out = "<h2>Results</h2>\n<table class=\"numbers\">\n";
-  out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell",
-                   "signal-to-noise ratio", "maximum (s)", "width (s)"},
-                  "th");
-  for (const VideoActivity& a : r.videos)
-    out += text_row(
-        {title_of(a), fmt::format("{}°", rounded_degrees(a.direction_deg)), three_digits(a.threshold_px),
-         three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
-         a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–",
-         a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.peak_s), three_digits(a.fit.se_peak_s)) : "–",
-         a.fit.good ? fmt::format("{} ± {}", three_digits(a.fit.sigma_s), three_digits(a.fit.se_sigma_s))
-                    : "–"},
-        "td");
-  out += "</table>\n";
-  if (std::all_of(r.videos.begin(), r.videos.end(),
-                  [](const VideoActivity& a) { return a.segments.empty(); }))
-    return out;
-  out += "<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n";
-  out += text_row({"video", "from (s)", "to (s)", "direction"}, "th");
+std::string with_error(const std::optional<double>& value, const std::optional<double>& error) {
+  return value && error ? fmt::format("{} ± {}", three_digits(*value), three_digits(*error)) : "–";
+}
+
+std::string segments_table(const ActivityResult& r) {
+  std::string out = "<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n<thead>";
+  out += text_row({"video", "from (s)", "to (s)", "direction"}, "th") + "</thead><tbody>\n";
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
       out += text_row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
                        fmt::format("{}° ({})", rounded_degrees(s.direction_deg), compass(s.direction_deg))},
                       "td");
-  return out + "</table>\n";
+  return out + "</tbody></table>\n";
+}
+
+std::string table(const ActivityResult& r) {
+  std::string out = "<h2>Results</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>";
+  out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell",
+                   "signal-to-noise ratio", "onset (s)", "maximum (s)", "width (s)"},
+                  "th") +
+         "</thead><tbody>\n";
+  const auto if_good = [](const VideoActivity& a, double value) {
+    return a.fit.good ? std::optional(value) : std::nullopt;
+  };
+  for (const VideoActivity& a : r.videos)
+    out += text_row(
+        {title_of(a), fmt::format("{}°", rounded_degrees(a.direction_deg)), three_digits(a.threshold_px),
+         three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
+         a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–", with_error(a.onset_s, a.se_onset_s),
+         with_error(if_good(a, a.fit.peak_s), a.fit.se_peak_s),
+         with_error(if_good(a, a.fit.sigma_s), a.fit.se_sigma_s)},
+        "td");
+  out += "</tbody></table></div>\n";
+  out +=
+      "<p class=\"note\">Directions are in degrees in the picture frame: 0 right, 90 down. Values after ± "
+      "are "
+      "standard errors. A dash: not defined, for example onset, maximum and width without a valid Gaussian "
+      "fit.</p>\n";
+  const bool none = std::all_of(r.videos.begin(), r.videos.end(),
+                                [](const VideoActivity& a) { return a.segments.empty(); });
+  return none ? out : out + segments_table(r);
 }
 
 std::string lead(const ActivityResult& r) {

@@ -55,6 +55,10 @@ Json video_json(const VideoActivity& a) {
   j["responds"] = a.responds;
   j["gaussian"] = gaussian_json(a.fit);
   j["onset_s"] = or_null(a.onset_s);
+  constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
+  j["onset_ci90"] = a.onset_s && a.se_onset_s
+                        ? Json{*a.onset_s - k90 * *a.se_onset_s, *a.onset_s + k90 * *a.se_onset_s}
+                        : Json();
   j["maximum_s"] = or_null(a.maximum_s);
   j["departure_s"] = or_null(a.departure_s);
   j["notes"] = a.notes;

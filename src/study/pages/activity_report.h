@@ -13,7 +13,7 @@ namespace faba {
 /// "threshold_px", "direction_deg", "direction_given", "segments":[{"t0_s","t1_s","direction_deg"}],
 /// "mean_activity", "mean_along", "signal_to_noise", "responds",
 /// "gaussian":{"amplitude","peak_s","sigma_s","offset", their "se_", "scatter", "good", "reason"}, "onset_s",
-/// "maximum_s", "departure_s", "notes"}`, and with exposures `peak_line` and `mean_line` =
+/// "onset_ci90", "maximum_s", "departure_s", "notes"}`, and with exposures `peak_line` and `mean_line` =
 /// `{"slope","intercept","ci95","intercept_ci95","scatter_sd","experiment_sd","values","experiments","pooled":{..}}`,
 /// `cutoff_s`, `cutoff_between_s`; null for unknown values.
 nlohmann::ordered_json activity_json(const ActivityResult& result);

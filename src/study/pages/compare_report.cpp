@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/toml.h"
+#include "study/plot/figure.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
 #include "study/plot/plot_svg.h"
@@ -34,6 +35,7 @@ Plot distances(const Comparison& c) {
     const std::vector<double>& t = r.distance.t_s;
     p.add(Line{.x = {t.front(), t.back()},
                .y = {fit.intercept, fit.intercept + fit.slope * double(t.size() - 1)},
+               .label = c.runs.size() == 1 ? "straight line fitted to it" : "",
                .ink = Ink::muted,
                .dashed = true});
   }
@@ -42,7 +44,7 @@ Plot distances(const Comparison& c) {
              .label = "video without motion",
              .ink = Ink::muted,
              .width = 1.2});
-  if (c.floor) p.add(Rule{.at = *c.floor, .label = "same scenario, different seed", .of_x = false});
+  if (c.noise_floor) p.add(Rule{.at = *c.noise_floor, .label = "noise floor", .of_x = false});
   return p;
 }
 
@@ -64,7 +66,8 @@ Plot histogram(const char* axis, const std::vector<double>& reference, const std
   return p;
 }
 
-std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
+/// `number`: of the last figure; counted on.
+std::string pictures(const ComparedRun& r, const FlowFilter& filter, int& number) {
   FlowDrawing how;
   how.arrow_step_px = 0;
   how.full_px = std::max({full_speed(r.furthest.reference), full_speed(r.furthest.run), 1e-6});
@@ -75,13 +78,26 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter) {
                                                       {&r.furthest.run, "Run"}};
   for (const auto& [flow, heading] : both)
     out += fmt::format(
-        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Flow within 45° of the direction.</figcaption>\n</figure>\n",
-        heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading));
-  out += fmt::format("<figure>\n<h3>Flow by column</h3>\n{}</figure>\n",
-                     svg(histogram("column (px)", r.furthest.reference_bins.x, r.furthest.run_bins.x)));
-  out += fmt::format("<figure>\n<h3>Flow by row</h3>\n{}</figure>\n</div>\n",
-                     svg(histogram("row (px)", r.furthest.reference_bins.y, r.furthest.run_bins.y)));
-  return out;
+        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Figure {2}. Flow within 45° of the direction, {3:.0f}° in "
+        "the picture "
+        "frame (0 right, 90 down).</figcaption>\n"
+        "</figure>\n",
+        heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading), ++number,
+        filter.direction_deg);
+  const auto sums = [&](const char* heading, const char* over, const Plot& plot) {
+    return figure_markup(
+        {heading,
+         fmt::format("Sums of the filtered flows of reference and run over the pixels of each {}. "
+                     "The distance over time compares these sums.",
+                     over),
+         plot},
+        ++number);
+  };
+  out += sums("Flow by column", "column",
+              histogram("column (px)", r.furthest.reference_bins.x, r.furthest.run_bins.x));
+  out +=
+      sums("Flow by row", "row", histogram("row (px)", r.furthest.reference_bins.y, r.furthest.run_bins.y));
+  return out + "</div>\n";
 }
 
 std::string table(const Comparison& c) {
@@ -96,12 +112,16 @@ std::string table(const Comparison& c) {
   };
   for (const ComparedRun& r : c.runs) line(name_of(r.file), r.distance, score_of(c, r));
   line("video without motion", c.naive, {});
-  out += "</tbody></table>\n<p>Mean, s.d. and slope of the distance over the frames.";
+  out +=
+      "</tbody></table>\n<p>Mean, standard deviation (s.d.) and slope of the "
+      "distances in Figure 1. Slope: of the straight line fitted to the distance against the number of the "
+      "pair of frames.";
   if (std::any_of(c.runs.begin(), c.runs.end(),
                   [&](const ComparedRun& r) { return score_of(c, r).has_value(); }))
     out +=
-        " Score: the mean distance on a scale where 0 is the distance between two runs of one scenario with "
-        "different seeds and 1 is the distance to a video without motion. Scores below 0 are random "
+        " Score: the mean distance on a scale where 0 is the noise floor, the distance between runs of one "
+        "scenario with different seeds, and 1 is the distance to a video without motion. Scores below 0 are "
+        "random "
         "variation or the same run; a score of 1 or more is no better than a video without motion.";
   return out + " Legacy mean: the distance as defined in the thesis.</p>\n";
 }
@@ -137,8 +157,8 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
                            {"intercept", d.legacy_line.intercept}}},
                          {"notes", r.notes}});
   }
-  j["floor"] = c.floor ? Json(*c.floor) : Json();
-  j["floor_from"] = c.floor_from;
+  j["floor"] = c.noise_floor ? Json(*c.noise_floor) : Json();
+  j["floor_from"] = c.noise_floor_from;
   j["naive"] = c.naive.mean;
   j["notes"] = c.notes;
   return j;
@@ -157,12 +177,16 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
       out +=
           fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
   out += fmt::format(
-      "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Quadratic-Chi distance (m = "
-      "{:g}, bin similarity threshold {:g} bins) between the sums of the flow over columns and rows. Dashed: "
-      "line fits. Same scenario, different seed: {}.</figcaption>\n</figure>\n",
-      svg(distances(c)), job.m, job.threshold, escape_markup(c.floor_from));
+      "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Figure 1. Quadratic-Chi "
+      "distance (m = {:g}, bin similarity threshold {:g} bins) between the sums of the flow over columns and "
+      "rows. Dashed lines: straight line fitted to the distance of each run by least squares; its slope is "
+      "in "
+      "the table. Grey line: a video without motion. Horizontal line, the noise floor: mean distance between "
+      "runs of the same scenario with different seeds ({}).</figcaption>\n</figure>\n",
+      svg(distances(c)), job.m, job.threshold, escape_markup(c.noise_floor_from));
   out += table(c);
-  for (const ComparedRun& r : c.runs) out += pictures(r, c.filter);
+  int number = 1;
+  for (const ComparedRun& r : c.runs) out += pictures(r, c.filter, number);
   return html_page("Comparison", out);
 }
 

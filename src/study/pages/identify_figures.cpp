@@ -186,14 +186,14 @@ std::vector<Figure> predictive_figures(const Identification& r) {
   return figures;
 }
 
-Figure posterior_figure(const FoundParameter& p) {
+Figure posterior_figure(const FoundParameter& p, const std::string& parts) {
   const FreeParameter& q = p.parameter;
   Figure f{q.path,
            fmt::format("{} [{}, {}] {}: posterior median and 90 % interval. Dashed: 90 % interval from "
                        "approximate Bayesian computation (ABC){}.{}",
                        three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
                        three_digits(q.shown(p.ci90[1])), q.shown_unit(),
-                       p.resampled90 ? " and from the bootstrap over experiments" : "",
+                       p.resampled90 ? " and from the bootstrap over " + parts : "",
                        p.doubt.empty() ? "" : " " + p.doubt + "."),
            plot_of("Posterior of " + q.path, label_of(q), "density")};
   const auto [lo, hi] = std::minmax_element(p.draws.begin(), p.draws.end());
@@ -247,7 +247,8 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
   Figure distances{
       m.name + ": difference over time",
       "Quadratic-Chi distance between the flow histograms of the video and of the first simulation of each "
-      "value, for each pair of frames. Dashed: line fits.",
+      "value, for each pair of frames. Dashed, in the colour of the value: straight line fitted to the "
+      "differences by least squares.",
       plot_of("Difference over time", "pair of frames", "difference")};
   Figure slopes{m.name + ": slope against " + q.name(),
                 fmt::format("Dots: slope of each simulation. The line fit is zero at {}.",

@@ -10,8 +10,8 @@ namespace faba {
 /// over time, or velocity of the cells in each segment.
 std::vector<Figure> predictive_figures(const Identification& result);
 
-/// Posterior of a parameter, and its profile likelihood.
-Figure posterior_figure(const FoundParameter& parameter);
+/// Posterior of a parameter, and its profile likelihood. `parts`: what the bootstrap resamples.
+Figure posterior_figure(const FoundParameter& parameter, const std::string& parts);
 Figure profile_figure(const FoundParameter& parameter);
 
 /// Selection rule of the thesis for one model: distances of its simulations over the frames (Fig. 3.31), and

@@ -39,11 +39,53 @@ bool single_experiment(const Identification& r) {
                                         [&](const auto& v) { return v.input.experiment == first; }));
 }
 
+/// What the number of simulations in the table counts.
+std::string simulations_text(const Identification& r) {
+  std::string rounds;
+  for (const FoundModel& m : r.models)
+    if (m.failed.empty()) rounds += fmt::format("{}{} {}", rounds.empty() ? "" : ", ", m.name, m.rounds);
+  return fmt::format(
+      "Valid simulations: per video, of all rounds. The study requests {} in four rounds; the last round is "
+      "repeated, at most twice, while the posterior extends beyond it (rounds: {}), and simulations without "
+      "a result, for example without cells in view, are not counted.",
+      r.study.simulations, escape_markup(rounds));
+}
+
+/// What the bootstrap resamples, and when its interval is not reliable.
+std::string bootstrap_text(const Identification& r) {
+  constexpr std::size_t kFew = 10;
+  const std::size_t n = r.experiments.size();
+  if (n < 3) {
+    return fmt::format(
+        "<p class=\"note\">No bootstrap interval: it needs at least three {}, and the study has {}.</p>\n",
+        r.parts, n);
+  }
+  std::string out = fmt::format(
+      "<p class=\"note\">Bootstrap: the {0} {1} are resampled with replacement 1000 times, each with all of "
+      "its "
+      "statistics; the parameters are estimated from each resample.",
+      n, r.parts);
+  if (n < kFew) {
+    out += fmt::format(
+        " With fewer than ten {} this interval is not reliable: it is too narrow on average (by the factor "
+        "√((n − 1)/n) = {:.2f} for n = {}), and its limits depend on single {}.",
+        r.parts, std::sqrt(double(n - 1) / double(n)), n, r.parts);
+  }
+  if (single_experiment(r)) {
+    out +=
+        " Field segments of one swarm have the same cells: the interval does not contain the variation "
+        "between "
+        "experiments.";
+  }
+  return out + "</p>\n";
+}
+
 std::string models_table(const Identification& r) {
   std::string out =
       "<h2>Models</h2>\n<div class=\"wide\"><table "
       "class=\"numbers\">\n<thead><tr><th>model</th><th>parameters, median "
-      "and 90 % interval</th><th>energy score</th><th>fit p</th><th>simulations</th></tr></thead>\n<tbody>\n";
+      "and 90 % interval</th><th>energy score</th><th>fit p</th><th>valid "
+      "simulations</th></tr></thead>\n<tbody>\n";
   for (const FoundModel& m : r.models) {
     if (!m.failed.empty()) {
       out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>–</td><td>–</td><td>–</td></tr>\n",
@@ -59,12 +101,12 @@ std::string models_table(const Identification& r) {
   }
   return out + fmt::format(
                    "</tbody></table></div>\n<p class=\"note\">Energy score: mean over {} "
-                   "experiments, each predicted from the others; lower is better. Fit p: fraction of the "
+                   "{}, each predicted from the others; lower is better. Fit p: fraction of the "
                    "simulations that deviate from their mean as much as the videos do; below 0.01 the model "
-                   "does not explain the videos.{}</p>\n",
-                   r.experiments.size(),
+                   "does not explain the videos. {}{}</p>\n",
+                   r.experiments.size(), r.parts, simulations_text(r),
                    single_experiment(r)
-                       ? " The experiments are segments of the same swarm and not independent: the "
+                       ? " The field segments show the same swarm and are not independent: the "
                          "interval of the score difference is too narrow."
                        : "");
 }
@@ -142,8 +184,7 @@ std::string notes(const Identification& r) {
         "{:.4g} s of the video.</li>\n",
         escape_markup(v.input.file.string()), v.um_per_px, v.fps,
         1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().start_s);
-  out += fmt::format("<li>Seed {}, {} simulations with each model; Faba {}.</li>\n", r.study.seed,
-                     r.study.simulations, FABA_VERSION);
+  out += fmt::format("<li>Seed {}; Faba {}.</li>\n", r.study.seed, FABA_VERSION);
   return "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
 }
 
@@ -153,9 +194,10 @@ std::string identify_page(const Identification& r) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) + models_table(r);
   out += "<h2>Observation and posterior prediction of the best model</h2>\n<div class=\"figures\">\n";
   for (const Figure& f : predictive_figures(r)) out += figure_markup(f);
-  out += "</div>\n" + pictures(r) + "<h2>Parameters of the best model</h2>\n<div class=\"figures\">\n";
+  out += "</div>\n" + pictures(r) + "<h2>Parameters of the best model</h2>\n" + bootstrap_text(r) +
+         "<div class=\"figures\">\n";
   for (const FoundParameter& p : r.models[r.best].parameters)
-    out += figure_markup(posterior_figure(p)) + figure_markup(profile_figure(p));
+    out += figure_markup(posterior_figure(p, r.parts)) + figure_markup(profile_figure(p));
   return html_page(r.study.title, out + "</div>\n" + legacy(r) + notes(r));
 }
 

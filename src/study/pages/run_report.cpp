@@ -46,37 +46,54 @@ std::string dispersion_text(const Metrics& m, const RunInfo& info) {
   return text;
 }
 
-std::string outcome_text(const Metrics& m, const RunInfo& info) {
-  const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
-  const bool moving = given > kMaxRouteSetpoints, route = given > 1 && !moving;
-  if (route && m.setpoints < given) {
-    return fmt::format("At the last frame ({}) the swarm {} setpoint {} of {}; the final distance was {}.",
-                       seconds(m.duration_s),
-                       *m.final_distance_px <= *m.settling_band_px ? "had reached" : "had not reached",
-                       m.setpoints, given, length_text(*m.final_distance_px, info));
-  }
-  const std::string goal = moving  ? "its moving setpoint"
-                           : route ? fmt::format("the last of {} setpoints", given)
-                                   : "its setpoint";
+/// Duration of a run, s: number of frames / frame rate, from the manifest. Without it: from the first to the
+/// last frame.
+double run_duration(const Metrics& m, const RunInfo& info) { return info.duration_s.value_or(m.duration_s); }
+
+/// "The swarm reached 1 of 4 setpoints; the tolerance is 10.0 px.": the same number as setpoints_reached of
+/// --json.
+std::string reached_text(const Metrics& m, std::size_t setpoints, const RunInfo& info) {
+  const double tolerance = info.setpoint_tolerance_px.value_or(m.settling_band_px.value_or(0));
+  return fmt::format("The swarm reached {:.0f} of {} setpoints; the tolerance is {}.",
+                     m.setpoints_reached.value_or(0), setpoints, length_text(tolerance, info));
+}
+
+/// Of a run with one setpoint, with a moving one, or with a route up to its last setpoint.
+std::string settling_text(const std::string& goal, bool single, const Metrics& m, const RunInfo& info) {
+  const std::string duration = seconds(run_duration(m, info));
   if (!m.settling_time_s) {
     const std::string start =
-        given > 1 ? "" : fmt::format("{} at the start and ", length_text(*m.initial_error_px, info));
-    return fmt::format("The swarm did not settle at {}: the distance was {}{} at the last frame ({}).", goal,
-                       start, length_text(*m.final_distance_px, info), seconds(m.duration_s));
+        single ? fmt::format("{} at the start and ", length_text(*m.initial_error_px, info)) : "";
+    return fmt::format("The swarm did not settle at {}: the distance was {}{} at the end of the run ({}).",
+                       goal, start, length_text(*m.final_distance_px, info), duration);
   }
   if (*m.settling_time_s > kLate * m.duration_s) {  // the steady-state error would include the approach
-    return fmt::format("The swarm reached {} only after {}; at the last frame ({}) the distance was {}.",
-                       goal, seconds(*m.settling_time_s), seconds(m.duration_s),
-                       length_text(*m.final_distance_px, info));
+    return fmt::format(
+        "The swarm settled at {} only after {}; at the end of the run ({}) the distance was {}.", goal,
+        seconds(*m.settling_time_s), duration, length_text(*m.final_distance_px, info));
   }
   std::string text = *m.settling_time_s == 0
                          ? fmt::format("The swarm was at {} from the start", goal)
-                         : fmt::format("The swarm reached {} after {}", goal, seconds(*m.settling_time_s));
+                         : fmt::format("The swarm settled at {} after {}", goal, seconds(*m.settling_time_s));
   if (m.steady_rms_px) {
     text += fmt::format("; its rms distance to the setpoint over the last third of the run was {}",
                         length_text(*m.steady_rms_px, info));
   }
   return text + ".";
+}
+
+std::string outcome_text(const Metrics& m, const RunInfo& info) {
+  const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
+  if (given > kMaxRouteSetpoints) return settling_text("its moving setpoint", false, m, info);
+  if (given <= 1) return settling_text("its setpoint", true, m, info);
+  const std::string reached = reached_text(m, given, info);
+  if (m.setpoints < given) {
+    return fmt::format(
+        "{} The run ended ({}) before the end of the route: it steered towards setpoint {}, at a distance of "
+        "{}.",
+        reached, seconds(run_duration(m, info)), m.setpoints, length_text(*m.final_distance_px, info));
+  }
+  return reached + " " + settling_text("the last setpoint", false, m, info);
 }
 
 std::string metric_row(const MetricInfo& one, double value, const RunInfo& info) {
@@ -125,9 +142,9 @@ std::string cards(const Metrics& m, const RunInfo& info) {
     out += card("Steady-state error, rms", three_digits(*m.steady_rms_px) + "\u00A0px",
                 in_um(*m.steady_rms_px, info, "last third"));
   }
-  if (m.path_tracking_rms_px) {
-    out += card("Tracking error, rms", three_digits(*m.path_tracking_rms_px) + "\u00A0px",
-                in_um(*m.path_tracking_rms_px, info, "from the second setpoint"));
+  if (m.cross_track_rms_px) {
+    out += card("Cross-track error, rms", three_digits(*m.cross_track_rms_px) + "\u00A0px",
+                in_um(*m.cross_track_rms_px, info, "from the second setpoint"));
   }
   if (m.rms_radius_px) {
     out += card("Dispersion, rms radius", three_digits(*m.rms_radius_px) + "\u00A0px",
@@ -164,18 +181,26 @@ std::string fact(const char* name, const std::string& value) {
 std::string computing_time(const Metrics& m, const RunInfo& info) {
   if (!info.wall_time_s) return {};
   std::string text = three_digits(*info.wall_time_s) + " s";
-  const double simulated = info.duration_s.value_or(m.duration_s);
-  if (*info.wall_time_s > 0 && simulated > 0) {
-    text += fmt::format(", {} times real time", three_digits(simulated / *info.wall_time_s));
+  const double duration = run_duration(m, info);
+  if (*info.wall_time_s > 0 && duration > 0) {
+    text += fmt::format(", {} times real time", three_digits(duration / *info.wall_time_s));
   }
   return text;
+}
+
+/// "13.0 s (195 frames of 66.7 ms)"; without a manifest's duration "12.9 s from the first to the last of 195
+/// frames".
+std::string duration_fact(const Metrics& m, const RunInfo& info) {
+  if (!info.duration_s || m.frames == 0)
+    return fmt::format("{} s from the first to the last of {} frames", three_digits(m.duration_s), m.frames);
+  return fmt::format("{} s ({} frames of {} ms)", three_digits(*info.duration_s), m.frames,
+                     three_digits(1000 * *info.duration_s / double(m.frames)));
 }
 
 std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {
   std::string out = "<h2>Provenance</h2>\n<table class=\"facts\"><tbody>\n";
   out += fact("Program", "Faba " + info.version);
-  out += fact("Duration",
-              fmt::format("{} s, {} frames", three_digits(info.duration_s.value_or(m.duration_s)), m.frames));
+  out += fact("Duration", duration_fact(m, info));
   for (std::size_t i = 0; i < info.swarms.size(); ++i) {
     out += fact(info.swarms.size() == 1 ? "Swarm" : fmt::format("Swarm {}", i + 1).c_str(), info.swarms[i]);
   }
@@ -257,7 +282,7 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   if (m.frames == 1) return {"Only one frame was recorded, the start of the run.", ""};
   summary.outcome = m.initial_error_px ? outcome_text(m, info)
                                        : fmt::format("The swarm had no setpoint and was recorded for {}.",
-                                                     seconds(m.duration_s));
+                                                     seconds(run_duration(m, info)));
   const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
   if (m.setpoints > 0 && m.setpoints < given && given <= kMaxRouteSetpoints)
     summary.setpoint = fmt::format("setpoint {} of {}", m.setpoints, given);

@@ -77,8 +77,11 @@ std::string power_of_ten(int exponent) {
 }
 
 std::string table_row(const std::vector<std::string>& cells, const char* tag) {
-  std::string out = fmt::format("<tr><th scope=\"row\">{}</th>", cells.front());
-  for (std::size_t i = 1; i < cells.size(); ++i) out += fmt::format("<{0}>{1}</{0}>", tag, cells[i]);
+  const bool head = std::string_view(tag) == "th";
+  std::string out = fmt::format("<tr><th scope=\"{}\">{}</th>", head ? "col" : "row", cells.front());
+  for (std::size_t i = 1; i < cells.size(); ++i)
+    out += head ? fmt::format("<th scope=\"col\">{}</th>", cells[i])
+                : fmt::format("<{0}>{1}</{0}>", tag, cells[i]);
   return out + "</tr>\n";
 }
 

@@ -81,10 +81,12 @@ struct PlotAxis {
   bool logarithmic = false;
 };
 
-/// A second y axis at the right, for the same curves in another unit.
+/// A second y axis at the right: the same curves in another unit, or a curve that is drawn in units of this
+/// axis. Its value at y of the left axis is per_unit * y + offset.
 struct SecondScale {
-  double per_unit = 1;  ///< its value at 1 of the left axis
+  double per_unit = 1;
   std::string label = {};
+  double offset = 0;
 };
 
 /// A plot: layers in drawing order, and axes. To add a kind of layer, add a struct to `Layer` and its

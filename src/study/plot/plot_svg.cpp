@@ -169,12 +169,39 @@ Plot with_logarithms(Plot plot) {
   return plot;
 }
 
-std::string rotated_text(PlotPoint p, const std::string& text) {
-  const std::string turn = fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})")svg", p.x, p.y);
-  return text_at(p, "middle", shade(Ink::text), text, turn.c_str());
+constexpr double kLabelLine = 14;  // distance between the two lines of a label
+
+/// The label of a vertical axis in lines: one, or two if it is longer than the axis. It breaks at the space
+/// nearest to its middle.
+std::vector<std::string> label_lines(const std::string& label, double axis_length) {
+  if (kTextWidth * character_count(label) <= axis_length + 20) return {label};
+  std::size_t at = std::string::npos;
+  const auto off_middle = [&](std::size_t i) { return std::abs(double(i) - 0.5 * double(label.size())); };
+  for (std::size_t i = 0; i < label.size(); ++i)
+    if (label[i] == ' ' && (at == std::string::npos || off_middle(i) < off_middle(at))) at = i;
+  if (at == std::string::npos) return {label};
+  return {label.substr(0, at), label.substr(at + 1)};
 }
 
-std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, double per_unit, const Map& map) {
+/// Width of the second line of the label of a vertical axis; 0 without one.
+double second_line_width(const std::string& label, double axis_length) {
+  return kLabelLine * double(label_lines(label, axis_length).size() - 1);
+}
+
+/// Label of a vertical axis, read from below; p: middle of its last line.
+std::string rotated_label(PlotPoint p, const std::string& label, double axis_length) {
+  std::string out;
+  p.x -= second_line_width(label, axis_length);
+  for (const std::string& line : label_lines(label, axis_length)) {
+    const std::string turn = fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})")svg", p.x, p.y);
+    out += text_at(p, "middle", shade(Ink::text), line, turn.c_str());
+    p.x += kLabelLine;
+  }
+  return out;
+}
+
+std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, const SecondScale& second,
+                      const Map& map) {
   std::string grid, text;
   const double bottom = map.top + map.h, end = map.left + map.w;
   for (std::size_t i = 0; i < x.at.size(); ++i) {
@@ -188,12 +215,16 @@ std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, double
     text += text_at({map.left - 6, at + 4}, "end", shade(Ink::muted), y.labels[i]);
   }
   for (std::size_t i = 0; i < right.at.size(); ++i) {
-    const double at = map.top + map.to_y(right.at[i] / per_unit);
+    const double at = map.top + map.to_y((right.at[i] - second.offset) / second.per_unit);
     text += text_at({end + 6, at + 4}, "start", shade(Ink::muted), right.labels[i]);
   }
   text += text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label);
-  text += rotated_text({map.left - y.width - 14, map.top + map.h / 2}, y.label);
-  if (!right.label.empty()) text += rotated_text({end + right.width + 21, map.top + map.h / 2}, right.label);
+  const double middle = map.top + map.h / 2;
+  text += rotated_label({map.left - y.width - 14, middle}, y.label, map.h);
+  if (!right.label.empty()) {
+    const double at = end + right.width + 21 + second_line_width(right.label, map.h);
+    text += rotated_label({at, middle}, right.label, map.h);
+  }
   return fmt::format(R"(<path {} d="{}"/>)", stroke(kGrid), grid) + text;
 }
 
@@ -213,7 +244,8 @@ struct Layout {
   Scale left, right, below;
   std::vector<Ink> inks;
   Legend legend;
-  double per_unit = 1, height = 0;
+  SecondScale second = {};
+  double height = 0;
   bool blank = false;
 };
 
@@ -229,11 +261,15 @@ Layout layout_of(const Plot& plot) {
   map.h = plot.height - 50;
   out.left = scale_along(plot.y, map.y, std::max(2, int(map.h / 42)));
   if (plot.right) {
-    if (std::isfinite(plot.right->per_unit)) out.per_unit = plot.right->per_unit;
-    out.right = scale_of({map.y.lo * out.per_unit, map.y.hi * out.per_unit}, 5, plot.right->label);
+    const double per_unit = plot.right->per_unit, offset = plot.right->offset;
+    if (std::isfinite(per_unit) && std::isfinite(offset)) out.second = *plot.right;
+    const auto second = [&](double v) { return out.second.per_unit * v + out.second.offset; };
+    out.right = scale_of({second(map.y.lo), second(map.y.hi)}, 5, plot.right->label);
   }
-  map.left = 26 + out.left.width;
-  map.w = std::max(60.0, plot.width - map.left - (plot.right ? out.right.width + 27 : 14));
+  map.left = 26 + out.left.width + second_line_width(out.left.label, map.h);
+  const double right_width =
+      plot.right ? out.right.width + 27 + second_line_width(out.right.label, map.h) : 14;
+  map.w = std::max(60.0, plot.width - map.left - right_width);
   if (plot.equal_aspect) {
     equalise(map);
     out.left = scale_along(plot.y, map.y, std::max(2, int(map.h / 62)));
@@ -282,7 +318,7 @@ std::string svg(const Plot& given) {
     out += text_at({at.map.left, 18}, "start", shade(Ink::text), plot.title,
                    R"( font-weight="600" font-size="14")");
   }
-  out += at.legend.drawing + draw_axes(at.below, at.left, at.right, at.per_unit, at.map);
+  out += at.legend.drawing + draw_axes(at.below, at.left, at.right, at.second, at.map);
   // A nested <svg> clips its content without an id, which could collide with another figure on the page.
   out += fmt::format(R"(<svg x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}">)", at.map.left, at.map.top,
                      at.map.w, at.map.h);

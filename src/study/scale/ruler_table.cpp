@@ -73,7 +73,7 @@ std::pair<std::string, double> width_column(const Table& table) {
 double positive(const Table& table, const std::string& column, std::size_t row) {
   const double v = table.column(column)[row];
   if (v > 0) return v;
-  throw Error(Errc::input, table.place(row),
+  throw Error(Errc::input, table.location(row),
               std::isnan(v)
                   ? fmt::format("{} is empty or not a number; for different numbers of readings write "
                                 "one row per reading: width_um,px",

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/distributions.h"
 #include "core/error.h"
+#include "core/random/distributions.h"
 #include "study/stats/statistics.h"
 
 namespace faba {

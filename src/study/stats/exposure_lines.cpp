@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "core/distributions.h"
+#include "core/random/distributions.h"
 #include "study/stats/statistics.h"
 
 namespace faba {

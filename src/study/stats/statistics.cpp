@@ -5,8 +5,8 @@
 #include <numeric>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/error.h"
+#include "core/random/distributions.h"
 
 namespace faba {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/philox.h"
+#include "core/random/philox.h"
 
 namespace faba {
 

@@ -11,8 +11,8 @@
 #include "app/run/simulation.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
-#include "core/distributions.h"
 #include "core/hash.h"
+#include "core/random/distributions.h"
 #include "study/stats/statistics.h"
 #include "study/steering/metric_list.h"
 #include "study/steering/trial.h"
@@ -196,6 +196,10 @@ ControllerStudy read_controller_study(const std::filesystem::path& file) {
   study.scene = read_toml(root.file(f.scene));
   study.controllers = read_variants(root, "controller");
   study.models = read_variants(root, "model");
+  if (root.has("delays") && f.delays.empty())
+    root.child("delays").fail(
+        "is an empty list; list camera delays in frames, such as [0, 2, 5], or omit the key for that of the "
+        "scene");
   if (std::set<int>(f.delays.begin(), f.delays.end()).size() != f.delays.size())
     root.child("delays").fail("a delay is listed twice; delays must be unique");
   study.delays = f.delays;

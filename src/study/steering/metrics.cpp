@@ -40,9 +40,9 @@ std::vector<Vec2> points(Values xs, Values ys) {
 
 void check_times(const Series& s, Values t) {
   for (std::size_t k = 0; k < t.size(); ++k) {
-    if (!std::isfinite(t[k])) throw Error(Errc::input, s.place(k), "t_s has no value");
+    if (!std::isfinite(t[k])) throw Error(Errc::input, s.location(k), "t_s has no value");
     if (k > 0 && t[k] <= t[k - 1]) {
-      throw Error(Errc::input, s.place(k),
+      throw Error(Errc::input, s.location(k),
                   fmt::format("t_s decreases or repeats ({} after {}); it must increase", t[k], t[k - 1]));
     }
   }
@@ -156,7 +156,7 @@ void measure_route(Metrics& m, const std::vector<Vec2>& centroid, const Route& r
     square += error.back() * error.back();
   }
   if (error.empty()) return;
-  m.path_tracking_rms_px = std::sqrt(square / double(error.size()));
+  m.cross_track_rms_px = std::sqrt(square / double(error.size()));
   m.cross_track_95_px = quantile(std::move(error), kQuantile);
 }
 

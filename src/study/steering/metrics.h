@@ -15,7 +15,7 @@ namespace faba {
 /// for the run: no target, a missing column, or a condition given with its definition. Lengths are in image
 /// pixels. Times have a resolution of one frame unless "between frames" is specified.
 struct Metrics {
-  std::string source;         ///< of centroid, spread and distance: "true" or "estimated"
+  std::string source;         ///< of centroid, dispersion and distance: "true" or "estimated"
   std::size_t frames = 0;     ///< rows of the series
   double duration_s = 0;      ///< from the first to the last frame
   std::size_t setpoints = 0;  ///< distinct successive setpoints: 0 no target, 1 hold, more on a route
@@ -57,7 +57,7 @@ struct Metrics {
   /// Root mean square of the cross-track error e_k, px: distance from the centroid to the nearest point of
   /// the polyline of successive setpoints. Evaluated from the first change of the setpoint, so that the
   /// approach to the first setpoint is excluded. Empty with fewer than two setpoints.
-  std::optional<double> path_tracking_rms_px;
+  std::optional<double> cross_track_rms_px;
   /// 95 % quantile of the same e_k, px (linear between order statistics).
   std::optional<double> cross_track_95_px;
 

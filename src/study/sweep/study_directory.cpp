@@ -79,7 +79,8 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
 
 void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
   for (const fs::path& other : dirs) {
-    if (!fs::exists(other)) throw Error(Errc::input, other.string(), "directory not found");
+    if (!fs::exists(other))
+      throw Error(Errc::input, other.string(), "directory not found; check the names after --merge");
     const auto existing = hash_of_study_in(other);
     if (!existing) throw Error(Errc::input, other.string(), "contains no study");
     if (*existing != study_hash_) throw Error(Errc::usage, other.string(), "contains a different study");

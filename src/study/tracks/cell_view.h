@@ -14,7 +14,7 @@ struct CellView {
   ForegroundOptions cells;                       ///< appearance of a cell
   std::shared_ptr<const Background> background;  ///< empty background, with uniform noise
   double threshold_sd = 0;                       ///< smallest signal-to-noise ratio of a tracked cell
-  double reach_px = 0;                           ///< largest displacement between frames
+  double search_radius_px = 0;                   ///< largest displacement between frames
 
   double noise() const { return double(background->noise_sd.px.front()); }  ///< sd of a pixel, grey
   /// Detects single cells.

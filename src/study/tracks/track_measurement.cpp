@@ -79,8 +79,8 @@ class TrackPass {
     return d;
   }
   TrackJoining joining() const {
-    return {tracker_.reach_px(), tracker_.motion(), options_.tracker.memory, options_.tracker.least_points,
-            tracker_.discarded_tracks()};
+    return {tracker_.search_radius_px(), tracker_.motion(), options_.tracker.max_gap_frames,
+            options_.tracker.min_points, tracker_.discarded_tracks()};
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }
@@ -172,6 +172,11 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
                                   counted(std::uint64_t(pass.repeated_times()), "frame")));
   if (const std::string warning = speed_warning(survey, pass, m.summary); !warning.empty())
     m.notes.push_back(warning);
+  if (o.interval_frames > 0 && m.summary.tracks > 0 && m.summary.speed_count == 0)
+    m.notes.push_back(fmt::format(
+        "--interval is {} frames, but no track has this length (the video has {}): speeds and turns are not "
+        "measured; use a smaller interval, or omit the option",
+        o.interval_frames, counted(std::uint64_t(survey.frames), "frame")));
   if (survey.frames > 1 && m.summary.tracks == 0) m.notes.emplace_back("no tracks were found");
   return m;
 }

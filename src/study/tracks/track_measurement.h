@@ -30,11 +30,11 @@ struct TrackDetection {
 
 /// Parameters and results of the linking of spots to tracks.
 struct TrackJoining {
-  double reach_px = 0;                 ///< largest displacement between frames
+  double search_radius_px = 0;         ///< largest displacement between frames
   Motion motion = Motion::nearest;     ///< nearest or velocity
-  int memory_frames = 0;               ///< see TrackerOptions::memory
-  int least_points = 0;                ///< see TrackerOptions
-  std::uint64_t discarded_tracks = 0;  ///< discarded because they had fewer than least_points
+  int max_gap_frames = 0;              ///< see TrackerOptions::max_gap_frames
+  int min_points = 0;                  ///< see TrackerOptions
+  std::uint64_t discarded_tracks = 0;  ///< discarded because they had fewer than min_points
 };
 
 /// Result of tracking a video.

@@ -21,12 +21,12 @@ struct TrackOptions {
   double fps = 0;               ///< > 0: overrides the frame rate of the video
   std::optional<double> um_per_px;
   std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
-  std::filesystem::path swarm;             ///< table of position and spread of the swarm in each frame, .csv
-  std::filesystem::path overlay;           ///< video with the tracks, .mp4 or .avi
-  std::filesystem::path report;            ///< page with the figures, .html
-  std::filesystem::path picture;           ///< all tracks on the first frame, .png
-  std::filesystem::path figures;           ///< folder for the figures, one .svg each
-  double size_px = 0;                      ///< full width at half maximum of a spot; 0: automatic
+  std::filesystem::path swarm;    ///< table of position and dispersion of the swarm in each frame, .csv
+  std::filesystem::path overlay;  ///< video with the tracks, .mp4 or .avi
+  std::filesystem::path report;   ///< page with the figures, .html
+  std::filesystem::path picture;  ///< all tracks on the first frame, .png
+  std::filesystem::path figures;  ///< folder for the figures, one .svg each
+  double size_px = 0;             ///< full width at half maximum of a spot; 0: automatic
   Polarity polarity = Polarity::automatic;
   BackgroundKind background = BackgroundKind::automatic;
   double threshold_sd = 0;   ///< smallest signal-to-noise ratio; 0: for 0.1 false detections per frame

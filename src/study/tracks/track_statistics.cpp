@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/units.h"
 #include "study/stats/statistics.h"
 #include "study/tracks/track_bins.h"
 #include "study/tracks/track_sums.h"
@@ -298,13 +299,12 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
     };
     return Estimated{scale * sum / n, jackknife_se(groups, rest)};
   };
-  constexpr double kDegrees = 180 / std::numbers::pi;
   s.mean_speed_px_s = mean_of([](const TrackGroup& g) { return g.speed.n; },
                               [](const TrackGroup& g) { return g.speed.v; }, 1);
   s.turn_deg_s = mean_of([](const TrackGroup& g) { return g.turn.n; },
-                         [](const TrackGroup& g) { return g.turn.size; }, kDegrees);
+                         [](const TrackGroup& g) { return g.turn.size; }, kDegreesPerRadian);
   s.signed_turn_deg_s = mean_of([](const TrackGroup& g) { return g.turn.n; },
-                                [](const TrackGroup& g) { return g.turn.with_sign; }, kDegrees);
+                                [](const TrackGroup& g) { return g.turn.with_sign; }, kDegreesPerRadian);
   for (const TrackGroup& g : groups) {
     s.speed_count += std::uint64_t(g.speed.n);
     s.turn_count += std::uint64_t(g.turn.n);
@@ -321,7 +321,7 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
   const double typical = s.speed_quantiles_px_s[1] * s.interval_s;
   if (typical > 0)
     s.turn_noise_deg_s =
-        std::sqrt(2 / std::numbers::pi) * kDegrees * std::sqrt(6 * noise2) / typical / s.interval_s;
+        std::sqrt(2 / std::numbers::pi) * kDegreesPerRadian * std::sqrt(6 * noise2) / typical / s.interval_s;
   for (const TimeBins::Span& span : in_time.spans()) {
     s.time_s.push_back(span.time_s);
     s.count_in_time.push_back(span.count);

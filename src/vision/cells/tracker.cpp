@@ -33,8 +33,9 @@ void each_near(const std::vector<Spot>& spots, Vec2 at, double reach, const Visi
 }  // namespace
 
 Tracker::Tracker(TrackerOptions options) : options_(options) {
-  if (options_.memory < 0 || options_.least_points < 1 || options_.most_points < 2)
-    throw Error(Errc::internal, "tracker", "memory must be >= 0, least_points >= 1 and most_points >= 2");
+  if (options_.max_gap_frames < 0 || options_.min_points < 1 || options_.max_points < 2)
+    throw Error(Errc::internal, "tracker",
+                "max_gap_frames must be >= 0, min_points >= 1 and max_points >= 2");
 }
 
 void Tracker::take(std::uint64_t frame, double t_s, const std::vector<Spot>& given) {
@@ -55,13 +56,13 @@ void Tracker::start() {
   std::vector<double> gaps;
   for (std::size_t i = 1; i < first.size(); ++i) gaps.push_back(first[i].t_s - first[i - 1].t_s);
   frame_s_ = gaps.empty() ? 1 : median_high(gaps);
-  if (!(options_.reach_px > 0)) {
+  if (!(options_.search_radius_px > 0)) {
     std::vector<std::vector<Spot>> frames;
     frames.reserve(first.size());
     for (const BufferedFrame& w : first) frames.push_back(w.spots);
-    options_.reach_px = displacement_reach(frames, &crowded_);
+    options_.search_radius_px = estimated_search_radius(frames, &crowded_);
   }
-  const double reach = options_.reach_px;
+  const double reach = options_.search_radius_px;
   scatter_ = reach * reach / 8;
   acceleration_ = reach * reach / 4 / (frame_s_ * frame_s_ * frame_s_);
   motion_ = options_.motion == Motion::velocity ? Motion::velocity : Motion::nearest;
@@ -89,7 +90,8 @@ std::vector<const Track*> Tracker::live() const {
 }
 
 Tracker::Prediction Tracker::predict(const Live& l, double t_s) const {
-  const double dt = t_s - l.t_s, frames = dt / frame_s_, reach = options_.reach_px * std::max(1.0, frames);
+  const double dt = t_s - l.t_s, frames = dt / frame_s_,
+               reach = options_.search_radius_px * std::max(1.0, frames);
   const double max_variance = reach * reach / (kGate * kGate);
   if (motion_ == Motion::nearest)
     return {l.at, std::min(max_variance, std::max(scatter_ * frames, 1e-3)), reach};
@@ -103,12 +105,12 @@ Tracker::Prediction Tracker::predict(const Live& l, double t_s) const {
 void Tracker::assign(double t_s, const std::vector<Spot>& spots, bool second, std::vector<int>& of_track,
                      std::vector<bool>& taken) const {
   std::vector<PossiblePair> candidates;
-  const double widest = options_.reach_px * options_.reach_px / (kGate * kGate);
+  const double widest = options_.search_radius_px * options_.search_radius_px / (kGate * kGate);
   for (std::size_t i = 0; i < live_.size(); ++i) {
     if (of_track[i] >= 0) continue;
     Prediction f = predict(live_[i], t_s);
     if (second) {
-      f.gate = options_.reach_px * std::max(1.0, (t_s - live_[i].t_s) / frame_s_);
+      f.gate = options_.search_radius_px * std::max(1.0, (t_s - live_[i].t_s) / frame_s_);
       f.at = live_[i].at;
       f.var = f.gate * f.gate / (kGate * kGate);
     }
@@ -140,7 +142,7 @@ void Tracker::step(std::uint64_t frame, double t_s, const std::vector<Spot>& spo
     Live& l = live_[i];
     if (of_track[i] >= 0) {
       update_track(l, frame, t_s, spots[std::size_t(of_track[i])]);
-    } else if (++l.missed > options_.memory) {
+    } else if (++l.missed > options_.max_gap_frames) {
       end_track(l);
       continue;
     }
@@ -199,8 +201,8 @@ void Tracker::update_track(Live& l, std::uint64_t frame, double t_s, const Spot&
   l.missed = 0;
   ++l.points;
   l.track.points.push_back({frame, t_s, spot.x_px, spot.y_px, spot.mass, spot.snr});
-  if (l.points == std::size_t(options_.least_points)) l.track.number = ++confirmed_;
-  if (l.track.points.size() >= std::size_t(options_.most_points) && l.track.number > 0) {
+  if (l.points == std::size_t(options_.min_points)) l.track.number = ++confirmed_;
+  if (l.track.points.size() >= std::size_t(options_.max_points) && l.track.number > 0) {
     l.track.continues = true;
     finished_.push_back(l.track);
     l.track.continues = false;
@@ -214,7 +216,7 @@ void Tracker::start_track(std::uint64_t frame, double t_s, const Spot& spot) {
   l.t_s = t_s;
   l.points = 1;
   l.track.points.push_back({frame, t_s, spot.x_px, spot.y_px, spot.mass, spot.snr});
-  if (options_.least_points == 1) l.track.number = ++confirmed_;
+  if (options_.min_points == 1) l.track.number = ++confirmed_;
   live_.push_back(std::move(l));
 }
 
@@ -236,7 +238,7 @@ void Tracker::update_common_velocity() {
   common_velocity_ = {median_high(x), median_high(y)};
 }
 
-double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cut) {
+double estimated_search_radius(const std::vector<std::vector<Spot>>& frames, bool* cut) {
   constexpr int kNth = 6;  // rank of the neighbour that determines the local density
   constexpr double kFraction = 0.95, kMargin = 1.25, kMinReach = 2, kSpacings = 0.75;
   struct Pair {

@@ -31,11 +31,12 @@ enum class Motion {
 
 /// Parameters of Tracker.
 struct TrackerOptions {
-  double reach_px = 0;  ///< maximum displacement between frames; 0: estimated by displacement_reach()
+  double search_radius_px =
+      0;  ///< maximum displacement between frames; 0: estimated by estimated_search_radius()
   Motion motion = Motion::automatic;
-  int memory = 2;          ///< maximum number of consecutive frames without detection
-  int least_points = 3;    ///< minimum length; shorter tracks are discarded as noise
-  int most_points = 4096;  ///< longer tracks are returned in pieces of this length, which limits the memory
+  int max_gap_frames = 2;  ///< maximum number of consecutive frames without detection
+  int min_points = 3;      ///< minimum length; shorter tracks are discarded as noise
+  int max_points = 4096;   ///< longer tracks are returned in pieces of this length, which limits the memory
 };
 
 /// Links spots to tracks, frame by frame: input spots, output finished tracks. The frame spacing may vary.
@@ -44,8 +45,8 @@ struct TrackerOptions {
 /// the gate are weighted by their likelihood ratio against "missed detection and new spot", and the
 /// assignment with the maximum total weight is used (best_assignment). Unassigned tracks may then take a
 /// remaining spot within reach of their last position; this handles reversals. Remaining spots start new
-/// tracks; tracks without detection for more than `memory` frames end. The velocity of a track with one point
-/// is the median of all tracks.
+/// tracks; tracks without detection for more than `max_gap_frames` frames end. The velocity of a track with
+/// one point is the median of all tracks.
 class Tracker {
  public:
   explicit Tracker(TrackerOptions options = {});
@@ -60,13 +61,13 @@ class Tracker {
   /// Confirmed live tracks with the points not yet returned, for drawing. Empty during the first frames (up
   /// to 12), which are buffered to estimate reach and motion model.
   std::vector<const Track*> live() const;
-  double reach_px() const { return options_.reach_px; }  ///< 0: not yet estimated
+  double search_radius_px() const { return options_.search_radius_px; }  ///< 0: not yet estimated
   /// Whether the displacement between frames is comparable to the distance between cells, so that the reach
   /// was limited: identities are then not reliable.
   bool crowded() const { return crowded_; }
   Motion motion() const { return motion_; }  ///< current model
   std::uint64_t confirmed_tracks() const { return confirmed_; }
-  /// Number of tracks that ended with fewer than `least_points` points.
+  /// Number of tracks that ended with fewer than `min_points` points.
   std::uint64_t discarded_tracks() const { return dropped_; }
 
  private:
@@ -117,6 +118,6 @@ class Tracker {
 /// that have a successor find it. Nearest-neighbour distances to the next frame are counted and corrected for
 /// random neighbours at the local density. At most three quarters of the mean spacing (then `cut` is set), at
 /// least 2 px; 10 px (assumed) when no two consecutive frames have spots.
-double displacement_reach(const std::vector<std::vector<Spot>>& frames, bool* cut = nullptr);
+double estimated_search_radius(const std::vector<std::vector<Spot>>& frames, bool* cut = nullptr);
 
 }  // namespace faba

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/error.h"
+#include "core/random/distributions.h"
 #include "core/statistics.h"
 #include "vision/files/grey_video.h"
 #include "vision/foreground/background.h"
@@ -55,10 +55,9 @@ class Changes {
 GrayF quantile_over_time(const std::vector<GrayF>& frames, double quantile) {
   GrayF out(frames.front().width, frames.front().height);
   std::vector<float> values(frames.size());
-  const auto rank = std::size_t(std::lround(quantile * double(frames.size() - 1)));
   for (std::size_t i = 0; i < out.px.size(); ++i) {
     for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
-    out.px[i] = order_statistic(values, rank);
+    out.px[i] = quantile_nearest(values, quantile);
   }
   return out;
 }

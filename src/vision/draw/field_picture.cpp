@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/statistics.h"
 #include "vision/draw/fixed_point.h"
 #include "vision/draw/scale_bar.h"
 
@@ -44,9 +45,8 @@ Decades decades_of(const std::vector<Vec2>& b) {
   for (std::size_t i = 0; i < b.size(); i += 7)
     if (std::isfinite(b[i].x + b[i].y)) size.push_back(norm(b[i]));
   if (size.empty()) return {-6, -3};
-  std::sort(size.begin(), size.end());
-  const double high = std::max(size[std::size_t(0.99 * double(size.size() - 1))], 1e-12);
-  const double low = std::max(size.front(), high / 1000);
+  const double high = std::max(quantile_low(size, 0.99), 1e-12);
+  const double low = std::max(*std::min_element(size.begin(), size.end()), high / 1000);
   return {std::log10(low), std::max(std::log10(high), std::log10(low) + 0.1)};
 }
 

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "core/error.h"
+#include "core/random/splitmix64.h"
 #include "core/statistics.h"
 
 namespace faba {
@@ -23,10 +24,8 @@ class Picker {
  public:
   explicit Picker(std::uint64_t seed) : state_(seed) {}
   std::size_t below(std::size_t n) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ULL);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return std::size_t(((z ^ (z >> 31)) >> 32) * std::uint64_t(n) >> 32);
+    state_ += kSplitMix64Step;
+    return std::size_t((splitmix64(state_) >> 32) * std::uint64_t(n) >> 32);
   }
 
  private:

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/units.h"
 
 namespace faba {
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kProfile = 16;                // px of the level, half width of the profile
 constexpr double kStraight = 1e5;           // px: an arc of 1000 px with this radius has a sagitta of 1.25 px
 constexpr double kMaxNonCircularity = 0.1;  // a third of the value of a corner
@@ -104,15 +104,15 @@ std::string describe_straight_or_short(const DropCandidate& d, const DropEdgeOpt
   return fmt::format(
       "no drop edge detected: the best arc covers only {:.1f} degrees of a circle of radius {:.0f} px (at "
       "least {:.0f} degrees required); use a lower magnification or show more of the edge",
-      d.seen_rad * kDegrees, d.circle.radius, o.min_arc_deg);
+      d.seen_rad * kDegreesPerRadian, d.circle.radius, o.min_arc_deg);
 }
 
 /// Reason for rejecting a circle; empty: accepted.
 std::string rejection(const DropCandidate& d, const DropPicture& picture, const DropEdgeOptions& o) {
   const double radius = d.circle.radius, sd = d.fit.sd_radius;
   if (d.evidence.log10_false_alarms > o.max_log10_false_alarms) return kChance;
-  if (d.seen_rad * kDegrees < o.min_arc_deg) return describe_straight_or_short(d, o);
-  if (d.arc_rad * kDegrees < kCornerDeg && non_circularity(d) > kMaxNonCircularity)
+  if (d.seen_rad * kDegreesPerRadian < o.min_arc_deg) return describe_straight_or_short(d, o);
+  if (d.arc_rad * kDegreesPerRadian < kCornerDeg && non_circularity(d) > kMaxNonCircularity)
     return fmt::format(
         "no drop edge detected: the longest edge has a corner, it is not round (best radius {:.0f} px); show "
         "the round edge of the drop",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/error.h"
 #include "core/portable_math.h"
 #include "core/statistics.h"
 #include "vision/foreground/kernels/foreground_pixels.h"
@@ -73,6 +74,10 @@ double picture_noise(const Gray8& picture) {
 }
 
 Foreground::Foreground(ForegroundOptions options) : options_(options) {
+  // Differences are summed with one sign: those of dark and bright cells would cancel.
+  if (options.polarity == Polarity::both)
+    throw Error(Errc::internal, "foreground",
+                "the polarity \"both\" is not permitted; it must be automatic, dark or bright");
   sd_px_ = options_.cell_px * kFwhmToSd;
   sign_ = options_.polarity == Polarity::dark ? -1 : options_.polarity == Polarity::bright ? 1 : 0;
 }

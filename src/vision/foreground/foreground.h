@@ -48,6 +48,7 @@ struct SwarmMoments {
 /// Uses only additions, multiplications and square roots in a fixed order: bit-identical on every machine.
 class Foreground {
  public:
+  /// Throws Error(internal) for the polarity `both`.
   explicit Foreground(ForegroundOptions options = {});
 
   /// Sets a given background, for example of a complete video, and disables the background update.

@@ -30,9 +30,9 @@ struct Sums {
   }
 };
 
-FuzzyGroup single_group(const std::vector<WeightedPosition>& places) {
+FuzzyGroup single_group(const std::vector<WeightedPosition>& positions) {
   Sums s;
-  for (const auto& p : places) s.add(p.at, p.weight);
+  for (const auto& p : positions) s.add(p.at, p.weight);
   return {s.mean(), s.cov(), 1};
 }
 
@@ -49,14 +49,14 @@ void compute_memberships(const std::vector<FuzzyGroup>& groups, Vec2 at, std::ve
 }
 
 // Iterates the centroids to convergence.
-void iterate_centroids(const std::vector<WeightedPosition>& places, std::vector<FuzzyGroup>& groups,
+void iterate_centroids(const std::vector<WeightedPosition>& positions, std::vector<FuzzyGroup>& groups,
                        double spread2) {
   std::vector<double> u(groups.size());
   for (int round = 0; round < kMaxIterations; ++round) {
     std::vector<Sums> sums(groups.size());
     std::vector<double> share(groups.size());
     double total = 0;
-    for (const auto& p : places) {
+    for (const auto& p : positions) {
       compute_memberships(groups, p.at, u);
       total += p.weight;
       for (std::size_t k = 0; k < groups.size(); ++k) {
@@ -101,12 +101,12 @@ struct Validity {
 };
 
 // Validity with hard assignment of each position to its nearest group.
-Validity validity_of(const std::vector<WeightedPosition>& places, const std::vector<FuzzyGroup>& groups,
+Validity validity_of(const std::vector<WeightedPosition>& positions, const std::vector<FuzzyGroup>& groups,
                      const FuzzyGroupOptions& o) {
   std::vector<Sums> hard_groups(groups.size());
   std::vector<double> u(groups.size());
   double within = 0, total = 0, nearest = std::numeric_limits<double>::max();
-  for (const auto& p : places) {
+  for (const auto& p : positions) {
     compute_memberships(groups, p.at, u);
     const auto k = std::size_t(std::max_element(u.begin(), u.end()) - u.begin());
     hard_groups[k].add(p.at - groups[k].centroid, p.weight);
@@ -142,23 +142,23 @@ std::vector<double> memberships(const std::vector<FuzzyGroup>& groups, Vec2 at) 
   return u;
 }
 
-std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& places,
+std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& positions,
                                      const FuzzyGroupOptions& o) {
   double total = 0;
-  for (const auto& p : places) total += p.weight;
+  for (const auto& p : positions) total += p.weight;
   if (!(total > 0)) return {};
-  std::vector<FuzzyGroup> groups{single_group(places)}, best = groups;
+  std::vector<FuzzyGroup> groups{single_group(positions)}, best = groups;
   const double spread2 = groups[0].cov.xx + groups[0].cov.yy;
   double best_index = std::numeric_limits<double>::max();
-  const auto most = std::min<std::size_t>(std::size_t(o.count > 0 ? o.count : o.most), places.size());
+  const auto most = std::min<std::size_t>(std::size_t(o.count > 0 ? o.count : o.most), positions.size());
   while (groups.size() < most && spread2 > 0) {
     groups = split_widest(groups);
-    iterate_centroids(places, groups, spread2);
+    iterate_centroids(positions, groups, spread2);
     if (o.count > 0) {
       best = groups;
       continue;
     }
-    const Validity v = validity_of(places, groups, o);
+    const Validity v = validity_of(positions, groups, o);
     if (v.separated && v.xie_beni < best_index) {
       best_index = v.xie_beni;
       best = groups;
@@ -169,22 +169,22 @@ std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& places
   return best;
 }
 
-std::vector<WeightedPosition> binned(const std::vector<WeightedPosition>& places, int cells) {
-  if (places.empty()) return {};
-  Vec2 low = places[0].at, high = low;
-  for (const auto& p : places) {
+std::vector<WeightedPosition> binned(const std::vector<WeightedPosition>& positions, int cells) {
+  if (positions.empty()) return {};
+  Vec2 low = positions[0].at, high = low;
+  for (const auto& p : positions) {
     low = {std::min(low.x, p.at.x), std::min(low.y, p.at.y)};
     high = {std::max(high.x, p.at.x), std::max(high.y, p.at.y)};
   }
   const double side = std::max(high.x - low.x, high.y - low.y) / cells;
   if (!(side > 0)) {
     double total = 0;
-    for (const auto& p : places) total += p.weight;
+    for (const auto& p : positions) total += p.weight;
     return {{low, total}};
   }
   std::vector<Sums> sums(std::size_t(cells) * std::size_t(cells));
   const auto index = [&](double v) { return std::size_t(std::clamp(int(v / side), 0, cells - 1)); };
-  for (const auto& p : places)
+  for (const auto& p : positions)
     sums[index(p.at.y - low.y) * std::size_t(cells) + index(p.at.x - low.x)].add(p.at, p.weight);
   std::vector<WeightedPosition> out;
   for (const Sums& s : sums)

@@ -23,7 +23,7 @@ struct FuzzyGroupOptions {
   int count = 0;              ///< number of groups; 0: estimated, 1 to `most`
   int most = 4;               ///< maximum number of groups, 1 to 10
   double least_share = 0.03;  ///< minimum fraction of the total weight in a group
-  /// Two groups are separate only if their distance exceeds this multiple of their spread along the
+  /// Two groups are separate only if their distance exceeds this multiple of their dispersion along the
   /// connecting line. Two halves of a uniform distribution have 3.5, of a Gaussian 2.7 (theory H6).
   double separation = 4.5;
 };
@@ -37,11 +37,11 @@ std::vector<double> memberships(const std::vector<FuzzyGroup>& groups, Vec2 at);
 /// among those whose groups are all separate, the index of Xie and Beni decides; otherwise the result is one
 /// group. Groups are sorted by weight, largest first. Portable arithmetic: bit-identical for the same input.
 /// Empty if the total weight is 0.
-std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& places,
+std::vector<FuzzyGroup> fuzzy_groups(const std::vector<WeightedPosition>& positions,
                                      const FuzzyGroupOptions& options = {});
 
 /// Bins the positions on a grid of at most `cells` x `cells` squares over their bounding box: one weighted
 /// mean position for each occupied square.
-std::vector<WeightedPosition> binned(const std::vector<WeightedPosition>& places, int cells);
+std::vector<WeightedPosition> binned(const std::vector<WeightedPosition>& positions, int cells);
 
 }  // namespace faba

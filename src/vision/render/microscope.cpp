@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/draw_blocks.h"
 #include "core/error.h"
 #include "core/portable_math.h"
+#include "core/random/draw_blocks.h"
+#include "vision/render/illuminated_background.h"
 #include "vision/render/kernels/camera_noise.h"
-#include "vision/render/lit_ground.h"
 
 namespace faba {
 namespace {
@@ -72,7 +72,7 @@ Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circ
       sum_(checked_size(frame).width, frame.height),
       splats_(shape_of(p, frame.m_per_px, seed)) {
   if (p.background.empty()) {
-    ground_ = lit_ground(p, frame, edge, seed);
+    ground_ = illuminated_background(p, frame, edge, seed);
     const double read = p.read_noise / p.full_well;
     shot_ = 1 / p.full_well;
     constant_ = read * read;

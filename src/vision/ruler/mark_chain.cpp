@@ -106,14 +106,14 @@ MarkChain trace_marks(const MarkProfile& y, double pitch) {
   return chain;
 }
 
-void follow_marks(const TurnedPicture& turned, const MarkChain& chain, double pitch_px,
+void follow_marks(const RotatedPicture& rotated, const MarkChain& chain, double pitch_px,
                   const MarkShape& shape, double t, int step, int strip_height, StripReadings& out) {
   double offset = 0;
   const int max_missed = std::max(2, int(0.4 * pitch_px / strip_height));
   for (int missed = 0; missed <= max_missed; t += step * strip_height) {
-    const std::vector<double> raw = turned.profile(t, strip_height);
+    const std::vector<double> raw = rotated.profile(t, strip_height);
     if (raw.empty()) return;
-    const MarkProfile y(turned.first_s(), raw, pitch_px);
+    const MarkProfile y(rotated.first_s(), raw, pitch_px);
     std::vector<StripReading> readings;
     std::vector<double> shifts;
     int expected = 0;

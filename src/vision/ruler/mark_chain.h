@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "vision/ruler/mark_shape.h"
-#include "vision/ruler/turned_picture.h"
+#include "vision/ruler/rotated_picture.h"
 
 namespace faba {
 
@@ -37,7 +37,7 @@ MarkChain trace_marks(const MarkProfile& profile, double pitch_px);
 /// Reads the marks of a chain again in consecutive strips from t downwards (`step` 1) or upwards (-1), while
 /// at least half of the marks inside the picture are detected, across gaps of half a pitch. The offset of
 /// each strip is carried to the next, so that inclined marks are followed.
-void follow_marks(const TurnedPicture& turned, const MarkChain& chain, double pitch_px,
+void follow_marks(const RotatedPicture& rotated, const MarkChain& chain, double pitch_px,
                   const MarkShape& shape, double t, int step, int strip_height, StripReadings& out);
 
 }  // namespace faba

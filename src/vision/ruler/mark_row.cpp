@@ -8,14 +8,14 @@
 #include "core/statistics.h"
 #include "vision/ruler/mark_chain.h"
 #include "vision/ruler/mark_shape.h"
-#include "vision/ruler/turned_picture.h"
+#include "vision/ruler/rotated_picture.h"
 
 namespace faba {
 namespace {
 
 constexpr int kFitPasses = 3;
 constexpr double kDistortion = 0.02;  // px, distortion from end to end by shading (assumed)
-constexpr double kMaxBend = 3e-4;    // rad: for a smaller inclination the picture is not rotated again
+constexpr double kMaxBend = 3e-4;     // rad: for a smaller inclination the picture is not rotated again
 
 /// Linear model position = offset + pitch * index + lean * t.
 struct Plane {
@@ -69,12 +69,12 @@ struct RowState {
   Plane plane;
 };
 
-bool read_row(const TurnedPicture& turned, RowState& at, int strip_height, MarkShape& shape) {
-  const double top = turned.last_t() - (at.height - 1) / 2.0;
+bool read_row(const RotatedPicture& rotated, RowState& at, int strip_height, MarkShape& shape) {
+  const double top = rotated.last_t() - (at.height - 1) / 2.0;
   at.t = std::clamp(at.t, std::min(-top, top), std::max(-top, top));
-  const std::vector<double> raw = turned.profile(at.t, at.height);
+  const std::vector<double> raw = rotated.profile(at.t, at.height);
   if (raw.empty()) return false;
-  const MarkProfile y(turned.first_s(), raw, at.pitch);
+  const MarkProfile y(rotated.first_s(), raw, at.pitch);
   const MarkChain chain = trace_marks(y, at.pitch);
   if (int(chain.size()) < kMinMarks) return false;
   at.pitch = mean_gap(chain);
@@ -82,8 +82,8 @@ bool read_row(const TurnedPicture& turned, RowState& at, int strip_height, MarkS
   for (const auto& [index, position] : chain) positions.push_back(position);
   shape = MarkShape({&y, 1}, {&positions, 1}, at.pitch);
   at.readings = {};
-  follow_marks(turned, chain, at.pitch, shape, at.t, 1, strip_height, at.readings);
-  follow_marks(turned, chain, at.pitch, shape, at.t - strip_height, -1, strip_height, at.readings);
+  follow_marks(rotated, chain, at.pitch, shape, at.t, 1, strip_height, at.readings);
+  follow_marks(rotated, chain, at.pitch, shape, at.t - strip_height, -1, strip_height, at.readings);
   const auto plane = fit_plane(at.readings.list);
   if (!plane || !(plane->pitch > 0.8 * at.pitch && plane->pitch < 1.25 * at.pitch)) return false;
   at.plane = *plane;
@@ -91,7 +91,7 @@ bool read_row(const TurnedPicture& turned, RowState& at, int strip_height, MarkS
 }
 
 /// Rotates by the inclination of the marks and moves to the centre of the readings.
-void realign(const TurnedPicture& turned, const GrayF& picture, RowState& at) {
+void realign(const RotatedPicture& rotated, const GrayF& picture, RowState& at) {
   double s = 0, t = 0, count = 0, low = 1e300, high = -1e300;
   for (const StripReading& r : at.readings.list) {
     if (!r.used) continue;
@@ -101,7 +101,7 @@ void realign(const TurnedPicture& turned, const GrayF& picture, RowState& at) {
     low = std::min(low, r.t);
     high = std::max(high, r.t);
   }
-  const Vec2 middle = turned.image(s / count, t / count);
+  const Vec2 middle = rotated.image(s / count, t / count);
   if (std::fabs(at.plane.lean) > kMaxBend) at.angle -= std::atan(at.plane.lean);
   at.pitch = at.plane.pitch / std::hypot(1, at.plane.lean);
   const Vec2 centre{(picture.width - 1) / 2.0, (picture.height - 1) / 2.0};
@@ -111,7 +111,7 @@ void realign(const TurnedPicture& turned, const GrayF& picture, RowState& at) {
 }
 
 /// One position per mark, the mean over its strips; marks with few readings are excluded.
-std::vector<RowMark> marks_of(const RowState& at, const TurnedPicture& turned) {
+std::vector<RowMark> marks_of(const RowState& at, const RotatedPicture& rotated) {
   std::map<int, std::vector<const StripReading*>> by_index;
   std::size_t most = 0;
   for (const StripReading& r : at.readings.list)
@@ -128,8 +128,8 @@ std::vector<RowMark> marks_of(const RowState& at, const TurnedPicture& turned) {
       low = std::min(low, r->t);
       high = std::max(high, r->t);
     }
-    m.from_image = turned.image(m.s, low);
-    m.to_image = turned.image(m.s, high);
+    m.from_image = rotated.image(m.s, low);
+    m.to_image = rotated.image(m.s, high);
     marks.push_back(m);
   }
   return marks;
@@ -194,10 +194,10 @@ void fit_line(MarkRow& row) {
   }
 }
 
-std::optional<MarkRow> row_of(const RowState& at, const TurnedPicture& turned, int strip,
+std::optional<MarkRow> row_of(const RowState& at, const RotatedPicture& rotated, int strip,
                               const MarkShape& shape) {
   MarkRow row;
-  row.marks = marks_of(at, turned);
+  row.marks = marks_of(at, rotated);
   if (int(row.marks.size()) < kMinMarks) return std::nullopt;
   fit_line(row);
   row.angle = at.angle - std::atan(at.plane.lean);
@@ -231,10 +231,10 @@ int MarkRow::used() const {
   return int(std::count_if(marks.begin(), marks.end(), [](const RowMark& m) { return m.used; }));
 }
 
-const TurnedPicture& RowMeter::turned(double angle) {
-  const auto existing = turned_.find(angle);
-  return existing != turned_.end() ? existing->second
-                                   : turned_.try_emplace(angle, picture_, angle).first->second;
+const RotatedPicture& RowMeter::rotated(double angle) {
+  const auto existing = rotated_.find(angle);
+  return existing != rotated_.end() ? existing->second
+                                    : rotated_.try_emplace(angle, picture_, angle).first->second;
 }
 
 std::optional<MarkRow> RowMeter::measure(const PeriodHint& hint) {
@@ -258,21 +258,21 @@ std::optional<MarkRow> RowMeter::measure_marks(const PeriodHint& hint, int strip
 
 std::optional<MarkRow> RowMeter::measure_positions(const PeriodHint& hint, int strip) {
   RowState at{hint.angle, hint.pitch_px, hint.across_px, hint.height_px, {}, {}};
-  std::optional<TurnedPicture> straight;
+  std::optional<RotatedPicture> straight;
   MarkShape shape({}, {}, at.pitch);
   for (int pass = 0; pass < kFitPasses; ++pass) {
     if (pass > 0) {
-      const TurnedPicture& before = straight ? *straight : turned(hint.angle);
+      const RotatedPicture& before = straight ? *straight : rotated(hint.angle);
       const double lean = at.plane.lean;
       realign(before, picture_, at);
       if (std::fabs(lean) > kMaxBend) straight.emplace(picture_, at.angle);
       strip = std::max(std::clamp(at.height / 5, 3, 16), std::min(strip, at.height));
     }
-    if (!read_row(straight ? *straight : turned(hint.angle), at, strip, shape)) return std::nullopt;
+    if (!read_row(straight ? *straight : rotated(hint.angle), at, strip, shape)) return std::nullopt;
     if (at.plane.sd > 0.25 * at.pitch || double(at.readings.list.size()) < 0.4 * at.readings.expected)
       return std::nullopt;
   }
-  return row_of(at, straight ? *straight : turned(hint.angle), strip, shape);
+  return row_of(at, straight ? *straight : rotated(hint.angle), strip, shape);
 }
 
 }  // namespace faba

@@ -5,8 +5,8 @@
 
 #include "core/vec.h"
 #include "vision/image/image.h"
+#include "vision/ruler/rotated_picture.h"
 #include "vision/ruler/ruler_search.h"
-#include "vision/ruler/turned_picture.h"
 
 namespace faba {
 
@@ -52,9 +52,9 @@ class RowMeter {
  private:
   std::optional<MarkRow> measure_marks(const PeriodHint& hint, int strip_height);
   std::optional<MarkRow> measure_positions(const PeriodHint& hint, int strip_height);
-  const TurnedPicture& turned(double angle);
+  const RotatedPicture& rotated(double angle);
   const GrayF& picture_;
-  std::map<double, TurnedPicture> turned_;  // by the angle of the hint
+  std::map<double, RotatedPicture> rotated_;  // by the angle of the hint
 };
 
 }  // namespace faba

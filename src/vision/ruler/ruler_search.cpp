@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/statistics.h"
-#include "vision/ruler/turned_picture.h"
+#include "vision/ruler/rotated_picture.h"
 
 namespace faba {
 namespace {
@@ -172,15 +172,15 @@ std::pair<double, double> score_and_pitch(const std::vector<double>& profile) {
 }
 
 void search_level(const GrayF& copy, double angle, double factor, std::vector<PeriodHint>& hints) {
-  const TurnedPicture turned(copy, angle);
+  const RotatedPicture rotated(copy, angle);
   for (const int height : {6, 18, 54}) {
     if (height > copy.height && height > copy.width) break;
-    const double reach = turned.last_t() - turned.first_t() + 1 - height;
+    const double reach = rotated.last_t() - rotated.first_t() + 1 - height;
     const double stride = std::max(height / 2.0, reach / 300);
-    double next = turned.first_t() + (height - 1) / 2.0;
-    while (next <= turned.last_t()) {
+    double next = rotated.first_t() + (height - 1) / 2.0;
+    while (next <= rotated.last_t()) {
       const double t = std::exchange(next, next + stride);
-      const std::vector<double> profile = turned.profile(t, height);
+      const std::vector<double> profile = rotated.profile(t, height);
       const auto valid_count =
           std::count_if(profile.begin(), profile.end(), [](double v) { return std::isfinite(v); });
       if (double(valid_count) < 4 * kMinLag) continue;

@@ -9,7 +9,7 @@ namespace faba {
 struct PeriodHint {
   double angle = 0;  ///< rad, direction across the marks, from the x axis of the picture towards its y axis
   double pitch_px = 0;   ///< fundamental period of the strip, to about 2 %
-  double across_px = 0;  ///< centre of the strip: t of TurnedPicture(picture, angle)
+  double across_px = 0;  ///< centre of the strip: t of RotatedPicture(picture, angle)
   int height_px = 0;     ///< height of the strip
   double evidence = 0;   ///< periodicity times the square root of the strip length; below about 5 for noise
 };

@@ -4,6 +4,8 @@
 #include <fstream>
 
 #include "app/bench/capture.h"
+#include "core/error.h"
+#include "core/file.h"
 #include "core/monotonic.h"
 #include "core/table.h"
 #include "tests/temporary_folder.h"
@@ -129,6 +131,44 @@ TEST_CASE("a camera failure is reported; earlier frames are readable in a file m
     CHECK(frames == 6);
     CHECK(numbers(job.out.string() + ".csv").size() == 6);
   }
+}
+
+TEST_CASE("a folder of pictures is marked incomplete until the capture is complete") {
+  const test::TemporaryFolder f("capture");
+  const auto failed = f.path() / "failed", complete = f.path() / "complete", empty = f.path() / "empty";
+  CHECK_THROWS_WITH_AS(capture(std::make_shared<TestCamera>(6, true), into(failed, "pgm")),
+                       doctest::Contains("failed; 6 recorded frames are in"), Error);
+  CHECK(read_file(failed / "incomplete").find("This capture is not complete.") != std::string::npos);
+  CHECK(numbers(failed / "times.csv").size() == 6);
+  CHECK(VideoReader(failed, 10).frames_in_header() == 6);
+
+  capture(std::make_shared<TestCamera>(6), into(complete, "pgm"));
+  CHECK_FALSE(std::filesystem::exists(complete / "incomplete"));
+  // Without pictures the folder stays empty, and the next capture can use it.
+  CHECK_THROWS_AS(capture(std::make_shared<TestCamera>(0, true), into(empty, "pgm")), Error);
+  CHECK(std::filesystem::is_empty(empty));
+  capture(std::make_shared<TestCamera>(6), into(empty, "pgm"));
+}
+
+TEST_CASE("a picture that cannot be written is named, and the folder stays marked incomplete") {
+  const test::TemporaryFolder f("capture");
+  const auto folder = f.path() / "pictures";
+  CaptureJob job = into(folder, "pgm");
+  job.frames = 6;
+  // A folder takes the temporary name of the third picture.
+  job.progress = [&](std::uint64_t done, std::uint64_t) {
+    if (done == 1) std::filesystem::create_directories(folder / "frame-000002.pgm.tmp/x");
+  };
+  try {
+    capture(std::make_shared<TestCamera>(6), job);
+    FAIL("nothing was thrown");
+  } catch (const Error& e) {
+    CHECK(e.code() == Errc::internal);
+    CHECK(e.where() == (folder / "frame-000002.pgm").string());
+    CHECK(e.reason().find("2 recorded frames are in") != std::string::npos);
+  }
+  CHECK(std::filesystem::exists(folder / "incomplete"));
+  CHECK(numbers(folder / "times.csv").size() == 2);
 }
 
 TEST_CASE("existing files are not overwritten") {

@@ -178,8 +178,17 @@ TEST_CASE("resume: rejected without an unfinished run") {
     Session::resume(builtin_parts(), options(dir));
   };
   CHECK_THROWS_WITH_AS(resume(f.path / "none"),
-                       (f.path / "none").string().append(": directory not found").c_str(), Error);
-  CHECK_THROWS_WITH_AS(resume(f.path), f.path.string().append(": is not a run directory").c_str(), Error);
+                       (f.path / "none")
+                           .string()
+                           .append(": directory not found; give a run directory, such as runs/steer-1")
+                           .c_str(),
+                       Error);
+  CHECK_THROWS_WITH_AS(
+      resume(f.path),
+      f.path.string()
+          .append(": is not a run directory: it has no manifest.json; give the directory of a run")
+          .c_str(),
+      Error);
   Session done = Session::begin(scenario_from(kScene), 1, options(f.path / "done"));
   done.run();
   done.complete();

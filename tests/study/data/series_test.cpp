@@ -56,7 +56,7 @@ TEST_CASE("series: columns are read by name without rounding, in any order") {
   CHECK_FALSE(s.has("limited"));
   CHECK(s.find("limited").empty());
   CHECK_FALSE(s.last_line_cut());
-  CHECK(s.place(1) == file.path().string() + ":3");
+  CHECK(s.location(1) == file.path().string() + ":3");
 }
 
 TEST_CASE("series: empty fields and nan are NaN; spaces, CRLF and a byte-order mark are ignored") {

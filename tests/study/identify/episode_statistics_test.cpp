@@ -17,7 +17,7 @@ CellView view() {
   v.width = 320;
   v.height = 240;
   v.frame_s = 0.1;
-  v.reach_px = 8;
+  v.search_radius_px = 8;
   return v;
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
+#include "core/random/distributions.h"
 
 using namespace faba;
 

@@ -89,6 +89,25 @@ faba::Errc code_of(const TemporaryFolder& run, const std::string& where, const s
   return {};
 }
 
+RunInfo scaled_run() {
+  RunInfo info;
+  info.um_per_px = 0.5;
+  return info;
+}
+
+/// Of a run with one setpoint that did not settle.
+Metrics metrics_of_run() {
+  Metrics m;
+  m.frames = 100;
+  m.duration_s = 30;
+  m.setpoints = 1;
+  m.initial_error_px = 300;
+  m.final_distance_px = 80;
+  m.sigma_x_px = 12;
+  m.sigma_y_px = 34.5;
+  return m;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -110,7 +129,7 @@ TEST_CASE(
     CHECK_MESSAGE(has(html, words), words);
   }
   // The band is 15 px; the distance is 20 px at frame 28 and 10 px at frame 29, which is 29 / 15 s.
-  CHECK(has(html, "The swarm reached its setpoint after 1.93\u00A0s"));
+  CHECK(has(html, "The swarm settled at its setpoint after 1.93\u00A0s"));
   CHECK(has(html, "<td>300\u00A0px</td><td>240\u00A0µm</td>"));  // the initial error at 0.8 um per px
   CHECK(has(html, "<td>2.00\u00A0px</td><td>1.60\u00A0µm</td>"));
   CHECK(has(html, "<title>Hold &lt;b&gt;&quot;still&quot;&lt;/b&gt; &amp; wait</title>"));
@@ -123,6 +142,7 @@ TEST_CASE(
   CHECK(has(html, "Faba 0.1.0"));
   CHECK(has(html, "# 1 &lt; 2 &amp; so on"));
   CHECK(has(html, "8.00 times real time"));
+  CHECK(has(html, "4.00 s (60 frames of 66.7 ms)"));
   CHECK_FALSE(std::filesystem::exists(run.path() / "report.html.tmp"));
 }
 
@@ -209,24 +229,16 @@ TEST_CASE("run report: the fields of a manifest are read") {
   CHECK(info.swarms[0] == "model adapted, count 500");
 }
 
-TEST_CASE("run report: the summary describes the outcome") {
-  RunInfo info;
-  info.um_per_px = 0.5;
-  Metrics m;
-  m.frames = 100;
-  m.duration_s = 30;
-  m.setpoints = 1;
-  m.initial_error_px = 300;
-  m.final_distance_px = 80;
-  m.sigma_x_px = 12;
-  m.sigma_y_px = 34.5;
+TEST_CASE("run report: the summary of a run with one setpoint") {
+  RunInfo info = scaled_run();
+  Metrics m = metrics_of_run();
 
   SUBCASE("never settled") {
     const faba::RunSummary summary = run_summary(m, info);
     CHECK(summary.outcome ==
           "The swarm did not settle at its setpoint: the distance was 300\u00A0px (150\u00A0µm) at the start "
           "and "
-          "80.0\u00A0px (40.0\u00A0µm) at the last frame (30.0\u00A0s).");
+          "80.0\u00A0px (40.0\u00A0µm) at the end of the run (30.0\u00A0s).");
     CHECK(summary.details ==
           "At the end, the standard deviations of the cell positions in x and y were "
           "12.0\u00A0×\u00A034.5\u00A0px (6.00\u00A0×\u00A017.2\u00A0µm).");
@@ -234,9 +246,10 @@ TEST_CASE("run report: the summary describes the outcome") {
   SUBCASE("settled") {
     m.settling_time_s = 4.25;
     m.steady_rms_px = 2;
-    CHECK(run_summary(m, info).outcome ==
-          "The swarm reached its setpoint after 4.25\u00A0s; its rms distance to the setpoint over the last "
-          "third of the run was 2.00\u00A0px (1.00\u00A0µm).");
+    CHECK(
+        run_summary(m, info).outcome ==
+        "The swarm settled at its setpoint after 4.25\u00A0s; its rms distance to the setpoint over the last "
+        "third of the run was 2.00\u00A0px (1.00\u00A0µm).");
     info.um_per_px.reset();
     CHECK(has(run_summary(m, info).outcome, "of the run was 2.00\u00A0px."));
   }
@@ -252,13 +265,25 @@ TEST_CASE("run report: the summary describes the outcome") {
     m.steady_rms_px = 2;
     CHECK(has(run_summary(m, info).outcome, "was at its setpoint from the start; its rms distance"));
   }
+}
+
+TEST_CASE("run report: the summary of a run with a route or a moving setpoint") {
+  RunInfo info = scaled_run();
+  Metrics m = metrics_of_run();
+
   SUBCASE("a route") {
     m.setpoints = 4;
     m.settling_time_s = 12;
     m.steady_rms_px = 2;
     m.cross_track_95_px = 6;
     const faba::RunSummary summary = run_summary(m, info);
-    CHECK(has(summary.outcome, "reached the last of 4 setpoints after 12.0\u00A0s"));
+    m.setpoints_reached = 4;
+    m.settling_band_px = 15;
+    info.setpoint_tolerance_px = 10;
+    CHECK(
+        run_summary(m, info).outcome.starts_with("The swarm reached 4 of 4 setpoints; the tolerance is "
+                                                 "10.0\u00A0px (5.00\u00A0µm). The swarm settled at "
+                                                 "the last setpoint after 12.0\u00A0s; its rms"));
     CHECK(has(summary.details, "within 6.00\u00A0px (3.00\u00A0µm) of the route in 95 % of the frames"));
   }
   SUBCASE("an incomplete route") {
@@ -268,14 +293,15 @@ TEST_CASE("run report: the summary describes the outcome") {
     m.steady_rms_px = 2;
     m.cross_track_95_px = 6;
     m.settling_band_px = 15;
-    CHECK(has(run_summary(m, info).outcome, "had not reached setpoint 4 of 6; the final distance was 80.0"));
+    m.setpoints_reached = 3;
+    CHECK(run_summary(m, info).outcome ==
+          "The swarm reached 3 of 6 setpoints; the tolerance is 15.0\u00A0px (7.50\u00A0µm). The run ended "
+          "(30.0\u00A0s) before the end of the route: it steered towards setpoint 4, at a distance of "
+          "80.0\u00A0px (40.0\u00A0µm).");
     CHECK(run_summary(m, info).setpoint == "setpoint 4 of 6");
-    m.final_distance_px = 3;
-    CHECK(has(run_summary(m, info).outcome, "had reached setpoint 4 of 6; the final distance was 3.00"));
     m.setpoints = 6;
     m.settling_time_s.reset();
-    CHECK(has(run_summary(m, info).outcome,
-              "did not settle at the last of 6 setpoints: the distance was 3.00"));
+    CHECK(has(run_summary(m, info).outcome, "did not settle at the last setpoint: the distance was 80.0"));
   }
   SUBCASE("a moving setpoint") {
     m.setpoints = 900;

@@ -329,3 +329,17 @@ TEST_CASE("plot: an inlined drawing has no XML namespace, a file has it") {
   plot.inlined = true;
   CHECK(svg(plot).find("http") == std::string::npos);
 }
+
+TEST_CASE("plot: the label of a vertical axis that is longer than the axis has two lines") {
+  Plot plot;
+  plot.y.label = "position along the segment (fraction of the view)";
+  plot.right = SecondScale{2, "position along the segment (thousandths of the view)"};
+  plot.add(Line{.x = {0, 1}, .y = {0, 1}});
+  const std::string drawn = svg(plot);
+  CHECK(drawn.find(">position along the segment</text>") != std::string::npos);
+  CHECK(drawn.find(">(fraction of the view)</text>") != std::string::npos);
+  CHECK(drawn.find(">(thousandths of the view)</text>") != std::string::npos);
+  CHECK(count(drawn, "rotate(-90 -") == 0);  // no line is left of the figure
+  plot.y.label = "position (px)";
+  CHECK(count(svg(plot), ">position (px)</text>") == 1);
+}

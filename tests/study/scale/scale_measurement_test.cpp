@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/random/distributions.h"
 #include "core/toml.h"
 #include "study/pages/scale_report.h"
 #include "study/stats/statistics.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/distributions.h"
 #include "core/error.h"
+#include "core/random/distributions.h"
 
 using namespace faba;
 

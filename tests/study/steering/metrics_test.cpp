@@ -97,7 +97,7 @@ TEST_CASE("metrics: exponential approach: settling time, rise time and integrals
   const double mean = d0 * d0 * std::pow(q, 200) * (1 - std::pow(q, 101)) / (1 - q) / 101;
   CHECK(*m.steady_rms_px == doctest::Approx(std::sqrt(mean)).epsilon(1e-9));
   CHECK(*m.path_length_px == doctest::Approx(d0 * (1 - std::exp(-end / tau))));
-  CHECK_FALSE(m.path_tracking_rms_px);
+  CHECK_FALSE(m.cross_track_rms_px);
 }
 
 TEST_CASE("metrics: the settling band is 10 px when 5 % of the initial error is smaller") {
@@ -173,7 +173,7 @@ TEST_CASE("metrics: no frames") {
   CHECK(metrics_json(m)["dispersion_px"].dump() == "[null,null]");
 }
 
-TEST_CASE("metrics: without a target there is no error, but spread and path length") {
+TEST_CASE("metrics: without a target there is no error, but dispersion and path length") {
   Recording r;
   for (int k = 0; k < 5; ++k) r.frame(0.5 * k, {10.0 + 3 * k, 20.0 + 4 * k}, kNowhere);
   const faba::Metrics m = control_metrics(r.series());
@@ -246,7 +246,7 @@ TEST_CASE("metrics: the cross-track error is the distance to the polyline of set
   for (int k = 0; k < 76; ++k) r.frame(t++, {301, 65.0 + k}, corner[2]);
   const faba::Metrics m = control_metrics(r.series());
   CHECK(m.setpoints == 3);
-  CHECK(*m.path_tracking_rms_px == doctest::Approx(std::sqrt((19 * 9.0 + 76 * 1.0) / 95)));
+  CHECK(*m.cross_track_rms_px == doctest::Approx(std::sqrt((19 * 9.0 + 76 * 1.0) / 95)));
   CHECK(*m.cross_track_95_px == doctest::Approx(3));
 }
 
@@ -272,7 +272,7 @@ TEST_CASE("metrics: cross-track error for a long moving setpoint equals that of 
   }
   const faba::Metrics m = control_metrics(r.series());
   CHECK(m.setpoints == 700);
-  CHECK(*m.path_tracking_rms_px == doctest::Approx(std::sqrt(square / 699)).epsilon(1e-12));
+  CHECK(*m.cross_track_rms_px == doctest::Approx(std::sqrt(square / 699)).epsilon(1e-12));
 }
 
 TEST_CASE("metrics: overshoot and rise time depend on the first setpoint only") {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/philox.h"
+#include "core/random/philox.h"
 
 using namespace faba;
 

@@ -79,7 +79,7 @@ TEST_CASE("crossing cells keep their tracks") {
   }
   TrackerOptions o;
   o.motion = Motion::velocity;
-  o.reach_px = 8;
+  o.search_radius_px = 8;
   Tracker t(o);
   const auto tracks = track_all(t, frames);
   REQUIRE(tracks.size() == 2);
@@ -99,7 +99,7 @@ TEST_CASE("a cell keeps its track after a short gap and starts a new one after a
       frames.push_back(s);
     }
     TrackerOptions o;
-    o.memory = 2;
+    o.max_gap_frames = 2;
     Tracker t(o);
     const auto tracks = track_all(t, frames);
     CHECK(tracks.size() == (gap <= 2 ? 2u : 3u));
@@ -122,7 +122,7 @@ TEST_CASE("tracks start and end with their cells; single spots are not tracks") 
     frames.push_back(s);
   }
   TrackerOptions o;
-  o.reach_px = 6;
+  o.search_radius_px = 6;
   Tracker t(o);
   const auto tracks = track_all(t, frames);
   REQUIRE(tracks.size() == 2);
@@ -157,8 +157,8 @@ TEST_CASE("a thousand swimmers: nearly all links are correct; reach and motion m
   Tracker t;
   const auto tracks = track_all(t, frames);
   CHECK(t.motion() == Motion::velocity);
-  CHECK(t.reach_px() > 4);
-  CHECK(t.reach_px() < 14);
+  CHECK(t.search_radius_px() > 4);
+  CHECK(t.search_radius_px() < 14);
   int right = 0, wrong = 0;
   double length = 0;
   for (const Track& track : tracks)
@@ -199,7 +199,7 @@ TEST_CASE("diffusing particles are tracked with the nearest model") {
 TEST_CASE("uneven frame spacing: velocities are per second, not per frame") {
   TrackerOptions o;
   o.motion = Motion::velocity;
-  o.reach_px = 6;
+  o.search_radius_px = 6;
   Tracker t(o);
   double time = 0;
   for (std::uint64_t k = 0; k < 40; ++k) {
@@ -212,7 +212,7 @@ TEST_CASE("uneven frame spacing: velocities are per second, not per frame") {
 
 TEST_CASE("long tracks are returned in pieces; time must increase") {
   TrackerOptions o;
-  o.most_points = 100;
+  o.max_points = 100;
   Tracker t(o);
   std::size_t points = 0, pieces = 0;
   for (std::uint64_t k = 0; k < 1000; ++k) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/error.h"
 #include "tests/vision/rendered_cells.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -55,9 +56,9 @@ Off swim_off(int n, double noise) {
 
 }  // namespace
 
-// Requirement of camera-based control: centroid within 2 px and spread within 5 % for 200 to 2000 cells at an
-// arc of 25 degrees of a drop edge, at three noise levels, after the background was learnt; and a usable
-// centroid from the first picture.
+// Requirement of camera-based control: centroid within 2 px and dispersion within 5 % for 200 to 2000 cells
+// at an arc of 25 degrees of a drop edge, at three noise levels, after the background was learnt; and a
+// usable centroid from the first picture.
 TEST_CASE("a swarm at the edge of a drop") {
   for (const int n : {200, 600, 2000})
     for (const double noise : {1.0, 4.0, 8.0}) {
@@ -195,4 +196,10 @@ TEST_CASE("a restored archive continues bit-identically") {
   b.take(next, 0.1);
   CHECK(a.weights().px == b.weights().px);
   CHECK(a.moments().centroid_image.x == b.moments().centroid_image.x);
+}
+
+TEST_CASE("the polarity both is refused") {
+  ForegroundOptions o;
+  o.polarity = Polarity::both;
+  CHECK_THROWS_WITH_AS(Foreground{o}, doctest::Contains("must be automatic, dark or bright"), const Error&);
 }

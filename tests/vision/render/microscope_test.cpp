@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "core/philox.h"
+#include "core/random/philox.h"
 #include "tests/rendered_video.h"
 #include "tests/vision/media.h"
 #include "vision/cells/video_ground.h"

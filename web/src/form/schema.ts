@@ -20,7 +20,8 @@ export interface Schema {
   /** Traits of a part, such as "open_loop"; see web/protocol.md. */
   'x-traits'?: string[];
   'x-unit'?: string;
-  'x-source'?: string;
+  /** Source of the default; of a preset: the source of each preset. */
+  'x-source'?: string | Record<string, string>;
   'x-validity'?: string;
   'x-values'?: Record<string, Record<string, any>>;
 }
@@ -36,6 +37,8 @@ export interface Piece {
   /** Reports whether the value at `path` is invalid. */
   onwrong: (path: string, wrong: boolean) => void;
   path: string;
+  /** Error messages of the program by path. */
+  refused?: Record<string, string>;
 }
 
 export type Kind = 'flag' | 'choice' | 'number' | 'integer' | 'text' | 'vector' | 'numbers' | 'points' | 'tables' | 'part' | 'table';
@@ -98,6 +101,63 @@ export function same(a: any, b: any, s: Schema): boolean {
   const p = amount(a, s['x-unit'] ?? ''), q = amount(b, s['x-unit'] ?? '');
   if (p !== null && q !== null) return p === q || Math.abs(p - q) <= 1e-12 * Math.max(Math.abs(p), Math.abs(q));
   return JSON.stringify(a) === JSON.stringify(b);
+}
+
+/**
+ * The preset of a part's table: the one that it names, or the first one with exactly its values, because a resolved scenario has
+ * all values and no preset. Empty if no preset matches.
+ */
+export function presetOf(part: Schema | undefined, table: Record<string, any>): string {
+  if (typeof table.preset === 'string') return table.preset;
+  const { preset, type: _, ...properties } = part?.properties ?? {};
+  return preset?.enum?.find((name) => hasValues(properties, table, preset['x-values']?.[name] ?? {})) ?? '';
+}
+/** Whether all values of the table are the defaults of the schema. */
+export function hasDefaults(part: Schema | undefined, table: Record<string, any>): boolean {
+  const { preset: _, type: __, ...properties } = part?.properties ?? {};
+  return hasValues(properties, table, {});
+}
+function hasValues(properties: Record<string, Schema>, table: Record<string, any>, wanted: Record<string, any>): boolean {
+  return Object.entries(properties).every(([key, s]) => {
+    const is = table[key] ?? s.default, should = wanted[key] ?? s.default;
+    return is === undefined || should === undefined ? is === should : same(is, should, s);
+  });
+}
+
+/**
+ * The text about the source of a value, as arguments of say(): the source of the schema belongs to its default, and the source of a
+ * preset to the values that the preset gives. Null without a source.
+ */
+export function sourceOf(s: Schema, now: any, preset?: { value: any; source: string }): ['form.source' | 'form.default_source', Record<string, string>] | null {
+  const own = typeof s['x-source'] === 'string' ? s['x-source'] : '';
+  const isDefault = s.default === undefined || now === undefined || same(now, s.default, s);
+  if (!isDefault && preset?.source && preset.value !== undefined && same(now, preset.value, s)) return ['form.source', { source: preset.source }];
+  if (!own) return null;
+  return isDefault ? ['form.source', { source: own }] : ['form.default_source', { source: own, value: shown(s.default, s) }];
+}
+
+/**
+ * The path of the input for the place of an error, such as "swarm[0].model.speed": the longest part of the place that the schema
+ * has; empty if it has none. `scenario` gives the types of the parts.
+ */
+export function inputPath(root: Schema, scenario: any, where: string): string {
+  let s = root, value = scenario, path = '';
+  for (const step of where.replace(/^.*: /, '').match(/[^.[\]]+|\[\d+\]/g) ?? []) {
+    if (step.startsWith('[')) {
+      if (kindOf(s) !== 'tables') break; // one input for all values of a vector or list
+      s = s.items!;
+      value = value?.[Number(step.slice(1, -1))];
+      path += step;
+      continue;
+    }
+    const type = typeof value === 'string' ? value : value?.type;
+    const properties = s.oneOf ? variant(s, type)?.properties : s.properties;
+    if (step === 'type' || step === 'preset' || !Object.hasOwn(properties ?? {}, step)) break; // the part itself
+    s = properties![step];
+    value = typeof value === 'object' ? value?.[step] : undefined;
+    path = path ? `${path}.${step}` : step;
+  }
+  return path;
 }
 
 /** Schema of a part by its name. */

@@ -10,8 +10,14 @@ export function saveBlob(b: Blob, name: string) {
 
 const escaped = (s: string) => s.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 
-/** A plot as SVG: lines over time with axes, for publications. */
-export function svgOf(title: string, unit: string, data: ArrayLike<ArrayLike<number | null | undefined>>, lines: { label: string; colour: string }[]): string {
+/** A plot as SVG: lines over time with axes, for publications. `words`: the label of the time axis, and that of an earlier run. */
+export function svgOf(
+  title: string,
+  unit: string,
+  data: ArrayLike<ArrayLike<number | null | undefined>>,
+  lines: { label: string; colour: string }[],
+  words: { time: string; earlier: string },
+): string {
   const w = 640, h = 320, left = 70, right = 12, top = 30, bottom = 44;
   const t = data[0] as ArrayLike<number>;
   let low = Infinity, high = -Infinity;
@@ -35,7 +41,7 @@ export function svgOf(title: string, unit: string, data: ArrayLike<ArrayLike<num
   let out = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${w} ${h}" font-family="sans-serif" font-size="12"><rect width="${w}" height="${h}" fill="#fff"/><text x="${left}" y="18" font-weight="bold">${escaped(title)}</text>`;
   for (const v of ticks(t0, t1)) out += `<path d="M${x(v).toFixed(1)} ${h - bottom}v4" stroke="#333"/><text x="${x(v).toFixed(1)}" y="${h - bottom + 18}" text-anchor="middle">${v}</text>`;
   for (const v of ticks(low, high)) out += `<path d="M${left} ${y(v).toFixed(1)}H${w - right}" stroke="#ddd"/><text x="${left - 6}" y="${(y(v) + 4).toFixed(1)}" text-anchor="end">${v}</text>`;
-  out += `<path d="M${left} ${top}V${h - bottom}H${w - right}" fill="none" stroke="#333"/><text x="${(left + w - right) / 2}" y="${h - 8}" text-anchor="middle">time (s)</text><text transform="translate(14 ${(top + h - bottom) / 2}) rotate(-90)" text-anchor="middle">${escaped(unit)}</text>`;
+  out += `<path d="M${left} ${top}V${h - bottom}H${w - right}" fill="none" stroke="#333"/><text x="${(left + w - right) / 2}" y="${h - 8}" text-anchor="middle">${escaped(words.time)}</text><text transform="translate(14 ${(top + h - bottom) / 2}) rotate(-90)" text-anchor="middle">${escaped(unit)}</text>`;
   for (let c = 1; c < data.length; ++c) {
     const l = lines[(c - 1) % lines.length];
     let d = '', pen = false;
@@ -48,7 +54,7 @@ export function svgOf(title: string, unit: string, data: ArrayLike<ArrayLike<num
         pen = true;
       }
     }
-    out += `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"${c > lines.length ? ' stroke-dasharray="4 4"' : ''}/><text x="${w - right - 4}" y="${top + 14 * c}" text-anchor="end" fill="${l.colour}">${escaped(l.label)}${c > lines.length ? ' (previous run)' : ''}</text>`;
+    out += `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"${c > lines.length ? ' stroke-dasharray="4 4"' : ''}/><text x="${w - right - 4}" y="${top + 14 * c}" text-anchor="end" fill="${l.colour}">${escaped(l.label)}${c > lines.length ? ` (${escaped(words.earlier)})` : ''}</text>`;
   }
   return out + '</svg>\n';
 }

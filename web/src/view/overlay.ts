@@ -49,7 +49,11 @@ export interface Palette {
 const kMap = 48; // squares of the density map along the longer side
 
 export class Overlay {
-  constructor(private g: CanvasRenderingContext2D) {}
+  /** `most`: the word before the maximum of the field. */
+  constructor(
+    private g: CanvasRenderingContext2D,
+    private most: () => string,
+  ) {}
 
   draw(scene: Scene, f: Frame | null, camera: Camera, layers: Layers, marks: Marks, p: Palette, ratio: number) {
     const g = this.g;
@@ -143,7 +147,7 @@ export class Overlay {
         this.arrow(x, y, xy[2 * i] * k, xy[2 * i + 1] * k, ratio);
       }
     g.globalAlpha = 1;
-    this.words(p, `max ${tesla(most)}`, 12 * ratio, 20 * ratio);
+    this.words(p, `${this.most()} ${tesla(most)}`, 12 * ratio, 20 * ratio);
     for (const [x, y] of zeros(f)) {
       const [cx, cy] = camera.toCanvas(x * cellX, y * cellY);
       g.lineWidth = 2 * ratio;

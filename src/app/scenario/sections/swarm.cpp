@@ -17,9 +17,9 @@ Schema<Swarm::Params> Swarm::schema() {
            {.unit = "rad",
             .min = -1000,
             .max = 1000,
-            .doc = "Initial heading of cells that respond to the field, as after alignment by a field: 0 deg "
-                   "right, "
-                   "90 deg up; default: random. The models basic and adapted have no heading"});
+            .doc = "Initial heading of cells that respond to the field, as after alignment by a field, "
+                   "counter-clockwise with y up: 0 deg right, 90 deg up; default: random. The models basic "
+                   "and adapted have no heading"});
 }
 
 std::vector<Swarm> read_swarms(const Node& root, const Parts& parts) {

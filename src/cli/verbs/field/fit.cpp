@@ -7,6 +7,7 @@
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
+#include "cli/progress.h"
 #include "study/pages/field_report.h"
 
 namespace faba::cli {
@@ -26,10 +27,14 @@ void print_fitted(const char* what, const std::array<double, 3>& value, const st
 }
 
 int field_fit(const FieldFitVerb& v, const Common& c) {
-  check_output(v.out, "", v.force, {v.rig, v.measured});
-  check_output(v.picture, ".svg", v.force, {v.rig, v.measured});
+  check_output(v.out, {".toml"}, v.force, {v.rig, v.measured});
+  check_output(v.picture, {".svg"}, v.force, {v.rig, v.measured});
   check_distinct({v.out, v.picture});
-  const FieldFit fit = faba::field_fit(v.rig, v.measured, v.out, v.picture);
+  // The number of evaluations until convergence is not known.
+  Progress bar("fit, evaluations of the field", !c.quiet && !c.json);
+  const FieldFit fit = faba::field_fit(v.rig, v.measured, v.out, v.picture,
+                                       [&](std::uint64_t evaluations) { bar.update(evaluations, 0); });
+  bar.clear();
   if (c.json) {
     fmt::print("{}\n", field_json(fit).dump());
     return 0;
@@ -57,7 +62,7 @@ void add_field_fit(CLI::App& field, CommandLine& line) {
   v->add_option("rig", o->rig, "Coil system: rig file (TOML), with the currents of the measurement")
       ->required();
   v->add_option("--map", o->measured, "Measured field, CSV or HDF5; see `faba parts field map`")->required();
-  v->add_option("-o,--out", o->out, "Write a rig file with the fitted values")->check(not_empty);
+  v->add_option("-o,--out", o->out, "Write a rig file (.toml) with the fitted values")->check(not_empty);
   v->add_option("--picture", o->picture, "Write a plot of the residuals, as SVG")->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
   v->callback([o, &line] { line.code = field_fit(*o, line.common); });

@@ -22,15 +22,17 @@ struct FieldLibraryVerb {
 };
 
 int field_library(const FieldLibraryVerb& v, const Common& c) {
-  check_output(v.out, "", v.force, {v.rig});
+  check_output(v.out, {".h5", ".hdf5"}, v.force, {v.rig});
   FieldLibraryOptions o;
   const Vec2 size = rectangle(v.size);
   o.width = size.x;
   o.height = size.y;
   if (!v.spacing.empty()) o.spacing = metres("--spacing", v.spacing);
-  if (!(o.spacing >= 0))
+  if (!v.spacing.empty() && !(o.spacing > 0))
     throw Error(Errc::usage, "--spacing",
-                fmt::format("{:g} m is negative; it must be at least 0 m", o.spacing));
+                fmt::format("\"{}\" is out of range; it must be positive and at most the longer side of the "
+                            "rectangle ({:g} mm); omit the option for a 64th of this side",
+                            v.spacing, std::max(o.width, o.height) * 1e3));
   if (o.spacing > std::max(o.width, o.height))
     throw Error(Errc::usage, "--spacing",
                 fmt::format("{} is larger than the rectangle ({:g} mm x {:g} mm); use a smaller spacing",
@@ -74,16 +76,21 @@ void add_field_library(CLI::App& field, CommandLine& line) {
       "  faba field library rigs/thesis-four-coils.toml --out four.h5\n"
       "  faba field library rigs/thesis-two-coils.toml --size \"1 mm, 1 mm\" --levels 200 --out two.h5");
   add_rig_file(v, o->rig);
-  v->add_option("-o,--out", o->out, "HDF5 file to write; an interrupted computation is resumed")
+  v->add_option("-o,--out", o->out,
+                "HDF5 file (.h5 or .hdf5) to write; an interrupted computation is resumed")
       ->required()
       ->check(not_empty);
-  v->add_option("--size", o->size, "Width and height of the rectangle of the zeros");
+  v->add_option("--size", o->size,
+                "Width and height of the rectangle of the zeros; default: \"" + o->size + '"');
   v->add_option("--spacing", o->spacing, "Spacing of the grid; default: a 64th of the longer side")
       ->check(not_empty);
-  v->add_option("--levels", o->levels, "Number of steps from zero current to the maximum")
-      ->check(CLI::Range(1, 100000));
+  v->add_option(
+       "--levels", o->levels,
+       "Number of steps from zero current to the maximum; default: the largest number up to 100 with at most "
+       "4 million sets of currents")
+      ->check(integers(1, 100000));
   v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
-      ->check(CLI::Range(1u, 1024u));
+      ->check(integers(1, 1024));
   v->add_flag("--force", o->force, "Replace an existing library");
   v->callback([o, &line] { line.code = field_library(*o, line.common); });
 }

@@ -63,11 +63,9 @@ int field_map(const FieldMapVerb& v, const Common& c) {
   if (!v.check) {
     o.picture = v.picture;
     o.hdf5 = v.out;
-    check_output(o.picture, "", v.force, {v.rig});
-    check_output(o.hdf5, "", v.force, {v.rig});
     check_distinct({o.picture, o.hdf5});
-    if (!o.picture.empty() && o.picture.extension() != ".png")
-      throw Error(Errc::usage, o.picture.string(), "the file extension must be .png");
+    check_output(o.picture, {".png"}, v.force, {v.rig});
+    check_output(o.hdf5, {".h5", ".hdf5"}, v.force, {v.rig});
   }
   const FieldMap map = faba::field_map(v.rig, o);
   if (c.json) {
@@ -93,11 +91,14 @@ void add_field_map(CLI::App& field, CommandLine& line) {
   add_rig_file(v, o->rig);
   v->add_option("--current", o->current,
                 "Currents in A, one per coil: 0.5,0.5,0,0; default: `current` of each coil");
-  v->add_option("--size", o->size, "Width and height of the rectangle around the centre");
-  v->add_option("--view", o->view, "Width and height of the camera view, to draw it")->check(not_empty);
-  v->add_option("--drop", o->drop, "Radius of the drop, to draw it")->check(not_empty);
-  v->add_option("--picture", o->picture, "Picture to write, as PNG")->check(not_empty);
-  v->add_option("-o,--out", o->out, "HDF5 file to write")->check(not_empty);
+  v->add_option("--size", o->size,
+                "Width and height of the rectangle around the centre; default: \"" + o->size + '"');
+  v->add_option("--view", o->view, "Width and height of the camera view, to draw it; default: not drawn")
+      ->check(not_empty);
+  v->add_option("--drop", o->drop, "Radius of the drop, to draw it; default: not drawn")->check(not_empty);
+  v->add_option("--picture", o->picture, "Picture to write, as PNG; default: " + o->picture.string())
+      ->check(not_empty);
+  v->add_option("-o,--out", o->out, "HDF5 file (.h5 or .hdf5) to write; default: none")->check(not_empty);
   v->add_flag("--check", o->check,
               "Write nothing; print the error of the field table that a simulation would use");
   v->add_flag("--force", o->force, "Replace existing files");

@@ -39,8 +39,9 @@ void add_field_null(CLI::App& field, CommandLine& line) {
            "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\"\n"
            "  faba field null rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --polarity south");
   add_rig_file(v, o->rig);
-  v->add_option("--at", o->at, "Position in the plane of the sample, x and y");
-  v->add_option("--polarity", o->polarity, "Cells to trap: north-seeking or south-seeking")
+  v->add_option("--at", o->at, "Position in the plane of the sample, x and y; default: \"" + o->at + '"');
+  v->add_option("--polarity", o->polarity,
+                "Cells to trap: north-seeking or south-seeking; default: " + o->polarity)
       ->check(one_of({"north", "south"}));
   v->callback([o, &line] { line.code = field_null(*o, line.common); });
 }

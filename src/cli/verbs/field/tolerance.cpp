@@ -18,7 +18,7 @@ struct FieldToleranceVerb {
 };
 
 int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
-  check_output(v.picture, ".svg", v.force, {v.rig});
+  check_output(v.picture, {".svg"}, v.force, {v.rig});
   const FieldTolerance tolerance = faba::field_tolerance(v.rig, position("--at", v.at), v.picture);
   if (c.json) {
     fmt::print("{}\n", field_json(tolerance).dump());
@@ -45,7 +45,8 @@ void add_field_tolerance(CLI::App& field, CommandLine& line) {
            "  faba field tolerance rigs/thesis-two-coils.toml\n"
            "  faba field tolerance rigs/thesis-four-coils.toml --at \"1 mm, 0 mm\" --picture tolerance.svg");
   add_rig_file(v, o->rig);
-  v->add_option("--at", o->at, "Position of the zero in the plane of the sample, x and y");
+  v->add_option("--at", o->at,
+                "Position of the zero in the plane of the sample, x and y; default: \"" + o->at + '"');
   v->add_option("--picture", o->picture, "Plot to write, as SVG")->check(not_empty);
   v->add_flag("--force", o->force, "Replace an existing plot");
   v->callback([o, &line] { line.code = field_tolerance(*o, line.common); });

@@ -89,13 +89,16 @@ void add_rig_capture(CLI::App& rig, CommandLine& line) {
       ->check(not_empty);
   v->add_option("--format", o->format, "Format of numbered pictures in a folder; default: png")
       ->check(one_of({"png", "pgm", "ppm", "tiff"}));
-  v->add_option("--frames", o->frames,
-                "Stop after this number of camera frames, or after --for if that is earlier")
-      ->check(CLI::Range(std::uint64_t(1), std::uint64_t(1) << 40));
+  v->add_option(
+       "--frames", o->frames,
+       "Stop after this number of camera frames, or after --for if that is earlier; default: on Ctrl-C")
+      ->check(integers(1, std::int64_t(1) << 40));
   v->add_option("--for", o->time, "Stop after this time, such as \"10 s\"; default: on Ctrl-C");
   CLI::Option* one_of =
-      v->add_option("--one-of", o->one_of, "Keep one of N frames")->check(CLI::Range(1, 1000000));
-  v->add_option("--every", o->every, "Keep one frame per time interval, such as \"500 ms\"")
+      v->add_option("--one-of", o->one_of, fmt::format("Keep one of N frames; default: {}", o->one_of))
+          ->check(integers(1, 1000000));
+  v->add_option("--every", o->every,
+                "Keep one frame per time interval, such as \"500 ms\"; default: frames as by --one-of")
       ->excludes(one_of);
   v->add_flag("--buffered", o->buffered, "Keep pictures in memory and write them at the end, for slow disks");
   v->add_flag("--force", o->run.force, "Replace an existing video");

@@ -184,7 +184,8 @@ void add_rig_jog(CLI::App& rig, CommandLine& line) {
   CLI::App* v = verb(rig, line, "jog", "Set coil currents manually from the keyboard",
                      "  faba rig jog scenes/bench.toml --step \"20 mA\"");
   add_bench_scene(v, o->run);
-  v->add_option("--step", o->step, "Change of the current per key")->check(not_empty);
+  v->add_option("--step", o->step, "Change of the current per key; default: \"" + o->step + '"')
+      ->check(not_empty);
   v->callback([o, &line] { line.code = rig_jog(*o, line.common); });
 }
 

@@ -96,7 +96,8 @@ void add_rig_run(CLI::App& rig, CommandLine& line) {
   add_bench_scene(v, o->run);
   add_arm(v, o->arm);
   v->add_option("-o,--out", o->run.out, "Run directory; default: runs/SCENE-bench")->check(not_empty);
-  v->add_option("--duration", o->run.duration, "Duration of the run, such as \"10 s\"");
+  v->add_option("--duration", o->run.duration,
+                "Duration of the run, such as \"10 s\"; default: that of the scenario");
   v->add_flag("--force", o->run.force, "Replace an earlier run in the directory");
   v->callback([o, &line] { line.code = rig_run(*o, line.common); });
 }

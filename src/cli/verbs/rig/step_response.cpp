@@ -87,10 +87,13 @@ void add_rig_step_response(CLI::App& rig, CommandLine& line) {
                 "Directory of the study, which may contain earlier responses; default: runs/SCENE-response")
       ->check(not_empty);
   v->add_option("--exposure", o->exposure,
-                "Air exposure time of the sample at the start of the command, such as \"90 s\"");
-  v->add_option("--repeat", o->repeat, "Number of responses");
+                "Air exposure time of the sample at the start of the command, such as \"90 s\"; default: "
+                "exposure in the scenario");
+  v->add_option("--repeat", o->repeat,
+                "Number of responses; default: rig.step_response.repeat in the scenario");
   v->add_option("--every", o->every,
-                "Time from the start of one response to the start of the next, such as \"80 s\"");
+                "Time from the start of one response to the start of the next, such as \"80 s\"; default: "
+                "rig.step_response.every in the scenario");
   v->add_option("--experiment", o->experiment, "Name of the drop; default: a number")->check(not_empty);
   v->callback([o, &line] { line.code = rig_step_response(*o, line.common); });
 }

@@ -92,20 +92,24 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
 }
 
 Figure heading_figure(const TrackSummary& s) {
-  Figure f{"Direction over time",
-           "Dots: direction of the mean velocity in the picture (0 right, 90 degrees down), at times with "
-           "significant common motion. Line: order parameter, the length of the mean displacement over the "
-           "mean length of the displacements, from 0 (bottom) to 1 (top).",
-           {}};
+  Figure f{
+      "Direction over time",
+      "Dots: direction of the mean velocity in the picture (clockwise: 0 right, 90 degrees down), at times "
+      "with "
+      "significant common motion (left axis). Line: order parameter, the length of the mean displacement "
+      "over the mean length of the displacements (right axis): 0 for random directions, 1 for one direction.",
+      {}};
   f.plot.description = "Mean heading over time";
   f.plot.inlined = true;
   f.plot.x.label = "time (s)";
-  f.plot.y.label = "heading (degrees)";
+  f.plot.y.label = "heading (degrees, clockwise)";
   f.plot.y.lo = -180;
   f.plot.y.hi = 180;
+  // The curve is drawn in units of the right axis, from 0 to 1.
+  f.plot.right = SecondScale{1.0 / 360, "order parameter", 0.5};
   Scatter heading{{}, {}, "heading", Ink::blue};
   heading.size = 4;
-  Line order{{}, {}, "order parameter (bottom: 0, top: 1)", Ink::orange};
+  Line order{{}, {}, "order parameter (right axis)", Ink::orange};
   order.width = 1.2;
   for (std::size_t i = 0; i < s.time_s.size(); ++i) {
     order.x.push_back(s.time_s[i]);

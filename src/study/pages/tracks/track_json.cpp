@@ -117,10 +117,10 @@ Json detection_of(const TrackDetection& d) {
 }
 
 Json joining_of(const TrackJoining& t) {
-  return {{"reach_px", t.reach_px},
+  return {{"reach_px", t.search_radius_px},
           {"motion", word_of(t.motion)},
-          {"memory_frames", t.memory_frames},
-          {"least_points", t.least_points},
+          {"memory_frames", t.max_gap_frames},
+          {"least_points", t.min_points},
           {"discarded_tracks", t.discarded_tracks}};
 }
 

@@ -99,6 +99,21 @@ std::string cards(const TrackMeasurement& m) {
   return out + localisation_card(s) + "</dl>\n";
 }
 
+/// The rate of turn, and whether it exceeds what the localisation error alone gives by two standard errors.
+std::string turning(const TrackSummary& s) {
+  const Estimated& turn = s.turn_deg_s;
+  const double error = std::isfinite(turn.se) ? turn.se : 0;
+  const std::string noise = number(s.turn_noise_deg_s, "°/s");
+  if (turn.value - 2 * error > s.turn_noise_deg_s) {
+    return fmt::format("mean absolute rate {}; {} from the localisation error alone",
+                       estimate(turn, 1, "°/s"), noise);
+  }
+  return fmt::format(
+      "not distinguishable from zero: the mean absolute rate is {}, and the localisation error alone gives "
+      "{}",
+      estimate(turn, 1, "°/s"), noise);
+}
+
 std::string table(const TrackMeasurement& m) {
   const TrackDetection& d = m.detection;
   const TrackJoining& t = m.joining;
@@ -113,18 +128,15 @@ std::string table(const TrackMeasurement& m) {
   out += row("Background", d.temporal ? fmt::format("median of {} frames, with {} stationary spots",
                                                     d.background_frames, d.stationary_spots)
                                       : "spatial, from each frame");
-  out += row(
-      "Linking",
-      fmt::format("reach {}, motion model {}, memory {} frames; {} tracks with fewer than {} points ignored",
-                  number(t.reach_px, " px"), word_of(t.motion), t.memory_frames, t.discarded_tracks,
-                  t.least_points));
+  out += row("Linking", fmt::format("search radius {}, motion model {}, gaps of at most {} frames; {} tracks "
+                                    "with fewer than {} points ignored",
+                                    number(t.search_radius_px, " px"), word_of(t.motion), t.max_gap_frames,
+                                    t.discarded_tracks, t.min_points));
   out += row("Drift", drift(m));
   out += row("Diffusion", diffusion(m));
   out += row("Persistent walk", walk_speed(m) + ", persistence time " + walk_time(m));
   out += row("Exponent α", std::isfinite(s.alpha.value) ? with_error(s.alpha, 1) : "–");
-  if (s.turn_count > 0)
-    out += row("Turning", fmt::format("mean {}; {} from the localisation error alone",
-                                      number(s.turn_deg_s.value, "°/s"), number(s.turn_noise_deg_s, "°/s")));
+  if (s.turn_count > 0) out += row("Turning", turning(s));
   return out + "</tbody></table>\n";
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/draw_blocks.h"
 #include "core/portable_math.h"
+#include "core/random/draw_blocks.h"
 #include "core/vectorised.h"
 
 namespace faba {

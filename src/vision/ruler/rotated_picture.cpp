@@ -1,4 +1,4 @@
-#include "vision/ruler/turned_picture.h"
+#include "vision/ruler/rotated_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@ float sample(const GrayF& picture, Vec2 p) {
 
 }  // namespace
 
-TurnedPicture::TurnedPicture(const GrayF& picture, double angle)
+RotatedPicture::RotatedPicture(const GrayF& picture, double angle)
     : cos_(std::cos(angle)),
       sin_(std::sin(angle)),
       centre_image_{(picture.width - 1) / 2.0, (picture.height - 1) / 2.0} {
@@ -41,16 +41,16 @@ TurnedPicture::TurnedPicture(const GrayF& picture, double angle)
     for (int c = 0; c < px_.width; ++c) px_.at(c, r) = sample(picture, image(first_s() + c, first_t() + r));
 }
 
-Vec2 TurnedPicture::image(double s, double t) const {
+Vec2 RotatedPicture::image(double s, double t) const {
   return {centre_image_.x + s * cos_ - t * sin_, centre_image_.y + s * sin_ + t * cos_};
 }
 
-Vec2 TurnedPicture::turned(Vec2 image) const {
+Vec2 RotatedPicture::rotated(Vec2 image) const {
   const Vec2 d = image - centre_image_;
   return {d.x * cos_ + d.y * sin_, d.y * cos_ - d.x * sin_};
 }
 
-std::vector<double> TurnedPicture::profile(double t, int height) const {
+std::vector<double> RotatedPicture::profile(double t, int height) const {
   const int top = int(std::lround(t - first_t() - (height - 1) / 2.0));
   if (height < 1 || top < 0 || top + height > px_.height) return {};
   std::vector<double> mean(std::size_t(px_.width), 0.0);

@@ -15,6 +15,7 @@ namespace faba {
 /// r is the distance from the picture centre. The waves have mean square 1, wavelengths between one and two
 /// times the longer side of the picture, and directions and phases drawn from `seed`. w^2 = edge_width^2 +
 /// psf_sd^2. `edge`: the drop, image frame, px; radius 0: no drop.
-GrayF lit_ground(const MicroscopeParams& p, const Frame& frame, const Circle& edge, std::uint64_t seed);
+GrayF illuminated_background(const MicroscopeParams& p, const Frame& frame, const Circle& edge,
+                             std::uint64_t seed);
 
 }  // namespace faba

@@ -1,11 +1,11 @@
-#include "vision/render/lit_ground.h"
+#include "vision/render/illuminated_background.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "core/draw_blocks.h"
 #include "core/portable_math.h"
+#include "core/random/draw_blocks.h"
 
 namespace faba {
 namespace {
@@ -63,7 +63,8 @@ void add_edge(const MicroscopeParams& p, double m_per_px, const Circle& edge, Gr
 
 }  // namespace
 
-GrayF lit_ground(const MicroscopeParams& p, const Frame& frame, const Circle& edge, std::uint64_t seed) {
+GrayF illuminated_background(const MicroscopeParams& p, const Frame& frame, const Circle& edge,
+                             std::uint64_t seed) {
   GrayF ground(frame.width, frame.height);
   const Vec2 middle{(frame.width - 1) / 2.0, (frame.height - 1) / 2.0};
   const double corner = std::max(dot(middle, middle), 1e-9);

@@ -8,11 +8,11 @@ namespace faba {
 
 /// A picture rotated about its centre, so that a given direction is along the rows. Rotated frame: s to the
 /// right along `angle` of the picture, t across it, both in px of the picture and zero at its centre.
-class TurnedPicture {
+class RotatedPicture {
  public:
   /// `angle`: rad, from the x axis of the picture towards its y axis (clockwise as displayed). Cubic
   /// interpolation (Catmull-Rom); NaN outside the picture.
-  TurnedPicture(const GrayF& picture, double angle);
+  RotatedPicture(const GrayF& picture, double angle);
 
   /// Grey profile along s, averaged over `height` rows around t; NaN where one of them is outside the
   /// picture. Element i belongs to s = first_s() + i. Empty when the strip leaves the rotated picture.
@@ -25,7 +25,7 @@ class TurnedPicture {
   /// Position in the picture of a point of the rotated frame.
   Vec2 image(double s, double t) const;
   /// The inverse: (s, t) of a position in the picture.
-  Vec2 turned(Vec2 image) const;
+  Vec2 rotated(Vec2 image) const;
 
  private:
   double cos_, sin_;

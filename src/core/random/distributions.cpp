@@ -1,4 +1,4 @@
-#include "core/distributions.h"
+#include "core/random/distributions.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/distributions.h"
+#include "core/random/distributions.h"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,55 @@
+// Texts of the program as the page shows them: units with the letter µ, and Portuguese where the page has a translation.
+
+import { RequestError } from './connection';
+import { kProgram, type Say, type Word } from './i18n';
+
+/**
+ * Writes the prefix micro as µ: "23 uT" becomes "23 µT". Keys such as um_per_px do not change. `us` is a unit only after a
+ * number.
+ */
+export const micro = (text: string) =>
+  text.replace(/(?<![\w.`-])u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))/g, 'µ').replace(/(?<=\d ?)u(?=s\b)/g, 'µ');
+
+/** The translation of a fixed text of the program; undefined without a translation. */
+function translated(text: string, say: Say): string | undefined {
+  const all = kProgram[say.language];
+  return Object.hasOwn(all, text) ? all[text] : undefined;
+}
+/** A message of the program in the language of the page. The Portuguese word "um" is not a unit. */
+export const programText = (text: string, say: Say) => translated(text, say) ?? micro(text);
+
+/** The title of a job, "activity: file": its verb in the language of the page. */
+export function jobTitle(title: string, say: Say): string {
+  const colon = title.indexOf(': ');
+  const verb = colon < 0 ? undefined : translated(title.slice(0, colon), say);
+  return verb === undefined ? title : verb + title.slice(colon);
+}
+
+/** A failure as one line: its place, and the reason. */
+export function failureText(t: { where?: string; what?: string; word?: Word }, say: Say): string {
+  const what = t.word ? say(t.word) : programText(t.what ?? '', say);
+  return t.where ? `${t.where}: ${what}` : what;
+}
+
+/** An exception as a negative answer of the program. */
+export function failure(e: unknown): { ok: false; where: string; what: string; word?: Word } {
+  if (e instanceof RequestError) return { ok: false, where: e.where, what: e.what, word: e.word };
+  return { ok: false, where: '', what: (e as Error).message };
+}
+/** An exception as one line. */
+export const reason = (e: unknown, say: Say) => failureText(failure(e), say);
+
+/** The place of an error in an imported file: it names the file once. */
+export const placeInFile = (file: string, where: string) => (where === file || where.startsWith(`${file}:`) ? where : where ? `${file}: ${where}` : file);
+
+export interface TextPart {
+  text: string;
+  code: boolean;
+}
+/** Splits a description into text and code, which is in `backticks`. */
+export function withCode(text: string): TextPart[] {
+  const parts = text.split('`');
+  // Without a closing backtick the last one is a character.
+  if (parts.length % 2 === 0) parts.splice(-2, 2, parts.slice(-2).join('`'));
+  return parts.map((part, i) => ({ text: i % 2 ? part : micro(part), code: i % 2 === 1 })).filter((part) => part.text !== '');
+}
