@@ -41,11 +41,9 @@ struct Shot {
   double t_s = 0;
 };
 
-/// Frames at equal time intervals from a video of unknown length: every 2^k-th frame is kept, and every
-/// second kept frame is dropped when the maximum number is reached.
-std::vector<Shot> shots_of(const std::filesystem::path& video) {
-  VideoReader reader(video);
-  const int n = std::max(1, (reader.width() + kMaxFrameWidth - 1) / kMaxFrameWidth);
+/// Of a video whose number of frames is not stated: every 2^k-th frame is kept, and every second kept frame
+/// is dropped when the maximum number is reached.
+std::vector<Shot> shots_of_all(VideoReader& reader, int n) {
   std::vector<Shot> kept;
   Shot shot;  // holds the last frame after the end
   std::size_t every = 1;
@@ -72,6 +70,36 @@ std::vector<Shot> shots_of(const std::filesystem::path& video) {
   return chosen;
 }
 
+/// Of a video of `seconds`: frames at about equal time intervals. A key frame is taken if it is near enough,
+/// because other frames need all frames since the last key frame to be decoded.
+std::vector<Shot> shots_of(VideoReader& reader, int n, double seconds) {
+  constexpr double kNear = 0.2;  // of the interval
+  const double interval = seconds / double(kStripFrames - 1);
+  std::vector<Shot> chosen;
+  Shot shot;
+  for (std::size_t i = 0; i < kStripFrames; ++i) {
+    const bool last = i + 1 == kStripFrames;
+    const double t = interval * double(i), from = last ? seconds - 0.5 / reader.fps() : t - kNear * interval;
+    if (i > 0 && shot.t_s >= from) continue;  // of a video with fewer frames than the strip
+    reader.skip_to(t);
+    bool any = false;
+    while (reader.read_colours(shot.picture, shot.t_s)) {
+      any = true;
+      if (shot.t_s >= from) break;
+    }
+    if (any) chosen.push_back({averaged(shot.picture, n), shot.t_s});
+  }
+  return chosen;
+}
+
+std::vector<Shot> shots_of(const std::filesystem::path& video) {
+  VideoReader reader(video);
+  const int n = std::max(1, (reader.width() + kMaxFrameWidth - 1) / kMaxFrameWidth);
+  const std::int64_t frames = reader.frames_in_header();
+  if (frames < 1 || reader.fps() <= 0) return shots_of_all(reader, n);
+  return shots_of(reader, n, double(frames - 1) / reader.fps());
+}
+
 }  // namespace
 
 std::string frame_strip(const std::filesystem::path& video) {
@@ -87,7 +115,8 @@ std::string frame_strip(const std::filesystem::path& video) {
     out += fmt::format("<p>{}{}\u00A0s</p>\n",
                        inline_picture(s.picture, fmt::format("Frame at {} s", three_digits(s.t_s))),
                        three_digits(s.t_s));
-  return out + "</div>\n<figcaption>Frames of the video at equal time intervals.</figcaption>\n</figure>\n";
+  return out +
+         "</div>\n<figcaption>Frames of the video at about equal time intervals.</figcaption>\n</figure>\n";
 }
 
 }  // namespace faba

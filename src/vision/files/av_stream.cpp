@@ -6,16 +6,14 @@ extern "C" {
 }
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <deque>
 #include <string_view>
 #include <utility>
 
 #include "core/error.h"
+#include "vision/files/av_format.h"
 #include "vision/files/frame_grey.h"
 #include "vision/files/libav.h"
 
@@ -33,47 +31,6 @@ struct CloseIo {
 };
 using Io = std::unique_ptr<AVIOContext, CloseIo>;
 
-// Formats that libavformat accepts for arbitrary bytes (text art, raw data), and formats that refer to other
-// files.
-bool is_refused_format(std::string_view kind) {
-  constexpr std::array<std::string_view, 12> kRefused = {
-      "tty", "bin", "xbin", "adf", "idf", "rawvideo", "hls", "concat", "dash", "applehttp", "sdp", "imf"};
-  return std::find(kRefused.begin(), kRefused.end(), kind) != kRefused.end();
-}
-
-bool is_still(std::string_view kind) { return kind.ends_with("_pipe") || kind == "image2"; }
-
-// An AVI header stores the file size; libavformat does not compare it with the actual size.
-bool is_avi_truncated(const std::filesystem::path& path) {
-  std::array<unsigned char, 8> head{};
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(head.data()), head.size())) return false;
-  std::uint64_t stated = 8;
-  for (unsigned i = 0; i < 4; ++i) stated += std::uint64_t{head[4 + i]} << (8 * i);
-  return stated > std::filesystem::file_size(path) + 1;  // the last chunk may lack its padding byte
-}
-
-// The decoder pads a JPEG without end marker. The markers FF DA (start of scan) and FF D9 (end of image)
-// cannot occur inside entropy-coded data.
-bool is_jpeg_truncated(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-  const auto scan = bytes.rfind("\xFF\xDA");
-  return scan == std::string::npos || bytes.find("\xFF\xD9", scan) == std::string::npos;
-}
-
-// FFmpeg decodes PGM and PPM with any white space in the header, but detects only headers with one field per
-// line.
-const AVInputFormat* portable_map(AVIOContext& io) {
-  unsigned char magic[3] = {};
-  const int read = avio_read(&io, magic, 3);
-  avio_seek(&io, 0, SEEK_SET);
-  if (read < 3 || magic[0] != 'P' || std::isspace(magic[2]) == 0) return nullptr;
-  return magic[1] == '5'   ? av_find_input_format("pgm_pipe")
-         : magic[1] == '6' ? av_find_input_format("ppm_pipe")
-                           : nullptr;
-}
-
 }  // namespace
 
 struct AvStream::Impl {
@@ -81,6 +38,8 @@ struct AvStream::Impl {
   Io io;  // declared before the container, which reads through it
   Container container;
   Codec codec;
+  // Packets that skip_to() has read, from a key frame on. They are taken before those of the file.
+  std::deque<Packet> skimmed;
   // One packet is held back: only the next read reports whether it was truncated.
   Packet held{av_packet_alloc()}, incoming{av_packet_alloc()};
   Frame frame{av_frame_alloc()};
@@ -94,6 +53,7 @@ struct AvStream::Impl {
   // After damage: frames predicted from a lost frame are wrong as well.
   bool need_key_packet = false, need_key_frame = false;
   std::int64_t damaged = 0, delivered = 0;
+  std::int64_t sent = 0;  // packets: sent to the decoder, or dropped by skip_to()
   std::string damage;
   std::int64_t first_stamp = AV_NOPTS_VALUE;
   double last_t = 0;
@@ -105,6 +65,9 @@ struct AvStream::Impl {
   bool next(RawFrame& out, double& t_s);  // `out` is valid until the next call
   void feed();
   bool read_packet();
+  bool take_packet();
+  std::int64_t skip_to(double t_s);
+  double time_of_packet(const AVPacket& packet, std::int64_t index) const;
   void end_of_file(int result);
   void send(AVPacket& packet);
   void note_damage(const std::string& why);
@@ -166,6 +129,7 @@ void AvStream::Impl::open_codec() {
   frame_waiting = decode();
   if (!frame_waiting)
     refuse("is damaged or truncated: no complete frame" + (damage.empty() ? "" : "; " + damage));
+  first_stamp = frame->best_effort_timestamp;
   width = frame->width;
   height = frame->height;
   pixel_bits = grey_bits(frame->format);
@@ -211,13 +175,64 @@ bool AvStream::Impl::decode() {
 
 // Sends one packet to the decoder, or the end-of-stream signal.
 void AvStream::Impl::feed() {
-  while (!all_read) {
-    const bool more = read_packet();
+  while (!all_read || !skimmed.empty() || holding) {
+    const bool more = take_packet();
     std::swap(held, incoming);
     const bool ready = std::exchange(holding, more);
     if (ready) return send(*incoming);
   }
   avcodec_send_packet(codec.get(), nullptr);
+}
+
+// The next packet into `incoming`: of those that skip_to() has read, then of the file.
+bool AvStream::Impl::take_packet() {
+  if (skimmed.empty()) return read_packet();
+  av_packet_unref(incoming.get());
+  av_packet_move_ref(incoming.get(), skimmed.front().get());
+  skimmed.pop_front();
+  return true;
+}
+
+double AvStream::Impl::time_of_packet(const AVPacket& packet, std::int64_t index) const {
+  const std::int64_t stamp = packet.pts != AV_NOPTS_VALUE ? packet.pts : packet.dts;
+  if (stamp == AV_NOPTS_VALUE || first_stamp == AV_NOPTS_VALUE) return static_cast<double>(index) / fps;
+  return static_cast<double>(stamp - first_stamp) * av_q2d(stream->time_base);
+}
+
+// Reads packets up to the time `t_s` without decoding them, and drops those before the last key frame.
+// Nothing is skipped after damage, because the numbers of packets and frames differ then.
+std::int64_t AvStream::Impl::skip_to(double t_s) {
+  constexpr std::size_t kMaxKept = std::size_t{64} << 20;  // bytes between two key frames, in memory
+  constexpr double kRounding = 1e-6;                       // s, of times that are computed from time stamps
+  if (still || fps <= 0 || damaged > 0 || (all_read && skimmed.empty())) return 0;
+  std::deque<Packet> kept;
+  std::size_t bytes = 0;
+  std::int64_t dropped = 0, index = sent;
+  bool from_key = false;  // `kept` begins with a key frame
+  bool more = std::exchange(holding, false);
+  if (more) std::swap(incoming, held);
+  for (more = more || take_packet(); more; more = bytes < kMaxKept && take_packet()) {
+    const double t = time_of_packet(*incoming, index++);
+    if ((incoming->flags & AV_PKT_FLAG_KEY) != 0 && t <= t_s + kRounding) {
+      dropped += static_cast<std::int64_t>(kept.size());
+      kept.clear();
+      bytes = 0;
+      from_key = true;
+    }
+    bytes += static_cast<std::size_t>(incoming->size);
+    kept.emplace_back(av_packet_alloc());
+    av_packet_move_ref(kept.back().get(), incoming.get());
+    if (t >= t_s) break;
+  }
+  for (; !kept.empty(); kept.pop_back()) skimmed.push_front(std::move(kept.back()));
+  if (!from_key) return 0;
+  avcodec_flush_buffers(codec.get());
+  frame_waiting = false;
+  sent += dropped;
+  const std::int64_t skipped = sent - delivered;
+  delivered = sent;
+  last_t = static_cast<double>(delivered - 1) / fps;
+  return skipped;
 }
 
 // Reads the next packet of the stream into `incoming`. At the end of a truncated file the held packet is
@@ -237,6 +252,7 @@ bool AvStream::Impl::read_packet() {
 }
 
 void AvStream::Impl::send(AVPacket& packet) {
+  ++sent;
   const bool key = (packet.flags & AV_PKT_FLAG_KEY) != 0;
   if ((packet.flags & AV_PKT_FLAG_CORRUPT) != 0) {
     note_damage("a frame is incomplete");
@@ -322,6 +338,8 @@ bool AvStream::Impl::next(RawFrame& out, double& t_s) {
   ++delivered;
   return true;
 }
+
+std::int64_t AvStream::skip_to(double t_s) { return impl_->skip_to(t_s); }
 
 bool AvStream::read(GrayF& frame, double& t_s) {
   RawFrame raw;

@@ -29,6 +29,7 @@ struct VideoReader::Impl {
 
   bool read_page(GrayF& frame, double& t_s);
   double rescaled(double t_s) const;  // time of a stack or stream at the overridden rate
+  double rescale() const;
 };
 
 bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
@@ -104,10 +105,16 @@ const std::string& VideoReader::damage() const {
   return impl_->stack ? impl_->stack_damage : impl_->stream->damage();
 }
 
-double VideoReader::Impl::rescaled(double t_s) const {
-  if (!(fps > 0)) return t_s;
+double VideoReader::Impl::rescale() const {
+  if (!(fps > 0)) return 1;
   const double stated = stack ? stack->fps() : stream->fps();
-  return t_s * ((stated > 0 ? stated : 1) / fps);
+  return (stated > 0 ? stated : 1) / fps;
+}
+
+double VideoReader::Impl::rescaled(double t_s) const { return t_s * rescale(); }
+
+std::int64_t VideoReader::skip_to(double t_s) {
+  return impl_->stream ? impl_->stream->skip_to(t_s / impl_->rescale()) : 0;
 }
 
 bool VideoReader::read(GrayF& frame, double& t_s) {

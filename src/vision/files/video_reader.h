@@ -43,6 +43,11 @@ class VideoReader {
   /// Number of frames according to the file header, for progress bars only; 0 when unknown.
   std::int64_t frames_in_header() const;
 
+  /// Skips frames without decoding them, for readers that need no frame before the time `t_s`: the next frame
+  /// is the last key frame not after `t_s`. Returns the number of skipped frames; 0 if there is no such key
+  /// frame ahead, and for TIFF stacks and picture sequences. Damage in skipped frames is not detected.
+  std::int64_t skip_to(double t_s);
+
   /// Reads the next frame into `frame` (resized as needed) and its presentation time in s. The first frame
   /// has time 0; times come from the time stamps of the file, so variable frame rates are supported. Without
   /// time stamps t_s is frame / fps(), or the frame index when fps() is 0. Returns false after the last

@@ -8,7 +8,7 @@
 
 #include "core/h5/h5.h"
 #include "core/parallel.h"
-#include "core/splitmix.h"
+#include "core/random/splitmix64.h"
 #include "tests/app/run_directory.h"
 
 using namespace faba;

@@ -252,6 +252,62 @@ TEST_CASE("no error concealment: after damage, frames are skipped until the next
   }
 }
 
+TEST_CASE(
+    "skip_to: the next frame is the last key frame not after the time, and all frames after it follow") {
+  const media::ScratchFolder folder;
+  constexpr int kFrames = 47;
+  for (const VideoFormat format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
+    const auto video =
+        record(folder, format, kFrames);  // 10 frames per second; mp4 has a key frame each second
+    VideoReader whole(video);
+    const std::vector<GrayF> all = read_all(whole);
+    REQUIRE(all.size() == kFrames);
+    const int group = format == VideoFormat::mp4 ? 10 : 1;
+    for (const double t : {0.0, 0.05, 0.9, 1.0, 1.05, 2.99, 4.6, 100.0})
+      for (const int before : {0, 1, 7, 12}) {
+        INFO("to ", t, " after ", before, " frames");
+        VideoReader reader(video);
+        GrayF grey;
+        double t_s = 0;
+        for (int i = 0; i < before; ++i) REQUIRE(reader.read(grey, t_s));
+        const int key = std::min(kFrames - 1, int(t * 10 + 1e-9)) / group * group;
+        const int next = std::max(before, key);
+        CHECK(reader.skip_to(t) == next - before);
+        for (int i = next; i < kFrames; ++i) {
+          REQUIRE(reader.read(grey, t_s));
+          CHECK(t_s == doctest::Approx(i / 10.0));
+          CHECK(grey.px == all[std::size_t(i)].px);
+        }
+        CHECK_FALSE(reader.read(grey, t_s));
+        CHECK_FALSE(reader.truncated());
+        CHECK(reader.damaged_frames() == 0);
+      }
+    // Several times in one pass, and never backwards.
+    VideoReader reader(video);
+    GrayF grey;
+    double t_s = 0;
+    for (const double t : {0.0, 1.2, 1.3, 3.0, 4.6}) {
+      reader.skip_to(t);
+      REQUIRE(reader.read(grey, t_s));
+      CHECK(grey.px == all[std::size_t(std::lround(10 * t_s))].px);
+      CHECK(t_s <= t + 0.11);
+    }
+  }
+}
+
+TEST_CASE("skip_to: a truncated video is still reported, with its frames before the damage") {
+  const media::ScratchFolder folder;
+  const auto video = record(folder, VideoFormat::lossless_avi, 30);
+  const std::string bytes = media::read_bytes(video);
+  media::write_bytes(folder / "short.avi", bytes.substr(0, bytes.size() / 2));
+  VideoReader reader(folder / "short.avi");
+  CHECK(reader.skip_to(0.5) == 5);
+  const std::size_t left = read_all(reader).size();
+  CHECK(left > 3);
+  CHECK(left < 25);
+  CHECK(reader.truncated());
+}
+
 TEST_CASE("two readers are independent, and a reader can be moved") {
   const media::ScratchFolder folder;
   const auto path = record(folder, VideoFormat::mp4, 4);
