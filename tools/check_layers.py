@@ -99,6 +99,7 @@ HOME = {
     "libsw": {"vision"},
     "tiff": {"vision"},
     "hdf5": {"core"},
+    "libdeflate": {"core"},
     "toml++": {"core"},
     "CLI/": {"cli"},
     "lemon/": {"vision"},

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "app/sinks/sinks.h"
-#include "core/background.h"
+#include "core/job_thread.h"
 #include "vision/files/video_writer.h"
 
 namespace faba {
@@ -79,7 +79,7 @@ class Video final : public RunSink {
   std::filesystem::path part_, final_;
   std::optional<VideoWriter> writer_;
   std::vector<double> times_;  ///< s, times of the frames of a bench, which are not known in advance
-  Background encoding_;        ///< last: its jobs use the other members
+  JobThread encoding_;         ///< last: its jobs use the other members
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace faba {
 namespace {
 
-constexpr int kSteps = 1 << kShift;  // positions within a pixel, along each axis
+constexpr int kOffsets = 1 << kShift;  // positions within a pixel, along each axis
 
 std::uint8_t blended(std::uint8_t ground, std::uint8_t colour, int coverage) {
   return std::uint8_t((ground * (255 - coverage) + colour * coverage + 127) / 255);
@@ -18,19 +18,19 @@ std::uint8_t blended(std::uint8_t ground, std::uint8_t colour, int coverage) {
 
 DiscSprites::DiscSprites(double radius_px) : side_(2 * int(std::ceil(radius_px + 1)) + 1) {
   const int radius = std::max(1, fixed_length(radius_px)), half = side_ / 2;
-  coverage_.resize(std::size_t(kSteps * kSteps * side_ * side_));
+  coverage_.resize(std::size_t(kOffsets * kOffsets * side_ * side_));
   std::uint8_t* sprite = coverage_.data();
-  for (int y = 0; y < kSteps; ++y)
-    for (int x = 0; x < kSteps; ++x, sprite += side_ * side_) {
+  for (int y = 0; y < kOffsets; ++y)
+    for (int x = 0; x < kOffsets; ++x, sprite += side_ * side_) {
       cv::Mat m(side_, side_, CV_8UC1, sprite);
-      cv::circle(m, {half * kSteps + x, half * kSteps + y}, radius, 255, cv::FILLED, cv::LINE_AA, kShift);
+      cv::circle(m, {half * kOffsets + x, half * kOffsets + y}, radius, 255, cv::FILLED, cv::LINE_AA, kShift);
     }
 }
 
 void DiscSprites::draw(RgbImage& picture, double x, double y, Rgb colour) const {
   const cv::Point at = fixed_point({x, y});
   const int left = (at.x >> kShift) - side_ / 2, top = (at.y >> kShift) - side_ / 2;
-  const int part = (at.y & (kSteps - 1)) * kSteps + (at.x & (kSteps - 1));
+  const int part = (at.y & (kOffsets - 1)) * kOffsets + (at.x & (kOffsets - 1));
   const std::uint8_t* sprite = coverage_.data() + std::ptrdiff_t(part) * side_ * side_;
   const int first_row = std::max(0, -top), end_row = std::min(side_, picture.height - top);
   const int first = std::max(0, -left), end = std::min(side_, picture.width - left);

@@ -1,7 +1,5 @@
 #pragma once
-#include <array>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "vision/image/image.h"

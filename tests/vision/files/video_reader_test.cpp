@@ -259,8 +259,8 @@ TEST_CASE(
   for (const VideoFormat format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
     const auto video =
         record(folder, format, kFrames);  // 10 frames per second; mp4 has a key frame each second
-    VideoReader whole(video);
-    const std::vector<GrayF> all = read_all(whole);
+    VideoReader complete(video);
+    const std::vector<GrayF> all = read_all(complete);
     REQUIRE(all.size() == kFrames);
     const int group = format == VideoFormat::mp4 ? 10 : 1;
     for (const double t : {0.0, 0.05, 0.9, 1.0, 1.05, 2.99, 4.6, 100.0})

@@ -1,10 +1,10 @@
-#include "core/background.h"
+#include "core/job_thread.h"
 
 #include <utility>
 
 namespace faba {
 
-Background::~Background() {
+JobThread::~JobThread() {
   {
     const std::lock_guard lock(mutex_);
     over_ = true;
@@ -14,7 +14,7 @@ Background::~Background() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Background::add(std::function<void()> job) {
+void JobThread::add(std::function<void()> job) {
   std::unique_lock lock(mutex_);
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
   changed_.wait(lock, [this] { return waiting_.size() < most_ || failure_; });
@@ -23,13 +23,13 @@ void Background::add(std::function<void()> job) {
   changed_.notify_all();
 }
 
-void Background::wait() {
+void JobThread::wait() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return (waiting_.empty() && !running_) || failure_; });
   if (failure_) std::rethrow_exception(failure_);
 }
 
-void Background::work() {
+void JobThread::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return !waiting_.empty() || over_; });

@@ -12,11 +12,11 @@ namespace faba {
 /// jobs wait: add() waits for one to end before it adds another. After a job has thrown, no other job is run,
 /// and add() and wait() throw its exception. One thread calls the functions. The thread is started by the
 /// first add() and has the priority of its caller.
-class Background {
+class JobThread {
  public:
-  explicit Background(std::size_t most) : most_(most) {}
+  explicit JobThread(std::size_t most) : most_(most) {}
   /// Waits for the running job; waiting jobs are dropped.
-  ~Background();
+  ~JobThread();
   void add(std::function<void()> job);
   /// Returns when all jobs have ended.
   void wait();
