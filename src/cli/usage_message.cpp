@@ -5,8 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
-#include <regex>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/schema.h"
@@ -61,27 +62,33 @@ std::string usage_of(const CLI::App& app, const std::string& command) {
   return usage;
 }
 
+// The texts before and after the first `separator`; empty if it is not there or follows a space.
+std::optional<std::pair<std::string, std::string>> word_before(const std::string& text,
+                                                               const std::string& separator) {
+  const auto at = text.find(separator);
+  if (at == std::string::npos || at == 0 || text.find(' ') < at) return {};
+  return std::pair{text.substr(0, at), text.substr(at + separator.size())};
+}
+
 }  // namespace
 
 std::string usage_message(const CLI::App& app, const std::string& command, const CLI::ParseError& error) {
   const std::vector<const CLI::App*> chain = given_commands(app);
   if (std::string text = unexpected(chain); !text.empty()) return text;
-  std::string reason = error.what();
+  // The class of an error of CLI11 does not tell these cases apart; its text does.
+  const std::string reason = error.what(), conversion = "Could not convert: ";
   if (reason == "A subcommand is required") return "a command is required";
-  std::smatch part;
-  const auto matches = [&](const char* pattern) {
-    return std::regex_match(reason, part, std::regex(pattern));
-  };
-  if (matches("(\\S+) is required"))
-    return fmt::format("{}: {} is missing; usage: {}", part[1].str(),
-                       part[1].str().front() == '-' ? "option" : "argument",
-                       usage_of(*chain.back(), command));
-  if (matches("(\\S+): \\d+ required .* missing"))
-    return fmt::format("{}: a value is missing", part[1].str());
-  if (matches("(\\S+): At Most 1 required but received \\d+"))
-    return fmt::format("{}: may be given only once", part[1].str());
-  if (matches("Could not convert: (\\S+) = (.*)"))
-    return fmt::format("{}: expected a number, got \"{}\"", part[1].str(), part[2].str());
+  if (const auto p = word_before(reason, " is required"); p && p->second.empty())
+    return fmt::format("{}: {} is missing; usage: {}", p->first,
+                       p->first.front() == '-' ? "option" : "argument", usage_of(*chain.back(), command));
+  if (reason.starts_with(conversion)) {
+    if (const auto p = word_before(reason.substr(conversion.size()), " = "))
+      return fmt::format("{}: expected a number, got \"{}\"", p->first, p->second);
+  } else if (const auto p = word_before(reason, ": ")) {
+    if (p->second.ends_with(" missing")) return fmt::format("{}: a value is missing", p->first);
+    if (p->second.starts_with("At Most 1 required but received"))
+      return fmt::format("{}: may be given only once", p->first);
+  }
   return reason;
 }
 
