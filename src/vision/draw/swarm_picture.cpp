@@ -15,7 +15,7 @@ namespace {
 // Okabe-Ito colours, safe for colour-blind readers.
 constexpr Rgb kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90, 20}}, kPale{178, 182, 190};
 const cv::Scalar kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
-const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kInk{60, 60, 60};
+const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kLabel{60, 60, 60};
 constexpr std::size_t kManyCells = 20000;  // above, a cell is one pixel: discs would cover each other
 
 void line(cv::Mat& m, Vec2 a, Vec2 b, const cv::Scalar& colour, int thickness = 1) {
@@ -29,7 +29,7 @@ void cross(cv::Mat& m, Vec2 at, double arm, const cv::Scalar& colour) {
 
 void text(cv::Mat& m, const std::string& s, cv::Point at, double size) {
   cv::putText(m, s, at, cv::FONT_HERSHEY_SIMPLEX, size, {250, 250, 248}, 3, cv::LINE_AA);  // halo
-  cv::putText(m, s, at, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
+  cv::putText(m, s, at, cv::FONT_HERSHEY_SIMPLEX, size, kLabel, 1, cv::LINE_AA);
 }
 
 void ground(cv::Mat& m, const SwarmScene& s) {
@@ -51,7 +51,7 @@ void scale_bar(cv::Mat& m, const SwarmScene& s) {
   const ScaleBar bar = scale_bar_for(s.width, s.um_per_px);
   const double x = 12, y = s.height - 14;
   cv::rectangle(m, cv::Point(int(x), int(y)), cv::Point(int(std::lround(x + bar.length_px)), int(y) + 3),
-                kInk, cv::FILLED);
+                kLabel, cv::FILLED);
   text(m, bar.label, {int(x), int(y) - 6}, 0.45);
 }
 
@@ -59,13 +59,13 @@ void scale_bar(cv::Mat& m, const SwarmScene& s) {
 void field_arrow(cv::Mat& m, const SwarmScene& s) {
   const double b = norm(s.field_ut);
   const Vec2 at{s.width - 44.0, s.height - 44.0};
-  cv::circle(m, fixed_point(at), 2 << kShift, kInk, cv::FILLED, cv::LINE_AA, kShift);
+  cv::circle(m, fixed_point(at), 2 << kShift, kLabel, cv::FILLED, cv::LINE_AA, kShift);
   if (b > 0.05) {
     const double length = std::min(40.0, 4 * std::sqrt(b));
     const Vec2 d{s.field_ut.x / b, -s.field_ut.y / b}, tip = at + length * d, across{-d.y, d.x};
-    line(m, at, tip, kInk, 2);
-    line(m, tip, tip - 7 * d + 4 * across, kInk, 2);
-    line(m, tip, tip - 7 * d - 4 * across, kInk, 2);
+    line(m, at, tip, kLabel, 2);
+    line(m, tip, tip - 7 * d + 4 * across, kLabel, 2);
+    line(m, tip, tip - 7 * d - 4 * across, kLabel, 2);
   }
   const std::string label = b < 0.05 ? "B = 0" : fmt::format("{:.0f} uT", b);
   text(m, label, {s.width - 44 - int(4.2 * double(label.size())), 24}, 0.45);
