@@ -281,11 +281,10 @@ def local_names(text):
     """Names in the anonymous namespaces of a .cpp file: "Name" of types and constants, "name(parameter types)" of functions."""
     for body in re.findall(r"^namespace \{\n(.*?)^\}  // namespace$", text, re.S | re.M):
         for line in body.splitlines():
-            named = re.match(r"(?:struct|class|enum class) (\w+)", line) or re.match(
-                r"(?:constexpr|const) [^=(]*?\b(k[A-Z]\w*)\b", line
-            )
-            if named:
+            if named := re.match(r"(?:struct|class|enum class) (\w+)", line):
                 yield named[1]
+            elif re.match(r"const(?:expr)? ", line):  # one or several constants
+                yield from re.findall(r"\b(k[A-Z]\w*)\b(?=(?:\[\w*\])? *[={])", line)
             elif function := FUNCTION.match(line):
                 yield function_key(function)
 

@@ -58,6 +58,10 @@ PLANTED = {
         {f"study/plot/{n}.cpp": "namespace {\nstruct Mine {\n};\n}  // namespace\n" for n in "ab"},
         "is also defined in",
     ),
+    "two local constants with the same name, the second of their lists": (
+        {f"study/plot/{n}.cpp": f"namespace {{\nconst int k{n.upper()}{{1}}, kMine{{2}};\n}}  // namespace\n" for n in "ab"},
+        "kMine is also defined in",
+    ),
     "a function that a header declares": (
         {
             "study/stats/a.h": "double quantile(std::vector<double> values, double p);\n",

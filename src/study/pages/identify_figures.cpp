@@ -14,7 +14,7 @@
 namespace faba {
 namespace {
 
-constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLineBreak = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxEpisodes = 4;  // with figures
 constexpr int kBins = 24;
 constexpr double kProfileLevel =
@@ -53,10 +53,10 @@ StatisticSeries series_of(const Identification& r, std::size_t video, std::size_
     if (s.number.segment != segment) {
       segment = s.number.segment;
       c.observed.x.push_back(s.number.t_s);
-      c.observed.y.push_back(kGap);
+      c.observed.y.push_back(kLineBreak);
       c.predicted.x.push_back(s.number.t_s);
-      c.predicted.lo.push_back(kGap);
-      c.predicted.hi.push_back(kGap);
+      c.predicted.lo.push_back(kLineBreak);
+      c.predicted.hi.push_back(kLineBreak);
     }
     const auto& band = r.models[r.best].predicted90[k];
     c.observed.x.push_back(s.number.t_s);
@@ -106,7 +106,7 @@ Figure by_segment(const Identification& r) {
     ++n;
     dots.x.push_back(n);
     dots.y.push_back(s.observed * um_s);
-    for (const double x : {band[0] * um_s, band[1] * um_s, kGap}) {
+    for (const double x : {band[0] * um_s, band[1] * um_s, kLineBreak}) {
       bars.x.push_back(n);
       bars.y.push_back(x);
     }

@@ -10,18 +10,18 @@
 namespace faba {
 namespace {
 
-constexpr double kShortest = 0.05, kLongest = 2000;  // ms, limits of the axis
+constexpr double kAxisLow = 0.05, kAxisHigh = 2000;  // ms, limits of the axis
 constexpr int kLatencyBins = 92;                     // 20 per decade
 
 // Histogram of latencies as a staircase; values outside the axis are counted in the first or last bin.
 Line latency_histogram(std::span<const double> ms, std::string label) {
   Line line{
       .x = {}, .y = std::vector<double>(kLatencyBins + 1, 0.0), .label = std::move(label), .stairs = true};
-  const double step = std::log(kLongest / kShortest) / kLatencyBins;
-  for (int i = 0; i <= kLatencyBins; ++i) line.x.push_back(kShortest * std::exp(step * i));
+  const double step = std::log(kAxisHigh / kAxisLow) / kLatencyBins;
+  for (int i = 0; i <= kLatencyBins; ++i) line.x.push_back(kAxisLow * std::exp(step * i));
   for (const double v : ms)
     if (std::isfinite(v)) {
-      const double at = std::floor(std::log(std::max(v, kShortest) / kShortest) / step);
+      const double at = std::floor(std::log(std::max(v, kAxisLow) / kAxisLow) / step);
       line.y[std::size_t(std::clamp(at, 0.0, double(kLatencyBins - 1)))] += 1;
     }
   return line;
@@ -37,8 +37,8 @@ std::optional<Figure> latency_figure(const std::filesystem::path& run_dir, doubl
   if (table.size() == 0) return {};
   Plot plot;
   plot.x.label = "latency (ms)";
-  plot.x.lo = kShortest;
-  plot.x.hi = kLongest;
+  plot.x.lo = kAxisLow;
+  plot.x.hi = kAxisHigh;
   plot.x.logarithmic = true;
   plot.y.label = "frames";
   plot.y.lo = 0;
