@@ -16,8 +16,8 @@ std::string three_digits(double value);
 /// A power of ten as text: "10³", "10⁻⁶".
 std::string power_of_ten(int exponent);
 
-/// A row of an HTML table: with `tag` "td" the first cell is the heading of the row, the others are data; with
-/// "th" all are headings of columns, for a <thead>. The cells must be escaped already.
+/// A row of an HTML table: with `tag` "td" the first cell is the heading of the row, the others are data;
+/// with "th" all are headings of columns, for a <thead>. The cells must be escaped already.
 std::string table_row(const std::vector<std::string>& cells, const char* tag);
 
 }  // namespace faba
