@@ -70,7 +70,7 @@ TEST_CASE(
     "off") {
   for (const char* fault : {"open", "weak"}) {
     INFO(fault);
-    OnBench b(std::string("fault = '") + fault + "'\nfault_after = '1 s'\n", kPatient);
+    OnBench b(std::string("fault = '") + fault + "'\nfault_after = '3 s'\n", kPatient);
     if (!b.steer()) return;
     CHECK(b.program->wait() == 4);
     CHECK(b.err().find("differs from commanded current") != std::string::npos);
