@@ -52,8 +52,8 @@ format:               ## format all C++ sources with clang-format
 lint:                 ## check the sources with clang-format and clang-tidy
 	@$(SETUP) lint
 	@git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
-	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF -DFABA_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
-	@git ls-files 'src/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p build/lint
+	@cmake --preset release -B build/lint --log-level=WARNING -DBUILD_TESTING=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+	@tools/lint.py build/lint --jobs $(JOBS)
 
 asan tsan dev: setup  ## build and run the tests under sanitizers (asan, tsan) or without optimisation (dev)
 	@$(SETUP) test
