@@ -41,6 +41,8 @@ def main():
     o = a.parse_args()
     build = o.build.resolve()
     files = units(build)
+    if not files:
+        sys.exit(f"lint.py: {build}/compile_commands.json has no file of src")
     started, wrong = time.monotonic(), 0
     with concurrent.futures.ThreadPoolExecutor(o.jobs) as pool:
         results = {pool.submit(findings, build, f): f for f in files}
