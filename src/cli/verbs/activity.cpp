@@ -79,10 +79,11 @@ void print_video(const VideoActivity& a) {
       "down){}\n",
       a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
       a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
-  if (const auto per_cell = activity_per_cell(a))
-    fmt::print("  {:.3g} per visible cell ({} cells)\n", *per_cell,
-               *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
-                                       : fmt::format("{:.0f}", *a.visible_cells));
+  if (const auto per_cell = activity_per_cell(a)) {
+    const std::string cells = *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
+                                                      : fmt::format("{:.0f}", *a.visible_cells);
+    fmt::print("  {:.3g} per visible cell ({} {})\n", *per_cell, cells, cells == "1" ? "cell" : "cells");
+  }
   if (a.fit.good)
     fmt::print("  {}maximum {}, width {:.3g} {}\n",
                a.onset_s ? fmt::format("onset {}, ", time_text(a, *a.onset_s, *a.se_onset_s)) : "",

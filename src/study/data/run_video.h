@@ -23,7 +23,7 @@ bool has_camera_video(const std::filesystem::path& run);
 RunVideo run_video(const std::filesystem::path& path);
 
 /// A note when options override the frame rate or the scale that a run states: `fps` > 0 in Hz, and
-/// `um_per_px`. Empty when `path` is no run, or the values are those of the run.
+/// `um_per_px`. Empty when `path` is not a run, or the values are those of the run.
 std::string override_note(const std::filesystem::path& path, const RunVideo& video, double fps,
                           const std::optional<double>& um_per_px);
 
