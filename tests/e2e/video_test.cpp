@@ -178,6 +178,9 @@ TEST_CASE("a part of a video is measured with --from and --to, at the rate of --
   CHECK(untimed.err.find("no frame rate is stated") != std::string::npos);
   CHECK(untimed.out.find("  frame ") != std::string::npos);
   CHECK(untimed.out.find(" s  direction") == std::string::npos);
+  REQUIRE(faba_in(f.path, "activity film --flow-threshold 0.05 --report untimed.html --quiet").exit == 0);
+  CHECK(read_file(f.path / "untimed.html").find("time (frames)") != std::string::npos);
+  CHECK(read_file(f.path / "untimed.html").find("onset (frames)") != std::string::npos);
   CHECK(faba_in(f.path, "flow film").out.starts_with("29 pairs in 30 frames, "));
   CHECK(faba_in(f.path, "flow film --fps 10").out.starts_with("29 pairs of frames in 2.9 s, "));
   const Called longer = faba_in(
