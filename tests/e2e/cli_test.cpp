@@ -139,6 +139,7 @@ TEST_CASE("drop: a rendered drop is detected; run --from-video keeps the swarm i
   REQUIRE_MESSAGE(run.exit == 0, run.err);
   CHECK(run.err.find("faba: note: drop: centre (") != std::string::npos);
   CHECK(run.err.find(" px, from drop.pgm") != std::string::npos);
+  CHECK(faba_in(f.path, "track drop.pgm --drop").err.find("faba: note: drop: centre (") != std::string::npos);
   CHECK(run.json()["settling_time_s"].is_number());
   const H5File tracks = H5File::open(f.path / "run/tracks.h5");
   const H5Table position = tracks.table("position_px");

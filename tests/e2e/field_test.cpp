@@ -111,6 +111,11 @@ TEST_CASE("field map: zeros, picture, HDF5 file, and error of the table") {
   CHECK(faba_in(f.path, "field map --help").out.find("as PNG; default: field.png") != std::string::npos);
   CHECK(faba_in(f.path, "field map " + kRig + " --check").exit == 0);
   CHECK_FALSE(std::filesystem::exists(f.path / "field.png"));
+  CHECK(faba_in(f.path, "field map " + kRig + " --current 0,0,0,0")
+            .err.find("such as --current 0.5,0.5,0.5,0.5") != std::string::npos);
+  CHECK(faba_in(f.path, "field map " + kRig).err.find("give another name with --picture") !=
+        std::string::npos);
+  CHECK(faba_in(f.path, "field map none.toml").err.find("none.toml") != std::string::npos);
   for (const char* bad : {"--current 1,2", "--current 1,2,3,x", "--current nan,0,0,0", "--size '1 mm'",
                           "--size '0 mm, 1 mm'", "--view '1 mm'", "--drop '1 s'", "--size '1 s, 1 s'",
                           "--size '6, 4'", "--drop '2 m'", "--check --size '100 mm, 100 mm'"}) {
