@@ -18,6 +18,8 @@ namespace faba::cli {
 namespace {
 
 std::string program_name = "faba";
+// A maximum of this size or more only prevents overflows and is not stated.
+constexpr std::int64_t kNoLimit = std::int64_t(1) << 40;
 
 /// CLI11 joins a type and its range by a colon, and has a name of its own for non-negative integers.
 class HelpFormatter final : public CLI::Formatter {
@@ -64,9 +66,11 @@ CLI::Validator integers(std::int64_t min, std::int64_t max) {
             errno = 0;
             const long long value = std::strtoll(text.c_str(), &end, 0);
             if (!text.empty() && *end == '\0' && errno == 0 && value >= min && value <= max) return "";
+            if (max >= kNoLimit)
+              return fmt::format("expected an integer of at least {}, got \"{}\"", min, text);
             return fmt::format("expected an integer between {} and {}, got \"{}\"", min, max, text);
           },
-          fmt::format("{} to {}", min, max)};
+          max >= kNoLimit ? fmt::format("at least {}", min) : fmt::format("{} to {}", min, max)};
 }
 
 std::shared_ptr<CLI::FormatterBase> help_formatter() { return std::make_shared<HelpFormatter>(); }

@@ -123,8 +123,11 @@ Table read_table(const std::filesystem::path& path, LastLine last_line) {
   for (std::size_t line = header + 1; !text.empty(); ++line) {
     const auto fields = split_fields(next_line(text));
     if (fields.size() != names.size()) {
-      throw Error(Errc::input, fmt::format("{}:{}", file, line),
-                  fmt::format("{} fields, but the header has {}", fields.size(), names.size()));
+      throw Error(
+          Errc::input, fmt::format("{}:{}", file, line),
+          fmt::format("{} fields, but the header has {}; separate columns with commas; decimals have a "
+                      "point",
+                      fields.size(), names.size()));
     }
     for (std::size_t i = 0; i < fields.size(); ++i) {
       columns[i].push_back(number_in(fields[i], file, line, names[i]));

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kBlock = 2048;        // field, headings and positions of a block fit into the L1 cache
 constexpr std::uint32_t kAttempts = 20000;  // per cell; reached only if the start region is full
 
-/// Sum and count of candidate positions outside of the arena (m, world).
+/// Sum and count of candidate positions outside the arena (m, world).
 struct OutsidePositions {
   Vec2 sum;
   double count = 0;
@@ -30,8 +30,8 @@ std::string outside_message(const Arena& arena, const OutsidePositions& outside)
                                               o.radius_px, o.centre_image.x, o.centre_image.y)
                                 : fmt::format("a rectangle of {} x {} px", f.width, f.height);
   return fmt::format(
-      "the region around ({:.0f}, {:.0f}) px is outside of the arena, {}; move it, or use another start",
-      mean.x, mean.y, walls);
+      "the region around ({:.0f}, {:.0f}) px is outside the arena, {}; move it, or use another start", mean.x,
+      mean.y, walls);
 }
 
 }  // namespace

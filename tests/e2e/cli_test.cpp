@@ -24,6 +24,8 @@ TEST_CASE("help, version, parts, schema and doctor answer with exit 0") {
   CHECK(faba_in(f.path, "parts model dipole --json").json()["properties"]["speed"]["x-unit"] == "m/s");
   CHECK(faba_in(f.path, "schema").json()["properties"]["swarm"]["type"] == "array");
   CHECK(faba_in(f.path, "doctor --json").json().contains("threads"));
+  CHECK(faba_in(f.path, "doctor").out.find("free disk space ") != std::string::npos);
+  CHECK(faba_in(f.path, "lab --www nope").err.find("--www: folder nope not found") != std::string::npos);
 }
 
 TEST_CASE("the help states defaults and ranges in words") {
@@ -41,6 +43,8 @@ TEST_CASE("the help states defaults and ranges in words") {
       {"field library", "default: \"2 mm, 2 mm\""},
       {"field null", "default: north"},
       {"flow", "(horn_schunck, default: multigrid)"},
+      {"flow", "other options override it"},
+      {"rig capture", "--frames INT, at least 1"},
       {"activity", "(horn_schunck, default: jacobi)"},
       {"compare", "(horn_schunck, default: jacobi)"},
       {"compare", "(horn_schunck, default: published)"}};
@@ -133,6 +137,9 @@ TEST_CASE("drop: a rendered drop is detected; run --from-video keeps the swarm i
                                      "/drop.toml' --from-video drop.pgm --set swarm[0].count=60 "
                                      "--seed 1 --out run --json");
   REQUIRE_MESSAGE(run.exit == 0, run.err);
+  CHECK(run.err.find("faba: note: drop: centre (") != std::string::npos);
+  CHECK(run.err.find(" px, from drop.pgm") != std::string::npos);
+  CHECK(faba_in(f.path, "track drop.pgm --drop").err.find("faba: note: drop: centre (") != std::string::npos);
   CHECK(run.json()["settling_time_s"].is_number());
   const H5File tracks = H5File::open(f.path / "run/tracks.h5");
   const H5Table position = tracks.table("position_px");

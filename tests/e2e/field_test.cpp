@@ -111,9 +111,14 @@ TEST_CASE("field map: zeros, picture, HDF5 file, and error of the table") {
   CHECK(faba_in(f.path, "field map --help").out.find("as PNG; default: field.png") != std::string::npos);
   CHECK(faba_in(f.path, "field map " + kRig + " --check").exit == 0);
   CHECK_FALSE(std::filesystem::exists(f.path / "field.png"));
-  for (const char* bad :
-       {"--current 1,2", "--current 1,2,3,x", "--current nan,0,0,0", "--size '1 mm'", "--size '0 mm, 1 mm'",
-        "--view '1 mm'", "--drop '1 s'", "--size '1 s, 1 s'", "--check --size '100 mm, 100 mm'"}) {
+  CHECK(faba_in(f.path, "field map " + kRig + " --current 0,0,0,0")
+            .err.find("such as --current 0.5,0.5,0.5,0.5") != std::string::npos);
+  CHECK(faba_in(f.path, "field map " + kRig).err.find("give another name with --picture") !=
+        std::string::npos);
+  CHECK(faba_in(f.path, "field map none.toml").err.find("none.toml") != std::string::npos);
+  for (const char* bad : {"--current 1,2", "--current 1,2,3,x", "--current nan,0,0,0", "--size '1 mm'",
+                          "--size '0 mm, 1 mm'", "--view '1 mm'", "--drop '1 s'", "--size '1 s, 1 s'",
+                          "--size '6, 4'", "--drop '2 m'", "--check --size '100 mm, 100 mm'"}) {
     const Called c = faba_in(f.path, "field map " + kRig + " " + bad);
     INFO(bad, ": ", c.err);
     CHECK(c.exit == 2);
@@ -142,6 +147,9 @@ TEST_CASE("field tolerance: the shifts of theory C6, proportional to their cause
   CHECK(read_file(f.path / "t.svg").starts_with("<svg"));
   CHECK(faba_in(f.path, "field tolerance " + two + " --picture t.svg").exit == 2);
   CHECK(faba_in(f.path, "field tolerance " + two + " --picture t.png").exit == 2);
+  CHECK(faba_in(f.path, "field tolerance " + kRig + " --at '300 mm, 0 mm'")
+            .err.find("too weak to gather cells") != std::string::npos);
+  CHECK(faba_in(f.path, "field tolerance " + two).err.empty());
   CHECK(faba_in(f.path, "field tolerance " + two + " --at '0 mm, 1 mm'").exit ==
         2);  // two coils have no zero off their axis
 }
@@ -166,6 +174,7 @@ TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
         Bad{"current above its limit", coil + "current = 2\nmax_current = 1\n", "", 2,
             "must not exceed max_current"},
         Bad{"missing column", coil, "x_m,y_m\n0,0\n", 3, "column z_m not found"},
+        Bad{"semicolons", coil, "x_m,y_m,z_m\n0;0;0\n", 3, "separate columns with commas"},
         Bad{"no number", coil, "x_m,y_m,z_m\n0,0,zero\n", 3, "is not a number"},
         Bad{"short line", coil, "x_m,y_m,z_m\n0,0\n", 3, "2 fields"},
         Bad{"empty field", coil, "x_m,y_m,z_m\n0,,0\n", 3, "a coordinate is missing"},
@@ -183,7 +192,9 @@ TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
   CHECK(faba_in(f.path, "field at missing.toml --points ok.csv").exit == 2);
   write_file(f.path / "rig.toml", coil);
   CHECK(faba_in(f.path, "field at rig.toml --points missing.csv").exit == 3);
-  for (const char* at : {"1 mm", "1 s, 0 mm", "one, two", ", ", "nan, 0 mm"}) {
+  CHECK(faba_in(f.path, "field null rig.toml --at '1, 0'")
+            .err.find("\"1\" has no unit; write it like \"1 mm, -0.5 mm\"") != std::string::npos);
+  for (const char* at : {"1 mm", "1, 0", "1 s, 0 mm", "one, two", ", ", "nan, 0 mm"}) {
     const Called c = faba_in(f.path, "field null rig.toml --at '" + std::string(at) + "'");
     INFO(at, ": ", c.err);
     CHECK(c.exit == 2);

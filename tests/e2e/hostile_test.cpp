@@ -52,7 +52,7 @@ TEST_CASE("invalid scenarios: exit 2, one line with file, line, path and reason,
            Bad{"a key of the top level below a table", "[camera]\nrate = 20\nduration = '2 s'\n" + swarm,
                "s.toml:3: camera.duration: is a top-level key"},
            Bad{"a start outside", swarm + "start = { type = 'disc', centre_px = [5000, 0] }\n",
-               "is outside of the arena"},
+               "is outside the arena"},
            Bad{"a binary file",
                std::string("\x7f"
                            "ELF\0\0",

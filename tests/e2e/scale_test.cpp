@@ -94,4 +94,13 @@ TEST_CASE("scale with invalid input: one clear line and the documented exit code
         "good.csv --overlay o.png", "good.csv --out calibration.json", ""})
     check(usage, 2);
   CHECK_FALSE(std::filesystem::exists(f.path / "c.toml"));
+  CHECK(
+      faba_in(f.path, "scale ruler.png --tick 10").err.find("\"10\" has no unit; write it like \"10 um\"") !=
+      std::string::npos);
+  write_file(f.path / "falling.csv", "width_um,px\n100,40\n50,66\n30,81\n20,90\n");
+  CHECK(faba_in(f.path, "scale falling.csv").err.find("check that the columns are not exchanged") !=
+        std::string::npos);
+  write_file(f.path / "three.csv", "width_um,px\n30,40\n50,66\n100,121\n");
+  CHECK(faba_in(f.path, "scale three.csv").err.find("the scale is uncertain by 65 %") != std::string::npos);
+  CHECK(faba_in(f.path, "scale good.csv").err.empty());
 }

@@ -53,6 +53,10 @@ TEST_CASE("track: text and JSON output, files, and refused input") {
   }
   CHECK(faba_in(folder.path(), "track film --fps 15 --out t.csv --force --quiet").exit == 0);
 
+  const Called least = faba_in(folder.path(), "track film --fps 15 --least 99999");
+  CHECK(least.err.find("no track has 99999 detections (the video has 12 frames); reduce --least") !=
+        std::string::npos);
+
   const Called figures = faba_in(folder.path(), "track film --fps 15 --figures x.svg");
   CHECK(figures.exit == 2);
   CHECK(figures.err.find("x.svg: is the name of a file; --figures must be a folder") != std::string::npos);

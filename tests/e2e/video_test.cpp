@@ -64,6 +64,10 @@ TEST_CASE("flow of two pictures: flow file, picture, comparison with the truth, 
   refused(f, "flow a.pgm none.pgm", 3, "file not found");
   refused(f, "flow a.pgm b.pgm --alpha2 0", 2, "out of range");
   refused(f, "flow a.pgm b.pgm --solver gauss", 2, "solver");
+  refused(f, "flow a.pgm b.pgm --warps 3", 2, "--warps: has an effect only with --pyramid");
+  CHECK(faba_in(f.path, "flow a.pgm b.pgm --warps 3 --pyramid").exit == 0);
+  write_file(f.path / "text.pgm", "not a picture");
+  refused(f, "flow text.pgm b.pgm", 3, "it is damaged, or of a format that is not supported");
   refused(f, "flow a.pgm b.pgm --quality fast", 2, "not a parameter of method horn_schunck");
   refused(f, "flow a.pgm b.pgm --overlay o.mp4", 2, "--picture");
   refused(f, "flow a.pgm", 3, "one frame only");
@@ -122,6 +126,12 @@ TEST_CASE("a truncated video is measured up to its end, with a warning; an unkno
   write_file(f.path / "s.toml", kSmallScene);
   REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out r --as-seen --quiet --set record.lossless=true").exit ==
           0);
+  const Called other_rate = faba_in(f.path, "track r --fps 30 --um-per-px 2");
+  CHECK(other_rate.err.find("the run states 15 Hz and ") != std::string::npos);
+  CHECK(other_rate.err.find("30 Hz and 2 um/px are used (--fps, --um-per-px)") != std::string::npos);
+  CHECK(faba_in(f.path, "track r --fps 15").err.find("the run states") == std::string::npos);
+  CHECK(faba_in(f.path, "activity r --fps 30").err.find("the run states 15 Hz; 30 Hz is used (--fps)") !=
+        std::string::npos);
   const std::string complete = read_file(f.path / "r/video.avi");
   write_file(f.path / "cut.avi", complete.substr(0, complete.size() * 6 / 10));
   for (const char* verb : {"activity cut.avi", "compare r/video.avi cut.avi --no-align",
@@ -154,6 +164,7 @@ TEST_CASE("invalid numbers, outputs and times are refused before any measurement
   refused(f, "compare film film --t0 nan", 2, "--t0");
   refused(f, "compare film film --t0 0.1 --no-align", 2, "--no-align");
   refused(f, "activity film --noise film --flow-threshold 0.1", 2, "--noise");
+  refused(f, "activity film --noise film", 2, "--noise: film is the measured video itself");
   refused(f, "activity film --report none/r.html", 2, "folder none not found");
   refused(f, "track film --fps 15 --out a.csv --swarm a.csv", 2, "two outputs");
   refused(f, "activity film --from 100", 3, "fewer than two frames in the requested interval");
@@ -165,6 +176,17 @@ TEST_CASE("a part of a video is measured with --from and --to, at the rate of --
   write_film(f, "film");
   const Called untimed = faba_in(f.path, "activity film --flow-threshold 0.05 --out all.csv --force");
   CHECK(untimed.err.find("no frame rate is stated") != std::string::npos);
+  CHECK(untimed.out.find("  frame ") != std::string::npos);
+  CHECK(untimed.out.find(" s  direction") == std::string::npos);
+  REQUIRE(faba_in(f.path, "activity film --flow-threshold 0.05 --report untimed.html --quiet").exit == 0);
+  CHECK(read_file(f.path / "untimed.html").find("time (frames)") != std::string::npos);
+  CHECK(read_file(f.path / "untimed.html").find("onset (frames)") != std::string::npos);
+  CHECK(faba_in(f.path, "flow film").out.starts_with("29 pairs in 30 frames, "));
+  CHECK(faba_in(f.path, "flow film --fps 10").out.starts_with("29 pairs of frames in 2.9 s, "));
+  const Called longer = faba_in(
+      f.path, "compare film film --fps 15 --no-align --duration 100 --direction 0 --flow-threshold 0.05");
+  CHECK(longer.err.find("the comparison ends after 1.93 s") != std::string::npos);
+  CHECK(longer.out.find("not computed: none of the compared inputs is a run") != std::string::npos);
   REQUIRE(
       faba_in(f.path,
               "activity film --fps 15 --from 0.5 --to \"1.5 s\" --flow-threshold 0.05 --out part.csv --quiet")
@@ -239,6 +261,7 @@ TEST_CASE("study files and distances: errors name the file, the key or the line"
   CHECK(std::count(c.out.begin(), c.out.end(), '\n') == 2);
   write_file(f.path / "words", "1\nmany\n");
   refused(f, "distance p words", 3, "words:2");
+  refused(f, "distance p words", 3, "\"many\" is not a number; write one number per line");
   write_file(f.path / "short", "1\n2\n");
   refused(f, "distance p short", 3, "has 2 bins");
   write_file(f.path / "below", "1\n-2\n");

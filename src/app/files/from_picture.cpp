@@ -8,7 +8,7 @@
 
 namespace faba {
 
-void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_video) {
+std::string fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_video) {
   const Picture picture = read_picture(picture_or_video);
   DropEdgeOptions options;
   options.name = picture_or_video.string();
@@ -25,11 +25,15 @@ void fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_
                     {"centre_px", {edge.centre_image.x, edge.centre_image.y}},
                     {"radius_px", edge.radius_px}},
                origin);
+  const std::string note =
+      fmt::format("drop: centre ({:.0f}, {:.0f}) px, radius {:.0f} px, from {}", edge.centre_image.x,
+                  edge.centre_image.y, edge.radius_px, picture_or_video.filename().string());
   if (!scenario.root.contains("swarm") || !scenario.root["swarm"].is_array())
-    return;  // read_scenario() reports the error
+    return note;  // read_scenario() reports the error
   for (std::size_t i = 0; i < scenario.root["swarm"].size(); ++i)
     if (scenario.root["swarm"][i].is_object() && !scenario.root["swarm"][i].contains("start"))
       scenario.set(fmt::format("swarm[{}].start", i), Json("visible"), origin);
+  return note;
 }
 
 }  // namespace faba

@@ -72,7 +72,10 @@ void add_flow_options(CLI::App* v, FlowOptions& o, const FlowChoice& defaults) {
   for (const std::string& name : names) {
     const Json& schema = parts.flow.json_schema(name);
     for (const auto& [key, property] : schema["properties"].items()) {
-      std::string help = property["description"].get<std::string>() + " (" + name;
+      // The description of a preset refers to the table of a file.
+      std::string help = key == "preset" ? "Named set of default values; other options override it"
+                                         : property["description"].get<std::string>();
+      help += " (" + name;
       if (const std::string value = default_of(schema, name, key, defaults); !value.empty())
         help += ", default: " + value;
       const std::string option = "--" + key;

@@ -5,9 +5,12 @@
 
 namespace faba::cli {
 
-Document read_scene(const SceneOptions& v) {
+Document read_scene(const SceneOptions& v, std::string* drop_note) {
   Document d = read_toml(v.scene);
-  if (!v.from_video.empty()) fit_to_picture(d, v.from_video);
+  if (!v.from_video.empty()) {
+    const std::string note = fit_to_picture(d, v.from_video);
+    if (drop_note) *drop_note = note;
+  }
   for (const std::string& s : v.set) {
     const auto equals = s.find('=');
     if (equals == std::string::npos || equals == 0)

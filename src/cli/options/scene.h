@@ -20,8 +20,8 @@ struct SceneOptions {
   bool as_seen = false, force = false;
 };
 
-/// The scenario file with the changes of the options, and a title.
-Document read_scene(const SceneOptions& v);
+/// The scenario file with the changes of the options, and a title. `drop_note`: the drop of --from-video.
+Document read_scene(const SceneOptions& v, std::string* drop_note = nullptr);
 
 /// Throws Error(usage) if an input file is in the directory `out` given by the user: a run must not replace
 /// its input.

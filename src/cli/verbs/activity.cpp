@@ -66,6 +66,12 @@ std::string line_text(double intercept, double slope) {
   return fmt::format("{:.4g} {} {:.4g} x exposure", intercept, slope < 0 ? '-' : '+', std::fabs(slope));
 }
 
+// A time of a video without a frame rate is the number of a frame.
+std::string time_text(const VideoActivity& a, double t, double se) {
+  return a.timed ? fmt::format("at {:.3g} +- {:.2g} s", t, se)
+                 : fmt::format("at frame {:.3g} +- {:.2g}", t, se);
+}
+
 void print_video(const VideoActivity& a) {
   fmt::print(
       "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees (0 right, "
@@ -73,19 +79,20 @@ void print_video(const VideoActivity& a) {
       "down){}\n",
       a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
       a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
-  if (const auto per_cell = activity_per_cell(a))
-    fmt::print("  {:.3g} per visible cell ({} cells)\n", *per_cell,
-               *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
-                                       : fmt::format("{:.0f}", *a.visible_cells));
+  if (const auto per_cell = activity_per_cell(a)) {
+    const std::string cells = *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
+                                                      : fmt::format("{:.0f}", *a.visible_cells);
+    fmt::print("  {:.3g} per visible cell ({} {})\n", *per_cell, cells, cells == "1" ? "cell" : "cells");
+  }
   if (a.fit.good)
-    fmt::print("  {}maximum at {:.3g} +- {:.2g} s, width {:.3g} s\n",
-               a.onset_s ? fmt::format("onset at {:.3g} +- {:.2g} s, ", *a.onset_s, *a.se_onset_s) : "",
-               a.fit.peak_s, a.fit.se_peak_s, a.fit.sigma_s);
+    fmt::print("  {}maximum {}, width {:.3g} {}\n",
+               a.onset_s ? fmt::format("onset {}, ", time_text(a, *a.onset_s, *a.se_onset_s)) : "",
+               time_text(a, a.fit.peak_s, a.fit.se_peak_s), a.fit.sigma_s, a.timed ? "s" : "frames");
   else
     fmt::print("  the Gaussian fit failed: {}; no onset and no maximum\n", a.fit.reason);
   for (const MotionSegment& s : a.segments)
-    fmt::print("  {:7.2f} to {:7.2f} s  direction {:3} degrees\n", s.t0_s, s.t1_s,
-               rounded_degrees(s.direction_deg));
+    fmt::print("  {}{:7.2f} to {:7.2f}{}  direction {:3} degrees\n", a.timed ? "" : "frame ", s.t0_s, s.t1_s,
+               a.timed ? " s" : "", rounded_degrees(s.direction_deg));
   if (a.segments.empty())
     fmt::print("  no motion segment: at no time does more than half of the motion have one direction\n");
 }
@@ -99,7 +106,7 @@ void print_line(const char* quantity, const std::optional<ExposureLine>& line) {
 void summary(const ActivityResult& r) {
   for (const VideoActivity& a : r.videos) print_video(a);
   print_line("time of the maximum", r.peak_line);
-  if (r.peak_line && r.frame_s)
+  if (r.peak_line && r.frame_s && r.videos.front().timed)
     fmt::print("  in frames at {:.3g} Hz: {}\n", 1 / *r.frame_s,
                line_text(r.peak_line->intercept / *r.frame_s, r.peak_line->slope / *r.frame_s));
   print_line("mean activity", r.mean_line);
@@ -117,6 +124,13 @@ int activity(const ActivityVerb& v, const Common& c) {
   check_output(v.report, {".html"}, v.force, inputs);
   check_output(v.picture, {".png"}, v.force, inputs);
   ActivityJob job = job_of(v);
+  // A video of a dead sample may be measured with others, as a control.
+  std::error_code ec;
+  if (!v.noise.empty() && job.videos.size() == 1 &&
+      std::filesystem::equivalent(v.noise, job.videos.front().file, ec))
+    throw Error(
+        Errc::usage, "--noise",
+        fmt::format("{} is the measured video itself; give a video of a dead sample", v.noise.string()));
   if (!v.picture.empty() && job.videos.size() != 1)
     throw Error(Errc::usage, "--picture",
                 fmt::format("requires a single video, but {} are given", job.videos.size()));

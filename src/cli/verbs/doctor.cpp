@@ -48,8 +48,15 @@ int doctor(const Common& c) {
     fmt::print("{}\n", j.dump());
     return 0;
   }
-  for (const auto& [k, v] : j.items())
-    fmt::print("{:<16}{}\n", k, v.is_string() ? v.get<std::string>() : v.dump());
+  for (const auto& [name, key] : {std::pair{"version", "version"},
+                                  {"processor", "processor"},
+                                  {"threads", "threads"},
+                                  {"vector unit", "vector_unit"}})
+    fmt::print("{:<16}{}\n", name, j[key].is_string() ? j[key].get<std::string>() : j[key].dump());
+  for (const auto& [name, key] :
+       {std::pair{"free memory", "memory_free_gb"}, {"free disk space", "disk_free_gb"}})
+    fmt::print("{:<16}{}\n", name,
+               j[key].is_null() ? "unknown" : fmt::format("{:.1f} GB", j[key].get<double>()));
   return 0;
 }
 

@@ -94,8 +94,10 @@ int flow_video(const FlowVerb& v, const Common& c) {
   }
   print_notes(flow.notes, v.a, c);
   if (c.quiet) return 0;
-  fmt::print("{} of frames in {:.3g} s, {} x {} px, mean speed {:.4g} px per pair\n",
-             counted(flow.pairs, "pair"), flow.seconds, flow.width, flow.height, flow.mean_speed_px);
+  const std::string duration = flow.timed ? fmt::format("of frames in {:.3g} s", flow.seconds)
+                                          : fmt::format("in {:.6g} frames", flow.seconds + 1);
+  fmt::print("{} {}, {} x {} px, mean speed {:.4g} px per pair\n", counted(flow.pairs, "pair"), duration,
+             flow.width, flow.height, flow.mean_speed_px);
   for (const auto& file : {v.out, v.overlay})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "cli/command_line.h"
 #include "core/error.h"
@@ -73,7 +74,9 @@ void add_lab(CLI::App& app, CommandLine& line) {
   v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
       ->check(integers(1, 1024));
   v->add_option("--www", o->pages, "Read the files of the page from this folder, for development")
-      ->check(CLI::ExistingDirectory);
+      ->check([](const std::string& path) {
+        return std::filesystem::is_directory(path) ? "" : fmt::format("folder {} not found", path);
+      });
   v->callback([o, &line] { line.code = lab(*o, line.common); });
 }
 

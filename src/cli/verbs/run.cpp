@@ -25,7 +25,8 @@ std::string command_with_seed(const SceneOptions& v, std::uint64_t seed) {
 }
 
 int run(const SceneOptions& v, const Common& c) {
-  const Scenario s = read_scenario(read_scene(v), builtin_parts());
+  std::string drop_note;
+  const Scenario s = read_scenario(read_scene(v, &drop_note), builtin_parts());
 
   const std::uint64_t seed = s.params.seed.value_or(random_seed());
   Progress bar("simulating", !c.quiet && !c.json);
@@ -40,6 +41,7 @@ int run(const SceneOptions& v, const Common& c) {
   o.progress = [&](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = &stop_requested();
   Session session = Session::begin(s, seed, o);
+  if (!c.quiet && !drop_note.empty()) print_stderr("faba: note: " + drop_note);
   if (!c.quiet)
     for (const auto& note : session.notes()) print_stderr(fmt::format("faba: note: {}: {}", v.scene, note));
   if (!s.params.seed && !c.quiet && !c.json)

@@ -59,6 +59,15 @@ void print_picture(const PictureScale& s) {
              s.ci95[1]);
 }
 
+// An uncertainty of the scale is one of every length and speed.
+std::string uncertain_note(const TableScale& s) {
+  constexpr double kUncertain = 0.1;  // half of the 95 % interval over the scale
+  const double relative = (s.ci95[1] - s.ci95[0]) / 2 / s.um_per_px;
+  if (relative <= kUncertain) return "";
+  return fmt::format("the scale is uncertain by {:.0f} % (95 % interval); add readings, of more widths",
+                     100 * relative);
+}
+
 template <class Scale, class Print>
 void print_scale(const Scale& s, const ScaleVerb& v, const Common& c, Print&& print) {
   if (!v.out.empty()) write_calibration(v.out, calibration_of(s));
@@ -99,10 +108,14 @@ int scale(const ScaleVerb& v, const Common& c) {
     throw Error(Errc::usage, "--tick", "requires a picture; a table has the widths");
   if (table && !v.overlay.empty())
     throw Error(Errc::usage, "--overlay", "requires a picture, but a table is given");
-  if (table)
-    print_scale(measure_scale(read_ruler_table(v.ruler), v.ruler.string()), v, c, print_table);
-  else
+  if (!table) {
     scale_of_picture(v, c);
+    return 0;
+  }
+  const TableScale s = measure_scale(read_ruler_table(v.ruler), v.ruler.string());
+  if (const std::string note = uncertain_note(s); !note.empty() && !c.quiet && !c.json)
+    print_stderr(fmt::format("faba: note: {}: {}", v.ruler.string(), note));
+  print_scale(s, v, c, print_table);
   return 0;
 }
 

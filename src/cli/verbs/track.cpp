@@ -81,8 +81,10 @@ class TrackUnits {
   std::string diffusion(const Estimated& e) const {
     return estimate(e, scale() * scale(), length() + "^2" + per_time());
   }
-  std::string time(const Estimated& e) const { return estimate(e, 1, time_unit()); }
-  const char* time_unit() const { return timed_ ? "s" : "frames"; }
+  std::string time(const Estimated& e) const { return estimate(e, 1, timed_ ? "s" : "frames"); }
+  std::string duration(double time) const {
+    return fmt::format("{:.3g} {}", time, timed_ ? "s" : time == 1 ? "frame" : "frames");
+  }
 
  private:
   double scale() const { return um_per_px_ > 0 ? um_per_px_ : 1; }
@@ -110,8 +112,8 @@ void print_summary(const TrackMeasurement& m) {
   const char* about = !together ? "" : drifts ? "relative to the drift: " : "relative to the common motion: ";
   const SupportedWalk walk = supported_walk(s);
   if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))
-    fmt::print("speed    mean {} (displacements over {:.3g} {})\n", units.velocity(s.mean_speed_px_s),
-               s.interval_s, units.time_unit());
+    fmt::print("speed    mean {} (displacements over {})\n", units.velocity(s.mean_speed_px_s),
+               units.duration(s.interval_s));
   if (drifts)
     fmt::print("drift    {} right, {} down\n", units.velocity(s.drift_x_px_s),
                units.velocity(s.drift_y_px_s));

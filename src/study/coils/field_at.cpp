@@ -34,21 +34,27 @@ std::string weak_gradient_note(const FieldNull& n) {
   const double field = kThermalEnergy / kMoment;
   if (field <= gradient * kSample) return "";
   return fmt::format(
-      "the gradient of {:.2g} T/m is too weak to gather cells in a sample of {:g} mm: the field reaches "
-      "{:.2g} uT, "
-      "at which a moment of {:g} A m^2 has the energy kT, only at {:.2g} m from the zero; choose a position "
-      "nearer "
-      "to the middle of the coils, or permit larger currents",
-      gradient, 1e3 * kSample, 1e6 * field, kMoment, field / gradient);
+      "the gradient of {:.2g} T/m is too weak to gather cells: cells with a moment of {:g} A m^2 align with "
+      "the field (more than {:.2g} uT) only farther than {:.2g} m from the zero, outside a sample of "
+      "{:g} mm; choose a position nearer to the middle of the coils, or permit larger currents",
+      gradient, kMoment, 1e6 * field, field / gradient, 1e3 * kSample);
 }
 
-std::string null_note(const Field& field, const FieldNull& n, Vec2 at, int polarity) {
+}  // namespace
+
+std::string position_note(const Field& field, const FieldNull& n, Vec2 at) {
   if (const std::string coil = coil_around(field, at); !coil.empty())
     return fmt::format(
         "the position {} is inside the coil \"{}\", in its bore, winding or core; choose a "
         "position between the coils with --at",
         in_mm(at), coil);
-  if (std::string weak = weak_gradient_note(n); !weak.empty()) return weak;
+  return weak_gradient_note(n);
+}
+
+namespace {
+
+std::string null_note(const Field& field, const FieldNull& n, Vec2 at, int polarity) {
+  if (std::string note = position_note(field, n, at); !note.empty()) return note;
   if (!n.saddle) return "";
   if ((polarity > 0 ? n.gradient[0] : -n.gradient[1]) > 0)
     return "the zero repels cells along all directions: no currents within the limits make a trap";

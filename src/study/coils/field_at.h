@@ -22,6 +22,9 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
 /// there.
 FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity);
 
+/// A note on a zero at a position inside a coil, or with a gradient too weak for cells; empty for others.
+std::string position_note(const Field& field, const FieldNull& n, Vec2 at);
+
 /// Currents for a zero of the field at a point in the plane of the sample.
 struct RigNull {
   Vec2 at;                         ///< m

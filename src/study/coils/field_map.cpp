@@ -153,7 +153,8 @@ FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
           current[k], field->circuit(k).max_current, field->circuit(k).name);
   }
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; }))
-    note = "all currents are zero; specify currents, such as --current 0.5,0.5";
+    note = fmt::format("all currents are zero; specify currents, such as --current {}",
+                       fmt::join(std::vector<double>(current.size(), 0.5), ","));
   const Map m = computed(*field, current, o);
   FieldMap map{current, note, {}, 0, {}};
   for (const Vec2 at : zeros_in(*field, current, o)) {

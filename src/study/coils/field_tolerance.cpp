@@ -123,7 +123,7 @@ FieldTolerance field_tolerance(const std::filesystem::path& file, Vec2 at,
   const RigEditor rig(parts.field, part.resolved);
   const auto field = part.make({});
   const FieldNull n = checked_null_at(*field, file, at, 1);
-  FieldTolerance out{at, n.current, n.saddle, {}};
+  FieldTolerance out{at, n.current, n.saddle, {}, position_note(*field, n, at)};
   for (const Cause& cause : causes())
     for (const double amount : cause.amounts) {
       double worst = 0;

@@ -20,6 +20,7 @@ struct FieldTolerance {
   std::vector<double> current;  ///< currents that make the zero, A, one per coil
   bool saddle = false;
   std::vector<Row> rows;
+  std::string note;  ///< position_note()
 };
 
 /// Changes the current of a coil, its position along and across its axis, its direction, and the ambient

@@ -28,7 +28,12 @@ FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& def
   if (choice.method == defaults.method)
     for (const auto& [key, value] : defaults.values) d.set("flow." + key, value, "--" + key);
   for (const auto& [key, value] : choice.values) d.set("flow." + key, value, "--" + key);
-  return parts.flow.resolve(Node(d).child("flow"));
+  FlowRegistry::PartType part = parts.flow.resolve(Node(d).child("flow"));
+  for (const auto& [key, _] : choice.values)
+    if (key == "warps" && !part.resolved.value("pyramid", true))
+      throw Error(Errc::usage, "--warps",
+                  "has an effect only with --pyramid; add --pyramid, or omit --warps");
+  return part;
 }
 
 std::string options_text(const FlowChoice& choice, int shrink, double fps) {

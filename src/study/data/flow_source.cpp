@@ -160,6 +160,10 @@ std::vector<std::string> FlowSource::notes() const {
                                   impl_->input.file.filename().string(), impl_->options.options_text));
     return notes;
   }
+  if (const std::string note =
+          override_note(impl_->path, {impl_->input.file, impl_->input.um_per_px}, impl_->options.fps, {});
+      !note.empty())
+    notes.push_back(note);
   const VideoReader& reader = impl_->video->reader();
   if (impl_->video->side() > 1 && impl_->options.shrink == 0)
     notes.push_back(

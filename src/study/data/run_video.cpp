@@ -1,10 +1,16 @@
 #include "study/data/run_video.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "study/data/run_info.h"
+#include "vision/files/video_reader.h"
 
 namespace faba {
 namespace {
@@ -39,6 +45,23 @@ RunVideo run_video(const std::filesystem::path& path) {
     return {path / video, info.um_per_px};
   }
   throw Error(Errc::input, path.string(), "the run has no video; record it with --as-seen");
+}
+
+std::string override_note(const std::filesystem::path& path, const RunVideo& video, double fps,
+                          const std::optional<double>& um_per_px) {
+  if (!is_run(path)) return "";
+  std::vector<std::string> stated, used, options;
+  const auto compare = [&](double of_run, double given, const char* unit, const char* option) {
+    if (!(of_run > 0) || std::fabs(given / of_run - 1) < 1e-6) return;
+    stated.push_back(fmt::format("{:.6g} {}", of_run, unit));
+    used.push_back(fmt::format("{:.6g} {}", given, unit));
+    options.emplace_back(option);
+  };
+  if (fps > 0) compare(VideoReader(video.file).fps(), fps, "Hz", "--fps");
+  if (um_per_px && video.um_per_px) compare(*video.um_per_px, *um_per_px, "um/px", "--um-per-px");
+  if (stated.empty()) return "";
+  return fmt::format("the run states {}; {} {} used ({})", fmt::join(stated, " and "),
+                     fmt::join(used, " and "), used.size() == 1 ? "is" : "are", fmt::join(options, ", "));
 }
 
 }  // namespace faba

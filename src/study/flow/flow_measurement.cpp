@@ -107,6 +107,7 @@ VideoFlow measure_flow(FlowSource& source, const std::string& name,
   r.height = source.height();
   r.method = source.method();
   r.seconds = pair.t1_s - t0;
+  r.timed = source.fps() > 0;
   r.mean_speed_px = sums.speed / double(sums.n);
   r.notes = source.notes();
   return r;

@@ -36,6 +36,7 @@ struct VideoFlow {
   std::string method;         ///< flow part and its parameters, as JSON
   std::uint64_t pairs = 0;    ///< number of pairs of frames
   double seconds = 0;         ///< duration from the first frame to the last
+  bool timed = true;          ///< false: no frame rate is stated, and `seconds` is a number of frames
   double mean_speed_px = 0;   ///< per pair
   std::vector<std::string> notes;
 };

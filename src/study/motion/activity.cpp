@@ -103,6 +103,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
     check_stop(job, a.input);
   }
   a.notes = source.notes();
+  a.timed = source.fps() > 0;
   if (a.signature.size() == 0)
     throw Error(Errc::input, a.input.file.string(),
                 "has fewer than two frames in the requested interval; motion needs at least two");
@@ -119,11 +120,11 @@ void note_motion(VideoActivity& a) {
     a.notes.push_back(
         a.segments.empty()
             ? fmt::format("no direction was given and no directed motion was detected; the direction of the "
-                          "total flow is used: {:.0f} degrees",
-                          a.direction_deg)
+                          "total flow is used: {} degrees",
+                          rounded_degrees(a.direction_deg))
             : fmt::format("no direction was given; the direction of the longest detected motion is used: "
-                          "{:.0f} degrees",
-                          a.direction_deg));
+                          "{} degrees",
+                          rounded_degrees(a.direction_deg)));
 }
 
 VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {

@@ -51,6 +51,7 @@ struct VideoActivity {
   std::vector<double> t_s, amount,
       along;  ///< per pair: amount() and along() of the signature in that direction
   double mean_amount = 0, mean_along = 0;
+  bool timed = true;                    ///< false: no frame rate is stated, and times are frame counts
   double frame_s = 0;                   ///< median time between the frames of a pair
   std::optional<double> visible_cells;  ///< mean number; empty for a file of flows
   GaussianFit fit;                      ///< of `amount`

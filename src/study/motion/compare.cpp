@@ -271,7 +271,8 @@ void find_noise_floor(const CompareJob& job, Comparison& c) {
   }
   if (same_scenario.empty()) {
     c.noise_floor_from =
-        "unknown: no run directory was given, and a video cannot be repeated with another seed";
+        "not computed: none of the compared inputs is a run directory, and a video cannot be repeated with "
+        "another seed";
     return;
   }
   std::optional<RepeatedRun> repeated;
@@ -339,6 +340,12 @@ Comparison compare_videos(const CompareJob& job) {
           "aligned {}, at {:.2f} s; the reference {}, at {:.2f} s. Specify --t0 if these times do "
           "not correspond",
           alignment_text(b.by), t0, c.alignment, c.reference_t0_s));
+    // The last pair ends half a period after its time; one further period is rounding.
+    const std::vector<double>& t = run.distance.t_s;
+    if (job.duration_s < CompareJob{}.duration_s && t.back() + 1.5 * (t[1] - t[0]) < job.duration_s)
+      run.notes.push_back(fmt::format(
+          "the comparison ends after {:.3g} s, where one of the two videos ends; --duration is {:g} s",
+          t.back() + (t[1] - t[0]) / 2, job.duration_s));
     c.runs.push_back(std::move(run));
   }
   c.naive = comparer.compare({}, c.reference_t0_s, 0, c.filter).distance;

@@ -28,12 +28,13 @@ void each_line(const std::filesystem::path& file, Take&& take) {
   }
 }
 
-double number_in(const std::string& words, const std::filesystem::path& file, std::size_t line) {
+double number_in(const std::string& words, const std::filesystem::path& file, std::size_t line,
+                 const char* advice) {
   double value = 0;
   const auto [end, error] = std::from_chars(words.data(), words.data() + words.size(), value);
   if (error != std::errc() || end != words.data() + words.size() || !std::isfinite(value))
     throw Error(Errc::input, fmt::format("{}:{}", file.string(), line),
-                fmt::format("\"{}\" is not a number", words.substr(0, 40)));
+                fmt::format("\"{}\" is not a number; {}", words.substr(0, 40), advice));
   if (value < 0)
     throw Error(Errc::input, fmt::format("{}:{}", file.string(), line),
                 fmt::format("{} is negative; it must be at least 0", value));
@@ -50,7 +51,8 @@ BinSimilarity similarity_of(const DistanceOptions& o) {
     for (std::string one; std::getline(in, one, ','); ++n) {
       const std::size_t a = one.find_first_not_of(" \t"), b = one.find_last_not_of(" \t");
       matrix.push_back(
-          number_in(a == std::string::npos ? "" : one.substr(a, b - a + 1), o.similarity, number));
+          number_in(a == std::string::npos ? "" : one.substr(a, b - a + 1), o.similarity, number,
+                    "write each row of the matrix in one line, with commas between the numbers"));
     }
     if (rows++ == 0) columns = n;
     if (n != columns)
@@ -66,7 +68,7 @@ BinSimilarity similarity_of(const DistanceOptions& o) {
 std::vector<double> read_histogram(const std::filesystem::path& file) {
   std::vector<double> bins;
   each_line(file, [&](const std::string& line, std::size_t number) {
-    bins.push_back(number_in(line, file, number));
+    bins.push_back(number_in(line, file, number, "write one number per line"));
   });
   if (bins.empty())
     throw Error(Errc::input, file.string(), "contains no numbers; a histogram has one per line");

@@ -30,13 +30,22 @@ std::string compass(double deg) {
   return kNames[int(std::lround(deg / 45)) % 8];
 }
 
+// Unit of the times in a table: a video without a frame rate has frame numbers.
+const char* time_unit(const ActivityResult& r) {
+  const bool timed =
+      std::all_of(r.videos.begin(), r.videos.end(), [](const VideoActivity& a) { return a.timed; });
+  const bool none =
+      std::none_of(r.videos.begin(), r.videos.end(), [](const VideoActivity& a) { return a.timed; });
+  return timed ? "s" : none ? "frames" : "s or frames";
+}
+
 Figure signature_figure(const VideoActivity& a) {
   Figure f;
   f.heading = title_of(a);
   Plot& p = f.plot;
   p.inlined = true;
   p.description = "Activity of " + f.heading + " over time";
-  p.x.label = "time (s)";
+  p.x.label = a.timed ? "time (s)" : "time (frames)";
   p.y.label = "activity (px × px² per pair)";
   p.width = 620;
   for (const MotionSegment& s : a.segments) p.add(Band{s.t0_s, s.t1_s, {}, true, Ink::muted});
@@ -150,7 +159,9 @@ std::string with_error(const std::optional<double>& value, const std::optional<d
 
 std::string segments_table(const ActivityResult& r) {
   std::string out = "<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n<thead>";
-  out += text_row({"video", "from (s)", "to (s)", "direction"}, "th") + "</thead><tbody>\n";
+  const std::string unit = time_unit(r);
+  out += text_row({"video", "from (" + unit + ")", "to (" + unit + ")", "direction"}, "th") +
+         "</thead><tbody>\n";
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
       out += text_row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
@@ -161,8 +172,10 @@ std::string segments_table(const ActivityResult& r) {
 
 std::string table(const ActivityResult& r) {
   std::string out = "<h2>Results</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>";
+  const std::string unit = time_unit(r);
   out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell",
-                   "signal-to-noise ratio", "onset (s)", "maximum (s)", "width (s)"},
+                   "signal-to-noise ratio", "onset (" + unit + ")", "maximum (" + unit + ")",
+                   "width (" + unit + ")"},
                   "th") +
          "</thead><tbody>\n";
   const auto if_good = [](const VideoActivity& a, double value) {
@@ -242,7 +255,8 @@ void write_activity_picture(const std::filesystem::path& file, const VideoActivi
   FlowDrawing how;
   how.full_px = std::max(full_speed(a.busiest.flow), 1e-6);
   how.arrow_step_px = 0;
-  how.words = fmt::format("flow at {:.2f} s", a.busiest.t1_s);
+  how.words = a.timed ? fmt::format("flow at {:.2f} s", a.busiest.t1_s)
+                      : fmt::format("flow at frame {:.0f}", a.busiest.t1_s);
   const RgbImage all = draw_flow(a.busiest.flow, how);
   how.words =
       fmt::format("above {:.3g} px, direction {} degrees", a.threshold_px, rounded_degrees(direction));

@@ -43,7 +43,8 @@ std::string scale_note(const TableScale& s) {
         range, larger ? "large" : "small", 100 * s.ratio_bias);
   return fmt::format(
       "the constant offset of the readings, {}, is not significantly different from 0, so no bias of either "
-      "estimator is detected. Use the regression unless edge effects are excluded",
+      "estimator is detected. Use the regression, unless you know that the readings have no edge "
+      "effect",
       range);
 }
 

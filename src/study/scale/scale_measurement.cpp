@@ -95,7 +95,8 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
   if (!(s.slope_ci95_px_per_um[0] > 0))
     throw Error(Errc::input, name,
                 fmt::format("the readings do not increase significantly with the width (slope {:.3g} px/um, "
-                            "95 % confidence interval {:.3g} to {:.3g})",
+                            "95 % confidence interval {:.3g} to {:.3g}); check that the columns are not "
+                            "exchanged",
                             line.slope, s.slope_ci95_px_per_um[0], s.slope_ci95_px_per_um[1]));
   s.um_per_px = 1 / line.slope;
   s.ci95 = {1 / s.slope_ci95_px_per_um[1], 1 / s.slope_ci95_px_per_um[0]};

@@ -127,7 +127,7 @@ std::string speed_warning(const TrackSurvey& survey, const TrackPass& pass, cons
   if (supported_walk(s) == SupportedWalk::persistent && !s.persistent.tau_open &&
       (!s.persistent.good || s.tau_s.value < 1.5 * survey.frame_s))
     return "the persistence time is below two frames: cells turn faster than the frame rate resolves, or "
-           "tracks join different cells; speeds are too small";
+           "tracks join different cells; speeds are too small; use a higher frame rate, or a smaller --reach";
   return "";
 }
 
@@ -170,6 +170,9 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
   if (pass.repeated_times() > 0)
     m.notes.push_back(fmt::format("{} with the same time as the previous frame: not tracked",
                                   counted(std::uint64_t(pass.repeated_times()), "frame")));
+  if (const auto& drop = m.detection.drop)
+    m.notes.push_back(fmt::format("drop: centre ({:.0f}, {:.0f}) px, radius {:.0f} px, from the first frame",
+                                  drop->centre_image.x, drop->centre_image.y, drop->radius_px));
   if (const std::string warning = speed_warning(survey, pass, m.summary); !warning.empty())
     m.notes.push_back(warning);
   if (o.interval_frames > 0 && m.summary.tracks > 0 && m.summary.speed_count == 0)
@@ -177,7 +180,12 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
         "--interval is {} frames, but no track has this length (the video has {}): speeds and turns are not "
         "measured; use a smaller interval, or omit the option",
         o.interval_frames, counted(std::uint64_t(survey.frames), "frame")));
-  if (survey.frames > 1 && m.summary.tracks == 0) m.notes.emplace_back("no tracks were found");
+  if (survey.frames > 1 && m.summary.tracks == 0)
+    m.notes.push_back(m.joining.discarded_tracks == 0
+                          ? "no tracks were found"
+                          : fmt::format("no track has {} (the video has {}); reduce --least",
+                                        counted(std::uint64_t(o.tracker.min_points), "detection"),
+                                        counted(std::uint64_t(survey.frames), "frame")));
   return m;
 }
 

@@ -98,8 +98,8 @@ std::string describe_straight_or_short(const DropCandidate& d, const DropEdgeOpt
   const double sd_sagitta = sagitta * d.fit.sd_radius / d.circle.radius;
   if (sagitta < 4 * sd_sagitta || sagitta < 1)
     return fmt::format(
-        "the detected edge is too straight for a circle (sagitta {:.1f} +- {:.1f} px over {:.0f} px); use a "
-        "picture that shows a longer arc of the drop edge",
+        "the detected edge is too straight for a circle (it bends by {:.1f} +- {:.1f} px over a length of "
+        "{:.0f} px); use a picture that shows a longer arc of the drop edge",
         sagitta, sd_sagitta, length);
   return fmt::format(
       "no drop edge detected: the best arc covers only {:.1f} degrees of a circle of radius {:.0f} px (at "

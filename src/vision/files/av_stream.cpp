@@ -89,7 +89,12 @@ void AvStream::Impl::open() {
   av_dict_set(&options, "protocol_whitelist", "none", 0);           // play lists must not open other files
   result = avformat_open_input(&raw, "", kind_by_magic, &options);  // frees `raw` itself on failure
   av_dict_free(&options);
-  if (result < 0) refuse("is not a supported picture or video, or is truncated: " + libav::reason(result));
+  if (result < 0)
+    refuse(
+        "cannot be read as a picture or video: it is damaged, or of a format that is not supported "
+        "(supported: "
+        "TIFF, PNG, JPEG, PGM, and videos that FFmpeg reads)" +
+        (result == AVERROR_INVALIDDATA ? "" : ": " + libav::reason(result)));
   container.reset(raw);
   const std::string_view kind = container->iformat->name;
   if (is_refused_format(kind)) refuse("is not a picture or video");

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "app/scenario/rig_file.h"
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
@@ -60,7 +61,17 @@ int field_map(const FieldMapVerb& v, const Common& c) {
   if (o.drop_radius < 0)
     throw Error(Errc::usage, "--drop",
                 fmt::format("{:g} m is negative; it must be at least 0 m", o.drop_radius));
+  if (const double reach = std::hypot(o.width, o.height) / 2; o.drop_radius > reach)
+    throw Error(
+        Errc::usage, "--drop",
+        fmt::format("\"{}\" is out of range; for a map of {:g} mm x {:g} mm it must be at most {:.4g} mm, "
+                    "half of the diagonal; use a smaller radius or a larger --size",
+                    v.drop, 1e3 * o.width, 1e3 * o.height, 1e3 * reach));
+  read_rig(v.rig, builtin_parts());  // errors of the input come before those of the output
   if (!v.check) {
+    if (v.picture == FieldMapVerb{}.picture && !v.force && std::filesystem::exists(v.picture))
+      throw Error(Errc::usage, v.picture.string(),
+                  "already exists; give another name with --picture, or --force to replace it");
     o.picture = v.picture;
     o.hdf5 = v.out;
     check_distinct({o.picture, o.hdf5});

@@ -32,6 +32,8 @@ int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
     fmt::print("{:<42}{}\n", row.words, row.shift ? fmt::format("{:>8.4f} mm", *row.shift * 1e3) : "no zero");
   }
   if (!v.picture.empty()) fmt::print("  {}\n", v.picture.string());
+  if (!tolerance.note.empty())
+    print_stderr(fmt::format("faba: note: {}: {}", v.rig.string(), tolerance.note));
   return 0;
 }
 

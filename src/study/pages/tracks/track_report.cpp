@@ -109,6 +109,7 @@ class TrackFiles final : public TrackListener {
 
 TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progress) {
   RunVideo source = run_video(o.video);
+  const std::string overridden = override_note(o.video, source, o.fps, o.um_per_px);
   if (o.um_per_px) source.um_per_px = o.um_per_px;
   std::int64_t total = 0;
   const auto tick = [&](std::int64_t done) {
@@ -123,6 +124,7 @@ TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progres
   TrackFiles files(o, source, survey);
   TrackMeasurement m =
       measure_tracks(o, source, survey, files, [&](std::int64_t done) { tick(survey.frames + done); });
+  if (!overridden.empty()) m.notes.push_back(overridden);
   const RgbImage picture = draw_tracks(survey.first, survey.black, survey.white, files.drawn(), false, 0);
   const std::vector<Figure> figures = track_figures(m.summary, m.um_per_px.value_or(0));
   files.complete();
