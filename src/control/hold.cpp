@@ -25,7 +25,7 @@ Schema<ReferenceHold::Params> ReferenceHold::schema() {
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Setpoint in image coordinates, y down; the centre of the arena when absent"});
+            .doc = "Setpoint in image coordinates, y down; default: the centre of the arena"});
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ Schema<Proportional::Params> Proportional::schema() {
       .add("dead_zone_px", &Params::dead_zone_px,
            {.unit = "px", .min = 0, .max = 1e4, .doc = "No command within this distance of the setpoint"})
       .add("delay_frames", &Params::delay_frames,
-           {.min = 0, .max = 1000, .doc = "Design delay in frames; that of the camera when absent"})
+           {.min = 0, .max = 1000, .doc = "Design delay in frames; default: that of the camera"})
       .add("hold_frames", &Params::hold_frames,
            {.min = 1, .max = 100, .doc = "Frames for which a cell keeps its velocity", .source = "A3: 2"})
       .add("actuation", &Params::actuation,
@@ -84,8 +84,9 @@ Schema<Proportional::Params> Proportional::schema() {
            {.unit = "s",
             .min = 0,
             .max = 10,
-            .doc = "Prediction time beyond the delay, the reorientation time of the cells: the centroid is "
-                   "extrapolated with its present velocity; no prediction when absent",
+            .doc = "Time by which the position is predicted in addition to the delay, about the time that "
+                   "cells need "
+                   "to turn; default: no prediction",
             .source = "theory F2: ln(2 kappa) / w_B"})
       .validity(
           "The law is linear, for an integrator plant. Reorientation that takes longer than a frame adds a "

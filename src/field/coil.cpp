@@ -17,7 +17,7 @@ Schema<CircuitParams> CircuitParams::schema() {
             .max = 1e4,
             .doc = "Default current, used where no current is commanded, as in `faba field`"})
       .add("max_current", &CircuitParams::max_current,
-           {.unit = "A", .min = 0, .max = 1e4, .doc = "Maximum current; unlimited when absent"})
+           {.unit = "A", .min = 0, .max = 1e4, .doc = "Maximum current; default: unlimited"})
       .add("resistance", &CircuitParams::resistance,
            {.unit = "ohm", .min = 1e-6, .max = 1e6, .doc = "Resistance of the winding"})
       .add("inductance", &CircuitParams::inductance,

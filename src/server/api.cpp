@@ -82,6 +82,15 @@ Json run_card(const std::string& name, const fs::path& dir) {
           {"files", files}};
 }
 
+// report_scale_picture() without the name of the temporary file in its errors.
+PictureScale scale_of_taken(const fs::path& taken, double tick_m, const fs::path& shown) {
+  try {
+    return report_scale_picture(taken, tick_m, shown);
+  } catch (const Error& e) {
+    throw Error(e.code(), "", e.reason());
+  }
+}
+
 }  // namespace
 
 Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path pages)
@@ -315,7 +324,8 @@ Json Api::measure_ruler(const Json& asked) {
   if (!(tick_um >= 1e-3 && tick_um <= 1e6))
     throw Error(
         Errc::usage, "tick_um",
-        fmt::format("{:g} is out of range; the tick spacing must be between 0.001 and 1e6 um", tick_um));
+        fmt::format("{:g} is out of range; the distance between marks must be between 0.001 and 1e6 um",
+                    tick_um));
   const std::string name = "calibrations/" + objective;
   const fs::path picture = workspace_.inside(name + ".png"), file = workspace_.inside(name + ".toml");
   const std::string shown = fmt::format("ruler-{}.png", ++number);
@@ -324,7 +334,7 @@ Json Api::measure_ruler(const Json& asked) {
   const std::string now = bench_.picture();
   if (now.empty()) throw Error(Errc::input, "bench", "no image from the camera");
   write_file(taken, now);
-  const PictureScale scale = report_scale_picture(taken, 1e-6 * tick_um, pictures_ / shown);
+  const PictureScale scale = scale_of_taken(taken, 1e-6 * tick_um, pictures_ / shown);
   Json j = scale_json(scale);
   j["url"] = "/api/uploads/" + shown;
   if (scale.quality == MarkQuality::poor) return j;  // displayed, but not saved

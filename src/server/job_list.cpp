@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMostOutput = 16u << 20;
 constexpr int kPollMs = 100;
 constexpr double kReportPeriod = 0.2;  // s
-constexpr double kKillDelay = 5;        // s, timeout between SIGINT and SIGKILL
+constexpr double kKillDelay = 5;       // s, timeout between SIGINT and SIGKILL
 constexpr int kProgressFd = 3;
 constexpr std::size_t kKept = 100;  // maximum length of the job list
 
@@ -71,13 +71,17 @@ void read_progress(std::string& text, Job& job) {
   job.of = std::strtoull(line.c_str() + total + 1, nullptr, 10);
 }
 
-// The error message of a verb is the last line of its standard error.
+// The error message of a verb is the last line of its standard error, without the command that prints its
+// help: a page has no command line.
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   const auto cut = text.rfind('\n');
   if (cut != std::string::npos) text.erase(0, cut + 1);
   constexpr std::string_view kMark = "faba: error: ";
-  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
+  const auto help = text.rfind(" (see ");
+  if (help != std::string::npos && text.ends_with(" --help)")) text.erase(help);
+  return text;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr std::size_t kMostFiles = 500;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
 
 Error out_of_reach(std::string_view name) {
-  return {Errc::usage, std::string(name.substr(0, 80)), "outside of the workspace of the lab"};
+  return {Errc::usage, std::string(name.substr(0, 80)), "is outside the folder in which the lab was started"};
 }
 
 std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view extension) {
@@ -34,6 +34,23 @@ bool holds_run(const fs::path& dir) {
   std::error_code ec;
   return fs::is_regular_file(dir / run_files::kManifest, ec) &&
          fs::is_regular_file(dir / run_files::kScenario, ec);
+}
+
+// One entry of the list of coil systems: its file, the number of its coils (0 if the file is not readable),
+// and whether it has default currents.
+Json rig_card(const fs::path& file) {
+  Json card = {{"file", "rigs/" + file.filename().string()}, {"coils", 0}, {"currents", false}};
+  try {
+    const Document d = read_toml(file);
+    const auto coils = d.root.find("coil");
+    if (coils == d.root.end() || !coils->is_array()) return card;
+    card["coils"] = coils->size();
+    card["currents"] =
+        std::any_of(coils->begin(), coils->end(), [](const Json& c) { return c.contains("current"); });
+  } catch (const Error&) {
+    return card;  // the job reports the error
+  }
+  return card;
 }
 
 }  // namespace
@@ -61,7 +78,7 @@ fs::path Workspace::existing(std::string_view name) const {
   fs::path path = inside(name);
   std::error_code ec;
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
-    throw Error(Errc::input, std::string(name), "file not found in the workspace of the lab");
+    throw Error(Errc::input, std::string(name), "file not found in the folder in which the lab was started");
   return path;
 }
 
@@ -148,8 +165,7 @@ Json Workspace::files() const {
       continue;  // not a study, or incomplete
     }
   }
-  for (const fs::path& f : sorted_files(root_ / "rigs", ".toml"))
-    rigs.push_back("rigs/" + f.filename().string());
+  for (const fs::path& f : sorted_files(root_ / "rigs", ".toml")) rigs.push_back(rig_card(f));
   return {{"videos", videos}, {"studies", studies}, {"rigs", rigs}};
 }
 

@@ -18,7 +18,7 @@ struct Refused {
   std::string phrase;  ///< part of the error message
 };
 const std::vector<Refused> kRefused{
-    {"model dipole speed maximum", "is above speed_max"},
+    {"model dipole speed maximum", "reduce speed or increase speed_max"},
     {"model dipole speed_max minimum", "is above speed_max"},
     {"field helmholtz radius minimum", "wire_radius must be smaller than radius"},
     {"field helmholtz wire_radius maximum", "wire_radius must be smaller than radius"},

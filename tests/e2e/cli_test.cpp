@@ -20,6 +20,7 @@ TEST_CASE("help, version, parts, schema and doctor answer with exit 0") {
     CHECK(c.out.size() > 40);
   }
   CHECK(faba_in(f.path, "run --help").out.find("Examples:") != std::string::npos);
+  CHECK(faba_in(f.path, "rig capture --help").out.find("(records until Ctrl-C)") != std::string::npos);
   CHECK(faba_in(f.path, "parts --json").json()["model"].contains("dipole"));
   CHECK(faba_in(f.path, "parts model dipole --json").json()["properties"]["speed"]["x-unit"] == "m/s");
   CHECK(faba_in(f.path, "schema").json()["properties"]["swarm"]["type"] == "array");

@@ -53,6 +53,16 @@ await step('arrow keys apply a field', async () => {
   await page.keyboard.down('ArrowRight');
   await until(async () => (await read('swarm'))[0] > before[0] + 15, 'the centroid moves to the right');
   await page.keyboard.up('ArrowRight');
+  assert.equal(await page.locator('[data-read="goal"]').count(), 0, 'the distance to a setpoint that the manual field does not use');
+});
+
+await step('a setpoint outside the arena is reported', async () => {
+  await page.getByLabel('x (px)').fill('99999');
+  await page.getByLabel('y (px)').fill('-5');
+  await page.getByRole('button', { name: 'Set', exact: true }).click();
+  const note = page.getByRole('status').filter({ hasText: 'is outside the arena' });
+  await note.waitFor();
+  await note.getByRole('button', { name: 'Close' }).click();
 });
 
 await step('a click sets a setpoint, and the swarm reaches it', async () => {
@@ -94,13 +104,14 @@ await step('a parameter of the model is changed during the run', async () => {
   await speed.fill('-5 um/s');
   await page.getByText('must be at least').waitFor();
   await speed.fill('3 bananas');
-  await page.getByText('needs a unit such as').waitFor();
+  await page.getByText('has the wrong unit; it needs a unit such as').waitFor();
   await page.getByRole('button', { name: 'Undo' }).click();
   assert.match(await speed.inputValue(), /^[\d.]+ µm\/s$/);
   assert.equal(await page.getByText('needs a unit such as').count(), 0);
   // An error of the program that concerns two values is shown at their part.
   await speed.fill('5000 um/s');
   await page.locator('[data-refused="swarm[0].model"]').getByText('is above speed_max').waitFor();
+  await page.locator('[data-refused="swarm[0].model"]').getByText('reduce speed or increase speed_max').waitFor();
   await speed.fill('60 um/s');
   await page.getByRole('button', { name: 'Apply' }).click();
   await until(async () => (await page.getByRole('button', { name: 'Apply' }).count()) === 0, 'the change is applied');
@@ -159,7 +170,7 @@ await step('a recording with a name that is already used gets another name, and 
   await page.getByRole('button', { name: /Record$/ }).click();
   await page.getByLabel('Recording name').fill('By hand');
   await page.keyboard.press('Enter');
-  await page.getByText('The name By-hand is already used: the recording is saved as runs/By-hand-2.').waitFor();
+  await page.getByText('The name By-hand is already used: the recording is being written to runs/By-hand-2.').waitFor();
   assert.ok(existsSync(join(workspace, 'runs/By-hand-2.toml')));
   const job = page.locator('.panel li').first();
   await job.getByRole('button', { name: 'Cancel' }).click();
@@ -241,9 +252,13 @@ await step('a field map and the activity of a video are shown', async () => {
     await job.getByRole('button', { name: 'Open' }).click({ timeout: 120000 });
     await page.locator(what).waitFor();
   };
-  await page.locator('form', { hasText: 'Field map' }).getByRole('button', { name: 'Start' }).click();
-  await page.getByText('must be numbers in A').waitFor();
   await page.getByLabel('Coil system').selectOption('rigs/thesis-four-coils.toml');
+  const map = page.locator('form', { hasText: 'Field map' }).getByRole('button', { name: 'Start' });
+  await map.click();
+  await page.getByText('must be numbers in A').waitFor();
+  await page.getByLabel('Currents, A').fill('0.5');
+  await map.click();
+  await page.getByText('as many numbers as the file has coils: 4').waitFor();
   await page.getByLabel('Currents, A').fill('0.5, 0.5, 0, 0');
   await show('Field map', 'field map', '.page img');
   await until(() => page.evaluate(() => document.querySelector('.page > section > img').naturalWidth > 0), 'the field map is shown');
@@ -291,6 +306,12 @@ await step('camera of a bench: picture, gain, and calibration with a ruler', asy
   const first = await picture.getAttribute('src');
   await until(async () => (await picture.getAttribute('src')) !== first, 'the picture is updated');
   await until(async () => /[1-9]\d*\.\d Hz/.test(await page.locator('figcaption').textContent()), 'the frame rate is shown');
+  await page.getByRole('button', { name: 'Measure the ruler' }).click();
+  const missing = page.getByRole('alert').filter({ hasText: 'no ruler detected' });
+  await missing.waitFor();
+  assert.doesNotMatch(await missing.textContent(), /ruler-taken/);
+  await missing.getByRole('button', { name: 'Close' }).click();
+  complaints.length = 0; // the browser logs the refused request
   const before = await mean();
   await page.getByLabel('Gain').fill('0.5');
   await page.getByLabel('Gain').press('Enter');
@@ -309,7 +330,7 @@ await step('camera of a bench: picture, gain, and calibration with a ruler', asy
   await page.getByRole('button', { name: 'Close the camera' }).click();
   await open('ruler');
   await page.getByLabel('Objective').fill('20x');
-  await page.getByLabel('Tick spacing').fill('10');
+  await page.getByLabel('Distance between marks').fill('10');
   await page.getByRole('button', { name: 'Measure the ruler' }).click();
   await page.getByText('calibrations/20x.toml').first().waitFor();
   await shot('ruler');

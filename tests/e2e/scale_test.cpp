@@ -87,6 +87,7 @@ TEST_CASE("scale with invalid input: one clear line and the documented exit code
     check(table + std::string(" --out c.toml"), 3);
   for (const char* picture : {"text.png", "few.png", "black.png", "tiny.png", "absent.png", "."})
     check(picture + std::string(" --tick '10 um' --out c.toml"), 3);
+  CHECK(faba_in(f.path, "scale few.png --tick '10 um'").err.find("in view") != std::string::npos);
   for (const char* usage :
        {"ruler.png", "ruler.png --tick ''", "ruler.png --tick 10", "ruler.png --tick '10 s'",
         "ruler.png --tick '-1 um'", "ruler.png --tick '0 um'", "ruler.png --tick 'nan um'",

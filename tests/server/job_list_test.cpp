@@ -62,11 +62,13 @@ TEST_CASE("a job: arguments, working folder, progress, result") {
 TEST_CASE("a failed job has an error message, and the next job runs") {
   test::TemporaryFolder folder("jobs");
   const fs::path program =
-      script(folder.path(), "echo 'faba: note: x' >&2; echo \"faba: error: $1: is wrong\" >&2; exit $2\n");
+      script(folder.path(), "echo 'faba: note: x' >&2; echo \"faba: error: $1: is wrong$3\" >&2; exit $2\n");
   JobList list(program, folder.path(), [] {});
   const int bad = list.add("", {"scene", "2"}, "", ""), good = list.add("", {"other", "0"}, "", "");
   CHECK(wait_for(list, bad, is_over).error == "scene: is wrong");
   CHECK(wait_for(list, good, is_over).state == Job::State::done);
+  const int usage = list.add("", {"--at", "2", " (see /x/faba run --help)"}, "", "");
+  CHECK(wait_for(list, usage, is_over).error == "--at: is wrong");
   JobList none(folder.path() / "absent", folder.path(), [] {});
   CHECK(wait_for(none, none.add("", {}, "", ""), is_over).state == Job::State::failed);
 }

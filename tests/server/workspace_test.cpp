@@ -35,7 +35,11 @@ TEST_CASE("S6: names outside of the workspace are refused") {
     INFO(bad.substr(0, 60));
     CHECK_THROWS_AS(w.inside(bad), const Error&);
   }
-  CHECK_THROWS_AS(w.existing("runs/two"), const Error&);
+  CHECK_THROWS_WITH_AS(w.inside("../secret.txt"),
+                       doctest::Contains("is outside the folder in which the lab was started"), const Error&);
+  CHECK_THROWS_WITH_AS(w.existing("runs/two"),
+                       doctest::Contains("not found in the folder in which the lab was started"),
+                       const Error&);
   CHECK_NOTHROW(w.inside("runs/two"));
 }
 
@@ -80,7 +84,9 @@ TEST_CASE("scenes, runs and files of the workspace") {
     write_file(root / "runs" / run / "video.mp4", "");
   }
   write_file(root / "videos/v.mp4", "");
+  write_file(root / "rigs/pair.toml", "[[coil]]\ncurrent = '1 A'\n[[coil]]\n");
   write_file(root / "rigs/r.toml", "");
+  write_file(root / "rigs/wrong.toml", "[[");
   write_file(root / "studies/i.toml", "[[model]]\nname = 'a'\n");
   write_file(root / "studies/c.toml", "scene = 'steer.toml'\n");
   write_file(root / "studies/v.toml", "[[video]]\nfile = 'x.mp4'\n");
@@ -93,7 +99,10 @@ TEST_CASE("scenes, runs and files of the workspace") {
   CHECK(w.runs().size() == 3);
   const Json files = w.files();
   CHECK(files["videos"] == Json({"runs/a", "videos/v.mp4"}));
-  CHECK(files["rigs"] == Json({"rigs/r.toml"}));
+  REQUIRE(files["rigs"].size() == 3);
+  CHECK(files["rigs"][0] == Json({{"file", "rigs/pair.toml"}, {"coils", 2}, {"currents", true}}));
+  CHECK(files["rigs"][1] == Json({{"file", "rigs/r.toml"}, {"coils", 0}, {"currents", false}}));
+  CHECK(files["rigs"][2] == Json({{"file", "rigs/wrong.toml"}, {"coils", 0}, {"currents", false}}));
   REQUIRE(files["studies"].size() == 3);
   CHECK(files["studies"][0] == Json({{"file", "studies/c.toml"}, {"verb", "compare-controllers"}}));
   CHECK(files["studies"][1]["verb"] == "identify");

@@ -82,6 +82,15 @@ export class Series {
   }
 }
 
+/**
+ * The time range of a plot with `live` and a recorded run, s: it ends at twice the duration of the recorded run, so that a short
+ * recording stays visible beside a long live run. The full range [low, high] if the live run has no rows in it.
+ */
+export function comparedRange(live: Series, recorded: Series, low: number, high: number): [number, number] {
+  const times = live.of('t_s'), end = 2 * recorded.newest('t_s');
+  return end > low && times.length > 0 && times[0] < end ? [low, Math.min(high, end)] : [low, high];
+}
+
 /** The series of a recorded run; null if not available. */
 export async function recordedSeries(run: string): Promise<Series | null> {
   const r = await fetch(`/api/runs/${encodeURIComponent(run)}/series.csv`).catch(() => null);

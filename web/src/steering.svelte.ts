@@ -1,6 +1,7 @@
 // Manual control: field by pointer, keys and gamepad; setpoints and routes.
 
 import type { Lab } from './lab.svelte';
+import type { Scene } from './view/overlay';
 import { defaultPart, handController, isOpenLoop, routeReference, sectionOf, setpointReference } from './part_traits';
 
 export const kWeakest = 5e-6, kStrongest = 5e-3; // T
@@ -9,6 +10,10 @@ const rounded = ([x, y]: [number, number]): [number, number] => [Math.round(x * 
 
 /** Whether a point in pixels is in the view of the camera; (0, 0) is the centre of the first pixel. */
 export const inView = ([x, y]: [number, number], view: { width: number; height: number }) => x >= -0.5 && y >= -0.5 && x < view.width - 0.5 && y < view.height - 0.5;
+
+/** Whether a point in pixels is in the arena: in its circle, or in its box if it has no circular edge. */
+export const inArena = ([x, y]: [number, number], { outline: o, box: b }: Pick<Scene, 'outline' | 'box'>) =>
+  o.radius_px > 0 ? Math.hypot(x - o.centre_px[0], y - o.centre_px[1]) <= o.radius_px : x >= b.left && x <= b.right && y >= b.top && y <= b.bottom;
 
 export class Steering {
   /** Field strength at full deflection, T. */
@@ -21,6 +26,8 @@ export class Steering {
   asked = $state.raw<[number, number] | null>(null);
   /** The first requested setpoint outside of the camera view, and the size of the view, px; the page shows a note. */
   outside = $state.raw<{ x: number; y: number; width: number; height: number } | null>(null);
+  /** The first requested setpoint outside of the arena, px; the page shows a note. */
+  unreachable = $state.raw<{ x: number; y: number } | null>(null);
   /** Controller and estimator before manual control. */
   private before: Record<string, any> | null = null;
   private sending = false;
@@ -87,11 +94,13 @@ export class Steering {
     this.direction = [0, 0];
     this.sketch = [];
     this.before = null;
-    this.outside = null;
+    this.outside = this.unreachable = null;
   }
-  private checkView(points: [number, number][]) {
+  private checkSetpoints(points: [number, number][]) {
     const view = this.lab.scene?.view, point = view && points.find((q) => !inView(q, view));
     this.outside = view && point ? { x: point[0], y: point[1], width: view.width, height: view.height } : null;
+    const scene = this.lab.scene, beyond = scene && points.find((q) => !inArena(q, scene));
+    this.unreachable = beyond ? { x: beyond[0], y: beyond[1] } : null;
   }
 
   /** Parts that replace manual control: those before it, or the default controller. */
@@ -105,7 +114,7 @@ export class Steering {
     this.direction = [0, 0];
     this.asked = at;
     const setpoint_px = rounded(at);
-    this.checkView([setpoint_px]);
+    this.checkSetpoints([setpoint_px]);
     await this.lab.exchange({ ...this.controller(), reference: { type, setpoint_px } });
     if (this.asked === at) this.asked = null;
   }
@@ -116,7 +125,7 @@ export class Steering {
   async route() {
     const type = routeReference(this.lab.schema);
     if (type === undefined) return;
-    this.checkView(this.sketch);
+    this.checkSetpoints(this.sketch);
     const a = await this.lab.exchange({ ...this.controller(), reference: { type, setpoints_px: this.sketch } });
     if (a.ok) this.sketch = [];
   }

@@ -42,6 +42,9 @@ export const reason = (e: unknown, say: Say) => failureText(failure(e), say);
 /** The place of an error in an imported file: it names the file once. */
 export const placeInFile = (file: string, where: string) => (where === file || where.startsWith(`${file}:`) ? where : where ? `${file}: ${where}` : file);
 
+/** An integer with narrow spaces between groups of three digits: "1 000 000"; numbers of four digits have none. */
+export const grouped = (n: number) => (n < 10000 ? String(n) : String(n).replace(/\B(?=(\d{3})+$)/g, '\u202f'));
+
 export interface TextPart {
   text: string;
   code: boolean;

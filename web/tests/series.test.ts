@@ -1,5 +1,5 @@
 import { describe, expect, test, vi } from 'vitest';
-import { recordedSeries, Series } from '../src/series';
+import { comparedRange, recordedSeries, Series } from '../src/series';
 
 const kNames = ['frame', 't_s', 'centroid_x_px'];
 const kRate = 50; // Hz
@@ -158,4 +158,20 @@ test('a quantity of the swarm is the truth if available, otherwise the estimate,
   expect(named('frame', 'estimated_sigma_x_px', 'true_sigma_x_px')).toBe('true_sigma_x_px');
   expect(named('frame', 'estimated_sigma_x_px')).toBe('estimated_sigma_x_px');
   expect(named('frame', 'sigma_x_px')).toBe('sigma_x_px');
+});
+
+describe('the time range of a comparison', () => {
+  const recorded = filled(101); // 2 s
+  test('ends at twice the duration of the recorded run', () => {
+    expect(comparedRange(filled(10001), recorded, 0, 200)).toEqual([0, 4]);
+  });
+  test('has a shorter live run and the recorded run in full', () => {
+    expect(comparedRange(filled(51), recorded, 0, 2)).toEqual([0, 2]);
+  });
+  test('is that of all data if the live run has no rows in it', () => {
+    const late = filled(0);
+    late.take(rows(row(1000), row(1001)), 2);
+    expect(comparedRange(late, recorded, 0, 20.02)).toEqual([0, 20.02]);
+    expect(comparedRange(filled(51), filled(0), 0, 1)).toEqual([0, 1]);
+  });
 });

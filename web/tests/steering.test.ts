@@ -1,13 +1,13 @@
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Lab } from '../src/lab.svelte';
-import { inView, Steering } from '../src/steering.svelte';
+import { inArena, inView, Steering } from '../src/steering.svelte';
 import { sampleSchema } from './sample_schema';
 
 /** A mock of Lab; an exchange changes the scenario like the server. */
 class FakeLab {
   schema: typeof sampleSchema | null = sampleSchema;
   scenario: Record<string, any> = { controller: { type: 'alpha', gain: 2 }, estimator: { type: 'guess' } };
-  scene = { view: { width: 640, height: 480 } };
+  scene = { view: { width: 640, height: 480 }, outline: { centre_px: [320, 240], radius_px: 400 }, box: { left: -80, top: -160, right: 720, bottom: 640 } };
   polarity = 1;
   sent: Record<string, any>[] = [];
   accepts = true;
@@ -152,6 +152,27 @@ describe('a setpoint outside of the camera view', () => {
     expect(steering.outside).toEqual({ x: 10, y: -5, ...view });
     steering.begin();
     expect(steering.outside).toBeNull();
+  });
+});
+
+describe('a setpoint outside of the arena', () => {
+  const box = { left: 0, top: 0, right: 100, bottom: 50 }, drop = { centre_px: [50, 25] as [number, number], radius_px: 20 };
+  test.each<[[number, number], boolean, boolean]>([
+    [[50, 25], true, true],
+    [[70, 25], true, true],
+    [[65, 40], false, true],
+    [[99999, -5], false, false],
+    [[50, 51], false, false],
+  ])('%j: in the drop %s, in the box %s', (at, inDrop, inBox) => {
+    expect(inArena(at, { box, outline: drop })).toBe(inDrop);
+    expect(inArena(at, { box, outline: { ...drop, radius_px: 0 } })).toBe(inBox);
+  });
+  test('is reported; a setpoint in the arena clears the report', async () => {
+    await steering.goal([99999, -5]);
+    expect(steering.unreachable).toEqual({ x: 99999, y: -5 });
+    await steering.goal([700, 240]);
+    expect(steering.unreachable).toBeNull();
+    expect(steering.outside).not.toBeNull();
   });
 });
 

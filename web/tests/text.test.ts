@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { RequestError } from '../src/connection';
 import { words } from '../src/i18n';
-import { failureText, jobTitle, micro, placeInFile, programText, reason, withCode } from '../src/text';
+import { failureText, grouped, jobTitle, micro, placeInFile, programText, reason, withCode } from '../src/text';
 
 const en = words('en'), pt = words('pt');
 
@@ -69,4 +69,8 @@ describe('a description with code', () => {
   ])('%s', (text, parts) => {
     expect(withCode(text)).toEqual(parts);
   });
+});
+
+test('large numbers have narrow spaces between groups of three digits', () => {
+  expect([7, 1000, 10000, 1000000].map(grouped)).toEqual(['7', '1000', '10\u202f000', '1\u202f000\u202f000']);
 });

@@ -21,7 +21,7 @@ class Helmholtz {
              {.unit = "m",
               .min = 1e-6,
               .max = 10,
-              .doc = "Distance between the loops; when absent radius, or sqrt(3) radius if opposed"})
+              .doc = "Distance between the loops; default: radius, or sqrt(3) radius if opposed"})
         .add("turns", &Params::turns, {.min = 1e-3, .max = 1e6, .doc = "Turns of each loop"})
         .add(
             "opposed", &Params::opposed,

@@ -73,8 +73,7 @@ class Map final : public Field {
              {.unit = "m",
               .min = 1e-6,
               .max = 10,
-              .doc =
-                  "Radius around the origin of the map within which points are used; all points when absent"})
+              .doc = "Radius around the origin of the map within which points are used; default: all points"})
         .add("position", &Params::position,
              {.unit = "m",
               .min = -10,
@@ -88,8 +87,7 @@ class Map final : public Field {
               .doc = "Rotation of the map about z, counterclockwise",
               .role = Role::turn})
         .include(&Params::circuit, CircuitParams::schema())
-        .add("expansion", &Params::expansion,
-             {.doc = "Result of the fit; computed from the file when absent"})
+        .add("expansion", &Params::expansion, {.doc = "Result of the fit; default: computed from the file"})
         .check([](const Params& p) -> std::string {
           if (p.file.empty() && !p.expansion)
             return "key \"file\" is missing; specify a CSV or HDF5 file: file = \"map.csv\"";

@@ -62,7 +62,7 @@ Schema<Solenoid::Params> Solenoid::schema() {
             .min = 1e-9,
             .max = 1,
             .doc = "Radius of the wire: the smallest distance from the rims, where the field of a current "
-                   "sheet diverges; half a pitch, at most 10 % of radius, when absent"})
+                   "sheet diverges; default: half a pitch, at most 10 % of radius"})
       .add("core_permeability", &Params::core_permeability,
            {.min = 1,
             .max = 1e4,
@@ -70,9 +70,9 @@ Schema<Solenoid::Params> Solenoid::schema() {
                    "aspect ratio, not on the material",
             .source = "rods with aspect ratio 2, 4, 8, 16: 5.8, 13, 35, 103 at most (C5)"})
       .add("core_length", &Params::core_length,
-           {.unit = "m", .min = 1e-6, .max = 10, .doc = "Length of the rod; that of the winding when absent"})
+           {.unit = "m", .min = 1e-6, .max = 10, .doc = "Length of the rod; default: that of the winding"})
       .add("core_radius", &Params::core_radius,
-           {.unit = "m", .min = 1e-6, .max = 10, .doc = "Radius of the rod; that of the winding when absent"})
+           {.unit = "m", .min = 1e-6, .max = 10, .doc = "Radius of the rod; default: that of the winding"})
       .check([](const Params& p) -> std::string {
         if (p.core_radius && *p.core_radius > p.radius) return "core_radius must not be above radius";
         if (p.wire_radius && *p.wire_radius >= p.radius) return "wire_radius must be smaller than radius";

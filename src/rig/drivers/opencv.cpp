@@ -28,11 +28,11 @@ class OpenCvCamera final : public Camera {
         .add("rate", &Params::rate,
              {.unit = "Hz", .min = 0, .max = 1e5, .doc = "Requested frame rate; 0: camera default"})
         .add("exposure", &Params::exposure,
-             {.min = -1e6, .max = 1e9, .doc = "Exposure in the unit of the camera; unchanged when absent"})
+             {.min = -1e6, .max = 1e9, .doc = "Exposure in the unit of the camera; default: unchanged"})
         .add("gain", &Params::gain,
-             {.min = -1e6, .max = 1e9, .doc = "Gain in the unit of the camera; unchanged when absent"})
+             {.min = -1e6, .max = 1e9, .doc = "Gain in the unit of the camera; default: unchanged"})
         .add("white_balance", &Params::white_balance,
-             {.unit = "K", .min = 0, .max = 1e5, .doc = "Colour temperature; unchanged when absent"})
+             {.unit = "K", .min = 0, .max = 1e5, .doc = "Colour temperature; default: unchanged"})
         .validity(
             "Time stamps come from the driver if it uses the monotonic clock (V4L2); otherwise they are "
             "arrival times. The driver was tested with videos in place of a camera, not on hardware.");

@@ -22,8 +22,8 @@ class SimulatedCamera final : public Camera {
                           "The microscope of a simulated bench, in a separate process and in real time")
         .add("at", &Params::at,
              {.doc =
-                  "Socket of the bench, as given to `faba rig simulate --at`; when absent, the run starts a "
-                  "bench"});
+                  "Socket of the bench, as given to `faba rig simulate --at`; default: a bench that the run "
+                  "starts"});
   }
   SimulatedCamera(const Params& p, const CameraContext&)
       : at_(p.at), socket_(BenchSocket::connect(at_, BenchHello::Role::camera)) {

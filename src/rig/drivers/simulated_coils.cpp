@@ -23,8 +23,8 @@ class SimulatedCoils final : public CoilDriver {
     return Schema<Params>("simulated", "The coils of a simulated bench, in a separate process")
         .add("at", &Params::at,
              {.doc =
-                  "Socket of the bench, as given to `faba rig simulate --at`; when absent, the run starts a "
-                  "bench"})
+                  "Socket of the bench, as given to `faba rig simulate --at`; default: a bench that the run "
+                  "starts"})
         .validity("Channels are the indices of the coils, \"0\", \"1\" ...");
   }
   SimulatedCoils(const Params& p, const DriverContext& c)

@@ -54,7 +54,7 @@ Schema<CoilGuard::Params> CoilGuard::schema() {
            {.unit = "s",
             .min = 1e-3,
             .max = 10,
-            .doc = "Command timeout; when absent, it is set so that the current is zero within 100 ms or two "
+            .doc = "Command timeout; default: a value with which the current is zero within 100 ms or two "
                    "frames of the last command, whichever is longer"})
       .add("heartbeat_deadline", &Params::heartbeat_deadline,
            {.unit = "s",
@@ -66,7 +66,7 @@ Schema<CoilGuard::Params> CoilGuard::schema() {
            {.unit = "A/s",
             .min = 1e-6,
             .max = 1e9,
-            .doc = "Maximum slew rate of any current; unlimited when absent"})
+            .doc = "Maximum slew rate of any current; default: unlimited"})
       .add("thermal_time", &Params::thermal_time,
            {.unit = "s",
             .min = 0.1,

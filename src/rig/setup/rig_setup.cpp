@@ -59,7 +59,7 @@ Schema<BenchParams> BenchParams::schema() {
   return Schema<BenchParams>("bench", "Electronics and simulated faults of a simulated bench")
       .include(&BenchParams::amplifier, Amplifier::schema())
       .add("freeze_after", &BenchParams::freeze_after,
-           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time at which the camera hangs; never when absent"});
+           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time at which the camera hangs; default: never"});
 }
 
 Schema<StepResponseParams> StepResponseParams::schema() {
@@ -103,7 +103,7 @@ Schema<RigSetup::Params> RigSetup::Params::schema() {
             .max = 10,
             .doc =
                 "Delay from mid-exposure of a frame to its command, for controllers that compensate for it; "
-                "measured before a run when absent"});
+                "default: measured before a run"});
 }
 
 RigSetup RigSetup::read(const Node& n, std::size_t coils, const CameraRegistry& cameras,

@@ -75,7 +75,7 @@ Schema<Adapted::Params> Adapted::schema() {
       .add("noise_amplitude", &Params::noise_amplitude,
            {.min = 0,
             .max = 1000,
-            .doc = "Amplitude of the noise in px per iteration; max_speed when absent, as published",
+            .doc = "Amplitude of the noise in px per iteration; default: max_speed, as published",
             .source = "thesis 3.3.3.3; 'small inertia' would be 0.2 max_speed (A5)"})
       .add("earth", &Params::earth,
            {.min = -100,

@@ -156,7 +156,8 @@ void describe_body(DipoleSchema& s) {
       .add("drag_factor", &DipoleParams::drag_factor,
            {.min = 0.1,
             .max = 1e4,
-            .doc = "Rotational drag relative to the bare sphere, 8 pi eta R^3; flagella add 1-3",
+            .doc = "Rotational drag relative to a sphere without flagella, 8 pi eta R^3; flagella increase "
+                   "it by 1 to 3",
             .source = "assumed 1 (B1)"})
       .add("viscosity", &DipoleParams::viscosity,
            {.unit = "Pa s",
@@ -166,16 +167,14 @@ void describe_body(DipoleSchema& s) {
             .source = "water at 25 C"})
       .add("temperature", &DipoleParams::temperature,
            {.unit = "K", .min = 1, .max = 500, .doc = "Temperature, for the diffusion constants"})
-      .add("rotational_diffusion", &DipoleParams::rotational_diffusion,
-           {.unit = "1/s",
-            .min = 0,
-            .max = 1e4,
-            .doc = "Rotational diffusion coefficient; when absent, kT / f_r"})
+      .add(
+          "rotational_diffusion", &DipoleParams::rotational_diffusion,
+          {.unit = "1/s", .min = 0, .max = 1e4, .doc = "Rotational diffusion coefficient; default: kT / f_r"})
       .add("translational_diffusion", &DipoleParams::translational_diffusion,
            {.unit = "m^2/s",
             .min = 0,
             .max = 1e-6,
-            .doc = "Translational diffusion coefficient; when absent, kT / f_t"});
+            .doc = "Translational diffusion coefficient; default: kT / f_t"});
 }
 
 // Parameters of speeds and random turning.
@@ -187,7 +186,7 @@ void describe_swimming(DipoleSchema& s) {
             .min = 0,
             .max = 1e-2,
             .doc = "Standard deviation of speed between cells, before truncation",
-            .source = "assumed: 300 um/s is then the 99.5 % point (B4)"})
+            .source = "assumed, so that 99.5 % of the cells are slower than 300 um/s (B4)"})
       .add("speed_max", &DipoleParams::speed_max,
            {.unit = "m/s",
             .min = 0,
@@ -209,7 +208,7 @@ void describe_swimming(DipoleSchema& s) {
       .add("tumble_sd", &DipoleParams::tumble_sd,
            {.min = 0,
             .max = 100,
-            .doc = "Standard deviation of the tumble angle in rad; uniform when absent"});
+            .doc = "Standard deviation of the tumble angle in rad; default: uniform distribution"});
 }
 
 void add_strains(DipoleSchema& s) {
@@ -268,8 +267,9 @@ Schema<Dipole::Params> Dipole::schema() {
   add_notes(s);
   s.check([](const Params& p) -> std::string {
      if (p.speed > p.speed_max)
-       return fmt::format("speed = {:g} um/s is above speed_max = {:g} um/s", 1e6 * p.speed,
-                          1e6 * p.speed_max);
+       return fmt::format(
+           "speed = {:g} um/s is above speed_max = {:g} um/s; reduce speed or increase speed_max",
+           1e6 * p.speed, 1e6 * p.speed_max);
      return {};
    })
       .validity(

@@ -32,7 +32,7 @@ Schema<StartDisc::Params> StartDisc::schema() {
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Centre in the image, y down; the centre of the arena when absent"})
+            .doc = "Centre in the image, y down; default: the centre of the arena"})
       .add("radius_px", &Params::radius_px, {.unit = "px", .min = 0, .max = 1e5, .doc = "Radius"});
 }
 

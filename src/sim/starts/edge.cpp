@@ -47,7 +47,7 @@ Schema<StartEdge::Params> StartEdge::schema() {
            {.unit = "rad",
             .min = -10,
             .max = 10,
-            .doc = "Direction towards the wall, world frame: \"0 deg\" right, \"90 deg\" up; when absent, "
+            .doc = "Direction towards the wall, world frame: \"0 deg\" right, \"90 deg\" up; default: "
                    "towards the visible part of the edge, or left"})
       .add("depth_px", &Params::depth_px,
            {.unit = "px",

@@ -45,7 +45,7 @@ struct StudyFile {
              {.min = 2, .max = 100000, .doc = "Number of trials of each combination, one seed each"})
         .add("first_seed", &StudyFile::first_seed, {.min = 0, .max = 9e15, .doc = "Seed of the first trial"})
         .add("delays", &StudyFile::delays,
-             {.min = 0, .max = 1000, .doc = "Camera delays in frames; that of the scene when absent"});
+             {.min = 0, .max = 1000, .doc = "Camera delays in frames; default: that of the scene"});
   }
 };
 

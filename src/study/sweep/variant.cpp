@@ -49,18 +49,17 @@ std::vector<Variant> read_variants(const Node& study, const std::string& key,
 }
 
 Json variant_schema(const std::string& description) {
-  return {
-      {"title", "variant"},
-      {"description", description},
-      {"type", "object"},
-      {"properties",
-       {{"name", {{"type", "string"}, {"description", "Name in reports; the type when absent"}}},
-        {"type",
-         {{"type", "string"},
-          {"description",
-           "Type of the part, whose parameters follow as further keys; the part of the scene when absent"}}},
-        {"set",
-         {{"type", "object"}, {"description", "Other values of the scenario to override, by path"}}}}}};
+  return {{"title", "variant"},
+          {"description", description},
+          {"type", "object"},
+          {"properties",
+           {{"name", {{"type", "string"}, {"description", "Name in reports; default: the type"}}},
+            {"type",
+             {{"type", "string"},
+              {"description",
+               "Type of the part, whose parameters follow as further keys; default: the part of the scene"}}},
+            {"set",
+             {{"type", "object"}, {"description", "Other values of the scenario to override, by path"}}}}}};
 }
 
 void apply(const Variant& v, const std::string& place, Document& d) {

@@ -132,12 +132,14 @@ Ruler find_ruler(const GrayF& picture, const RulerOptions& options) {
     const int most = measured.most_marks;
     throw Error(
         Errc::input, options.name,
-        most >= options.min_marks ? "no ruler detected: the periodic marks are too faint or too irregular"
-        : most >= 3
-            ? fmt::format(
-                  "no ruler detected: at most {} equidistant marks in a row; at least {} are required", most,
-                  options.min_marks)
-            : "no ruler detected: the picture has no periodic marks");
+        most >= options.min_marks
+            ? "no ruler detected: the periodic marks are too faint or too irregular; focus on the marks"
+        : most >= 3 ? fmt::format("no ruler detected: at most {} equidistant marks in a row; at least {} are "
+                                  "required; let more marks be in view",
+                                  most, options.min_marks)
+                    : fmt::format("no ruler detected: the picture has no periodic marks; focus on the marks, "
+                                  "and let at least {} be in view",
+                                  options.min_marks));
   }
   std::sort(measured.rows.begin(), measured.rows.end(),
             [](const MarkRow& a, const MarkRow& b) { return a.area_px > b.area_px; });

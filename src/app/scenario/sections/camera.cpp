@@ -16,7 +16,7 @@ Schema<CameraParams> CameraParams::schema() {
            {.unit = "s",
             .min = 0,
             .max = 1e3,
-            .doc = "Standard deviation of the frame times from the regular ones; deviations are limited to "
+            .doc = "Standard deviation of the frame times about regular times; deviations are limited to "
                    "0.4 frame periods"})
       .add("sensor", &CameraParams::sensor,
            {.doc = "positions: the control loop gets the positions of all cells; frames: it gets pictures "

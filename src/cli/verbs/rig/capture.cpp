@@ -82,7 +82,8 @@ void add_rig_capture(CLI::App& rig, CommandLine& line) {
            "Record the camera without the coils: a video or numbered pictures, all frames or some",
            "  faba rig capture scenes/bench.toml --for \"10 s\" --out look.avi\n"
            "  faba rig capture scenes/bench.toml --frames 600 --one-of 10 --format pgm --out pictures\n"
-           "  faba rig capture scenes/bench.toml --every \"500 ms\" --out lapse.mp4      until Ctrl-C");
+           "  faba rig capture scenes/bench.toml --every \"500 ms\" --out lapse.mp4\n"
+           "    (records until Ctrl-C)");
   add_bench_scene(v, o->run);
   v->add_option("-o,--out", o->run.out, "Video (.avi lossless, or .mp4), or folder of pictures")
       ->required()
