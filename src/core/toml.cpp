@@ -15,6 +15,7 @@ constexpr void require(bool holds) {
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <sstream>
 
@@ -157,16 +158,58 @@ std::string quote_advice(std::string_view text) {
   return "";
 }
 
-// The parser's description of an error, with advice for frequent errors.
-std::string with_advice(std::string_view reason) {
+bool has(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
+
+// What a missing bracket, brace or quote means; empty for other errors. `line`: the text of the line.
+std::string missing_end(std::string_view reason, std::string_view line) {
+  const bool at_end = reason.ends_with("saw '\\n'") || reason.ends_with("saw '\\r'") || has(reason, "end-of-file");
+  if (has(reason, "table header") && at_end) {
+    const auto name = line.find_first_not_of("[ \t");
+    if (name == line.npos) return "a closing bracket is missing: write [name]";
+    const std::string_view word = line.substr(name, line.find_first_of("] \t\r#", name) - name);
+    return fmt::format("a closing bracket is missing: write {}", line.find("[[") == line.npos
+                                                                     ? fmt::format("[{}]", word)
+                                                                     : fmt::format("[[{}]]", word));
+  }
+  if (has(reason, "parsing inline table") && at_end)
+    return "a closing } is missing, or the table is longer than one line";
+  const bool in_string = has(reason, "parsing string") || has(reason, "parsing literal string");
+  if (in_string && (has(reason, "control characters other than TAB") || has(reason, "end-of-file")))
+    return fmt::format("the text is not closed; add a quote ({}) at its end",
+                       has(reason, "literal") ? '\'' : '"');
+  return "";
+}
+
+// Advice for frequent errors; empty for others.
+std::string advice_on(std::string_view reason) {
+  static constexpr const char* kQuotes = "text and quantities with a unit need quotes, such as \"60 Hz\"";
   static constexpr std::pair<std::string_view, std::string_view> kAdvice[] = {
-      {"could not determine value type", "text and quantities with a unit need quotes, such as \"60 Hz\""},
-      {"expected a comment or whitespace", "text and quantities with a unit need quotes, such as \"60 Hz\""},
+      {"whitespace, saw ','", "write decimals with a point (5.5) and lists in [ ]"},
+      {"could not determine value type", kQuotes},
+      {"expected a comment or whitespace", kQuotes},
       {"cannot redefine existing", "remove one of the two"},
       {"invalid utf-8", "the file is not UTF-8; save it as UTF-8"}};
   for (const auto& [part, advice] : kAdvice)
-    if (reason.find(part) != reason.npos) return fmt::format("{}; {}", reason, advice);
-  return std::string(reason);
+    if (has(reason, part)) return std::string(advice);
+  const bool in_list = has(reason, "expected comma or closing ']', saw '");
+  const bool letter = in_list && reason.size() > 1 && std::isalpha(static_cast<unsigned char>(reason[reason.size() - 2]));
+  return letter ? "put quantities in quotes, such as [\"18 uT\", \"0 uT\"]" : "";
+}
+
+// The parser's description of an error in `line`, with advice for frequent errors.
+std::string with_advice(std::string_view reason, std::string_view line) {
+  if (std::string text = missing_end(reason, line); !text.empty()) return text;
+  std::string advice = advice_on(reason);
+  // These beginnings of the parser name no cause.
+  for (const std::string_view start : {"Error while parsing key-value pair: ", "Error while parsing table header: "})
+    if (reason.starts_with(start)) reason.remove_prefix(start.size());
+  return advice.empty() ? std::string(reason) : fmt::format("{}; {}", reason, advice);
+}
+
+// Line `number` of a text, from 1.
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (; number > 1; --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n'));
 }
 
 // TOML permits non-ASCII characters in strings and comments only. Elsewhere some of them cause undefined
@@ -188,6 +231,13 @@ void check_plain(std::string_view text, const std::string& name) {
   }
 }
 
+// The file that a user probably means by a run directory.
+std::string scenario_in(const std::filesystem::path& dir) {
+  const std::filesystem::path scenario = dir / "scenario.toml";
+  std::error_code ec;
+  return std::filesystem::exists(scenario, ec) ? fmt::format("; its scenario is {}", scenario.string()) : "";
+}
+
 }  // namespace
 
 Document parse_toml(std::string_view text, const std::string& name) {
@@ -200,7 +250,8 @@ Document parse_toml(std::string_view text, const std::string& name) {
     const toml::table t = toml::parse(text, name);
     doc.root = convert(t, "", doc);
   } catch (const toml::parse_error& e) {
-    throw Error(Errc::usage, fmt::format("{}:{}", name, e.source().begin.line), with_advice(e.description()));
+    const auto line = e.source().begin.line;
+    throw Error(Errc::usage, fmt::format("{}:{}", name, line), with_advice(e.description(), line_of(text, line)));
   } catch (const NotToml&) {
     throw Error(Errc::usage, name, "is not valid TOML: a key or a [header] starts with an invalid character");
   }
@@ -213,7 +264,8 @@ Document read_toml(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ec))
     throw Error(Errc::usage, file.string(), "file not found; check the name");
   if (std::filesystem::is_directory(file, ec))
-    throw Error(Errc::usage, file.string(), "is a directory, not a TOML file");
+    throw Error(Errc::usage, file.string(),
+                "is a directory, not a TOML file" + scenario_in(file));
   if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)
     throw Error(Errc::usage, file.string(), "is larger than the maximum of 4 MiB");
   std::ifstream in(file, std::ios::binary);
@@ -244,8 +296,12 @@ void Document::set(const std::string& path, Json value, const std::string& origi
     if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", prefix));
     prefix = joined(prefix, s.key);
     if (!at->contains(s.key)) {
-      if (!s.index.empty()) fail(fmt::format("array \"{}\" not found", prefix));
+      if (!s.index.empty())
+        fail(path.find('.', prefix.size()) != path.npos
+                 ? fmt::format("the file has no [[{}]]; add one for each element to the file", prefix)
+                 : fmt::format("array \"{}\" not found; add it to the file", prefix));
       (*at)[s.key] = Json::object();
+      origin[prefix] = origin_label;
     }
     at = &(*at)[s.key];
     for (const std::size_t i : s.index) {
@@ -278,7 +334,7 @@ void Document::set(const std::string& path, const std::string& value, const std:
   } catch (const toml::parse_error& e) {
     // A value that does not start like a table or an array is a plain string.
     if (value.starts_with('{') || value.starts_with('['))
-      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), std::string(e.description()));
+      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), with_advice(e.description(), value));
   }
   try {
     parsed.dump();
@@ -309,6 +365,8 @@ std::string Node::where(const std::string& key) const {
       p.resize(cut);
     }
   if (full.empty() || label == "--" + full) return label;
+  // An option is one place: "--repeat" and not "--repeat: rig.step_response.repeat".
+  if (label.starts_with("--") && full.ends_with("." + label.substr(2))) return label;
   return label.empty() ? full : fmt::format("{}: {}", label, full);
 }
 

@@ -156,6 +156,15 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
 
 }  // namespace
 
+std::string schedule_note(const StepResponseParams& p) {
+  const double one = p.gather + p.before + p.record;
+  if (p.repeat < 2 || p.every == 0 || p.every >= one) return "";
+  return fmt::format(
+      "rig.step_response.every (--every): {:g} s is shorter than one response (about {:.3g} s); responses "
+      "follow each other immediately",
+      p.every, one);
+}
+
 std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) {
   if (job.experiment.find('/') != std::string::npos || job.experiment.starts_with('.'))
     throw Error(Errc::usage, "--experiment",

@@ -257,6 +257,12 @@ void add_notes(DipoleSchema& s) {
         "speed is 0, but speed_sd is {:g} um/s: the cells swim at speeds between 0 and {:g} um/s; set "
         "speed_sd = 0 for cells that do not swim",
         1e6 * p.speed_sd, 1e6 * p.speed_max);
+  }).note([](const DipoleParams& p) -> std::string {
+    constexpr double kMelting = 273.15, kBoiling = 373.15;  // K, of water at normal pressure
+    if (p.temperature >= kMelting && p.temperature <= kBoiling) return {};
+    return fmt::format(
+        "temperature is {:g} K, but water is liquid only between {} K and {} K; 20 degC is 293.15 K",
+        p.temperature, kMelting, kBoiling);
   });
 }
 

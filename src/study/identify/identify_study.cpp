@@ -7,6 +7,7 @@
 #include "app/scenario/calibration_file.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
+#include "app/scenario/file_kind.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/units.h"
@@ -231,7 +232,7 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
 IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   const Document d = read_toml(file);
   const Node root(d);
-  if (root.has("swarm")) root.fail("is a scenario, not a study file; see studies/ for study files");
+  require_kind(root, FileKind::identify_study);
   const IdentifyFile f = IdentifyFile::schema().parse(root, {"video", "model", "scene"});
   IdentifyStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;
