@@ -134,9 +134,10 @@ class Registry {
     if (it == n.document->origin.end() || it->second != "--set") return;
     std::string values;
     for (const auto& [key, value] : n.json->items()) values += fmt::format(", {}={}", key, value.dump());
-    n.fail(fmt::format("the scenario has no such table; write --set '{}={{type=\"NAME\"{}}}' with the type of "
-                       "the {}: {}",
-                       n.path, values, kind_, fmt::join(names(), ", ")));
+    n.fail(
+        fmt::format("the scenario has no such table; write --set '{}={{type=\"NAME\"{}}}' with the type of "
+                    "the {}: {}",
+                    n.path, values, kind_, fmt::join(names(), ", ")));
   }
 
   struct Entry {

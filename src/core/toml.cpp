@@ -162,7 +162,8 @@ bool has(std::string_view text, std::string_view part) { return text.find(part) 
 
 // What a missing bracket, brace or quote means; empty for other errors. `line`: the text of the line.
 std::string missing_end(std::string_view reason, std::string_view line) {
-  const bool at_end = reason.ends_with("saw '\\n'") || reason.ends_with("saw '\\r'") || has(reason, "end-of-file");
+  const bool at_end =
+      reason.ends_with("saw '\\n'") || reason.ends_with("saw '\\r'") || has(reason, "end-of-file");
   if (has(reason, "table header") && at_end) {
     const auto name = line.find_first_not_of("[ \t");
     if (name == line.npos) return "a closing bracket is missing: write [name]";
@@ -192,7 +193,8 @@ std::string advice_on(std::string_view reason) {
   for (const auto& [part, advice] : kAdvice)
     if (has(reason, part)) return std::string(advice);
   const bool in_list = has(reason, "expected comma or closing ']', saw '");
-  const bool letter = in_list && reason.size() > 1 && std::isalpha(static_cast<unsigned char>(reason[reason.size() - 2]));
+  const bool letter =
+      in_list && reason.size() > 1 && std::isalpha(static_cast<unsigned char>(reason[reason.size() - 2]));
   return letter ? "put quantities in quotes, such as [\"18 uT\", \"0 uT\"]" : "";
 }
 
@@ -201,7 +203,8 @@ std::string with_advice(std::string_view reason, std::string_view line) {
   if (std::string text = missing_end(reason, line); !text.empty()) return text;
   std::string advice = advice_on(reason);
   // These beginnings of the parser name no cause.
-  for (const std::string_view start : {"Error while parsing key-value pair: ", "Error while parsing table header: "})
+  for (const std::string_view start :
+       {"Error while parsing key-value pair: ", "Error while parsing table header: "})
     if (reason.starts_with(start)) reason.remove_prefix(start.size());
   return advice.empty() ? std::string(reason) : fmt::format("{}; {}", reason, advice);
 }
@@ -251,7 +254,8 @@ Document parse_toml(std::string_view text, const std::string& name) {
     doc.root = convert(t, "", doc);
   } catch (const toml::parse_error& e) {
     const auto line = e.source().begin.line;
-    throw Error(Errc::usage, fmt::format("{}:{}", name, line), with_advice(e.description(), line_of(text, line)));
+    throw Error(Errc::usage, fmt::format("{}:{}", name, line),
+                with_advice(e.description(), line_of(text, line)));
   } catch (const NotToml&) {
     throw Error(Errc::usage, name, "is not valid TOML: a key or a [header] starts with an invalid character");
   }
@@ -264,8 +268,7 @@ Document read_toml(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ec))
     throw Error(Errc::usage, file.string(), "file not found; check the name");
   if (std::filesystem::is_directory(file, ec))
-    throw Error(Errc::usage, file.string(),
-                "is a directory, not a TOML file" + scenario_in(file));
+    throw Error(Errc::usage, file.string(), "is a directory, not a TOML file" + scenario_in(file));
   if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)
     throw Error(Errc::usage, file.string(), "is larger than the maximum of 4 MiB");
   std::ifstream in(file, std::ios::binary);

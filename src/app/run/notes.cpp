@@ -273,9 +273,9 @@ void note_recording(const Scenario& s, Notes& notes) {
 void note_events(const Scenario& s, Notes& notes) {
   for (std::size_t i = 0; i < s.events.size(); ++i)
     if (s.events[i].frame >= s.frames())
-      notes.push_back(fmt::format(
-          "event[{}].frame: {} is after the last frame of the run ({}); the event has no effect", i,
-          s.events[i].frame, s.frames() - 1));
+      notes.push_back(
+          fmt::format("event[{}].frame: {} is after the last frame of the run ({}); the event has no effect",
+                      i, s.events[i].frame, s.frames() - 1));
 }
 
 std::string in_bytes(double bytes) {

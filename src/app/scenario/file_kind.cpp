@@ -10,8 +10,7 @@ namespace {
 constexpr std::array kMessages = {
     "is a scenario; run it with `faba run`",
     "is a coil system file; use `faba field`, or name it in the table [field] of a scenario",
-    "is a study for `faba identify`",
-    "is a study for `faba activity`",
+    "is a study for `faba identify`", "is a study for `faba activity`",
     "is a study for `faba compare-controllers`"};
 
 std::optional<FileKind> kind_of(const Node& root) {

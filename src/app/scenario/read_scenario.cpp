@@ -6,9 +6,9 @@
 
 #include "app/scenario/calibration_file.h"
 #include "app/scenario/control_rules.h"
+#include "app/scenario/file_kind.h"
 #include "app/scenario/rig_file.h"
 #include "app/scenario/section.h"
-#include "app/scenario/file_kind.h"
 
 namespace faba {
 namespace {

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "app/scenario/calibration_file.h"
+#include "app/scenario/file_kind.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
-#include "app/scenario/file_kind.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/units.h"

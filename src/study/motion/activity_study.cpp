@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "app/scenario/parts.h"
 #include "app/scenario/file_kind.h"
+#include "app/scenario/parts.h"
 #include "core/error.h"
 #include "core/toml.h"
 

@@ -9,9 +9,9 @@
 
 #include "app/run/notes.h"
 #include "app/run/simulation.h"
+#include "app/scenario/file_kind.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
-#include "app/scenario/file_kind.h"
 #include "core/hash.h"
 #include "core/random/distributions.h"
 #include "study/stats/statistics.h"
