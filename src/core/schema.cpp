@@ -32,7 +32,7 @@ std::string example(const FieldInfo& f) {
   if (f.unit == "deg") return "an angle such as 90 or \"90 deg\"";
   const Dimension dimension = parse_unit(f.unit).dimension;
   if (f.unit == "rad") return "an angle such as 1.5 or \"90 deg\"";
-  // 1 K is no realistic temperature.
+  // No cell lives at 1 K.
   if (dimension == parse_unit("K").dimension) return "a temperature such as \"293 K\"";
   if (dimension == Dimension{}) return fmt::format("a number such as 1 or \"1 {}\"", f.unit);
   return fmt::format("a {} such as \"1 {}\"", dimension_name(dimension), f.unit);

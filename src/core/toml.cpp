@@ -211,7 +211,8 @@ std::string with_advice(std::string_view reason, std::string_view line) {
 
 // Line `number` of a text, from 1.
 std::string_view line_of(std::string_view text, std::size_t number) {
-  for (; number > 1; --number) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  for (; number > 1 && !text.empty(); --number)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   return text.substr(0, text.find('\n'));
 }
 

@@ -50,6 +50,13 @@ constexpr const char* kSaddle =
 // Whether the zeros of a gradient controller are reachable and trap cells.
 void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
   const Field& field = *simulation.world().parts().field;
+  if (!field.varies()) {
+    notes.push_back(fmt::format(
+        "controller: the coils of field \"{}\" have no gradient and cannot produce a zero; use a field with "
+        "single coils, as in rigs/thesis-four-coils.toml",
+        s.field.type));
+    return;
+  }
   const std::vector<double> limits = field.max_currents(s.limits.max_current);
   for (const Vec2 at : simulation.reference().setpoints()) {
     const FieldNull n = null_at(field, at, s.polarity(), limits);
@@ -139,7 +146,8 @@ void note_weak_field(const Scenario& s, const Simulation& simulation, Notes& not
   const std::vector<double> unit_current(w.field->coils(), 1.0);
   if (!unit_current.empty() && field_of(w, unit_current) == 0) {
     notes.emplace_back(
-        "field: these coils have no field in the plane of the sample; the cells do not respond; use coils "
+        "field: these coils have no field in the plane of the sample; the cells do not respond to them; use "
+        "coils "
         "with an axis in this plane, as in rigs/thesis-four-coils.toml");
     return;
   }

@@ -134,7 +134,8 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   if (!v.segment.empty() && (v.reversal || v.direction || v.duration))
     n.fail("segment cannot be combined with reversal, direction or duration; give only one of the two");
   if (!std::filesystem::exists(n.file(v.file)))
-    throw Error(Errc::input, n.where("file"), "file not found: " + v.file);
+    throw Error(Errc::input, n.where("file"),
+                fmt::format("file not found: {} (relative to the study file)", v.file));
   r.file = n.file(v.file);
   r.experiment = v.experiment;
   r.exposure_s = v.exposure;

@@ -260,6 +260,10 @@ TEST_CASE("run report: the summary of a run with one setpoint") {
     CHECK(has(outcome, "after 29.0\u00A0s, within the last third of the run; the steady-state error"));
     CHECK_FALSE(has(outcome, "120"));
   }
+  SUBCASE("one cell has no dispersion") {
+    info.swarm_cells = {1};
+    CHECK(run_summary(m, info).details.empty());
+  }
   SUBCASE("at the setpoint from the start") {
     m.settling_time_s = 0;
     m.steady_rms_px = 2;
