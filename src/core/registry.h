@@ -135,7 +135,8 @@ class Registry {
     std::string values;
     for (const auto& [key, value] : n.json->items()) values += fmt::format(", {}={}", key, value.dump());
     n.fail(
-        fmt::format("the scenario has no such table; write --set '{}={{type=\"NAME\"{}}}' with the type of "
+        fmt::format("key \"type\" is missing, which a table created by --set needs; write --set "
+                    "'{}={{type=\"NAME\"{}}}' with the type of "
                     "the {}: {}",
                     n.path, values, kind_, fmt::join(names(), ", ")));
   }

@@ -15,12 +15,12 @@ constexpr void require(bool holds) {
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <sstream>
 
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/toml_advice.h"
 
 namespace faba {
 namespace {
@@ -158,57 +158,6 @@ std::string quote_advice(std::string_view text) {
   return "";
 }
 
-bool has(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
-
-// What a missing bracket, brace or quote means; empty for other errors. `line`: the text of the line.
-std::string missing_end(std::string_view reason, std::string_view line) {
-  const bool at_end =
-      reason.ends_with("saw '\\n'") || reason.ends_with("saw '\\r'") || has(reason, "end-of-file");
-  if (has(reason, "table header") && at_end) {
-    const auto name = line.find_first_not_of("[ \t");
-    if (name == line.npos) return "a closing bracket is missing: write [name]";
-    const std::string_view word = line.substr(name, line.find_first_of("] \t\r#", name) - name);
-    return fmt::format("a closing bracket is missing: write {}", line.find("[[") == line.npos
-                                                                     ? fmt::format("[{}]", word)
-                                                                     : fmt::format("[[{}]]", word));
-  }
-  if (has(reason, "parsing inline table") && at_end)
-    return "a closing } is missing, or the table is longer than one line";
-  const bool in_string = has(reason, "parsing string") || has(reason, "parsing literal string");
-  if (in_string && (has(reason, "control characters other than TAB") || has(reason, "end-of-file")))
-    return fmt::format("the text is not closed; add a quote ({}) at its end",
-                       has(reason, "literal") ? '\'' : '"');
-  return "";
-}
-
-// Advice for frequent errors; empty for others.
-std::string advice_on(std::string_view reason) {
-  static constexpr const char* kQuotes = "text and quantities with a unit need quotes, such as \"60 Hz\"";
-  static constexpr std::pair<std::string_view, std::string_view> kAdvice[] = {
-      {"whitespace, saw ','", "write decimals with a point (5.5) and lists in [ ]"},
-      {"could not determine value type", kQuotes},
-      {"expected a comment or whitespace", kQuotes},
-      {"cannot redefine existing", "remove one of the two"},
-      {"invalid utf-8", "the file is not UTF-8; save it as UTF-8"}};
-  for (const auto& [part, advice] : kAdvice)
-    if (has(reason, part)) return std::string(advice);
-  const bool in_list = has(reason, "expected comma or closing ']', saw '");
-  const bool letter =
-      in_list && reason.size() > 1 && std::isalpha(static_cast<unsigned char>(reason[reason.size() - 2]));
-  return letter ? "put quantities in quotes, such as [\"18 uT\", \"0 uT\"]" : "";
-}
-
-// The parser's description of an error in `line`, with advice for frequent errors.
-std::string with_advice(std::string_view reason, std::string_view line) {
-  if (std::string text = missing_end(reason, line); !text.empty()) return text;
-  std::string advice = advice_on(reason);
-  // These beginnings of the parser name no cause.
-  for (const std::string_view start :
-       {"Error while parsing key-value pair: ", "Error while parsing table header: "})
-    if (reason.starts_with(start)) reason.remove_prefix(start.size());
-  return advice.empty() ? std::string(reason) : fmt::format("{}; {}", reason, advice);
-}
-
 // Line `number` of a text, from 1.
 std::string_view line_of(std::string_view text, std::size_t number) {
   for (; number > 1 && !text.empty(); --number)
@@ -256,7 +205,7 @@ Document parse_toml(std::string_view text, const std::string& name) {
   } catch (const toml::parse_error& e) {
     const auto line = e.source().begin.line;
     throw Error(Errc::usage, fmt::format("{}:{}", name, line),
-                with_advice(e.description(), line_of(text, line)));
+                toml_advice(e.description(), line_of(text, line)));
   } catch (const NotToml&) {
     throw Error(Errc::usage, name, "is not valid TOML: a key or a [header] starts with an invalid character");
   }
@@ -338,7 +287,7 @@ void Document::set(const std::string& path, const std::string& value, const std:
   } catch (const toml::parse_error& e) {
     // A value that does not start like a table or an array is a plain string.
     if (value.starts_with('{') || value.starts_with('['))
-      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), with_advice(e.description(), value));
+      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), toml_advice(e.description(), value));
   }
   try {
     parsed.dump();
@@ -370,7 +319,7 @@ std::string Node::where(const std::string& key) const {
     }
   if (full.empty() || label == "--" + full) return label;
   // An option is one place: "--repeat" and not "--repeat: rig.step_response.repeat".
-  if (label.starts_with("--") && full.ends_with("." + label.substr(2))) return label;
+  if (label != "--set" && label.starts_with("--") && full.ends_with("." + label.substr(2))) return label;
   return label.empty() ? full : fmt::format("{}: {}", label, full);
 }
 

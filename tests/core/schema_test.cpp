@@ -138,6 +138,8 @@ TEST_CASE("--set changes one value and is named in error messages") {
       "--set rig.coil[0].a: the file has no [[rig.coil]]; add one for each element to the file", Error);
   d.set("swarm.repeat", std::string("1"), "--repeat");
   CHECK(Node(d).where("swarm.repeat") == "--repeat");
+  d.set("swarm.set", std::string("1"), "--set");
+  CHECK(Node(d).where("swarm.set") == "--set: swarm.set");
   CHECK_THROWS_WITH_AS(d.set("list[3].a", std::string("1"), "--set"),
                        "--set list[3].a: list[3] not found; \"list\" has 1 element; add more in the file",
                        Error);

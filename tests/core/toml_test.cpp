@@ -44,6 +44,8 @@ TEST_CASE("frequent errors of the parser have advice") {
   CHECK(refusal("a = 1\ntitle = \"x\nb = 2\n") ==
         "t.toml:2: the text is not closed; add a quote (\") at its end");
   CHECK(refusal("a = 'x\n") == "t.toml:1: the text is not closed; add a quote (') at its end");
+  CHECK(refusal("a = \"\"\"x\n").ends_with("the text is not closed; add a quote (\"\"\") at its end"));
+  CHECK(refusal("a = \"x\x01\"\n").find("control characters") != std::string::npos);
   CHECK(refusal("a = 1\n[[swarm]\ncount = 3\n") == "t.toml:2: a closing bracket is missing: write [[swarm]]");
   CHECK(refusal("[limits\n") == "t.toml:1: a closing bracket is missing: write [limits]");
   CHECK(refusal("a = { b = 3,\n c = 4 }\n") ==
