@@ -12,22 +12,27 @@
 namespace faba::cli {
 namespace {
 
-void print_run_summary(const Session& session, const Manifest& manifest, const Metrics& m,
-                       const std::string& next) {
-  const auto& dir = session.dir();
-  const RunSummary summary = run_summary(m, run_info(manifest));
-  fmt::print("{}\n", summary.outcome);
+// One cell has no dispersion.
+void print_metrics(const Metrics& m, bool several_cells) {
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
   if (m.setpoints > 0)
     fmt::print("settling time{}, steady-state error {} px rms, ",
                m.settling_time_s ? " " + three_digits(*m.settling_time_s) + " s" : ": not settled",
                px(m.steady_rms_px));
   if (m.cross_track_95_px) fmt::print("cross-track error {} px (95th percentile), ", px(m.cross_track_95_px));
-  fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));
-  if (!summary.setpoint.empty())
-    fmt::print(
-        "the settling time and the steady-state error refer to {}: the run ended before the last one\n",
-        summary.setpoint);
+  if (several_cells)
+    fmt::print("dispersion {} x {} px\n", px(m.sigma_x_px), px(m.sigma_y_px));
+  else
+    fmt::print("dispersion -\n");
+}
+
+void print_run_summary(const Session& session, const Manifest& manifest, const Metrics& m,
+                       const std::string& next) {
+  const auto& dir = session.dir();
+  const RunSummary summary = run_summary(m, run_info(manifest));
+  fmt::print("{}\n", summary.outcome);
+  if (m.frames > 1) print_metrics(m, manifest.simulated->cells > 1);
+  if (!summary.setpoint.empty()) fmt::print("{}\n", summary.setpoint);
   const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
                                                        {"lossless", "video.avi"},
                                                        {"tracks", "tracks.h5"},
@@ -36,7 +41,7 @@ void print_run_summary(const Session& session, const Manifest& manifest, const M
   for (const auto& [what, name] : files)
     if (std::filesystem::exists(dir / name)) fmt::print("  {:<9}{}\n", what, (dir / name).string());
   fmt::print("seed {}, state_hash {}\n", manifest.seed, manifest.simulated->state_hash);
-  if (!next.empty()) fmt::print("To repeat the run with another seed: {}\n", next);
+  if (!next.empty()) fmt::print("To run it with another seed: {}\n", next);
 }
 
 }  // namespace

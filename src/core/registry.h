@@ -74,8 +74,10 @@ class Registry {
   PartType resolve(const Node& n) const {
     Json table = n.json->is_string() ? Json{{"type", *n.json}} : *n.json;
     const Node node{table, n.path, n.document};
-    if (!table.is_object() || !table.contains("type") || !table["type"].is_string())
+    if (!table.is_object() || !table.contains("type") || !table["type"].is_string()) {
+      if (table.is_object() && !table.contains("type")) fail_if_set(node);
       n.fail(fmt::format("key \"type\" is missing; known {}s: {}", kind_, fmt::join(names(), ", ")));
+    }
     const auto it = entries_.find(table["type"].get<std::string>());
     if (it == entries_.end())
       throw Error(Errc::usage, node.where("type"),
@@ -125,6 +127,20 @@ class Registry {
   const std::string& doc() const { return doc_; }
 
  private:
+  // A table without a type that the option --set created.
+  void fail_if_set(const Node& n) const {
+    if (!n.document) return;
+    const auto it = n.document->origin.find(n.path);
+    if (it == n.document->origin.end() || it->second != "--set") return;
+    std::string values;
+    for (const auto& [key, value] : n.json->items()) values += fmt::format(", {}={}", key, value.dump());
+    n.fail(
+        fmt::format("key \"type\" is missing, which a table created by --set needs; write --set "
+                    "'{}={{type=\"NAME\"{}}}' with the type of "
+                    "the {}: {}",
+                    n.path, values, kind_, fmt::join(names(), ", ")));
+  }
+
   struct Entry {
     std::vector<Trait> traits;
     Json json_schema;

@@ -32,6 +32,8 @@ std::string example(const FieldInfo& f) {
   if (f.unit == "deg") return "an angle such as 90 or \"90 deg\"";
   const Dimension dimension = parse_unit(f.unit).dimension;
   if (f.unit == "rad") return "an angle such as 1.5 or \"90 deg\"";
+  // No cell lives at 1 K.
+  if (dimension == parse_unit("K").dimension) return "a temperature such as \"293 K\"";
   if (dimension == Dimension{}) return fmt::format("a number such as 1 or \"1 {}\"", f.unit);
   return fmt::format("a {} such as \"1 {}\"", dimension_name(dimension), f.unit);
 }
@@ -89,7 +91,12 @@ void check_number(double v, const FieldInfo& f, const Node& n) {
       : f.min == -kOpen
           ? fmt::format("at most {}", format_quantity(f.max, f.unit))
           : fmt::format("between {} and {}", format_quantity(f.min, f.unit), format_quantity(f.max, f.unit));
-  n.fail(fmt::format("{} is out of range; it must be {}", format_quantity(v, f.unit), range));
+  // As in the file if it has a unit there: "-3 um/s", not "-3e-06 m/s".
+  const bool with_unit = n.json->is_string() && !parse_quantity(n.json->get<std::string>()).bare;
+  const std::string given = with_unit ? n.json->get<std::string>() : format_quantity(v, f.unit);
+  const bool maybe_degrees = f.unit == "rad" && n.json->is_number();
+  n.fail(fmt::format("{} is out of range; it must be {}{}", given, range,
+                     maybe_degrees ? fmt::format("; for degrees write \"{:g} deg\"", v) : ""));
 }
 
 double read_number(const Node& n, const FieldInfo& f) {

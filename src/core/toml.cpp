@@ -20,6 +20,7 @@ constexpr void require(bool holds) {
 
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/toml_advice.h"
 
 namespace faba {
 namespace {
@@ -157,16 +158,11 @@ std::string quote_advice(std::string_view text) {
   return "";
 }
 
-// The parser's description of an error, with advice for frequent errors.
-std::string with_advice(std::string_view reason) {
-  static constexpr std::pair<std::string_view, std::string_view> kAdvice[] = {
-      {"could not determine value type", "text and quantities with a unit need quotes, such as \"60 Hz\""},
-      {"expected a comment or whitespace", "text and quantities with a unit need quotes, such as \"60 Hz\""},
-      {"cannot redefine existing", "remove one of the two"},
-      {"invalid utf-8", "the file is not UTF-8; save it as UTF-8"}};
-  for (const auto& [part, advice] : kAdvice)
-    if (reason.find(part) != reason.npos) return fmt::format("{}; {}", reason, advice);
-  return std::string(reason);
+// Line `number` of a text, from 1.
+std::string_view line_of(std::string_view text, std::size_t number) {
+  for (; number > 1 && !text.empty(); --number)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n'));
 }
 
 // TOML permits non-ASCII characters in strings and comments only. Elsewhere some of them cause undefined
@@ -188,6 +184,13 @@ void check_plain(std::string_view text, const std::string& name) {
   }
 }
 
+// The file that a user probably means by a run directory.
+std::string scenario_in(const std::filesystem::path& dir) {
+  const std::filesystem::path scenario = dir / "scenario.toml";
+  std::error_code ec;
+  return std::filesystem::exists(scenario, ec) ? fmt::format("; its scenario is {}", scenario.string()) : "";
+}
+
 }  // namespace
 
 Document parse_toml(std::string_view text, const std::string& name) {
@@ -200,7 +203,9 @@ Document parse_toml(std::string_view text, const std::string& name) {
     const toml::table t = toml::parse(text, name);
     doc.root = convert(t, "", doc);
   } catch (const toml::parse_error& e) {
-    throw Error(Errc::usage, fmt::format("{}:{}", name, e.source().begin.line), with_advice(e.description()));
+    const auto line = e.source().begin.line;
+    throw Error(Errc::usage, fmt::format("{}:{}", name, line),
+                toml_advice(e.description(), line_of(text, line)));
   } catch (const NotToml&) {
     throw Error(Errc::usage, name, "is not valid TOML: a key or a [header] starts with an invalid character");
   }
@@ -213,7 +218,7 @@ Document read_toml(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, ec))
     throw Error(Errc::usage, file.string(), "file not found; check the name");
   if (std::filesystem::is_directory(file, ec))
-    throw Error(Errc::usage, file.string(), "is a directory, not a TOML file");
+    throw Error(Errc::usage, file.string(), "is a directory, not a TOML file" + scenario_in(file));
   if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)
     throw Error(Errc::usage, file.string(), "is larger than the maximum of 4 MiB");
   std::ifstream in(file, std::ios::binary);
@@ -244,8 +249,12 @@ void Document::set(const std::string& path, Json value, const std::string& origi
     if (!at->is_object()) fail(fmt::format("\"{}\" is not a table", prefix));
     prefix = joined(prefix, s.key);
     if (!at->contains(s.key)) {
-      if (!s.index.empty()) fail(fmt::format("array \"{}\" not found", prefix));
+      if (!s.index.empty())
+        fail(path.find('.', prefix.size()) != path.npos
+                 ? fmt::format("the file has no [[{}]]; add one for each element to the file", prefix)
+                 : fmt::format("array \"{}\" not found; add it to the file", prefix));
       (*at)[s.key] = Json::object();
+      origin[prefix] = origin_label;
     }
     at = &(*at)[s.key];
     for (const std::size_t i : s.index) {
@@ -278,7 +287,7 @@ void Document::set(const std::string& path, const std::string& value, const std:
   } catch (const toml::parse_error& e) {
     // A value that does not start like a table or an array is a plain string.
     if (value.starts_with('{') || value.starts_with('['))
-      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), std::string(e.description()));
+      throw Error(Errc::usage, fmt::format("{} {}", origin_label, path), toml_advice(e.description(), value));
   }
   try {
     parsed.dump();
@@ -309,6 +318,8 @@ std::string Node::where(const std::string& key) const {
       p.resize(cut);
     }
   if (full.empty() || label == "--" + full) return label;
+  // An option is one place: "--repeat" and not "--repeat: rig.step_response.repeat".
+  if (label != "--set" && label.starts_with("--") && full.ends_with("." + label.substr(2))) return label;
   return label.empty() ? full : fmt::format("{}: {}", label, full);
 }
 

@@ -72,6 +72,10 @@ Factor named_unit(std::string_view name) {
         scaled.ten += p.ten;
         return scaled;
       }
+  for (const std::string_view celsius : {"degC", "C", "\u00b0C", "\u2103"})
+    if (name == celsius)
+      throw std::invalid_argument(
+          fmt::format("unknown unit \"{}\"; write a temperature in kelvin: 20 degC is \"293.15 K\"", name));
   throw std::invalid_argument(fmt::format("unknown unit \"{}\"", name));
 }
 

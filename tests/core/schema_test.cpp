@@ -107,6 +107,8 @@ TEST_CASE("every error message is one line with file, line, path, reason and adv
   CHECK(refusal_of("preset = 'quick'") == "scene.toml:1: preset: \"quick\" is not one of fast");
   CHECK(refusal_of("\n\n[[inner]]\nwieght = 1") ==
         "scene.toml:4: inner[0].wieght: unknown key; did you mean \"weight\"?");
+  CHECK(refusal_of("speed = '-3 um/s'") ==
+        "scene.toml:1: speed: -3 um/s is out of range; it must be between 0 m/s and 0.001 m/s");
   CHECK(refusal_of("extra = '-1 s'") == "scene.toml:1: extra: -1 s is out of range; it must be at least 0 s");
 }
 
@@ -131,6 +133,13 @@ TEST_CASE("--set changes one value and is named in error messages") {
     CHECK_THROWS_AS(d.set(bad, std::string("1"), "--set"), Error);
   CHECK_THROWS_WITH_AS(d.set("list.a", std::string("1"), "--set"),
                        "--set list.a: \"list\" is an array; write list[0].a", Error);
+  CHECK_THROWS_WITH_AS(
+      d.set("rig.coil[0].a", std::string("1"), "--set"),
+      "--set rig.coil[0].a: the file has no [[rig.coil]]; add one for each element to the file", Error);
+  d.set("swarm.repeat", std::string("1"), "--repeat");
+  CHECK(Node(d).where("swarm.repeat") == "--repeat");
+  d.set("swarm.set", std::string("1"), "--set");
+  CHECK(Node(d).where("swarm.set") == "--set: swarm.set");
   CHECK_THROWS_WITH_AS(d.set("list[3].a", std::string("1"), "--set"),
                        "--set list[3].a: list[3] not found; \"list\" has 1 element; add more in the file",
                        Error);

@@ -39,6 +39,18 @@ TEST_CASE("non-ASCII characters: in strings and comments, not in keys") {
 TEST_CASE("frequent errors of the parser have advice") {
   CHECK(refusal("rate = 60 Hz\n").ends_with("need quotes, such as \"60 Hz\""));
   CHECK(refusal("a = 1\na = 2\n").ends_with("; remove one of the two"));
+  CHECK(refusal("count = 5,5\n").ends_with("; write decimals with a point (5.5) and lists in [ ]"));
+  CHECK(refusal("a = [18 uT, 0]\n").ends_with("; put quantities in quotes, such as [\"18 uT\", \"0 uT\"]"));
+  CHECK(refusal("a = 1\ntitle = \"x\nb = 2\n") ==
+        "t.toml:2: the text is not closed; add a quote (\") at its end");
+  CHECK(refusal("a = 'x\n") == "t.toml:1: the text is not closed; add a quote (') at its end");
+  CHECK(refusal("a = \"\"\"x\n").ends_with("the text is not closed; add a quote (\"\"\") at its end"));
+  CHECK(refusal("a = \"x\x01\"\n").find("control characters") != std::string::npos);
+  CHECK(refusal("a = 1\n[[swarm]\ncount = 3\n") == "t.toml:2: a closing bracket is missing: write [[swarm]]");
+  CHECK(refusal("[limits\n") == "t.toml:1: a closing bracket is missing: write [limits]");
+  CHECK(refusal("a = { b = 3,\n c = 4 }\n") ==
+        "t.toml:1: a closing } is missing, or the table is longer than one line");
+  CHECK(refusal("a =\n").find("Error while parsing") == std::string::npos);
   CHECK(refusal("a = 'caf\xE9'\n").ends_with("; the file is not UTF-8; save it as UTF-8"));
 }
 

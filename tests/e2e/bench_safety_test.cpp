@@ -141,7 +141,7 @@ TEST_CASE("a camera that hangs: no current after the larger of 100 ms and two fr
     if (!checked_in_time(last - began, 3 + kWithin, b.machine)) return false;
     if (b.was_kept_waiting()) return false;  // the guard tripped first because the machine was busy
     CHECK(last - began > 0.5);
-    CHECK_MESSAGE(b.err().find("no frame for 2 s") != std::string::npos, b.err(), b.machine.longest());
+    CHECK_MESSAGE(b.err().find("no picture for 2 s") != std::string::npos, b.err(), b.machine.longest());
     return true;
   });
 }

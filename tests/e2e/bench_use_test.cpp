@@ -96,6 +96,9 @@ TEST_CASE("the device is disconnected: the run ends with one line, and the recor
   const Called second = faba_in(b.f.path, "rig simulate scene.toml --at bench");
   CHECK(second.exit == 4);
   CHECK(one_clear_line(second.err));
+  const Called nowhere = faba_in(b.f.path, "rig simulate scene.toml --at none/bench");
+  CHECK(nowhere.exit == 4);
+  CHECK(nowhere.err.find("folder none not found") != std::string::npos);
 }
 
 TEST_CASE("device not found: one clear line, exit 4, and no directory") {

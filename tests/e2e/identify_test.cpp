@@ -216,7 +216,7 @@ TEST_CASE("invalid studies and videos: one line, before any simulation") {
           "must be a range");
   refused(f,
           kHead + "[[model]]\ntype = \"dipole\"\nfree = { \"swarm[0].model.speed\" = [\"5 s\", \"9 s\"] }\n",
-          2, "not a quantity");
+          2, "\"5 s\" is a time; expected a speed");
   refused(f, kHead + kBasic + "legacy = [1, 5]\n", 2, "three values");
   refused(f, kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "out of range");
   refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");

@@ -207,7 +207,8 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
       if (got == CameraFeed::Got::end) break;
       if (got == CameraFeed::Got::nothing) {
         if (monotonic_now() - last_frame_time > job.timeout)
-          throw Error(Errc::device, "camera", fmt::format("no frame for {:g} s", job.timeout));
+          throw Error(Errc::device, "camera",
+                      fmt::format("no picture for {:g} s; check the camera and its cable", job.timeout));
         continue;
       }
       last_frame_time = monotonic_now();

@@ -53,7 +53,7 @@ Scenes scenes_of(Document d) {
 }
 
 // Coils at their current limit would give another field, in another direction.
-void check_field(const Scenario& s) {
+void check_field(const Scenario& s, bool is_default) {
   const BenchControls c(s);
   const double field = s.rig->step_response.field;
   const Command command = c.controller->update({}, {}, s.frame_period());
@@ -66,8 +66,10 @@ void check_field(const Scenario& s) {
   if (fraction < 1 - kCurrentRounding)
     throw Error(
         Errc::usage, "rig.step_response.field",
-        fmt::format("{:.1f} uT is out of range; the maximum at the current limits of the coils is {:.1f} uT",
-                    1e6 * field, 1e6 * fraction * field));
+        fmt::format(
+            "{:.1f} uT{} is out of range; the maximum at the current limits of the coils is {:.1f} uT{}",
+            1e6 * field, is_default ? " (the default)" : "", 1e6 * fraction * field,
+            is_default ? "; set rig.step_response.field" : ""));
 }
 
 // The study file; existing entries are kept.
@@ -156,6 +158,15 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
 
 }  // namespace
 
+std::string schedule_note(const StepResponseParams& p) {
+  const double one = p.gather + p.before + p.record;
+  if (p.repeat < 2 || p.every == 0 || p.every >= one) return "";
+  return fmt::format(
+      "rig.step_response.every (--every): {:g} s is shorter than one response (about {:.3g} s); responses "
+      "follow each other immediately",
+      p.every, one);
+}
+
 std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) {
   if (job.experiment.find('/') != std::string::npos || job.experiment.starts_with('.'))
     throw Error(Errc::usage, "--experiment",
@@ -163,7 +174,8 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
                             job.experiment));
   Scenes scenes = scenes_of(job.scene);
   const StepResponseParams p = scenes.gather.rig->step_response;
-  check_field(scenes.gather);
+  const Json::json_pointer field_key("/rig/step_response/field");
+  check_field(scenes.gather, !job.scene.root.contains(field_key));
   std::error_code ec;
   if (std::filesystem::exists(job.run.out / run_files::kScenario, ec))
     throw Error(Errc::usage, job.run.out.string(), "is the directory of a run; choose another --out");

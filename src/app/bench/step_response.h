@@ -26,6 +26,10 @@ struct StepResponseJob {
       done;  ///< called after each; its directory is then complete except for a report
 };
 
+/// Note that `every` is shorter than one response; empty if it is not, or 0, or if there is only one
+/// response.
+std::string schedule_note(const StepResponseParams& p);
+
 /// Records the step responses of [rig.step_response]: a field drives the swarm to one side, where its
 /// position is measured, and is then reversed while the camera records. Each response has a run directory in
 /// `run.out`, with the air exposure time in its scenario. `study.toml` in the same folder lists them,

@@ -1,5 +1,6 @@
 #include "app/recording/manifest.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace faba {
@@ -85,6 +86,10 @@ Manifest manifest_of(const Scenario& s, std::uint64_t seed, const Frame& frame, 
   m.arena_type = s.arena.type;
   m.arena_centre_px = outline.centre_image;
   m.arena_radius_px = outline.radius_px;
+  m.open_loop =
+      s.controller.has(Trait::open_loop) && std::all_of(s.events.begin(), s.events.end(), [](const Event& e) {
+        return !e.controller || e.controller->has(Trait::open_loop);
+      });
   m.polarity = s.polarity() > 0 ? "north" : "south";
   return m;
 }

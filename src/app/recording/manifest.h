@@ -23,6 +23,7 @@ struct Manifest {
   Vec2 arena_centre_px;
   double arena_radius_px = 0;  ///< of a drop; 0: the arena is a rectangle of the size of the view
   std::string polarity;        ///< "north" or "south": of the steered cells
+  bool open_loop = false;      ///< no controller of the run uses the setpoints; not in manifest.json
   bool complete = false;
   std::uint64_t frames = 0;  ///< number of control cycles
   double duration_s = 0, wall_time_s = 0;

@@ -50,6 +50,13 @@ constexpr const char* kSaddle =
 // Whether the zeros of a gradient controller are reachable and trap cells.
 void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
   const Field& field = *simulation.world().parts().field;
+  if (!field.varies()) {
+    notes.push_back(fmt::format(
+        "controller: the coils of field \"{}\" have no gradient and cannot produce a zero; use a field with "
+        "single coils, as in rigs/thesis-four-coils.toml",
+        s.field.type));
+    return;
+  }
   const std::vector<double> limits = field.max_currents(s.limits.max_current);
   for (const Vec2 at : simulation.reference().setpoints()) {
     const FieldNull n = null_at(field, at, s.polarity(), limits);
@@ -92,8 +99,11 @@ struct MaxField {
   bool by_coils = false;  ///< by the current limits of the coils, else by the controller
 };
 
-// Sum of the magnitudes of the fields of all coils, T, at its largest in the middle of the arena and halfway
-// to its corners; infinity if all these points are outside a measured map.
+constexpr double kInPlaneRounding = 1e-6;  // smaller fractions of the field are rounding errors
+
+// Sum of the magnitudes of the fields of all coils in the plane of the sample, in which cells swim, T, at its
+// largest in the middle of the arena and halfway to its corners; infinity if all these points are outside a
+// measured map.
 double field_of(const WorldParts& w, std::span<const double> current) {
   const Grid g = w.arena->grid();
   std::vector<Vec3> b(w.field->coils());
@@ -102,8 +112,12 @@ double field_of(const WorldParts& w, std::span<const double> current) {
     const Vec2 at{double(g.left) + part.x * g.columns * double(g.cell),
                   double(g.low) + part.y * g.rows * double(g.cell)};
     w.field->basis({at.x, at.y, 0}, b, {});
-    double sum = 0;
-    for (std::size_t k = 0; k < b.size(); ++k) sum += std::fabs(current[k]) * norm(b[k]);
+    double sum = 0, with_z = 0;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      sum += std::fabs(current[k]) * std::hypot(b[k].x, b[k].y);
+      with_z += std::fabs(current[k]) * norm(b[k]);
+    }
+    if (sum < kInPlaneRounding * with_z) sum = 0;
     if (sum > most) most = sum;
   }
   return most < 0 ? std::numeric_limits<double>::infinity() : most;
@@ -128,6 +142,15 @@ MaxField max_field(const Scenario& s, const Simulation& simulation) {
 // Fields that do not move the cells.
 void note_weak_field(const Scenario& s, const Simulation& simulation, Notes& notes) {
   if (s.limits.max_current == 0 || s.frames() < 2) return;  // these have their own note
+  const WorldParts& w = simulation.world().parts();
+  const std::vector<double> unit_current(w.field->coils(), 1.0);
+  if (!unit_current.empty() && field_of(w, unit_current) == 0) {
+    notes.emplace_back(
+        "field: these coils have no field in the plane of the sample; the cells do not respond to them; use "
+        "coils "
+        "with an axis in this plane, as in rigs/thesis-four-coils.toml");
+    return;
+  }
   const MaxField field = max_field(s, simulation);
   if (field.tesla == 0) {
     notes.push_back(
@@ -241,6 +264,28 @@ void note_without_effect(const Scenario& s, const Simulation& simulation, Notes&
         s.camera.rate, s.frame_period()));
 }
 
+void note_recording(const Scenario& s, Notes& notes) {
+  constexpr double kMaxDeviation = 0.4;  // frame periods, as in rig/simulated/sim_rig.cpp
+  const double most = kMaxDeviation * s.frame_period();
+  if (s.camera.jitter > most)
+    notes.push_back(
+        fmt::format("camera.jitter is {:g} s, but deviations of the frame times are limited to {:g} frame "
+                    "periods ({:.3g} s); reduce the jitter or the frame rate",
+                    s.camera.jitter, kMaxDeviation, most));
+  if (s.record.as_seen && !s.record.video && !s.record.lossless)
+    notes.emplace_back(
+        "record.as_seen (--as-seen) has no effect: record.video and record.lossless are false; set one of "
+        "them to true");
+}
+
+void note_events(const Scenario& s, Notes& notes) {
+  for (std::size_t i = 0; i < s.events.size(); ++i)
+    if (s.events[i].frame >= s.frames())
+      notes.push_back(
+          fmt::format("event[{}].frame: {} is after the last frame of the run ({}); the event has no effect",
+                      i, s.events[i].frame, s.frames() - 1));
+}
+
 std::string in_bytes(double bytes) {
   return bytes < 1e12 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} TB", bytes / 1e12);
 }
@@ -269,6 +314,8 @@ std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& sim
   Notes notes;
   note_parts(s, notes);
   note_without_effect(s, simulation, notes);
+  note_events(s, notes);
+  note_recording(s, notes);
   note_weak_field(s, simulation, notes);
   note_delay(s, notes);
   note_view(simulation, notes);

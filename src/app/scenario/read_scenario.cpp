@@ -6,6 +6,7 @@
 
 #include "app/scenario/calibration_file.h"
 #include "app/scenario/control_rules.h"
+#include "app/scenario/file_kind.h"
 #include "app/scenario/rig_file.h"
 #include "app/scenario/section.h"
 
@@ -51,6 +52,7 @@ Scenario read_scenario(Document d, const Parts& parts) {
   include_rig(d, parts);
   include_calibration(d);
   const Node root(d);
+  require_kind(root, FileKind::scenario);
   check_top_level(root);
   Scenario s;
   s.readers = parts.readers;

@@ -1,4 +1,5 @@
 #include "app/scenario/rig_file.h"
+#include "app/scenario/file_kind.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@ namespace faba {
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts) {
   Document d = read_toml(file);
   d.table_reader = parts.readers.table;
+  require_kind(Node(d), FileKind::coil_system);
   if (!d.root.contains("coil"))
     throw Error(Errc::usage, file.string(),
                 "is not a rig file: [[coil]] not found; see the examples in rigs/");

@@ -40,7 +40,7 @@ void check_recording(const Record& record, const Frame& frame, double rate) {
                     frame.width, frame.height, kMaxVideoSide));
   const double fps = rate / record.video_every;
   if (fps < kMinFrameRate || fps > kMaxFrameRate)
-    throw Error(Errc::usage, "camera.rate",
+    throw Error(Errc::usage, record.video_every > 1 ? "record.video_every" : "camera.rate",
                 fmt::format("a video cannot have {:g} frames per second; change record.video_every, or set "
                             "record.video = false",
                             fps));

@@ -16,7 +16,10 @@ Document read_scene(const SceneOptions& v, std::string* drop_note) {
     if (equals == std::string::npos || equals == 0)
       throw Error(Errc::usage, "--set " + s,
                   "must have the form PATH=VALUE, such as --set swarm[0].count=200");
-    d.set(s.substr(0, equals), s.substr(equals + 1), "--set");
+    const std::string path = s.substr(0, equals);
+    if ((path == "duration" && v.duration) || (path == "seed" && v.seed))
+      throw Error(Errc::usage, "--set " + s, "is also given as --" + path + "; give only one of the two");
+    d.set(path, s.substr(equals + 1), "--set");
   }
   if (v.duration) d.set("duration", *v.duration, "--duration");
   if (v.seed) d.set("seed", *v.seed, "--seed");

@@ -74,6 +74,7 @@ bool report_if_complete(const StudyOptions& v, const std::string& name, const st
                         const Common& c) {
   const std::filesystem::path out = out_of(v);
   if (v.force || !holds_complete_study(out, study_hash)) return false;
+  check_merge(v.merge, study_hash);  // a wrong name is an error even if there is nothing to import
   if (c.json)
     print_json(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
   else if (!c.quiet)

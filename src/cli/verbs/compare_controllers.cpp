@@ -33,9 +33,9 @@ void summary(const ControllerComparison& r) {
 }
 
 int compare_controllers(const StudyOptions& v, const Common& c) {
-  const ControllerStudy study = read_controller_study(v.study);
   Progress bar("trials", !c.quiet && !c.json);
-  const SweepOptions options = sweep_options(v, bar);
+  const SweepOptions options = sweep_options(v, bar);  // errors of options come before those of the study
+  const ControllerStudy study = read_controller_study(v.study);
   const std::string hash = study_hash(study);
   if (report_if_complete(v, "controllers", hash, c)) return 0;
   StudyDirectory dir = open_study(v, "compare-controllers", hash);

@@ -11,15 +11,17 @@
 namespace faba::cli {
 namespace {
 
-void print_parameter(const FoundParameter& p) {
+// `abc`: name of the second method.
+void print_parameter(const FoundParameter& p, const char* abc) {
   const FreeParameter& q = p.parameter;
-  fmt::print("  {:<28} {:.4g} {}  90 % interval {:.4g} to {:.4g}   (ABC {:.4g}, {:.4g} to {:.4g})\n", q.path,
-             q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), q.shown(p.abc_median),
-             q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
+  fmt::print("  {:<28} {:.4g} {}  90 % interval {:.4g} to {:.4g}   ({} {:.4g}, {:.4g} to {:.4g})\n", q.path,
+             q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), abc,
+             q.shown(p.abc_median), q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
   if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
 }
 
 void summary(const Identification& r) {
+  const char* abc = "approximate Bayesian computation, ABC:";  // in full on first use
   for (const FoundModel& m : r.models) {
     if (!m.failed.empty()) {
       fmt::print("{}: {}\n", m.name, m.failed);
@@ -29,7 +31,13 @@ void summary(const Identification& r) {
         "{}: energy score {:.3f} (lower is better), goodness-of-fit p {:.2g}, {} valid simulations in {} "
         "rounds\n",
         m.name, m.score, m.fit_p, m.simulations, m.rounds);
-    for (const FoundParameter& p : m.parameters) print_parameter(p);
+    if (m.fit_p < FoundModel::kPoorFit)
+      fmt::print("  {} does not explain the videos (fit p = {:.2g}): do not use its intervals\n", m.name,
+                 m.fit_p);
+    for (const FoundParameter& p : m.parameters) {
+      print_parameter(p, abc);
+      abc = "ABC";
+    }
   }
   for (const LegacyModel& m : r.legacy)
     fmt::print("legacy rule (unreliable): {}: {}\n", m.name,
@@ -40,9 +48,9 @@ void summary(const Identification& r) {
 }
 
 int identify(const StudyOptions& v, const Common& c) {
-  const IdentifyStudy study = read_identify_study(v.study);
   Progress bar("simulating", !c.quiet && !c.json);
-  SweepOptions options = sweep_options(v, bar);
+  SweepOptions options = sweep_options(v, bar);  // errors of options come before those of the study
+  const IdentifyStudy study = read_identify_study(v.study);
   const std::string hash = study_hash(study);
   if (report_if_complete(v, "identify", hash, c)) return 0;
   StudyDirectory dir = open_study(v, "identify", hash);

@@ -64,7 +64,8 @@ class Map final : public Field {
   static Schema<Params> schema() {
     return Schema<Params>("map", "A measured field of a coil, or one computed by other software")
         .add("file", &Params::file,
-             {.doc = "CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; z and bz "
+             {.doc = "Required: CSV with x_mm, y_mm, z_mm, bx_mt, by_mt, bz_mt (or _m, _um, _t, _gauss ...; "
+                     "z and bz "
                      "are optional), or HDF5 from `faba field map`; relative to the folder of the coil "
                      "system file, or to the current directory"})
         .add("measured_current", &Params::measured_current,

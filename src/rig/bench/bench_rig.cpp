@@ -50,7 +50,11 @@ void BenchRig::check_guard() {
   if (!armed_) return;
   const GuardReport r = coils_->report();
   if (r.state != CoilGuard::State::armed)
-    throw Error(Errc::device, "coil guard", (r.reason[0] ? r.reason.data() : "disarmed") + coil_status());
+    throw Error(
+        Errc::device, "coil guard",
+        (r.reason[0] ? r.reason.data() : "disarmed") + coil_status() +
+            (r.fault == CoilGuard::Fault::current_mismatch ? "; check the wire and the amplifier of the coil"
+                                                           : ""));
 }
 
 bool BenchRig::read(Observation& out) {
@@ -77,7 +81,10 @@ bool BenchRig::read(Observation& out) {
             ? fmt::format("frames are {:.1f} s old on arrival: the camera, or a simulated bench on this "
                           "machine, is too slow for the frame rate{}",
                           behind, coil_status())
-            : fmt::format("no frame for {:g} s{}", p_.camera_timeout, coil_status()));
+            : fmt::format(
+                  "no picture for {:g} s{}; check the camera and its cable", p_.camera_timeout,
+                  coils_ ? coil_status() + " (the currents were set to zero at the first missing pictures)"
+                         : ""));
   }
   arrived_ = monotonic_now();
   frame_t_ = frame.t;

@@ -85,6 +85,10 @@ BenchSocket BenchSocket::listen(const std::filesystem::path& path) {
                        ::listen(s.descriptor_, 4) == 0 && link(early.c_str(), path.c_str()) == 0;
   const int why = errno;
   unlink(early.c_str());
+  std::error_code ec;
+  if (const auto folder = path.parent_path();
+      !listens && why == ENOENT && !folder.empty() && !std::filesystem::exists(folder, ec))
+    throw Error(Errc::device, path.string(), fmt::format("folder {} not found", folder.string()));
   if (!listens)
     throw Error(Errc::device, path.string(),
                 why == EEXIST ? "already exists (a running bench or another file); choose another name"

@@ -246,17 +246,27 @@ void add_notes(DipoleSchema& s) {
   s.note([](const DipoleParams& p) -> std::string {
      if (p.moment > 0) return {};
      return "moment is 0: the field does not turn the cells, and the coils cannot steer them; set a moment";
-   }).note([](const DipoleParams& p) -> std::string {
-    if (p.motile == 0)
-      return "motile is 0: no cell swims; the field turns the cells but does not move them; increase motile";
-    if (p.speed > 0) return {};
-    if (p.speed_sd == 0 || p.speed_max == 0)
-      return "speed is 0: the cells do not swim; the field turns them but does not move them; increase speed";
-    return fmt::format(
-        "speed is 0, but speed_sd is {:g} um/s: the cells swim at speeds between 0 and {:g} um/s; set "
-        "speed_sd = 0 for cells that do not swim",
-        1e6 * p.speed_sd, 1e6 * p.speed_max);
-  });
+   })
+      .note([](const DipoleParams& p) -> std::string {
+        if (p.motile == 0)
+          return "motile is 0: no cell swims; the field turns the cells but does not move them; increase "
+                 "motile";
+        if (p.speed > 0) return {};
+        if (p.speed_sd == 0 || p.speed_max == 0)
+          return "speed is 0: the cells do not swim; the field turns them but does not move them; increase "
+                 "speed";
+        return fmt::format(
+            "speed is 0, but speed_sd is {:g} um/s: the cells swim at speeds between 0 and {:g} um/s; set "
+            "speed_sd = 0 for cells that do not swim",
+            1e6 * p.speed_sd, 1e6 * p.speed_max);
+      })
+      .note([](const DipoleParams& p) -> std::string {
+        constexpr double kMelting = 273.15, kBoiling = 373.15;  // K, of water at normal pressure
+        if (p.temperature >= kMelting && p.temperature <= kBoiling) return {};
+        return fmt::format(
+            "temperature is {:g} K, but water is liquid only between {} K and {} K; 20 degC is 293.15 K",
+            p.temperature, kMelting, kBoiling);
+      });
 }
 
 Schema<Dipole::Params> Dipole::schema() {

@@ -133,6 +133,7 @@ RunInfo run_info(const Manifest& m) {
   info.seed = std::to_string(m.seed);
   info.scenario_hash = m.scenario_hash;
   info.complete = m.complete;
+  info.open_loop = m.open_loop;
   if (m.um_per_px > 0) info.um_per_px = m.um_per_px;
   info.view_px = m.view_px;
   info.arena = {m.arena_type, m.arena_centre_px, {}, {}};

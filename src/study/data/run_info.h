@@ -25,6 +25,7 @@ struct RunInfo {
   std::string seed, threads, state_hash, scenario_hash;
   std::string video_shows;          ///< "camera" or "drawing"
   bool complete = true;             ///< false when the run was stopped before its end
+  bool open_loop = false;           ///< no controller of the run uses the setpoints; not in manifest.json
   std::optional<double> um_per_px;  ///< image scale, micrometre per pixel, > 0
   std::optional<double> duration_s, wall_time_s;
   std::optional<double> setpoints;              ///< number of setpoints of the scenario

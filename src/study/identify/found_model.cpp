@@ -162,7 +162,7 @@ double fit_p(const ParameterSearch& s, const VectorXd& mode, const VectorXd& obs
 
 // A sentence about a model that does not fit, else nothing.
 std::string poor_fit(const FoundModel& m) {
-  if (m.fit_p >= 0.01) return "";
+  if (m.fit_p >= FoundModel::kPoorFit) return "";
   return fmt::format(
       " {} does not explain the videos: only {:.1g} % of its simulations deviate from their mean as much as "
       "the "

@@ -79,7 +79,10 @@ double number(const Node& n, const FreeParameter& p) {
     n.fail("must be a number" + (p.unit.empty() ? "" : " or a quantity in " + p.unit));
   try {
     const Quantity q = parse_quantity(n.json->get<std::string>());
-    if (q.dimension == parse_unit(p.unit).dimension) return q.value;
+    const Dimension wanted = parse_unit(p.unit).dimension;
+    if (q.dimension == wanted) return q.value;
+    n.fail(fmt::format("\"{}\" is a {}; expected a {}", n.json->get<std::string>(),
+                       dimension_name(q.dimension), dimension_name(wanted)));
   } catch (const std::invalid_argument&) {
   }
   n.fail(fmt::format("\"{}\" is not a {}", n.json->get<std::string>(),

@@ -38,6 +38,7 @@ struct FoundModel {
   /// Fraction of the simulations of this model that deviate from their mean as much as the observation. Below
   /// 0.01 the model does not explain the videos.
   double fit_p = 0;
+  static constexpr double kPoorFit = 0.01;
   std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior median
   /// 90 % posterior predictive interval of each statistic; of the best model only.
   std::vector<std::array<double, 2>> predicted90 = {};

@@ -271,9 +271,11 @@ void note_field_strength(const IdentifyStudy& study, ResponseVideo& v) {
       return;
     }
     if (v.field_t && std::fabs(t / *v.field_t - 1) > kSame)
-      v.notes.push_back(fmt::format(
-          "recorded field strength {:.4g} uT; {} is simulated with {:.4g} uT, as given in the study",
-          1e6 * *v.field_t, c.model.name, 1e6 * t));
+      v.notes.push_back(
+          fmt::format("recorded field strength {0:.4g} uT; {1} is simulated with {2:.4g} uT, as given in the "
+                      "study; if the "
+                      "record is right, set field_strength = \"{0:.4g} uT\" in the study",
+                      1e6 * *v.field_t, c.model.name, 1e6 * t));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/scenario/calibration_file.h"
+#include "app/scenario/file_kind.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
 #include "core/error.h"
@@ -133,7 +134,8 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   if (!v.segment.empty() && (v.reversal || v.direction || v.duration))
     n.fail("segment cannot be combined with reversal, direction or duration; give only one of the two");
   if (!std::filesystem::exists(n.file(v.file)))
-    throw Error(Errc::input, n.where("file"), "file not found: " + v.file);
+    throw Error(Errc::input, n.where("file"),
+                fmt::format("file not found: {} (relative to the study file)", v.file));
   r.file = n.file(v.file);
   r.experiment = v.experiment;
   r.exposure_s = v.exposure;
@@ -231,7 +233,7 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
 IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   const Document d = read_toml(file);
   const Node root(d);
-  if (root.has("swarm")) root.fail("is a scenario, not a study file; see studies/ for study files");
+  require_kind(root, FileKind::identify_study);
   const IdentifyFile f = IdentifyFile::schema().parse(root, {"video", "model", "scene"});
   IdentifyStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;

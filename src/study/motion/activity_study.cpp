@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/scenario/file_kind.h"
 #include "app/scenario/parts.h"
 #include "core/error.h"
 #include "core/toml.h"
@@ -78,6 +79,7 @@ Json activity_study_schema() {
 void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   const Document d = read_toml(file);
   const Node root(d);
+  require_kind(root, FileKind::activity_study);
   const ActivityFile study = ActivityFile::schema().parse(root, {"video", "flow"});
   if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
   if (study.threshold) job.threshold_px = study.threshold;

@@ -35,8 +35,11 @@ std::string length_text(double px, const RunInfo& info) {
 
 std::string seconds(double s) { return three_digits(s) + "\u00A0s"; }
 
+// One cell has no dispersion.
+bool has_one_cell(const RunInfo& info) { return info.swarm_cells == std::vector<std::uint64_t>{1}; }
+
 std::string dispersion_text(const Metrics& m, const RunInfo& info) {
-  if (!m.sigma_x_px || !m.sigma_y_px) return {};
+  if (!m.sigma_x_px || !m.sigma_y_px || has_one_cell(info)) return {};
   std::string text =
       fmt::format("{}\u00A0×\u00A0{}\u00A0px", three_digits(*m.sigma_x_px), three_digits(*m.sigma_y_px));
   if (info.um_per_px) {
@@ -67,10 +70,12 @@ std::string settling_text(const std::string& goal, bool single, const Metrics& m
     return fmt::format("The swarm did not settle at {}: the distance was {}{} at the end of the run ({}).",
                        goal, start, length_text(*m.final_distance_px, info), duration);
   }
-  if (*m.settling_time_s > kLate * m.duration_s) {  // the steady-state error would include the approach
+  if (*m.settling_time_s > kLate * m.duration_s) {
     return fmt::format(
-        "The swarm settled at {} only after {}; at the end of the run ({}) the distance was {}.", goal,
-        seconds(*m.settling_time_s), duration, length_text(*m.final_distance_px, info));
+        "The swarm settled at {} after {}, within the last third of the run; the steady-state error "
+        "therefore "
+        "includes the approach. At the end of the run ({}) the distance was {}.",
+        goal, seconds(*m.settling_time_s), duration, length_text(*m.final_distance_px, info));
   }
   std::string text = *m.settling_time_s == 0
                          ? fmt::format("The swarm was at {} from the start", goal)
@@ -84,14 +89,20 @@ std::string settling_text(const std::string& goal, bool single, const Metrics& m
 
 std::string outcome_text(const Metrics& m, const RunInfo& info) {
   const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
+  if (info.open_loop) {
+    return fmt::format("The controller does not use the {}; distance to {} at the end: {}.",
+                       given > 1 ? "setpoints" : "setpoint",
+                       given > 1 ? fmt::format("setpoint {}", m.setpoints) : "the setpoint",
+                       length_text(*m.final_distance_px, info));
+  }
   if (given > kMaxRouteSetpoints) return settling_text("its moving setpoint", false, m, info);
   if (given <= 1) return settling_text("its setpoint", true, m, info);
   const std::string reached = reached_text(m, given, info);
   if (m.setpoints < given) {
     return fmt::format(
-        "{} The run ended ({}) before the end of the route: it steered towards setpoint {}, at a distance of "
-        "{}.",
-        reached, seconds(run_duration(m, info)), m.setpoints, length_text(*m.final_distance_px, info));
+        "{} The run ended at {}, before the end of the route. The current setpoint was number {} of {}, at a "
+        "distance of {}.",
+        reached, seconds(run_duration(m, info)), m.setpoints, given, length_text(*m.final_distance_px, info));
   }
   return reached + " " + settling_text("the last setpoint", false, m, info);
 }
@@ -258,6 +269,7 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
         "last frame is ignored.</p>\n";
   }
   out += cards(m, info);
+  if (!summary.setpoint.empty()) out += fmt::format("<p class=\"note\">{}</p>\n", summary.setpoint);
   std::vector<Figure> figures = run_figures(series, m, info);
   const auto t = series.column("t_s");
   if (t.size() > 1)
@@ -285,7 +297,11 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
                                                      seconds(run_duration(m, info)));
   const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
   if (m.setpoints > 0 && m.setpoints < given && given <= kMaxRouteSetpoints)
-    summary.setpoint = fmt::format("setpoint {} of {}", m.setpoints, given);
+    summary.setpoint = fmt::format(
+        "The settling time and the steady-state error refer to setpoint {} of {}: the run ended before the "
+        "last "
+        "one.",
+        m.setpoints, given);
   if (m.cross_track_95_px) {
     summary.details =
         fmt::format("After the first setpoint, the swarm was within {} of the route in 95 % of the frames. ",

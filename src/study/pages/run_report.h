@@ -12,8 +12,8 @@ namespace faba {
 struct RunSummary {
   std::string outcome;  ///< one sentence: settling time and steady-state error
   std::string details;  ///< cross-track error and final dispersion; may be empty
-  /// Setpoint to which the settling time and the steady-state error refer when the run ended before the last
-  /// setpoint of its route, such as "setpoint 2 of 4"; else empty.
+  /// Sentence with the setpoint to which the settling time and the steady-state error refer when the run
+  /// ended before the last setpoint of its route; else empty.
   std::string setpoint = {};
 };
 RunSummary run_summary(const Metrics& metrics, const RunInfo& info);

@@ -9,6 +9,7 @@
 
 #include "app/run/notes.h"
 #include "app/run/simulation.h"
+#include "app/scenario/file_kind.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
 #include "core/hash.h"
@@ -188,6 +189,7 @@ void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>&
 ControllerStudy read_controller_study(const std::filesystem::path& file) {
   const Document d = read_toml(file);
   const Node root(d);
+  require_kind(root, FileKind::controller_study);
   const StudyFile f = StudyFile::schema().parse(root, {"controller", "model"});
   if (f.scene.empty())
     root.fail("key \"scene\" is missing; specify the scenario of all trials: scene = \"scene.toml\"");

@@ -77,13 +77,20 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
   results_ = std::make_unique<ResultStore>(dir / kResults);
 }
 
-void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
+void check_merge(const std::vector<fs::path>& dirs, const std::string& study_hash) {
   for (const fs::path& other : dirs) {
     if (!fs::exists(other))
       throw Error(Errc::input, other.string(), "directory not found; check the names after --merge");
     const auto existing = hash_of_study_in(other);
-    if (!existing) throw Error(Errc::input, other.string(), "contains no study");
-    if (*existing != study_hash_) throw Error(Errc::usage, other.string(), "contains a different study");
+    if (!existing)
+      throw Error(Errc::input, other.string(), "contains no study; check the names after --merge");
+    if (*existing != study_hash) throw Error(Errc::usage, other.string(), "contains a different study");
+  }
+}
+
+void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
+  check_merge(dirs, study_hash_);
+  for (const fs::path& other : dirs) {
     if (fs::weakly_canonical(other) != fs::weakly_canonical(dir_) && fs::exists(other / kResults))
       results_->merge(other / kResults);
   }

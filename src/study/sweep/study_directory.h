@@ -11,6 +11,9 @@ namespace faba {
 
 /// Whether `dir` contains the complete study with this hash.
 bool holds_complete_study(const std::filesystem::path& dir, const std::string& study_hash);
+/// Throws Error(input) if one of these directories does not exist or contains no study, Error(usage) if it
+/// contains a different one.
+void check_merge(const std::vector<std::filesystem::path>& dirs, const std::string& study_hash);
 
 /// The directory with the results of a study. Until the study is complete it contains the file `incomplete`;
 /// a study that was stopped or killed is resumed from the stored results.

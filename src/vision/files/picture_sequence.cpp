@@ -87,6 +87,8 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
   const std::filesystem::path where = folder ? path : path.has_parent_path() ? path.parent_path() : ".";
   std::error_code failure;
   std::filesystem::directory_iterator entries(where, failure);
+  if (failure == std::errc::no_such_file_or_directory)
+    throw Error(Errc::input, path.string(), fmt::format("folder {} not found", where.string()));
   if (failure) throw Error(Errc::input, where.string(), "the folder cannot be read: " + failure.message());
   const std::string pattern = path.filename().string();
   std::vector<std::filesystem::path> files;

@@ -104,6 +104,32 @@ TEST_CASE("coils and outputs that are too weak to move the cells are noted") {
   CHECK(notes_of(scene("", "")).empty());
 }
 
+TEST_CASE("coils that cannot move the cells are noted") {
+  check_note(
+      scene("", std::string("[field]\ntype = 'rig'\n[[field.coil]]\ntype = 'loop'\nradius = '1 cm'\n") +
+                    "axis = [0, 0, 1]\n"),
+      {"field: these coils have no field in the plane of the sample"});
+  check_note(scene("", "[controller]\ntype = 'gradient'\n"), {"\"uniform\" have no gradient"});
+}
+
+TEST_CASE("settings without effect are noted") {
+  check_note(scene("", std::string(kField) + "[[event]]\nframe = 30\nmodel = 'dipole'\n", "duration = 2\n"),
+             {"event[0].frame: 30 is after the last frame of the run (29)"});
+  CHECK(
+      notes_of(scene("", std::string(kField) + "[[event]]\nframe = 29\nmodel = 'dipole'\n", "duration = 2\n"))
+          .empty());
+  check_note(scene("", std::string(kField) + "[camera]\njitter = '1 s'\n"),
+             {"camera.jitter is 1 s", "0.4 frame"});
+  CHECK(notes_of(scene("", std::string(kField) + "[camera]\njitter = '10 ms'\n")).empty());
+  check_note(scene("", std::string(kField) + "[record]\nvideo = false\nas_seen = true\n"),
+             {"record.as_seen (--as-seen) has no effect"});
+  CHECK(
+      notes_of(scene("", std::string(kField) + "[record]\nvideo = false\nlossless = true\nas_seen = true\n"))
+          .empty());
+  check_note(scene("model = { type = 'dipole', temperature = '20 K' }", kField),
+             {"swarm[0].model: temperature is 20 K", "293.15 K"});
+}
+
 TEST_CASE("a camera delay without effect on the run is noted") {
   const auto camera = [](int frames, const char* more) {
     return fmt::format("[camera]\ndelay_frames = {}\n[limits]\nmax_frame_age = 100\n{}", frames, more);

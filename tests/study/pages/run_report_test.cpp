@@ -257,8 +257,12 @@ TEST_CASE("run report: the summary of a run with one setpoint") {
     m.settling_time_s = 29;
     m.steady_rms_px = 120;
     const std::string outcome = run_summary(m, info).outcome;
-    CHECK(has(outcome, "only after 29.0\u00A0s"));
+    CHECK(has(outcome, "after 29.0\u00A0s, within the last third of the run; the steady-state error"));
     CHECK_FALSE(has(outcome, "120"));
+  }
+  SUBCASE("one cell has no dispersion") {
+    info.swarm_cells = {1};
+    CHECK(run_summary(m, info).details.empty());
   }
   SUBCASE("at the setpoint from the start") {
     m.settling_time_s = 0;
@@ -294,11 +298,19 @@ TEST_CASE("run report: the summary of a run with a route or a moving setpoint") 
     m.cross_track_95_px = 6;
     m.settling_band_px = 15;
     m.setpoints_reached = 3;
+    CHECK(
+        run_summary(m, info).outcome ==
+        "The swarm reached 3 of 6 setpoints; the tolerance is 15.0\u00A0px (7.50\u00A0µm). The run ended at "
+        "30.0\u00A0s, before the end of the route. The current setpoint was number 4 of 6, at a distance of "
+        "80.0\u00A0px (40.0\u00A0µm).");
+    CHECK(run_summary(m, info).setpoint ==
+          "The settling time and the steady-state error refer to setpoint 4 of 6: the run ended before the "
+          "last one.");
+    info.open_loop = true;
     CHECK(run_summary(m, info).outcome ==
-          "The swarm reached 3 of 6 setpoints; the tolerance is 15.0\u00A0px (7.50\u00A0µm). The run ended "
-          "(30.0\u00A0s) before the end of the route: it steered towards setpoint 4, at a distance of "
-          "80.0\u00A0px (40.0\u00A0µm).");
-    CHECK(run_summary(m, info).setpoint == "setpoint 4 of 6");
+          "The controller does not use the setpoints; distance to setpoint 4 at the end: 80.0\u00A0px "
+          "(40.0\u00A0µm).");
+    info.open_loop = false;
     m.setpoints = 6;
     m.settling_time_s.reset();
     CHECK(has(run_summary(m, info).outcome, "did not settle at the last setpoint: the distance was 80.0"));

@@ -110,6 +110,9 @@ TEST_CASE("study directory: resumed, neither mixed with another study nor overwr
   }
   CHECK_THROWS_WITH(StudyDirectory(dir, "one", "again", false), doctest::Contains("complete"));
   CHECK_THROWS_WITH(StudyDirectory(dir, "two", "again", false), doctest::Contains("a different study"));
+  CHECK_NOTHROW(check_merge({dir}, "one"));
+  CHECK_THROWS_WITH(check_merge({dir}, "two"), doctest::Contains("a different study"));
+  CHECK_THROWS_WITH(check_merge({dir / "none"}, "one"), doctest::Contains("directory not found"));
   CHECK(StudyDirectory(dir, "one", "again", true).results().find("a"));
   StudyDirectory replaced(dir, "two", "again", true);
   CHECK_FALSE(replaced.results().find("a"));

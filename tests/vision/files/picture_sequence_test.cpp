@@ -68,6 +68,7 @@ TEST_CASE("an empty sequence is refused; a damaged picture is skipped and report
   const media::ScratchFolder folder;
   CHECK_THROWS_WITH_AS(VideoReader(folder / "f*.png"), doctest::Contains("no file matches"), Error);
   CHECK_THROWS_WITH_AS(VideoReader(folder.path()), doctest::Contains("contains no pictures"), Error);
+  CHECK_THROWS_WITH_AS(VideoReader(folder / "none/f*.png"), doctest::Contains("none not found"), Error);
   for (int k = 0; k < 3; ++k) write_grey(folder / fmt::format("a{}.pgm", k), 9, 6, 10 + k);
   media::write_bytes(folder / "a1.pgm", "P5 nothing");
   VideoReader reader(folder / "a*.pgm", 10);

@@ -15,8 +15,8 @@ Schema<Swarm::Params> Swarm::schema() {
            {.min = 0, .max = 1, .doc = "Fraction of cells that respond to the field"})
       .add("heading", &Params::heading,
            {.unit = "rad",
-            .min = -1000,
-            .max = 1000,
+            .min = -10,
+            .max = 10,
             .doc = "Initial heading of cells that respond to the field, as after alignment by a field, "
                    "counter-clockwise with y up: 0 deg right, 90 deg up; default: random. The models basic "
                    "and adapted have no heading"});

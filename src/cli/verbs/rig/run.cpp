@@ -54,14 +54,16 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   bool complete = false;
   try {
     complete = session.run();
-  } catch (const Error&) {
+  } catch (const Error& e) {
     std::error_code ec;  // the recorded data get a report, too
+    const bool recorded = std::filesystem::exists(session.dir() / run_files::kManifest, ec);
     try {
-      if (std::filesystem::exists(session.dir() / run_files::kManifest, ec))
-        write_run_report(session.dir(), run_info(session.manifest()), session.series());
+      if (recorded) write_run_report(session.dir(), run_info(session.manifest()), session.series());
     } catch (const Error&) {  // the error that stopped the run is reported instead
     }
-    throw;
+    if (!recorded) throw;
+    throw Error(e.code(), e.where(),
+                fmt::format("{}; the recorded data are in {}", e.reason(), session.dir().string()));
   }
   bar.clear();
   const Manifest& manifest = session.manifest();

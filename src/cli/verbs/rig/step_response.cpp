@@ -33,6 +33,8 @@ int rig_step_response(const StepResponseVerb& v, const Common& c) {
   require_rig(s, v.run);
   job.seed = s.params.seed.value_or(random_seed());
   require_arm(v.arm);
+  if (const std::string note = schedule_note(s.rig->step_response); !note.empty() && !c.quiet)
+    print_stderr(fmt::format("faba: note: {}", note));
   job.experiment = v.experiment;
   Progress bar("bench", !c.quiet && !c.json);
   job.run.out = v.run.out;

@@ -1,0 +1,13 @@
+#pragma once
+#include "core/toml.h"
+
+namespace faba {
+
+/// Kinds of TOML files that users write.
+enum class FileKind { scenario, coil_system, identify_study, activity_study, controller_study };
+
+/// Throws Error(usage), with the command that reads the file, if the keys of the document show that it is of
+/// another kind than `wanted`. A document of unknown kind is accepted: its reader names the missing keys.
+void require_kind(const Node& root, FileKind wanted);
+
+}  // namespace faba
