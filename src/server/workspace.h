@@ -15,7 +15,7 @@ class Workspace {
   Workspace(const std::filesystem::path& root, const std::filesystem::path& scenes);
   const std::filesystem::path& root() const { return root_; }
 
-  /// Absolute path of a relative name; the file need not exist. Throws Error(usage) for names outside of the
+  /// Absolute path of a relative name; the file need not exist. Throws Error(usage) for names outside the
   /// workspace, also through links, and for hidden files.
   std::filesystem::path inside(std::string_view name) const;
   /// The same for an existing file or folder; otherwise throws Error(input).

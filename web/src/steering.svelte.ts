@@ -24,9 +24,9 @@ export class Steering {
   direction = $state.raw<[number, number]>([0, 0]);
   /** Requested setpoint without an answer yet, px. */
   asked = $state.raw<[number, number] | null>(null);
-  /** The first requested setpoint outside of the camera view, and the size of the view, px; the page shows a note. */
+  /** The first requested setpoint outside the camera view, and the size of the view, px; the page shows a note. */
   outside = $state.raw<{ x: number; y: number; width: number; height: number } | null>(null);
-  /** The first requested setpoint outside of the arena, px; the page shows a note. */
+  /** The first requested setpoint outside the arena, px; the page shows a note. */
   unreachable = $state.raw<{ x: number; y: number } | null>(null);
   /** Controller and estimator before manual control. */
   private before: Record<string, any> | null = null;

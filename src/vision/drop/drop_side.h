@@ -5,7 +5,7 @@
 
 namespace faba {
 
-/// Whether small spots (cells) are detected outside of the circle and hardly any inside: at least 10 spots, 4
+/// Whether small spots (cells) are detected outside the circle and hardly any inside: at least 10 spots, 4
 /// times the density, and a binomial probability below 1e-6. Pixels within `margin_px` of the edge are
 /// excluded.
 bool cells_only_outside(const GrayF& picture, const Circle& circle, double margin_px);

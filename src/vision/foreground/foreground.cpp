@@ -34,7 +34,7 @@ constexpr double kMinThreshold =
     1;  // grey; minimum, because rounding errors are not noise-like when the light changes
 constexpr double kCellUpdate = 0.2;  // weight of a new picture in the estimated signal of a cell
 
-// Brightness of the picture relative to the background: median of the ratios outside of cells.
+// Brightness of the picture relative to the background: median of the ratios outside cells.
 double common_gain(const GrayF& picture, const GrayF& background,
                    const std::vector<std::uint8_t>& leave_out) {
   constexpr int kBins = 8192;  // bins for ratios from 0 to 4

@@ -62,7 +62,7 @@ class Foreground {
 
   /// Moments of the last picture.
   SwarmMoments moments() const;
-  /// Difference from the background of each pixel, positive for cells; 0 outside of the foreground mask.
+  /// Difference from the background of each pixel, positive for cells; 0 outside the foreground mask.
   const GrayF& weights() const { return weights_; }
   /// Runs of the foreground mask of the last picture with the number of their connected component.
   const std::vector<ComponentRun>& runs() const { return runs_; }

@@ -35,7 +35,9 @@ TEST_CASE("sprites are blended by the coverage of OpenCV's discs, and cut at the
                              std::fabs(p.g - (1 - c) * kBehind.g - c * kColour.g),
                              std::fabs(p.b - (1 - c) * kBehind.b - c * kColour.b)});
           }
-        CHECK(most <= 0.5 + 1e-9);  // rounding
+        // OpenCV rounds the points of the edge to 1/16 px, and at ties to the even number, so that discs at
+        // the same place within a pixel differ by this step. The largest contrast is 240 - 30.
+        CHECK(most <= 0.5 + 210 / 16.0);
       }
   }
 }

@@ -39,7 +39,7 @@ class CellSplats {
   CellSplats(CellSplats&&) noexcept;
   CellSplats& operator=(CellSplats&&) noexcept;
 
-  /// Adds `cells` to `sum`. Parts outside of the picture are clipped.
+  /// Adds `cells` to `sum`. Parts outside the picture are clipped.
   void add(std::span<const CameraCell> cells, GrayF& sum, Pool& pool);
 
  private:
