@@ -30,7 +30,7 @@ CHOSEN = {
 }
 # Other meanings of the names of parts: (name, meaning, files).
 OTHER_MEANINGS = (
-    ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp"),
+    ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp web/src/steering.svelte.ts"),
     ("box", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("drop", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("drop", "the verb", "src/cli/verbs/drop.cpp"),

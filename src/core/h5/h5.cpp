@@ -204,7 +204,14 @@ std::size_t H5Table::row_size() const { return impl_->row_size(); }
 H5File::H5File(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 H5File::H5File(H5File&&) noexcept = default;
 H5File& H5File::operator=(H5File&&) noexcept = default;
-H5File::~H5File() = default;
+H5File::~H5File() {
+  if (!impl_) return;
+  quiet();
+  try {
+    for (const auto& t : impl_->tables) t->write_waiting();
+  } catch (...) {  // close() and sync() report errors; a destructor cannot
+  }
+}
 
 H5File H5File::create(const std::filesystem::path& file, Pool* pool) {
   quiet();

@@ -42,7 +42,7 @@ class H5File {
   static H5File open(const std::filesystem::path& file);
   H5File(H5File&&) noexcept;
   H5File& operator=(H5File&&) noexcept;
-  ~H5File();
+  ~H5File();  ///< writes the rows that are still in memory, without a report of errors
 
   /// `row_shape`: shape of one row; {} for a scalar. Element type T. A chunk has `chunk_rows` rows and
   /// `chunk_columns` elements along the first dimension of a row. Tables and attributes must be created
