@@ -8,7 +8,7 @@ Schema<Record> Record::schema() {
       .add("tracks_every", &Record::tracks_every,
            {.min = 1, .max = 1e6, .doc = "Positions are recorded every N frames"})
       .add("compress", &Record::compress,
-           {.doc = "Compress tracks.h5 (lossless, about 25 % smaller, ten times slower)"})
+           {.doc = "Compress tracks.h5, by all threads (lossless; a third to a half smaller)"})
       .add("video", &Record::video, {.doc = "video.mp4: video of the swarm, for browsers"})
       .add("video_every", &Record::video_every, {.min = 1, .max = 1e6, .doc = "Videos have every Nth frame"})
       .add("lossless", &Record::lossless, {.doc = "video.avi: lossless video, for Fiji"})
