@@ -1,9 +1,6 @@
 #include "core/parallel.h"
 
 #include <string>
-#include <system_error>
-
-#include "core/error.h"
 
 namespace faba {
 namespace {
@@ -19,17 +16,24 @@ void relax() {
 
 }  // namespace
 
+Error too_many_threads(unsigned wanted, std::size_t started, const std::system_error& e) {
+  return {Errc::internal, "--threads",
+          std::to_string(wanted) + " threads cannot be started, only " + std::to_string(started) + " (" +
+              e.code().message() + "); give a smaller number"};
+}
+
+unsigned number_of_threads(unsigned threads) {
+  return threads > 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+}
+
 Pool::Pool(unsigned threads) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  threads = number_of_threads(threads);
   try {
     for (unsigned i = 1; i < threads; ++i)
       workers_.emplace_back([this, i](const std::stop_token& stop) { work(i, stop); });
   } catch (const std::system_error& e) {
     stop();  // the threads already started wait for work; without this their destructors would block
-    throw Error(Errc::internal, "--threads",
-                std::to_string(threads) + " threads cannot be started, only " +
-                    std::to_string(workers_.size() + 1) + " (" + e.code().message() +
-                    "); give a smaller number");
+    throw too_many_threads(threads, workers_.size() + 1, e);
   }
 }
 

@@ -3,10 +3,19 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "core/error.h"
+
 namespace faba {
+
+/// The error for `wanted` threads of which only `started` could be started.
+Error too_many_threads(unsigned wanted, std::size_t started, const std::system_error& e);
+
+/// `threads`, or the number of hardware threads if it is 0.
+unsigned number_of_threads(unsigned threads);
 
 /// Thread pool. Work is divided into fixed blocks, so the result of a block does not depend on the number of
 /// threads. The calling thread takes part; with one thread no other is started.

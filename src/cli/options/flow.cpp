@@ -8,18 +8,8 @@
 
 #include "app/scenario/parts.h"
 #include "cli/command_line.h"
-#include "core/units.h"
 
 namespace faba::cli {
-
-std::string in_seconds(std::string text) {
-  try {
-    const Quantity q = parse_quantity(text);
-    return q.dimension == parse_unit("s").dimension ? fmt::format("{}", q.value) : text;
-  } catch (const std::invalid_argument&) {
-    return text;
-  }
-}
 
 namespace {
 
@@ -59,9 +49,8 @@ void add_flow_options(CLI::App* v, FlowOptions& o, const FlowChoice& defaults) {
                 "Videos: frames per second, for videos that state no frame rate or a wrong one; default: "
                 "that of the video")
       ->check(between(1e-6, 1e7));
-  v->add_option("--threads", o.threads,
-                "Number of threads; default: all threads of the machine. Does not change the result")
-      ->check(integers(1, 1024));
+  add_part_options(v, o.part);
+  add_threads_option(v, o.threads);
   const Parts parts = builtin_parts();
   v->add_option("--method", o.method,
                 fmt::format("Flow part: {}; default: {}", fmt::join(parts.flow.names(), ", "), o.method))

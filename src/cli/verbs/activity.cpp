@@ -18,7 +18,6 @@ namespace faba::cli {
 namespace {
 
 struct ActivityVerb {
-  std::optional<double> from, to;
   std::vector<std::filesystem::path> videos;  ///< or one study file
   std::filesystem::path noise, out, report, picture;
   ResponseOptions response;
@@ -50,12 +49,10 @@ ActivityJob job_of(const ActivityVerb& v) {
     for (const auto& video : v.videos) job.videos.push_back({.file = video});
   }
   for (ActivityInput& input : job.videos) {
-    if (v.from) input.from_s = *v.from;
-    if (v.to) input.to_s = *v.to;
-    if (input.to_s && *input.to_s <= input.from_s)
-      throw Error(Errc::usage, "--from, --to",
-                  fmt::format("the time from {:g} s to {:g} s is empty; --to must be later than --from",
-                              input.from_s, *input.to_s));
+    const PartOptions part{v.flow.part.from ? v.flow.part.from : input.from_s,
+                           v.flow.part.to ? v.flow.part.to : input.to_s};
+    input.from_s = part.part().from_s;
+    input.to_s = part.to;
     if (v.response.direction) input.direction_deg = v.response.direction;
   }
   if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
@@ -175,12 +172,6 @@ void add_activity(CLI::App& app, CommandLine& line) {
   v->add_option("--noise", o->noise, "Video of a dead sample, from which the threshold is measured")
       ->check(not_empty)
       ->excludes("--flow-threshold");
-  v->add_option("--from", o->from, "Start of the analysis, s; default: start of the video")
-      ->check(between(0, 1e9))
-      ->transform(in_seconds);
-  v->add_option("--to", o->to, "End of the analysis, s; default: end of the video")
-      ->check(between(0, 1e9))
-      ->transform(in_seconds);
   v->add_option("-o,--out", o->out, "Write the activity signatures, as CSV")->check(not_empty);
   v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
   v->add_option("--picture", o->picture,

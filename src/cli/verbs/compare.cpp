@@ -62,6 +62,7 @@ int compare(const CompareVerb& v, const Common& c) {
   job.options_text = options_text({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
+  job.part = v.flow.part.part();
   job.threads = v.flow.threads;
   job.simulate_noise_floor = !v.no_floor;
   std::string label;

@@ -41,6 +41,9 @@ FlowJob job_of(const FlowVerb& v) {
   job.overlay = v.overlay;
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
+  const VideoPart part = v.flow.part.part();
+  job.from_s = part.from_s;
+  job.to_s = part.to_s;
   job.options_text = options_text({v.flow.method, v.flow.values}, v.flow.shrink, v.flow.fps);
   job.threads = v.flow.threads;
   return job;
@@ -53,7 +56,8 @@ int flow_pair(const FlowVerb& v, const Common& c) {
   if (!v.overlay.empty())
     throw Error(Errc::usage, "--overlay", "requires a video; for two pictures use --picture");
   for (const auto& [option, given] :
-       {std::pair{"--shrink", v.flow.shrink > 1}, std::pair{"--fps", v.flow.fps > 0}})
+       {std::pair{"--shrink", v.flow.shrink > 1}, std::pair{"--fps", v.flow.fps > 0},
+        std::pair{"--from", v.flow.part.from.has_value()}, std::pair{"--to", v.flow.part.to.has_value()}})
     if (given) throw Error(Errc::usage, option, "requires a video, but two pictures are given");
   const PairFlow flow = flow_of_pair(v.a, v.b, job_of(v));
   if (c.json) {

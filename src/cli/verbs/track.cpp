@@ -8,6 +8,7 @@
 
 #include "app/scenario/calibration_file.h"
 #include "cli/command_line.h"
+#include "cli/options/video_part.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "core/counted.h"
@@ -25,6 +26,8 @@ struct TrackVerb {
   std::string polarity = "auto", background = "auto", motion = "auto";
   double fps = 0, size_px = 0, threshold = 0, search_radius_px = 0;
   int max_gap_frames = 2, min_points = 3, interval = 0;
+  PartOptions part;
+  unsigned threads = 0;
   bool drop = false, force = false;
 };
 
@@ -36,7 +39,8 @@ Enum chosen(const std::string& word, const std::vector<const char*>& words) {
 TrackOptions options_of(const TrackVerb& v) {
   TrackOptions o;
   o.video = v.video;
-  o.fps = v.fps;
+  o.part = v.part.part(v.fps);
+  o.threads = v.threads;
   o.out = v.out;
   if (!v.scale.empty()) o.um_per_px = parse_calibration(v.scale, "--um-per-px").um_per_px;
   o.swarm = v.swarm;
@@ -162,6 +166,8 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("--fps", t->fps,
                 "Frames per second, if the video states none or a wrong value; default: that of the video")
       ->check(between(1e-6, 1e7));
+  add_part_options(v, t->part);
+  add_threads_option(v, t->threads);
   v->add_option("--um-per-px", t->scale,
                 "Scale: micrometres per pixel, or a calibration file from `faba scale`; default: that of a "
                 "run directory, else results in px")

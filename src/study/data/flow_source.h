@@ -1,10 +1,13 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "study/data/frame_inspector.h"
 #include "vision/flow/flow.h"
 
 namespace faba {
@@ -23,10 +26,12 @@ struct FlowSourceOptions {
   int shrink = 0;                 ///< side of the blocks over which frames are averaged, px; 0: see kLongSide
   double t0_s = 0;                ///< start time
   std::optional<double> t1_s = {};  ///< end time
-  std::uint64_t every = 1;          ///< only pairs whose index is a multiple of this
+  std::uint64_t samples = 0;        ///< > 0: only about this number of pairs, spread over the interval
   double fps = 0;                   ///< > 0: overrides the frame rate of the video
   std::string options_text = {};    ///< options given by the user, "--pyramid, --shrink", for a note
   bool frames = false;              ///< frames are needed with the flows: the video of a run is used
+  unsigned threads = 0;             ///< 0: all; each computes the flow of another pair
+  FrameInspector inspect = {};      ///< may be empty; not called for files of flows
 };
 
 /// The flows of a video, a run directory or a file of flows in sequence; memory does not depend on their
@@ -38,7 +43,7 @@ class FlowSource {
 
   /// Throws Error(input) when `path` cannot be read, is empty, or contains no frames where these are needed;
   /// Error(usage) when `shrink` is too large for the frames.
-  FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options, Pool& pool);
+  FlowSource(const std::filesystem::path& path, const FlowSourceOptions& options);
   ~FlowSource();
 
   /// The next pair; false at the end. A truncated file ends with its last readable frame: see notes(). Throws
@@ -49,13 +54,15 @@ class FlowSource {
   int height() const;  ///< of the flows, px
   /// Scale of the frames: px of the video per px of the flows; 1 for files of flows.
   int shrink() const;
-  double fps() const;           ///< stated in the file; 0: unknown
-  std::uint64_t pairs() const;  ///< stated in the file, for progress; 0: unknown
+  double fps() const;  ///< stated in the file; 0: unknown
+  /// Only pairs whose index is a multiple of this are computed.
+  std::uint64_t every() const;
+  /// Pairs of the interval from t0_s to t1_s as stated in the file, for progress; 0: unknown.
+  std::uint64_t pairs() const;
   std::optional<double> um_per_px() const;
   /// The flow method and its parameters, as JSON.
   const std::string& method() const;
-  /// Notes for the user: damage, shrinking, grey scaling, missing frame rate. Final when next() has returned
-  /// false.
+  /// Notes for the user on the pairs that were taken: damage, shrinking, grey scaling, missing frame rate.
   std::vector<std::string> notes() const;
 
  private:

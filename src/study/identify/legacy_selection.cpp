@@ -49,13 +49,13 @@ LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std
   for (long k = 0; k <= last; ++k) r.times_s.push_back(double(k) * v.view.frame_s);
   std::vector<double> at;
   for (const double t : r.times_s) at.push_back(e.start_s + t);
-  Pool pool(1);
   FlowSourceOptions options;
+  options.threads = 1;
   options.method = flow_part({}, published_flow());
   options.shrink = v.side;
   options.fps = v.input.fps;
   r.filter.threshold_px =
-      noise_level(v.file, options, pool, [&](auto, auto) { reading(); }).threshold_px / v.side;
+      noise_level(v.file, options, [&](auto, auto) { reading(); }).threshold_px / v.side;
   r.filter.direction_deg = segment.direction_deg;
   r.pairs = histograms_of(frames_at(v, at, reading), r.filter);
   return r;

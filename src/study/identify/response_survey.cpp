@@ -167,7 +167,7 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   const std::string name = v.input.file.string();
   TrackOptions options;
   options.video = v.input.file;
-  options.fps = v.input.fps;
+  options.part.fps = v.input.fps;
   const auto survey = [&] {
     return survey_tracks(
         options, v.file, [&](auto, auto) { tick(); }, v.side);

@@ -8,7 +8,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
-#include "study/tracks/swarm_view.h"
+#include "study/tracks/cell_count.h"
 
 namespace faba {
 namespace {
@@ -72,22 +72,65 @@ FlowSourceOptions source_options(const ActivityJob& job, const ActivityInput& v)
           .t1_s = v.to_s,
           .fps = job.fps,
           .options_text = job.options_text,
-          .frames = job.frames};
+          .frames = job.frames,
+          .threads = job.threads};
 }
 
-NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std::size_t index, Pool& pool) {
-  return noise_level(video.file, source_options(job, video), pool,
-                     [&](std::uint64_t done, std::uint64_t total) {
-                       job.progress(index, done, total);
-                       check_stop(job, video);
-                     });
+/// One video between the two readings of its frames: the first determines the noise of the flow and the
+/// appearance of the cells, the second computes all flows and counts the cells.
+struct Prepared {
+  double threshold_px = 0;
+  bool quiet = true;
+  std::optional<CellCount> cells;
+};
+
+NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std::size_t index,
+                        const FrameInspector& inspect) {
+  FlowSourceOptions options = source_options(job, video);
+  options.inspect = inspect;
+  return noise_level(video.file, options, [&](std::uint64_t done, std::uint64_t total) {
+    job.progress(index, done, total);
+    check_stop(job, video);
+  });
 }
 
-// Sets the signature, the pair of frames with the largest motion and the notes of the source.
-void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, Pool& pool) {
+// Ends the first reading. Flows that are read from a file have no frames: these are read here.
+void end_survey(CellCount& cells, const FrameInspector& survey, const std::function<void()>& check) {
+  if (!cells.reads_frames()) return;
+  if (!cells.surveys_frames()) cells.read(survey, check);
+  cells.end_survey();
+}
+
+CellCount cells_of(const ActivityJob& job, const ActivityInput& v) {
+  return {v.file, VideoPart{v.from_s, v.to_s, job.fps}, job.threads};
+}
+
+Prepared prepare(const ActivityJob& job, std::size_t index, bool measure_noise) {
+  const ActivityInput& video = job.videos[index];
+  Prepared p;
+  FrameInspector survey;
+  // Of several videos only one at a time is kept in memory, which takes a further reading of the others.
+  if (job.cells && job.videos.size() == 1) {
+    p.cells.emplace(cells_of(job, video));
+    survey = p.cells->survey();
+  }
+  if (measure_noise) {
+    const NoiseLevel level = threshold_of(job, video, index, survey);
+    p.threshold_px = level.threshold_px;
+    p.quiet = level.quiet;
+  }
+  if (p.cells) end_survey(*p.cells, survey, [&] { check_stop(job, video); });
+  return p;
+}
+
+// Sets the signature, the pair of frames with the largest motion, the number of cells and the notes of the
+// source.
+void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, CellCount* cells) {
   const double zero = a.input.direction_deg.value_or(0);
   a.signature = Signature(a.threshold_px, zero);
-  FlowSource source(a.input.file, source_options(job, a.input), pool);
+  FlowSourceOptions options = source_options(job, a.input);
+  if (cells) options.inspect = cells->count();
+  FlowSource source(a.input.file, options);
   FlowPair pair;
   double most = -1;
   while (source.next(pair)) {
@@ -107,6 +150,10 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   if (a.signature.size() == 0)
     throw Error(Errc::input, a.input.file.string(),
                 "has fewer than two frames in the requested interval; motion needs at least two");
+  if (!cells) return;
+  if (cells->reads_frames() && !cells->mean())
+    cells->read(options.inspect, [&] { check_stop(job, a.input); });
+  a.visible_cells = cells->mean();
 }
 
 void note_motion(VideoActivity& a) {
@@ -127,12 +174,16 @@ void note_motion(VideoActivity& a) {
                           rounded_degrees(a.direction_deg)));
 }
 
-VideoActivity measure(const ActivityJob& job, std::size_t index, double threshold, Pool& pool) {
+VideoActivity measure(const ActivityJob& job, std::size_t index, Prepared& prepared) {
   VideoActivity a;
   a.input = job.videos[index];
-  a.threshold_px = threshold;
+  a.threshold_px = prepared.threshold_px;
   a.direction_given = a.input.direction_deg.has_value();
-  read_signature(a, job, index, pool);
+  if (job.cells && !prepared.cells) {
+    prepared.cells.emplace(cells_of(job, a.input));
+    end_survey(*prepared.cells, prepared.cells->survey(), [&] { check_stop(job, a.input); });
+  }
+  read_signature(a, job, index, prepared.cells ? &*prepared.cells : nullptr);
   a.segments = motion_segments(a.signature, a.input.direction_deg);
   a.direction_deg = a.direction_given ? *a.input.direction_deg : detected_direction(a);
   const double cone = a.signature.nearest_deg(a.direction_deg);
@@ -149,9 +200,6 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, double threshol
   for (std::size_t k = 0; k < a.signature.size(); ++k)
     gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
   a.frame_s = median_high(gaps);
-  if (job.cells)
-    a.visible_cells =
-        visible_cells(a.input.file, {a.input.from_s, a.input.to_s, job.fps}, [&] { return !job.stop(); });
   a.fit = fit_gaussian(a.t_s, a.amount);
   mark_points(a);
   if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
@@ -197,36 +245,36 @@ std::optional<double> activity_per_cell(const VideoActivity& a) {
 bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
 
 ActivityResult measure_activity(const ActivityJob& job) {
-  Pool pool(job.threads);
   ActivityResult r;
-  std::vector<double> thresholds(job.videos.size(), job.threshold_px.value_or(0));
-  std::vector<bool> quiet(job.videos.size(), true);
-  if (!job.threshold_px && !job.noise.empty()) {
-    const double level = threshold_of(job, {.file = job.noise}, 0, pool).threshold_px;
-    std::fill(thresholds.begin(), thresholds.end(), level);
-  } else if (!job.threshold_px) {
-    for (std::size_t i = 0; i < job.videos.size(); ++i) {
-      const NoiseLevel level = threshold_of(job, job.videos[i], i, pool);
-      thresholds[i] = level.threshold_px;
-      quiet[i] = level.quiet;
-      check_stop(job, job.videos[i]);
-    }
+  const bool measure_noise = !job.threshold_px && job.noise.empty();
+  std::vector<Prepared> prepared;
+  for (std::size_t i = 0; i < job.videos.size(); ++i) {
+    prepared.push_back(prepare(job, i, measure_noise));
+    check_stop(job, job.videos[i]);
+  }
+  if (job.threshold_px || !job.noise.empty()) {
+    const double level =
+        job.threshold_px ? *job.threshold_px : threshold_of(job, {.file = job.noise}, 0, {}).threshold_px;
+    for (Prepared& p : prepared) p.threshold_px = level;
+  } else {
     // One threshold for all videos, so that their activities are comparable.
     double least = 1e300;  // black videos have no noise and are ignored
-    for (const double t : thresholds)
-      if (t > 0) least = std::min(least, t);
-    if (least < 1e300) std::fill(thresholds.begin(), thresholds.end(), least);
+    for (const Prepared& p : prepared)
+      if (p.threshold_px > 0) least = std::min(least, p.threshold_px);
+    if (least < 1e300)
+      for (Prepared& p : prepared) p.threshold_px = least;
   }
   for (std::size_t i = 0; i < job.videos.size(); ++i) {
-    r.videos.push_back(measure(job, i, thresholds[i], pool));
-    if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
+    r.videos.push_back(measure(job, i, prepared[i]));
+    prepared[i].cells.reset();
+    if (!prepared[i].quiet && job.videos.size() == 1 && !r.videos.back().signature.still())
       r.videos.back().notes.push_back(fmt::format(
           "no part of the video is without motion: its quietest tenth has more than half of the motion of "
           "its "
           "busiest part. The threshold of {:.3g} px per pair therefore contains motion of cells, and slower "
           "motion is not counted. Measure the threshold in a video of a dead sample with --noise, or set it "
           "with --flow-threshold",
-          thresholds[i]));
+          prepared[i].threshold_px));
   }
   fit_exposure_lines(r);
   return r;

@@ -81,14 +81,20 @@ ResponseStart response_start(const Signature& s, std::optional<double> direction
 class Comparer {
  public:
   explicit Comparer(const CompareJob& job)
-      : job_(job), pool_(job.threads), distance_(BinSimilarity::truncated_linear(job.threshold), job.m) {}
+      : job_(job), distance_(BinSimilarity::truncated_linear(job.threshold), job.m) {}
 
   FlowSourceOptions options() const {
-    return {.method = job_.method, .shrink = job_.shrink, .fps = job_.fps, .options_text = job_.options_text};
+    return {.method = job_.method,
+            .shrink = job_.shrink,
+            .t0_s = job_.part.from_s,
+            .t1_s = job_.part.to_s,
+            .fps = job_.fps,
+            .options_text = job_.options_text,
+            .threads = job_.threads};
   }
 
   Signature signature(const std::filesystem::path& video, double threshold) {
-    FlowSource source(video, options(), pool_);
+    FlowSource source(video, options());
     Signature s(threshold, job_.direction_deg.value_or(0));
     FlowPair pair;
     while (source.next(pair)) {
@@ -102,59 +108,58 @@ class Comparer {
   const std::vector<std::string>& reference_notes() const { return reference_notes_; }
 
   double noise(const std::filesystem::path& video) {
-    return noise_level(video, options(), pool_,
+    return noise_level(video, options(),
                        [&](auto done, auto total) { tick("determining the noise level", done, total); })
         .threshold_px;
   }
 
-  /// Compares pair by pair from the start times. `run` empty: with a video without motion.
+  /// Compares pair by pair from the start times. `no_motion`: also the distances of the reference to a video
+  /// without motion, in the same reading.
   ComparedRun compare(const std::filesystem::path& run, double reference_t0, double t0,
-                      const FlowFilter& filter) {
+                      const FlowFilter& filter, DistanceSeries* no_motion = nullptr) {
     ComparedRun result;
     result.file = run;
     result.t0_s = t0;
     furthest_ = -1;
-    FlowSource reference(job_.reference, options(), pool_);
-    std::optional<FlowSource> other;
-    if (!run.empty()) {
-      other.emplace(run, options(), pool_);
-      if (other->width() != reference.width() || other->height() != reference.height())
-        throw Error(
-            Errc::input, run.string(),
-            fmt::format(
-                "has frames of {} x {} px, but the reference has {} x {} px; both must show the same view",
-                other->width(), other->height(), reference.width(), reference.height()));
-    }
+    FlowSource reference(job_.reference, options()), other(run, options());
+    if (other.width() != reference.width() || other.height() != reference.height())
+      throw Error(
+          Errc::input, run.string(),
+          fmt::format(
+              "has frames of {} x {} px, but the reference has {} x {} px; both must show the same view",
+              other.width(), other.height(), reference.width(), reference.height()));
     FlowPair a, b;
-    bool have = other && other->next(b);
+    bool have = other.next(b);
     double ratio = 1;
-    while (reference.next(a)) {
+    while ((have || no_motion) && reference.next(a)) {
       const double at = (a.t0_s + a.t1_s) / 2 - reference_t0, period = a.t1_s - a.t0_s;
       if (at < 0) continue;
       if (at > job_.duration_s) break;
       tick("comparing", a.frame + 1, reference.pairs());
-      if (other) {
-        while (have && (b.t0_s + b.t1_s) / 2 - t0 < at - period / 2) have = other->next(b);
-        if (!have) break;
-        if ((b.t0_s + b.t1_s) / 2 - t0 > at + period / 2) continue;  // a gap in the run
-        ratio = period / (b.t1_s - b.t0_s);
-        if (std::fabs(ratio - 1) < kSamePeriod) ratio = 1;
-      }
-      take(at, a, other ? &b : nullptr, ratio, filter, result);
+      flow_histograms(a.flow, filter, 1, p_);
+      if (no_motion) take_still(at, *no_motion);
+      while (have && (b.t0_s + b.t1_s) / 2 - t0 < at - period / 2) have = other.next(b);
+      if (!have || (b.t0_s + b.t1_s) / 2 - t0 > at + period / 2) continue;  // the end of the run, or a gap
+      ratio = period / (b.t1_s - b.t0_s);
+      if (std::fabs(ratio - 1) < kSamePeriod) ratio = 1;
+      take(at, a, b, ratio, filter, result);
     }
     if (result.distance.t_s.size() < 3)
       throw Error(
-          Errc::input, run.empty() ? job_.reference.string() : run.string(),
+          Errc::input, run.string(),
           fmt::format("has fewer than three pairs of frames in common with the reference after "
                       "alignment (at {:.2f} s in the reference, {:.2f} s here); see --t0 and --no-align",
                       reference_t0, t0));
     finish(result.distance);
-    if (other) result.notes = other->notes();
-    if (other && other->method() != reference.method())
+    if (no_motion) {
+      finish(*no_motion);
+      reference_notes_ = reference.notes();
+    }
+    result.notes = other.notes();
+    if (other.method() != reference.method())
       result.notes.push_back(fmt::format(
           "its flows were computed with {}, those of the reference with {}: they are not comparable",
-          other->method(), reference.method()));
-    reference_notes_ = reference.notes();
+          other.method(), reference.method()));
     if (ratio != 1)
       result.notes.push_back(
           fmt::format("its frame period is {:.3g} times that of the reference; flows were scaled accordingly",
@@ -169,34 +174,38 @@ class Comparer {
       throw Error(Errc::interrupted, job_.reference.string(), "stopped; no output was written");
   }
 
-  void take(double at, const FlowPair& a, const FlowPair* b, double ratio, const FlowFilter& filter,
+  void take_still(double at, DistanceSeries& series) {
+    for (auto [from, to] : {std::pair{&p_.x, &q_.x},
+                            {&p_.y, &q_.y},
+                            {&p_.right, &q_.right},
+                            {&p_.left, &q_.left},
+                            {&p_.down, &q_.down},
+                            {&p_.up, &q_.up}})
+      to->assign(from->size(), 0.0);
+    add_distance(at, series);
+  }
+
+  void take(double at, const FlowPair& a, const FlowPair& b, double ratio, const FlowFilter& filter,
             ComparedRun& result) {
-    flow_histograms(a.flow, filter, 1, p_);
-    if (b) {
-      flow_histograms(b->flow, filter, ratio, q_);
-    } else {
-      for (auto [from, to] : {std::pair{&p_.x, &q_.x},
-                              {&p_.y, &q_.y},
-                              {&p_.right, &q_.right},
-                              {&p_.left, &q_.left},
-                              {&p_.down, &q_.down},
-                              {&p_.up, &q_.up}})
-        to->assign(from->size(), 0.0);
+    flow_histograms(b.flow, filter, ratio, q_);
+    add_distance(at, result.distance);
+    if (const double last = result.distance.value.back(); last > furthest_) {
+      furthest_ = last;
+      result.furthest = {at, a.flow, b.flow, p_, q_};
     }
+  }
+
+  // The distance of the histograms p_ and q_.
+  void add_distance(double at, DistanceSeries& series) {
     double squares = 0;
     for (const auto& [p, q] :
          {std::pair{&p_.right, &q_.right}, {&p_.left, &q_.left}, {&p_.down, &q_.down}, {&p_.up, &q_.up}}) {
       const double d = distance_(*p, *q);
       squares += d * d;
     }
-    DistanceSeries& series = result.distance;
     series.t_s.push_back(at);
     series.value.push_back(std::sqrt(squares));
     series.legacy.push_back(distance_(p_.x, q_.x) + distance_(p_.y, q_.y));
-    if (b && series.value.back() > furthest_) {
-      furthest_ = series.value.back();
-      result.furthest = {at, a.flow, b->flow, p_, q_};
-    }
   }
 
   static void finish(DistanceSeries& s) {
@@ -211,7 +220,6 @@ class Comparer {
   }
 
   const CompareJob& job_;
-  Pool pool_;
   HistogramDistance distance_;
   FlowHistograms p_, q_;
   double furthest_ = -1;
@@ -334,7 +342,8 @@ Comparison compare_videos(const CompareJob& job) {
       b = response_start(comparer.signature(file, c.filter.threshold_px), job.direction_deg);
       t0 = b.t0_s;
     }
-    ComparedRun run = comparer.compare(file, c.reference_t0_s, t0, c.filter);
+    ComparedRun run =
+        comparer.compare(file, c.reference_t0_s, t0, c.filter, c.runs.empty() ? &c.naive : nullptr);
     if (found && (job.reference_t0_s ? b.by != ResponseStart::By::reversal : b.by != reference.by))
       run.notes.push_back(fmt::format(
           "aligned {}, at {:.2f} s; the reference {}, at {:.2f} s. Specify --t0 if these times do "
@@ -348,7 +357,6 @@ Comparison compare_videos(const CompareJob& job) {
           t.back() + (t[1] - t[0]) / 2, job.duration_s));
     c.runs.push_back(std::move(run));
   }
-  c.naive = comparer.compare({}, c.reference_t0_s, 0, c.filter).distance;
   for (const std::string& note : comparer.reference_notes()) c.notes.push_back("the reference: " + note);
   find_noise_floor(job, c);
   return c;

@@ -26,6 +26,7 @@ struct CompareJob {
   int shrink = 0;                 ///< see FlowSourceOptions
   double fps = 0;                 ///< see FlowSourceOptions
   std::string options_text = {};  ///< see FlowSourceOptions
+  VideoPart part;                 ///< of the reference and of the runs, each in its own time
   unsigned threads = 0;
   bool simulate_noise_floor =
       true;  ///< repeat the scenario with another seed when only one run of it is given

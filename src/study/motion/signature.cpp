@@ -88,14 +88,11 @@ double Signature::speed(std::size_t k) const {
   return sum;
 }
 
-NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptions& options, Pool& pool,
+NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptions& options,
                        const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   FlowSourceOptions sampled = options;
-  {
-    const FlowSource all(video, options, pool);
-    sampled.every = std::max<std::uint64_t>(1, all.pairs() / kSamples);
-  }
-  FlowSource source(video, sampled, pool);
+  sampled.samples = kSamples;
+  FlowSource source(video, sampled);
   FlowPair pair;
   std::vector<std::pair<double, double>> samples;  // mean speed, threshold
   std::vector<float> speeds;
@@ -108,7 +105,7 @@ NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptio
       sum += double(speeds[i]);
     }
     samples.emplace_back(sum / double(speeds.size()), double(quantile_low(speeds, 0.99)));
-    progress(++done * sampled.every, source.pairs());
+    progress(++done * source.every(), source.pairs());
   }
   if (samples.empty()) return {};
   std::sort(samples.begin(), samples.end());

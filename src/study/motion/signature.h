@@ -62,7 +62,7 @@ struct NoiseLevel {
 };
 /// From about 48 pairs spread over a video: the median of the threshold in the quietest tenth of them. Throws
 /// the errors of FlowSource.
-NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptions& options, Pool& pool,
+NoiseLevel noise_level(const std::filesystem::path& video, const FlowSourceOptions& options,
                        const std::function<void(std::uint64_t, std::uint64_t)>& progress);
 
 }  // namespace faba

@@ -105,14 +105,14 @@ PairFlow flow_of_pair(const std::filesystem::path& a, const std::filesystem::pat
 }
 
 VideoFlow flow_of_video(const std::filesystem::path& video, const FlowJob& job) {
-  Pool pool(job.threads);
-  FlowSource source(video,
-                    {.method = job.method,
-                     .shrink = job.shrink,
-                     .fps = job.fps,
-                     .options_text = job.options_text,
-                     .frames = !job.overlay.empty()},
-                    pool);
+  FlowSource source(video, {.method = job.method,
+                            .shrink = job.shrink,
+                            .t0_s = job.from_s,
+                            .t1_s = job.to_s,
+                            .fps = job.fps,
+                            .options_text = job.options_text,
+                            .frames = !job.overlay.empty(),
+                            .threads = job.threads});
   FlowOutputs outputs(source, video, job);
   std::uint64_t pairs = 0;
   VideoFlow r = measure_flow(source, video.string(), [&](const FlowPair& pair) {

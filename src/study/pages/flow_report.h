@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,6 +20,8 @@ struct FlowJob {
   std::filesystem::path overlay;  ///< for a video: arrows on its frames, MP4
   int shrink = 0;                 ///< see FlowSourceOptions
   double fps = 0;                 ///< see FlowSourceOptions
+  double from_s = 0;              ///< of a video: start of the interval
+  std::optional<double> to_s;     ///< and its end
   std::string options_text = {};  ///< see FlowSourceOptions
   bool compress = true;           ///< compress .h5
   unsigned threads = 0;           ///< 0: all cores

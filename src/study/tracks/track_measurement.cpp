@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/counted.h"
+#include "core/ordered_work.h"
+#include "core/parallel.h"
 #include "core/statistics.h"
 #include "vision/drop/drop_edge.h"
 #include "vision/files/video_reader.h"
@@ -33,27 +36,27 @@ class TrackPass {
         drop_(drop_of(o, s)) {}
 
   void run(const std::filesystem::path& video, const std::function<void(std::int64_t)>& tick) {
-    VideoReader reader(video, options_.fps);
-    Detector detector(survey_.background, detector_options(options_, survey_, drop_));
+    VideoReader reader(video, options_.part.fps);
+    const Detector detector(survey_.background, detector_options(options_, survey_, drop_));
     threshold_ = detector.threshold_sd();
-    GrayF frame;
-    double t_s = 0, last = -1;
-    for (std::uint64_t index = 0; reader.read(frame, t_s); ++index) {
-      make_finite(frame);
-      if (!survey_.temporal)
-        detector = Detector(spatial_background(frame, survey_.smoothing_px),
-                            detector_options(options_, survey_, drop_));
-      const std::vector<Spot> spots = detector.find(frame);
-      count_spots(spots);
-      if (t_s > last) {
-        tracker_.take(index, t_s, spots);
-        last = t_s;
-      } else {
-        ++repeated_times_;
+    std::uint64_t index = options_.part.from_s > 0 ? std::uint64_t(reader.skip_to(options_.part.from_s)) : 0;
+    const unsigned threads = number_of_threads(options_.threads);
+    std::vector<SpottedFrame> frames(OrderedWork::slots(threads));
+    const auto read = [&](std::size_t slot) {
+      SpottedFrame& f = frames[slot];
+      while (reader.next(f.t_s) && !options_.part.ends_before(f.t_s)) {
+        f.index = index++;
+        if (!options_.part.holds(f.t_s)) continue;
+        reader.picture(f.picture);
+        return true;
       }
-      listener_.frame(index, t_s, frame, tracker_);
-      emit_tracks();
-      tick(std::int64_t(index) + 1);
+      return false;
+    };
+    OrderedWork work(threads,
+                     {read, [&](std::size_t slot, unsigned) { find_spots(detector, frames[slot]); }});
+    for (std::int64_t done = 1; const std::optional<std::size_t> slot = work.next(); ++done) {
+      take(frames[*slot]);
+      tick(done);
     }
     tracker_.finish();
     emit_tracks();
@@ -89,6 +92,31 @@ class TrackPass {
   double spots_in_view() const { return std::max(1.0, spots_found_ / frames_); }
 
  private:
+  struct SpottedFrame {
+    std::uint64_t index = 0;
+    double t_s = 0;
+    GrayF picture;
+    std::vector<Spot> spots;
+  };
+
+  void find_spots(const Detector& detector, SpottedFrame& f) const {
+    make_finite(f.picture);
+    f.spots = survey_.temporal ? detector.find(f.picture)
+                               : Detector(spatial_background(f.picture, survey_.smoothing_px),
+                                          detector_options(options_, survey_, drop_))
+                                     .find(f.picture);
+  }
+  void take(const SpottedFrame& f) {
+    count_spots(f.spots);
+    if (f.t_s > last_s_) {
+      tracker_.take(f.index, f.t_s, f.spots);
+      last_s_ = f.t_s;
+    } else {
+      ++repeated_times_;
+    }
+    listener_.frame(f.index, f.t_s, f.picture, tracker_);
+    emit_tracks();
+  }
   void count_spots(const std::vector<Spot>& found) {
     ++frames_;
     spots_found_ += double(found.size());
@@ -110,6 +138,7 @@ class TrackPass {
   Tracker tracker_;
   TrackStatistics statistics_;
   std::optional<DropMask> drop_;
+  double last_s_ = -1;
   double threshold_ = 0, spots_found_ = 0, frames_ = 0, elongation_ = 0, place_sd_ = 0;
   std::int64_t repeated_times_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "study/data/video_part.h"
 #include "vision/cells/tracker.h"
 #include "vision/foreground/background.h"
 
@@ -18,7 +19,8 @@ enum class BackgroundKind {
 /// Options of `faba track`. Unspecified values are determined from the video.
 struct TrackOptions {
   std::filesystem::path video;  ///< anything VideoReader reads, or a run directory
-  double fps = 0;               ///< > 0: overrides the frame rate of the video
+  VideoPart part;               ///< frames outside of it are not used
+  unsigned threads = 0;         ///< 0: all; they do not change the result
   std::optional<double> um_per_px;
   std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
   std::filesystem::path swarm;    ///< table of position and dispersion of the swarm in each frame, .csv

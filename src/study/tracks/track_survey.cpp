@@ -8,7 +8,7 @@
 #include "core/counted.h"
 #include "core/error.h"
 #include "core/statistics.h"
-#include "vision/files/video_reader.h"
+#include "vision/image/kernels/all_finite.h"
 #include "vision/image/kernels/grey_scale.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -34,16 +34,16 @@ std::int64_t count_spots(const TrackOptions& o, const TrackSurvey& s, const Back
   return std::int64_t(Detector(b, detector_options(o, s, {})).find(frame).size());
 }
 
-void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler) {
+void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler, Pool& pool) {
   const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
   const Background fine =
       spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
-  Background median = sampler.background();
+  Background median = sampler.background(pool);
   const bool many = s.frames >= kFewFrames;
   const Background& first_guess = many ? median : fine;
   s.polarity = o.polarity == Polarity::automatic ? detected_polarity(middle, first_guess) : o.polarity;
-  s.size_px = o.size_px > 0 ? o.size_px : spot_size(middle, first_guess, s.polarity);
-  if (!(s.size_px > 0) && many) s.size_px = spot_size(middle, fine, s.polarity);
+  s.size_px = o.size_px > 0 ? o.size_px : spot_size(middle, first_guess, s.polarity, pool);
+  if (!(s.size_px > 0) && many) s.size_px = spot_size(middle, fine, s.polarity, pool);
   if (!(s.size_px > 0)) {
     s.size_px = kSizeIfNone;
     s.size_found = false;
@@ -61,6 +61,14 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   s.background = std::move(s.temporal ? median : smooth);
 }
 
+[[noreturn]] void throw_no_frames(const std::filesystem::path& video, const VideoPart& part) {
+  if (part.from_s > 0 || part.to_s)
+    throw Error(Errc::input, video.string(),
+                fmt::format("has no frames from {:g} s to {}; give an earlier --from or a later --to",
+                            part.from_s, part.to_s ? fmt::format("{:g} s", *part.to_s) : "its end"));
+  throw Error(Errc::input, video.string(), "contains no readable frames");
+}
+
 }  // namespace
 
 DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
@@ -74,10 +82,7 @@ DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
 }
 
 void make_finite(GrayF& frame) {
-  // 0 times a value that is not finite is NaN.
-  float sum = 0;
-  for (const float v : frame.px) sum += 0 * v;
-  if (sum == 0) return;
+  if (all_finite(frame)) return;
   std::vector<float> finite;
   for (const float v : frame.px)
     if (std::isfinite(v)) finite.push_back(v);
@@ -86,38 +91,66 @@ void make_finite(GrayF& frame) {
     if (!std::isfinite(v)) v = fill;
 }
 
-TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,
-                          const std::function<void(std::int64_t, std::int64_t)>& tick, int side) {
-  TrackSurvey s;
-  VideoReader reader(video, o.fps);
-  s.timed = reader.fps() > 0;
-  s.bits = reader.bits();
-  BackgroundSampler sampler;
-  std::vector<double> gaps;
-  GrayF frame;
-  double t_s = 0, last = 0;
-  for (GrayF raw; reader.read(raw, t_s); ++s.frames) {
-    make_finite(raw);
-    side > 1 ? shrink(raw, side, frame) : std::swap(raw, frame);
-    if (s.frames == 0) s.first = frame;
-    if (s.frames > 0 && t_s > last && gaps.size() < kGaps) gaps.push_back(t_s - last);
-    last = t_s;
-    sampler.take(frame);
-    tick(s.frames + 1, reader.frames_in_header());
+FrameInspector TrackSurveyor::inspector() {
+  return {[this](double t_s) { return wants(t_s); },
+          [this](const GrayF& frame) -> std::function<void()> {
+            take(frame);
+            return {};
+          }};
+}
+
+bool TrackSurveyor::wants(double t_s) {
+  if (frames_ == 0) first_s_ = t_s;
+  if (frames_ > 0 && t_s > last_s_ && gaps_.size() < kGaps) gaps_.push_back(t_s - last_s_);
+  last_s_ = t_s;
+  ++frames_;
+  if (sampler_.wants_next()) return true;
+  sampler_.skip();
+  return false;
+}
+
+void TrackSurveyor::take(const GrayF& frame) {
+  GrayF finite = frame, small;
+  make_finite(finite);
+  if (side_ > 1) {
+    shrink(finite, side_, small);
+    std::swap(small, finite);
   }
-  if (s.frames == 0) throw Error(Errc::input, video.string(), "contains no readable frames");
-  s.duration_s = last;
-  if (!gaps.empty()) s.frame_s = median_high(gaps);
+  if (frames_ == 1) first_ = finite;
+  sampler_.take(finite);
+}
+
+TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
+  TrackSurvey s;
+  s.frames = frames_;
+  s.timed = timed;
+  s.bits = bits;
+  s.first = first_;
+  s.duration_s = last_s_ - first_s_;
+  if (!gaps_.empty()) {
+    std::vector<double> gaps = gaps_;
+    s.frame_s = median_high(gaps);
+  }
   std::vector<float> levels = s.first.px;
   s.black = quantile_low(levels, 0.001);
   s.white = quantile_low(levels, 0.999);
-  if (reader.truncated() || reader.damaged_frames() > 0)
+  choose_background(options_, s, sampler_, pool);
+  return s;
+}
+
+TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,
+                          const std::function<void(std::int64_t, std::int64_t)>& tick, int side) {
+  TrackSurveyor surveyor(o, side);
+  const VideoReading reading = inspect_video(video, o.part, surveyor.inspector(), o.threads, tick);
+  if (surveyor.frames() == 0) throw_no_frames(video, o.part);
+  Pool pool(o.threads);
+  TrackSurvey s = surveyor.result(reading.bits, reading.timed, pool);
+  if (reading.damaged)
     s.notes.push_back(fmt::format("{}: {} could be read; {}", video.string(),
-                                  counted(std::uint64_t(s.frames), "frame"), reader.damage()));
+                                  counted(std::uint64_t(s.frames), "frame"), reading.damage));
   if (s.frames == 1) s.notes.emplace_back("one frame only: spots are detected but not tracked");
   if (!s.timed && s.frames > 1)
     s.notes.emplace_back("no frame rate is stated: times are frame counts; specify --fps");
-  choose_background(o, s, sampler);
   if (!s.size_found)
     s.notes.push_back(
         fmt::format("no spots above the noise at any size; a size of {} px is assumed", s.size_px));

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "study/data/frame_inspector.h"
 #include "study/tracks/track_options.h"
 
 namespace faba {
 
 /// Result of the first pass over a video: input of the second pass, which detects and tracks.
 struct TrackSurvey {
-  std::int64_t frames = 0;     ///< number of readable frames
+  std::int64_t frames = 0;     ///< number of readable frames in the part of the video
   double duration_s = 0;       ///< from the first frame to the last
   double frame_s = 1;          ///< median time between frames
   bool timed = true;           ///< false: no frame rate is stated, and times are frame counts
@@ -32,11 +33,37 @@ struct TrackSurvey {
 DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
                                  const std::optional<DropMask>& drop);
 
+/// The first pass over a video, frame by frame.
+class TrackSurveyor {
+ public:
+  /// Frames are averaged over squares of `side` px.
+  explicit TrackSurveyor(const TrackOptions& options, int side = 1) : options_(options), side_(side) {}
+
+  /// Takes the frames of the part.
+  FrameInspector inspector();
+  std::int64_t frames() const { return frames_; }
+
+  /// The result, when all frames were taken. `bits`, `timed`: see TrackSurvey. There must be at least one
+  /// frame.
+  TrackSurvey result(int bits, bool timed, Pool& pool) const;
+
+ private:
+  bool wants(double t_s);
+  void take(const GrayF& frame);
+
+  TrackOptions options_;
+  int side_;
+  BackgroundSampler sampler_;
+  GrayF first_;
+  std::vector<double> gaps_;
+  std::int64_t frames_ = 0;
+  double first_s_ = 0, last_s_ = 0;
+};
+
 /// Replaces values that are not finite, as in a TIFF of floats, by the median of the others.
 void make_finite(GrayF& frame);
 
-/// Reads the complete video once, each frame averaged over blocks of `side` px. `tick` is called after each
-/// frame.
+/// Reads the part of the video once, see TrackSurveyor. `tick` is called after each frame.
 TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,
                           const std::function<void(std::int64_t done, std::int64_t stated)>& tick,
                           int side = 1);

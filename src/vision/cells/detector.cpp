@@ -88,6 +88,26 @@ float spread_of(const GrayF& g) {
   return work.empty() ? 0 : robust_spread_low(work).sd;
 }
 
+// Signal-to-noise ratios of the significant maxima of spots of one size, the largest first. Relative to white
+// noise: the measured noise is not comparable between sizes because of defocused objects and smoothing by
+// codecs.
+std::vector<double> snr_of_maxima(const GrayF& frame, const Background& background, Polarity polarity,
+                                  double size) {
+  constexpr double kMinSnr = 6;
+  const double sd = size / kFwhmPerSd, gain = noise_response(sd).gain;
+  std::vector<double> snr;
+  for (const double sign : {-1.0, 1.0}) {
+    if (polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
+    const GrayF response = band_passed(difference_of(frame, background, sign), sd);
+    const float noise = std::max(spread_of(response), float(gain) * 0.25F);
+    const float least = float(kMinSnr) * noise;
+    for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, [&](std::size_t) { return least; }))
+      snr.push_back(double(m.value) / gain);
+  }
+  std::sort(snr.begin(), snr.end(), std::greater<>());
+  return snr;
+}
+
 }  // namespace
 
 double detection_threshold(double size_px, double pixels, double false_alarms) {
@@ -152,35 +172,27 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
   return spots;
 }
 
-double spot_size(const GrayF& frame, const Background& background, Polarity polarity) {
-  constexpr double kMinSnr = 6;
+double spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool) {
   constexpr int kSizes = 16;  // 2 to 30.8 px
-  double best = 0, size_of_best = 0, size = 2;
+  std::vector<double> sizes;
+  for (double size = 2; int(sizes.size()) < kSizes; size *= 1.2) {
+    if (8 * size / kFwhmPerSd > std::min(frame.width, frame.height)) break;
+    sizes.push_back(size);
+  }
+  std::vector<std::vector<double>> snr(sizes.size());
+  pool.run(sizes.size(),
+           [&](std::size_t i) { snr[i] = snr_of_maxima(frame, background, polarity, sizes[i]); });
+  double best = 0, size_of_best = 0;
   std::size_t count = 0;
-  for (int step = 0; step < kSizes; ++step, size *= 1.2) {
-    const double sd = size / kFwhmPerSd;
-    if (8 * sd > std::min(frame.width, frame.height)) break;
-    // Relative to white noise: the measured noise is not comparable between sizes because of defocused
-    // objects and smoothing by codecs.
-    const double gain = noise_response(sd).gain;
-    std::vector<double> snr;
-    for (const double sign : {-1.0, 1.0}) {
-      if (polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
-      const GrayF response = band_passed(difference_of(frame, background, sign), sd);
-      const float noise = std::max(spread_of(response), float(gain) * 0.25F);
-      const float least = float(kMinSnr) * noise;
-      for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, [&](std::size_t) { return least; }))
-        snr.push_back(double(m.value) / gain);
-    }
-    std::sort(snr.begin(), snr.end(), std::greater<>());
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
     // The same number of maxima is used for every size: the strongest fifth at the first size with
     // significant maxima.
-    if (count == 0 && !snr.empty()) count = std::max<std::size_t>(1, snr.size() / 5);
+    if (count == 0 && !snr[k].empty()) count = std::max<std::size_t>(1, snr[k].size() / 5);
     double sum = 0;
-    for (std::size_t i = 0; i < std::min(count, snr.size()); ++i) sum += snr[i];
+    for (std::size_t i = 0; i < std::min(count, snr[k].size()); ++i) sum += snr[k][i];
     if (sum > best) {
       best = sum;
-      size_of_best = size;
+      size_of_best = sizes[k];
     }
   }
   return size_of_best;

@@ -64,6 +64,6 @@ double detection_threshold(double size_px, double pixels, double false_alarms);
 /// Spot size of a frame: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest
 /// signal-to-noise ratio (relative to white noise) at the strongest maxima. 0 when no maximum is significant
 /// at any size.
-double spot_size(const GrayF& frame, const Background& background, Polarity polarity);
+double spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool);
 
 }  // namespace faba

@@ -43,6 +43,7 @@ struct AvStream::Impl {
   // One packet is held back: only the next read reports whether it was truncated.
   Packet held{av_packet_alloc()}, incoming{av_packet_alloc()};
   Frame frame{av_frame_alloc()};
+  RawFrame current;  // refers to `frame`
   AVStream* stream = nullptr;
 
   int width = 0, height = 0, pixel_bits = 0;
@@ -346,17 +347,19 @@ bool AvStream::Impl::next(RawFrame& out, double& t_s) {
 
 std::int64_t AvStream::skip_to(double t_s) { return impl_->skip_to(t_s); }
 
+bool AvStream::next(double& t_s) { return impl_->next(impl_->current, t_s); }
+
+void AvStream::picture(GrayF& frame) { to_grey(impl_->current, frame); }
+
 bool AvStream::read(GrayF& frame, double& t_s) {
-  RawFrame raw;
-  if (!impl_->next(raw, t_s)) return false;
-  to_grey(raw, frame);
+  if (!next(t_s)) return false;
+  picture(frame);
   return true;
 }
 
 bool AvStream::read_colours(RgbImage& frame, double& t_s) {
-  RawFrame raw;
-  if (!impl_->next(raw, t_s)) return false;
-  if (!to_colours(raw, frame)) impl_->refuse("the pixel format cannot be converted to RGB");
+  if (!next(t_s)) return false;
+  if (!to_colours(impl_->current, frame)) impl_->refuse("the pixel format cannot be converted to RGB");
   return true;
 }
 

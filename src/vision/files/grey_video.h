@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -18,8 +20,12 @@ class GreyVideo {
   explicit GreyVideo(const std::filesystem::path& path, double fps = 0, int side = 1)
       : GreyVideo(VideoReader(path, fps), side) {}
 
-  /// As VideoReader::read.
+  /// As VideoReader::read, next and picture. `take` is called with the frame as the file has it.
   bool read(GrayF& frame, double& t_s);
+  bool next(double& t_s);
+  void picture(GrayF& frame, const std::function<void(const GrayF&)>& take = {});
+  /// As VideoReader::skip_to. Skips nothing when the grey scale follows from the first frame.
+  std::int64_t skip_to(double t_s);
   int width() const { return reader_.width() / side_; }
   int height() const { return reader_.height() / side_; }
   int side() const { return side_; }

@@ -24,6 +24,7 @@ struct VideoReader::Impl {
   int width = 0, height = 0;
   std::int64_t pages_read = 0;
   GrayF first_page;  // read by the constructor, which refuses an unreadable stack
+  GrayF current;     // frame of next(), of stacks and sequences
   bool stack_truncated = false;
   std::string stack_damage;
 
@@ -115,6 +116,20 @@ double VideoReader::Impl::rescaled(double t_s) const { return t_s * rescale(); }
 
 std::int64_t VideoReader::skip_to(double t_s) {
   return impl_->stream ? impl_->stream->skip_to(t_s / impl_->rescale()) : 0;
+}
+
+bool VideoReader::next(double& t_s) {
+  if (!impl_->stream) return read(impl_->current, t_s);
+  if (!impl_->stream->next(t_s)) return false;
+  t_s = impl_->rescaled(t_s);
+  return true;
+}
+
+void VideoReader::picture(GrayF& frame) {
+  if (impl_->stream)
+    impl_->stream->picture(frame);
+  else
+    frame = impl_->current;
 }
 
 bool VideoReader::read(GrayF& frame, double& t_s) {

@@ -54,6 +54,11 @@ class VideoReader {
   /// frame. Throws Error(Errc::input, path) when the picture size or pixel format changes within the file.
   bool read(GrayF& frame, double& t_s);
 
+  /// read() in two steps, for readers that do not need every picture: next() advances to the next frame and
+  /// decodes it; picture() converts it, and may be called several times.
+  bool next(double& t_s);
+  void picture(GrayF& frame);
+
   /// As read(), in 8-bit RGB for display; grey when the file has no colours.
   bool read_colours(RgbImage& frame, double& t_s);
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kMinNoise = 0.25F;  // grey steps; quantisation noise is 1 / sqrt(12)
 constexpr int kMinFrames = 5;
+constexpr std::size_t kPixelsPerBlock = 4096;
 constexpr double kNoiseSmoothing = 3;  // px
 
 // Standard deviation of the values within three robust ones; integer grey steps make the robust estimate
@@ -41,7 +42,7 @@ BackgroundSampler::BackgroundSampler(int most_frames, std::size_t most_bytes)
 void BackgroundSampler::take(const GrayF& frame) {
   if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
     throw Error(Errc::internal, "", "the frame differs in size from the previous frames of the background");
-  const bool wanted = seen_ % stride_ == 0;
+  const bool wanted = wants_next();
   ++seen_;
   if (!wanted) return;
   const auto fit = most_bytes_ / std::max<std::size_t>(1, frame.px.size() * sizeof(float));
@@ -58,18 +59,25 @@ void BackgroundSampler::take(const GrayF& frame) {
 }
 
 Background BackgroundSampler::background() const {
+  Pool one_thread(1);
+  return background(one_thread);
+}
+
+Background BackgroundSampler::background(Pool& pool) const {
   Background b;
   if (kept_.empty()) return b;
   const int w = kept_[0].width, h = kept_[0].height;
   b.level = b.noise_sd = GrayF(w, h);
   b.frames = int(kept_.size());
-  std::vector<float> values(kept_.size());
-  for (std::size_t i = 0; i < b.level.px.size(); ++i) {
-    for (std::size_t k = 0; k < kept_.size(); ++k) values[k] = kept_[k].px[i];
-    const RobustSpread<float> s = robust_spread_low(values);
-    b.level.px[i] = s.median;
-    b.noise_sd.px[i] = s.sd;
-  }
+  pool.for_blocks(b.level.px.size(), kPixelsPerBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> values(kept_.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t k = 0; k < kept_.size(); ++k) values[k] = kept_[k].px[i];
+      const RobustSpread<float> s = robust_spread_low(values);
+      b.level.px[i] = s.median;
+      b.noise_sd.px[i] = s.sd;
+    }
+  });
   b.noise_sd = smoothed(b.noise_sd, kNoiseSmoothing);
   for (float& v : b.noise_sd.px) v = std::max(v, kMinNoise);
   return b;

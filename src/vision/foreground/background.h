@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/parallel.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -28,6 +29,9 @@ class BackgroundSampler {
  public:
   explicit BackgroundSampler(int most_frames = 50, std::size_t most_bytes = 256u << 20);
 
+  /// Whether take() may keep the next frame; otherwise skip() has the same effect without its picture.
+  bool wants_next() const { return seen_ % stride_ == 0; }
+  void skip() { ++seen_; }
   /// Offers the next frame. All frames must have the same size, else Error(Errc::internal).
   void take(const GrayF& frame);
   /// Frames sampled so far.
@@ -38,6 +42,8 @@ class BackgroundSampler {
   /// quarter of a grey step. An object that covers a pixel in more than half of the frames becomes
   /// background: immobile objects are not detected. An empty Background when there are no frames.
   Background background() const;
+  /// As background(), by several threads.
+  Background background(Pool& pool) const;
 
  private:
   int most_frames_;

@@ -109,7 +109,7 @@ class TrackFiles final : public TrackListener {
 
 TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progress) {
   RunVideo source = run_video(o.video);
-  const std::string overridden = override_note(o.video, source, o.fps, o.um_per_px);
+  const std::string overridden = override_note(o.video, source, o.part.fps, o.um_per_px);
   if (o.um_per_px) source.um_per_px = o.um_per_px;
   std::int64_t total = 0;
   const auto tick = [&](std::int64_t done) {

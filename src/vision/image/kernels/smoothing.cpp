@@ -6,20 +6,14 @@
 
 #include "core/portable_math.h"
 #include "core/wide.h"
+#include "vision/image/kernels/box_filter.h"
+#include "vision/image/kernels/mirrored.h"
 
 namespace faba {
 namespace {
 
 constexpr double kWidestSampled = 8;  // px; above, box filters are faster at the same accuracy
 constexpr int kMeans = 4;
-
-// Index mirrored at the border pixels, for any distance.
-int mirrored(int i, int n) {
-  if (n == 1) return 0;
-  const int period = 2 * (n - 1);
-  i = std::abs(i) % period;
-  return i < n ? i : period - i;
-}
 
 // out[i] = w0 middle[i] + w1 (before1[i] + after1[i]) + ..., added in this order.
 struct Taps {
@@ -91,42 +85,6 @@ void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& w
   }
 }
 
-// Horizontal box filter over 2 * half + 1 pixels; `sum` in double, so that rounding errors do not accumulate.
-void mean_rows(GrayF& picture, int half) {
-  const int w = picture.width;
-  std::vector<float> line(static_cast<std::size_t>(w));
-  const double weight = 1.0 / (2 * half + 1);
-  for (int row = 0; row < picture.height; ++row) {
-    float* at = &picture.px[std::size_t(row) * std::size_t(w)];
-    std::copy(at, at + w, line.begin());
-    double sum = 0;
-    for (int i = -half; i <= half; ++i) sum += double(line[std::size_t(mirrored(i, w))]);
-    for (int i = 0; i < w; ++i) {
-      at[i] = float(sum * weight);
-      sum += double(line[std::size_t(mirrored(i + half + 1, w))]) -
-             double(line[std::size_t(mirrored(i - half, w))]);
-    }
-  }
-}
-
-void mean_columns(GrayF& picture, int half) {
-  const int w = picture.width, h = picture.height;
-  const GrayF from = picture;
-  const auto line = [&](int row) { return &from.px[std::size_t(mirrored(row, h)) * std::size_t(w)]; };
-  std::vector<double> sum(std::size_t(w), 0.0);
-  const double weight = 1.0 / (2 * half + 1);
-  for (int row = -half; row <= half; ++row)
-    for (int i = 0; i < w; ++i) sum[std::size_t(i)] += double(line(row)[i]);
-  for (int row = 0; row < h; ++row) {
-    float* out = &picture.px[std::size_t(row) * std::size_t(w)];
-    const float *entering = line(row + half + 1), *leaving = line(row - half);
-    for (int i = 0; i < w; ++i) {
-      out[i] = float(sum[std::size_t(i)] * weight);
-      sum[std::size_t(i)] += double(entering[i]) - double(leaving[i]);
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<float> gaussian_weights(double sd_px) {
@@ -165,10 +123,7 @@ void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& ou
     const float* in = row(r);
     std::copy(in, in + width, &out.px[std::size_t(r) * std::size_t(width)]);
   }
-  for (int i = 0; i < kMeans; ++i) {
-    mean_rows(out, half);
-    mean_columns(out, half);
-  }
+  box_filter(out, half, kMeans);
 }
 
 }  // namespace faba

@@ -1,0 +1,168 @@
+#include "vision/image/kernels/box_filter.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "core/vectorised.h"
+#include "core/wide.h"
+#include "vision/image/kernels/mirrored.h"
+
+namespace faba {
+namespace {
+
+// A running sum waits for its last addition, so the sums of several rows are computed at the same time.
+constexpr int kRows = 16;
+
+using Four = Wide<float, 16>::type;
+
+// to[j][i] = from[i][j] for 4 x 4 values.
+[[gnu::always_inline]] inline void transpose(const float* from, std::size_t from_stride, float* to,
+                                             std::size_t to_stride) {
+  Four row[4];
+  for (std::size_t i = 0; i < 4; ++i) row[i] = *reinterpret_cast<const Four*>(from + i * from_stride);
+  const Four a = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+  const Four b = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+  const Four c = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+  const Four d = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+  *reinterpret_cast<Four*>(to) = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+  *reinterpret_cast<Four*>(to + to_stride) = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  *reinterpret_cast<Four*>(to + 2 * to_stride) = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+  *reinterpret_cast<Four*>(to + 3 * to_stride) = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+}
+
+// `columns` has the pixels of kRows rows, column after column, from `half` before the first pixel on.
+// Replaces column i by the mean about pixel i.
+template <int bytes>
+[[gnu::always_inline]] inline void running_means_in(float* columns, int width, int half) {
+  using Sum = typename Wide<double, bytes>::type;
+  using Px = typename Wide<float, bytes / 2>::type;
+  constexpr std::size_t kLanes = std::size_t(bytes) / sizeof(double), kSums = kRows / kLanes;
+  const auto px = [](float* column, std::size_t k) -> Px& {
+    return *reinterpret_cast<Px*>(column + k * kLanes);
+  };
+  const double weight = 1.0 / (2 * half + 1);
+  const std::size_t reach = std::size_t(2 * half + 1) * kRows;
+  Sum sum[kSums] = {};
+  for (float* at = columns; at < columns + reach; at += kRows)
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < kSums; ++k) sum[k] += __builtin_convertvector(px(at, k), Sum);
+  float* leaving = columns;
+  for (int i = 0; i < width; ++i, leaving += kRows) {
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < kSums; ++k) {
+      const Px old = px(leaving, k);
+      px(leaving, k) = __builtin_convertvector(sum[k] * weight, Px);
+      sum[k] += __builtin_convertvector(px(leaving + reach, k), Sum) - __builtin_convertvector(old, Sum);
+    }
+  }
+}
+FABA_WIDE(running_means, (float* columns, int width, int half), (columns, width, half))
+
+FABA_VECTORISED void add_row(const float* row, double* sum, int n) {
+  for (int i = 0; i < n; ++i) sum[i] += double(row[i]);
+}
+
+FABA_VECTORISED void next_row(const float* entering, const float* leaving, double weight, double* sum,
+                              float* out, int n) {
+  for (int i = 0; i < n; ++i) {
+    out[i] = float(sum[i] * weight);
+    sum[i] += double(entering[i]) - double(leaving[i]);
+  }
+}
+
+// One filter, in place. The means along rows are kept for the rows that the means along columns still need.
+class BoxFilter {
+ public:
+  BoxFilter(GrayF& picture, int half)
+      : picture_(picture),
+        half_(half),
+        kept_(std::min(picture.height, 2 * half + 2 + kRows)),
+        means_(std::size_t(kept_) * width()),
+        columns_((width() + std::size_t(2 * half + 1)) * kRows),
+        sums_(width()) {}
+
+  void run() {
+    const int h = picture_.height;
+    done_ = 0;
+    std::fill(sums_.begin(), sums_.end(), 0.0);
+    mean_rows(std::min(h, half_ + 1));
+    for (int row = -half_; row <= half_; ++row) add_row(mean_row(row), sums_.data(), picture_.width);
+    const double weight = 1.0 / (2 * half_ + 1);
+    for (int row = 0; row < h; ++row) {
+      mean_rows(std::min(h, row + half_ + 2));
+      next_row(mean_row(row + half_ + 1), mean_row(row - half_), weight, sums_.data(), pixels(row),
+               picture_.width);
+    }
+  }
+
+ private:
+  std::size_t width() const { return std::size_t(picture_.width); }
+  float* pixels(int row) { return &picture_.px[std::size_t(row) * width()]; }
+  float* mean_row(int row) { return &means_[std::size_t(mirrored(row, picture_.height) % kept_) * width()]; }
+
+  // Computes the means along rows up to row `end`.
+  void mean_rows(int end) {
+    while (done_ < end) {
+      const int rows = std::min(kRows, picture_.height - done_);
+      read_columns(rows);
+      running_means(columns_.data(), picture_.width, half_);
+      write_rows(rows);
+      done_ += rows;
+    }
+  }
+
+  float* column(int i) { return &columns_[std::size_t(i) * kRows]; }
+
+  void read_columns(int rows) {
+    const int w = picture_.width;
+    int row = 0;
+    for (; row + 4 <= rows; row += 4) {
+      const float* from = pixels(done_ + row);
+      int col = 0;
+      for (; col + 4 <= w; col += 4) transpose(from + col, width(), column(half_ + col) + row, kRows);
+      for (; col < w; ++col)
+        for (int k = 0; k < 4; ++k)
+          column(half_ + col)[row + k] = from[std::size_t(k) * width() + std::size_t(col)];
+    }
+    for (; row < rows; ++row)
+      for (int col = 0; col < w; ++col) column(half_ + col)[row] = pixels(done_ + row)[col];
+    for (int i = 1; i <= half_; ++i)
+      std::memcpy(column(half_ - i), column(half_ + mirrored(-i, w)), kRows * sizeof(float));
+    for (int i = 0; i <= half_; ++i)
+      std::memcpy(column(half_ + w + i), column(half_ + mirrored(w + i, w)), kRows * sizeof(float));
+  }
+
+  void write_rows(int rows) {
+    const int w = picture_.width;
+    for (int row = 0; row < rows; ++row) {
+      float* to = mean_row(done_ + row);
+      // The kept rows are a ring: four consecutive ones are not always neighbours.
+      if (row % 4 == 0 && row + 4 <= rows && mean_row(done_ + row + 3) == to + 3 * width()) {
+        int col = 0;
+        for (; col + 4 <= w; col += 4) transpose(column(col) + row, kRows, to + col, width());
+        for (; col < w; ++col)
+          for (int k = 0; k < 4; ++k) to[std::size_t(k) * width() + std::size_t(col)] = column(col)[row + k];
+        row += 3;
+      } else {
+        for (int col = 0; col < w; ++col) to[col] = column(col)[row];
+      }
+    }
+  }
+
+  GrayF& picture_;
+  int half_, kept_, done_ = 0;  // rows with means along rows
+  std::vector<float> means_, columns_;
+  std::vector<double> sums_;
+};
+
+}  // namespace
+
+void box_filter(GrayF& picture, int half, int times) {
+  BoxFilter filter(picture, half);
+  for (int i = 0; i < times; ++i) filter.run();
+}
+
+}  // namespace faba
