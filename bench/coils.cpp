@@ -10,7 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "field/kernels/axial.h"
 #include "machine.h"
 #include "timing.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 
 namespace faba::bench {
 

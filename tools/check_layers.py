@@ -33,7 +33,7 @@ MAY = {
 # Subfolders and the sibling subfolders that each may include; "." is the folder itself. In folders that are not listed,
 # all subfolders may include each other.
 WITHIN = {
-    "core": {".": "kernels random", "kernels": ". random", "random": ".", "h5": "."},
+    "core": {".": "kernels random", "kernels": ". random", "random": ".", "threads": ".", "h5": ". threads"},
     "vision": {
         "image": "",
         "files": "image",
@@ -87,7 +87,7 @@ NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion coils"
 MAY_JSON = ["study/motion/activity_study", "study/coils/field_fit", "study/coils/field_library"]
 # Folders of the engine include only each other, even if the tables above permit more (CMakeLists.txt: faba_engine).
 ENGINE = (
-    "core core/kernels core/random field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "
+    "core core/kernels core/random core/threads field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "
     "app/loop app/scenario app/run"
 ).split()
 # Interfaces that the engine may include although their implementations are not part of it.

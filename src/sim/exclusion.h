@@ -2,8 +2,8 @@
 #include <span>
 #include <vector>
 
-#include "core/parallel.h"
 #include "core/schema.h"
+#include "core/threads/parallel.h"
 #include "sim/arena.h"
 #include "sim/two_phase.h"
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "sim/arena.h"
 
 namespace faba {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "field/kernels/field_table.h"
 #include "sim/exclusion.h"
 #include "sim/motility.h"

@@ -3,7 +3,7 @@
 
 #include "core/archive.h"
 #include "core/h5/h5.h"
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "tests/app/run_directory.h"
 
 using namespace faba;

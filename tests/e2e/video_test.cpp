@@ -245,6 +245,57 @@ TEST_CASE("a drawn video of a run is not measured, but the recorded flow of a ru
   CHECK(d.json()["runs"][0]["mean"] == 0);
 }
 
+TEST_CASE("results are the same for any number of threads") {
+  const TestFolder f;
+  write_film(f, "film");
+  write_film(f, "other", 24);
+  const auto same = [&](const std::string& verb, const std::string& out) {
+    CAPTURE(verb);
+    std::string first;
+    for (const char* threads : {"1", "2", "3"}) {
+      const Called c = faba_in(f.path, verb + " --fps 15 --json --force --threads " + threads +
+                                           (out.empty() ? "" : " --out " + out));
+      REQUIRE_MESSAGE(c.exit == 0, c.err);
+      const std::string all = c.out + (out.empty() ? "" : read_file(f.path / out));
+      if (first.empty()) first = all;
+      CHECK(all == first);
+    }
+  };
+  same("activity film", "a.csv");
+  same("activity film other --flow-threshold 0.1", "a.csv");
+  same("compare film other --no-align", "c.csv");
+  same("flow film", "f.h5");
+  same("track film --size 7 --polarity bright", "t.csv");
+}
+
+TEST_CASE("a part of a video: the same flows as in the whole video, without reading the rest") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out run --quiet --as-seen").exit == 0);
+  REQUIRE(faba_in(f.path, "activity run --flow-threshold 0.1 --out all.csv").exit == 0);
+  REQUIRE(faba_in(f.path, "activity run --flow-threshold 0.1 --from '0.5 s' --to 1.2 --out part.csv").exit ==
+          0);
+  const Table all = read_table(f.path / "all.csv"), part = read_table(f.path / "part.csv");
+  const auto t0 = all.column("t0_s"), t1 = all.column("t1_s");
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < t0.size(); ++i) {
+    if (t0[i] < 0.5 || t1[i] > 1.2) continue;
+    REQUIRE(k < part.size());
+    for (const std::string& name : all.names()) CHECK(part.column(name)[k] == all.column(name)[i]);
+    ++k;
+  }
+  CHECK(k == part.size());
+  CHECK(k >= 9);
+  const Called flow = faba_in(f.path, "flow run --from 0.5 --to '1200 ms' --json");
+  CHECK(flow.json()["pairs"] == k);
+  refused(f, "flow run --from 2 --to 1", 2,
+          "the time from 2 s to 1 s is empty; --to must be later than --from");
+  refused(f, "track run --from 100", 3, "has no frames from 100 s to its end");
+  refused(f, "flow s.toml s.toml --from 1", 2, "--from: requires a video");
+  const Called track = faba_in(f.path, "track run --from 0.5 --to 1.2 --out t.csv --size 4");
+  REQUIRE_MESSAGE(track.exit == 0, track.err);
+}
+
 TEST_CASE("study files and distances: errors name the file, the key or the line") {
   const TestFolder f;
   write_file(f.path / "none.toml", "direction = 0\n");

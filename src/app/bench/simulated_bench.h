@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "app/scenario/scenario.h"
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 
 namespace faba {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "app/sinks/sinks.h"
-#include "core/job_thread.h"
+#include "core/threads/job_thread.h"
 #include "vision/files/video_writer.h"
 
 namespace faba {

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/h5/chunk_code.h"
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 
 namespace faba {
 namespace {

@@ -9,8 +9,8 @@
 #include "app/files/library_file.h"
 #include "app/scenario/rig_file.h"
 #include "core/file_lock.h"
-#include "core/parallel.h"
 #include "core/statistics.h"
+#include "core/threads/parallel.h"
 #include "field/null.h"
 
 namespace faba {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/counted.h"
-#include "core/ordered_work.h"
+#include "core/threads/ordered_work.h"
 #include "study/data/run_video.h"
 #include "vision/files/grey_video.h"
 #include "vision/flow/flow_file.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/ordered_work.h"
-#include "core/parallel.h"
+#include "core/threads/ordered_work.h"
+#include "core/threads/parallel.h"
 
 namespace faba {
 

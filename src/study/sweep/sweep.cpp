@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 
 namespace faba {
 namespace {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/counted.h"
-#include "core/ordered_work.h"
-#include "core/parallel.h"
 #include "core/statistics.h"
+#include "core/threads/ordered_work.h"
+#include "core/threads/parallel.h"
 #include "vision/drop/drop_edge.h"
 #include "vision/files/video_reader.h"
 

@@ -2,8 +2,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/parallel.h"
 #include "core/registry.h"
+#include "core/threads/parallel.h"
 #include "vision/image/image.h"
 
 namespace faba {

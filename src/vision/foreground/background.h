@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "vision/image/image.h"
 
 namespace faba {

@@ -4,7 +4,7 @@
 #include <new>
 #include <vector>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 
 namespace faba {
 

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/frame.h"
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "vision/image/circle.h"
 #include "vision/image/image.h"
 #include "vision/render/ground.h"

@@ -7,8 +7,8 @@
 #include <array>
 
 #include "core/h5/h5.h"
-#include "core/parallel.h"
 #include "core/random/splitmix64.h"
+#include "core/threads/parallel.h"
 #include "tests/app/run_directory.h"
 
 using namespace faba;

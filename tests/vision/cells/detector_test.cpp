@@ -173,17 +173,18 @@ TEST_CASE("no detection outside of the drop and at the border") {
 }
 
 TEST_CASE("the spot size is estimated") {
+  Pool pool(2);
   for (const double sd : {1.0, 2.0, 4.0}) {
     CAPTURE(sd);
     cells::Look l;
     l.cell_sd_px = sd;
     l.noise = 3;
     const GrayF frame = cells::picture(l, cells::scattered(l, 40, 9 * sd, 4 * sd, 2), 3);
-    const double size = spot_size(frame, spatial_background(frame, 30), Polarity::dark);
+    const double size = spot_size(frame, spatial_background(frame, 30), Polarity::dark, pool);
     // Sizes are tested in steps of 20 %; the maximum of the band-pass response can be off by another 15 %.
     CHECK(size > 0.68 * sd * kFwhmPerSd);
     CHECK(size < 1.38 * sd * kFwhmPerSd);
   }
   const GrayF black(64, 48);
-  CHECK(spot_size(black, spatial_background(black, 8), Polarity::dark) == 0);
+  CHECK(spot_size(black, spatial_background(black, 8), Polarity::dark, pool) == 0);
 }

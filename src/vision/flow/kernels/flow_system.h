@@ -1,5 +1,5 @@
 #pragma once
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "vision/image/plane.h"
 
 namespace faba {

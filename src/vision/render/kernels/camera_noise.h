@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "vision/image/image.h"
 
 namespace faba {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/frame.h"
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 #include "vision/image/image.h"
 
 namespace faba {

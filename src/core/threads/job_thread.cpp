@@ -1,4 +1,4 @@
-#include "core/job_thread.h"
+#include "core/threads/job_thread.h"
 
 #include <utility>
 

@@ -1,9 +1,9 @@
-#include "core/ordered_work.h"
+#include "core/threads/ordered_work.h"
 
 #include <system_error>
 #include <utility>
 
-#include "core/parallel.h"
+#include "core/threads/parallel.h"
 
 namespace faba {
 

@@ -1,4 +1,4 @@
-#include "study/tracks/swarm_view.h"
+#include "study/tracks/cell_count.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -9,6 +9,21 @@
 #include "vision/flow/flow_file.h"
 
 using namespace faba;
+
+namespace {
+
+std::optional<double> visible_cells(
+    const std::filesystem::path& path, const VideoPart& part, unsigned threads = 2,
+    const std::function<void()>& check = [] {}) {
+  CellCount count(path, part, threads);
+  if (!count.reads_frames()) return count.mean();
+  count.read(count.survey(), check);
+  count.end_survey();
+  count.read(count.count(), check);
+  return count.mean();
+}
+
+}  // namespace
 
 TEST_CASE("visible cells: detected in a video, read from the series of a run, unknown for flows") {
   const media::ScratchFolder folder;
@@ -22,20 +37,23 @@ TEST_CASE("visible cells: detected in a video, read from the series of a run, un
         fmt::format("P5\n{} {}\n255\n", b.width, b.height) + std::string(b.px.begin(), b.px.end()));
     for (Vec2& p : swarm) p.x += 3;
   }
-  const auto yes = [] { return true; };
   double in_view = 0;
   for (const Vec2& p : swarm) in_view += p.x - 18 < l.width;  // in the middle of the video
-  CHECK(*visible_cells(folder / "frames", {}, yes) == doctest::Approx(in_view).epsilon(0.1));
-  CHECK_THROWS_AS(visible_cells(folder / "frames", {}, [] { return false; }), Error);
+  const double counted = *visible_cells(folder / "frames", {});
+  CHECK(counted == doctest::Approx(in_view).epsilon(0.1));
+  for (const unsigned threads : {1u, 3u}) CHECK(*visible_cells(folder / "frames", {}, threads) == counted);
+  const auto stop = [] { throw Error(Errc::interrupted, "", "stopped"); };
+  CHECK_THROWS_AS(visible_cells(folder / "frames", {}, 2, stop), Error);
+  CHECK_FALSE(visible_cells(folder / "frames", {.from_s = 100}));
 
   std::filesystem::create_directories(folder / "run");
   media::write_bytes(folder / "run/manifest.json", R"({"version": "0.1.0"})");
   media::write_bytes(folder / "run/series.csv", "frame,t_s,visible_count\n0,0,10\n1,0.1,20\n");
-  CHECK(*visible_cells(folder / "run", {}, yes) == 15);
-  CHECK(*visible_cells(folder / "run", {.from_s = 0.05}, yes) == 20);
+  CHECK(*visible_cells(folder / "run", {}) == 15);
+  CHECK(*visible_cells(folder / "run", {.from_s = 0.05}) == 20);
 
   FlowFileWriter flows(folder / "flow.h5", {8, 8, 15, {}, "{}", "test"}, false);
   flows.write(1, 0, 0.1, {GrayF(8, 8), GrayF(8, 8)});
   flows.close();
-  CHECK_FALSE(visible_cells(folder / "flow.h5", {}, yes));
+  CHECK_FALSE(visible_cells(folder / "flow.h5", {}));
 }
