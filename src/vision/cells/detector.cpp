@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "vision/cells/spot_fit.h"
+#include "vision/image/kernels/any_above.h"
 #include "vision/image/kernels/smoothing.h"
 
 namespace faba {
@@ -58,25 +59,43 @@ struct Maximum {
   float value = 0;
 };
 
-// Local maxima above threshold(index) within radius `reach`; the first one of equal values.
-template <class Threshold>
+/// A threshold for all pixels, or with a weight for each.
+struct Threshold {
+  float value = 0;
+  const float* weights = nullptr;
+  float at(std::size_t i) const { return weights ? value * weights[i] : value; }
+  bool any_in(const GrayF& g, std::size_t begin, int n) const {
+    return any_above(&g.px[begin], weights ? weights + begin : nullptr, value, n);
+  }
+};
+
+bool is_maximum(const GrayF& g, int col, int row, int reach) {
+  const float v = g.at(col, row);
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const int c = col + dx, r = row + dy;
+      if ((dx == 0 && dy == 0) || dx * dx + dy * dy > reach * reach + 1 || c < 0 || r < 0 || c >= g.width ||
+          r >= g.height)
+        continue;
+      const float other = g.at(c, r);
+      if (!(v > other || (v == other && (dy > 0 || (dy == 0 && dx > 0))))) return false;
+    }
+  return true;
+}
+
+// Local maxima above the threshold within radius `reach`; the first one of equal values.
 std::vector<Maximum> maxima(const GrayF& g, int reach, int margin, const Threshold& threshold) {
+  constexpr int kAtOnce = 128;  // px of a row; most contain nothing
   std::vector<Maximum> out;
   for (int row = margin; row < g.height - margin; ++row)
-    for (int col = margin; col < g.width - margin; ++col) {
-      const float v = g.at(col, row);
-      if (!(v > threshold(std::size_t(row) * std::size_t(g.width) + std::size_t(col)))) continue;
-      bool largest = true;
-      for (int dy = -reach; dy <= reach && largest; ++dy)
-        for (int dx = -reach; dx <= reach && largest; ++dx) {
-          const int c = col + dx, r = row + dy;
-          if ((dx == 0 && dy == 0) || dx * dx + dy * dy > reach * reach + 1 || c < 0 || r < 0 ||
-              c >= g.width || r >= g.height)
-            continue;
-          const float other = g.at(c, r);
-          largest = v > other || (v == other && (dy > 0 || (dy == 0 && dx > 0)));
-        }
-      if (largest) out.push_back({col, row, v});
+    for (int first = margin; first < g.width - margin; first += kAtOnce) {
+      const int end = std::min(first + kAtOnce, g.width - margin);
+      const std::size_t start = std::size_t(row) * std::size_t(g.width);
+      if (!threshold.any_in(g, start + std::size_t(first), end - first)) continue;
+      for (int col = first; col < end; ++col)
+        if (const float v = g.at(col, row);
+            v > threshold.at(start + std::size_t(col)) && is_maximum(g, col, row, reach))
+          out.push_back({col, row, v});
     }
   return out;
 }
@@ -101,7 +120,7 @@ std::vector<double> snr_of_maxima(const GrayF& frame, const Background& backgrou
     const GrayF response = band_passed(difference_of(frame, background, sign), sd);
     const float noise = std::max(spread_of(response), float(gain) * 0.25F);
     const float least = float(kMinSnr) * noise;
-    for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, [&](std::size_t) { return least; }))
+    for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, Threshold{least}))
       snr.push_back(double(m.value) / gain);
   }
   std::sort(snr.begin(), snr.end(), std::greater<>());
@@ -156,7 +175,7 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
     // A uniform picture, or one whose noise was removed by a codec, has zero spread: the quantisation step is
     // then the noise.
     const float noise = std::max(sd, float(noise_gain_) * 0.25F);
-    const auto threshold = [&](std::size_t i) { return float(threshold_) * noise * relative_noise_.px[i]; };
+    const Threshold threshold{float(threshold_) * noise, relative_noise_.px.data()};
     std::vector<SpotSeed> seeds;
     for (const Maximum& m : maxima(response, reach, margin, threshold)) {
       if (masked(options_.drop, m.col, m.row)) continue;

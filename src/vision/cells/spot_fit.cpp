@@ -37,8 +37,11 @@ class Window {
         top_(std::max(0, seed.row - half(sd))),
         right_(std::min(g.width - 1, seed.col + half(sd))),
         bottom_(std::min(g.height - 1, seed.row + half(sd))) {
-    for (int row = top_; row <= bottom_; ++row)
-      for (int col = left_; col <= right_; ++col) px_.push_back(double(g.at(col, row)));
+    px_.reserve(std::size_t(right_ - left_ + 1) * std::size_t(bottom_ - top_ + 1));
+    for (int row = top_; row <= bottom_; ++row) {
+      const float* first = &g.px[std::size_t(row) * std::size_t(g.width)];
+      px_.insert(px_.end(), first + left_, first + right_ + 1);
+    }
   }
   void subtract(const Shape& other) {
     const double r = other.reach();
@@ -209,15 +212,13 @@ std::vector<Spot> fit_spots(const GrayF& difference, const std::vector<SpotSeed>
   for (int pass = 0; pass < kPasses; ++pass) {
     std::vector<Shape> next = shapes;
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      Window window(difference, seeds[i], sd_px);
       bool isolated = true;
-      near.each(seeds[i], i, [&](std::size_t k) {
-        if (shapes[k].valid) {
-          window.subtract(shapes[k]);
-          isolated = false;
-        }
-      });
+      near.each(seeds[i], i, [&](std::size_t k) { isolated = isolated && !shapes[k].valid; });
       if (pass > 0 && isolated) continue;
+      Window window(difference, seeds[i], sd_px);
+      near.each(seeds[i], i, [&](std::size_t k) {
+        if (shapes[k].valid) window.subtract(shapes[k]);
+      });
       next[i] = converge(window, seeds[i], {double(seeds[i].col), double(seeds[i].row), 0, 0, {}}, sd_px);
     }
     shapes = std::move(next);

@@ -12,6 +12,7 @@ extern "C" {
 #include <memory>
 #include <vector>
 
+#include "vision/files/kernels/luma.h"
 #include "vision/image/grey_of.h"
 
 namespace faba {
@@ -23,12 +24,6 @@ const AVPixFmtDescriptor* describe(int pixel_format) {
 
 bool has(const AVPixFmtDescriptor& format, std::uint64_t flag) { return (format.flags & flag) != 0; }
 
-// Linear map from the stored value to grey, clipped to the scale.
-struct Scale {
-  float black = 0, gain = 1, white = 255;
-  float operator()(float stored) const { return std::clamp((stored - black) * gain, 0.0F, white); }
-};
-
 bool is_full_range(const RawFrame& frame, const AVPixFmtDescriptor& format) {
   if (frame.range == AVCOL_RANGE_JPEG) return true;
   if (has(format, AV_PIX_FMT_FLAG_RGB)) return true;
@@ -37,10 +32,10 @@ bool is_full_range(const RawFrame& frame, const AVPixFmtDescriptor& format) {
   return old_full_range_name || (grey_only && frame.range == AVCOL_RANGE_UNSPECIFIED);
 }
 
-Scale scale_of(const RawFrame& frame, const AVPixFmtDescriptor& format) {
+GreyMap scale_of(const RawFrame& frame, const AVPixFmtDescriptor& format) {
   const int depth = format.comp[0].depth;
   const auto most = static_cast<float>((1U << depth) - 1U);
-  Scale scale;
+  GreyMap scale;
   scale.white = depth <= 8 ? 255.0F : 65535.0F;
   float stored_black = 0, stored_white = most;
   if (depth >= 8 && !is_full_range(frame, format)) {
@@ -52,7 +47,7 @@ Scale scale_of(const RawFrame& frame, const AVPixFmtDescriptor& format) {
   return scale;
 }
 
-// One byte per pixel, converted by a lookup table: 8-bit grey, 8-bit luma, palettes.
+// One byte per pixel, converted by a lookup table.
 void apply_lookup_table(const RawFrame& frame, const std::array<float, 256>& table, GrayF& out) {
   for (int row = 0; row < out.height; ++row) {
     const std::uint8_t* in = frame.planes[0] + std::ptrdiff_t{row} * frame.strides[0];
@@ -72,10 +67,10 @@ std::array<float, 256> palette_table(const RawFrame& frame) {
   return table;
 }
 
-std::array<float, 256> luma_table(const Scale& scale) {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) table[i] = scale(static_cast<float>(i));
-  return table;
+// 8-bit grey or luma.
+void by_luma(const RawFrame& frame, const GreyMap& scale, GrayF& out) {
+  for (int row = 0; row < out.height; ++row)
+    grey_of_luma(frame.planes[0] + std::ptrdiff_t{row} * frame.strides[0], scale, &out.at(0, row), out.width);
 }
 
 // Any memory layout: libav unpacks one row of one channel per call.
@@ -96,7 +91,7 @@ class ChannelRows {
   std::array<const std::uint8_t*, 4> planes_{};
 };
 
-void by_channels(const RawFrame& frame, const AVPixFmtDescriptor& format, const Scale& scale, GrayF& out) {
+void by_channels(const RawFrame& frame, const AVPixFmtDescriptor& format, const GreyMap& scale, GrayF& out) {
   ChannelRows rows(frame, format);
   std::vector<std::uint16_t> first, green, blue;
   const bool colour = has(format, AV_PIX_FMT_FLAG_RGB) && format.nb_components >= 3;
@@ -133,13 +128,13 @@ void to_grey(const RawFrame& frame, GrayF& out) {
   out.height = frame.height;
   out.px.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
   const bool palette = has(format, AV_PIX_FMT_FLAG_PAL);
-  const Scale scale = scale_of(frame, format);
+  const GreyMap scale = scale_of(frame, format);
   const AVComponentDescriptor& luma = format.comp[0];
   const bool bytes = luma.depth == 8 && luma.step == 1 && luma.offset == 0 && luma.plane == 0;
   if (palette) {
     apply_lookup_table(frame, palette_table(frame), out);
   } else if (bytes && !has(format, AV_PIX_FMT_FLAG_RGB)) {
-    apply_lookup_table(frame, luma_table(scale), out);
+    by_luma(frame, scale, out);
   } else {
     by_channels(frame, format, scale, out);
   }

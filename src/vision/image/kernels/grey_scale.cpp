@@ -45,6 +45,16 @@ FABA_VECTORISED void round_greys(const float* grey, std::uint8_t* out, int n) {
   }
 }
 
+FABA_VECTORISED void add_row(const float* row, float* sum, int n) {
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) sum[i] += row[i];
+}
+
+FABA_VECTORISED void add_neighbours(const float* sums, float weight, float* out, int n) {
+  FABA_ELEMENTWISE
+  for (int i = 0; i < n; ++i) out[i] = (sums[2 * i] + sums[2 * i + 1]) * weight;
+}
+
 }  // namespace
 
 Gray8 rounded(const GrayF& frame) {
@@ -64,9 +74,12 @@ void shrink(const GrayF& frame, int side, GrayF& out) {
   std::vector<float> column(std::size_t(w) * std::size_t(side));
   for (int r = 0; r < h; ++r) {
     std::fill(column.begin(), column.end(), 0.0F);
-    for (int i = 0; i < side; ++i) {
-      const float* p = &frame.px[std::size_t(r * side + i) * std::size_t(frame.width)];
-      for (std::size_t c = 0; c < column.size(); ++c) column[c] += p[c];
+    for (int i = 0; i < side; ++i)
+      add_row(&frame.px[std::size_t(r * side + i) * std::size_t(frame.width)], column.data(),
+              int(column.size()));
+    if (side == 2) {
+      add_neighbours(column.data(), weight, &out.at(0, r), w);
+      continue;
     }
     for (int c = 0; c < w; ++c) {
       float sum = 0;

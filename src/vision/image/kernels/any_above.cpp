@@ -1,0 +1,27 @@
+#include "vision/image/kernels/any_above.h"
+
+#include "core/vectorised.h"
+
+namespace faba {
+namespace {
+
+FABA_VECTORISED int count_above(const float* values, float threshold, int n) {
+  int count = 0;
+  for (int i = 0; i < n; ++i) count += values[i] > threshold ? 1 : 0;
+  return count;
+}
+
+FABA_VECTORISED int count_above_weighted(const float* values, const float* weights, float threshold, int n) {
+  int count = 0;
+  for (int i = 0; i < n; ++i) count += values[i] > threshold * weights[i] ? 1 : 0;
+  return count;
+}
+
+}  // namespace
+
+bool any_above(const float* values, const float* weights, float threshold, int n) {
+  return (weights ? count_above_weighted(values, weights, threshold, n) : count_above(values, threshold, n)) >
+         0;
+}
+
+}  // namespace faba
