@@ -27,12 +27,13 @@ build: setup          ## build the program: build/faba
 bench: build          ## measure speed and compare it with NumPy, Octave and hardware limits; tables in bench/results/
 	@$(SETUP) test bench
 	@tools/page.sh install
-	@cmake --build build -j $(JOBS) --target bench_agents bench_coils bench_video
+	@cmake --build build -j $(JOBS) --target bench_agents bench_coils bench_video bench_jobs
 	@/usr/bin/python3 bench/agents.py
 	@/usr/bin/python3 bench/coils.py
 	@/usr/bin/python3 bench/video.py
 	@/usr/bin/python3 bench/study.py
 	@/usr/bin/python3 bench/loop.py
+	@/usr/bin/python3 bench/jobs.py
 	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md
 
 accuracy: build       ## test measurements on rendered videos with known ground truth; with SEEDS=20 EXPERIMENTS=40: two hours

@@ -43,7 +43,7 @@ void record(const std::string& scene, const Sample& sample, const std::filesyste
   const auto method = s.flow.make({&pool});
   const FlowInfo info{
       simulation.frame().width, simulation.frame().height, s.camera.rate, {}, s.flow.resolved.dump(), scene};
-  FlowFileWriter writer(file, info, false);
+  FlowFileWriter writer(file, info);
   GrayF before, after;
   Flow flow;
   struct Camera final : Sink {

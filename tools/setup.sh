@@ -14,7 +14,7 @@ for what in "$@"; do
       command -v node > /dev/null || packages+=(nodejs)
       command -v npm > /dev/null || packages+=(npm)
       ;;
-    bench) packages+=(python3 python3-numpy python3-scipy octave libboost-math-dev) ;;
+    bench) packages+=(python3 python3-numpy python3-scipy python3-h5py octave libboost-math-dev ffmpeg hdf5-tools) ;;
     lint) packages+=(clang-format clang-tidy) ;;
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;

@@ -17,7 +17,7 @@ class FlowSink final : public RunSink {
                         c.scale.m_per_px * 1e6, c.flow.resolved.dump(), "rendered frames of the run"};
     before_.width = info.width;
     before_.height = info.height;
-    writer_.emplace(keep ? path_.string() + ".new" : path_.string(), info, c.record.compress);
+    writer_.emplace(keep ? path_.string() + ".new" : path_.string(), info);
     if (keep) import_flows(keep);
   }
 

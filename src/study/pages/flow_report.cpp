@@ -22,7 +22,7 @@ class FlowOutputs {
     if (!job.out.empty()) {
       FlowInfo info{source.width(),     source.height(), source.fps(),
                     source.um_per_px(), source.method(), video.string()};
-      file_.emplace(part(job.out), info, job.compress);
+      file_.emplace(part(job.out), info);
     }
     if (!job.overlay.empty())
       overlay_.emplace(part(job.overlay), VideoFormat::mp4, source.width(), source.height(),

@@ -23,7 +23,6 @@ struct FlowJob {
   double from_s = 0;              ///< of a video: start of the interval
   std::optional<double> to_s;     ///< and its end
   std::string options_text = {};  ///< see FlowSourceOptions
-  bool compress = true;           ///< compress .h5
   unsigned threads = 0;           ///< 0: all cores
   std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};
   std::function<bool()> stop = [] { return false; };

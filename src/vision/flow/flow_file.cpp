@@ -64,16 +64,15 @@ struct FlowFileWriter::Impl {
   std::optional<H5Table> frame, t, u, v;
 };
 
-FlowFileWriter::FlowFileWriter(const std::filesystem::path& path, const FlowInfo& info, bool compress)
+FlowFileWriter::FlowFileWriter(const std::filesystem::path& path, const FlowInfo& info)
     : impl_(new Impl{H5File::create(path), {}, {}, {}, {}}) {
   H5File& f = impl_->file;
   const auto w = std::uint64_t(info.width), h = std::uint64_t(info.height);
   impl_->frame = f.table<std::uint64_t>("frame", {}, 1024, 1, false);
   impl_->t = f.table<double>("t_s", {2}, 1024, 2, false);
-  impl_->u = f.table<float>("u_px", {h, w}, 1, std::max<std::uint64_t>(1, std::min(h, (1u << 20) / (4 * w))),
-                            compress);
-  impl_->v = f.table<float>("v_px", {h, w}, 1, std::max<std::uint64_t>(1, std::min(h, (1u << 20) / (4 * w))),
-                            compress);
+  const std::uint64_t chunk = std::max<std::uint64_t>(1, std::min(h, (1u << 20) / (4 * w)));
+  impl_->u = f.table<float>("u_px", {h, w}, 1, chunk, false);
+  impl_->v = f.table<float>("v_px", {h, w}, 1, chunk, false);
   f.attribute("/", "format", std::string(kFormat));
   f.attribute("/", "width_px", double(info.width));
   f.attribute("/", "height_px", double(info.height));

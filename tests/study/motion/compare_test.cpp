@@ -24,7 +24,7 @@ void write_step(const std::filesystem::path& file, int pairs, int first, int sec
                 unsigned seed, int height = 20) {
   std::mt19937 g(seed);
   std::normal_distribution<double> noise(0, 0.1);
-  FlowFileWriter w(file, {32, height, 10, {}, "{}", "made"}, false);
+  FlowFileWriter w(file, {32, height, 10, {}, "{}", "made"});
   for (int k = 0; k < pairs; ++k) {
     FlowPair p = test::moving_quarter(std::uint64_t(k),
                                       k < first    ? 0

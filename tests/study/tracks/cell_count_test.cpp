@@ -52,7 +52,7 @@ TEST_CASE("visible cells: detected in a video, read from the series of a run, un
   CHECK(*visible_cells(folder / "run", {}) == 15);
   CHECK(*visible_cells(folder / "run", {.from_s = 0.05}) == 20);
 
-  FlowFileWriter flows(folder / "flow.h5", {8, 8, 15, {}, "{}", "test"}, false);
+  FlowFileWriter flows(folder / "flow.h5", {8, 8, 15, {}, "{}", "test"});
   flows.write(1, 0, 0.1, {GrayF(8, 8), GrayF(8, 8)});
   flows.close();
   CHECK_FALSE(visible_cells(folder / "flow.h5", {}));
