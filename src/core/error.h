@@ -7,7 +7,7 @@ namespace faba {
 /// Kinds of failure that a caller may distinguish; the value is the exit code of the program.
 enum class Errc {
   internal = 1,      ///< a bug, a full disk, or anything not listed below
-  usage = 2,         ///< invalid command line, scenario, rig or study file
+  usage = 2,         ///< invalid command line, scenario, coil system or study file
   input = 3,         ///< a picture, video or data file that is missing, unreadable or unsuitable
   device = 4,        ///< camera or coil driver
   interrupted = 130  ///< stopped by a signal; the recorded data are kept

@@ -182,7 +182,7 @@ void World::check_finite() const {
     for (std::size_t i = p.begin; i < p.end; ++i)
       if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
         throw Error(
-            Errc::internal, fmt::format("agent {}", i),
+            Errc::internal, fmt::format("cell {}", i),
             fmt::format(
                 "position is not finite after step {}; the parameters of swarm[{}].model are outside the "
                 "range of validity of the model",

@@ -1,4 +1,6 @@
 // Contract of every registered part.
+#include <limits>
+
 #include "tests/contract/contract.h"
 #include "tests/swarm.h"
 
@@ -62,6 +64,19 @@ TEST_CASE("every model: bitwise equal for any number of threads, finite in zero 
       for (int i = 0; i < 20; ++i) t.world().step();
       CHECK_NOTHROW(t.world().check_finite());
     }
+  }
+}
+
+TEST_CASE("a position that is not finite is reported with its cell, step and swarm") {
+  TestSwarm t(model_scene("'dipole'"));
+  t.world().step();
+  t.alter([](State& s) { s.agents["y"][7] = std::numeric_limits<float>::quiet_NaN(); });
+  try {
+    t.world().check_finite();
+    FAIL("no error");
+  } catch (const Error& e) {
+    CHECK(e.where() == "cell 7");
+    CHECK(e.reason().find("position is not finite after step 1; the parameters of swarm[0].model") == 0);
   }
 }
 

@@ -165,7 +165,8 @@ TEST_CASE("wrong coil systems, points and positions: exit 2 or 3, one line") {
     const char* message;
   };
   for (const Bad& b :
-       {Bad{"no coil", "[earth]\nfield = [0, 0, 0]\n", "", 2, "[[coil]] not found"},
+       {Bad{"no coil", "[earth]\nfield = [0, 0, 0]\n", "", 2,
+            "is not a coil system file: [[coil]] not found"},
         Bad{"zero turns", coil + "turns = 0\n", "", 2, "out of range"},
         Bad{"NaN current", coil + "current = nan\n", "", 2, "finite"},
         Bad{"no axis", coil + "axis = [0, 0, 0]\n", "", 2, "axis must not be"},

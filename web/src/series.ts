@@ -91,6 +91,11 @@ export function comparedRange(live: Series, recorded: Series, low: number, high:
   return end > low && times.length > 0 && times[0] < end ? [low, Math.min(high, end)] : [low, high];
 }
 
+/** Style of the line in the legend of a plot; `index`: 0 is the time, then follow the `lines` of the live run, then those of the recorded run. */
+export function legendDash(lines: number, index: number): 'solid' | 'dashed' {
+  return index > lines ? 'dashed' : 'solid';
+}
+
 /** The series of a recorded run; null if not available. */
 export async function recordedSeries(run: string): Promise<Series | null> {
   const r = await fetch(`/api/runs/${encodeURIComponent(run)}/series.csv`).catch(() => null);

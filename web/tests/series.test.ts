@@ -1,5 +1,5 @@
 import { describe, expect, test, vi } from 'vitest';
-import { comparedRange, recordedSeries, Series } from '../src/series';
+import { comparedRange, legendDash, recordedSeries, Series } from '../src/series';
 
 const kNames = ['frame', 't_s', 'centroid_x_px'];
 const kRate = 50; // Hz
@@ -173,5 +173,12 @@ describe('the time range of a comparison', () => {
     late.take(rows(row(1000), row(1001)), 2);
     expect(comparedRange(late, recorded, 0, 20.02)).toEqual([0, 20.02]);
     expect(comparedRange(filled(51), filled(0), 0, 1)).toEqual([0, 1]);
+  });
+});
+
+describe('the legend of a plot with a recorded run', () => {
+  test('has solid lines for the live run and dashed lines for the recorded run', () => {
+    const lines = 2, all = [0, 1, 2, 3, 4].map((index) => legendDash(lines, index)); // time, two live lines, two recorded lines
+    expect(all).toEqual(['solid', 'solid', 'solid', 'dashed', 'dashed']);
   });
 });

@@ -15,14 +15,14 @@ FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts&
   require_kind(Node(d), FileKind::coil_system);
   if (!d.root.contains("coil"))
     throw Error(Errc::usage, file.string(),
-                "is not a rig file: [[coil]] not found; see the examples in rigs/");
+                "is not a coil system file: [[coil]] not found; see the examples in rigs/");
   d.root["type"] = parts.field.names_with(Trait::coil_system).front();
   return parts.field.resolve(Node(d));
 }
 
 namespace {
 
-// Makes file names of a rig file, which are relative to it, valid in a scenario.
+// Makes file names of a coil system file, which are relative to it, valid in a scenario.
 void resolve_file_names(Document& rig) {
   if (!rig.root.contains("coil") || !rig.root["coil"].is_array()) return;
   for (Json& coil : rig.root["coil"]) {
@@ -63,7 +63,7 @@ void include_rig(Document& scenario, const Parts& parts) {
   if (field.contains("type") && std::find(systems.begin(), systems.end(), field["type"]) == systems.end())
     return;
   const Node node = Node(scenario).child("field").child("file");
-  if (!field["file"].is_string()) node.fail("expected a string: the name of a rig file");
+  if (!field["file"].is_string()) node.fail("expected a string: the name of a coil system file");
   const std::string named = field["file"].get<std::string>();
   const std::filesystem::path file = node.file(named);
   std::error_code ec;

@@ -12,7 +12,7 @@
 namespace faba::cli {
 
 void add_rig_file(CLI::App* v, std::filesystem::path& rig) {
-  v->add_option("rig", rig, "Coil system: rig file (TOML)")->required();
+  v->add_option("rig", rig, "Coil system file (TOML)")->required();
 }
 
 double metres(const std::string& option, const std::string& text) {

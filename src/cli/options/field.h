@@ -10,7 +10,7 @@ class App;
 
 namespace faba::cli {
 
-/// Adds the rig file of a verb.
+/// Adds the coil system file of a verb.
 void add_rig_file(CLI::App* v, std::filesystem::path& rig);
 
 /// Value in m of the text of an option, such as "1 mm". Throws Error(usage, option).

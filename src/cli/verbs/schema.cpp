@@ -45,7 +45,7 @@ int schema(const std::string& file, const Common& c) {
 
 void add_schema(CLI::App& app, CommandLine& line) {
   CLI::App* v = verb(app, line, "schema",
-                     "Print the JSON Schema of a scenario, rig or study file, for editors and forms",
+                     "Print the JSON Schema of a scenario, coil system or study file, for editors and forms",
                      "  faba schema > scenario.json\n  faba schema rig > rig.json\n  faba schema series");
   const auto of = std::make_shared<std::string>("scenario");
   v->add_option("file", *of,

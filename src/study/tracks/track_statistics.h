@@ -40,7 +40,7 @@ struct TrackSummary {
   /// supported.
   bool persists = false;
   /// Number of frames over which successive positions are correlated, for example by exposure or by a codec
-  /// that copies pixels from the previous frame; 0: uncorrelated. Lags up to it are excluded from the
+  /// that copies pixels from the previous frame; 0: uncorrelated. Shorter lags are excluded from the
   /// diffusion fit.
   int memory_frames = 0;
   /// Standard deviation of a position per axis, from the offset of the supported fit; 0 when that is

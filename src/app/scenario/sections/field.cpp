@@ -12,7 +12,8 @@ Json field_json_schema(const Parts& parts) {
     if (!one.contains("x-traits")) continue;
     const Json& part_traits = one["x-traits"];
     if (std::find(part_traits.begin(), part_traits.end(), holds_coils) == part_traits.end()) continue;
-    one["properties"]["file"] = {{"type", "string"}, {"description", "Rig file, whose content is included"}};
+    one["properties"]["file"] = {{"type", "string"},
+                                 {"description", "Coil system file, whose content is included"}};
   }
   return j;
 }

@@ -24,7 +24,7 @@ int field_at(const FieldAtVerb& v, const Common& c) {
         fmt::format("faba: note: {} of {} points are outside the measured region; the field there is NaN",
                     unknown, f.b.size()));
   if (!c.quiet && std::all_of(f.current.begin(), f.current.end(), [](double i) { return i == 0; }))
-    print_stderr("faba: note: all currents are zero; set `current` of the coils in the rig file");
+    print_stderr("faba: note: all currents are zero; set `current` of the coils in the coil system file");
   if (c.json) {
     fmt::print("{}\n", field_json(f).dump());
     return 0;
