@@ -1,16 +1,16 @@
 #include "sim/exclusion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include "core/random/draw_blocks.h"
 
 namespace faba {
 namespace {
 
-constexpr std::size_t kCopyBlock = 8192;
+constexpr std::size_t kCopyBlock = 8192, kSitesAtOnce = 1024;
 
 }  // namespace
 
@@ -35,10 +35,11 @@ Schema<Exclusion::Params> Exclusion::schema() {
 Exclusion::Exclusion(const Params& p, const Arena& arena, std::uint64_t seed)
     : p_(p), grid_(arena.grid()), seed_(seed), two_phase_(grid_) {
   if (!active()) return;
-  taken_.assign(std::size_t(grid_.columns) * std::size_t(grid_.rows), kFree);
+  const std::int32_t sites = grid_.columns * grid_.rows;
+  taken_ = Sites(std::size_t(sites));
   if (p_.integer_positions)  // a cell at a pixel centre must not be outside the edge
-    for (std::size_t i = 0; i < taken_.size(); ++i)
-      if (arena.depth(grid_.centre(std::int32_t(i))) < 0) taken_[i] = kTaken;
+    for (std::int32_t i = 0; i < sites; ++i)
+      if (arena.depth(grid_.centre(i)) < 0) taken_.take(i);
 }
 
 Vec2 Exclusion::snapped(Vec2 p) const {
@@ -46,14 +47,16 @@ Vec2 Exclusion::snapped(Vec2 p) const {
 }
 
 bool Exclusion::place(Vec2 p) {
-  std::uint8_t& cell = taken_[std::size_t(grid_.index(float(p.x), float(p.y)))];
-  return std::exchange(cell, kTaken) == kFree;
+  const std::int32_t site = grid_.index(float(p.x), float(p.y));
+  const bool free = !taken_.taken(site);
+  taken_.take(site);
+  return free;
 }
 
 void Exclusion::occupy(const State& s) {
   if (!active()) return;
   const auto x = s.agents["x"], y = s.agents["y"];
-  for (std::size_t i = 0; i < x.size(); ++i) taken_[std::size_t(grid_.index(x[i], y[i]))] = kTaken;
+  for (std::size_t i = 0; i < x.size(); ++i) taken_.take(grid_.index(x[i], y[i]));
 }
 
 std::int32_t Exclusion::last_free(std::int32_t from, std::int32_t to) const {
@@ -74,35 +77,57 @@ std::int32_t Exclusion::last_free(std::int32_t from, std::int32_t to) const {
       cy += sy;
     }
     const std::int32_t cell = cy * grid_.columns + cx;
-    if (taken_[std::size_t(cell)] != kFree) break;
+    if (taken_.taken(cell)) break;
     best = cell;
   }
   return best;
 }
 
 void Exclusion::published(State& s, std::span<const float> to_x, std::span<const float> to_y) {
-  auto x = s.agents["x"], y = s.agents["y"];
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const std::int32_t home = grid_.index(x[i], y[i]), cell = grid_.index(to_x[i], to_y[i]);
-    const auto open = [&](std::int32_t c) { return c == home || taken_[std::size_t(c)] == kFree; };
-    const auto go = [&](std::int32_t c, float px, float py) {
-      taken_[std::size_t(home)] = kFree;
-      taken_[std::size_t(c)] = kTaken;
-      x[i] = px;
-      y[i] = py;
-    };
-    if (open(cell)) {
-      go(cell, to_x[i], to_y[i]);
-    } else if (p_.collision == Collision::last_free) {
-      if (const std::int32_t free = last_free(home, cell); free != home)
-        go(free, float(grid_.centre(free).x), float(grid_.centre(free).y));
-    } else if (p_.collision == Collision::axis_split) {
-      const std::int32_t along_x = grid_.index(to_x[i], y[i]), along_y = grid_.index(x[i], to_y[i]);
-      if (open(along_x))
-        go(along_x, to_x[i], y[i]);
-      else if (open(along_y))
-        go(along_y, x[i], to_y[i]);
+  const auto x = s.agents["x"], y = s.agents["y"];
+  std::array<std::int32_t, kSitesAtOnce> home, site;
+  for (std::size_t first = 0; first < x.size(); first += kSitesAtOnce) {
+    // An agent is at its present position until its turn, so all sites of a block can be found before.
+    const std::size_t n = std::min(kSitesAtOnce, x.size() - first);
+    find_sites(grid_, x.subspan(first, n), y.subspan(first, n), home.data());
+    find_sites(grid_, to_x.subspan(first, n), to_y.subspan(first, n), site.data());
+    if (p_.collision == Collision::stay) {
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = first + k;
+        const bool open = (home[k] == site[k]) | !taken_.taken(site[k]);
+        taken_.move(home[k], site[k], open);
+        x[i] = open ? to_x[i] : x[i];
+        y[i] = open ? to_y[i] : y[i];
+      }
+    } else {
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = first + k;
+        move_or_turn_aside(x[i], y[i], to_x[i], to_y[i], home[k], site[k]);
+      }
     }
+  }
+}
+
+// One agent of the published order with one of the assumed rules for collisions.
+void Exclusion::move_or_turn_aside(float& x, float& y, float to_x, float to_y, std::int32_t home,
+                                   std::int32_t site) {
+  const auto open = [&](std::int32_t c) { return c == home || !taken_.taken(c); };
+  const auto go = [&](std::int32_t c, float px, float py) {
+    taken_.move(home, c, true);
+    x = px;
+    y = py;
+  };
+  if (open(site)) {
+    go(site, to_x, to_y);
+  } else if (p_.collision == Collision::last_free) {
+    if (const std::int32_t free = last_free(home, site); free != home)
+      go(free, float(grid_.centre(free).x), float(grid_.centre(free).y));
+  } else {
+    const std::int32_t along_x = grid_.index(to_x, y), along_y = grid_.index(x, to_y);
+    if (open(along_x))
+      go(along_x, to_x, y);
+    else if (open(along_y))
+      go(along_y, x, to_y);
   }
 }
 

@@ -44,13 +44,14 @@ class Exclusion {
 
  private:
   void published(State& s, std::span<const float> to_x, std::span<const float> to_y);
+  void move_or_turn_aside(float& x, float& y, float to_x, float to_y, std::int32_t home, std::int32_t site);
   std::int32_t last_free(std::int32_t from, std::int32_t to) const;
 
   Params p_;
   Grid grid_;
   std::uint64_t seed_;
   TwoPhase two_phase_;
-  TwoPhase::Sites taken_;  ///< kFree or kTaken for every site
+  Sites taken_;  ///< by a cell, or outside of the edge
 };
 
 }  // namespace faba

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "core/random/splitmix64.h"
-#include "core/vectorised.h"
 
 namespace faba {
 namespace {
@@ -12,16 +11,19 @@ namespace {
 constexpr std::int32_t kGranted = -1;
 constexpr std::size_t kWishes = 4096;  // agents per block of sorted wishes
 constexpr int kSweeps = 8;             // of follow()
-// A stripe, one byte per site, fits into the L1 cache. Stripes are larger if their number would exceed
-// kMostStripes.
-constexpr unsigned kStripeShift = 15;
+// A stripe, three bits per site, fits into the L1 cache. Stripes are larger if their number would exceed
+// kMostStripes; they consist of whole words of Sites.
+constexpr unsigned kStripeShift = 14;
 constexpr std::size_t kMostStripes = 256;
 
-FABA_VECTORISED void find_cells(const Grid& g, const float* x, const float* y, std::size_t n,
-                                std::int32_t* __restrict cell) {
-  const Grid grid = g;
-  for (std::size_t i = 0; i < n; ++i) cell[i] = grid.index(x[i], y[i]);
-}
+// The wishes for the sites of a stripe.
+struct Wanted {
+  std::vector<std::uint64_t> once, more;  // wanted at least once, more than once
+  void clear(std::size_t words) {
+    once.assign(words, 0);
+    more.assign(words, 0);
+  }
+};
 
 }  // namespace
 
@@ -48,12 +50,9 @@ void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::
   };
   each(blocks_, [&](std::size_t b) { sort(x, y, to_x, to_y, b); });
   each(stripes_, [&](std::size_t k) { decide(k, taken, key); });
-  each(stripes_, [&](std::size_t k) {  // after decide(): occupied sites are closed to all wishes
-    for (std::size_t b = 0; b < blocks_; ++b) {
-      const Segment& s = segment(b, k);
-      for (std::uint32_t i = 0; i < s.granted; ++i) taken[std::size_t(left_[s.begin + i])] = kFree;
-    }
-  });
+  // After decide(): occupied sites are closed to all wishes. One thread: few agents leave their stripe.
+  for (const Segment& s : segment_)
+    for (std::uint32_t i = 0; i < s.left; ++i) taken.leave(left_[s.begin + i]);
   if (follows) follow(taken, key);
   each(blocks_, [&](std::size_t b) {
     for (std::size_t k = 0; k < stripes_; ++k) {
@@ -74,8 +73,8 @@ void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::spa
                     std::span<const float> to_y, std::size_t block) {
   const std::size_t first = block * kWishes, n = std::min(kWishes, x.size() - first);
   std::array<std::int32_t, kWishes> from, to;
-  find_cells(grid_, &x[first], &y[first], n, from.data());
-  find_cells(grid_, &to_x[first], &to_y[first], n, to.data());
+  find_sites(grid_, x.subspan(first, n), y.subspan(first, n), from.data());
+  find_sites(grid_, to_x.subspan(first, n), to_y.subspan(first, n), to.data());
   const auto stripe = [&from, &to, none = stripes_, shift = shift_](std::size_t i) {
     return from[i] == to[i] ? none : std::size_t(to[i]) >> shift;
   };
@@ -90,19 +89,24 @@ void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::spa
   for (std::size_t i = 0; i < n; ++i) wish[next[stripe(i)]++] = {std::uint32_t(first + i), from[i], to[i]};
 }
 
-// Counts the wishes per site; a single wish is granted, and only the others are compared. Loops over all
-// wishes have no branches, which would often be mispredicted.
+// Finds the sites that are wanted once and more than once; a single wish is granted, and only the others are
+// compared. Loops over all wishes have no branches, which would often be mispredicted.
 void TwoPhase::decide(std::size_t stripe, Sites& taken, std::uint64_t key) {
   const auto first = std::int32_t(stripe << shift_);
-  std::uint8_t* const cell = taken.data() + first;
   const Wish* const wish = wish_.data();
+  static thread_local Wanted wanted;
+  wanted.clear((std::size_t{1} << shift_) / 64);
+  std::uint64_t *const once = wanted.once.data(), *const more = wanted.more.data(),
+                       *const full = &taken.word(first);
   std::size_t wishes = 0;
   for (std::size_t b = 0; b < blocks_; ++b) {
     const Segment s = segment(b, stripe);
     wishes += s.end - s.begin;
     for (std::uint32_t i = s.begin; i < s.end; ++i) {
-      std::uint8_t& wanted = cell[wish[i].to - first];  // kFree, once, more than once, or kTaken
-      wanted = std::uint8_t(wanted + (wanted < 2));
+      const auto site = std::size_t(wish[i].to - first), w = site >> 6;
+      const std::uint64_t bit = std::uint64_t{1} << (site & 63), before = once[w];
+      more[w] |= before & bit;
+      once[w] = before | bit;
     }
   }
   static thread_local std::vector<std::uint32_t> contested, best;
@@ -117,23 +121,23 @@ void TwoPhase::decide(std::size_t stripe, Sites& taken, std::uint64_t key) {
     std::uint32_t granted = 0;
     for (std::uint32_t i = s.begin, end = s.end, k = 0; i < end;
          ++i, ++k) {  // written to both lists; only one index advances
-      std::uint8_t& wanted = cell[wish[i].to - first];
-      const bool alone = wanted == 1;
+      const auto site = std::size_t(wish[i].to - first), w = site >> 6;
+      const std::uint64_t alone = ~(full[w] | more[w]) >> (site & 63) & 1;
       left[granted] = wish[i].from;
       others[k - granted] = i;
-      granted += alone;
-      wanted = std::uint8_t(wanted | (0u - unsigned(alone)));  // 1 becomes kTaken
+      granted += std::uint32_t(alone);
+      full[w] |= alone << (site & 63);
     }
     std::uint32_t refused = 0;
     for (std::uint32_t k = 0; k < s.end - s.begin - granted; ++k) {
       const std::uint32_t i = others[k];
-      const bool closed = cell[wish[i].to - first] == kTaken;
+      const bool closed = taken.taken(wish[i].to);
       others[refused] = i;
       contest[contests] = i;
       refused += closed;
       contests += !closed;
     }
-    s.granted = granted;
+    s.left = granted;
     s.refused = refused;
   }
   const auto best_for = [&](std::uint32_t i) -> std::uint32_t& {
@@ -145,11 +149,29 @@ void TwoPhase::decide(std::size_t stripe, Sites& taken, std::uint64_t key) {
     if (rank(i) < rank(best_for(i))) best_for(i) = i;
   for (const std::uint32_t i : std::span(contest, contests)) {
     Segment& s = segment(wish[i].agent / kWishes, stripe);
-    cell[wish[i].to - first] = kTaken;
+    taken.take(wish[i].to);
     if (best_for(i) == i)
-      left_[s.begin + s.granted++] = wish[i].from;
+      left_[s.begin + s.left++] = wish[i].from;
     else
       refused_[s.begin + s.refused++] = i;
+  }
+  leave(stripe, taken);
+}
+
+// All wishes for this stripe are decided, so its sites can be left; those in other stripes stay in the list.
+void TwoPhase::leave(std::size_t stripe, Sites& taken) {
+  for (std::size_t b = 0; b < blocks_; ++b) {
+    Segment& s = segment(b, stripe);
+    std::int32_t* const left = &left_[s.begin];
+    std::uint32_t others = 0;
+    for (std::uint32_t i = 0; i < s.left; ++i) {
+      const std::int32_t site = left[i];
+      if (std::size_t(site) >> shift_ == stripe)
+        taken.leave(site);
+      else
+        left[others++] = site;
+    }
+    s.left = others;
   }
 }
 
@@ -165,12 +187,12 @@ void TwoPhase::follow(Sites& taken, std::uint64_t key) {
   for (int sweep = 1; sweep < kSweeps; ++sweep) {
     winners.clear();
     for (std::size_t i = 0; i < waiting.size(); ++i)
-      if ((i == 0 || waiting[i - 1]->to != waiting[i]->to) && taken[std::size_t(waiting[i]->to)] == kFree)
+      if ((i == 0 || waiting[i - 1]->to != waiting[i]->to) && !taken.taken(waiting[i]->to))
         winners.push_back(waiting[i]);
     if (winners.empty()) break;
-    for (const Wish* w : winners) taken[std::size_t(w->to)] = kTaken;
+    for (const Wish* w : winners) taken.take(w->to);
     for (Wish* w : winners) {
-      taken[std::size_t(w->from)] = kFree;
+      taken.leave(w->from);
       w->to = kGranted;
     }
     std::erase_if(waiting, [](const Wish* w) { return w->to == kGranted; });

@@ -5,26 +5,21 @@
 
 #include "core/threads/parallel.h"
 #include "sim/arena.h"
+#include "sim/sites.h"
 
 namespace faba {
-
-/// State of a site.
-enum Occupancy : std::uint8_t { kFree = 0, kTaken = 255 };
 
 /// Simultaneous exclusion (theory D4): all agents propose a move ("wish"), and each free site accepts the
 /// wish with the smallest hash(key, site, agent). Four passes, independent of order and number of threads:
 /// wishes are sorted by the stripe of the grid that contains their target; each stripe is decided by one
-/// thread, in its cache and without atomics; granted agents leave their sites; the proposals of the others
-/// are reset. 24 bytes per agent.
+/// thread, in its cache and without atomics, and granted agents leave their sites in it; granted agents leave
+/// their sites in other stripes; the proposals of the others are reset. 24 bytes per agent.
 class TwoPhase {
  public:
   explicit TwoPhase(const Grid& grid);
 
   /// Priority of a wish; the smallest value is granted.
   static std::uint64_t priority(std::uint64_t key, std::int32_t cell, std::uint32_t agent);
-
-  /// Occupancy of all sites, by index.
-  using Sites = std::vector<std::uint8_t>;
 
   /// Updates `taken` for granted moves from (x, y) to (to_x, to_y), and resets refused proposals to (x, y).
   /// With `follow`, refused agents try again after others have left their sites.
@@ -39,11 +34,12 @@ class TwoPhase {
   };
   /// The wishes of one block of agents for one stripe.
   struct Segment {
-    std::uint32_t begin = 0, end = 0, granted = 0, refused = 0;
+    std::uint32_t begin = 0, end = 0, left = 0, refused = 0;
   };
   void sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
             std::span<const float> to_y, std::size_t block);
   void decide(std::size_t stripe, Sites& taken, std::uint64_t key);
+  void leave(std::size_t stripe, Sites& taken);
   void follow(Sites& taken, std::uint64_t key);
 
   Segment& segment(std::size_t block, std::size_t stripe) { return segment_[block * stripes_ + stripe]; }
@@ -53,7 +49,7 @@ class TwoPhase {
   std::size_t stripes_ = 0, blocks_ = 0;
   std::vector<Wish> wish_;              ///< sorted by block of agents, then by stripe
   std::vector<Segment> segment_;        ///< segments of wish_, in the same order
-  std::vector<std::int32_t> left_;      ///< per segment: sites left by granted agents
+  std::vector<std::int32_t> left_;      ///< per segment: sites in other stripes that granted agents leave
   std::vector<std::uint32_t> refused_;  ///< per segment: refused wishes
 };
 

@@ -13,20 +13,21 @@ namespace {
 
 struct Crowd {
   std::vector<float> x, y, to_x, to_y;
-  TwoPhase::Sites taken;
+  Sites taken;
 };
 
 // One cell each on random sites, with proposals up to `reach` away.
 Crowd crowd(const Grid& g, std::size_t agents, float reach, std::uint64_t seed) {
   Crowd c;
-  c.taken.assign(std::size_t(g.columns) * std::size_t(g.rows), kFree);
+  c.taken = Sites(std::size_t(g.columns) * std::size_t(g.rows));
   const auto at = [&](std::uint32_t i, std::uint32_t attempt) {
     const auto w = draw(seed, Stream::start, i, attempt);
     return std::pair{uniform(w[0]) * float(g.columns), uniform(w[1]) * float(g.rows)};
   };
   for (std::uint32_t i = 0; c.x.size() < agents; ++i) {
     const auto [x, y] = at(i, 0);
-    if (std::exchange(c.taken[std::size_t(g.index(x, y))], kTaken) == kTaken) continue;
+    if (c.taken.taken(g.index(x, y))) continue;
+    c.taken.take(g.index(x, y));
     const auto w = draw(seed, Stream::motion, i, 0);
     c.x.push_back(x);
     c.y.push_back(y);
@@ -44,13 +45,13 @@ void reference_resolve(const Grid& g, Crowd& c, std::uint64_t key, bool follow) 
     std::map<std::int32_t, std::uint32_t> best;
     for (std::uint32_t i = 0; i < n; ++i) {
       const auto from = g.index(c.x[i], c.y[i]), to = g.index(c.to_x[i], c.to_y[i]);
-      if (settled[i] || from == to || c.taken[std::size_t(to)] == kTaken) continue;
+      if (settled[i] || from == to || c.taken.taken(to)) continue;
       const auto [it, first] = best.try_emplace(to, i);
       if (!first && TwoPhase::priority(key, to, i) < TwoPhase::priority(key, to, it->second)) it->second = i;
     }
-    for (const auto& [to, i] : best) c.taken[std::size_t(to)] = kTaken;
+    for (const auto& [to, i] : best) c.taken.take(to);
     for (const auto& [to, i] : best) {
-      c.taken[std::size_t(g.index(c.x[i], c.y[i]))] = kFree;
+      c.taken.leave(g.index(c.x[i], c.y[i]));
       settled[i] = true;
     }
   }
