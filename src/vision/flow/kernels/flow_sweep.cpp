@@ -91,11 +91,21 @@ FABA_WIDE(update_strip, (const Strip<double>& s), (s))
 
 template <class T>
 [[gnu::always_inline]] inline T largest(const T* a, const T* b, int n) {
-  T most = 0;
-  for (int x = 0; x < n; ++x) {
-    const T d = std::fabs(a[x] - b[x]);
-    most = d > most ? d : most;
+  // Compilers vectorise the maxima of separate lanes, but not one maximum, whose order they must keep.
+  constexpr int kLanes = 64;
+  T of_lane[kLanes] = {};
+  int x = 0;
+  for (; x + kLanes <= n; x += kLanes)
+    for (int k = 0; k < kLanes; ++k) {
+      const T d = std::fabs(a[x + k] - b[x + k]);
+      of_lane[k] = d > of_lane[k] ? d : of_lane[k];
+    }
+  for (int k = 0; x + k < n; ++k) {
+    const T d = std::fabs(a[x + k] - b[x + k]);
+    of_lane[k] = d > of_lane[k] ? d : of_lane[k];
   }
+  T most = 0;
+  for (const T m : of_lane) most = m > most ? m : most;
   return most;
 }
 FABA_VECTORISED float largest_change(const float* a, const float* b, int n) { return largest(a, b, n); }
