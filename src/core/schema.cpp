@@ -114,9 +114,10 @@ void check_number(double v, const FieldInfo& f, const Node& n) {
   const std::string range = f.max == kOpen    ? fmt::format("at least {}", limit(f.min))
                             : f.min == -kOpen ? fmt::format("at most {}", limit(f.max))
                                               : fmt::format("between {} and {}", limit(f.min), limit(f.max));
-  const std::string given = with_unit                           ? written
-                            : unit.empty() || unit == kPixel ? format_quantity(v, unit)
-                                                              : fmt::format("{} (without a unit: {})", v, unit);
+  const std::string given = with_unit ? written
+                            : unit.empty() || unit == kPixel
+                                ? format_quantity(v, unit)
+                                : fmt::format("{} (without a unit: {})", v, unit);
   const bool maybe_degrees = f.unit == "rad" && n.json->is_number();
   n.fail(fmt::format("{} is out of range; it must be {}{}", given, range,
                      maybe_degrees ? fmt::format("; for degrees write \"{:g} deg\"", v) : ""));

@@ -43,10 +43,11 @@ World::World(WorldParts parts, Pool& pool)
   const Grid g = parts_.arena->grid();
   const auto cells = std::size_t(g.columns) * std::size_t(g.rows);
   if (exclusion_.active() && n > cells)
-    throw Error(Errc::usage, "swarm",
-                fmt::format("{} cells do not fit into the arena, which has at most {} pixels, with one cell per "
-                            "pixel; use fewer cells, a larger arena, or exclusion.order = \"none\"",
-                            n, cells));
+    throw Error(
+        Errc::usage, "swarm",
+        fmt::format("{} cells do not fit into the arena, which has at most {} pixels, with one cell per "
+                    "pixel; use fewer cells, a larger arena, or exclusion.order = \"none\"",
+                    n, cells));
   state_.agents = Columns(n);
   for (const auto& p : parts_.populations)
     for (const auto& c : p.model->columns()) state_.agents.add(c.name);

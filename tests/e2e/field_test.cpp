@@ -75,8 +75,9 @@ TEST_CASE("field null: positions inside a coil and weak gradients give a note") 
         .get<std::string>();
   };
   CHECK(note("20 mm, 0 mm").find("inside the coil \"right\"") != std::string::npos);
-  CHECK(note("300 mm, 0 mm").find("too weak to gather cells. Cells with a moment of 1e-15 A m^2 need more than "
-                                  "4.1 uT to align with the field. The field") != std::string::npos);
+  CHECK(note("300 mm, 0 mm")
+            .find("too weak to gather cells. Cells with a moment of 1e-15 A m^2 need more than "
+                  "4.1 uT to align with the field. The field") != std::string::npos);
   CHECK(note("0 mm, 0 mm").empty());
 }
 

@@ -102,7 +102,8 @@ TEST_CASE("a study is resumed and not overwritten") {
 
 TEST_CASE("invalid studies: one line with place and reason, before anything is written") {
   refused("seeds = 3\n", "scene");
-  refused("scene = \"none.toml\"\n", "study.toml:1: scene: file not found: none.toml (relative to the study file)");
+  refused("scene = \"none.toml\"\n",
+          "study.toml:1: scene: file not found: none.toml (relative to the study file)");
   refused("scene = \"scene.toml\"\nsseds = 3\n", "did you mean \"seeds\"");
   refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzy\"\n", "did you mean \"fuzzy\"");
   refused("scene = \"scene.toml\"\n[[controller]]\nmax_output = 3\n", "type");

@@ -165,10 +165,9 @@ void note_weak_field(const Scenario& s, const Simulation& simulation, Notes& not
   }
   const MaxField field = max_field(s, simulation);
   if (field.tesla == 0) {
-    notes.push_back(
-        fmt::format("{}: no field of the coils acts on the cells in this run; {}",
-                    field.by_coils ? "field" : "controller: every command is zero",
-                    field.by_coils ? "increase max_current of the coils" : controller_advice(s)));
+    notes.push_back(fmt::format("{}: no field of the coils acts on the cells in this run; {}",
+                                field.by_coils ? "field" : "controller: every command is zero",
+                                field.by_coils ? "increase max_current of the coils" : controller_advice(s)));
     return;
   }
   for (std::size_t i = 0; i < s.swarms.size(); ++i) {

@@ -20,8 +20,8 @@ void summary(const ControllerComparison& r) {
     controller = std::max(controller, combination.controller.size());
     model = std::max(model, combination.model.size());
   }
-  fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>15}  {:>21}  {:>15}\n", "controller", controller, "model", model,
-             "delay, frames", "settled", "settling time s", "steady-state error px", "dispersion px");
+  fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>15}  {:>21}  {:>15}\n", "controller", controller, "model",
+             model, "delay, frames", "settled", "settling time s", "steady-state error px", "dispersion px");
   const auto mean_text = [](const Combination& combination, const char* name) {
     const auto it = combination.metrics.find(name);
     if (it == combination.metrics.end()) return std::string("-");

@@ -106,11 +106,12 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   a.timed = source.fps() > 0;
   if (a.signature.size() > 0) return;
   const double duration_s = a.timed ? double(source.pairs()) / source.fps() : 0;
-  throw Error(Errc::input, a.input.file.string(),
-              fmt::format("has fewer than two frames from {:g} s to {}{}; motion needs at least two; change the "
-                          "interval (--from, --to, or from and to in the study)",
-                          a.input.from_s, a.input.to_s ? fmt::format("{:g} s", *a.input.to_s) : "the end",
-                          duration_s > 0 ? fmt::format(" (its duration is {:.3g} s)", duration_s) : ""));
+  throw Error(
+      Errc::input, a.input.file.string(),
+      fmt::format("has fewer than two frames from {:g} s to {}{}; motion needs at least two; change the "
+                  "interval (--from, --to, or from and to in the study)",
+                  a.input.from_s, a.input.to_s ? fmt::format("{:g} s", *a.input.to_s) : "the end",
+                  duration_s > 0 ? fmt::format(" (its duration is {:.3g} s)", duration_s) : ""));
 }
 
 void note_motion(VideoActivity& a) {
@@ -226,7 +227,8 @@ ActivityResult measure_activity(const ActivityJob& job) {
     if (!quiet[i] && job.videos.size() == 1 && !r.videos.back().signature.still())
       r.videos.back().notes.push_back(fmt::format(
           "no part of the video is without motion: the mean flow speed in the quietest 10 % of the sampled "
-          "pairs of frames is at least half of that in the busiest ones (95 % quantile). The threshold of {:.3g} px per pair therefore contains motion of cells, and slower "
+          "pairs of frames is at least half of that in the busiest ones (95 % quantile). The threshold of "
+          "{:.3g} px per pair therefore contains motion of cells, and slower "
           "motion is not counted. Measure the threshold in a video of a dead sample with --noise, or set it "
           "with --flow-threshold",
           thresholds[i]));

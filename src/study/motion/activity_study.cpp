@@ -69,7 +69,8 @@ struct ActivityFile {
 std::filesystem::path existing_file(const Node& n, const std::string& key, const std::string& name) {
   std::error_code ec;
   if (std::filesystem::exists(n.file(name), ec)) return n.file(name);
-  throw Error(Errc::input, n.where(key), fmt::format("file not found: {} (relative to the study file)", name));
+  throw Error(Errc::input, n.where(key),
+              fmt::format("file not found: {} (relative to the study file)", name));
 }
 
 }  // namespace
@@ -103,8 +104,8 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
     if (to && *to <= from)
       throw Error(Errc::usage, n.where("to"),
                   fmt::format("{:g} s is not later than from = {:g} s", *to, from));
-    job.videos.push_back(
-        {existing_file(n, "file", v.file), v.exposure, v.experiment, v.direction ? v.direction : study.direction, from, to});
+    job.videos.push_back({existing_file(n, "file", v.file), v.exposure, v.experiment,
+                          v.direction ? v.direction : study.direction, from, to});
   }
 }
 

@@ -186,10 +186,11 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
         o.interval_frames, counted(std::uint64_t(survey.frames), "frame")));
   if (survey.frames > 1 && m.summary.tracks == 0)
     m.notes.push_back(m.joining.discarded_tracks == 0
-                          ? (o.threshold_sd > 0 ? fmt::format("no tracks were found with a threshold of {:g}; "
-                                                              "reduce --threshold",
-                                                              o.threshold_sd)
-                                                : std::string("no tracks were found"))
+                          ? (o.threshold_sd > 0
+                                 ? fmt::format("no tracks were found with a threshold of {:g}; "
+                                               "reduce --threshold",
+                                               o.threshold_sd)
+                                 : std::string("no tracks were found"))
                           : fmt::format("no track has {} (the video has {}); reduce --least",
                                         counted(std::uint64_t(o.tracker.min_points), "detection"),
                                         counted(std::uint64_t(survey.frames), "frame")));

@@ -82,7 +82,8 @@ TEST_CASE("the bound of a weak field is 1 % of alignment") {
   CHECK(notes_of(scene(dipole, manual("82.4 nT"))).empty());
   // Without rotational diffusion, the run of 20 s must be long enough for the turn: w_B t / 2 = 1 %.
   const std::string drag = "model = { type = 'dipole', rotational_diffusion = 0 }";
-  check_note(scene(drag, manual("1 pT")), {"stays below 1 % until the end of the run; increase controller.field or controller.current"});
+  check_note(scene(drag, manual("1 pT")),
+             {"stays below 1 % until the end of the run; increase controller.field or controller.current"});
   CHECK(notes_of(scene(drag, manual("20 nT"))).empty());
   // 300 iterations of one field unit each: 23 uT / 300 moves the cells by one pixel.
   check_note(scene("model = 'basic'", manual("76 nT")), {"need at least 0.0767 uT", "one pixel"});
@@ -102,7 +103,8 @@ TEST_CASE("coils and outputs that are too weak to move the cells are noted") {
       {"field: the largest field is", "max_current of the coils"});
   check_note(scene("", "[controller]\ntype = 'fuzzy'\nmax_output = 1e-4\n"),
              {"controller: the largest field is 0.0023 uT", "increase controller.max_output"});
-  check_note(scene("", "[controller]\ntype = 'proportional'\nmax_output = 1e-4\n"), {"largest field is 0.0023 uT"});
+  check_note(scene("", "[controller]\ntype = 'proportional'\nmax_output = 1e-4\n"),
+             {"largest field is 0.0023 uT"});
   CHECK(notes_of(scene("", "")).empty());
 }
 
