@@ -45,6 +45,8 @@ TEST_CASE("the help states defaults and ranges in words") {
       {"field null", "default: north"},
       {"flow", "(horn_schunck, default: multigrid)"},
       {"flow", "other options override it"},
+      {"flow", "(horn_schunck, default: 0.001 px)"},
+      {"flow", "(farneback, default: 15 px)"},
       {"rig capture", "--frames INT, at least 1"},
       {"activity", "(horn_schunck, default: jacobi)"},
       {"compare", "(horn_schunck, default: jacobi)"},

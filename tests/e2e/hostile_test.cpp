@@ -125,6 +125,13 @@ TEST_CASE("errors of the command line name the option or argument, with advice")
       {"activity s.toml", "is a scenario; run it with `faba run`"},
       {"compare-controllers s.toml", "is a scenario; run it with `faba run`"},
       {"identify s.toml --shard 5/3", "--shard: \"5/3\" is out of range"},
+      {"schema scenari", "kind: \"scenari\" is not one of scenario, rig"},
+      {"field at s.toml", "--points FILE.csv"},
+      {"rig simulate s.toml", "--at SOCKET"},
+      {"compare a b --no-align --t0 1", "--t0 and --no-align cannot be combined; give only one of them"},
+      {"run s.toml --set duration=-1",
+       "duration: -1 (without a unit: s) is out of range; it must be between 0 s"},
+      {"run s.toml --set duration='-1 ms'", "duration: -1 ms is out of range; it must be between 0 ms"},
       {"run s.toml --threads 2000", "--threads: expected an integer between 1 and 1024, got \"2000\""},
       {"run s.toml --threads x", "--threads: expected an integer between 1 and 1024, got \"x\""}};
   for (const auto& [arguments, message] : cases) {

@@ -168,7 +168,11 @@ TEST_CASE("invalid numbers, outputs and times are refused before any measurement
   refused(f, "activity film --noise film", 2, "--noise: film is the measured video itself");
   refused(f, "activity film --report none/r.html", 2, "folder none not found");
   refused(f, "track film --fps 15 --out a.csv --swarm a.csv", 2, "two outputs");
-  refused(f, "activity film --from 100", 3, "has fewer than two frames from 100 s to the end");
+  refused(
+      f, "activity film --from 100", 3,
+      "has fewer than two frames from frame 100 to the end; the video ends at frame 29; change the interval");
+  refused(f, "activity film --fps 10 --from 5 --to 6", 3,
+          "has fewer than two frames from 5 s to 6 s; the video ends at 2.9 s; change the interval");
   CHECK_FALSE(std::filesystem::exists(f.path / "a.csv"));
 }
 

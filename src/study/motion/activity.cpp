@@ -105,13 +105,15 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   a.notes = source.notes();
   a.timed = source.fps() > 0;
   if (a.signature.size() > 0) return;
-  const double duration_s = a.timed ? double(source.pairs()) / source.fps() : 0;
-  throw Error(
-      Errc::input, a.input.file.string(),
-      fmt::format("has fewer than two frames from {:g} s to {}{}; motion needs at least two; change the "
-                  "interval (--from, --to, or from and to in the study)",
-                  a.input.from_s, a.input.to_s ? fmt::format("{:g} s", *a.input.to_s) : "the end",
-                  duration_s > 0 ? fmt::format(" (its duration is {:.3g} s)", duration_s) : ""));
+  const auto place = [&](double t) {
+    return a.timed ? fmt::format("{:g} s", t) : fmt::format("frame {:g}", t);
+  };
+  const double last = a.timed ? double(source.pairs()) / source.fps() : double(source.pairs());
+  throw Error(Errc::input, a.input.file.string(),
+              fmt::format("has fewer than two frames from {} to {}{}; change the interval (--from, --to, or "
+                          "from and to in the study)",
+                          place(a.input.from_s), a.input.to_s ? place(*a.input.to_s) : "the end",
+                          last > 0 ? fmt::format("; the video ends at {}", place(last)) : ""));
 }
 
 void note_motion(VideoActivity& a) {

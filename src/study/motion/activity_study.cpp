@@ -9,6 +9,7 @@
 #include "app/scenario/parts.h"
 #include "core/error.h"
 #include "core/toml.h"
+#include "vision/files/picture_sequence.h"
 
 namespace faba {
 namespace {
@@ -68,7 +69,8 @@ struct ActivityFile {
 
 std::filesystem::path existing_file(const Node& n, const std::string& key, const std::string& name) {
   std::error_code ec;
-  if (std::filesystem::exists(n.file(name), ec)) return n.file(name);
+  if (const auto file = n.file(name); std::filesystem::exists(file, ec) || is_picture_sequence(file))
+    return file;
   throw Error(Errc::input, n.where(key),
               fmt::format("file not found: {} (relative to the study file)", name));
 }
