@@ -32,6 +32,8 @@ TEST_CASE("scale with a table: text and JSON output, and a calibration file that
   const Called c = faba_in(f.path, "scale ruler.csv --out calibration.toml");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   CHECK(c.out.find("regression") != std::string::npos);
+  CHECK(c.out.find("\nmean ratio   ") != std::string::npos);
+  CHECK(c.out.find("reading = ") < c.out.find(" px (95 % interval "));
   CHECK(c.out.find("calibration.toml") != std::string::npos);
   const Called again = faba_in(f.path, "scale ruler.csv --json --out calibration.toml");
   CHECK(again.exit == 2);

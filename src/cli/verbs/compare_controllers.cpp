@@ -20,7 +20,7 @@ void summary(const ControllerComparison& r) {
     controller = std::max(controller, combination.controller.size());
     model = std::max(model, combination.model.size());
   }
-  fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>15}  {:>21}  {:>15}\n", "controller", controller, "model",
+  fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>17}  {:>21}  {:>17}\n", "controller", controller, "model",
              model, "delay, frames", "settled", "settling time s", "steady-state error px", "dispersion px");
   const auto mean_text = [](const Combination& combination, const char* name) {
     const auto it = combination.metrics.find(name);
@@ -30,7 +30,7 @@ void summary(const ControllerComparison& r) {
                                      : fmt::format("{:.3g} (one trial)", it->second.mean);
   };
   for (const Combination& combination : r.combinations)
-    fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>15}  {:>21}  {:>15}\n", combination.controller, controller,
+    fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>17}  {:>21}  {:>17}\n", combination.controller, controller,
                combination.model, model, combination.delay,
                fmt::format("{}/{}", combination.settled, combination.trials),
                mean_text(combination, "settling_time_s"), mean_text(combination, "steady_rms_px"),
