@@ -81,6 +81,8 @@ std::string usage_message(const CLI::App& app, const std::string& command, const
   if (const auto p = word_before(reason, " is required"); p && p->second.empty())
     return fmt::format("{}: {} is missing; usage: {}", p->first,
                        p->first.front() == '-' ? "option" : "argument", usage_of(*chain.back(), command));
+  if (const auto p = word_before(reason, " excludes "))
+    return fmt::format("{} and {} cannot be combined; give only one of them", p->first, p->second);
   if (reason.starts_with(conversion)) {
     if (const auto p = word_before(reason.substr(conversion.size()), " = "))
       return fmt::format("{}: expected a number, got \"{}\"", p->first, p->second);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -83,17 +84,40 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 
 namespace schema_detail {
 
+namespace {
+
+constexpr const char* kPixel = "px";  // numbers of pixels are written without a unit
+
+// The unit of a quantity as written: "um/s" of "-3 um/s".
+std::string unit_text(std::string_view quantity) {
+  const std::size_t sign = quantity.find_first_not_of(" \t+");
+  quantity.remove_prefix(std::min(sign, quantity.size()));
+  double number = 0;
+  const auto [end, error] = std::from_chars(quantity.data(), quantity.data() + quantity.size(), number);
+  const std::string_view rest = quantity.substr(std::size_t(end - quantity.data()));
+  return std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())));
+}
+
+}  // namespace
+
 void check_number(double v, const FieldInfo& f, const Node& n) {
   if (!std::isfinite(v)) n.fail(fmt::format("must be a finite number, got {}", v));
   if (v >= f.min && v <= f.max) return;
-  const std::string range =
-      f.max == kOpen ? fmt::format("at least {}", format_quantity(f.min, f.unit))
-      : f.min == -kOpen
-          ? fmt::format("at most {}", format_quantity(f.max, f.unit))
-          : fmt::format("between {} and {}", format_quantity(f.min, f.unit), format_quantity(f.max, f.unit));
   // As in the file if it has a unit there: "-3 um/s", not "-3e-06 m/s".
   const bool with_unit = n.json->is_string() && !parse_quantity(n.json->get<std::string>()).bare;
-  const std::string given = with_unit ? n.json->get<std::string>() : format_quantity(v, f.unit);
+  const std::string written = with_unit ? n.json->get<std::string>() : "";
+  const std::string unit = with_unit ? unit_text(written) : f.unit;
+  const double si = with_unit ? parse_unit(unit).value : 1;
+  const auto limit = [&](double in_si) {  // ten digits: without the rounding errors of the conversion
+    return with_unit ? fmt::format("{:.10g} {}", in_si / si, unit) : format_quantity(in_si, unit);
+  };
+  const std::string range = f.max == kOpen    ? fmt::format("at least {}", limit(f.min))
+                            : f.min == -kOpen ? fmt::format("at most {}", limit(f.max))
+                                              : fmt::format("between {} and {}", limit(f.min), limit(f.max));
+  const std::string given = with_unit ? written
+                            : unit.empty() || unit == kPixel
+                                ? format_quantity(v, unit)
+                                : fmt::format("{} (without a unit: {})", v, unit);
   const bool maybe_degrees = f.unit == "rad" && n.json->is_number();
   n.fail(fmt::format("{} is out of range; it must be {}{}", given, range,
                      maybe_degrees ? fmt::format("; for degrees write \"{:g} deg\"", v) : ""));

@@ -43,9 +43,15 @@ std::string missing_end(std::string_view reason, std::string_view line) {
 
 // Advice for frequent errors; empty for others.
 std::string advice_on(std::string_view reason) {
+  static constexpr const char* kTomlLine =
+      "check that this is a TOML file: its lines are KEY = VALUE, [table] or # comment";
   static constexpr const char* kQuotes = "text and quantities with a unit need quotes, such as \"60 Hz\"";
   static constexpr std::pair<std::string_view, std::string_view> kAdvice[] = {
       {"whitespace, saw ','", "write decimals with a point (5.5) and lists in [ ]"},
+      {"expected value, saw '\\n'", "write a value after ="},
+      {"expected value, saw '\\r'", "write a value after ="},
+      {"expected '=', saw", kTomlLine},
+      {"expected keys, tables", kTomlLine},
       {"could not determine value type", kQuotes},
       {"expected a comment or whitespace", kQuotes},
       {"cannot redefine existing", "remove one of the two"},

@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::size_t kMostHeader = 16u << 10;
 constexpr auto kRequestTimeout = std::chrono::seconds(30);  // timeout of a request and of a response
-constexpr std::uint64_t kMostOfRange = 8u << 20;      // maximum size of a range response
+constexpr std::uint64_t kMostOfRange = 8u << 20;            // maximum size of a range response
 
 // Only scripts and resources of this server.
 constexpr const char* kPolicy =

@@ -43,10 +43,11 @@ World::World(WorldParts parts, Pool& pool)
   const Grid g = parts_.arena->grid();
   const auto cells = std::size_t(g.columns) * std::size_t(g.rows);
   if (exclusion_.active() && n > cells)
-    throw Error(Errc::usage, "swarm",
-                fmt::format("{} cells do not fit into {} sites; use fewer cells, a larger arena, or "
-                            "exclusion.order = \"none\"",
-                            n, cells));
+    throw Error(
+        Errc::usage, "swarm",
+        fmt::format("{} cells do not fit into the arena, which has at most {} pixels, with one cell per "
+                    "pixel; use fewer cells, a larger arena, or exclusion.order = \"none\"",
+                    n, cells));
   state_.agents = Columns(n);
   for (const auto& p : parts_.populations)
     for (const auto& c : p.model->columns()) state_.agents.add(c.name);
@@ -77,8 +78,9 @@ void World::place_all() {
         if (attempt == kAttempts)
           throw Error(
               Errc::usage, fmt::format("swarm[{}].start", k),
-              within ? fmt::format("no free site found for cell {} of {}: the region is too small; use fewer "
-                                   "cells, a larger region, or exclusion.order = \"none\"",
+              within ? fmt::format("no free pixel found for cell {} of {}: the region is too small for one "
+                                   "cell per pixel; use fewer cells, a larger region, or exclusion.order = "
+                                   "\"none\"",
                                    i - p.begin + 1, p.end - p.begin)
                      : outside_message(*parts_.arena, outside));
         const auto w = draw(parts_.seed, kPositionDraws, id, attempt);

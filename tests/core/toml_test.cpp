@@ -51,6 +51,11 @@ TEST_CASE("frequent errors of the parser have advice") {
   CHECK(refusal("a = { b = 3,\n c = 4 }\n") ==
         "t.toml:1: a closing } is missing, or the table is longer than one line");
   CHECK(refusal("a =\n").find("Error while parsing") == std::string::npos);
+  CHECK(refusal("a = \n") == "t.toml:1: expected value, saw '\\n'; write a value after =");
+  CHECK(refusal("x_m,y_m\n1,2\n") ==
+        "t.toml:1: expected '=', saw ','; check that this is a TOML file: its lines are KEY = VALUE, [table] "
+        "or # comment");
+  CHECK(refusal("{\"a\": 1}\n").find("check that this is a TOML file") != std::string::npos);
   CHECK(refusal("a = 'caf\xE9'\n").ends_with("; the file is not UTF-8; save it as UTF-8"));
 }
 

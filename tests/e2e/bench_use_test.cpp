@@ -270,12 +270,14 @@ TEST_CASE("rig jog with keys from a pipe: a key sets the current, and no current
   OnBench b("", kPatient);
   const Called c = faba_in(b.f.path, "rig jog scene.toml --step '0.1 A'", "printf 'a+++2-q' | ");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.out.find(" select coils 0 to ") != std::string::npos);
   CHECK(c.out.find("coil 0: +0.300 A") != std::string::npos);
   CHECK(c.out.find("coil 1: -0.100 A") != std::string::npos);
   double most = 0;
   for (const Flowing& one : b.log()) most = std::max(most, one.most);
   CHECK(most == doctest::Approx(0.3).epsilon(0.01));
   CHECK_FALSE(b.flows());
+  CHECK(faba_in(b.f.path, "rig check scene.toml").out.find("; the last frame arrived ") != std::string::npos);
   const Called check = faba_in(b.f.path, "rig check scene.toml --json");
   REQUIRE_MESSAGE(check.exit == 0, check.err);
   CHECK(check.json()["guard"] == "disarmed");

@@ -24,6 +24,7 @@ TEST_CASE("help, version, parts, schema and doctor answer with exit 0") {
   CHECK(faba_in(f.path, "parts --json").json()["model"].contains("dipole"));
   CHECK(faba_in(f.path, "parts model dipole --json").json()["properties"]["speed"]["x-unit"] == "m/s");
   CHECK(faba_in(f.path, "schema").json()["properties"]["swarm"]["type"] == "array");
+  CHECK(faba_in(f.path, "rig list").out.find("driver \"simulated\" and \"none\"") != std::string::npos);
   CHECK(faba_in(f.path, "doctor --json").json().contains("threads"));
   CHECK(faba_in(f.path, "doctor").out.find("free disk space ") != std::string::npos);
   CHECK(faba_in(f.path, "lab --www nope").err.find("--www: folder nope not found") != std::string::npos);
@@ -45,6 +46,8 @@ TEST_CASE("the help states defaults and ranges in words") {
       {"field null", "default: north"},
       {"flow", "(horn_schunck, default: multigrid)"},
       {"flow", "other options override it"},
+      {"flow", "(horn_schunck, default: 0.001 px)"},
+      {"flow", "(farneback, default: 15 px)"},
       {"rig capture", "--frames INT, at least 1"},
       {"activity", "(horn_schunck, default: jacobi)"},
       {"compare", "(horn_schunck, default: jacobi)"},

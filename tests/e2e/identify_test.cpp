@@ -210,8 +210,9 @@ TEST_CASE("invalid studies and videos: one line, before any simulation") {
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[4].model.max_speed\"]\n", 2,
           "no such value");
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].polarity\"]\n", 2, "not a number");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2] }\n", 2,
-          "[lowest, highest]");
+  refused(
+      f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2] }\n", 2,
+      "model[0].free.swarm[0].model.max_speed: must be [lowest, highest] with lowest < highest, not 5 to 2");
   refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2000] }\n", 2,
           "must be a range");
   refused(f,
@@ -221,6 +222,10 @@ TEST_CASE("invalid studies and videos: one line, before any simulation") {
   refused(f, kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "out of range");
   refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");
   refused(f, kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
+  std::filesystem::copy_file(f.path / "film/video.avi",
+                             f.path / "plain.avi");  // without the scale of the run
+  refused(f, kHead + "[[video]]\nfile = \"plain.avi\"\n" + kBasic, 3,
+          "video[1]: picture scale of plain.avi unknown; set um_per_px of this [[video]], or scale = ");
   refused(f, kHead + "[[video]]\nfile = \"./film\"\n" + kBasic, 2, "duplicate video");
   refused(f,
           kHead +

@@ -32,6 +32,8 @@ TEST_CASE("scale with a table: text and JSON output, and a calibration file that
   const Called c = faba_in(f.path, "scale ruler.csv --out calibration.toml");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   CHECK(c.out.find("regression") != std::string::npos);
+  CHECK(c.out.find("\nmean ratio   ") != std::string::npos);
+  CHECK(c.out.find("reading = ") < c.out.find(" px (95 % interval "));
   CHECK(c.out.find("calibration.toml") != std::string::npos);
   const Called again = faba_in(f.path, "scale ruler.csv --json --out calibration.toml");
   CHECK(again.exit == 2);
@@ -95,6 +97,10 @@ TEST_CASE("scale with invalid input: one clear line and the documented exit code
         "good.csv --overlay o.png", "good.csv --out calibration.json", ""})
     check(usage, 2);
   CHECK_FALSE(std::filesystem::exists(f.path / "c.toml"));
+  // The file is checked before the missing option.
+  CHECK(faba_in(f.path, "scale text.png").err.find("a table of readings needs the extension .csv") !=
+        std::string::npos);
+  CHECK(faba_in(f.path, "scale absent.png").err.find("absent.png: file not found") != std::string::npos);
   CHECK(
       faba_in(f.path, "scale ruler.png --tick 10").err.find("\"10\" has no unit; write it like \"10 um\"") !=
       std::string::npos);

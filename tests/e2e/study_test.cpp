@@ -69,7 +69,9 @@ TEST_CASE("a study of controllers: all combinations, with the same results as si
 TEST_CASE("four merged shards and one process give identical files") {
   const TestFolder f;
   write_study(f);
-  REQUIRE(faba_in(f.path, "compare-controllers study.toml --out single --threads 2").exit == 0);
+  const Called single = faba_in(f.path, "compare-controllers study.toml --out single --threads 2");
+  REQUIRE(single.exit == 0);
+  CHECK(single.out.starts_with("controller    model  delay, frames   settled    settling time s  "));
   std::string parts;
   for (const char* k : {"1", "2", "3", "4"}) {
     const Called c = faba_in(
@@ -102,7 +104,8 @@ TEST_CASE("a study is resumed and not overwritten") {
 
 TEST_CASE("invalid studies: one line with place and reason, before anything is written") {
   refused("seeds = 3\n", "scene");
-  refused("scene = \"none.toml\"\n", "none.toml");
+  refused("scene = \"none.toml\"\n",
+          "study.toml:1: scene: file not found: none.toml (relative to the study file)");
   refused("scene = \"scene.toml\"\nsseds = 3\n", "did you mean \"seeds\"");
   refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzy\"\n", "did you mean \"fuzzy\"");
   refused("scene = \"scene.toml\"\n[[controller]]\nmax_output = 3\n", "type");

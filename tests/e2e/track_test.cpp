@@ -53,6 +53,10 @@ TEST_CASE("track: text and JSON output, files, and refused input") {
   }
   CHECK(faba_in(folder.path(), "track film --fps 15 --out t.csv --force --quiet").exit == 0);
 
+  const Called none = faba_in(folder.path(), "track film --fps 15 --threshold 1000000");
+  CHECK(none.err.find("no tracks were found with a threshold of 1e+06; reduce --threshold") !=
+        std::string::npos);
+
   const Called least = faba_in(folder.path(), "track film --fps 15 --least 99999");
   CHECK(least.err.find("no track has 99999 detections (the video has 12 frames); reduce --least") !=
         std::string::npos);

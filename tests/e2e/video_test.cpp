@@ -163,11 +163,16 @@ TEST_CASE("invalid numbers, outputs and times are refused before any measurement
   refused(f, "activity film --fps nan", 2, "--fps");
   refused(f, "compare film film --t0 nan", 2, "--t0");
   refused(f, "compare film film --t0 0.1 --no-align", 2, "--no-align");
-  refused(f, "activity film --noise film --flow-threshold 0.1", 2, "--noise");
+  refused(f, "activity film --noise film --flow-threshold 0.1", 2,
+          "--flow-threshold and --noise cannot be combined; give only one of them");
   refused(f, "activity film --noise film", 2, "--noise: film is the measured video itself");
   refused(f, "activity film --report none/r.html", 2, "folder none not found");
   refused(f, "track film --fps 15 --out a.csv --swarm a.csv", 2, "two outputs");
-  refused(f, "activity film --from 100", 3, "fewer than two frames in the requested interval");
+  refused(
+      f, "activity film --from 100", 3,
+      "has fewer than two frames from frame 100 to the end; the video ends at frame 29; change the interval");
+  refused(f, "activity film --fps 10 --from 5 --to 6", 3,
+          "has fewer than two frames from 5 s to 6 s; the video ends at 2.9 s; change the interval");
   CHECK_FALSE(std::filesystem::exists(f.path / "a.csv"));
 }
 
@@ -299,11 +304,14 @@ TEST_CASE("a part of a video: the same flows as in the whole video, without read
 TEST_CASE("study files and distances: errors name the file, the key or the line") {
   const TestFolder f;
   write_file(f.path / "none.toml", "direction = 0\n");
-  refused(f, "activity none.toml", 2, "[[video]]");
+  refused(f, "activity none.toml", 2, "[[video]] is missing; give one for each video");
   write_file(f.path / "typo.toml", "[[video]]\nfile = 'a.avi'\nexposur = '100 s'\n");
   refused(f, "activity typo.toml", 2, "exposure");
   write_file(f.path / "gone.toml", "[[video]]\nfile = 'a.avi'\nexposure = '100 s'\n");
-  refused(f, "activity gone.toml", 3, "file not found");
+  refused(f, "activity gone.toml", 3,
+          "gone.toml:2: video[0].file: file not found: a.avi (relative to the study file)");
+  write_file(f.path / "noise.toml", "noise = 'n.avi'\n[[video]]\nfile = 'noise.toml'\n");
+  refused(f, "activity noise.toml", 3, "noise.toml:1: noise: file not found: n.avi");
 
   write_file(f.path / "p", "1\n0\n2\n3\n0\n0\n");
   write_file(f.path / "q", "0\n1\n2\n5\n0\n0\n");

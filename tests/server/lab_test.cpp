@@ -356,5 +356,5 @@ TEST_CASE("a port in use and an invalid scene are errors before the server start
   write_file(lab.folder() / "full.toml",
              "[arena]\ntype = 'box'\nsize_px = [40, 25]\n[[swarm]]\ncount = 100000\n");
   o.scene = lab.folder() / "full.toml";
-  CHECK_THROWS_WITH_AS(serve_lab(o), doctest::Contains("do not fit into 1000 sites"), const Error&);
+  CHECK_THROWS_WITH_AS(serve_lab(o), doctest::Contains("at most 1000 pixels"), const Error&);
 }

@@ -122,8 +122,10 @@ TEST_CASE("published: a site left in this iteration is free for later agents") {
 TEST_CASE("a swarm that does not fit is refused before the start") {
   CHECK_THROWS_WITH_AS(
       TestSwarm("arena = { type = 'box', size_px = [40, 25] }\n[[swarm]]\ncount = 1000000\n"),
-      "swarm: 1000000 cells do not fit into 1000 sites; use fewer cells, a larger arena, or "
-      "exclusion.order = \"none\"",
+      "swarm: 1000000 cells do not fit into the arena, which has at most 1000 pixels, with one cell per "
+      "pixel; "
+      "use fewer cells, a larger arena, or exclusion.order = \"none\"",
       Error);
-  CHECK_THROWS_AS(TestSwarm("[[swarm]]\ncount = 1000\nstart = { type = 'disc', radius_px = 3 }\n"), Error);
+  CHECK_THROWS_WITH_AS(TestSwarm("[[swarm]]\ncount = 1000\nstart = { type = 'disc', radius_px = 3 }\n"),
+                       doctest::Contains("the region is too small for one cell per pixel"), Error);
 }

@@ -139,6 +139,18 @@ MaxField max_field(const Scenario& s, const Simulation& simulation) {
   return {std::min(coils, commanded), coils < commanded};
 }
 
+// Names the parameters with which the field of the controller increases, of those that it has.
+std::string controller_advice(const Scenario& s) {
+  const Json& all = s.controller.resolved;
+  if (all.contains("set") && !all["set"].empty()) return "increase the outputs in controller.set";
+  std::string keys;
+  for (const char* key : {"gain", "max_output", "field", "current"}) {
+    if (!all.contains(key) || (std::string(key) == "gain" && all[key] != 0)) continue;
+    keys += (keys.empty() ? "" : " or ") + fmt::format("controller.{}", key);
+  }
+  return "increase " + (keys.empty() ? "the field of the controller" : keys);
+}
+
 // Fields that do not move the cells.
 void note_weak_field(const Scenario& s, const Simulation& simulation, Notes& notes) {
   if (s.limits.max_current == 0 || s.frames() < 2) return;  // these have their own note
@@ -153,10 +165,9 @@ void note_weak_field(const Scenario& s, const Simulation& simulation, Notes& not
   }
   const MaxField field = max_field(s, simulation);
   if (field.tesla == 0) {
-    notes.push_back(
-        fmt::format("{}: no field of the coils acts on the cells in this run; {}",
-                    field.by_coils ? "field" : "controller: every command is zero",
-                    field.by_coils ? "increase max_current of the coils" : "increase its field or output"));
+    notes.push_back(fmt::format("{}: no field of the coils acts on the cells in this run; {}",
+                                field.by_coils ? "field" : "controller: every command is zero",
+                                field.by_coils ? "increase max_current of the coils" : controller_advice(s)));
     return;
   }
   for (std::size_t i = 0; i < s.swarms.size(); ++i) {
@@ -165,10 +176,9 @@ void note_weak_field(const Scenario& s, const Simulation& simulation, Notes& not
         simulation.world().parts().populations[i].model->weakest_field(s.params.duration);
     if (!(field.tesla < least.tesla) || !std::isfinite(least.tesla)) continue;
     notes.push_back(fmt::format(
-        "{}: the field is at most {:.3g} uT, but the cells of swarm[{}] need at least {:.3g} uT: {}; "
-        "increase {}",
+        "{}: the largest field is {:.3g} uT, but the cells of swarm[{}] need at least {:.3g} uT: {}; {}",
         field.by_coils ? "field" : "controller", field.tesla * 1e6, i, least.tesla * 1e6, least.reason,
-        field.by_coils ? "limits.max_current and max_current of the coils" : "its field or output"));
+        field.by_coils ? "increase limits.max_current and max_current of the coils" : controller_advice(s)));
   }
 }
 

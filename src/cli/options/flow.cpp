@@ -37,6 +37,10 @@ std::string type_of(const Json& property) {
   return property["type"] == "number" ? "FLOAT" : "TEXT";
 }
 
+std::string unit_suffix(const Json& property) {
+  return property.contains("x-unit") ? " " + property["x-unit"].get<std::string>() : "";
+}
+
 }  // namespace
 
 void add_flow_options(CLI::App* v, FlowOptions& o, const FlowChoice& defaults) {
@@ -66,7 +70,7 @@ void add_flow_options(CLI::App* v, FlowOptions& o, const FlowChoice& defaults) {
                                          : property["description"].get<std::string>();
       help += " (" + name;
       if (const std::string value = default_of(schema, name, key, defaults); !value.empty())
-        help += ", default: " + value;
+        help += fmt::format(", default: {}{}", value, unit_suffix(property));
       const std::string option = "--" + key;
       if (v->get_option_no_throw(option)) continue;
       CLI::Option* added = nullptr;

@@ -79,14 +79,15 @@ void print_video(const VideoActivity& a) {
   if (const auto per_cell = activity_per_cell(a)) {
     const std::string cells = *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
                                                       : fmt::format("{:.0f}", *a.visible_cells);
-    fmt::print("  {:.3g} per visible cell ({} {})\n", *per_cell, cells, cells == "1" ? "cell" : "cells");
+    fmt::print("  activity per visible cell {:.3g} px^3 ({} {})\n", *per_cell, cells,
+               cells == "1" ? "cell" : "cells");
   }
   if (a.fit.good)
     fmt::print("  {}maximum {}, width {:.3g} {}\n",
                a.onset_s ? fmt::format("onset {}, ", time_text(a, *a.onset_s, *a.se_onset_s)) : "",
                time_text(a, a.fit.peak_s, a.fit.se_peak_s), a.fit.sigma_s, a.timed ? "s" : "frames");
   else
-    fmt::print("  the Gaussian fit failed: {}; no onset and no maximum\n", a.fit.reason);
+    fmt::print("  no Gaussian fit: {}; onset and time of the maximum are unknown\n", a.fit.reason);
   for (const MotionSegment& s : a.segments)
     fmt::print("  {}{:7.2f} to {:7.2f}{}  direction {:3} degrees\n", a.timed ? "" : "frame ", s.t0_s, s.t1_s,
                a.timed ? " s" : "", rounded_degrees(s.direction_deg));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "cli/command_line.h"
@@ -14,8 +15,13 @@ namespace faba::cli {
 namespace {
 
 void summary(const ControllerComparison& r) {
-  fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", "controller", "model", "delay", "settled",
-             "settling time s", "steady-state error px", "dispersion px");
+  std::size_t controller = 10, model = 5;  // widths of the columns
+  for (const Combination& combination : r.combinations) {
+    controller = std::max(controller, combination.controller.size());
+    model = std::max(model, combination.model.size());
+  }
+  fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>17}  {:>21}  {:>17}\n", "controller", controller, "model",
+             model, "delay, frames", "settled", "settling time s", "steady-state error px", "dispersion px");
   const auto mean_text = [](const Combination& combination, const char* name) {
     const auto it = combination.metrics.find(name);
     if (it == combination.metrics.end()) return std::string("-");
@@ -24,8 +30,9 @@ void summary(const ControllerComparison& r) {
                                      : fmt::format("{:.3g} (one trial)", it->second.mean);
   };
   for (const Combination& combination : r.combinations)
-    fmt::print("{:<16} {:<16} {:>6} {:>9} {:>16} {:>21} {:>16}\n", combination.controller, combination.model,
-               combination.delay, fmt::format("{}/{}", combination.settled, combination.trials),
+    fmt::print("{:<{}}  {:<{}}  {:>13}  {:>8}  {:>17}  {:>21}  {:>17}\n", combination.controller, controller,
+               combination.model, model, combination.delay,
+               fmt::format("{}/{}", combination.settled, combination.trials),
                mean_text(combination, "settling_time_s"), mean_text(combination, "steady_rms_px"),
                mean_text(combination, "rms_radius_px"));
   fmt::print("means over {} +- half width of the 95 % interval; settling times: only trials that settled\n",

@@ -73,7 +73,7 @@ void add_run(CLI::App& app, CommandLine& line) {
                 "Run directory; default: runs/SCENE-SEED; if it exists, runs/SCENE-SEED-2, -3, ...")
       ->check(not_empty);
   v->add_option("--duration", o->duration, "Simulated time, such as \"10 s\"; default: that of the scenario");
-  v->add_option("--from-video", o->from_video, "Detect the edge of the drop in this picture or video")
+  v->add_option("--from-video", o->from_video, "Use the drop detected in this picture or video as the arena")
       ->check(not_empty);
   v->add_flag("--as-seen", o->as_seen, "Record videos as the camera sees them, not drawings");
   v->add_flag("--force", o->force, "Replace an earlier run in the directory");

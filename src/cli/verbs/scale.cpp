@@ -22,8 +22,8 @@ struct ScaleVerb {
 double tick_of(const std::string& text) {
   if (text.empty())
     throw Error(Errc::usage, "--tick",
-                "option is missing; give the distance between neighbouring marks of the finest kind, such as "
-                "--tick \"10 um\"");
+                "option is missing; give the distance between neighbouring marks of the finest division, "
+                "such as --tick \"10 um\"");
   const double tick = quantity_of(text, "m", "--tick", "10 um");
   if (!(tick >= 1e-9 && tick <= 1))
     throw Error(
@@ -37,12 +37,12 @@ void print_table(const TableScale& s) {
   for (std::size_t i = 0; i < s.ratios.each.size(); ++i)
     fmt::print("{:10g}   {:9.6f}\n", s.widths_um[i], s.ratios.each[i]);
   fmt::print(
-      "ratio-mean   {:.6f} um/px, s.d. {:.6f}, s.e.m. {:.4f}; trend with width (Spearman) {:.2f}, p {:.3f}\n",
+      "mean ratio   {:.6f} um/px, s.d. {:.6f}, s.e.m. {:.4f}; trend with width (Spearman) {:.2f}, p {:.3f}\n",
       s.ratios.mean, s.ratios.sd, s.ratios.sem, s.spearman, s.spearman_p);
   fmt::print("regression   {:.4f} um/px, 95 % interval {:.3f} to {:.3f}\n", s.um_per_px, s.ci95[0],
              s.ci95[1]);
-  fmt::print("             reading = {:.2f} px + {:.4f} px/um x width; edges {:.1f} to {:.1f} px",
-             s.intercept_px, s.slope_px_per_um, s.intercept_ci95_px[0], s.intercept_ci95_px[1]);
+  fmt::print("             reading = {:.2f} px (95 % interval {:.1f} to {:.1f} px) + {:.4f} px/um x width",
+             s.intercept_px, s.intercept_ci95_px[0], s.intercept_ci95_px[1], s.slope_px_per_um);
   if (s.repeatability_px) fmt::print("; repeatability {:.2f} px", *s.repeatability_px);
   fmt::print("\n");
 }
@@ -53,7 +53,7 @@ void print_picture(const PictureScale& s) {
       "{:.2f} px: {}\n",
       s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px,
       word_of(s.quality));
-  fmt::print("ratio-mean   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
+  fmt::print("mean ratio   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
              s.ratios.sem);
   fmt::print("regression   {:.5f} um/px, 95 % interval {:.5f} to {:.5f}\n", s.um_per_px, s.ci95[0],
              s.ci95[1]);
@@ -109,6 +109,7 @@ int scale(const ScaleVerb& v, const Common& c) {
   if (table && !v.overlay.empty())
     throw Error(Errc::usage, "--overlay", "requires a picture, but a table is given");
   if (!table) {
+    if (v.tick.empty()) check_ruler_picture(v.ruler);  // --tick does not help with any other file
     scale_of_picture(v, c);
     return 0;
   }
@@ -130,7 +131,7 @@ void add_scale(CLI::App& app, CommandLine& line) {
   v->add_option("ruler", s->ruler, "Readings as CSV (width_um,px_1,px_2), or a picture of a ruler")
       ->required();
   v->add_option("--tick", s->tick,
-                "Picture: distance between neighbouring marks of the finest kind, such as \"10 um\"")
+                "Picture: distance between neighbouring marks of the finest division, such as \"10 um\"")
       ->check(not_empty);
   v->add_option("--out", s->out, "Write a calibration file for scenarios and analyses, as TOML")
       ->check(not_empty);

@@ -187,8 +187,10 @@ void add_track(CLI::App& app, CommandLine& line) {
                 "Background: median of the video, or spatial (each frame, smoothed); default: auto, chosen "
                 "for the video")
       ->check(one_of({"auto", "median", "spatial"}));
-  v->add_option("--threshold", t->threshold,
-                "Minimum signal-to-noise ratio of a spot; default: one false detection in 10 frames")
+  v->add_option(
+       "--threshold", t->threshold,
+       "Minimum signal-to-noise ratio of a spot; default: the value that gives one false detection in "
+       "10 frames")
       ->check(between(1, 1e6));
   v->add_option("--reach", t->search_radius_px,
                 "Maximum displacement between two frames, px; default: measured")

@@ -37,8 +37,8 @@ inline constexpr std::uint32_t kPhiloxW0 = 0x9E3779B9u, kPhiloxW1 = 0xBB67AE85u;
   }
 }
 
-/// Philox for one draw: key = seed, counter = (agent, step, stream, block). core/random/draw_blocks.h lists the
-/// purposes of the streams and blocks.
+/// Philox for one draw: key = seed, counter = (agent, step, stream, block). core/random/draw_blocks.h lists
+/// the purposes of the streams and blocks.
 inline std::array<std::uint32_t, 4> draw(std::uint64_t seed, Stream stream, std::uint32_t agent,
                                          std::uint32_t step, std::uint32_t block = 0) {
   std::array<std::uint32_t, 4> c{agent, step, std::uint32_t(stream), block};

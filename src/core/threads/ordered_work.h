@@ -11,9 +11,9 @@
 namespace faba {
 
 /// Work on a stream of items by several threads, such as the frames of a video: items are made one after the
-/// other, worked on at the same time, and taken by the caller in the order in which they were made. They live in
-/// a fixed number of slots of the caller, so memory does not depend on the length of the stream, and results do
-/// not depend on the number of threads. The threads work ahead while the caller uses an item.
+/// other, worked on at the same time, and taken by the caller in the order in which they were made. They live
+/// in a fixed number of slots of the caller, so memory does not depend on the length of the stream, and
+/// results do not depend on the number of threads. The threads work ahead while the caller uses an item.
 class OrderedWork {
  public:
   struct Steps {

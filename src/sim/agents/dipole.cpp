@@ -389,7 +389,7 @@ WeakestField Dipole::weakest_field(double time) const {
   const bool thermal = d_r_ > 1 / time;
   return {2 * kAlignment * std::max(d_r_, 1 / time) / turning_,
           thermal ? "rotational diffusion keeps the mean alignment of cells with a weaker field below 1 %"
-                  : "the run ends before cells have turned into a weaker field by 1 %"};
+                  : "the mean alignment in a weaker field stays below 1 % until the end of the run"};
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ std::string weak_gradient_note(const FieldNull& n) {
   const double field = kThermalEnergy / kMoment;
   if (field <= gradient * kSample) return "";
   return fmt::format(
-      "the gradient of {:.2g} T/m is too weak to gather cells: cells with a moment of {:g} A m^2 align with "
-      "the field (more than {:.2g} uT) only farther than {:.2g} m from the zero, outside a sample of "
-      "{:g} mm; choose a position nearer to the middle of the coils, or permit larger currents",
+      "the gradient of {:.2g} T/m is too weak to gather cells. Cells with a moment of {:g} A m^2 need more "
+      "than {:.2g} uT to align with the field. The field reaches this value {:.2g} m from the zero, outside "
+      "a "
+      "sample of {:g} mm. Choose a position nearer to the middle of the coils, or permit larger currents",
       gradient, kMoment, 1e6 * field, field / gradient, 1e3 * kSample);
 }
 
@@ -95,7 +96,7 @@ FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, 
     throw Error(
         Errc::usage, rig.string(),
         fmt::format("the coils cannot produce a zero of the field at {} within their current limits; choose "
-                    "another position with --at, or more coils",
+                    "another position with --at, or a coil system with more independent coils",
                     in_mm(at)));
   return n;
 }

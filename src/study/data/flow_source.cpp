@@ -63,7 +63,7 @@ struct FlowSource::Impl {
   Input input;
   std::string method;
   int width = 0, height = 0;
-  double fps = 0;
+  double fps = 0, end_s = 0;
   std::uint64_t pairs = 0, every = 1;
 
   std::optional<FlowFileReader> flows;
@@ -114,6 +114,7 @@ void FlowSource::Impl::open_flows() {
   method = info.method;
   fps = info.fps;
   pairs = flows->size();
+  end_s = double(pairs) / (fps > 0 ? fps : 1);
   set_samples();
   if (!input.um_per_px) input.um_per_px = info.um_per_px;
   if (flows->size() == 0) throw Error(Errc::input, path.string(), "contains no flows");
@@ -138,7 +139,9 @@ void FlowSource::Impl::open_video() {
   video.emplace(std::move(reader), side);
   fps = video->reader().fps();
   const std::int64_t frames = video->reader().frames_in_header();
-  pairs = pairs_of_interval(frames > 1 ? std::uint64_t(frames - 1) : 0);
+  const std::uint64_t all = frames > 1 ? std::uint64_t(frames - 1) : 0;
+  pairs = pairs_of_interval(all);
+  end_s = double(all) / (fps > 0 ? fps : 1);
   set_samples();
   method = options.method.resolved.dump();
   items.resize(OrderedWork::slots(threads));
@@ -239,6 +242,7 @@ int FlowSource::width() const { return impl_->width; }
 int FlowSource::height() const { return impl_->height; }
 int FlowSource::shrink() const { return impl_->video ? impl_->video->side() : 1; }
 double FlowSource::fps() const { return impl_->fps; }
+double FlowSource::end_s() const { return impl_->end_s; }
 std::uint64_t FlowSource::every() const { return impl_->every; }
 std::uint64_t FlowSource::pairs() const { return impl_->pairs; }
 std::optional<double> FlowSource::um_per_px() const { return impl_->input.um_per_px; }

@@ -59,6 +59,8 @@ class FlowSource {
   std::uint64_t every() const;
   /// Pairs of the interval from t0_s to t1_s as stated in the file, for progress; 0: unknown.
   std::uint64_t pairs() const;
+  /// Time of the last frame as stated in the file, s, or its index without a frame rate; 0: unknown.
+  double end_s() const;
   std::optional<double> um_per_px() const;
   /// The flow method and its parameters, as JSON.
   const std::string& method() const;

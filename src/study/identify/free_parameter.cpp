@@ -99,58 +99,54 @@ constexpr const char* kNotFree[] = {"title",  "seed",      "duration",  "camera"
                                     "limits", "estimator", "reference", "controller", "library", "flow"};
 
 FreeParameter read_one(const std::string& path, const Node& n, const Json* given, const Json& scenario) {
+  const auto fail = [&](const std::string& what) { throw Error(Errc::usage, n.where(path), what); };
   for (const char* key : kNotFree)
     if (path.substr(0, path.find_first_of(".[")) == key)
-      throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
-                  "cannot be a free parameter: the video or the study decides it");
+      fail("cannot be a free parameter: the video or the study decides it");
   const Description d = describe(path, scenario);
   if (!d.schema) {
     const std::string key = path.substr(path.find_last_of('.') + 1);
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
-                "no such value in the scenario" + suggestion(key, d.known));
+    fail("no such value in the scenario" + suggestion(key, d.known));
   }
   const Json& s = *d.schema;
   if (!s.contains("minimum") || !s.contains("maximum"))
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
-                "is not a number with a range, so it cannot be a free parameter");
+    fail("is not a number with a range, so it cannot be a free parameter");
   FreeParameter p{
       .path = path, .unit = s.value("x-unit", ""), .integer = s["type"] == "integer", .role = role_of(s)};
   const double least = s["minimum"].get<double>(), most = s["maximum"].get<double>();
   p.low = least;
   p.high = most;
   if (given && *given == false)
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
-                "false is not permitted; remove the entry, or give true or [lowest, highest]");
+    fail("false is not permitted; remove the entry, or give true or [lowest, highest]");
   if ((!given || given->is_boolean()) && p.integer)
-    throw Error(Errc::usage, fmt::format("{}: {}", n.where(), path),
-                "an integer parameter needs a range, such as [50, 1000]");
+    fail("an integer parameter needs a range, such as [50, 1000]");
   const bool all = !given || given->is_boolean();
   if (all) {
     const double default_value = s.contains("default") ? quantity_of(s["default"], p) : 0;
     const double position = (default_value - p.low) / (p.high - p.low);
     if (position > 0 && position < 0.5) p.stretch = 2 * std::log(1 / position - 1);
   } else if (given->is_array()) {
-    if (given->size() != 2) n.fail(path + ": must be [lowest, highest]");
+    if (given->size() != 2) fail("must be [lowest, highest]");
     p.low = number({(*given)[0], n.path + "." + path, n.document}, p);
     p.high = number({(*given)[1], n.path + "." + path, n.document}, p);
   } else if (given->is_object() && given->contains("mean") && given->contains("sd")) {
     FreeParameter::NormalPrior k;
     k.mean = number({(*given)["mean"], n.path + "." + path, n.document}, p);
     k.sd = number({(*given)["sd"], n.path + "." + path, n.document}, p);
-    if (!(k.sd > 0)) n.fail(fmt::format("{}: sd {:g} must be greater than 0", path, k.sd));
+    if (!(k.sd > 0)) fail(fmt::format("sd {:g} must be greater than 0", k.sd));
     p.low = std::max(least, k.mean - 4 * k.sd);
     p.high = std::min(most, k.mean + 4 * k.sd);
     p.normal_prior = k;
   } else {
-    n.fail(path + ": must be true, [lowest, highest] or { mean = ..., sd = ... }");
+    fail("must be true, [lowest, highest] or { mean = ..., sd = ... }");
   }
   const std::string unit = p.shown_unit().empty() ? "" : " " + p.shown_unit();
   if (!(p.low < p.high))
-    n.fail(fmt::format("{}: must be [lowest, highest] with lowest < highest, not {:g} to {:g}{}", path,
-                       p.shown(p.low), p.shown(p.high), unit));
+    fail(fmt::format("must be [lowest, highest] with lowest < highest, not {:g} to {:g}{}", p.shown(p.low),
+                     p.shown(p.high), unit));
   if (!(p.low >= least) || !(p.high <= most))
-    n.fail(fmt::format("{}: {:g} to {:g} is out of range; it must be a range within {:g} to {:g}{}", path,
-                       p.shown(p.low), p.shown(p.high), p.shown(least), p.shown(most), unit));
+    fail(fmt::format("{:g} to {:g} is out of range; it must be a range within {:g} to {:g}{}", p.shown(p.low),
+                     p.shown(p.high), p.shown(least), p.shown(most), unit));
   p.low_is_limit = p.low <= least;
   p.high_is_limit = p.high >= most;
   return p;

@@ -350,7 +350,8 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
     r.videos.push_back(survey_response(study.videos[v], study.boundary, study.measure, [&] {
       reading();
       if (options.stop())
-        throw Error(Errc::interrupted, study.videos[v].file.string(), "stopped; completed results are kept");
+        throw Error(Errc::interrupted, study.videos[v].file.string(),
+                    "stopped; completed results are kept; run the same command again to continue");
     }));
   check_same_camera(r.videos);
   for (ResponseVideo& v : r.videos) note_field_strength(study, v);

@@ -137,6 +137,7 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
     throw Error(Errc::input, n.where("file"),
                 fmt::format("file not found: {} (relative to the study file)", v.file));
   r.file = n.file(v.file);
+  r.where = n.where();
   r.experiment = v.experiment;
   r.exposure_s = v.exposure;
   r.fps = v.fps;

@@ -297,7 +297,11 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   const RunVideo source = run_video(input.file);
   v.file = source.file;
   const std::optional<double> scale = input.um_per_px ? input.um_per_px : source.um_per_px;
-  if (!scale) throw Error(Errc::input, input.file.string(), "picture scale unknown; give um_per_px or scale");
+  if (!scale)
+    throw Error(Errc::input, input.where.empty() ? input.file.string() : input.where,
+                fmt::format("picture scale of {} unknown; set um_per_px of this [[video]], or scale = "
+                            "\"calibration.toml\" at the top of the study",
+                            input.file.filename().string()));
   v.um_per_px = *scale;
   if (source.um_per_px && std::fabs(*scale / *source.um_per_px - 1) > kSameScale)
     v.notes.push_back(

@@ -29,6 +29,7 @@ struct ResponseInput {
   std::optional<double> direction_deg;  ///< swimming direction after it; empty: detected
   std::optional<double> duration_s;     ///< duration after it; empty: to the end of the video
   std::vector<FieldSegment> segments;   ///< instead of these three; times in the video
+  std::string where;                    ///< place in the study file, for messages; may be empty
 };
 
 /// Result of the measurement of a video: everything to simulate it and to measure the simulations equally.

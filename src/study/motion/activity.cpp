@@ -123,6 +123,18 @@ Prepared prepare(const ActivityJob& job, std::size_t index, bool measure_noise) 
   return p;
 }
 
+// `end_s`: see FlowSource.
+[[noreturn]] void throw_no_pairs(const VideoActivity& a, double end_s) {
+  const auto place = [&](double t) {
+    return a.timed ? fmt::format("{:g} s", t) : fmt::format("frame {:g}", t);
+  };
+  throw Error(Errc::input, a.input.file.string(),
+              fmt::format("has fewer than two frames from {} to {}{}; change the interval (--from, --to, or "
+                          "from and to in the study)",
+                          place(a.input.from_s), a.input.to_s ? place(*a.input.to_s) : "the end",
+                          end_s > 0 ? fmt::format("; the video ends at {}", place(end_s)) : ""));
+}
+
 // Sets the signature, the pair of frames with the largest motion, the number of cells and the notes of the
 // source.
 void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, CellCount* cells) {
@@ -147,9 +159,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   }
   a.notes = source.notes();
   a.timed = source.fps() > 0;
-  if (a.signature.size() == 0)
-    throw Error(Errc::input, a.input.file.string(),
-                "has fewer than two frames in the requested interval; motion needs at least two");
+  if (a.signature.size() == 0) throw_no_pairs(a, source.end_s());
   if (!cells) return;
   if (cells->reads_frames() && !cells->mean())
     cells->read(options.inspect, [&] { check_stop(job, a.input); });
@@ -269,9 +279,9 @@ ActivityResult measure_activity(const ActivityJob& job) {
     prepared[i].cells.reset();
     if (!prepared[i].quiet && job.videos.size() == 1 && !r.videos.back().signature.still())
       r.videos.back().notes.push_back(fmt::format(
-          "no part of the video is without motion: its quietest tenth has more than half of the motion of "
-          "its "
-          "busiest part. The threshold of {:.3g} px per pair therefore contains motion of cells, and slower "
+          "no part of the video is without motion: the mean flow speed in the quietest 10 % of the sampled "
+          "pairs of frames is at least half of that in the busiest ones (95 % quantile). The threshold of "
+          "{:.3g} px per pair therefore contains motion of cells, and slower "
           "motion is not counted. Measure the threshold in a video of a dead sample with --noise, or set it "
           "with --flow-threshold",
           prepared[i].threshold_px));

@@ -9,6 +9,7 @@
 #include "app/scenario/parts.h"
 #include "core/error.h"
 #include "core/toml.h"
+#include "vision/files/picture_sequence.h"
 
 namespace faba {
 namespace {
@@ -66,6 +67,14 @@ struct ActivityFile {
   }
 };
 
+std::filesystem::path existing_file(const Node& n, const std::string& key, const std::string& name) {
+  std::error_code ec;
+  if (const auto file = n.file(name); std::filesystem::exists(file, ec) || is_picture_sequence(file))
+    return file;
+  throw Error(Errc::input, n.where(key),
+              fmt::format("file not found: {} (relative to the study file)", name));
+}
+
 }  // namespace
 
 Json activity_study_schema() {
@@ -83,11 +92,11 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   const ActivityFile study = ActivityFile::schema().parse(root, {"video", "flow"});
   if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
   if (study.threshold) job.threshold_px = study.threshold;
-  if (!study.noise.empty()) job.noise = root.file(study.noise);
+  if (!study.noise.empty()) job.noise = existing_file(root, "noise", study.noise);
   if (root.has("video") && !root.child("video").json->is_array())
     root.child("video").fail("must be an array of tables; write [[video]] with file = \"video.avi\"");
   if (!root.has("video") || root.child("video").json->empty())
-    root.fail("has no videos; add one [[video]] for each");
+    root.fail("[[video]] is missing; give one for each video");
   const Node list = root.child("video");
   for (std::size_t i = 0; i < list.json->size(); ++i) {
     const Node n = list.item(i);
@@ -97,8 +106,8 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
     if (to && *to <= from)
       throw Error(Errc::usage, n.where("to"),
                   fmt::format("{:g} s is not later than from = {:g} s", *to, from));
-    job.videos.push_back(
-        {n.file(v.file), v.exposure, v.experiment, v.direction ? v.direction : study.direction, from, to});
+    job.videos.push_back({existing_file(n, "file", v.file), v.exposure, v.experiment,
+                          v.direction ? v.direction : study.direction, from, to});
   }
 }
 

@@ -328,8 +328,8 @@ Comparison compare_videos(const CompareJob& job) {
   c.filter.direction_deg = job.direction_deg.value_or(reference.direction_deg);
   if (!c.direction_given && reference.by < ResponseStart::By::motion)
     c.notes.push_back(
-        "no directed motion was detected in the reference; the legacy distance uses the flow to the right. "
-        "Specify --direction");
+        "no directed motion was detected in the reference; the distance of the thesis (legacy) uses the flow "
+        "to the right; specify --direction");
   c.reference_t0_s = job.reference_t0_s.value_or(job.align ? reference.t0_s : 0);
   c.alignment = !job.align           ? "from the first frame"
                 : job.reference_t0_s ? "from the given time"

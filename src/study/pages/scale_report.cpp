@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "core/toml.h"
 #include "vision/draw/ruler_overlay.h"
 #include "vision/files/picture.h"
@@ -96,9 +97,26 @@ nlohmann::ordered_json scale_json(const PictureScale& s) {
   return j;
 }
 
+namespace {
+
+GrayF ruler_picture(const std::filesystem::path& picture) {
+  try {
+    return read_picture(picture).grey;
+  } catch (const Error& e) {
+    std::error_code ec;
+    if (!std::filesystem::is_regular_file(picture, ec)) throw;
+    throw Error(e.code(), e.where(),
+                e.reason() + "; a table of readings needs the extension .csv, .tsv, .txt or .dat");
+  }
+}
+
+}  // namespace
+
+void check_ruler_picture(const std::filesystem::path& picture) { (void)ruler_picture(picture); }
+
 PictureScale report_scale_picture(const std::filesystem::path& picture, double tick_m,
                                   const std::filesystem::path& overlay) {
-  const GrayF grey = read_picture(picture).grey;
+  const GrayF grey = ruler_picture(picture);
   RulerOptions options;
   options.name = picture.string();
   const Ruler ruler = find_ruler(grey, options);

@@ -25,6 +25,9 @@ nlohmann::ordered_json scale_json(const PictureScale& scale);
 std::string scale_note(const TableScale& scale);
 std::string scale_note(const PictureScale& scale);
 
+/// Throws Error(input) unless the file can be read as a picture.
+void check_ruler_picture(const std::filesystem::path& picture);
+
 /// Measures the scale from a picture of a ruler with a distance of `tick_m` between its finest marks
 /// (find_ruler). Unless `overlay` is empty, writes the picture with the marks drawn in. Throws Error(input)
 /// when no ruler is detected.

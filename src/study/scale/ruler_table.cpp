@@ -66,7 +66,8 @@ std::pair<std::string, double> width_column(const Table& table) {
                 "readings in px");
   throw Error(
       Errc::input, table.source(),
-      fmt::format("has two columns of lengths, {} and {}; name the columns of readings px_1, px_2 ...",
+      fmt::format("has two columns with a unit of length, {} and {}; only the column of widths may have one: "
+                  "rename the other to px_1 if it has the readings in pixels, or remove it",
                   found[0].first, found[1].first));
 }
 

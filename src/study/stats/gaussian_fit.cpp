@@ -1,11 +1,13 @@
 #include "study/stats/gaussian_fit.h"
 
+#include <fmt/format.h>
 #include <unsupported/Eigen/LevenbergMarquardt>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "core/counted.h"
 #include "core/statistics.h"
 
 namespace faba {
@@ -89,7 +91,9 @@ GaussianFit fit_gaussian(std::span<const double> t_s, std::span<const double> va
   GaussianFit fit;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (values.size() < 6 || !(*high > *low) || !(*high > 0)) {
-    fit.reason = values.size() < 6 ? "fewer than six values" : "all values are equal";
+    fit.reason = values.size() < 6
+                     ? fmt::format("{} of frames, at least 6 are needed", counted(values.size(), "pair"))
+                     : "all values are equal";
     if (!values.empty()) fit.offset = values.front();
     return fit;
   }

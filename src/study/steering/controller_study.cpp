@@ -193,6 +193,10 @@ ControllerStudy read_controller_study(const std::filesystem::path& file) {
   const StudyFile f = StudyFile::schema().parse(root, {"controller", "model"});
   if (f.scene.empty())
     root.fail("key \"scene\" is missing; specify the scenario of all trials: scene = \"scene.toml\"");
+  std::error_code ec;
+  if (!std::filesystem::exists(root.file(f.scene), ec))
+    throw Error(Errc::usage, root.where("scene"),
+                fmt::format("file not found: {} (relative to the study file)", f.scene));
   ControllerStudy study;
   study.title = f.title.empty() ? file.stem().string() : f.title;
   study.scene = read_toml(root.file(f.scene));

@@ -59,7 +59,9 @@ bool sweep(ResultStore& store, std::span<const Task> tasks, const SweepOptions& 
         }
       }
     });
-  if (done < shard_tasks) throw Error(Errc::interrupted, "", "stopped; the completed tasks are stored");
+  if (done < shard_tasks)
+    throw Error(Errc::interrupted, "",
+                "stopped; completed results are kept; run the same command again to continue");
   return std::all_of(tasks.begin(), tasks.end(), [&](const Task& t) { return store.find(t.key) != nullptr; });
 }
 

@@ -152,11 +152,15 @@ std::string speed_warning(const TrackSurvey& survey, const TrackPass& pass, cons
   if (pass.crowded() || step > 0.3 * spacing)
     return "the displacement of cells between frames is similar to their distance: many tracks join "
            "different cells, and speeds are too small; use a higher frame rate or fewer cells";
-  // A persistence time below two frames is typical of steps to wrong cells.
+  // A persistence time below 1.5 frames is typical of steps to wrong cells.
   if (supported_walk(s) == SupportedWalk::persistent && !s.persistent.tau_open &&
       (!s.persistent.good || s.tau_s.value < 1.5 * survey.frame_s))
-    return "the persistence time is below two frames: cells turn faster than the frame rate resolves, or "
-           "tracks join different cells; speeds are too small; use a higher frame rate, or a smaller --reach";
+    return fmt::format(
+        "{}: cells turn faster than the frame rate resolves, or tracks join different cells; speeds are too "
+        "small; use a higher frame rate, or a smaller --reach",
+        s.persistent.good ? fmt::format("the persistence time is {:.2g} frames; at least 1.5 are needed",
+                                        s.tau_s.value / survey.frame_s)
+                          : "the persistence time could not be determined");
   return "";
 }
 
@@ -211,7 +215,11 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
         o.interval_frames, counted(std::uint64_t(survey.frames), "frame")));
   if (survey.frames > 1 && m.summary.tracks == 0)
     m.notes.push_back(m.joining.discarded_tracks == 0
-                          ? "no tracks were found"
+                          ? (o.threshold_sd > 0
+                                 ? fmt::format("no tracks were found with a threshold of {:g}; "
+                                               "reduce --threshold",
+                                               o.threshold_sd)
+                                 : std::string("no tracks were found"))
                           : fmt::format("no track has {} (the video has {}); reduce --least",
                                         counted(std::uint64_t(o.tracker.min_points), "detection"),
                                         counted(std::uint64_t(survey.frames), "frame")));

@@ -18,7 +18,7 @@ namespace faba {
 namespace {
 
 constexpr std::uint64_t kMaxPagePixels = std::uint64_t{1} << 28;  // limit for corrupt or malicious headers
-constexpr tmsize_t kMaxBuffer = tmsize_t{1} << 30;            // bytes, limit of one allocation
+constexpr tmsize_t kMaxBuffer = tmsize_t{1} << 30;                // bytes, limit of one allocation
 
 // Only the first error of libtiff is reported; the later ones follow from it.
 int keep_first_tiff_error(TIFF*, void* message_pointer, const char*, const char* format, va_list arguments) {

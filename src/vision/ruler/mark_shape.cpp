@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-constexpr int kShapeSteps = 480;            // number of steps of the tabulated shape
+constexpr int kShapeSteps = 480;       // number of steps of the tabulated shape
 constexpr double kMinSlopedPitch = 6;  // px, minimum pitch for the fit of a slope
 
 }  // namespace

@@ -54,9 +54,11 @@ TEST_CASE("cells that do not swim or do not turn are noted by their model") {
 TEST_CASE("a command that is always zero is noted") {
   check_note(scene("", "[controller]\ntype = 'manual'\n"), {"controller: every command is zero"});
   check_note(scene("", "[controller]\ntype = 'manual'\ncurrent = [0, 0]\n"), {"every command is zero"});
-  check_note(scene("", "[controller]\ntype = 'fuzzy'\nmax_output = 0\n"), {"every command is zero"});
+  check_note(scene("", "[controller]\ntype = 'fuzzy'\nmax_output = 0\n"),
+             {"every command is zero", "increase controller.max_output"});
   check_note(scene("", "[controller]\ntype = 'proportional'\nmax_output = 0\n"), {"every command is zero"});
-  check_note(scene("", "[controller]\ntype = 'proportional'\ngain = 0\n"), {"every command is zero"});
+  check_note(scene("", "[controller]\ntype = 'proportional'\ngain = 0\n"),
+             {"every command is zero", "increase controller.gain or controller.max_output"});
   // The field before the first segment, of a later segment or of a later controller is not zero.
   CHECK(notes_of(
             scene("", "[controller]\ntype = 'manual'\n[[controller.segment]]\nat = 1\nfield = ['1 mT', 0]\n"))
@@ -75,12 +77,13 @@ TEST_CASE("the bound of a weak field is 1 % of alignment") {
     return fmt::format("[controller]\ntype = 'manual'\nfield = ['{}', 0]\n", field);
   };
   check_note(scene(dipole, manual("1 nT")),
-             {"at most 0.001 uT", "swarm[0] need at least 0.0823 uT", "rotational"});
+             {"largest field is 0.001 uT", "swarm[0] need at least 0.0823 uT", "rotational"});
   check_note(scene(dipole, manual("82.2 nT")), {"at least 0.0823 uT"});
   CHECK(notes_of(scene(dipole, manual("82.4 nT"))).empty());
   // Without rotational diffusion, the run of 20 s must be long enough for the turn: w_B t / 2 = 1 %.
   const std::string drag = "model = { type = 'dipole', rotational_diffusion = 0 }";
-  check_note(scene(drag, manual("1 pT")), {"the run ends before"});
+  check_note(scene(drag, manual("1 pT")),
+             {"stays below 1 % until the end of the run; increase controller.field or controller.current"});
   CHECK(notes_of(scene(drag, manual("20 nT"))).empty());
   // 300 iterations of one field unit each: 23 uT / 300 moves the cells by one pixel.
   check_note(scene("model = 'basic'", manual("76 nT")), {"need at least 0.0767 uT", "one pixel"});
@@ -93,14 +96,15 @@ TEST_CASE("the bound of a weak field is 1 % of alignment") {
 
 TEST_CASE("coils and outputs that are too weak to move the cells are noted") {
   check_note(scene("", "[limits]\nmax_current = '1 uA'\n"),
-             {"field: the field is at most", "limits.max_current"});
+             {"field: the largest field is", "limits.max_current"});
   check_note(
       scene("", std::string("[field]\ntype = 'rig'\n[[field.coil]]\ntype = 'loop'\nradius = '1 cm'\n") +
                     "axis = [1, 0, 0]\nmax_current = '1 uA'\n" + kField),
-      {"field: the field is at most", "max_current of the coils"});
+      {"field: the largest field is", "max_current of the coils"});
   check_note(scene("", "[controller]\ntype = 'fuzzy'\nmax_output = 1e-4\n"),
-             {"controller: the field is at most 0.0023 uT"});
-  check_note(scene("", "[controller]\ntype = 'proportional'\nmax_output = 1e-4\n"), {"at most 0.0023 uT"});
+             {"controller: the largest field is 0.0023 uT", "increase controller.max_output"});
+  check_note(scene("", "[controller]\ntype = 'proportional'\nmax_output = 1e-4\n"),
+             {"largest field is 0.0023 uT"});
   CHECK(notes_of(scene("", "")).empty());
 }
 

@@ -138,7 +138,8 @@ TEST_CASE("invalid tables are refused") {
   CHECK(says(refused("dear diary\nwe measured\n"), ":2"));
   CHECK(says(refused("width_um,px\n30,41\nforty,52\n"), ":3"));
   CHECK(says(refused("width,px\n30,41\n50,63\n70,88\n"), "width_um"));
-  CHECK(says(refused("width_um,length_mm\n30,41\n50,63\n70,88\n"), "two columns of lengths"));
+  CHECK(says(refused("width_um,length_mm\n30,41\n50,63\n70,88\n"),
+             "two columns with a unit of length, width_um and length_mm; only the column of widths"));
   CHECK(says(refused("width_um\n30\n50\n"), "no column of readings"));
   CHECK(says(refused("width_um,px\n"), "no readings"));
   CHECK(says(refused("width_um,px_1,px_2,px_3\n30,41,42,40\n"), "all of the width"));

@@ -66,6 +66,7 @@ TEST_CASE("series without a peak are not accepted") {
   const Series rising = peak(100, 30, 8, 10, 1, 1);
   CHECK_FALSE(fit_gaussian(rising.t, rising.y).good);
   const std::vector<double> t{0, 1, 2, 3, 4, 5, 6}, same(7, 3.0), zero(7, 0.0);
+  CHECK(fit_gaussian({t.data(), 3}, {same.data(), 3}).reason == "3 pairs of frames, at least 6 are needed");
   CHECK_FALSE(fit_gaussian(t, same).good);
   CHECK_FALSE(fit_gaussian(t, zero).good);
   CHECK_FALSE(fit_gaussian(std::vector<double>{1, 2}, std::vector<double>{1, 2}).good);

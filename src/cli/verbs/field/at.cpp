@@ -44,7 +44,9 @@ void add_field_at(CLI::App& field, CommandLine& line) {
   CLI::App* v = verb(field, line, "at", "Compute B at points: CSV in, CSV out, SI units",
                      "  faba field at rigs/flat-coil.toml --points points.csv > b.csv");
   add_rig_file(v, o->rig);
-  v->add_option("--points", o->points, "CSV file with the columns x_m,y_m,z_m")->required();
+  v->add_option("--points", o->points, "CSV file with the columns x_m,y_m,z_m")
+      ->required()
+      ->type_name("FILE.csv");
   v->callback([o, &line] { line.code = field_at(*o, line.common); });
 }
 

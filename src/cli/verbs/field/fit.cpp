@@ -59,10 +59,12 @@ void add_field_fit(CLI::App& field, CommandLine& line) {
       verb(field, line, "fit", "Fit a coil system to a measured field: gain, shift and background field",
            "  faba field fit rigs/flat-coil.toml --map measured.csv\n"
            "  faba field fit rig.toml --map measured.h5 --out fitted.toml --picture residual.svg");
-  v->add_option("rig", o->rig, "Coil system: rig file (TOML), with the currents of the measurement")
-      ->required();
-  v->add_option("--map", o->measured, "Measured field, CSV or HDF5; see `faba parts field map`")->required();
-  v->add_option("-o,--out", o->out, "Write a rig file (.toml) with the fitted values")->check(not_empty);
+  v->add_option("rig", o->rig, "Coil system file (TOML), with the currents of the measurement")->required();
+  v->add_option("--map", o->measured, "Measured field, CSV or HDF5; see `faba parts field map`")
+      ->required()
+      ->type_name("FILE");
+  v->add_option("-o,--out", o->out, "Write a coil system file (.toml) with the fitted values")
+      ->check(not_empty);
   v->add_option("--picture", o->picture, "Write a plot of the residuals, as SVG")->check(not_empty);
   v->add_flag("--force", o->force, "Replace existing files");
   v->callback([o, &line] { line.code = field_fit(*o, line.common); });

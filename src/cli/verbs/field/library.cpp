@@ -79,7 +79,8 @@ void add_field_library(CLI::App& field, CommandLine& line) {
   v->add_option("-o,--out", o->out,
                 "HDF5 file (.h5 or .hdf5) to write; an interrupted computation is resumed")
       ->required()
-      ->check(not_empty);
+      ->check(not_empty)
+      ->type_name("FILE.h5");
   v->add_option("--size", o->size,
                 "Width and height of the rectangle of the zeros; default: \"" + o->size + '"');
   v->add_option("--spacing", o->spacing, "Spacing of the grid; default: a 64th of the longer side")

@@ -38,15 +38,23 @@ std::vector<double> amperes(const std::string& text) {
 // Rounded to four decimals, without a negative zero.
 double millimetres(double metres) { return std::round(metres * 1e7) / 1e4 + 0.0; }
 
+// The kind of a zero in words; the names of kinds in the JSON do not change.
+std::string words_of(std::string kind) {
+  const std::string suffix = "-seekers";
+  if (kind.ends_with(suffix)) kind.replace(kind.size() - suffix.size(), suffix.size(), "-seeking cells");
+  return kind;
+}
+
 void print_map(const FieldMap& map, bool all) {
   for (const FieldMap::Zero& z : map.zeros)
-    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, {:.3g} and {:.3g} T/m\n", millimetres(z.at.x),
-               millimetres(z.at.y), z.kind, z.gradient[0], z.gradient[1]);
+    fmt::print("zero at ({:.4f}, {:.4f}) mm: {}, gradients {:.3g} and {:.3g} T/m\n", millimetres(z.at.x),
+               millimetres(z.at.y), words_of(z.kind), z.gradient[0], z.gradient[1]);
   if (all && !map.note.empty()) print_stderr("faba: note: " + map.note);
   if (all) fmt::print("maximum field {:.4g} mT\n", map.strongest * 1e3);
   if (map.table)
     fmt::print(
-        "table {} x {} nodes, spacing {:.3g} um; maximum error {:.1e} of the maximum field of a coil\n",
+        "interpolation table {} x {} nodes, spacing {:.3g} um; maximum interpolation error {:.1e} of the "
+        "maximum field of a coil\n",
         map.table->columns, map.table->rows, map.table->spacing * 1e6, map.table->error);
 }
 

@@ -25,11 +25,13 @@ int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
     return 0;
   }
   if (c.quiet) return 0;
+  fmt::print("{:<42}{}\n", "deviation from the file", "largest shift of the zero");
   std::string previous;
   for (const FieldTolerance::Row& row : tolerance.rows) {
     if (!previous.empty() && previous != row.cause) fmt::print("\n");
     previous = row.cause;
-    fmt::print("{:<42}{}\n", row.words, row.shift ? fmt::format("{:>8.4f} mm", *row.shift * 1e3) : "no zero");
+    fmt::print("{:<42}{}\n", row.words,
+               row.shift ? fmt::format("{:>8.4f} mm", *row.shift * 1e3) : "the zero disappears");
   }
   if (!v.picture.empty()) fmt::print("  {}\n", v.picture.string());
   if (!tolerance.note.empty())

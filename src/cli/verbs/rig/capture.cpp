@@ -87,7 +87,8 @@ void add_rig_capture(CLI::App& rig, CommandLine& line) {
   add_bench_scene(v, o->run);
   v->add_option("-o,--out", o->run.out, "Video (.avi lossless, or .mp4), or folder of pictures")
       ->required()
-      ->check(not_empty);
+      ->check(not_empty)
+      ->type_name("FILE");
   v->add_option("--format", o->format, "Format of numbered pictures in a folder; default: png")
       ->check(one_of({"png", "pgm", "ppm", "tiff"}));
   v->add_option(

@@ -32,7 +32,7 @@ void print_keys(std::size_t coils) {
   fmt::print(
       "{}    up + down -  one step    page up, page down  maximum, minimum    0  zero\n"
       "a  arm    space  all currents zero    r  reset a fault    q  quit\n",
-      coils > 1 ? fmt::format("1 ... {} select coil 0 ... coil {}", std::min<std::size_t>(coils, 9),
+      coils > 1 ? fmt::format("keys 1 to {} select coils 0 to {}", std::min<std::size_t>(coils, 9),
                               std::min<std::size_t>(coils, 9) - 1)
                 : "coil 0");
 }

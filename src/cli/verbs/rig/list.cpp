@@ -18,10 +18,10 @@ int rig_list(const Common& c) {
   }
   for (const Device& d : all) fmt::print("{:<14}  {:<24}  {}\n", d.kind, d.name, d.what);
   if (c.quiet) return 0;
-  if (all.empty()) fmt::print("no cameras, serial ports or output devices found\n");
+  if (all.empty()) fmt::print("no camera, serial port or current output device (NI-DAQmx) found\n");
   fmt::print(
-      "always available: camera \"simulated\" and \"playback\", driver \"simulated\"; see faba parts camera, "
-      "faba parts driver\n");
+      "always available: camera \"simulated\" and \"playback\", driver \"simulated\" and \"none\"; see faba "
+      "parts camera, faba parts driver\n");
   return 0;
 }
 

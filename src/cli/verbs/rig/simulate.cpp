@@ -52,7 +52,10 @@ void add_rig_simulate(CLI::App& rig, CommandLine& line) {
       verb(rig, line, "simulate", "Simulate a bench for other processes: microscope and coils in real time",
            "  faba rig simulate scenes/bench.toml --at /tmp/bench --log coils.csv");
   add_bench_scene(v, o->run);
-  v->add_option("--at", o->at, "Path of the socket to create")->required()->check(not_empty);
+  v->add_option("--at", o->at, "Path of the socket to create")
+      ->required()
+      ->check(not_empty)
+      ->type_name("SOCKET");
   v->add_option("--log", o->log, "Write times, voltages and currents, as CSV")->check(not_empty);
   v->add_flag("--force", o->run.force, "Replace an existing log");
   v->add_flag("--once", o->once, "Stop when all clients have disconnected");
