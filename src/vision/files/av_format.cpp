@@ -1,8 +1,5 @@
 #include "vision/files/av_format.h"
-
-extern "C" {
-#include <libavformat/avformat.h>
-}
+#include "vision/files/ffmpeg.h"
 
 #include <algorithm>
 #include <array>
@@ -42,11 +39,11 @@ bool is_jpeg_truncated(const std::filesystem::path& path) {
 
 const AVInputFormat* portable_map(AVIOContext& io) {
   unsigned char magic[3] = {};
-  const int read = avio_read(&io, magic, 3);
-  avio_seek(&io, 0, SEEK_SET);
+  const int read = FABA_AV(avio_read)(&io, magic, 3);
+  FABA_AV(avio_seek)(&io, 0, SEEK_SET);
   if (read < 3 || magic[0] != 'P' || std::isspace(magic[2]) == 0) return nullptr;
-  return magic[1] == '5'   ? av_find_input_format("pgm_pipe")
-         : magic[1] == '6' ? av_find_input_format("ppm_pipe")
+  return magic[1] == '5'   ? FABA_AV(av_find_input_format)("pgm_pipe")
+         : magic[1] == '6' ? FABA_AV(av_find_input_format)("ppm_pipe")
                            : nullptr;
 }
 

@@ -1,10 +1,5 @@
 #include "vision/files/av_stream.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-}
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,6 +9,7 @@ extern "C" {
 
 #include "core/error.h"
 #include "vision/files/av_format.h"
+#include "vision/files/ffmpeg.h"
 #include "vision/files/frame_grey.h"
 #include "vision/files/libav.h"
 
@@ -22,12 +18,12 @@ namespace {
 
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // limit for corrupt or malicious headers
 
-using Frame = std::unique_ptr<AVFrame, libav::Freed<av_frame_free>>;
-using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
-using Codec = std::unique_ptr<AVCodecContext, libav::Freed<avcodec_free_context>>;
-using Container = std::unique_ptr<AVFormatContext, libav::Freed<avformat_close_input>>;
+using Frame = std::unique_ptr<AVFrame, libav::Free>;
+using Packet = std::unique_ptr<AVPacket, libav::Free>;
+using Codec = std::unique_ptr<AVCodecContext, libav::Free>;
+using Container = std::unique_ptr<AVFormatContext, libav::Free>;
 struct CloseIo {
-  void operator()(AVIOContext* io) const { avio_close(io); }
+  void operator()(AVIOContext* io) const { FABA_AV(avio_close)(io); }
 };
 using Io = std::unique_ptr<AVIOContext, CloseIo>;
 
@@ -41,8 +37,8 @@ struct AvStream::Impl {
   // Packets that skip_to() has read, from a key frame on. They are taken before those of the file.
   std::deque<Packet> skimmed;
   // One packet is held back: only the next read reports whether it was truncated.
-  Packet held{av_packet_alloc()}, incoming{av_packet_alloc()};
-  Frame frame{av_frame_alloc()};
+  Packet held{FABA_AV(av_packet_alloc)()}, incoming{FABA_AV(av_packet_alloc)()};
+  Frame frame{FABA_AV(av_frame_alloc)()};
   RawFrame current;  // refers to `frame`
   AVStream* stream = nullptr;
 
@@ -79,17 +75,17 @@ void AvStream::Impl::open() {
   libav::quiet();
   libav::forget_messages();
   AVIOContext* raw_io = nullptr;
-  int result = avio_open(&raw_io, ("file:" + path.string()).c_str(), AVIO_FLAG_READ);
+  int result = FABA_AV(avio_open)(&raw_io, ("file:" + path.string()).c_str(), AVIO_FLAG_READ);
   if (result < 0) refuse("cannot be opened: " + libav::reason(result));
   io.reset(raw_io);
 
   const AVInputFormat* kind_by_magic = portable_map(*io);
-  AVFormatContext* raw = avformat_alloc_context();
+  AVFormatContext* raw = FABA_AV(avformat_alloc_context)();
   raw->pb = io.get();
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "protocol_whitelist", "none", 0);           // play lists must not open other files
-  result = avformat_open_input(&raw, "", kind_by_magic, &options);  // frees `raw` itself on failure
-  av_dict_free(&options);
+  FABA_AV(av_dict_set)(&options, "protocol_whitelist", "none", 0);  // play lists must not open other files
+  result = FABA_AV(avformat_open_input)(&raw, "", kind_by_magic, &options);  // frees `raw` itself on failure
+  FABA_AV(av_dict_free)(&options);
   if (result < 0)
     refuse(
         "cannot be read as a picture or video: it is damaged, or of a format that is not supported "
@@ -104,10 +100,10 @@ void AvStream::Impl::open() {
     refuse("is damaged or truncated: the end marker of the JPEG is missing");
 
   libav::forget_messages();
-  result = avformat_find_stream_info(container.get(), nullptr);
+  result = FABA_AV(avformat_find_stream_info)(container.get(), nullptr);
   if (result < 0) refuse("the streams cannot be read: " + libav::reason(result));
   if (io->eof_reached != 0) probing_error = libav::first_message();
-  result = av_find_best_stream(container.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  result = FABA_AV(av_find_best_stream)(container.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
   if (result < 0) refuse("contains no video stream");
   stream = container->streams[result];
   if ((stream->disposition & AV_DISPOSITION_ATTACHED_PIC) != 0)
@@ -116,20 +112,20 @@ void AvStream::Impl::open() {
 }
 
 void AvStream::Impl::open_codec() {
-  const char* name = avcodec_get_name(stream->codecpar->codec_id);
-  const AVCodec* decoder = avcodec_find_decoder(stream->codecpar->codec_id);
+  const char* name = FABA_AV(avcodec_get_name)(stream->codecpar->codec_id);
+  const AVCodec* decoder = FABA_AV(avcodec_find_decoder)(stream->codecpar->codec_id);
   if (decoder == nullptr) {
     refuse(std::string("codec not supported: ") + name + "; convert it to H.264 or PNG");
   }
-  codec.reset(avcodec_alloc_context3(decoder));
-  avcodec_parameters_to_context(codec.get(), stream->codecpar);
+  codec.reset(FABA_AV(avcodec_alloc_context3)(decoder));
+  FABA_AV(avcodec_parameters_to_context)(codec.get(), stream->codecpar);
   codec->thread_count = 1;
   codec->max_pixels = kMaxPixels;
   codec->pkt_timebase = stream->time_base;
   // A damaged still image is refused; in a video, damage to side information must not lose the frame.
   codec->err_recognition = AV_EF_CRCCHECK | (still ? AV_EF_EXPLODE | AV_EF_BITSTREAM | AV_EF_BUFFER : 0);
   libav::forget_messages();
-  const int result = avcodec_open2(codec.get(), decoder, nullptr);
+  const int result = FABA_AV(avcodec_open2)(codec.get(), decoder, nullptr);
   if (result < 0) refuse(std::string("the ") + name + " stream cannot be decoded: " + libav::reason(result));
 
   frame_waiting = decode();
@@ -158,7 +154,7 @@ void AvStream::Impl::note_damage(const std::string& why) {
 bool AvStream::Impl::decode() {
   for (;;) {
     libav::forget_messages();
-    const int result = avcodec_receive_frame(codec.get(), frame.get());
+    const int result = FABA_AV(avcodec_receive_frame)(codec.get(), frame.get());
     if (result == AVERROR_EOF) {
       if (need_key_packet) truncated = true;
       return false;
@@ -187,14 +183,14 @@ void AvStream::Impl::feed() {
     const bool ready = std::exchange(holding, more);
     if (ready) return send(*incoming);
   }
-  avcodec_send_packet(codec.get(), nullptr);
+  FABA_AV(avcodec_send_packet)(codec.get(), nullptr);
 }
 
 // The next packet into `incoming`: of those that skip_to() has read, then of the file.
 bool AvStream::Impl::take_packet() {
   if (skimmed.empty()) return read_packet();
-  av_packet_unref(incoming.get());
-  av_packet_move_ref(incoming.get(), skimmed.front().get());
+  FABA_AV(av_packet_unref)(incoming.get());
+  FABA_AV(av_packet_move_ref)(incoming.get(), skimmed.front().get());
   skimmed.pop_front();
   return true;
 }
@@ -226,13 +222,13 @@ std::int64_t AvStream::Impl::skip_to(double t_s) {
       from_key = true;
     }
     bytes += static_cast<std::size_t>(incoming->size);
-    kept.emplace_back(av_packet_alloc());
-    av_packet_move_ref(kept.back().get(), incoming.get());
+    kept.emplace_back(FABA_AV(av_packet_alloc)());
+    FABA_AV(av_packet_move_ref)(kept.back().get(), incoming.get());
     if (t >= t_s) break;
   }
   for (; !kept.empty(); kept.pop_back()) skimmed.push_front(std::move(kept.back()));
   if (!from_key) return 0;
-  avcodec_flush_buffers(codec.get());
+  FABA_AV(avcodec_flush_buffers)(codec.get());
   frame_waiting = false;
   sent += dropped;
   const std::int64_t skipped = sent - delivered;
@@ -246,8 +242,8 @@ std::int64_t AvStream::Impl::skip_to(double t_s) {
 bool AvStream::Impl::read_packet() {
   for (;;) {
     libav::forget_messages();
-    av_packet_unref(incoming.get());
-    const int result = av_read_frame(container.get(), incoming.get());
+    FABA_AV(av_packet_unref)(incoming.get());
+    const int result = FABA_AV(av_read_frame)(container.get(), incoming.get());
     error_logged = !libav::first_message().empty() || (result < 0 && error_logged);
     if (result < 0) {
       end_of_file(result);
@@ -267,7 +263,7 @@ void AvStream::Impl::send(AVPacket& packet) {
   } else {
     need_key_packet = false;
     libav::forget_messages();
-    const int result = avcodec_send_packet(codec.get(), &packet);
+    const int result = FABA_AV(avcodec_send_packet)(codec.get(), &packet);
     if (result < 0) note_damage("a frame cannot be decoded: " + libav::reason(result));
   }
 }
@@ -276,8 +272,8 @@ void AvStream::Impl::end_of_file(int result) {
   all_read = true;
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
   bool missing = container->iformat->name == std::string_view("avi") && is_avi_truncated(path);
-  for (int i = 0; i < avformat_index_get_entries_count(stream) && !missing; ++i) {
-    const AVIndexEntry* entry = avformat_index_get_entry(stream, i);
+  for (int i = 0; i < FABA_AV(avformat_index_get_entries_count)(stream) && !missing; ++i) {
+    const AVIndexEntry* entry = FABA_AV(avformat_index_get_entry)(stream, i);
     missing = entry->pos + entry->size > size;
   }
   truncated = missing || error_logged || !probing_error.empty() || result != AVERROR_EOF;

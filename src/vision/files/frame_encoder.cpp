@@ -1,25 +1,21 @@
 #include "vision/files/frame_encoder.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavutil/opt.h>
-}
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
 
 #include "core/error.h"
+#include "vision/files/ffmpeg.h"
 #include "vision/files/kernels/yuv420.h"
 #include "vision/files/libav.h"
 
 namespace faba {
 namespace {
 
-using Frame = std::unique_ptr<AVFrame, libav::Freed<av_frame_free>>;
-using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
-using Codec = std::unique_ptr<AVCodecContext, libav::Freed<avcodec_free_context>>;
+using Frame = std::unique_ptr<AVFrame, libav::Free>;
+using Packet = std::unique_ptr<AVPacket, libav::Free>;
+using Codec = std::unique_ptr<AVCodecContext, libav::Free>;
 
 bool is_h264(FrameEncoder::Kind kind) {
   return kind == FrameEncoder::Kind::h264 || kind == FrameEncoder::Kind::h264_grey;
@@ -40,12 +36,12 @@ void describe_h264(AVCodecContext& codec, FrameRate rate) {
   codec.color_primaries = AVCOL_PRI_BT709;
   codec.color_trc = AVCOL_TRC_IEC61966_2_1;
   codec.chroma_sample_location = AVCHROMA_LOC_CENTER;
-  av_opt_set(codec.priv_data, "preset", "veryfast", 0);
-  av_opt_set(codec.priv_data, "tune", "zerolatency", 0);
-  av_opt_set(codec.priv_data, "crf", "20", 0);
+  FABA_AV(av_opt_set)(codec.priv_data, "preset", "veryfast", 0);
+  FABA_AV(av_opt_set)(codec.priv_data, "tune", "zerolatency", 0);
+  FABA_AV(av_opt_set)(codec.priv_data, "crf", "20", 0);
   // For small cells on camera noise, macroblock partitions and weighted prediction increase the encoding time
   // by a third and even the file size.
-  av_opt_set(codec.priv_data, "x264-params", "cpu-independent=1:partitions=none:weightp=0", 0);
+  FABA_AV(av_opt_set)(codec.priv_data, "x264-params", "cpu-independent=1:partitions=none:weightp=0", 0);
 }
 
 }  // namespace
@@ -57,7 +53,7 @@ struct FrameEncoder::Impl {
   std::string where;
   Codec codec{};
   Frame frame{};
-  Packet packet{av_packet_alloc()};
+  Packet packet{FABA_AV(av_packet_alloc)()};
   std::int64_t count = 0;
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(Errc::internal, where, what); }
@@ -77,12 +73,12 @@ void FrameEncoder::Impl::open() {
                      : kind == Kind::ppm  ? "ppm"
                      : kind == Kind::tiff ? "tiff"
                                           : "png";
-  const AVCodec* encoder = avcodec_find_encoder_by_name(name);
+  const AVCodec* encoder = FABA_AV(avcodec_find_encoder_by_name)(name);
   if (encoder == nullptr) {
     fail(std::string("this FFmpeg does not have the encoder ") + name +
          (is_h264(kind) ? "; install an FFmpeg with libx264, or record lossless_avi" : ""));
   }
-  codec.reset(avcodec_alloc_context3(encoder));
+  codec.reset(FABA_AV(avcodec_alloc_context3)(encoder));
   codec->width = width;
   codec->height = height;
   codec->time_base = {rate.denominator, rate.numerator};
@@ -96,17 +92,17 @@ void FrameEncoder::Impl::open() {
                                                                      : AV_PIX_FMT_GRAY8;
     codec->compression_level = 1;
     // Camera noise compresses best and fastest without prediction. Encoders without this option ignore it.
-    av_opt_set(codec->priv_data, "pred", "none", 0);
+    FABA_AV(av_opt_set)(codec->priv_data, "pred", "none", 0);
   }
   libav::forget_messages();
-  const int result = avcodec_open2(codec.get(), encoder, nullptr);
+  const int result = FABA_AV(avcodec_open2)(codec.get(), encoder, nullptr);
   if (result < 0) fail(std::string("the ") + name + " encoder cannot start: " + libav::reason(result));
-  frame.reset(av_frame_alloc());
+  frame.reset(FABA_AV(av_frame_alloc)());
   frame->format = codec->pix_fmt;
   frame->width = codec->width;
   frame->height = codec->height;
   frame->color_range = codec->color_range;
-  if (av_frame_get_buffer(frame.get(), 0) < 0) fail("out of memory for a video frame");
+  if (FABA_AV(av_frame_get_buffer)(frame.get(), 0) < 0) fail("out of memory for a video frame");
   count = 0;
 }
 
@@ -138,10 +134,10 @@ void FrameEncoder::Impl::pad_to_yuv420() {
 
 std::span<const std::uint8_t> FrameEncoder::Impl::code() {
   libav::forget_messages();
-  av_packet_unref(packet.get());
+  FABA_AV(av_packet_unref)(packet.get());
   frame->pts = count++;
-  int result = avcodec_send_frame(codec.get(), frame.get());
-  if (result >= 0) result = avcodec_receive_packet(codec.get(), packet.get());
+  int result = FABA_AV(avcodec_send_frame)(codec.get(), frame.get());
+  if (result >= 0) result = FABA_AV(avcodec_receive_packet)(codec.get(), packet.get());
   if (result < 0) fail("a frame cannot be encoded: " + libav::reason(result));
   return {packet->data, static_cast<std::size_t>(packet->size)};
 }
@@ -172,7 +168,7 @@ FrameEncoder& FrameEncoder::operator=(FrameEncoder&&) noexcept = default;
 std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
   Impl& self = *impl_;
   self.check(picture, self.kind == Kind::png_colour || self.kind == Kind::ppm || self.kind == Kind::h264);
-  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("out of memory for a video frame");
+  if (FABA_AV(av_frame_make_writable)(self.frame.get()) < 0) self.fail("out of memory for a video frame");
   if (self.kind == Kind::h264) {
     const AVFrame& to = *self.frame;
     to_yuv420(picture, {to.data[0], to.data[1], to.data[2], to.linesize[0], to.linesize[1], to.linesize[2]});
@@ -187,7 +183,7 @@ std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
   Impl& self = *impl_;
   self.check(picture, self.kind == Kind::png_grey || self.kind == Kind::pgm || self.kind == Kind::tiff ||
                           self.kind == Kind::h264_grey);
-  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("out of memory for a video frame");
+  if (FABA_AV(av_frame_make_writable)(self.frame.get()) < 0) self.fail("out of memory for a video frame");
   self.copy(picture);
   if (self.kind == Kind::h264_grey) self.pad_to_yuv420();
   return self.code();
@@ -196,7 +192,7 @@ std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
 std::span<const std::uint8_t> FrameEncoder::encode(const Image<std::uint16_t>& picture) {
   Impl& self = *impl_;
   self.check(picture, self.kind == Kind::png_grey16);
-  if (av_frame_make_writable(self.frame.get()) < 0) self.fail("out of memory for a video frame");
+  if (FABA_AV(av_frame_make_writable)(self.frame.get()) < 0) self.fail("out of memory for a video frame");
   for (int row = 0; row < picture.height; ++row) {
     std::uint8_t* to = self.frame->data[0] + std::ptrdiff_t{row} * self.frame->linesize[0];
     const std::uint16_t* from = picture.px.data() + std::ptrdiff_t{row} * picture.width;

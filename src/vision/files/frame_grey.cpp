@@ -1,17 +1,12 @@
 #include "vision/files/frame_grey.h"
 
-extern "C" {
-#include <libavutil/pixdesc.h>
-#include <libavutil/pixfmt.h>
-#include <libswscale/swscale.h>
-}
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <memory>
 #include <vector>
 
+#include "vision/files/ffmpeg.h"
 #include "vision/files/kernels/luma.h"
 #include "vision/image/grey_of.h"
 
@@ -19,7 +14,7 @@ namespace faba {
 namespace {
 
 const AVPixFmtDescriptor* describe(int pixel_format) {
-  return av_pix_fmt_desc_get(static_cast<AVPixelFormat>(pixel_format));
+  return FABA_AV(av_pix_fmt_desc_get)(static_cast<AVPixelFormat>(pixel_format));
 }
 
 bool has(const AVPixFmtDescriptor& format, std::uint64_t flag) { return (format.flags & flag) != 0; }
@@ -81,8 +76,9 @@ class ChannelRows {
   }
   void read(int channel, int row, std::vector<std::uint16_t>& values) {
     values.resize(static_cast<std::size_t>(frame_.width));
-    av_read_image_line2(values.data(), planes_.data(), frame_.strides, &format_, 0, row, channel,
-                        frame_.width, 0, sizeof(std::uint16_t));
+    FABA_AV(av_read_image_line2)
+    (values.data(), planes_.data(), frame_.strides, &format_, 0, row, channel, frame_.width, 0,
+     sizeof(std::uint16_t));
   }
 
  private:
@@ -143,22 +139,22 @@ void to_grey(const RawFrame& frame, GrayF& out) {
 bool to_colours(const RawFrame& frame, RgbImage& out) {
   const auto from = static_cast<AVPixelFormat>(frame.pixel_format);
   const AVPixFmtDescriptor* format = describe(frame.pixel_format);
-  if (format == nullptr || sws_isSupportedInput(from) == 0) return false;
-  const std::unique_ptr<SwsContext, decltype(&sws_freeContext)> convert{
-      sws_getContext(frame.width, frame.height, from, frame.width, frame.height, AV_PIX_FMT_RGB24,
-                     SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr),
-      &sws_freeContext};
+  if (format == nullptr || FABA_AV(sws_isSupportedInput)(from) == 0) return false;
+  const std::unique_ptr<SwsContext, libav::Free> convert{FABA_AV(sws_getContext)(
+      frame.width, frame.height, from, frame.width, frame.height, AV_PIX_FMT_RGB24,
+      SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr)};
   if (!convert) return false;
-  const int* matrix = sws_getCoefficients(frame.matrix);
+  const int* matrix = FABA_AV(sws_getCoefficients)(frame.matrix);
   const int full = is_full_range(frame, *format) ? 1 : 0;
-  sws_setColorspaceDetails(convert.get(), matrix, full, matrix, 1, 0, 1 << 16, 1 << 16);
+  FABA_AV(sws_setColorspaceDetails)(convert.get(), matrix, full, matrix, 1, 0, 1 << 16, 1 << 16);
   out.width = frame.width;
   out.height = frame.height;
   out.px.resize(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
   static_assert(sizeof(Rgb) == 3);
   auto* const to = reinterpret_cast<std::uint8_t*>(out.px.data());
   const int stride = 3 * frame.width;
-  return sws_scale(convert.get(), frame.planes, frame.strides, 0, frame.height, &to, &stride) == frame.height;
+  return FABA_AV(sws_scale)(convert.get(), frame.planes, frame.strides, 0, frame.height, &to, &stride) ==
+         frame.height;
 }
 
 std::string pixel_format_name(int pixel_format) {

@@ -1,9 +1,5 @@
 #include "vision/files/libav.h"
-
-extern "C" {
-#include <libavutil/error.h>
-#include <libavutil/log.h>
-}
+#include "vision/files/ffmpeg.h"
 
 #include <array>
 #include <cstdarg>
@@ -28,7 +24,7 @@ void keep_first_error(void*, int level, const char* format, std::va_list argumen
 
 void quiet() {
   static std::once_flag once;
-  std::call_once(once, [] { av_log_set_callback(keep_first_error); });
+  std::call_once(once, [] { FABA_AV(av_log_set_callback)(keep_first_error); });
 }
 
 void forget_messages() { message.clear(); }
@@ -37,7 +33,7 @@ std::string first_message() { return message; }
 
 std::string reason(int error_number) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(error_number, text.data(), text.size());
+  FABA_AV(av_strerror)(error_number, text.data(), text.size());
   return message.empty() ? std::string(text.data()) : std::string(text.data()) + " (" + message + ")";
 }
 

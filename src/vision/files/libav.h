@@ -18,13 +18,4 @@ std::string first_message();
 /// there is one.
 std::string reason(int error_number);
 
-/// Deleter for libav objects, which are freed by a function that takes the address of the pointer.
-template <auto free_by_address>
-struct Freed {
-  template <class T>
-  void operator()(T* object) const {
-    free_by_address(&object);
-  }
-};
-
 }  // namespace faba::libav

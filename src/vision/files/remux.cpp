@@ -1,11 +1,5 @@
 #include "vision/files/remux.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/rational.h>
-}
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -14,17 +8,18 @@ extern "C" {
 
 #include "core/error.h"
 #include "core/file.h"
+#include "vision/files/ffmpeg.h"
 #include "vision/files/libav.h"
 
 namespace faba {
 namespace {
 
-using Packet = std::unique_ptr<AVPacket, libav::Freed<av_packet_free>>;
-using Input = std::unique_ptr<AVFormatContext, libav::Freed<avformat_close_input>>;
+using Packet = std::unique_ptr<AVPacket, libav::Free>;
+using Input = std::unique_ptr<AVFormatContext, libav::Free>;
 struct FreeOutput {
   void operator()(AVFormatContext* container) const {
-    avio_closep(&container->pb);
-    avformat_free_context(container);
+    FABA_AV(avio_closep)(&container->pb);
+    FABA_AV(avformat_free_context)(container);
   }
 };
 using Output = std::unique_ptr<AVFormatContext, FreeOutput>;
@@ -77,53 +72,53 @@ void Remuxer::open_input() {
   libav::forget_messages();
   AVFormatContext* raw = nullptr;
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "pattern_type", "none", 0);
-  const AVInputFormat* kind = av_find_input_format(mp4_ ? "h264" : "png_pipe");
-  int result = avformat_open_input(&raw, file_url(part_).c_str(), kind, &options);
-  av_dict_free(&options);
+  FABA_AV(av_dict_set)(&options, "pattern_type", "none", 0);
+  const AVInputFormat* kind = FABA_AV(av_find_input_format)(mp4_ ? "h264" : "png_pipe");
+  int result = FABA_AV(avformat_open_input)(&raw, file_url(part_).c_str(), kind, &options);
+  FABA_AV(av_dict_free)(&options);
   if (result < 0) fail(part_, "the recorded frames cannot be read", result);
   in_.reset(raw);
-  result = avformat_find_stream_info(raw, nullptr);
+  result = FABA_AV(avformat_find_stream_info)(raw, nullptr);
   if (result < 0) fail(part_, "the recorded frames cannot be read", result);
 }
 
 void Remuxer::open_output(const std::filesystem::path& temporary) {
   libav::forget_messages();
   AVFormatContext* raw = nullptr;
-  int result =
-      avformat_alloc_output_context2(&raw, nullptr, mp4_ ? "mp4" : "avi", file_url(temporary).c_str());
+  int result = FABA_AV(avformat_alloc_output_context2)(&raw, nullptr, mp4_ ? "mp4" : "avi",
+                                                       file_url(temporary).c_str());
   if (result < 0) fail(to_, "this FFmpeg does not have the container format", result);
   out_.reset(raw);
   raw->flags |= AVFMT_FLAG_BITEXACT;  // no version and no date: reproducible bytes
-  AVStream* stream = avformat_new_stream(raw, nullptr);
-  avcodec_parameters_copy(stream->codecpar, in_->streams[0]->codecpar);
+  AVStream* stream = FABA_AV(avformat_new_stream)(raw, nullptr);
+  FABA_AV(avcodec_parameters_copy)(stream->codecpar, in_->streams[0]->codecpar);
   stream->codecpar->codec_tag = mp4_ ? MKTAG('a', 'v', 'c', '1') : MKTAG('M', 'P', 'N', 'G');
   stream->time_base = tick();
   stream->avg_frame_rate = {rate_.numerator, rate_.denominator};
-  result = avio_open(&raw->pb, file_url(temporary).c_str(), AVIO_FLAG_WRITE);
+  result = FABA_AV(avio_open)(&raw->pb, file_url(temporary).c_str(), AVIO_FLAG_WRITE);
   if (result < 0) fail(to_, "cannot be written", result);
   AVDictionary* options = nullptr;
-  if (mp4_) av_dict_set(&options, "movflags", "+faststart", 0);
-  result = avformat_write_header(raw, &options);
-  av_dict_free(&options);
+  if (mp4_) FABA_AV(av_dict_set)(&options, "movflags", "+faststart", 0);
+  result = FABA_AV(avformat_write_header)(raw, &options);
+  FABA_AV(av_dict_free)(&options);
   if (result < 0) fail(to_, "cannot be written", result);
 }
 
 long long Remuxer::copy_frames() {
-  const Packet packet(av_packet_alloc());
+  const Packet packet(FABA_AV(av_packet_alloc)());
   AVStream* stream = out_->streams[0];
   long long frames = 0;
   for (;; ++frames) {
-    int result = av_read_frame(in_.get(), packet.get());
+    int result = FABA_AV(av_read_frame)(in_.get(), packet.get());
     if (result == AVERROR_EOF) break;
     if (result < 0) fail(part_, "the recorded frames cannot be read", result);
     packet->stream_index = 0;
     packet->pts = packet->dts = stamp(frames);
     packet->duration = std::max<std::int64_t>(1, stamp(frames + 1) - stamp(frames));
     packet->pos = -1;
-    av_packet_rescale_ts(packet.get(), tick(), stream->time_base);
-    result = av_write_frame(out_.get(), packet.get());
-    av_packet_unref(packet.get());
+    FABA_AV(av_packet_rescale_ts)(packet.get(), tick(), stream->time_base);
+    result = FABA_AV(av_write_frame)(out_.get(), packet.get());
+    FABA_AV(av_packet_unref)(packet.get());
     if (result < 0) fail(to_, "cannot be written", result);
   }
   if (frames == 0)
@@ -133,10 +128,10 @@ long long Remuxer::copy_frames() {
 
 void Remuxer::finish() {
   libav::forget_messages();
-  int result = av_write_trailer(out_.get());
-  avio_flush(out_->pb);
+  int result = FABA_AV(av_write_trailer)(out_.get());
+  FABA_AV(avio_flush)(out_->pb);
   if (result >= 0) result = out_->pb->error;
-  const int closed = avio_closep(&out_->pb);
+  const int closed = FABA_AV(avio_closep)(&out_->pb);
   if (result >= 0) result = closed;
   if (result < 0) fail(to_, "cannot be written", result);
 }

@@ -1,8 +1,5 @@
 #include "vision/files/video_format.h"
-
-extern "C" {
-#include <libavutil/rational.h>
-}
+#include "vision/files/ffmpeg.h"
 
 #include <string>
 
@@ -16,7 +13,7 @@ FrameRate frame_rate_near(double fps) {
                 std::to_string(fps) +
                     " frames per second is out of range; the frame rate must be between 0.001 and 10000");
   }
-  const AVRational rate = av_d2q(fps, 100000);
+  const AVRational rate = FABA_AV(av_d2q)(fps, 100000);
   return {rate.num, rate.den};
 }
 
