@@ -50,8 +50,7 @@ void add_schema(CLI::App& app, CommandLine& line) {
   const auto of = std::make_shared<std::string>("scenario");
   v->add_option("kind", *of,
                 "Kind of file: scenario (default) or rig; the verb that reads the study file; or series, "
-                "which lists the "
-                "columns of series.csv")
+                "which lists the columns of series.csv")
       ->check(one_of({"scenario", "rig", "identify", "compare-controllers", "activity", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }

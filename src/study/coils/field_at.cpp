@@ -36,8 +36,7 @@ std::string weak_gradient_note(const FieldNull& n) {
   return fmt::format(
       "the gradient of {:.2g} T/m is too weak to gather cells. Cells with a moment of {:g} A m^2 need more "
       "than {:.2g} uT to align with the field. The field reaches this value {:.2g} m from the zero, outside "
-      "a "
-      "sample of {:g} mm. Choose a position nearer to the middle of the coils, or permit larger currents",
+      "a sample of {:g} mm. Choose a position nearer to the middle of the coils, or permit larger currents",
       gradient, kMoment, 1e6 * field, field / gradient, 1e3 * kSample);
 }
 

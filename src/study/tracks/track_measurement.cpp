@@ -158,7 +158,7 @@ std::string speed_warning(const TrackSurvey& survey, const TrackPass& pass, cons
     return fmt::format(
         "{}: cells turn faster than the frame rate resolves, or tracks join different cells; speeds are too "
         "small; use a higher frame rate, or a smaller --reach",
-        s.persistent.good ? fmt::format("the persistence time is {:.2g} frames; at least 1.5 are needed",
+        s.persistent.good ? fmt::format("the persistence time is {:.3g} frames; at least 1.5 are needed",
                                         s.tau_s.value / survey.frame_s)
                           : "the persistence time could not be determined");
   return "";

@@ -36,8 +36,7 @@ Json check_json(const BenchCheck& b) {
 void print_check(const BenchCheck& b) {
   fmt::print(
       "camera   {}: {} x {} px, {}; the last frame arrived {} after mid-exposure; the command is ready {} "
-      "after "
-      "mid-exposure (median); {} frames, {} dropped, {} corrupt\n",
+      "after mid-exposure (median); {} frames, {} dropped, {} corrupt\n",
       b.camera, b.width_px, b.height_px, b.rate_hz ? three_digits(*b.rate_hz) + " Hz" : "-",
       three_digits(1e3 * b.age_s) + " ms", three_digits(1e3 * b.delay_s) + " ms", b.frames, b.dropped,
       b.corrupt);
