@@ -60,7 +60,7 @@ WITHIN = {
         "scenario": "loop",
         "run": "loop scenario",
         "files": "scenario",
-        "sinks": "loop scenario run",
+        "sinks": "loop scenario run files",
         "recording": "loop scenario run sinks",
         "bench": "loop scenario run sinks recording",
     },

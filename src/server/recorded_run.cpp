@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/files/position_table.h"
 #include "app/recording/session.h"
 #include "core/file.h"
 #include "core/h5/h5.h"
@@ -64,23 +65,24 @@ Json describe_run(const std::filesystem::path& dir) {
             {"box", {{"left", box.left}, {"top", box.top}, {"right", box.right}, {"bottom", box.bottom}}},
             {"setpoints", Json::array()}}},
           {"populations", populations},
-          {"frames", f.table("position_px").rows()},
+          {"frames", PositionTable(f).rows()},
           {"rate", fps / every}};
 }
 
 std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std::uint64_t count) {
   const RecordedScene scene = scene_of(dir);
   const H5File f = tracks_of(dir);
-  const H5Table positions = f.table("position_px"), times = f.table("t_s"), numbers = f.table("frame");
+  PositionTable positions(f);
+  const H5Table times = f.table("t_s"), numbers = f.table("frame");
   const bool has_response = f.has("responding");
-  const std::size_t n = positions.row_size() / 2;
+  const std::size_t n = positions.cells();
   std::vector<float> xy(2 * n), x(n), y(n), response(n, 1.0F);
   std::vector<std::uint8_t> responding(has_response ? n : 0);
   std::string out;
   const std::uint64_t end = std::min(positions.rows(), from + std::min(count, kMostRunFrames));
   for (std::uint64_t k = from; k < end; ++k) {
     FrameMessage frame;
-    positions.read(k, std::span<float>(xy));
+    positions.read(k, xy);
     times.read(k, std::span<double>(&frame.t, 1));
     numbers.read(k, std::span<std::uint64_t>(&frame.frame, 1));
     // The message needs world positions: 1 m per pixel, origin at the corner of the image.

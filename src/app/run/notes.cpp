@@ -300,12 +300,13 @@ std::string in_bytes(double bytes) {
   return bytes < 1e12 ? fmt::format("{:.3g} GB", bytes / 1e9) : fmt::format("{:.3g} TB", bytes / 1e12);
 }
 
-// Size of the positions: two floats per cell and frame; compression reduces it to three quarters.
+// Size of the positions: two floats or 16-bit integers per cell and frame; compression reduces it to three
+// quarters or less.
 void note_size(const Scenario& s, std::size_t cells, std::filesystem::path out, Notes& notes) {
   if (!s.record.tracks) return;
-  constexpr double kBytesPerCell = 8, kCompressionRatio = 0.75, kLargeFile = 10e9;
-  const double bytes = kBytesPerCell * (s.record.compress ? kCompressionRatio : 1) * double(cells) *
-                       double(s.frames()) / s.record.tracks_every;
+  constexpr double kCompressionRatio = 0.75, kLargeFile = 10e9;
+  const double bytes = (s.record.resolution_px > 0 ? 4 : 8) * (s.record.compress ? kCompressionRatio : 1) *
+                       double(cells) * double(s.frames()) / s.record.tracks_every;
   std::error_code ec;
   while (out.has_parent_path() && !std::filesystem::exists(out, ec)) out = out.parent_path();
   const auto disk = std::filesystem::space(std::filesystem::exists(out, ec) ? out : ".", ec);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/files/position_table.h"
 #include "app/sinks/sinks.h"
 #include "core/h5/h5.h"
 
@@ -9,6 +10,21 @@ namespace faba {
 namespace {
 
 constexpr std::uint64_t kChunkBytes = 16u << 20;  // of the row of chunks being filled, which is in memory
+
+// Positions are rounded relative to the centre of the arena, which cells do not leave.
+std::optional<PositionTable::Rounding> rounding_of(const SinkContext& c) {
+  const double resolution = c.record.resolution_px;
+  if (!(resolution > 0)) return {};
+  const Grid grid = c.truth->parts().arena->grid();
+  const double finest = PositionTable::finest_px(std::max(grid.columns, grid.rows) / 2.0 + 1);
+  if (resolution < finest)
+    throw Error(
+        Errc::usage, "record.resolution_px",
+        fmt::format("{:g} px is too fine for 16 bits in an arena of {} x {} px; it must be at least {:.4g} "
+                    "px, or 0 for exact positions",
+                    resolution, grid.columns, grid.rows, finest));
+  return PositionTable::Rounding{resolution, c.frame.centre_image};
+}
 
 class Tracks final : public RunSink {
  public:
@@ -22,8 +38,7 @@ class Tracks final : public RunSink {
     const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
     frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, 1024, 1, false));
     t_ = std::make_unique<H5Table>(file_.table<double>("t_s", {}, 1024, 1, false));
-    position_ =
-        std::make_unique<H5Table>(file_.table<float>("position_px", {n, 2}, rows, 4096, c.record.compress));
+    position_ = std::make_unique<PositionTable>(file_, n, rows, c.record.compress, rounding_of(c));
     if (c.dose)
       responding_ = std::make_unique<H5Table>(
           file_.table<std::uint8_t>("responding", {n}, rows, 4096, c.record.compress));
@@ -66,7 +81,7 @@ class Tracks final : public RunSink {
   void append(std::uint64_t frame, double t) {
     frame_->append<std::uint64_t>({&frame, 1});
     t_->append<double>({&t, 1});
-    position_->append<float>(row_);
+    position_->append(row_);
   }
 
   void describe() {
@@ -76,8 +91,6 @@ class Tracks final : public RunSink {
     file_.attribute("/", "every_frames", double(c_.record.tracks_every));
     file_.attribute("/", "width_px", double(c_.frame.width));
     file_.attribute("/", "height_px", double(c_.frame.height));
-    file_.attribute("position_px", "axes",
-                    std::string("row, cell, (x right, y down); pixel centres are integers"));
     // range of cells of each [[swarm]]; the numbers of cells are in the order of the swarms
     for (std::size_t k = 0; k < c_.truth->parts().populations.size(); ++k) {
       const auto& p = c_.truth->parts().populations[k];
@@ -89,21 +102,23 @@ class Tracks final : public RunSink {
   void import_rows(std::uint64_t keep) {
     {
       const H5File old = H5File::open(path_);
-      const H5Table frame = old.table("frame"), t = old.table("t_s"), position = old.table("position_px");
+      const H5Table frame = old.table("frame"), t = old.table("t_s"),
+                    responding = responding_ ? old.table("responding") : frame;
+      PositionTable position(old);
       if (position.rows() < keep)
         throw Error(Errc::input, path_.string(),
                     fmt::format("has {} frames, but the checkpoint has {}", position.rows(), keep));
-      row_.resize(position.row_size());
-      flags_.resize(position.row_size() / 2);
+      row_.resize(2 * position.cells());
+      flags_.resize(position.cells());
       for (std::uint64_t r = 0; r < keep; ++r) {
         std::uint64_t index = 0;
         double time = 0;
         frame.read<std::uint64_t>(r, {&index, 1});
         t.read<double>(r, {&time, 1});
-        position.read<float>(r, row_);
+        position.read(r, row_);
         append(index, time);
         if (!responding_) continue;
-        old.table("responding").read<std::uint8_t>(r, flags_);
+        responding.read<std::uint8_t>(r, flags_);
         responding_->append<std::uint8_t>(flags_);
       }
     }
@@ -113,7 +128,8 @@ class Tracks final : public RunSink {
   SinkContext c_;
   std::filesystem::path path_;
   H5File file_;
-  std::unique_ptr<H5Table> frame_, t_, position_, responding_;
+  std::unique_ptr<H5Table> frame_, t_, responding_;
+  std::unique_ptr<PositionTable> position_;
   std::vector<float> row_;
   std::vector<std::uint8_t> flags_;
 };

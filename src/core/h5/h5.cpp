@@ -25,6 +25,7 @@ hid_t type_of() {
   if constexpr (std::is_same_v<T, float>) return H5T_NATIVE_FLOAT;
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
   if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
+  if constexpr (std::is_same_v<T, std::int16_t>) return H5T_NATIVE_INT16;
   if constexpr (std::is_same_v<T, std::int32_t>) return H5T_NATIVE_INT32;
   if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
 }
@@ -374,6 +375,7 @@ void H5File::close() {
 FABA_H5_TYPE(float)
 FABA_H5_TYPE(double)
 FABA_H5_TYPE(std::uint8_t)
+FABA_H5_TYPE(std::int16_t)
 FABA_H5_TYPE(std::int32_t)
 FABA_H5_TYPE(std::uint64_t)
 #undef FABA_H5_TYPE

@@ -11,7 +11,7 @@ namespace faba {
 class Pool;
 
 /// An HDF5 dataset to which rows are appended. Rows are kept in memory until a row of chunks is complete, or
-/// until H5File::sync(). Element types: float, double, std::uint8_t, std::int32_t,
+/// until H5File::sync(). Element types: float, double, std::uint8_t, std::int16_t, std::int32_t,
 /// std::uint64_t. Valid as long as its file is open. Every failure throws Error(internal) with the file name
 /// and the reason given by HDF5.
 class H5Table {

@@ -7,6 +7,12 @@ Schema<Record> Record::schema() {
       .add("tracks", &Record::tracks, {.doc = "tracks.h5: positions of all cells"})
       .add("tracks_every", &Record::tracks_every,
            {.min = 1, .max = 1e6, .doc = "Positions are recorded every N frames"})
+      .add("resolution_px", &Record::resolution_px,
+           {.unit = "px",
+            .min = 0,
+            .max = 16,
+            .doc = "tracks.h5: positions are rounded to this, such as 0.015625, and stored as 16-bit "
+                   "integers, which makes the file of a long run several times smaller; 0: exact"})
       .add("compress", &Record::compress,
            {.doc = "Compress tracks.h5, by all threads (lossless; a third to a half smaller)"})
       .add("video", &Record::video, {.doc = "video.mp4: video of the swarm, for browsers"})

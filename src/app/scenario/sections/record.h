@@ -7,6 +7,7 @@ namespace faba {
 struct Record {
   bool tracks = true;
   int tracks_every = 1;
+  double resolution_px = 0;
   bool compress = true;
   bool video = true;
   int video_every = 1;
