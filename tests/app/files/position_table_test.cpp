@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
@@ -26,6 +27,13 @@ std::vector<float> row(std::uint64_t k) {
     xy[i] = float((i % 2 ? 239.5 : 319.5) + reach * (2 * u - 1));
   }
   return xy;
+}
+
+RunOptions into(const std::filesystem::path& dir) {
+  RunOptions o;
+  o.out = dir;
+  o.threads = 2;
+  return o;
 }
 
 }  // namespace
@@ -96,21 +104,21 @@ model = "basic"
     return all;
   };
   const Scenario scene = scenario_from(text);
-  Session complete = Session::begin(scene, 7, options(f.path / "complete"));
+  Session complete = Session::begin(scene, 7, into(f.path / "complete"));
   REQUIRE(complete.run());
   {
     std::atomic<bool> stop{false};
-    RunOptions o = options(f.path / "cut");
+    RunOptions o = into(f.path / "cut");
     o.stop = &stop;
     o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == 31; };
     CHECK_FALSE(Session::begin(scene, 7, o).run());
   }
-  Session resumed = Session::resume(builtin_parts(), options(f.path / "cut"));
+  Session resumed = Session::resume(builtin_parts(), into(f.path / "cut"));
   REQUIRE(resumed.run());
   CHECK(positions(f.path / "cut") == positions(f.path / "complete"));
 
   std::string fine = text;
   fine.replace(fine.find("0.015625"), 8, "0.001");
-  CHECK_THROWS_WITH_AS(Session::begin(scenario_from(fine), 7, options(f.path / "fine")),
+  CHECK_THROWS_WITH_AS(Session::begin(scenario_from(fine), 7, into(f.path / "fine")),
                        doctest::Contains("record.resolution_px: 0.001 px is too fine for 16 bits"), Error);
 }
