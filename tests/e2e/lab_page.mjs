@@ -12,9 +12,13 @@ const option = (name) => {
   const i = process.argv.indexOf(`--${name}`);
   return i < 0 ? null : resolve(process.argv[i + 1]);
 };
+/** Times longer than usual that the test waits, for programs with sanitizers. */
+const slowness = process.argv.includes('--slow') ? 10 : 1;
 export const program = option('program'), root = option('root'), pictures = option('pictures');
 const { chromium } = createRequire(join(root, 'web', 'package.json'))('playwright-core');
-const kPatience = 30000; // ms; long enough for a busy machine
+const kPatience = 30000 * slowness; // ms; long enough for a busy machine
+/** For a job of the lab, ms. */
+export const kJobPatience = 120000 * slowness;
 
 export const workspace = mkdtempSync(join(tmpdir(), 'faba-lab-test-'));
 for (const folder of ['scenes', 'rigs', 'studies']) cpSync(join(root, folder), join(workspace, folder), { recursive: true });

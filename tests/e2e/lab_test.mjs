@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { address, browser, complaints, context, elsewhere, faba, lab, page, panel, pictures, place, read, serveAgain, shot, step, tab, until, workspace } from './lab_page.mjs';
+import { address, browser, complaints, context, elsewhere, faba, kJobPatience, lab, page, panel, pictures, place, read, serveAgain, shot, step, tab, until, workspace } from './lab_page.mjs';
 
 await step('the gallery opens, and the token is removed from the address', async () => {
   await page.goto(address);
@@ -125,7 +125,7 @@ await step('the run is recorded, and the recording has the same state', async ()
   await page.keyboard.press('Enter');
   await panel('Jobs');
   const job = page.locator('.panel li').first();
-  await job.getByText('done', { exact: true }).waitFor({ timeout: 120000 });
+  await job.getByText('done', { exact: true }).waitFor({ timeout: kJobPatience });
   recorded = /\(([0-9a-f]+)\)/.exec(await job.textContent())[1];
   await shot('work');
   const manifest = JSON.parse(readFileSync(join(workspace, 'runs/By-hand/manifest.json'), 'utf8'));
@@ -249,7 +249,7 @@ await step('a field map and the activity of a video are shown', async () => {
   const show = async (form, title, what) => {
     await page.locator('form', { hasText: form }).getByRole('button', { name: 'Start' }).click();
     const job = page.locator('li', { hasText: title }).first();
-    await job.getByRole('button', { name: 'Open' }).click({ timeout: 120000 });
+    await job.getByRole('button', { name: 'Open' }).click({ timeout: kJobPatience });
     await page.locator(what).waitFor();
   };
   await page.getByLabel('Coil system').selectOption('rigs/thesis-four-coils.toml');
