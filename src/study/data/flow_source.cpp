@@ -122,7 +122,7 @@ void FlowSource::Impl::open_flows() {
 
 void FlowSource::Impl::open_video() {
   const unsigned threads = number_of_threads(options.threads);
-  VideoReader reader(input.file, options.fps);
+  VideoReader reader(input.file, options.fps, threads);
   const int w = reader.width(), h = reader.height();
   const int side =
       options.shrink > 0 ? options.shrink : std::max(1, (std::max(w, h) + kLongSide - 1) / kLongSide);

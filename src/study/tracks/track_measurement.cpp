@@ -36,11 +36,11 @@ class TrackPass {
         drop_(drop_of(o, s)) {}
 
   void run(const std::filesystem::path& video, const std::function<void(std::int64_t)>& tick) {
-    VideoReader reader(video, options_.part.fps);
+    const unsigned threads = number_of_threads(options_.threads);
+    VideoReader reader(video, options_.part.fps, threads);
     const Detector detector(survey_.background, detector_options(options_, survey_, drop_));
     threshold_ = detector.threshold_sd();
     std::uint64_t index = options_.part.from_s > 0 ? std::uint64_t(reader.skip_to(options_.part.from_s)) : 0;
-    const unsigned threads = number_of_threads(options_.threads);
     std::vector<SpottedFrame> frames(OrderedWork::slots(threads));
     const auto read = [&](std::size_t slot) {
       SpottedFrame& f = frames[slot];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +17,7 @@
 namespace faba {
 namespace {
 
+constexpr unsigned kMostDecoders = 8;                       // each has a frame in memory
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // limit for corrupt or malicious headers
 
 using Frame = std::unique_ptr<AVFrame, libav::Free>;
@@ -29,9 +31,14 @@ using Io = std::unique_ptr<AVIOContext, CloseIo>;
 
 }  // namespace
 
+// Thrown at the first sign of damage while several threads decode, see AvStream::read_by_one_thread().
+struct Damaged {};
+
 struct AvStream::Impl {
   std::filesystem::path path;
-  Io io;  // declared before the container, which reads through it
+  unsigned threads = 1;
+  std::optional<double> skipped_to;  // by the last skip_to()
+  Io io;                             // declared before the container, which reads through it
   Container container;
   Codec codec;
   // Packets that skip_to() has read, from a key frame on. They are taken before those of the file.
@@ -119,7 +126,8 @@ void AvStream::Impl::open_codec() {
   }
   codec.reset(FABA_AV(avcodec_alloc_context3)(decoder));
   FABA_AV(avcodec_parameters_to_context)(codec.get(), stream->codecpar);
-  codec->thread_count = 1;
+  codec->thread_count = still ? 1 : static_cast<int>(threads);
+  codec->thread_type = FF_THREAD_FRAME;
   codec->max_pixels = kMaxPixels;
   codec->pkt_timebase = stream->time_base;
   // A damaged still image is refused; in a video, damage to side information must not lose the frame.
@@ -144,6 +152,7 @@ void AvStream::Impl::open_codec() {
 }
 
 void AvStream::Impl::note_damage(const std::string& why) {
+  if (threads > 1) throw Damaged{};
   ++damaged;
   need_key_packet = true;
   if (!damage.empty()) return;
@@ -297,10 +306,29 @@ double AvStream::Impl::time_of_frame() {
   return t;
 }
 
-AvStream::AvStream(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
+AvStream::AvStream(const std::filesystem::path& path, unsigned threads) : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
-  impl_->open();
+  impl_->threads = std::min(threads, kMostDecoders);
+  try {
+    impl_->open();
+  } catch (const Damaged&) {
+    read_by_one_thread();
+  }
 }
+
+// With several threads an error is reported when further packets have been sent to the decoder. What a
+// damaged file gives must not depend on that, so it is read again up to the same frame.
+void AvStream::read_by_one_thread() {
+  auto again = std::make_unique<Impl>();
+  again->path = impl_->path;
+  again->open();
+  if (impl_->skipped_to) again->skip_to(*impl_->skipped_to);
+  RawFrame frame;
+  for (double t_s = 0; again->delivered < impl_->delivered && again->next(frame, t_s);) {
+  }
+  impl_ = std::move(again);
+}
+
 AvStream::~AvStream() = default;
 AvStream::AvStream(AvStream&&) noexcept = default;
 AvStream& AvStream::operator=(AvStream&&) noexcept = default;
@@ -341,9 +369,16 @@ bool AvStream::Impl::next(RawFrame& out, double& t_s) {
   return true;
 }
 
-std::int64_t AvStream::skip_to(double t_s) { return impl_->skip_to(t_s); }
+std::int64_t AvStream::skip_to(double t_s) { return impl_->skip_to(*(impl_->skipped_to = t_s)); }
 
-bool AvStream::next(double& t_s) { return impl_->next(impl_->current, t_s); }
+bool AvStream::next(double& t_s) {
+  try {
+    return impl_->next(impl_->current, t_s);
+  } catch (const Damaged&) {
+    read_by_one_thread();
+  }
+  return impl_->next(impl_->current, t_s);
+}
 
 void AvStream::picture(GrayF& frame) { to_grey(impl_->current, frame); }
 

@@ -14,8 +14,9 @@ namespace faba {
 /// followed.
 class AvStream {
  public:
-  /// Throws Error(Errc::input, path) when the format is not supported or no frame can be decoded.
-  explicit AvStream(const std::filesystem::path& path);
+  /// `threads` decode, with the same result for any number. Throws Error(Errc::input, path) when the format
+  /// is not supported or no frame can be decoded.
+  explicit AvStream(const std::filesystem::path& path, unsigned threads = 1);
   ~AvStream();
   AvStream(AvStream&&) noexcept;
   AvStream& operator=(AvStream&&) noexcept;
@@ -35,6 +36,7 @@ class AvStream {
   const std::string& damage() const;                ///< see VideoReader::damage
 
  private:
+  void read_by_one_thread();
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -57,7 +57,8 @@ bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
   return true;
 }
 
-VideoReader::VideoReader(const std::filesystem::path& path, double fps) : impl_(std::make_unique<Impl>()) {
+VideoReader::VideoReader(const std::filesystem::path& path, double fps, unsigned threads)
+    : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
   impl_->fps = fps;
   if (is_picture_sequence(path)) {
@@ -70,7 +71,7 @@ VideoReader::VideoReader(const std::filesystem::path& path, double fps) : impl_(
     impl_->width = impl_->stack->width();
     impl_->height = impl_->stack->height();
   } else {
-    impl_->stream.emplace(path);
+    impl_->stream.emplace(path, threads);
     impl_->width = impl_->stream->width();
     impl_->height = impl_->stream->height();
   }

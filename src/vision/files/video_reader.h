@@ -25,10 +25,10 @@ namespace faba {
 class VideoReader {
  public:
   /// Opens the file and decodes its first frame. `fps` > 0 overrides the mean frame rate of the file (time
-  /// stamps are scaled); 0: frame rate of the file. Throws Error(Errc::input, path) when the file does not
-  /// exist, is a directory without pictures, is empty, has an unknown format or no video stream, or when no
-  /// frame can be decoded.
-  explicit VideoReader(const std::filesystem::path& path, double fps = 0);
+  /// stamps are scaled); 0: frame rate of the file. `threads` decode, where the format permits it; they do
+  /// not change the result. Throws Error(Errc::input, path) when the file does not exist, is a directory
+  /// without pictures, is empty, has an unknown format or no video stream, or when no frame can be decoded.
+  explicit VideoReader(const std::filesystem::path& path, double fps = 0, unsigned threads = 1);
   ~VideoReader();
   VideoReader(VideoReader&&) noexcept;
   VideoReader& operator=(VideoReader&&) noexcept;

@@ -173,6 +173,43 @@ TEST_CASE(
   CHECK_THROWS_AS(read_all(changing), Error);
 }
 
+namespace {
+
+// Several decoding threads give the same frames, the same end and the same words about damage.
+void same_with_threads(const std::filesystem::path& path) {
+  struct Read {
+    std::vector<GrayF> frames;
+    bool truncated = false;
+    std::int64_t damaged = 0;
+    std::string damage;
+  };
+  const auto read = [&](unsigned threads) {
+    Read r;
+    try {
+      VideoReader reader(path, 0, threads);
+      r.frames = read_all(reader);
+      r.truncated = reader.truncated();
+      r.damaged = reader.damaged_frames();
+      r.damage = reader.damage();
+    } catch (const Error& error) {
+      r.damage = error.what();
+    }
+    return r;
+  };
+  const Read one = read(1);
+  for (const unsigned threads : {2u, 5u}) {
+    CAPTURE(threads);
+    const Read several = read(threads);
+    REQUIRE(several.frames.size() == one.frames.size());
+    for (std::size_t i = 0; i < one.frames.size(); ++i) CHECK(several.frames[i].px == one.frames[i].px);
+    CHECK(several.truncated == one.truncated);
+    CHECK(several.damaged == one.damaged);
+    CHECK(several.damage == one.damage);
+  }
+}
+
+}  // namespace
+
 TEST_CASE("a truncated video gives the frames of the complete one, then false and the reason") {
   const media::ScratchFolder folder;
   for (const auto format : {VideoFormat::mp4, VideoFormat::lossless_avi}) {
@@ -181,11 +218,13 @@ TEST_CASE("a truncated video gives the frames of the complete one, then false an
     VideoReader complete(path);
     const std::vector<GrayF> frames = read_all(complete);
     REQUIRE(frames.size() == 25);
+    same_with_threads(path);
     const std::string bytes = media::read_bytes(path);
     std::size_t most_frames = 0;
     for (int tenth = 1; tenth < 10; ++tenth) {
       CAPTURE(tenth);
       media::write_bytes(folder / "cut", bytes.substr(0, bytes.size() * std::size_t(tenth) / 10));
+      same_with_threads(folder / "cut");
       try {
         VideoReader cut(folder / "cut");
         const std::vector<GrayF> some = read_all(cut);
@@ -231,6 +270,7 @@ TEST_CASE("no error concealment: after damage, frames are skipped until the next
     const std::size_t at = data + (bytes.size() - data) * std::size_t(damage_at) / 20;
     for (std::size_t i = at; i < at + 30; ++i) damaged_bytes[i] = damage_at % 2 == 0 ? '\0' : '\xFF';
     media::write_bytes(folder / "damaged.mp4", damaged_bytes);
+    same_with_threads(folder / "damaged.mp4");
     VideoReader damaged(folder / "damaged.mp4");
     GrayF grey;
     double t_s = 0;
