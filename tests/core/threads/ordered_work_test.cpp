@@ -1,4 +1,4 @@
-#include "core/ordered_work.h"
+#include "core/threads/ordered_work.h"
 
 #include <doctest/doctest.h>
 
