@@ -55,7 +55,7 @@ double tracked_speed(int n, double noise) {
   swimmers(folder.path(), l, n, step, 14);
   TrackOptions o;
   o.video = folder.path();
-  o.fps = 15;
+  o.part.fps = 15;
   o.size_px = 3;
   return track_video(o).summary.mean_speed_px_s.value / (15 * step);
 }
@@ -79,7 +79,7 @@ TEST_CASE("track: tables, overlay, picture, page and figures are complete and re
   swimmers(folder / "frames", l, 60, 4, 12);
   TrackOptions o;
   o.video = folder / "frames";
-  o.fps = 10;
+  o.part.fps = 10;
   o.um_per_px = 0.5;
   o.out = {folder / "t.csv", folder / "t.h5"};
   o.overlay = folder / "o.mp4";
