@@ -12,7 +12,7 @@ constexpr std::int32_t kGranted = -1;
 constexpr std::size_t kWishes = 4096;  // agents per block of sorted wishes
 constexpr int kSweeps = 8;             // of follow()
 // A stripe, three bits per site, fits into the L1 cache. Stripes are larger if their number would exceed
-// kMostStripes; they consist of whole words of Sites.
+// kMostStripes; they consist of complete words of Sites.
 constexpr unsigned kStripeShift = 14;
 constexpr std::size_t kMostStripes = 256;
 

@@ -12,7 +12,7 @@ const option = (name) => {
   const i = process.argv.indexOf(`--${name}`);
   return i < 0 ? null : resolve(process.argv[i + 1]);
 };
-/** Times longer than usual that the test waits, for programs with sanitizers. */
+/** Factor on all waiting times, for programs with sanitizers. */
 const slowness = process.argv.includes('--slow') ? 10 : 1;
 export const program = option('program'), root = option('root'), pictures = option('pictures');
 const { chromium } = createRequire(join(root, 'web', 'package.json'))('playwright-core');

@@ -222,7 +222,9 @@ H5File H5File::create(const std::filesystem::path& file, Pool* pool) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110,
                        H5F_LIBVER_V110);  // required for single writer, multiple readers
-  impl->file = Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);  // equal content gives equal files
+  impl->file = Handle(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose);
   if (impl->file < 0) impl->fail(Errc::internal, "create");
   return H5File(std::move(impl));
 }
@@ -267,6 +269,7 @@ H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>&
   if (chunk.size() > 1) chunk[1] = std::min<hsize_t>(chunk[1], chunk_columns);
   const Handle space(H5Screate_simple(int(t->dims.size()), t->dims.data(), max_dims.data()), H5Sclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
   H5Pset_chunk(creation, int(chunk.size()), chunk.data());
   if (compress) {
     H5Pset_shuffle(creation);

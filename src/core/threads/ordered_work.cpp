@@ -45,7 +45,7 @@ std::optional<std::size_t> OrderedWork::next() {
 }
 
 OrderedWork::Step OrderedWork::possible() const {
-  if (begun_ < made_) return Step::work;
+  if (started_ < made_) return Step::work;
   return !making_ && !ended_ && made_ - taken_ < items_.size() ? Step::make : Step::none;
 }
 
@@ -78,7 +78,7 @@ void OrderedWork::make(std::unique_lock<std::mutex>& lock) {
 }
 
 void OrderedWork::work(std::unique_lock<std::mutex>& lock, unsigned thread) {
-  const std::size_t index = begun_++;
+  const std::size_t index = started_++;
   std::exception_ptr failure = item(index).failure;
   lock.unlock();
   try {

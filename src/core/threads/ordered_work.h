@@ -53,8 +53,8 @@ class OrderedWork {
   std::vector<Item> items_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  // Items are numbered in the order of the stream: taken_ <= begun_ <= made_ <= taken_ + slots.
-  std::size_t taken_ = 0, begun_ = 0, made_ = 0;
+  // Items are numbered in the order of the stream: taken_ <= started_ <= made_ <= taken_ + slots.
+  std::size_t taken_ = 0, started_ = 0, made_ = 0;
   bool held_ = false;  ///< the caller holds item taken_
   bool making_ = false, ended_ = false, stopped_ = false;
   std::vector<std::thread> threads_;

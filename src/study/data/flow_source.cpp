@@ -166,7 +166,7 @@ bool FlowSource::Impl::read(std::shared_ptr<const GrayF>& picture, double& t_s, 
   if (!video->next(t_s)) return false;
   const std::uint64_t index = read_frames++;
   if (!in_time(t_s, t_s)) return true;
-  const bool inspected = options.inspect.wants && options.inspect.wants(t_s);
+  const bool inspected = options.inspect.needs && options.inspect.needs(t_s);
   const bool paired = index % every == 0 || (index > 0 && (index - 1) % every == 0);
   if (!inspected && !paired) return true;
   auto frame_read = std::make_shared<GrayF>();

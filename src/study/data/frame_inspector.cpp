@@ -30,7 +30,7 @@ VideoReading inspect_video(const std::filesystem::path& video, const VideoPart& 
     for (double t_s = 0; reader.next(t_s) && !part.ends_before(t_s);) {
       if (!part.holds(t_s)) continue;
       jobs[slot] = nullptr;
-      if (inspector.wants(t_s)) {
+      if (inspector.needs(t_s)) {
         reader.picture(frame);
         jobs[slot] = inspector.take(frame);
       }

@@ -12,7 +12,7 @@ namespace faba {
 /// Work on the frames of a part of a video, which may be done in one reading with other work.
 struct FrameInspector {
   /// Called with the time of every frame, in order; whether take() needs its picture. May be empty.
-  std::function<bool(double t_s)> wants;
+  std::function<bool(double t_s)> needs;
   /// Called with such a frame, as the file has it, in order. Returns work on it that any thread may do, or
   /// nothing.
   std::function<std::function<void()>(const GrayF& frame)> take;

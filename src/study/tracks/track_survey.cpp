@@ -92,19 +92,19 @@ void make_finite(GrayF& frame) {
 }
 
 FrameInspector TrackSurveyor::inspector() {
-  return {[this](double t_s) { return wants(t_s); },
+  return {[this](double t_s) { return needs(t_s); },
           [this](const GrayF& frame) -> std::function<void()> {
             take(frame);
             return {};
           }};
 }
 
-bool TrackSurveyor::wants(double t_s) {
+bool TrackSurveyor::needs(double t_s) {
   if (frames_ == 0) first_s_ = t_s;
   if (frames_ > 0 && t_s > last_s_ && gaps_.size() < kGaps) gaps_.push_back(t_s - last_s_);
   last_s_ = t_s;
   ++frames_;
-  if (sampler_.wants_next()) return true;
+  if (sampler_.needs_next()) return true;
   sampler_.skip();
   return false;
 }

@@ -48,7 +48,7 @@ class TrackSurveyor {
   TrackSurvey result(int bits, bool timed, Pool& pool) const;
 
  private:
-  bool wants(double t_s);
+  bool needs(double t_s);
   void take(const GrayF& frame);
 
   TrackOptions options_;

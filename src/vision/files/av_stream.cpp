@@ -165,6 +165,8 @@ bool AvStream::Impl::decode() {
     libav::forget_messages();
     const int result = FABA_AV(avcodec_receive_frame)(codec.get(), frame.get());
     if (result == AVERROR_EOF) {
+      // With several threads FFmpeg may lose errors of the last frames.
+      if (threads > 1 && (truncated || delivered != sent)) throw Damaged{};
       if (need_key_packet) truncated = true;
       return false;
     }

@@ -42,7 +42,7 @@ BackgroundSampler::BackgroundSampler(int most_frames, std::size_t most_bytes)
 void BackgroundSampler::take(const GrayF& frame) {
   if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
     throw Error(Errc::internal, "", "the frame differs in size from the previous frames of the background");
-  const bool wanted = wants_next();
+  const bool wanted = needs_next();
   ++seen_;
   if (!wanted) return;
   const auto fit = most_bytes_ / std::max<std::size_t>(1, frame.px.size() * sizeof(float));

@@ -30,7 +30,7 @@ class BackgroundSampler {
   explicit BackgroundSampler(int most_frames = 50, std::size_t most_bytes = 256u << 20);
 
   /// Whether take() may keep the next frame; otherwise skip() has the same effect without its picture.
-  bool wants_next() const { return seen_ % stride_ == 0; }
+  bool needs_next() const { return seen_ % stride_ == 0; }
   void skip() { ++seen_; }
   /// Offers the next frame. All frames must have the same size, else Error(Errc::internal).
   void take(const GrayF& frame);

@@ -1,6 +1,7 @@
 #include "vision/image/kernels/box_filter.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -18,19 +19,60 @@ constexpr int kRows = 16;
 
 using Four = Wide<float, 16>::type;
 
-// to[j][i] = from[i][j] for 4 x 4 values.
-[[gnu::always_inline]] inline void transpose(const float* from, std::size_t from_stride, float* to,
-                                             std::size_t to_stride) {
+struct Square {
   Four row[4];
-  for (std::size_t i = 0; i < 4; ++i) row[i] = *reinterpret_cast<const Four*>(from + i * from_stride);
-  const Four a = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
-  const Four b = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
-  const Four c = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
-  const Four d = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
-  *reinterpret_cast<Four*>(to) = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-  *reinterpret_cast<Four*>(to + to_stride) = __builtin_shufflevector(a, b, 2, 3, 6, 7);
-  *reinterpret_cast<Four*>(to + 2 * to_stride) = __builtin_shufflevector(c, d, 0, 1, 4, 5);
-  *reinterpret_cast<Four*>(to + 3 * to_stride) = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+};
+
+[[gnu::always_inline]] inline Square transposed(const Square& s) {
+  const Four a = __builtin_shufflevector(s.row[0], s.row[1], 0, 4, 1, 5);
+  const Four b = __builtin_shufflevector(s.row[2], s.row[3], 0, 4, 1, 5);
+  const Four c = __builtin_shufflevector(s.row[0], s.row[1], 2, 6, 3, 7);
+  const Four d = __builtin_shufflevector(s.row[2], s.row[3], 2, 6, 3, 7);
+  return {{__builtin_shufflevector(a, b, 0, 1, 4, 5), __builtin_shufflevector(a, b, 2, 3, 6, 7),
+           __builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7)}};
+}
+
+Four& four(float* at) { return *reinterpret_cast<Four*>(at); }
+
+using Rows = std::array<float*, kRows>;
+
+// Calls block(row, col) for the 4 x 4 blocks of kRows rows, in an order that uses every cache line at once,
+// and rest(col) for the columns that remain.
+template <class Block, class Rest>
+[[gnu::always_inline]] inline void each_block(int width, Block&& block, Rest&& rest) {
+  const int even = width / 4 * 4;
+  for (int first = 0; first < even; first += kRows)
+    for (int row = 0; row < kRows; row += 4)
+      for (int col = first; col < std::min(first + kRows, even); col += 4) block(row, col);
+  for (int col = even; col < width; ++col) rest(col);
+}
+
+void rows_to_columns(const Rows& rows, int width, float* columns) {
+  each_block(
+      width,
+      [&](int row, int col) {
+        Square s;
+        for (int i = 0; i < 4; ++i) s.row[i] = four(rows[std::size_t(row + i)] + col);
+        s = transposed(s);
+        for (int i = 0; i < 4; ++i) four(columns + (col + i) * kRows + row) = s.row[i];
+      },
+      [&](int col) {
+        for (int row = 0; row < kRows; ++row) columns[col * kRows + row] = rows[std::size_t(row)][col];
+      });
+}
+
+void columns_to_rows(float* columns, int width, const Rows& rows) {
+  each_block(
+      width,
+      [&](int row, int col) {
+        Square s;
+        for (int i = 0; i < 4; ++i) s.row[i] = four(columns + (col + i) * kRows + row);
+        s = transposed(s);
+        for (int i = 0; i < 4; ++i) four(rows[std::size_t(row + i)] + col) = s.row[i];
+      },
+      [&](int col) {
+        for (int row = 0; row < kRows; ++row) rows[std::size_t(row)][col] = columns[col * kRows + row];
+      });
 }
 
 // `columns` has the pixels of kRows rows, column after column, from `half` before the first pixel on.
@@ -82,6 +124,7 @@ class BoxFilter {
         kept_(std::min(picture.height, 2 * half + 2 + kRows)),
         means_(std::size_t(kept_) * width()),
         columns_((width() + std::size_t(2 * half + 1)) * kRows),
+        dropped_(width()),
         sums_(width()) {}
 
   void run() {
@@ -105,56 +148,30 @@ class BoxFilter {
 
   // Computes the means along rows up to row `end`.
   void mean_rows(int end) {
-    while (done_ < end) {
-      const int rows = std::min(kRows, picture_.height - done_);
-      read_columns(rows);
-      running_means(columns_.data(), picture_.width, half_);
-      write_rows(rows);
-      done_ += rows;
+    const int w = picture_.width;
+    for (; done_ < end; done_ += kRows) {
+      // Below the last row its pixels are used, and the results are dropped.
+      Rows from{}, to{};
+      for (int i = 0; i < kRows; ++i) {
+        const int row = done_ + i, last = picture_.height - 1;
+        from[std::size_t(i)] = pixels(std::min(row, last));
+        to[std::size_t(i)] = row <= last ? mean_row(row) : dropped_.data();
+      }
+      rows_to_columns(from, w, column(half_));
+      for (int i = 1; i <= half_; ++i)
+        std::memcpy(column(half_ - i), column(half_ + mirrored(-i, w)), kRows * sizeof(float));
+      for (int i = 0; i <= half_; ++i)
+        std::memcpy(column(half_ + w + i), column(half_ + mirrored(w + i, w)), kRows * sizeof(float));
+      running_means(columns_.data(), w, half_);
+      columns_to_rows(columns_.data(), w, to);
     }
   }
 
   float* column(int i) { return &columns_[std::size_t(i) * kRows]; }
 
-  void read_columns(int rows) {
-    const int w = picture_.width;
-    int row = 0;
-    for (; row + 4 <= rows; row += 4) {
-      const float* from = pixels(done_ + row);
-      int col = 0;
-      for (; col + 4 <= w; col += 4) transpose(from + col, width(), column(half_ + col) + row, kRows);
-      for (; col < w; ++col)
-        for (int k = 0; k < 4; ++k)
-          column(half_ + col)[row + k] = from[std::size_t(k) * width() + std::size_t(col)];
-    }
-    for (; row < rows; ++row)
-      for (int col = 0; col < w; ++col) column(half_ + col)[row] = pixels(done_ + row)[col];
-    for (int i = 1; i <= half_; ++i)
-      std::memcpy(column(half_ - i), column(half_ + mirrored(-i, w)), kRows * sizeof(float));
-    for (int i = 0; i <= half_; ++i)
-      std::memcpy(column(half_ + w + i), column(half_ + mirrored(w + i, w)), kRows * sizeof(float));
-  }
-
-  void write_rows(int rows) {
-    const int w = picture_.width;
-    for (int row = 0; row < rows; ++row) {
-      float* to = mean_row(done_ + row);
-      // The kept rows are a ring: four consecutive ones are not always neighbours.
-      if (row % 4 == 0 && row + 4 <= rows && mean_row(done_ + row + 3) == to + 3 * width()) {
-        int col = 0;
-        for (; col + 4 <= w; col += 4) transpose(column(col) + row, kRows, to + col, width());
-        for (; col < w; ++col)
-          for (int k = 0; k < 4; ++k) to[std::size_t(k) * width() + std::size_t(col)] = column(col)[row + k];
-        row += 3;
-      } else {
-        for (int col = 0; col < w; ++col) to[col] = column(col)[row];
-      }
-    }
-  }
-
   GrayF& picture_;
   int half_, kept_, done_ = 0;  // rows with means along rows
-  std::vector<float> means_, columns_;
+  std::vector<float> means_, columns_, dropped_;
   std::vector<double> sums_;
 };
 
