@@ -15,6 +15,7 @@ import hashlib
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -142,6 +143,34 @@ def video(b):
         b.add(row)
 
 
+def kill(b):
+    """Kills a recording run at random moments: its file must open at once, and the resumed run must be the same."""
+    scene = ROOT / "scenes/thesis-basic.toml"
+    settings = ["--set", "swarm[0].count=20000", "--set", "exclusion.order=none", "--set", "record.video=false", "--set", "record.checkpoint=0.2 s"]
+    complete = Job(b.run(scene, *settings, out="complete"), b.folder)
+    expected, rows, moments = state_hash(b.folder / "complete"), [], random.Random(1)
+    while len(rows) < 20:
+        out = b.folder / "killed"
+        process = subprocess.Popen([str(x) for x in b.run(scene, *settings, out=out)], cwd=b.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (out / "tracks.h5").exists():
+            time.sleep(0.001)
+        time.sleep(complete.s * moments.uniform(0, 0.8))
+        process.kill()
+        if process.wait() == 0:
+            continue  # it had ended before
+        with h5py.File(out / "tracks.h5", "r", swmr=True) as f:
+            rows.append(len(f["position_px"]))
+            b.check(rows[-1] == 0 or f["position_px"][rows[-1] - 1].shape == (20000, 2), "the last row of a killed run cannot be read")
+        Job(b.faba("resume", out), b.folder)
+        b.check(state_hash(out) == expected, "a killed and resumed run has another state hash")
+        with h5py.File(out / "tracks.h5") as f, h5py.File(b.folder / "complete/tracks.h5") as g:
+            b.check(len(f["position_px"]) == len(g["position_px"]) and bool((f["position_px"][-1] == g["position_px"][-1]).all()),
+                    "a killed and resumed run has other tracks")
+        shutil.rmtree(out)
+    b.add("", "## Killed runs", "", f"A run of {complete.s:.1f} s was killed at 20 random moments: its file opened at once with `swmr=True` and had {min(rows)} to {max(rows)} of "
+          "400 frames; resumed, all had the same state hash and the same tracks.")
+
+
 def output_hash(b, job, files):
     digest = hashlib.sha256(job.out.encode())
     for f in files:
@@ -228,7 +257,7 @@ def start(b):
           f"{1e3 * jobs[1].s:.0f} ms (goal: 50, {'met' if jobs[1].s <= 0.05 else 'NOT MET'}).")
 
 
-SECTIONS = {"tracks": tracks, "video": video, "measurements": measurements, "memory": memory, "million": million, "start": start}
+SECTIONS = {"tracks": tracks, "kill": kill, "video": video, "measurements": measurements, "memory": memory, "million": million, "start": start}
 
 
 def main():

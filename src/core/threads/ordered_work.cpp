@@ -1,5 +1,6 @@
 #include "core/threads/ordered_work.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -14,6 +15,11 @@ OrderedWork::OrderedWork(unsigned threads, Steps steps) : steps_(std::move(steps
     stop();  // otherwise the destructors of the threads end the program
     throw too_many_threads(threads, threads_.size() + 1, e);
   }
+}
+
+unsigned OrderedWork::threads(unsigned wanted) {
+  constexpr unsigned kAlwaysPossible = 4;  // so that a test with several threads runs on any machine
+  return std::min(number_of_threads(wanted), std::max(number_of_threads(0), kAlwaysPossible));
 }
 
 OrderedWork::~OrderedWork() { stop(); }

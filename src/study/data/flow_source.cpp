@@ -121,7 +121,7 @@ void FlowSource::Impl::open_flows() {
 }
 
 void FlowSource::Impl::open_video() {
-  const unsigned threads = number_of_threads(options.threads);
+  const unsigned threads = OrderedWork::threads(options.threads);
   VideoReader reader(input.file, options.fps, threads);
   const int w = reader.width(), h = reader.height();
   const int side =

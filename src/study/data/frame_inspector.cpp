@@ -19,7 +19,7 @@ std::int64_t frames_stated(const VideoReader& video, const VideoPart& part) {
 VideoReading inspect_video(const std::filesystem::path& video, const VideoPart& part,
                            const FrameInspector& inspector, unsigned threads,
                            const std::function<void(std::int64_t, std::int64_t)>& tick) {
-  threads = number_of_threads(threads);
+  threads = OrderedWork::threads(threads);
   VideoReader reader(video, part.fps, threads);
   const std::int64_t stated = frames_stated(reader, part);
   if (part.from_s > 0) reader.skip_to(part.from_s);

@@ -36,7 +36,7 @@ class TrackPass {
         drop_(drop_of(o, s)) {}
 
   void run(const std::filesystem::path& video, const std::function<void(std::int64_t)>& tick) {
-    const unsigned threads = number_of_threads(options_.threads);
+    const unsigned threads = OrderedWork::threads(options_.threads);
     VideoReader reader(video, options_.part.fps, threads);
     const Detector detector(survey_.background, detector_options(options_, survey_, drop_));
     threshold_ = detector.threshold_sd();
