@@ -278,8 +278,9 @@ TEST_CASE("a part of a video: the same flows as in the complete video, without r
   write_file(f.path / "s.toml", kSmallScene);
   REQUIRE(faba_in(f.path, "run s.toml --seed 1 --out run --quiet --as-seen").exit == 0);
   REQUIRE(faba_in(f.path, "activity run --direction 0 --flow-threshold 0.1 --out all.csv").exit == 0);
-  REQUIRE(faba_in(f.path, "activity run --direction 0 --flow-threshold 0.1 --from '0.5 s' --to 1.2 --out part.csv").exit ==
-          0);
+  REQUIRE(faba_in(f.path,
+                  "activity run --direction 0 --flow-threshold 0.1 --from '0.5 s' --to 1.2 --out part.csv")
+              .exit == 0);
   const Table all = read_table(f.path / "all.csv"), part = read_table(f.path / "part.csv");
   const auto t0 = all.column("t0_s"), t1 = all.column("t1_s");
   std::size_t k = 0;
@@ -295,6 +296,9 @@ TEST_CASE("a part of a video: the same flows as in the complete video, without r
   CHECK(flow.json()["pairs"] == k);
   refused(f, "flow run --from 2 --to 1", 2,
           "the time from 2 s to 1 s is empty; --to must be later than --from");
+  refused(f, "flow run --from 100", 3,
+          "has fewer than two frames from 100 s to the end; the video ends at 1.93333 s");
+  refused(f, "compare run run --from 0.1 --to 0.11", 3, "has fewer than two frames from 0.1 s to 0.11 s");
   refused(f, "track run --from 100", 3, "has no frames from 100 s to its end");
   refused(f, "flow s.toml s.toml --from 1", 2, "--from: requires a video");
   const Called track = faba_in(f.path, "track run --from 0.5 --to 1.2 --out t.csv --size 4");

@@ -65,6 +65,7 @@ struct FlowSource::Impl {
   int width = 0, height = 0;
   double fps = 0, end_s = 0;
   std::uint64_t pairs = 0, every = 1;
+  bool any = false;  // a pair was taken
 
   std::optional<FlowFileReader> flows;
   std::uint64_t next = 0;
@@ -90,6 +91,7 @@ struct FlowSource::Impl {
   bool make(Item& item);
   void compute(Item& item, FlowMethod& flow) const;
   static void do_jobs(Item& item);
+  [[noreturn]] void throw_no_pairs() const;
   bool next_of_video(FlowPair& pair);
   bool next_of_file(FlowPair& pair);
   bool in_time(double t0, double t1) const {
@@ -235,14 +237,27 @@ bool FlowSource::Impl::next_of_file(FlowPair& pair) {
 }
 
 bool FlowSource::next(FlowPair& pair) {
-  return impl_->flows ? impl_->next_of_file(pair) : impl_->next_of_video(pair);
+  const bool more = impl_->flows ? impl_->next_of_file(pair) : impl_->next_of_video(pair);
+  impl_->any = impl_->any || more;
+  if (!impl_->any) impl_->throw_no_pairs();
+  return more;
+}
+
+void FlowSource::Impl::throw_no_pairs() const {
+  const auto place = [&](double t) {
+    return fps > 0 ? fmt::format("{:g} s", t) : fmt::format("frame {:g}", t);
+  };
+  throw Error(Errc::input, path.string(),
+              fmt::format("has fewer than two frames from {} to {}{}; change the interval (--from, --to, or "
+                          "from and to in the study)",
+                          place(options.t0_s), options.t1_s ? place(*options.t1_s) : "the end",
+                          end_s > 0 ? fmt::format("; the video ends at {}", place(end_s)) : ""));
 }
 
 int FlowSource::width() const { return impl_->width; }
 int FlowSource::height() const { return impl_->height; }
 int FlowSource::shrink() const { return impl_->video ? impl_->video->side() : 1; }
 double FlowSource::fps() const { return impl_->fps; }
-double FlowSource::end_s() const { return impl_->end_s; }
 std::uint64_t FlowSource::every() const { return impl_->every; }
 std::uint64_t FlowSource::pairs() const { return impl_->pairs; }
 std::optional<double> FlowSource::um_per_px() const { return impl_->input.um_per_px; }

@@ -47,7 +47,7 @@ class FlowSource {
   ~FlowSource();
 
   /// The next pair; false at the end. A truncated file ends with its last readable frame: see notes(). Throws
-  /// Error(input) at the end of a video with one frame only.
+  /// Error(input) at the end of a video with one frame only, and of an interval without a pair.
   bool next(FlowPair& pair);
 
   int width() const;   ///< of the flows, px
@@ -59,8 +59,6 @@ class FlowSource {
   std::uint64_t every() const;
   /// Pairs of the interval from t0_s to t1_s as stated in the file, for progress; 0: unknown.
   std::uint64_t pairs() const;
-  /// Time of the last frame as stated in the file, s, or its index without a frame rate; 0: unknown.
-  double end_s() const;
   std::optional<double> um_per_px() const;
   /// The flow method and its parameters, as JSON.
   const std::string& method() const;

@@ -123,18 +123,6 @@ Prepared prepare(const ActivityJob& job, std::size_t index, bool measure_noise) 
   return p;
 }
 
-// `end_s`: see FlowSource.
-[[noreturn]] void throw_no_pairs(const VideoActivity& a, double end_s) {
-  const auto place = [&](double t) {
-    return a.timed ? fmt::format("{:g} s", t) : fmt::format("frame {:g}", t);
-  };
-  throw Error(Errc::input, a.input.file.string(),
-              fmt::format("has fewer than two frames from {} to {}{}; change the interval (--from, --to, or "
-                          "from and to in the study)",
-                          place(a.input.from_s), a.input.to_s ? place(*a.input.to_s) : "the end",
-                          end_s > 0 ? fmt::format("; the video ends at {}", place(end_s)) : ""));
-}
-
 // Sets the signature, the pair of frames with the largest motion, the number of cells and the notes of the
 // source.
 void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, CellCount* cells) {
@@ -159,7 +147,6 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   }
   a.notes = source.notes();
   a.timed = source.fps() > 0;
-  if (a.signature.size() == 0) throw_no_pairs(a, source.end_s());
   if (!cells) return;
   if (cells->reads_frames() && !cells->mean())
     cells->read(options.inspect, [&] { check_stop(job, a.input); });
