@@ -46,9 +46,7 @@ struct VideoFlow {
 PairFlow measure_flow(const std::filesystem::path& a, const std::filesystem::path& b,
                       const FlowRegistry::PartType& method, const std::filesystem::path& truth, Pool& pool);
 
-/// Reads all flows of a source; `take` is called for each of them. `name` is the name of the source in
-/// messages. Throws the errors of the source, and Error(input) when there is no pair of frames.
-VideoFlow measure_flow(FlowSource& source, const std::string& name,
-                       const std::function<void(const FlowPair&)>& take);
+/// Reads all flows of a source; `take` is called for each of them. Throws the errors of the source.
+VideoFlow measure_flow(FlowSource& source, const std::function<void(const FlowPair&)>& take);
 
 }  // namespace faba

@@ -115,7 +115,7 @@ VideoFlow flow_of_video(const std::filesystem::path& video, const FlowJob& job) 
                             .threads = job.threads});
   FlowOutputs outputs(source, video, job);
   std::uint64_t pairs = 0;
-  VideoFlow r = measure_flow(source, video.string(), [&](const FlowPair& pair) {
+  VideoFlow r = measure_flow(source, [&](const FlowPair& pair) {
     outputs.take(pair);
     job.progress(++pairs, source.pairs());
     if (job.stop()) throw Error(Errc::interrupted, video.string(), "stopped; nothing was written");
