@@ -137,12 +137,13 @@ std::vector<FieldSegment> segments_of_field(const Series& record, bool against) 
 }
 
 std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, double fps, int side,
-                                             const std::function<void()>& tick) {
+                                             unsigned threads, const std::function<void()>& tick) {
   ActivityJob job;
   job.videos.push_back({.file = video});
   job.method = flow_part({}, published_flow());
   job.fps = fps;
   job.shrink = side;
+  job.threads = threads;
   job.cells = false;
   job.progress = [&](auto, auto, auto) { tick(); };
   std::vector<FieldSegment> segments;

@@ -25,6 +25,6 @@ std::vector<FieldSegment> segments_of_field(const Series& record, bool against);
 /// are averaged over squares of `side` px. `tick` is called after each pair of frames. Throws the errors of
 /// measure_activity().
 std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, double fps, int side,
-                                             const std::function<void()>& tick);
+                                             unsigned threads, const std::function<void()>& tick);
 
 }  // namespace faba

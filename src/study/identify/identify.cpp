@@ -346,13 +346,16 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
                                        const std::function<void()>& reading) {
   Identification r;
   r.study = study;
-  for (std::size_t v = 0; v < study.videos.size(); ++v)
-    r.videos.push_back(survey_response(study.videos[v], study.boundary, study.measure, [&] {
+  for (std::size_t v = 0; v < study.videos.size(); ++v) {
+    ResponseInput input = study.videos[v];
+    input.threads = options.threads;
+    r.videos.push_back(survey_response(input, study.boundary, study.measure, [&] {
       reading();
       if (options.stop())
         throw Error(Errc::interrupted, study.videos[v].file.string(),
                     "stopped; completed results are kept; run the same command again to continue");
     }));
+  }
   check_same_camera(r.videos);
   for (ResponseVideo& v : r.videos) note_field_strength(study, v);
   const Observed o = gather(r.videos);

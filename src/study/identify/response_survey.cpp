@@ -100,10 +100,11 @@ std::vector<FieldSegment> segments_in(const ResponseVideo& v, const std::vector<
   const double end =
       in.duration_s && in.reversal_s ? std::min(*in.reversal_s + *in.duration_s, duration_s) : duration_s;
   if (in.reversal_s && in.direction_deg) return {{*in.reversal_s, end, *in.direction_deg}};
-  std::vector<FieldSegment> found = !recorded.empty() ? recorded
-                                    : boundary == Boundary::none
-                                        ? segments_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, tick)
-                                        : segments_of_drop(v, tick);
+  std::vector<FieldSegment> found =
+      !recorded.empty() ? recorded
+      : boundary == Boundary::none
+          ? segments_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, in.threads, tick)
+          : segments_of_drop(v, tick);
   if (in.direction_deg)
     std::erase_if(found, [&](const FieldSegment& d) {
       return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kDirectionTolerance;
@@ -168,6 +169,7 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   TrackOptions options;
   options.video = v.input.file;
   options.part.fps = v.input.fps;
+  options.threads = v.input.threads;
   const auto survey = [&] {
     return survey_tracks(
         options, v.file, [&](auto, auto) { tick(); }, v.side);

@@ -24,6 +24,7 @@ struct ResponseInput {
   std::string experiment;      ///< name of the experiment
   double exposure_s = 0;       ///< air exposure time before the video
   double fps = 0;              ///< > 0: overrides the frame rate of the file
+  unsigned threads = 0;        ///< that read the video; 0: all
   std::optional<double> um_per_px;
   std::optional<double> reversal_s;     ///< time of the field reversal; empty: detected
   std::optional<double> direction_deg;  ///< swimming direction after it; empty: detected
