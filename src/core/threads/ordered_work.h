@@ -28,8 +28,8 @@ class OrderedWork {
   /// Waits for the steps that run.
   ~OrderedWork();
 
-  /// The number of threads to use when `wanted` are wanted; 0: all. Every thread needs a slot in memory, so more than
-  /// can run at a time are not used.
+  /// The number of threads to use when `wanted` are wanted; 0: all. Every thread needs a slot in memory, so
+  /// more than can run at a time are not used.
   static unsigned threads(unsigned wanted);
   /// Number of slots for `threads` threads: the items in work, one that the caller holds, and one ahead.
   static std::size_t slots(unsigned threads) { return threads + 2; }
