@@ -76,7 +76,7 @@ std::string usage_message(const CLI::App& app, const std::string& command, const
   const std::vector<const CLI::App*> chain = given_commands(app);
   if (std::string text = unexpected(chain); !text.empty()) return text;
   // The class of an error of CLI11 does not tell these cases apart; its text does.
-  const std::string reason = error.what(), conversion = "Could not convert: ";
+  std::string reason = error.what(), conversion = "Could not convert: ";
   if (reason == "A subcommand is required") return "a command is required";
   if (const auto p = word_before(reason, " is required"); p && p->second.empty())
     return fmt::format("{}: {} is missing; usage: {}", p->first,

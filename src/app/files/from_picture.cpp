@@ -25,7 +25,7 @@ std::string fit_to_picture(Document& scenario, const std::filesystem::path& pict
                     {"centre_px", {edge.centre_image.x, edge.centre_image.y}},
                     {"radius_px", edge.radius_px}},
                origin);
-  const std::string note =
+  std::string note =
       fmt::format("drop: centre ({:.0f}, {:.0f}) px, radius {:.0f} px, from {}", edge.centre_image.x,
                   edge.centre_image.y, edge.radius_px, picture_or_video.filename().string());
   if (!scenario.root.contains("swarm") || !scenario.root["swarm"].is_array())

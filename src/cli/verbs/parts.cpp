@@ -42,7 +42,7 @@ std::string overrides(const Json& values, const Json& properties) {
 void describe(const Json& schema, const std::string& indent) {
   for (const auto& [key, f] : schema["properties"].items()) {
     std::string line = fmt::format("{}{}", indent, key);
-    if (f.contains("default") && f["default"] != "") line += " = " + shown_value(f["default"]);
+    if (f.contains("default") && f["default"].dump() != "\"\"") line += " = " + shown_value(f["default"]);
     if (const std::string range = range_of(f); !range.empty()) line += fmt::format("   ({})", range);
     fmt::print("{}\n", line);
     if (f.contains("description")) fmt::print("{}    {}\n", indent, f["description"].get<std::string>());
