@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <ranges>
 
 #include "app/scenario/calibration_file.h"
 #include "app/scenario/control_rules.h"
@@ -33,8 +32,9 @@ void read_sections(const Node& root, const Parts& parts, Scenario& s) {
     if (section.readable(parts)) all.push_back(&section);
   for (const Section* section : all)
     if (section->kind != Section::Kind::composed && root.has(section->key)) section->read(root, parts, s);
-  for (const Section* section : std::views::reverse(all))
-    if (section->kind == Section::Kind::part && !root.has(section->key)) section->fill_in(root, parts, s);
+  for (auto section = all.rbegin(); section != all.rend(); ++section)
+    if ((*section)->kind == Section::Kind::part && !root.has((*section)->key))
+      (*section)->fill_in(root, parts, s);
   check_control(root, s, parts);
   for (const Section* section : all) {
     if (section->kind != Section::Kind::composed) continue;
