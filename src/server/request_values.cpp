@@ -24,7 +24,7 @@ std::string text_of(const Json& asked, const char* key) {
 }
 
 std::string numbers_of(const Json& asked, const char* key) {
-  const std::string list = text_of(asked, key);
+  std::string list = text_of(asked, key);
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t comma = std::min(list.find(',', at), list.size());
     const std::string one = list.substr(at, comma - at);

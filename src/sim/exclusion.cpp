@@ -94,7 +94,7 @@ void Exclusion::published(State& s, std::span<const float> to_x, std::span<const
     if (p_.collision == Collision::stay) {
       for (std::size_t k = 0; k < n; ++k) {
         const std::size_t i = first + k;
-        const bool open = (home[k] == site[k]) | !taken_.taken(site[k]);
+        const bool open = !(taken_.taken(site[k]) && home[k] != site[k]);
         taken_.move(home[k], site[k], open);
         x[i] = open ? to_x[i] : x[i];
         y[i] = open ? to_y[i] : y[i];

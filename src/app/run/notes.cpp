@@ -230,7 +230,7 @@ void note_view(const Simulation& simulation, Notes& notes) {
 // Notes of the parts on their own parameters.
 void note_parts(const Scenario& s, Notes& notes) {
   const auto add = [&](const std::string& where, const auto& part) {
-    for (const std::string& text : part.notes) notes.push_back(where + ": " + text);
+    for (const std::string& text : part.notes) notes.push_back(fmt::format("{}: {}", where, text));
   };
   add("arena", s.arena);
   add("field", s.field);

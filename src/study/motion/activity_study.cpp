@@ -69,8 +69,8 @@ struct ActivityFile {
 
 std::filesystem::path existing_file(const Node& n, const std::string& key, const std::string& name) {
   std::error_code ec;
-  if (const auto file = n.file(name); std::filesystem::exists(file, ec) || is_picture_sequence(file))
-    return file;
+  auto file = n.file(name);
+  if (std::filesystem::exists(file, ec) || is_picture_sequence(file)) return file;
   throw Error(Errc::input, n.where(key),
               fmt::format("file not found: {} (relative to the study file)", name));
 }
