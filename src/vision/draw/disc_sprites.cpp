@@ -19,11 +19,12 @@ std::uint8_t blended(std::uint8_t ground, std::uint8_t colour, int coverage) {
 DiscSprites::DiscSprites(double radius_px) : side_(2 * int(std::ceil(radius_px + 1)) + 1) {
   constexpr int kMargin = 8;  // px; near a border OpenCV draws other discs
   const int radius = std::max(1, fixed_length(radius_px)), middle = kMargin + side_ / 2;
-  coverage_.resize(std::size_t(kOffsets * kOffsets * side_ * side_));
+  const std::size_t size = std::size_t(side_) * std::size_t(side_);
+  coverage_.resize(std::size_t{kOffsets * kOffsets} * size);
   cv::Mat large(side_ + 2 * kMargin, side_ + 2 * kMargin, CV_8UC1);
   std::uint8_t* sprite = coverage_.data();
   for (int y = 0; y < kOffsets; ++y)
-    for (int x = 0; x < kOffsets; ++x, sprite += side_ * side_) {
+    for (int x = 0; x < kOffsets; ++x, sprite += size) {
       large.setTo(0);
       cv::circle(large, {middle * kOffsets + x, middle * kOffsets + y}, radius, 255, cv::FILLED, cv::LINE_AA,
                  kShift);
