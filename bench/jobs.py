@@ -80,8 +80,8 @@ class Bench:
     def faba(self, *arguments, program=None):
         return [program or self.o.program, *arguments]
 
-    def run(self, scene, *arguments, out="run", program=None):
-        return self.faba("run", scene, "--seed", "1", "--force", "--quiet", "--out", out, *arguments, program=program)
+    def run(self, scene, *arguments, out="run", program=None, seed=1):
+        return self.faba("run", scene, "--seed", seed, "--force", "--quiet", "--out", out, *arguments, program=program)
 
     def add(self, *lines):
         self.lines += lines
@@ -184,7 +184,7 @@ def measurements(b):
         Job(b.run(ROOT / "scenes/as-seen.toml", "--set", "record.lossless=false", out="film"), b.folder)
         film = b.folder / "film/video.mp4"
     Job(b.run(ROOT / "scenes/as-seen.toml", "--duration", "3 s", out="seen"), b.folder)
-    Job(b.run(ROOT / "scenes/as-seen.toml", "--duration", "3 s", "--seed", "2", out="other"), b.folder)
+    Job(b.run(ROOT / "scenes/as-seen.toml", "--duration", "3 s", out="other", seed=2), b.folder)
     b.add("", "## Measurements", "", f"Video: {film.name}. Two processes: the speed-up that two independent processes with one thread each reach.", "",
           "| verb | one thread, s | two threads, s | speed-up | two processes | fraction of it | goal | peak, MiB | earlier commit, one thread, s | all threads, s |",
           "|---|---|---|---|---|---|---|---|---|---|")

@@ -47,6 +47,9 @@ template <class Block, class Rest>
   for (int col = even; col < width; ++col) rest(col);
 }
 
+// Place of a pixel among columns of kRows rows.
+std::size_t place(int row, int col) { return std::size_t(col) * kRows + std::size_t(row); }
+
 void rows_to_columns(const Rows& rows, int width, float* columns) {
   each_block(
       width,
@@ -54,10 +57,10 @@ void rows_to_columns(const Rows& rows, int width, float* columns) {
         Square s;
         for (int i = 0; i < 4; ++i) s.row[i] = four(rows[std::size_t(row + i)] + col);
         s = transposed(s);
-        for (int i = 0; i < 4; ++i) four(columns + (col + i) * kRows + row) = s.row[i];
+        for (int i = 0; i < 4; ++i) four(columns + place(row, col + i)) = s.row[i];
       },
       [&](int col) {
-        for (int row = 0; row < kRows; ++row) columns[col * kRows + row] = rows[std::size_t(row)][col];
+        for (int row = 0; row < kRows; ++row) columns[place(row, col)] = rows[std::size_t(row)][col];
       });
 }
 
@@ -66,12 +69,12 @@ void columns_to_rows(float* columns, int width, const Rows& rows) {
       width,
       [&](int row, int col) {
         Square s;
-        for (int i = 0; i < 4; ++i) s.row[i] = four(columns + (col + i) * kRows + row);
+        for (int i = 0; i < 4; ++i) s.row[i] = four(columns + place(row, col + i));
         s = transposed(s);
         for (int i = 0; i < 4; ++i) four(rows[std::size_t(row + i)] + col) = s.row[i];
       },
       [&](int col) {
-        for (int row = 0; row < kRows; ++row) rows[std::size_t(row)][col] = columns[col * kRows + row];
+        for (int row = 0; row < kRows; ++row) rows[std::size_t(row)][col] = columns[place(row, col)];
       });
 }
 

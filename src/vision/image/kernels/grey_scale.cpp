@@ -52,7 +52,7 @@ FABA_VECTORISED void add_row(const float* row, float* sum, int n) {
 
 FABA_VECTORISED void add_neighbours(const float* sums, float weight, float* out, int n) {
   FABA_ELEMENTWISE
-  for (int i = 0; i < n; ++i) out[i] = (sums[2 * i] + sums[2 * i + 1]) * weight;
+  for (std::ptrdiff_t i = 0; i < n; ++i) out[i] = (sums[2 * i] + sums[2 * i + 1]) * weight;
 }
 
 }  // namespace
