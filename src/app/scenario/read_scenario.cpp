@@ -32,9 +32,8 @@ void read_sections(const Node& root, const Parts& parts, Scenario& s) {
     if (section.readable(parts)) all.push_back(&section);
   for (const Section* section : all)
     if (section->kind != Section::Kind::composed && root.has(section->key)) section->read(root, parts, s);
-  for (auto section = all.rbegin(); section != all.rend(); ++section)
-    if ((*section)->kind == Section::Kind::part && !root.has((*section)->key))
-      (*section)->fill_in(root, parts, s);
+  for (std::size_t i = all.size(); i-- > 0;)
+    if (all[i]->kind == Section::Kind::part && !root.has(all[i]->key)) all[i]->fill_in(root, parts, s);
   check_control(root, s, parts);
   for (const Section* section : all) {
     if (section->kind != Section::Kind::composed) continue;
