@@ -20,7 +20,7 @@ DiscSprites::DiscSprites(double radius_px) : side_(2 * int(std::ceil(radius_px +
   constexpr int kMargin = 8;  // px; near a border OpenCV draws other discs
   const int radius = std::max(1, fixed_length(radius_px)), middle = kMargin + side_ / 2;
   const std::size_t size = std::size_t(side_) * std::size_t(side_);
-  coverage_.resize(std::size_t{kOffsets * kOffsets} * size);
+  coverage_.resize(std::size_t{kOffsets} * std::size_t{kOffsets} * size);
   cv::Mat large(side_ + 2 * kMargin, side_ + 2 * kMargin, CV_8UC1);
   std::uint8_t* sprite = coverage_.data();
   for (int y = 0; y < kOffsets; ++y)

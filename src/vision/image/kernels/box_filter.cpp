@@ -55,7 +55,7 @@ void rows_to_columns(const Rows& rows, int width, float* columns) {
       width,
       [&](int row, int col) {
         Square s;
-        for (int i = 0; i < 4; ++i) s.row[i] = four(rows[std::size_t(row + i)] + col);
+        for (int i = 0; i < 4; ++i) s.row[i] = four(rows[std::size_t(row) + std::size_t(i)] + col);
         s = transposed(s);
         for (int i = 0; i < 4; ++i) four(columns + place(row, col + i)) = s.row[i];
       },
@@ -71,7 +71,7 @@ void columns_to_rows(float* columns, int width, const Rows& rows) {
         Square s;
         for (int i = 0; i < 4; ++i) s.row[i] = four(columns + place(row, col + i));
         s = transposed(s);
-        for (int i = 0; i < 4; ++i) four(rows[std::size_t(row + i)] + col) = s.row[i];
+        for (int i = 0; i < 4; ++i) four(rows[std::size_t(row) + std::size_t(i)] + col) = s.row[i];
       },
       [&](int col) {
         for (int row = 0; row < kRows; ++row) rows[std::size_t(row)][col] = columns[place(row, col)];
