@@ -47,10 +47,12 @@ namespace faba {
   X(controller, gradient)      \
   X(controller, gradient_feedback)
 
+#define FABA_FLOW_PARTS(X) \
+  X(flow, horn_schunck)    \
+  X(flow, dis)             \
+  X(flow, farneback)
+
 #define FABA_PROGRAM_PARTS(X) \
-  X(flow, horn_schunck)       \
-  X(flow, dis)                \
-  X(flow, farneback)          \
   X(camera, simulated_camera) \
   X(camera, playback)         \
   X(camera, opencv)
@@ -63,6 +65,7 @@ namespace faba {
 
 #define FABA_DECLARE(kind, name) void add_##name(decltype(Parts::kind)&);
 FABA_ENGINE_PARTS(FABA_DECLARE)
+FABA_FLOW_PARTS(FABA_DECLARE)
 FABA_PROGRAM_PARTS(FABA_DECLARE)
 FABA_COIL_DRIVERS(FABA_DECLARE)
 #undef FABA_DECLARE
@@ -71,9 +74,11 @@ FABA_COIL_DRIVERS(FABA_DECLARE)
 
 #if defined FABA_PARTS_OF_PROGRAM
 
-Parts builtin_parts() {
+namespace {
+Parts all_parts() {
   Parts p;
   FABA_ENGINE_PARTS(FABA_ADD)
+  p.flow = builtin_flow_methods();
   FABA_PROGRAM_PARTS(FABA_ADD)
   FABA_COIL_DRIVERS(FABA_ADD)
   p.readers.table = read_field_points;
@@ -81,6 +86,23 @@ Parts builtin_parts() {
   p.readers.library_task = library_task;
   p.readers.ground = [](const std::filesystem::path& video) { return read_video_background(video); };
   return p;
+}
+
+FlowRegistry flow_methods() {
+  Parts p;
+  FABA_FLOW_PARTS(FABA_ADD)
+  return p.flow;
+}
+}  // namespace
+
+const Parts& builtin_parts() {
+  static const Parts parts = all_parts();
+  return parts;
+}
+
+const FlowRegistry& builtin_flow_methods() {
+  static const FlowRegistry methods = flow_methods();
+  return methods;
 }
 
 #elif defined FABA_PARTS_OF_GUARD

@@ -58,7 +58,7 @@ int run_session(Session& session, Progress& bar, const Common& c, const std::str
   }
   const Manifest manifest = session.manifest();
   const Series series = session.series();
-  write_run_report(session.dir(), run_info(manifest), series);
+  write_run_report(session.dir(), run_info(manifest), series, session.frames());
   session.complete();
   const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
   if (c.json) {

@@ -212,7 +212,7 @@ void serve_lab(const LabOptions& o) {
   }
   if (!o.scene.empty()) {
     const Document d = read_toml(o.scene);
-    const Parts parts = builtin_parts();
+    const Parts& parts = builtin_parts();
     const std::optional<std::uint64_t> seed = read_scenario(d, parts).params.seed;
     Pool pool(o.threads);
     // The lab's own thread would report an error to pages only: construct the run here first.

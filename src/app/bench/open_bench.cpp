@@ -12,7 +12,7 @@ namespace faba {
 
 OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what) {
   (void)BenchControls(s);  // throws for an unsuitable scenario before a device is opened
-  const Parts parts = builtin_parts();
+  const Parts& parts = builtin_parts();
   setup_ = *s.rig;
   if (setup_.needs_bench()) {
     process_ = std::make_unique<BenchProcess>(s, seed);

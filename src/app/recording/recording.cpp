@@ -13,12 +13,17 @@ Recording::Recording(RunDirectory directory, const Scenario& scenario, bool resu
 }
 
 void Recording::open_sinks(const SinkContext& c, Archive* resume) {
+  kept_ = c.kept;
   auto series = series_sink(c, resume);
   series_ = series.get();
   sinks_.push_back(std::move(series));
   if (c.record.tracks && c.truth) sinks_.push_back(tracks_sink(c, resume));
   if (c.record.video) sinks_.push_back(video_sink(c, false, resume));
-  if (c.record.lossless) sinks_.push_back(video_sink(c, true, resume));
+  if (c.record.lossless) {
+    SinkContext lossless = c;
+    if (c.record.video) lossless.kept = nullptr;  // frames are kept of one video only
+    sinks_.push_back(video_sink(lossless, true, resume));
+  }
   if (c.record.flow) sinks_.push_back(flow_sink(c, resume));
 }
 

@@ -31,6 +31,8 @@ class Recording {
   const std::filesystem::path& dir() const { return directory_.path(); }
   /// series.csv, after finish().
   Table series() const { return series_->rows(); }
+  /// Frames of the video for the report, after finish(); empty if none were kept.
+  std::vector<SmallFrame> frames() const { return kept_ ? kept_->frames() : std::vector<SmallFrame>{}; }
   /// Wall time since the start of the recording, s.
   double wall_time() const;
 
@@ -39,6 +41,7 @@ class Recording {
   std::string scenario_hash_;
   SeriesSink* series_ = nullptr;  ///< one of sinks_
   std::vector<std::unique_ptr<RunSink>> sinks_;
+  std::shared_ptr<const KeptFrames> kept_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 

@@ -40,6 +40,8 @@ class Session {
   Manifest manifest() const;
   /// series.csv, after run().
   Table series() const { return recording_.series(); }
+  /// Frames of the video for the report, after run(); empty if none were kept.
+  std::vector<SmallFrame> frames() const { return recording_.frames(); }
   /// To be called after the report is written: the directory is complete.
   void complete() { recording_.complete(); }
 

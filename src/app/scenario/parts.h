@@ -43,8 +43,10 @@ struct Parts {
 /// The parts of the simulation engine: no devices, no optical flow, no files but CSV. Part of faba_engine.
 Parts engine_parts();
 
-/// All parts of the program.
-Parts builtin_parts();
+/// All parts of the program, made at the first call.
+const Parts& builtin_parts();
+/// Its flow methods only: the help of every command needs them, and the others cost 2 ms.
+const FlowRegistry& builtin_flow_methods();
 
 /// Calls visit(key, registry) for every kind; key is the KIND of `faba parts KIND`.
 template <class Visit>

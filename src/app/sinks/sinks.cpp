@@ -49,6 +49,8 @@ void check_recording(const Record& record, const Frame& frame, double rate) {
 SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
                          const std::filesystem::path& dir) {
   const bool jitter = s.camera.jitter > 0;
+  const auto every = std::uint64_t(s.record.video_every);
+  const std::uint64_t frames = (s.frames() + every - 1) / every;
   SinkContext c{.dir = dir,
                 .frames = std::make_shared<SimulatedFrames>(simulation.rig(), jitter, s.camera.rate),
                 .field = simulation.world().parts().field,
@@ -60,7 +62,8 @@ SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
                 .jitter = jitter,
                 .flow = s.flow,
                 .pool = &pool,
-                .truth = &simulation.world()};
+                .truth = &simulation.world(),
+                .kept = std::make_shared<KeptFrames>(frames)};
   if (!s.record.as_seen) {
     const auto drawn = std::make_shared<DrawnSwarm>(simulation.world(), simulation.loop(), s.scale.um_per_px);
     c.draw = [drawn, rate = s.camera.rate](const Tick& t) {

@@ -6,6 +6,7 @@
 
 #include "app/loop/loop.h"
 #include "app/scenario/scenario.h"
+#include "app/sinks/kept_frames.h"
 #include "core/archive.h"
 #include "sim/world.h"
 #include "vision/flow/flow.h"
@@ -55,6 +56,8 @@ struct SinkContext {
   const World* truth = nullptr;
   /// Draws the swarm in this cycle; empty if videos show what the camera sees.
   std::function<RgbImage(const Tick&)> draw = {};
+  /// Gets the frames for the report from the first video; null if the length of the run is not known.
+  std::shared_ptr<KeptFrames> kept = {};
 };
 
 /// Throws Error(usage) for videos that cannot be written, to report this before a run.

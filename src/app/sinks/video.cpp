@@ -28,18 +28,22 @@ class Video final : public RunSink {
     if (t.index % std::uint64_t(c_.record.video_every)) return;
     if (!writer_) return;
     if (c_.jitter && !c_.frames->planned_time(t.index)) times_.push_back(c_.frames->time_of(t));
-    if (c_.draw)
-      encode(c_.draw(t));
-    else if (lossless_ && c_.frames->bits() == 16)
-      encode(c_.frames->deep_picture());
-    else
-      encoding_.add([this, picture = c_.frames->picture(t)] { writer_->write(*picture); });
+    const bool kept = c_.kept && c_.kept->wants(t.index / std::uint64_t(c_.record.video_every));
+    const double t_s = kept ? c_.frames->time_of(t) : 0;
+    if (c_.draw) {
+      encoding_.add([this, kept, t_s, picture = c_.draw(t)] { write(picture, kept, t_s); });
+    } else if (lossless_ && c_.frames->bits() == 16) {
+      encoding_.add([this, picture = c_.frames->deep_picture()] { writer_->write(picture); });
+    } else {
+      encoding_.add([this, kept, t_s, picture = c_.frames->picture(t)] { write(*picture, kept, t_s); });
+    }
   }
 
   void checkpoint(Archive& a) override {
     encoding_.wait();
     std::uint64_t bytes = writer_ ? writer_->sync() : 1;
     a& bytes;
+    if (c_.kept) a&* c_.kept;
   }
 
   void finish(bool keep) override {
@@ -62,9 +66,10 @@ class Video final : public RunSink {
     if (frame < times_.size()) return times_[frame];
     return times_.back() + double(frame - times_.size() + 1) * c_.record.video_every / c_.frame_rate;
   }
-  template <class Picture>
-  void encode(Picture picture) {
-    encoding_.add([this, picture = std::move(picture)] { writer_->write(picture); });
+  template <class Pixel>
+  void write(const Image<Pixel>& picture, bool kept, double t_s) {
+    writer_->write(picture);
+    if (kept) c_.kept->add({small_picture(picture), t_s});
   }
   static std::size_t picture_bytes(const SinkContext& c) {
     return sizeof(Rgb) * std::size_t(c.frame.width) * std::size_t(c.frame.height);
@@ -87,6 +92,7 @@ class Video final : public RunSink {
 std::unique_ptr<RunSink> video_sink(const SinkContext& c, bool lossless, Archive* resume) {
   std::uint64_t keep = 0;
   if (resume) *resume& keep;
+  if (resume && c.kept) *resume&* c.kept;
   return std::make_unique<Video>(c, lossless, keep);
 }
 

@@ -55,15 +55,15 @@ void add_flow_options(CLI::App* v, FlowOptions& o, const FlowChoice& defaults) {
       ->check(between(1e-6, 1e7));
   add_part_options(v, o.part);
   add_threads_option(v, o.threads);
-  const Parts parts = builtin_parts();
+  const FlowRegistry& methods = builtin_flow_methods();
   v->add_option("--method", o.method,
-                fmt::format("Flow part: {}; default: {}", fmt::join(parts.flow.names(), ", "), o.method))
-      ->check(one_of(parts.flow.names()))
+                fmt::format("Flow part: {}; default: {}", fmt::join(methods.names(), ", "), o.method))
+      ->check(one_of(methods.names()))
       ->group("Flow");
-  std::vector<std::string> names = parts.flow.names();
+  std::vector<std::string> names = methods.names();
   std::partition(names.begin(), names.end(), [&](const std::string& n) { return n == o.method; });
   for (const std::string& name : names) {
-    const Json& schema = parts.flow.json_schema(name);
+    const Json& schema = methods.json_schema(name);
     for (const auto& [key, property] : schema["properties"].items()) {
       // The description of a preset refers to the table of a file.
       std::string help = key == "preset" ? "Named set of default values; other options override it"

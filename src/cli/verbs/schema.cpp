@@ -31,7 +31,7 @@ int schema_of_series(const Common& c) {
 
 int schema(const std::string& file, const Common& c) {
   if (file == "series") return schema_of_series(c);
-  const Parts parts = builtin_parts();
+  const Parts& parts = builtin_parts();
   const Json j = file == "rig"                   ? rig_file_json_schema(parts)
                  : file == "identify"            ? identify_study_schema()
                  : file == "compare-controllers" ? controller_study_schema()

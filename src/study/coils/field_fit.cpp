@@ -219,7 +219,7 @@ std::string note_on(double gain, double residual) {
 FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
                    const std::filesystem::path& out, const std::filesystem::path& picture,
                    const std::function<void(std::uint64_t)>& evaluated) {
-  const Parts parts = builtin_parts();
+  const Parts& parts = builtin_parts();
   const auto part = read_rig(rig, parts);
   const auto field = part.make({});
   const std::vector<double> current = field->default_currents();

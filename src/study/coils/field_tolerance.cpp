@@ -118,7 +118,7 @@ void draw(const std::filesystem::path& file, const FieldTolerance& tolerance) {
 
 FieldTolerance field_tolerance(const std::filesystem::path& file, Vec2 at,
                                const std::filesystem::path& picture) {
-  const Parts parts = builtin_parts();
+  const Parts& parts = builtin_parts();
   const auto part = read_rig(file, parts);
   const RigEditor rig(parts.field, part.resolved);
   const auto field = part.make({});

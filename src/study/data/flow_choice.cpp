@@ -18,17 +18,17 @@ std::string not_a_parameter(const std::string& key, const std::string& method, c
 }  // namespace
 
 FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults) {
-  const Parts parts = builtin_parts();
+  const FlowRegistry& methods = builtin_flow_methods();
   for (const auto& [key, _] : choice.values)
-    if (const Json& known = parts.flow.json_schema(choice.method)["properties"]; !known.contains(key))
-      throw Error(Errc::usage, "--" + key, not_a_parameter(key, choice.method, parts.flow));
+    if (const Json& known = methods.json_schema(choice.method)["properties"]; !known.contains(key))
+      throw Error(Errc::usage, "--" + key, not_a_parameter(key, choice.method, methods));
   Document d;
   d.name = "--method " + choice.method;
   d.set("flow.type", Json(choice.method), "--method " + choice.method);
   if (choice.method == defaults.method)
     for (const auto& [key, value] : defaults.values) d.set("flow." + key, value, "--" + key);
   for (const auto& [key, value] : choice.values) d.set("flow." + key, value, "--" + key);
-  FlowRegistry::PartType part = parts.flow.resolve(Node(d).child("flow"));
+  FlowRegistry::PartType part = methods.resolve(Node(d).child("flow"));
   for (const auto& [key, _] : choice.values)
     if (key == "warps" && !part.resolved.value("pyramid", true))
       throw Error(Errc::usage, "--warps",

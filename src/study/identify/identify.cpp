@@ -364,7 +364,7 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
       throw Error(
           Errc::input, study.videos.front().file.string(),
           fmt::format("no cells detected in the measured frames ({})", o.statistics[std::size_t(k)].name));
-  const Parts parts = builtin_parts();
+  const Parts& parts = builtin_parts();
   std::vector<CandidateSearch> searches = searches_of(study, o);
   if (!run_searches(searches, study, r.videos, o, parts, results, options)) return {};
   r.models = models_of(searches, study, r.videos, o);

@@ -186,7 +186,7 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
     const Node n{c.model.extra[key], here.path + "." + key, root.document};
     c.field_strength_t = schema_detail::read_number(n, {.unit = "T", .min = 0, .max = 1});
   }
-  const Parts parts = builtin_parts();
+  const Parts& parts = builtin_parts();
   if (!c.model.part.is_null()) (void)parts.model.resolve({c.model.part, here.path, root.document});
   const ResponseVideo video = any_video();
   Document d = episode_scenario(video, video.episodes[0],

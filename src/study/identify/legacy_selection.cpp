@@ -130,7 +130,7 @@ std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& st
                                                          const std::vector<ResponseVideo>& videos,
                                                          ResultStore& results, const SweepOptions& options,
                                                          const std::function<void()>& reading) {
-  const Parts parts = builtin_parts();
+  const Parts& parts = builtin_parts();
   std::vector<std::vector<LegacyReference>> references;
   for (const ResponseVideo& v : videos) {
     auto& of_video = references.emplace_back();

@@ -90,7 +90,7 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   const Node root(d);
   require_kind(root, FileKind::activity_study);
   const ActivityFile study = ActivityFile::schema().parse(root, {"video", "flow"});
-  if (root.has("flow")) job.method = builtin_parts().flow.resolve(root.child("flow"));
+  if (root.has("flow")) job.method = builtin_flow_methods().resolve(root.child("flow"));
   if (study.threshold) job.threshold_px = study.threshold;
   if (!study.noise.empty()) job.noise = existing_file(root, "noise", study.noise);
   if (root.has("video") && !root.child("video").json->is_array())

@@ -242,13 +242,14 @@ std::string existing_text(const std::filesystem::path& file) {
 }
 
 std::string body_of(const std::filesystem::path& run_dir, const std::string& title, const Series& series,
-                    const RunInfo& info) {
+                    const RunInfo& info, const std::vector<SmallFrame>& frames) {
   const Metrics m = control_metrics(series, info.setpoint_tolerance_px);
   const std::string scenario = existing_text(run_dir / "scenario.toml");
   std::error_code ignored;
   const bool video = std::filesystem::is_regular_file(run_dir / "video.mp4", ignored);
   const std::string media =
-      (video ? video_figure(info) : "") + frame_strip(run_dir / (video ? "video.mp4" : "video.avi"));
+      (video ? video_figure(info) : "") +
+      (frames.empty() ? frame_strip(run_dir / (video ? "video.mp4" : "video.avi")) : frame_strip(frames));
 
   const RunSummary summary = run_summary(m, info);
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(title),
@@ -315,9 +316,10 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   return summary;
 }
 
-void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series) {
+void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series,
+                      const std::vector<SmallFrame>& frames) {
   const std::string title = info.title.empty() ? "Run report" : info.title;
-  write_file(run_dir / "report.html", html_page(title, body_of(run_dir, title, series, info)));
+  write_file(run_dir / "report.html", html_page(title, body_of(run_dir, title, series, info, frames)));
 }
 
 }  // namespace faba

@@ -5,6 +5,7 @@
 #include "study/data/run_info.h"
 #include "study/data/series.h"
 #include "study/steering/metric_list.h"
+#include "vision/image/small_frame.h"
 
 namespace faba {
 
@@ -21,8 +22,9 @@ RunSummary run_summary(const Metrics& metrics, const RunInfo& info);
 /// Writes `report.html` into the directory of a run (temporary name, then renamed; replaces an older report):
 /// summary, metrics in px and um, figures, the video if `video.mp4` exists, and the data to reproduce the
 /// run, with `scenario.toml` if it exists. The page needs no network and no script; only the video is a
-/// separate file. Throws Error(Errc::input) when mandatory columns of the series are missing,
-/// Error(Errc::internal) when the report cannot be written.
-void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series);
+/// separate file. `frames`: frames of the video; if empty, the video is decoded. Throws Error(Errc::input)
+/// when mandatory columns of the series are missing, Error(Errc::internal) when the report cannot be written.
+void write_run_report(const std::filesystem::path& run_dir, const RunInfo& info, const Series& series,
+                      const std::vector<SmallFrame>& frames = {});
 
 }  // namespace faba
