@@ -32,9 +32,8 @@ struct RobustSpread {
 RobustSpread<double> robust_spread(std::span<const double> values);
 
 /// The functions below select one of the values and do not interpolate. They are for code that runs for each
-/// pixel or frame, and for results that must be bit-identical. They partition `values` in place
-/// (std::nth_element). None of the values may be NaN: which value is returned is then unspecified. The result
-/// is NaN when there are no values.
+/// pixel or frame, and for results that must be bit-identical. They may reorder `values`. None of the values
+/// may be NaN: which value is returned is then unspecified. The result is NaN when there are no values.
 
 /// Order statistic x_k, 0 <= k < n (k = 0: the minimum).
 double order_statistic(std::span<double> values, std::size_t k);

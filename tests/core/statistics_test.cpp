@@ -72,6 +72,28 @@ void compare_with_sorting() {
 
 }  // namespace
 
+// Values of which a sample is taken first: random, with ties, sorted, and periodic like the sample.
+TEST_CASE_TEMPLATE("order statistics of many values are those of sorting", T, float, double) {
+  constexpr std::size_t kMany = 50000;
+  std::vector<T> random(kMany), rising(kMany), periodic(kMany), equal(kMany, T(3));
+  for (std::size_t i = 0; i < kMany; ++i) {
+    const auto w = draw(7, Stream::study, std::uint32_t(i), 0);
+    random[i] = T(w[0]) - T(w[1]) / 2;
+    rising[i] = T(i);
+    periodic[i] = i * 1024 % kMany < 1024 ? T(-1) : T(w[0] % 1000);
+  }
+  for (const std::vector<T>& v : {random, rising, periodic, equal, as<T>(sample(kMany, 3))}) {
+    const std::vector<T> x = sorted(v);
+    for (const std::size_t k : {std::size_t(0), std::size_t(1), kMany / 1000, kMany / 4, (kMany - 1) / 2,
+                                kMany / 2, kMany - 2, kMany - 1}) {
+      CAPTURE(k);
+      std::vector<T> work = v;
+      CHECK(order_statistic(work, k) == x[k]);
+      CHECK(sorted(work) == x);
+    }
+  }
+}
+
 TEST_CASE("Quantiles and order statistics agree with those of the sorted values") {
   compare_with_sorting<double>();
   compare_with_sorting<float>();

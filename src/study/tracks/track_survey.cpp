@@ -49,11 +49,19 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
     s.size_found = false;
   }
   s.smoothing_px = std::max(8.0, 4 * s.size_px);
-  Background smooth = spatial_background(middle, s.smoothing_px);
-  const std::int64_t by_space = count_spots(o, s, smooth, middle);
-  const std::int64_t by_time = many ? count_spots(o, s, median, middle) : 0;
-  if (many)
-    s.stationary_spots = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
+  Background smooth;
+  std::int64_t by_space = 0, by_time = 0, stationary = 0;
+  const std::function<void()> counts[] = {
+      [&] {
+        smooth = spatial_background(middle, s.smoothing_px);
+        by_space = count_spots(o, s, smooth, middle);
+      },
+      [&] { by_time = count_spots(o, s, median, middle); },
+      [&] {
+        stationary = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
+      }};
+  pool.run(many ? std::size(counts) : 1, [&](std::size_t i) { counts[i](); });
+  s.stationary_spots = stationary;
   s.temporal = o.background == BackgroundKind::median ||
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;

@@ -199,8 +199,10 @@ double spot_size(const GrayF& frame, const Background& background, Polarity pola
     sizes.push_back(size);
   }
   std::vector<std::vector<double>> snr(sizes.size());
-  pool.run(sizes.size(),
-           [&](std::size_t i) { snr[i] = snr_of_maxima(frame, background, polarity, sizes[i]); });
+  pool.run(sizes.size(), [&](std::size_t i) {
+    const std::size_t k = sizes.size() - 1 - i;  // the large sizes take longest
+    snr[k] = snr_of_maxima(frame, background, polarity, sizes[k]);
+  });
   double best = 0, size_of_best = 0;
   std::size_t count = 0;
   for (std::size_t k = 0; k < sizes.size(); ++k) {

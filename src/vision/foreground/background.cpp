@@ -88,6 +88,7 @@ Background spatial_background(const GrayF& frame, double sd_px) {
   b.level = smoothed(frame, sd_px);
   b.frames = 1;
   std::vector<float> steps;
+  steps.reserve(frame.px.size());
   for (int row = 0; row < frame.height; ++row)
     for (int col = 0; col + 1 < frame.width; ++col)
       steps.push_back(frame.at(col + 1, row) - frame.at(col, row));
