@@ -181,6 +181,28 @@ TEST_CASE(
   CHECK_MESSAGE(run.err.find("reference") == std::string::npos, run.err);
 }
 
+TEST_CASE("a part of the video: --from, --to and the keys of the study give the same result") {
+  const TestFolder f;
+  make_film(f);
+  const std::string model = kBasic;
+  write_file(f.path / "study.toml", kHead + model);
+  write_file(f.path / "part.toml", kHead + "from = \"0.4 s\"\nto = \"2 s\"\n" + model);
+  const auto result = [&](const std::string& arguments) {
+    const Called c = faba_in(f.path, "identify " + arguments + " --json");
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    return c.json()["models"][0]["parameters"].dump();
+  };
+  const std::string all = result("study.toml --out all"),
+                    option = result("study.toml --from 0.4 --to 2s --out a");
+  CHECK(option != all);
+  CHECK(result("part.toml --out b") == option);
+  CHECK(result("part.toml --from 0 --to 3 --out c") == option);  // the study has precedence
+  const Called late = faba_in(f.path, "identify study.toml --from 60 --out d");
+  CHECK(late.exit == 3);
+  CHECK_MESSAGE(late.err.find("--from") != std::string::npos, late.err);
+  CHECK(faba_in(f.path, "identify study.toml --from 2 --to 1 --out d").exit == 2);
+}
+
 TEST_CASE("a different video with the same name is a different study; damaged results are refused") {
   const TestFolder f;
   make_film(f);

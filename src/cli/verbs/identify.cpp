@@ -4,6 +4,7 @@
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
+#include "cli/options/video_part.h"
 #include "core/file.h"
 #include "study/identify/best_scene.h"
 #include "study/pages/identify_report.h"
@@ -47,10 +48,25 @@ void summary(const Identification& r) {
   fmt::print("{}\n", r.words);
 }
 
-int identify(const StudyOptions& v, const Common& c) {
+struct IdentifyOptions {
+  StudyOptions study;
+  PartOptions part;
+};
+
+// --from and --to are for the videos that have no part of their own in the study.
+void select_part(IdentifyStudy& study, const VideoPart& part) {
+  if (!(part.from_s > 0) && !part.to_s) return;
+  for (ResponseInput& video : study.videos)
+    if (!(video.part.from_s > 0) && !video.part.to_s) video.part = {part.from_s, part.to_s, video.part.fps};
+}
+
+int identify(const IdentifyOptions& o, const Common& c) {
+  const StudyOptions& v = o.study;
   Progress bar("simulating", !c.quiet && !c.json);
   SweepOptions options = sweep_options(v, bar);  // errors of options come before those of the study
-  const IdentifyStudy study = read_identify_study(v.study);
+  const VideoPart part = o.part.part();
+  IdentifyStudy study = read_identify_study(v.study);
+  select_part(study, part);
   const std::string hash = study_hash(study);
   if (report_if_complete(v, "identify", hash, c)) return 0;
   StudyDirectory dir = open_study(v, "identify", hash);
@@ -80,14 +96,15 @@ int identify(const StudyOptions& v, const Common& c) {
 }  // namespace
 
 void add_identify(CLI::App& app, CommandLine& line) {
-  const auto o = std::make_shared<StudyOptions>();
+  const auto o = std::make_shared<IdentifyOptions>();
   CLI::App* v =
       verb(app, line, "identify",
            "Find which model and which parameters explain videos of step responses, and how certain both are",
            "  faba identify studies/step-response.toml\n"
            "  faba identify study.toml --out runs/part3 --shard 3/16\n"
            "  faba identify study.toml --out runs/all --merge runs/part1 --merge runs/part2");
-  add_study_options(v, *o);
+  add_study_options(v, o->study);
+  add_part_options(v, o->part);
   v->callback([o, &line] { line.code = identify(*o, line.common); });
 }
 

@@ -136,12 +136,12 @@ std::vector<FieldSegment> segments_of_field(const Series& record, bool against) 
   return segments;
 }
 
-std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, double fps, int side,
-                                             unsigned threads, const std::function<void()>& tick) {
+std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, const VideoPart& part,
+                                             int side, unsigned threads, const std::function<void()>& tick) {
   ActivityJob job;
-  job.videos.push_back({.file = video});
+  job.videos.push_back({.file = video, .from_s = part.from_s, .to_s = part.to_s});
   job.method = flow_part({}, published_flow());
-  job.fps = fps;
+  job.fps = part.fps;
   job.shrink = side;
   job.threads = threads;
   job.cells = false;

@@ -5,6 +5,7 @@
 
 #include "core/vec.h"
 #include "study/data/series.h"
+#include "study/data/video_part.h"
 #include "study/identify/episode.h"
 
 namespace faba {
@@ -21,10 +22,10 @@ std::vector<FieldSegment> segments_of_swarm(const std::vector<double>& t_s,
 /// `against`: cells swim against the field (south-seeking). Empty when the record has no field.
 std::vector<FieldSegment> segments_of_field(const Series& record, bool against);
 
-/// Segments of a video with motion in one direction (see motion_segments()). `fps` as in VideoReader; frames
-/// are averaged over squares of `side` px. `tick` is called after each pair of frames. Throws the errors of
+/// Segments of a video with motion in one direction (see motion_segments()), times in the video; frames are
+/// averaged over squares of `side` px. `tick` is called after each pair of frames. Throws the errors of
 /// measure_activity().
-std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, double fps, int side,
-                                             unsigned threads, const std::function<void()>& tick);
+std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video, const VideoPart& part,
+                                             int side, unsigned threads, const std::function<void()>& tick);
 
 }  // namespace faba

@@ -102,8 +102,8 @@ struct SegmentFile {
 
 struct VideoFile {
   std::string file, experiment;
-  double exposure = 0, fps = 0;
-  std::optional<double> um_per_px, reversal, direction, duration;
+  double exposure = 0, fps = 0, from = 0;
+  std::optional<double> to, um_per_px, reversal, direction, duration;
   std::vector<SegmentFile> segment;
   static Schema<VideoFile> schema() {
     return Schema<VideoFile>("video", "A video of an experiment")
@@ -112,6 +112,16 @@ struct VideoFile {
              {.doc = "Name of the experiment (one drop) that the video belongs to"})
         .add("exposure", &VideoFile::exposure,
              {.unit = "s", .min = 0, .max = 1e6, .doc = "Air exposure time before the video"})
+        .add("from", &VideoFile::from,
+             {.unit = "s",
+              .min = 0,
+              .max = 1e6,
+              .doc = "Start of the part of the video that is used; default: start of the video"})
+        .add("to", &VideoFile::to,
+             {.unit = "s",
+              .min = 0,
+              .max = 1e6,
+              .doc = "End of the part of the video that is used; default: end of the video"})
         .add("fps", &VideoFile::fps,
              {.min = 0, .max = 1e6, .doc = "Frames per second, for a video without a frame rate"})
         .add("um_per_px", &VideoFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
@@ -140,7 +150,10 @@ ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<d
   r.where = n.where();
   r.experiment = v.experiment;
   r.exposure_s = v.exposure;
-  r.fps = v.fps;
+  r.part = {v.from, v.to, v.fps};
+  if (v.to && *v.to <= v.from)
+    n.fail(fmt::format("ends at {:g} s, but starts at {:g} s; \"to\" must be later than \"from\"", *v.to,
+                       v.from));
   r.um_per_px = v.um_per_px ? v.um_per_px : um_per_px;
   r.reversal_s = v.reversal ? v.reversal : study.reversal;
   r.direction_deg = v.direction ? v.direction : study.direction;
@@ -345,9 +358,11 @@ std::string study_hash(const IdentifyStudy& study) {
   for (const ResponseInput& v : study.videos) {
     hash_content(v.file, h);
     h.text(v.experiment);
-    for (const double x : {v.exposure_s, v.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
+    for (const double x : {v.exposure_s, v.part.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
                            v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
       h.value(x);
+    if (v.part.from_s > 0 || v.part.to_s)  // studies of complete videos keep their hash
+      for (const double x : {v.part.from_s, v.part.to_s.value_or(-1)}) h.value(x);
     for (const FieldSegment& d : v.segments) {
       h.value(d.t0_s);
       h.value(d.t1_s);

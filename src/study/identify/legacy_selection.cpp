@@ -53,7 +53,7 @@ LegacyReference reference_of(const ResponseVideo& v, const Episode& e, const std
   options.threads = 1;
   options.method = flow_part({}, published_flow());
   options.shrink = v.side;
-  options.fps = v.input.fps;
+  options.fps = v.input.part.fps;
   r.filter.threshold_px = noise_level(v.file, options, [&](auto, auto) { reading(); }).threshold_px / v.side;
   r.filter.direction_deg = segment.direction_deg;
   r.pairs = histograms_of(frames_at(v, at, reading), r.filter);

@@ -73,11 +73,14 @@ std::vector<Vec2> low_discrepancy_order(const std::vector<Vec2>& positions) {
 
 /// Field segments from the centroid of the swarm in each frame.
 std::vector<FieldSegment> segments_of_drop(const ResponseVideo& v, const std::function<void()>& tick) {
-  GreyVideo video(v.file, v.input.fps, v.side);
+  const VideoPart& part = v.input.part;
+  GreyVideo video(v.file, part.fps, v.side);
   std::vector<double> t_s;
   std::vector<Vec2> centroid;
   GrayF frame;
-  for (double t = 0; video.read(frame, t); tick()) {
+  if (part.from_s > 0) video.skip_to(part.from_s);
+  for (double t = 0; video.read(frame, t) && !part.ends_before(t); tick()) {
+    if (!part.holds(t)) continue;
     const SwarmMoments m = v.view.foreground_in(frame).moments();
     t_s.push_back(t);
     centroid.push_back(m.signal > 0 ? m.centroid_image : Vec2{std::nan(""), std::nan("")});
@@ -92,24 +95,29 @@ std::vector<FieldSegment> recorded_segments(const std::filesystem::path& run) {
                            read_run_info(run / run_files::kManifest).polarity == "south");
 }
 
+// `end_s`: last time of the part of the video that is used.
 std::vector<FieldSegment> segments_in(const ResponseVideo& v, const std::vector<FieldSegment>& recorded,
-                                      Boundary boundary, double duration_s,
-                                      const std::function<void()>& tick) {
+                                      Boundary boundary, double end_s, const std::function<void()>& tick) {
   const ResponseInput& in = v.input;
   if (!in.segments.empty()) return in.segments;
   const double end =
-      in.duration_s && in.reversal_s ? std::min(*in.reversal_s + *in.duration_s, duration_s) : duration_s;
+      in.duration_s && in.reversal_s ? std::min(*in.reversal_s + *in.duration_s, end_s) : end_s;
   if (in.reversal_s && in.direction_deg) return {{*in.reversal_s, end, *in.direction_deg}};
   std::vector<FieldSegment> found =
       !recorded.empty() ? recorded
       : boundary == Boundary::none
-          ? segments_of_motion(v.file, in.fps, v.side > 1 ? v.side : 0, in.threads, tick)
+          ? segments_of_motion(v.file, in.part, v.side > 1 ? v.side : 0, in.threads, tick)
           : segments_of_drop(v, tick);
   if (in.direction_deg)
     std::erase_if(found, [&](const FieldSegment& d) {
       return std::fabs(std::remainder(d.direction_deg - *in.direction_deg, 360)) > kDirectionTolerance;
     });
-  std::erase_if(found, [&](const FieldSegment& d) { return d.t1_s <= in.reversal_s.value_or(0); });
+  for (FieldSegment& d : found) {  // the run may have recorded more than the part of its video that is used
+    d.t0_s = std::max(d.t0_s, in.part.from_s);
+    if (in.part.to_s) d.t1_s = std::min(d.t1_s, end_s);
+  }
+  std::erase_if(found,
+                [&](const FieldSegment& d) { return d.t1_s <= std::max(d.t0_s, in.reversal_s.value_or(0)); });
   if (found.empty())
     throw Error(Errc::input, in.file.string(),
                 "no motion in one direction detected; give reversal and direction, or [[video.segment]]");
@@ -148,7 +156,7 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
 void estimate_background(ResponseVideo& v, Measure measure, double from_s, double to_s,
                          const std::function<void()>& tick) {
   VideoBackgroundOptions o;
-  o.fps = v.input.fps;
+  o.fps = v.input.part.fps;
   o.side = v.side;
   o.tick = tick;
   if (measure == Measure::density)
@@ -168,7 +176,7 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   const std::string name = v.input.file.string();
   TrackOptions options;
   options.video = v.input.file;
-  options.part.fps = v.input.fps;
+  options.part = v.input.part;
   options.threads = v.input.threads;
   const auto survey = [&] {
     return survey_tracks(
@@ -191,7 +199,7 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   v.view.frame_s = s.frame_s;
   v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
-  estimate_background(v, measure, 0, s.duration_s, tick);
+  estimate_background(v, measure, v.input.part.from_s, v.input.part.from_s + s.duration_s, tick);
   if (boundary == Boundary::drop) {
     DropEdgeOptions edge;
     edge.name = name;
@@ -228,12 +236,14 @@ void set_tracking(ResponseVideo& v, const std::vector<GrayF>& frames) {
 void check_segments(const std::vector<FieldSegment>& segments, const ResponseInput& input, Measure measure,
                     const TrackSurvey& survey) {
   const double shortest = measure == Measure::tracks ? kMinBurstFrames * survey.frame_s : kMinSegment;
+  const double from = input.part.from_s, to = from + survey.duration_s;
   for (const FieldSegment& d : segments)
-    if (!(d.t1_s - d.t0_s >= shortest) || d.t1_s > survey.duration_s + survey.frame_s)
-      throw Error(Errc::input, input.file.string(),
-                  fmt::format("field segment from {:.4g} to {:.4g} s is invalid; it must last at least "
-                              "{:.2g} s and end within the video of {:.4g} s",
-                              d.t0_s, d.t1_s, shortest, survey.duration_s));
+    if (!(d.t1_s - d.t0_s >= shortest) || d.t0_s < from - survey.frame_s || d.t1_s > to + survey.frame_s)
+      throw Error(
+          Errc::input, input.file.string(),
+          fmt::format("field segment from {:.4g} to {:.4g} s is invalid; it must last at least "
+                      "{:.2g} s and lie within the part of the video that is used, {:.4g} to {:.4g} s",
+                      d.t0_s, d.t1_s, shortest, from, to));
 }
 
 // Reads all needed frames in one pass: initial positions, statistics, pictures for the report.
@@ -271,13 +281,15 @@ void take_frames(ResponseVideo& v, Boundary boundary, Measure measure, const std
 
 std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
                              const std::function<void()>& tick) {
-  GreyVideo video(v.file, v.input.fps, v.side);
+  GreyVideo video(v.file, v.input.part.fps, v.side);
   std::vector<GrayF> frames(times_s.size());
   std::vector<double> off(times_s.size(), std::numeric_limits<double>::infinity());
   const double last = times_s.empty() ? 0 : *std::max_element(times_s.begin(), times_s.end());
   GrayF frame;
+  if (v.input.part.from_s > 0) video.skip_to(v.input.part.from_s);
   for (double t = 0; video.read(frame, t) && t <= last + 1;) {
     tick();
+    if (!v.input.part.holds(t)) continue;
     for (std::size_t i = 0; i < times_s.size(); ++i)
       if (const double d = std::fabs(t - times_s[i]); d < off[i]) {
         frames[i] = frame;
@@ -312,7 +324,8 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
   const std::vector<FieldSegment> recorded = recorded_segments(input.file);
-  const std::vector<FieldSegment> segments = segments_in(v, recorded, boundary, survey.duration_s, tick);
+  const std::vector<FieldSegment> segments =
+      segments_in(v, recorded, boundary, input.part.from_s + survey.duration_s, tick);
   for (const FieldSegment& d : recorded) v.field_t = std::max(v.field_t.value_or(0), d.field_t.value_or(0));
   v.segments_detected =
       recorded.empty() && input.segments.empty() && !(input.reversal_s && input.direction_deg);
@@ -326,8 +339,8 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   }
   v.episodes = episodes_of(v, boundary, segments);
   // Outside the segments the swarm may stay in one position for most of the time: estimate again within them.
-  if (measure == Measure::density &&
-      (segments.front().t0_s > 0.2 * survey.duration_s || segments.back().t1_s < 0.8 * survey.duration_s))
+  if (measure == Measure::density && (segments.front().t0_s > input.part.from_s + 0.2 * survey.duration_s ||
+                                      segments.back().t1_s < input.part.from_s + 0.8 * survey.duration_s))
     estimate_background(v, measure, segments.front().t0_s, segments.back().t1_s, tick);
 
   take_frames(v, boundary, measure, tick);

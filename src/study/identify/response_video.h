@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "study/data/video_part.h"
 #include "study/identify/episode.h"
 #include "vision/cells/video_ground.h"
 #include "vision/drop/drop_edge.h"
@@ -23,7 +24,7 @@ struct ResponseInput {
   std::filesystem::path file;  ///< video or run directory
   std::string experiment;      ///< name of the experiment
   double exposure_s = 0;       ///< air exposure time before the video
-  double fps = 0;              ///< > 0: overrides the frame rate of the file
+  VideoPart part;              ///< that is used, and the frame rate if it is not that of the file
   unsigned threads = 0;        ///< that read the video; 0: all
   std::optional<double> um_per_px;
   std::optional<double> reversal_s;     ///< time of the field reversal; empty: detected

@@ -71,8 +71,9 @@ VideoBackground read_video_background(const std::filesystem::path& video, const 
   const bool integer_greys = o.side == 1 && frames.reader().bits() <= 8;
   Changes changes(integer_greys ? 1 : kFineStep);
   GrayF now, before;
-  for (double t = 0; frames.read(now, t); o.tick()) {
-    if (t < o.from_s || t > o.to_s) continue;
+  if (o.from_s > 0) frames.skip_to(o.from_s);
+  for (double t = 0; frames.read(now, t) && t <= o.to_s; o.tick()) {
+    if (t < o.from_s) continue;
     sampler.take(now);
     if (!before.empty()) changes.take(before, now);
     std::swap(now, before);
