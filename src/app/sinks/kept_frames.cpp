@@ -13,7 +13,7 @@ std::uint64_t number_of(std::uint64_t i, std::uint64_t count, std::uint64_t fram
 
 }  // namespace
 
-bool KeptFrames::wants(std::uint64_t frame) const {
+bool KeptFrames::keeps(std::uint64_t frame) const {
   const std::uint64_t count = std::min(kMost, frames_);
   for (std::uint64_t i = 0; i < count; ++i)
     if (number_of(i, count, frames_) == frame) return true;

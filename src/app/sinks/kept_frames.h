@@ -15,8 +15,8 @@ class KeptFrames {
 
   /// `frames`: number of frames of the complete video.
   explicit KeptFrames(std::uint64_t frames) : frames_(frames) {}
-  /// Whether the frame is one of those to keep.
-  bool wants(std::uint64_t frame) const;
+  /// Whether this frame is one of those that are kept.
+  bool keeps(std::uint64_t frame) const;
   void add(SmallFrame frame) { kept_.push_back(std::move(frame)); }
   /// The frames; empty if the video has ended before its last frame.
   std::vector<SmallFrame> frames() const;

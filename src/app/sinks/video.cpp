@@ -28,7 +28,7 @@ class Video final : public RunSink {
     if (t.index % std::uint64_t(c_.record.video_every)) return;
     if (!writer_) return;
     if (c_.jitter && !c_.frames->planned_time(t.index)) times_.push_back(c_.frames->time_of(t));
-    const bool kept = c_.kept && c_.kept->wants(t.index / std::uint64_t(c_.record.video_every));
+    const bool kept = c_.kept && c_.kept->keeps(t.index / std::uint64_t(c_.record.video_every));
     const double t_s = kept ? c_.frames->time_of(t) : 0;
     if (c_.draw) {
       encoding_.add([this, kept, t_s, picture = c_.draw(t)] { write(picture, kept, t_s); });
