@@ -5,8 +5,8 @@ number of threads and that recording does not change the state hash. Prints a ta
 
     bench/jobs.py [--program build/faba] [--before OTHER/faba] [--video FILE] [--only tracks,video,...] [--rounds 3]
 
---before: the program of an earlier commit, which is measured in turn with this one. --video: a real video for the measurements; by default
-one that the program renders. Needs ffmpeg and h5repack (tools/setup.sh bench). Exit status 1 if a result is wrong; slow results do not fail.
+--before: the program of an earlier commit, which is measured in turn with this one; its benchmarks, in the folder bench beside it, are used
+for the kernels. --video: a real video of 2048 x 1080 px, for activity and track; default: ../shared/data. Needs ffmpeg and h5repack (tools/setup.sh bench). Exit status 1 if a result is wrong; slow results do not fail.
 """
 
 import argparse
@@ -181,51 +181,98 @@ def output_hash(b, job, files):
     return digest.hexdigest()
 
 
+IDENTIFY = """boundary = "drop"
+field_strength = "1 mT"
+simulations = 100
+[[video]]
+file = "seen"
+[[model]]
+type = "dipole"
+free = { "swarm[0].model.speed" = ["100 um/s", "300 um/s"] }
+"""
+
+
 def measurements(b):
-    film = b.o.video.resolve() if b.o.video else None
-    if not film:
-        Job(b.run(ROOT / "scenes/as-seen.toml", "--set", "record.lossless=false", out="film"), b.folder)
-        film = b.folder / "film/video.mp4"
+    Job(b.run(ROOT / "scenes/as-seen.toml", "--set", "record.lossless=false", out="film"), b.folder)
+    film = b.folder / "film/video.mp4"
     Job(b.run(ROOT / "scenes/as-seen.toml", "--duration", "3 s", out="seen"), b.folder)
     Job(b.run(ROOT / "scenes/as-seen.toml", "--duration", "3 s", out="other", seed=2), b.folder)
-    b.add("", "## Measurements", "", f"Video: {film.name}. Two processes: the speed-up that two independent processes with one thread each reach.", "",
-          "| verb | one thread, s | two threads, s | speed-up | two processes | fraction of it | goal | peak, MiB | earlier commit, one thread, s | all threads, s |",
-          "|---|---|---|---|---|---|---|---|---|---|")
+    b.add("", "## Measurements", "", "`as-seen`, its video of 90 frames. Two processes: the speed-up that two independent processes with one thread each reach.", "",
+          "| verb | one thread, s | two threads, s | speed-up | two processes | fraction of it | goal | peak, MiB |", "|---|---|---|---|---|---|---|---|")
+    (b.folder / "study.toml").write_text(IDENTIFY)
     verbs = {
         "activity": (["activity", film, "--json", "--force", "--out", "a.csv"], ["a.csv"]),
         "track": (["track", film, "--json", "--force", "--out", "t.csv"], ["t.csv"]),
         "flow": (["flow", film, "--json", "--force", "--out", "f.h5"], ["f.h5"]),
         "compare": (["compare", b.folder / "seen", b.folder / "other", "--no-floor", "--json", "--force", "--out", "c.csv"], ["c.csv"]),
+        "identify": (["identify", b.folder / "study.toml", "--quiet", "--force", "--out", "study"], ["study/identify.json"]),
     }
     for name, (arguments, files) in verbs.items():
-        commands = [b.faba(*arguments, "--threads", "1"), b.faba(*arguments, "--threads", "2")]
-        if b.o.before:
-            commands += [["taskset", "-c", "0", b.o.before, *arguments], b.faba(*arguments, program=b.o.before)]
+        clean = ["sh", "-c", 'rm -rf study; exec "$@"', "sh"]  # a complete study is not computed again
+        commands = [clean + b.faba(*arguments, "--threads", str(n)) for n in (1, 2)]
         jobs = b.best(*commands)
-        hashes = {output_hash(b, Job(b.faba(*arguments, "--threads", str(n)), b.folder), files) for n in (1, 2, 3)}
+        hashes = {output_hash(b, Job(clean + b.faba(*arguments, "--threads", str(n)), b.folder), files) for n in (1, 2, 3)}
         b.check(len(hashes) == 1, f"{name} depends on the number of threads")
         speed_up, possible = jobs[0].s / jobs[1].s, 2 * jobs[0].s / b.together(commands[0])
         share = speed_up / possible
-        row = f"| {name} | {jobs[0].s:.2f} | {jobs[1].s:.2f} | {speed_up:.2f} | {possible:.2f} | {100 * share:.0f} % | 90 %, {'met' if share >= 0.9 else 'NOT MET'} | {jobs[1].mib:.0f} |"
-        row += f" {jobs[2].s:.2f} ({100 * jobs[0].s / jobs[2].s:.0f} %) | {jobs[3].s:.2f} ({100 * jobs[1].s / jobs[3].s:.0f} %) |" if b.o.before else " | |"
-        b.add(row)
-    bound(b, film)
+        b.add(f"| {name} | {jobs[0].s:.2f} | {jobs[1].s:.2f} | {speed_up:.2f} | {possible:.2f} | {100 * share:.0f} % | 90 %, {'met' if share >= 0.9 else 'NOT MET'} | {jobs[1].mib:.0f} |")
 
 
-def bound(b, film):
-    """Activity against one decoding and its sweeps alone, and the price of a part of the video."""
+def real(b):
+    """Activity of a real video against one decoding and its sweeps alone, the price of a part of it, and tracks."""
+    film = b.o.video.resolve() if b.o.video else ROOT.parent / "shared/data/step-response/rollers.mp4"
+    if not film.exists():
+        b.add("", "## A real video", "", f"Skipped: no file {film.name}; give --video.")
+        return
     activity = ["activity", film, "--json"]
-    entire = json.loads(Job(b.faba(*activity), b.folder).out)["videos"][0]
-    with_size = json.loads(Job(b.faba("flow", film, "--json"), b.folder).out)
-    width, height = with_size["image_size"]
-    part_s = entire["frame_s"] * entire["pairs"] * 10 / 76  # 10 s of the video of 76 s in ../shared/data
-    jobs = b.best(b.faba(*activity, "--threads", "2"), ["ffmpeg", "-v", "error", "-threads", "2", "-i", film, "-f", "null", "-"],
-                  [b.o.sweeps, width, height, entire["pairs"], 2], b.faba(*activity, "--threads", "2", "--to", f"{part_s:.4g} s"))
-    unavoidable = jobs[1].s + float(jobs[2].out)
-    ratio, part = jobs[0].s / unavoidable, jobs[3].s / jobs[0].s
-    b.add("", f"`activity` on two threads takes {jobs[0].s:.2f} s; one decoding and the sweeps of its {entire['pairs']} pairs alone, on two threads, take "
-          f"{jobs[1].s:.2f} s + {float(jobs[2].out):.2f} s: ratio {ratio:.2f} (goal: 1.3, {'met' if ratio <= 1.3 else 'NOT MET'}). With `--to` at 13 % of the video it "
-          f"takes {100 * part:.0f} % of the time (goal: 20 %, {'met' if part <= 0.2 else 'NOT MET'}).")
+    probe = json.loads(Job(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries", "stream=width,height", "-of", "json", film], b.folder).out)["streams"][0]
+    whole, decoding, part = b.best(b.faba(*activity, "--threads", "2"), ["ffmpeg", "-v", "error", "-threads", "2", "-i", film, "-f", "null", "-"],
+                                   b.faba(*activity, "--threads", "2", "--to", "10 s"))
+    result = json.loads(whole.out)
+    pairs, shrink = result["videos"][0]["pairs"], max(1, -(-max(probe["width"], probe["height"]) // 1024))
+    sweeps = b.best([b.o.sweeps, probe["width"] // shrink, probe["height"] // shrink, pairs, 2])[0]
+    unavoidable = decoding.s + float(sweeps.out)
+    ratio, share = whole.s / unavoidable, part.s / whole.s
+    b.add("", "## A real video", "", f"`{film.name}`, {probe['width']} x {probe['height']} px, {pairs} pairs of frames, averaged over squares of {shrink} px. `activity` on two threads takes "
+          f"{whole.s:.1f} s; one decoding and the sweeps alone, on two threads, take {decoding.s:.1f} s + {float(sweeps.out):.1f} s: ratio {ratio:.2f} (goal: 1.3, "
+          f"{'met' if ratio <= 1.3 else 'NOT MET'}). With `--to \"10 s\"` it takes {100 * share:.0f} % of the time (goal: 20 %, {'met' if share <= 0.2 else 'NOT MET'}).")
+    track = ["track", film, "--json", "--force", "--out", "t.csv"]
+    commands = [b.faba(*track, "--threads", "1"), b.faba(*track, "--threads", "2")]
+    if b.o.before:
+        commands.append(["taskset", "-c", "0", *b.faba(*track, program=b.o.before)])
+    jobs = b.best(*commands)
+    text = f"`track` takes {jobs[0].s:.1f} s on one thread and {jobs[1].s:.1f} s on two."
+    if b.o.before:
+        one, two = jobs[0].s / jobs[2].s, jobs[1].s / jobs[2].s
+        text += (f" The earlier commit takes {jobs[2].s:.1f} s on one core: {100 * one:.0f} % (goal: 40 %, {'met' if one <= 0.4 else 'NOT MET'}) and "
+                 f"{100 * two:.0f} % (goal: 20 %, {'met' if two <= 0.2 else 'NOT MET'}).")
+    b.add("", text)
+
+
+def kernels(b):
+    """Exclusion and multigrid flow beside those of an earlier commit, in turn."""
+    if not b.o.before:
+        return
+    rows = {}
+    for name, build in (("now", b.o.program.parent), ("before", b.o.before.parent)):
+        for program in ("bench_agents", "bench_video"):
+            for line in Job([build / "bench" / program], b.folder).out.splitlines():
+                j = json.loads(line)
+                if j.get("kind") == "faba" and j["model"] == "basic" and j["agents"] == 1000000 and j["threads"] == 1:
+                    rows[name, j["order"]] = j["ns"]
+                elif j.get("what") == "converged" and j["threads"] == 1:
+                    rows[name, "multigrid"] = j["ns"]
+                if j.get("kind") == "faba" and j["model"] == "dipole" and j["agents"] == 1000000 and j["threads"] == 1 and j["order"] == "none":
+                    rows[name, "dipole"] = j["ns"]
+    cost = {name: {"exclusion, published order, 1e6 cells": rows[name, "published"] - rows[name, "none"],
+                   "exclusion, two-phase, 1e6 cells": rows[name, "two-phase"] - rows[name, "none"],
+                   "multigrid flow, converged": rows[name, "multigrid"], "dipole step, 1e6 cells": rows[name, "dipole"]} for name in ("now", "before")}
+    b.add("", "## Kernels", "", "One thread. Exclusion: ns per cell of a step with it, less those of a step without it.", "",
+          "| kernel | earlier commit | now | times as fast | goal |", "|---|---|---|---|---|")
+    for (kernel, before), goal in zip(cost["before"].items(), (2.5, 1.5, 1.35, None)):
+        now = cost["now"][kernel]
+        scale, unit = (1e-6, "ms per pair") if "flow" in kernel else (1, "ns per cell")
+        b.add(f"| {kernel} | {scale * before:.3g} {unit} | {scale * now:.3g} {unit} | {before / now:.2f} | {'' if goal is None else f'{goal}, ' + ('met' if before / now >= goal else 'NOT MET')} |")
 
 
 def memory(b):
@@ -260,7 +307,7 @@ def start(b):
           f"{1e3 * jobs[1].s:.0f} ms (goal: 50, {'met' if jobs[1].s <= 0.05 else 'NOT MET'}).")
 
 
-SECTIONS = {"tracks": tracks, "kill": kill, "video": video, "measurements": measurements, "memory": memory, "million": million, "start": start}
+SECTIONS = {"tracks": tracks, "kill": kill, "video": video, "measurements": measurements, "real": real, "memory": memory, "million": million, "kernels": kernels, "start": start}
 
 
 def main():
@@ -268,7 +315,7 @@ def main():
     a.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba", help="the program, default build/faba")
     a.add_argument("--sweeps", type=pathlib.Path, default=ROOT / "build/bench/bench_jobs", help="default build/bench/bench_jobs")
     a.add_argument("--before", type=pathlib.Path, help="the program of an earlier commit")
-    a.add_argument("--video", type=pathlib.Path, help="a video for the measurements; default: rendered")
+    a.add_argument("--video", type=pathlib.Path, help="a real video for activity and track; default: ../shared/data/step-response/rollers.mp4")
     a.add_argument("--only", default=",".join(SECTIONS), help=f"sections, default {','.join(SECTIONS)}")
     a.add_argument("--rounds", type=int, default=3, help="rounds of each measurement; the fastest counts; default 3")
     a.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
