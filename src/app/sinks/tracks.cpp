@@ -9,7 +9,7 @@
 namespace faba {
 namespace {
 
-constexpr std::uint64_t kChunkBytes = 16u << 20;  // of the row of chunks being filled, which is in memory
+constexpr std::uint64_t kChunkBytes = 8u << 20;  // of the row of chunks being filled, which is in memory
 
 // Positions are rounded relative to the centre of the arena, which cells do not leave.
 std::optional<PositionTable::Rounding> rounding_of(const SinkContext& c) {
@@ -33,7 +33,8 @@ class Tracks final : public RunSink {
   Tracks(const SinkContext& c, std::uint64_t keep)
       : c_(c),
         path_(c.dir / "tracks.h5"),
-        file_(H5File::create(keep ? path_.string() + ".new" : path_.string(), c.pool)) {
+        file_(
+            H5File::create(keep ? path_.string() + ".new" : path_.string(), c.pool ? c.pool->threads() : 1)) {
     const auto n = std::uint64_t(c.truth->state().agents.size());
     const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
     frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, 1024, 1, false));

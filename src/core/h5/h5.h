@@ -8,12 +8,10 @@
 
 namespace faba {
 
-class Pool;
-
 /// An HDF5 dataset to which rows are appended. Rows are kept in memory until a row of chunks is complete, or
-/// until H5File::sync(). Element types: float, double, std::uint8_t, std::int16_t, std::int32_t,
-/// std::uint64_t. Valid as long as its file is open. Every failure throws Error(internal) with the file name
-/// and the reason given by HDF5.
+/// until H5File::sync(); so is the row of chunks before. Element types: float,
+/// double, std::uint8_t, std::int16_t, std::int32_t, std::uint64_t. Valid as long as its file is open. Every
+/// failure throws Error(internal) with the file name and the reason given by HDF5.
 class H5Table {
  public:
   template <class T>
@@ -35,9 +33,9 @@ class H5Table {
 /// several files, because Debian builds HDF5 thread-safe (its calls are serialised).
 class H5File {
  public:
-  /// `pool`: threads that compress the chunks; null: the calling thread. It must outlive the file. Throws
-  /// Error(internal) if the file cannot be created.
-  static H5File create(const std::filesystem::path& file, Pool* pool = nullptr);
+  /// `threads`: number of threads that compress a row of chunks while the next one is filled; 1: the calling
+  /// thread compresses. Throws Error(internal) if the file cannot be created.
+  static H5File create(const std::filesystem::path& file, unsigned threads = 1);
   /// Opens for reading, also a file whose writer was killed. Throws Error(input).
   static H5File open(const std::filesystem::path& file);
   H5File(H5File&&) noexcept;

@@ -73,6 +73,7 @@ void Remuxer::open_input() {
   AVFormatContext* raw = nullptr;
   AVDictionary* options = nullptr;
   FABA_AV(av_dict_set)(&options, "pattern_type", "none", 0);
+  FABA_AV(av_dict_set)(&options, "fpsprobesize", "0", 0);  // the frame rate is known; do not decode for it
   const AVInputFormat* kind = FABA_AV(av_find_input_format)(mp4_ ? "h264" : "png_pipe");
   int result = FABA_AV(avformat_open_input)(&raw, file_url(part_).c_str(), kind, &options);
   FABA_AV(av_dict_free)(&options);
