@@ -228,15 +228,15 @@ def real(b):
         return
     activity = ["activity", film, "--json"]
     probe = json.loads(Job(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries", "stream=width,height", "-of", "json", film], b.folder).out)["streams"][0]
-    whole, decoding, part = b.best(b.faba(*activity, "--threads", "2"), ["ffmpeg", "-v", "error", "-threads", "2", "-i", film, "-f", "null", "-"],
+    entire, decoding, part = b.best(b.faba(*activity, "--threads", "2"), ["ffmpeg", "-v", "error", "-threads", "2", "-i", film, "-f", "null", "-"],
                                    b.faba(*activity, "--threads", "2", "--to", "10 s"))
-    result = json.loads(whole.out)
+    result = json.loads(entire.out)
     pairs, shrink = result["videos"][0]["pairs"], max(1, -(-max(probe["width"], probe["height"]) // 1024))
     sweeps = b.best([b.o.sweeps, probe["width"] // shrink, probe["height"] // shrink, pairs, 2])[0]
     unavoidable = decoding.s + float(sweeps.out)
-    ratio, share = whole.s / unavoidable, part.s / whole.s
+    ratio, share = entire.s / unavoidable, part.s / entire.s
     b.add("", "## A real video", "", f"`{film.name}`, {probe['width']} x {probe['height']} px, {pairs} pairs of frames, averaged over squares of {shrink} px. `activity` on two threads takes "
-          f"{whole.s:.1f} s; one decoding and the sweeps alone, on two threads, take {decoding.s:.1f} s + {float(sweeps.out):.1f} s: ratio {ratio:.2f} (goal: 1.3, "
+          f"{entire.s:.1f} s; one decoding and the sweeps alone, on two threads, take {decoding.s:.1f} s + {float(sweeps.out):.1f} s: ratio {ratio:.2f} (goal: 1.3, "
           f"{'met' if ratio <= 1.3 else 'NOT MET'}). With `--to \"10 s\"` it takes {100 * share:.0f} % of the time (goal: 20 %, {'met' if share <= 0.2 else 'NOT MET'}).")
     track = ["track", film, "--json", "--force", "--out", "t.csv"]
     commands = [b.faba(*track, "--threads", "1"), b.faba(*track, "--threads", "2")]

@@ -10,9 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/h5/chunk_code.h"
-#include "core/threads/job_thread.h"
-#include "core/threads/parallel.h"
+#include "core/h5/chunk_rows.h"
 
 namespace faba {
 namespace {
@@ -80,20 +78,6 @@ void quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-// A row of chunks: rows that are encoded and written together.
-struct Batch {
-  std::vector<std::uint8_t> rows;
-  std::uint64_t first = 0;  ///< index of the first row
-  std::vector<CodedChunk> coded;
-};
-
-// Encodes the chunks of a batch while the caller fills the next one.
-struct Coders {
-  explicit Coders(unsigned threads) : pool(threads) {}
-  Pool pool;
-  JobThread thread{1};
-};
-
 }  // namespace
 
 struct H5Table::Impl {
@@ -102,19 +86,15 @@ struct H5Table::Impl {
   std::vector<hsize_t> dims, chunk;  ///< rows first
   std::string where;
 
-  // Of a table that is being written.
-  ChunkFilters filters;
-  Batch filling, coding;
-  bool unwritten = false;            ///< some rows of `filling` are not in the file
-  bool in_coders = false;            ///< `coding` is being encoded
-  std::unique_ptr<Coders> coders{};  ///< last: its threads use the other members
+  std::size_t element_bytes = 0;
+  std::unique_ptr<ChunkRows> writing;  ///< of a table that is being written
 
   std::size_t row_size() const {
     std::size_t n = 1;
     for (std::size_t i = 1; i < dims.size(); ++i) n *= std::size_t(dims[i]);
     return n;
   }
-  std::size_t row_bytes() const { return row_size() * filters.element_bytes; }
+  std::size_t row_bytes() const { return row_size() * element_bytes; }
   [[noreturn]] void fail(Errc code, const char* doing) const {
     throw Error(code, where, fmt::format("cannot {}: {}", doing, reason()));
   }
@@ -130,86 +110,32 @@ struct H5Table::Impl {
     H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
     return {Handle(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose), std::move(in_file)};
   }
-  void append(const void* row);
-  void encode(Batch& batch, std::size_t column) const;
-  void encode_all(Batch& batch) const;
-  void write(const Batch& batch);
-  void write_coded();
-  void write_all();
-
-  std::size_t columns() const {
-    return dims.size() > 1 ? std::size_t((dims[1] + chunk[1] - 1) / chunk[1]) : 1;
-  }
+  void write(std::uint64_t first, std::uint64_t rows, const std::vector<CodedChunk>& chunks);
+  void start_writing(const ChunkFilters& filters, unsigned threads);
 };
 
-void H5Table::Impl::append(const void* row) {
-  const auto* bytes = static_cast<const std::uint8_t*>(row);
-  filling.rows.insert(filling.rows.end(), bytes, bytes + row_bytes());
-  ++dims[0];
-  unwritten = true;
-  if (dims[0] - filling.first < chunk[0]) return;
-  write_coded();
-  std::swap(coding, filling);
-  in_coders = true;
-  unwritten = false;
-  if (coders)
-    coders->thread.add([this] { encode_all(coding); });
-  else
-    encode_all(coding);
-  filling.rows.clear();
-  filling.first = dims[0];
-}
-
-// Encodes a chunk of a batch: the one that begins at element column * chunk[1] of the first dimension of its
-// rows. A chunk is always stored in its full size; elements beyond the table are zero.
-void H5Table::Impl::encode(Batch& batch, std::size_t column) const {
-  thread_local std::vector<std::uint8_t> raw;
-  std::size_t bytes = filters.element_bytes;  // of a row of the chunk
-  for (std::size_t i = 1; i < chunk.size(); ++i) bytes *= std::size_t(chunk[i]);
-  raw.assign(std::size_t(chunk[0]) * bytes, 0);
-  const std::size_t begin = column * bytes, row = row_bytes();
-  const std::size_t used = std::min(bytes, row - begin);
-  for (std::size_t r = 0; r < batch.rows.size() / row; ++r)
-    std::copy_n(batch.rows.data() + r * row + begin, used, raw.data() + r * bytes);
-  encode_chunk(raw, filters, batch.coded[column]);
-}
-
-void H5Table::Impl::encode_all(Batch& batch) const {
-  batch.coded.resize(columns());
-  const auto job = [&](std::size_t column) { encode(batch, column); };
-  if (coders) {
-    coders->pool.run(columns(), job);
-  } else {
-    for (std::size_t column = 0; column < columns(); ++column) job(column);
-  }
-}
-
-// HDF5 compresses in one thread and under its global lock. Complete encoded chunks are passed to it instead.
-void H5Table::Impl::write(const Batch& batch) {
+void H5Table::Impl::write(std::uint64_t first, std::uint64_t rows, const std::vector<CodedChunk>& chunks) {
   std::vector<hsize_t> extent = dims, at(dims.size(), 0);
-  at[0] = batch.first;
-  extent[0] = batch.first + batch.rows.size() / row_bytes();
+  at[0] = first;
+  extent[0] = first + rows;
   if (H5Dset_extent(set, extent.data()) < 0) fail(Errc::internal, "write");
-  for (std::size_t column = 0; column < batch.coded.size(); ++column) {
+  for (std::size_t column = 0; column < chunks.size(); ++column) {
     if (at.size() > 1) at[1] = column * chunk[1];
-    const CodedChunk& c = batch.coded[column];
+    const CodedChunk& c = chunks[column];
     if (H5Dwrite_chunk(set, H5P_DEFAULT, c.skipped, at.data(), c.bytes.size(), c.bytes.data()) < 0)
       fail(Errc::internal, "write");
   }
 }
 
-// Writes the batch that is being encoded.
-void H5Table::Impl::write_coded() {
-  if (!std::exchange(in_coders, false)) return;
-  if (coders) coders->thread.wait();
-  write(coding);
-}
-
-void H5Table::Impl::write_all() {
-  write_coded();
-  if (!std::exchange(unwritten, false)) return;
-  encode_all(filling);
-  write(filling);
+void H5Table::Impl::start_writing(const ChunkFilters& filters, unsigned threads) {
+  element_bytes = filters.element_bytes;
+  std::size_t part = element_bytes;
+  for (std::size_t i = 1; i < chunk.size(); ++i) part *= std::size_t(chunk[i]);
+  writing = std::make_unique<ChunkRows>(
+      ChunkShape{row_bytes(), chunk[0], part}, filters, threads,
+      [this](std::uint64_t first, std::uint64_t rows, const std::vector<CodedChunk>& chunks) {
+        write(first, rows, chunks);
+      });
 }
 
 struct H5File::Impl {
@@ -228,7 +154,8 @@ void H5Table::append(std::span<const T> row) {
   quiet();
   if (row.size() != t.row_size() || type_of<T>() != t.type)
     throw Error(Errc::internal, t.where, "the row has the wrong shape or type");
-  t.append(row.data());
+  t.writing->append(reinterpret_cast<const std::uint8_t*>(row.data()));
+  ++t.dims[0];
 }
 
 template <class T>
@@ -254,7 +181,7 @@ H5File::~H5File() {
   if (!impl_) return;
   quiet();
   try {
-    for (const auto& t : impl_->tables) t->write_all();
+    for (const auto& t : impl_->tables) t->writing->flush();
   } catch (...) {  // close() and sync() report errors; a destructor cannot
   }
 }
@@ -325,8 +252,7 @@ H5Table H5File::table(const std::string& name, const std::vector<std::uint64_t>&
                   H5Dclose);
   if (t->set < 0) impl_->fail(Errc::internal, "create a table");
   t->chunk = chunk;
-  t->filters = {sizeof(T), compress};
-  if (impl_->threads > 1 && t->columns() > 1) t->coders = std::make_unique<Coders>(impl_->threads);
+  t->start_writing({sizeof(T), compress}, impl_->threads);
   impl_->tables.push_back(t);
   return H5Table(t);
 }
@@ -394,7 +320,7 @@ void H5File::begin_writing() {
 
 void H5File::sync() {
   quiet();
-  for (const auto& t : impl_->tables) t->write_all();
+  for (const auto& t : impl_->tables) t->writing->flush();
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->fail(Errc::internal, "write");
   void* handle = nullptr;  // pointer to the file descriptor of HDF5
   if (H5Fget_vfd_handle(impl_->file, H5P_DEFAULT, &handle) < 0) impl_->fail(Errc::internal, "write");
