@@ -263,7 +263,7 @@ def kernels(b):
                 if j.get("kind") == "faba" and j["model"] == "basic" and j["agents"] == 1000000 and j["threads"] == 1:
                     rows[name, j["order"]] = j["ns"]
                 elif j.get("what") == "converged" and j["threads"] == 1:
-                    rows[name, "multigrid"] = j["ns"]
+                    rows[name, "multigrid"] = j["ms"] * 1e6
                 if j.get("kind") == "faba" and j["model"] == "dipole" and j["agents"] == 1000000 and j["threads"] == 1 and j["order"] == "none":
                     rows[name, "dipole"] = j["ns"]
     cost = {name: {"exclusion, published order, 1e6 cells": rows[name, "published"] - rows[name, "none"],

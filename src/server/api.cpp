@@ -337,7 +337,7 @@ Json Api::measure_ruler(const Json& asked) {
   const PictureScale scale = scale_of_taken(taken, 1e-6 * tick_um, pictures_ / shown);
   Json j = scale_json(scale);
   j["url"] = "/api/uploads/" + shown;
-  if (scale.quality == MarkQuality::poor) return j;  // displayed, but not saved
+  if (quality_of(scale.warnings) == Quality::poor) return j;  // displayed, but not saved
   fs::copy_file(taken, picture, fs::copy_options::overwrite_existing);
   Calibration c = calibration_of(scale);
   c.source = picture.filename().string();

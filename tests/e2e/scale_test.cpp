@@ -108,6 +108,6 @@ TEST_CASE("scale with invalid input: one clear line and the documented exit code
   CHECK(faba_in(f.path, "scale falling.csv").err.find("check that the columns are not exchanged") !=
         std::string::npos);
   write_file(f.path / "three.csv", "width_um,px\n30,40\n50,66\n100,121\n");
-  CHECK(faba_in(f.path, "scale three.csv").err.find("the scale is uncertain by 65 %") != std::string::npos);
+  CHECK(faba_in(f.path, "scale three.csv").err.find("the 95 % interval is +- 65 %") != std::string::npos);
   CHECK(faba_in(f.path, "scale good.csv").err.empty());
 }

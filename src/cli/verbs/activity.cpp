@@ -8,6 +8,7 @@
 #include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/quality_text.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "study/motion/activity_study.h"
@@ -151,6 +152,7 @@ int activity(const ActivityVerb& v, const Common& c) {
     for (const std::string& note : a.notes)
       print_stderr(fmt::format("faba: note: {}: {}", a.input.file.string(), note));
   summary(result);
+  print_quality(all_warnings(result));
   for (const auto& file : {v.out, v.report, v.picture})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

@@ -6,6 +6,7 @@
 #include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/quality_text.h"
 #include "core/file.h"
 #include "study/motion/segments.h"
 #include "study/pages/compare_report.h"
@@ -89,6 +90,7 @@ int compare(const CompareVerb& v, const Common& c) {
     for (const std::string& note : r.notes)
       print_stderr(fmt::format("faba: note: {}: {}", r.file.string(), note));
   print_runs(result);
+  print_quality(all_warnings(result));
   for (const auto& file : {v.out, v.report})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

@@ -5,7 +5,9 @@
 
 #include "cli/command_line.h"
 #include "cli/output_file.h"
+#include "cli/quality_text.h"
 #include "core/error.h"
+#include "study/drop/drop_warnings.h"
 #include "study/pages/drop_report.h"
 
 namespace faba::cli {
@@ -27,9 +29,10 @@ int drop(const DropVerb& v, const Common& c) {
   } else if (!c.quiet) {
     fmt::print(
         "centre  ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}) px\nradius  {:.1f} +- {:.1f} px\narc     {:.0f} "
-        "degrees visible\n",
+        "degrees visible; +- is the standard error\n",
         edge.centre_image.x, edge.sd_centre_px.x, edge.centre_image.y, edge.sd_centre_px.y, edge.radius_px,
         edge.sd_radius_px, edge.arc_deg);
+    print_quality(drop_warnings(edge), 8);
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
     if (!v.stages.empty()) fmt::print("stages  {}\n", v.stages.string());
     if (std::filesystem::exists("scenes/drop.toml"))

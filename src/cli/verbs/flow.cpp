@@ -7,6 +7,7 @@
 #include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/quality_text.h"
 #include "core/counted.h"
 #include "core/error.h"
 #include "study/motion/histogram_files.h"
@@ -75,6 +76,7 @@ int flow_pair(const FlowVerb& v, const Common& c) {
     fmt::print(
         "truth    endpoint error {:.4f} px, angular error {:.3f} degrees, over {:.1f} % of the pixels\n",
         flow.error->endpoint_px, flow.error->angular_deg, 100 * flow.error->known);
+  print_quality(flow.warnings);
   for (const auto& file : {v.out, v.picture})
     if (!file.empty()) fmt::print("wrote    {}\n", file.string());
   return 0;
@@ -102,6 +104,7 @@ int flow_video(const FlowVerb& v, const Common& c) {
                                           : fmt::format("in {:.6g} frames", flow.seconds + 1);
   fmt::print("{} {}, {} x {} px, mean speed {:.4g} px per pair\n", counted(flow.pairs, "pair"), duration,
              flow.width, flow.height, flow.mean_speed_px);
+  print_quality(flow.warnings);
   for (const auto& file : {v.out, v.overlay})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;

@@ -5,8 +5,10 @@
 #include "cli/command_line.h"
 #include "cli/options/study.h"
 #include "cli/options/video_part.h"
+#include "cli/quality_text.h"
 #include "core/file.h"
 #include "study/identify/best_scene.h"
+#include "study/identify/identify_warnings.h"
 #include "study/pages/identify_report.h"
 
 namespace faba::cli {
@@ -87,6 +89,7 @@ int identify(const IdentifyOptions& o, const Common& c) {
   if (!c.json && !c.quiet) {
     for (const std::string& note : notes_of(*result)) print_stderr("faba: note: " + note);
     summary(*result);
+    print_quality(identify_warnings(*result));
     fmt::print("wrote {} and best.toml, the scenario of the best model\n",
                (dir.path() / "identify.html").string());
   }

@@ -6,6 +6,7 @@
 
 #include "cli/command_line.h"
 #include "cli/output_file.h"
+#include "cli/quality_text.h"
 #include "cli/quantity.h"
 #include "core/error.h"
 #include "study/pages/scale_report.h"
@@ -50,22 +51,12 @@ void print_table(const TableScale& s) {
 void print_picture(const PictureScale& s) {
   fmt::print(
       "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees clockwise from x, scatter "
-      "{:.2f} px: {}\n",
-      s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px,
-      word_of(s.quality));
+      "{:.2f} px\n",
+      s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px);
   fmt::print("mean ratio   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
              s.ratios.sem);
   fmt::print("regression   {:.5f} um/px, 95 % interval {:.5f} to {:.5f}\n", s.um_per_px, s.ci95[0],
              s.ci95[1]);
-}
-
-// An uncertainty of the scale is one of every length and speed.
-std::string uncertain_note(const TableScale& s) {
-  constexpr double kUncertain = 0.1;  // half of the 95 % interval over the scale
-  const double relative = (s.ci95[1] - s.ci95[0]) / 2 / s.um_per_px;
-  if (relative <= kUncertain) return "";
-  return fmt::format("the scale is uncertain by {:.0f} % (95 % interval); add readings, of more widths",
-                     100 * relative);
 }
 
 template <class Scale, class Print>
@@ -78,6 +69,7 @@ void print_scale(const Scale& s, const ScaleVerb& v, const Common& c, Print&& pr
   if (c.quiet) return;
   print(s);
   fmt::print("note         {}\n", scale_note(s));
+  print_quality(s.warnings, 13);
   if (!v.overlay.empty()) fmt::print("overlay      {}\n", v.overlay.string());
   if (!v.out.empty())
     fmt::print("calibration  {}; in a scenario: [scale] file = \"{}\"\n", v.out.string(), v.out.string());
@@ -85,18 +77,12 @@ void print_scale(const Scale& s, const ScaleVerb& v, const Common& c, Print&& pr
 
 void scale_of_picture(const ScaleVerb& v, const Common& c) {
   const PictureScale s = report_scale_picture(v.ruler, tick_of(v.tick), v.overlay);
-  if (!v.out.empty() && !v.force && s.quality == MarkQuality::poor)
+  if (!v.out.empty() && !v.force && quality_of(s.warnings) == Quality::poor)
     throw Error(
         Errc::input, v.ruler.string(),
         fmt::format("the detected marks are too few or too irregular for a calibration ({} marks, scatter "
                     "{:.2f} px); check them with --overlay, or write {} anyway with --force",
                     s.marks, s.residual_px, v.out.string()));
-  if (!c.quiet && !c.json && s.quality != MarkQuality::good)
-    print_stderr(
-        fmt::format("faba: note: the detected marks are few or irregular ({}); check them with --overlay "
-                    "before you use the "
-                    "scale",
-                    word_of(s.quality)));
   print_scale(s, v, c, print_picture);
 }
 
@@ -114,8 +100,6 @@ int scale(const ScaleVerb& v, const Common& c) {
     return 0;
   }
   const TableScale s = measure_scale(read_ruler_table(v.ruler), v.ruler.string());
-  if (const std::string note = uncertain_note(s); !note.empty() && !c.quiet && !c.json)
-    print_stderr(fmt::format("faba: note: {}: {}", v.ruler.string(), note));
   print_scale(s, v, c, print_table);
   return 0;
 }

@@ -11,6 +11,7 @@
 #include "cli/options/video_part.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/quality_text.h"
 #include "core/counted.h"
 #include "core/error.h"
 #include "study/pages/tracks/track_json.h"
@@ -85,6 +86,10 @@ class TrackUnits {
   std::string diffusion(const Estimated& e) const {
     return estimate(e, scale() * scale(), length() + "^2" + per_time());
   }
+  std::string speed_range(const SpeedPopulation& p) const {
+    return fmt::format("{:.3g} {}{} (90 % interval {:.3g} to {:.3g})", scale() * p.speed_px_s, length(),
+                       per_time(), scale() * p.ci90[0], scale() * p.ci90[1]);
+  }
   std::string time(const Estimated& e) const { return estimate(e, 1, timed_ ? "s" : "frames"); }
   std::string duration(double time) const {
     return fmt::format("{:.3g} {}", time, timed_ ? "s" : time == 1 ? "frame" : "frames");
@@ -111,18 +116,26 @@ void print_summary(const TrackMeasurement& m) {
              word_of(m.detection.polarity), m.detection.size_px, background_word(m.detection));
   fmt::print("tracks   {} in {}, {:.3g} positions each\n", s.tracks,
              counted(std::uint64_t(m.frames), "frame"), s.mean_points);
+  if (quality_of(m.warnings) == Quality::poor) {
+    fmt::print("         speeds and motion are not stated, because the quality is poor; --json gives all values\n");
+    return;
+  }
+  if (m.populations.size() > 1)
+    for (const SpeedPopulation& p : m.populations)
+      fmt::print("         {:.0f} % {}{}\n", 100 * p.fraction, word_of(p.motion),
+                 p.motion == PopulationMotion::still ? "" : ", median speed " + units.speed_range(p));
   const bool drifts = s.speed_count > 0 && s.order > 0.5 && s.msd.size() > 0;
   const bool together = drifts || mean_order(s) > 0.5;
   const char* about = !together ? "" : drifts ? "relative to the drift: " : "relative to the common motion: ";
   const SupportedWalk walk = supported_walk(s);
   if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))
-    fmt::print("speed    mean {} (displacements over {})\n", units.velocity(s.mean_speed_px_s),
+    fmt::print("speed    mean {} (+- standard error; displacements over {})\n", units.velocity(s.mean_speed_px_s),
                units.duration(s.interval_s));
   if (drifts)
     fmt::print("drift    {} right, {} down\n", units.velocity(s.drift_x_px_s),
                units.velocity(s.drift_y_px_s));
   if (walk == SupportedWalk::diffusion && s.diffusion.good)
-    fmt::print("motion   {}diffusion, D = {}\n", about, units.diffusion(s.d_px2_s));
+    fmt::print("motion   {}diffusion, D = {} (standard error)\n", about, units.diffusion(s.d_px2_s));
   if (walk == SupportedWalk::persistent && s.persistent.good)
     fmt::print("motion   {}persistent walk, speed {} (rms), persistence time {}\n", about,
                units.velocity(s.speed_rms_px_s),
@@ -146,6 +159,7 @@ int track(const TrackVerb& v, const Common& c) {
   }
   if (c.quiet) return 0;
   print_summary(tracks);
+  print_quality(tracks.warnings);
   for (const auto& path : v.out) fmt::print("wrote    {}\n", path.string());
   for (const auto* path : {&v.swarm, &v.overlay, &v.report, &v.picture, &v.figures})
     if (!path->empty()) fmt::print("wrote    {}\n", path->string());

@@ -1,6 +1,7 @@
 #include "study/coils/field_fit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -23,6 +24,19 @@ namespace faba {
 namespace {
 
 constexpr double kLargeResidual = 0.1;  // assumed: errors of probe and formulas are a few hundredths
+// A parameter is not determined when its standard error exceeds half of its natural unit (gain 1, size of the
+// map, rms field): the interval then contains any plausible value. Or when the data do not depend on it: the
+// error of a forward difference is below 1e-6.
+constexpr double kUndetermined = 0.5, kNoEffect = 1e-6;
+
+/// A fitted parameter. Parameters that the data do not determine are fixed in this order.
+struct Parameter {
+  enum Kind { shift, offset, gain } kind = gain;
+  std::size_t axis = 0;
+  std::string name() const {
+    return kind == gain ? "gain" : fmt::format("{} {}", kind == shift ? "shift" : "offset", "xyz"[axis]);
+  }
+};
 
 /// The field of the coils at the measured points for the last few shifts of the coils. Parameters other than
 /// the shift do not change it: most evaluations of a derivative use the field of a previous one.
@@ -86,20 +100,25 @@ class Model {
     for (const Vec3& p : data.at) size_ = std::max({size_, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     for (const double v : values_) strength_ += v * v / double(values_.size());
     strength_ = std::sqrt(strength_);
+    fitted_.push_back({Parameter::gain, 0});
     for (const std::size_t axis : {0u, 1u, 2u})
-      if (!data.about_axis || axis == 2) moves_.push_back(axis);
+      if (!data.about_axis || axis == 2) fitted_.push_back({Parameter::shift, axis});
     for (std::size_t k = 0; k < 3; ++k)
-      if (data.given[k]) offsets_.push_back(k);
+      if (data.given[k]) fitted_.push_back({Parameter::offset, k});
   }
-  Eigen::Index parameters() const { return Eigen::Index(1 + moves_.size() + offsets_.size()); }
+  const std::vector<Parameter>& fitted() const { return fitted_; }
+  Eigen::Index parameters() const { return Eigen::Index(fitted_.size()); }
+  /// Keeps a parameter at its value in the coil system.
+  void fix(std::size_t which) { fitted_.erase(fitted_.begin() + std::ptrdiff_t(which)); }
   const std::vector<double>& values() const { return values_; }
   double strength() const { return strength_; }
 
   // All parameters are 1 for the coil system as in its file: forward differences use a fraction of a
   // parameter as their step.
-  FieldFit::Values meaning(const Eigen::VectorXd& x) const { return in_units(x, 1, 0); }
+  FieldFit::Values meaning(const Eigen::VectorXd& x) const { return in_units(x, 1, {1, {}, {}}); }
   FieldFit::Values errors(const Eigen::VectorXd& se) const {
-    return in_units(se, 0, std::numeric_limits<double>::quiet_NaN());
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    return in_units(se, 0, {kNone, {kNone, kNone, kNone}, {kNone, kNone, kNone}});
   }
   std::vector<double> predicted(const Eigen::VectorXd& x) const {
     const FieldFit::Values m = meaning(x);
@@ -112,14 +131,18 @@ class Model {
   }
 
  private:
-  FieldFit::Values in_units(const Eigen::VectorXd& x, double zero, double absent) const {
-    FieldFit::Values m;
-    m.shift.fill(absent);
-    m.offset.fill(absent);
-    m.gain = x[0];
-    Eigen::Index at = 1;
-    for (const std::size_t axis : moves_) m.shift[axis] = (x[at++] - zero) * size_;
-    for (const std::size_t k : offsets_) m.offset[k] = (x[at++] - zero) * strength_;
+  // `m`: the values of the parameters that are not fitted.
+  FieldFit::Values in_units(const Eigen::VectorXd& x, double zero, FieldFit::Values m) const {
+    Eigen::Index at = 0;
+    for (const Parameter& p : fitted_) {
+      const double value = x[at++];
+      if (p.kind == Parameter::gain)
+        m.gain = value;
+      else if (p.kind == Parameter::shift)
+        m.shift[p.axis] = (value - zero) * size_;
+      else
+        m.offset[p.axis] = (value - zero) * strength_;
+    }
     return m;
   }
   static double part(Vec3 v, std::size_t k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
@@ -128,7 +151,7 @@ class Model {
   mutable ShiftedField field_;  ///< keeps fields that predicted() has computed
   std::vector<double> values_;
   double size_ = 1e-6, strength_ = 0;
-  std::vector<std::size_t> moves_, offsets_;
+  std::vector<Parameter> fitted_;
 };
 
 struct Residuals : Eigen::DenseFunctor<double> {
@@ -172,10 +195,12 @@ void draw(const std::filesystem::path& file, const Model& model, const std::vect
 
 struct Solution {
   Eigen::VectorXd x, standard_error;
-  double rms = 0;  ///< of the residuals, as a fraction of the rms field
+  double rms = 0;           ///< of the residuals, as a fraction of the rms field
+  int weak = -1;            ///< index of a parameter that the data do not determine; -1: none
+  bool has_effect = false;  ///< of that parameter: others have the same effect
 };
 
-// Throws Error(input) naming `data` when the data do not determine the parameters.
+// The fit of the parameters of the model.
 Solution solved(const Model& model, const std::string& data) {
   const auto n = Eigen::Index(model.values().size());
   const Eigen::Index p = model.parameters();
@@ -191,27 +216,57 @@ Solution solved(const Model& model, const std::string& data) {
                 "has points where the field is unknown, in a coil or outside a measured map; remove them");
   Eigen::MatrixXd j(n, p);
   slope.df(x, j);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(j);
-  qr.setThreshold(1e-6);  // error of the forward difference for a parameter without effect
-  if (qr.rank() < p)
-    throw Error(
-        Errc::input, data,
-        "does not determine the position of the coils: other positions and gains fit equally well; add "
-        "points that are not on the axis");
-  const double variance = left.squaredNorm() / double(n - p);
-  const Eigen::VectorXd se = (variance * (j.transpose() * j).inverse().diagonal()).cwiseSqrt();
-  return {x, se, std::sqrt(left.squaredNorm() / double(n))};
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(j, Eigen::ComputeThinV);
+  const double largest = svd.singularValues()[0], variance = left.squaredNorm() / double(n - p);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(p);
+  std::vector<bool> without_effect(std::size_t(p), false);
+  for (Eigen::Index k = 0; k < p; ++k) {
+    const double s = std::max(svd.singularValues()[k], 1e-9 * largest);
+    for (Eigen::Index i = 0; i < p; ++i) {
+      const double part = svd.matrixV()(i, k);
+      squares[i] += variance * part * part / (s * s);
+      if (s < kNoEffect * largest && std::fabs(part) > 0.1) without_effect[std::size_t(i)] = true;
+    }
+  }
+  const Eigen::VectorXd se = squares.cwiseSqrt();
+  int weak = -1;
+  for (std::size_t i = 0; i < without_effect.size(); ++i) {
+    const auto at = Eigen::Index(i);
+    if (!without_effect[i] && se[at] < kUndetermined) continue;
+    const auto better = [&](std::size_t old) {
+      const Parameter &a = model.fitted()[i], &b = model.fitted()[old];
+      return a.kind < b.kind || (a.kind == b.kind && se[at] > se[Eigen::Index(old)]);
+    };
+    if (weak < 0 || better(std::size_t(weak))) weak = int(i);
+  }
+  const bool has_effect = weak >= 0 && j.col(weak).norm() > kNoEffect * largest;
+  return {x, se, std::sqrt(left.squaredNorm() / double(n)), weak, has_effect};
 }
 
-std::string note_on(double gain, double residual) {
+// `degenerate`: a parameter was kept that has an effect, so that the others depend on its value.
+std::vector<Warning> warnings_of(const FieldFit& fit, bool degenerate) {
+  std::vector<Warning> out;
+  const double residual = fit.rms / fit.rms_field;
   if (residual > kLargeResidual)
-    return fmt::format(
-        "the residual is {:.0f} % of the field; check the columns, the units, outliers and that the coil "
-        "system is the measured one",
-        100 * residual);
-  if (gain < 0) return "the gain is negative: the direction of a current or an axis is reversed";
-  if (gain < 0.5 || gain > 2) return "the gain is far from 1; check the turns, the current and the units";
-  return "";
+    out.push_back({"residual", "the coil system does not describe the measured field",
+                   fmt::format("the residual is {:.0f} % of the field", 100 * residual),
+                   "check the columns, the units, outliers and that the coil system is the measured one",
+                   Quality::poor});
+  if (fit.best.gain < 0)
+    out.push_back({"direction", "the gain is negative: the direction of a current or an axis is reversed",
+                   fmt::format("gain {:.3g}", fit.best.gain), "reverse the current or the axis",
+                   Quality::poor});
+  else if (fit.best.gain < 0.5 || fit.best.gain > 2)
+    out.push_back({"gain", "the gain is far from 1", fmt::format("gain {:.3g}", fit.best.gain),
+                   "check the turns, the current and the units"});
+  if (!fit.undetermined.empty())
+    out.push_back(
+        {"points", "the measured points do not determine all parameters",
+         fmt::format("{} {} kept at the value in the coil system", fmt::join(fit.undetermined, ", "),
+                     fit.undetermined.size() == 1 ? "is" : "are"),
+         "measure at points off the axis, and at several distances from the coils",
+         degenerate ? Quality::doubtful : Quality::good});
+  return out;
 }
 
 }  // namespace
@@ -227,22 +282,34 @@ FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path
     throw Error(Errc::usage, rig.string(),
                 "all currents are zero; set the `current` of its coils to that of the measurement");
   const FieldData data = field_data(read_field_points(measured));
-  const Model model(*field, data, evaluated);
+  Model model(*field, data, evaluated);
   const auto n = Eigen::Index(model.values().size());
   const Eigen::Index p = model.parameters();
   if (n <= p)
     throw Error(Errc::input, measured.string(),
                 fmt::format("has {} values for {} parameters; at least {} are needed", n, p, p + 1));
 
-  const Solution solution = solved(model, measured.string());
-
   FieldFit fit;
+  bool degenerate = false;
+  Solution solution = solved(model, measured.string());
+  while (solution.weak >= 0) {
+    const auto weak = std::size_t(solution.weak);
+    fit.undetermined.push_back(model.fitted()[weak].name());
+    degenerate = degenerate || solution.has_effect;
+    model.fix(weak);
+    if (model.parameters() <= 1)
+      throw Error(
+          Errc::input, measured.string(),
+          "does not determine the position of the coils nor the background field: other positions and "
+          "gains fit equally well; add points at several distances from the coils and off the axis");
+    solution = solved(model, measured.string());
+  }
   fit.values = model.values().size();
   fit.best = model.meaning(solution.x);
   fit.standard_error = model.errors(solution.standard_error);
   fit.rms = model.strength() * solution.rms;
   fit.rms_field = model.strength();
-  fit.note = note_on(fit.best.gain, solution.rms);
+  fit.warnings = warnings_of(fit, degenerate);
   if (!out.empty())
     write_rig(out, RigEditor(parts.field, part.resolved), fit.best, measured.filename().string());
   if (!picture.empty()) draw(picture, model, model.predicted(solution.x));

@@ -8,6 +8,7 @@
 
 #include "core/vec.h"
 #include "study/data/flow_source.h"
+#include "study/quality/quality.h"
 
 namespace faba {
 
@@ -27,17 +28,23 @@ struct PairFlow {
   double mean_speed_px = 0;
   double largest_px = 0;           ///< largest speed
   std::optional<FlowError> error;  ///< when the true flow was given
+  /// Mean square difference of the pictures after the second one was moved back along the flow, over that
+  /// before; the flow explains the difference when it is small. Empty for equal pictures.
+  std::optional<double> unexplained;
+  std::vector<Warning> warnings;
   std::vector<std::string> notes;
 };
 
 /// The flows of a video.
 struct VideoFlow {
-  int width = 0, height = 0;  ///< of the flows, px
-  std::string method;         ///< flow part and its parameters, as JSON
-  std::uint64_t pairs = 0;    ///< number of pairs of frames
-  double seconds = 0;         ///< duration from the first frame to the last
-  bool timed = true;          ///< false: no frame rate is stated, and `seconds` is a number of frames
-  double mean_speed_px = 0;   ///< per pair
+  int width = 0, height = 0;          ///< of the flows, px
+  std::string method;                 ///< flow part and its parameters, as JSON
+  std::uint64_t pairs = 0;            ///< number of pairs of frames
+  double seconds = 0;                 ///< duration from the first frame to the last
+  bool timed = true;                  ///< false: no frame rate is stated, and `seconds` is a number of frames
+  double mean_speed_px = 0;           ///< per pair
+  std::optional<double> unexplained;  ///< see PairFlow, of some pairs; empty for flows from a file
+  std::vector<Warning> warnings;
   std::vector<std::string> notes;
 };
 

@@ -136,8 +136,7 @@ void add_doubts(FoundModel& m, const MatrixXd& draws, const char* parts) {
                                "Bayesian computation do not overlap: neither is reliable",
                                q.path));
     const bool differ = p.resampled90 && ((*p.resampled90)[1] - (*p.resampled90)[0] >
-                                              kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]) ||
-                                          p.median < (*p.resampled90)[0] || p.median > (*p.resampled90)[1]);
+                                          kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]));
     if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
           "{} differs between {} by more than the model predicts: the 90 % bootstrap interval over {} is "
@@ -264,7 +263,9 @@ void judge(Identification& r) {
   }
   const double se = sample_sd(lead) / std::sqrt(n), half = student_t_quantile(0.975, n - 1) * se;
   r.score_lead_ci95 = {r.score_lead - half, r.score_lead + half};
-  r.evidence = r.score_lead - half > 0 ? "clear" : r.score_lead > se ? "weak" : "none";
+  // A model that does not fit is at most the better one of two wrong models.
+  const bool fits = best.fit_p >= FoundModel::kDoubtfulFit;
+  r.evidence = r.score_lead - half > 0 && fits ? "clear" : r.score_lead > se ? "weak" : "none";
   // Without evidence the model with fewer parameters is preferred.
   std::string simpler;
   if (r.evidence == "none" && next.parameters.size() < best.parameters.size()) {

@@ -39,6 +39,7 @@ struct FoundModel {
   /// 0.01 the model does not explain the videos.
   double fit_p = 0;
   static constexpr double kPoorFit = 0.01;
+  static constexpr double kDoubtfulFit = 0.05;  ///< below it the evidence for the model is not clear
   std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior median
   /// 90 % posterior predictive interval of each statistic; of the best model only.
   std::vector<std::array<double, 2>> predicted90 = {};

@@ -155,9 +155,14 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
 
 void note_motion(VideoActivity& a) {
   if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
-    a.notes.emplace_back(
-        "there is activity but no directed motion: cells that move by more than twice their width between "
-        "frames are not tracked; use a higher frame rate");
+    a.warnings.push_back(
+        {"frame_rate",
+         "there is activity but no directed motion: the optical flow of cells that move by more than twice "
+         "their width between frames has no direction",
+         fmt::format("the activity changes with time, but at no time has half of the flow one direction; "
+                     "{:.3g} s per frame",
+                     a.frame_s),
+         "use a higher frame rate", Quality::poor});
   if (a.signature.still())
     a.notes.emplace_back("no motion was detected");
   else if (!a.direction_given)
@@ -239,6 +244,16 @@ std::optional<double> activity_per_cell(const VideoActivity& a) {
   return a.mean_amount / *a.visible_cells;
 }
 
+std::vector<Warning> all_warnings(const ActivityResult& r) {
+  std::vector<Warning> all;
+  for (const VideoActivity& a : r.videos)
+    for (Warning w : a.warnings) {
+      if (r.videos.size() > 1) w.evidence = fmt::format("{}: {}", a.input.file.string(), w.evidence);
+      all.push_back(std::move(w));
+    }
+  return all;
+}
+
 bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
 
 ActivityResult measure_activity(const ActivityJob& job) {
@@ -265,13 +280,15 @@ ActivityResult measure_activity(const ActivityJob& job) {
     r.videos.push_back(measure(job, i, prepared[i]));
     prepared[i].cells.reset();
     if (!prepared[i].quiet && job.videos.size() == 1 && !r.videos.back().signature.still())
-      r.videos.back().notes.push_back(fmt::format(
-          "no part of the video is without motion: the mean flow speed in the quietest 10 % of the sampled "
-          "pairs of frames is at least half of that in the busiest ones (95 % quantile). The threshold of "
-          "{:.3g} px per pair therefore contains motion of cells, and slower "
-          "motion is not counted. Measure the threshold in a video of a dead sample with --noise, or set it "
-          "with --flow-threshold",
-          prepared[i].threshold_px));
+      r.videos.back().warnings.push_back(
+          {"threshold",
+           fmt::format("no part of the video is without motion: the threshold of {:.3g} px per pair contains "
+                       "motion of cells, and slower motion is not counted",
+                       prepared[i].threshold_px),
+           "the mean flow speed in the quietest 10 % of the sampled pairs of frames is at least half of that "
+           "in the busiest ones, the 95 % quantile",
+           "measure the threshold in a video of a dead sample with --noise, or set it with "
+           "--flow-threshold"});
   }
   fit_exposure_lines(r);
   return r;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "study/motion/segments.h"
+#include "study/quality/quality.h"
 #include "study/stats/exposure_lines.h"
 #include "study/stats/gaussian_fit.h"
 
@@ -69,6 +70,7 @@ struct VideoActivity {
   bool responds = false;
   FlowPair busiest;        ///< pair with the largest flow (along the direction if given), for pictures
   double busiest_deg = 0;  ///< direction of its flow
+  std::vector<Warning> warnings;
   std::vector<std::string> notes;
 };
 
@@ -87,6 +89,9 @@ struct ActivityResult {
   std::optional<double> frame_s;  ///< frame period, when equal in all videos
   std::optional<Cutoff> cutoff;
 };
+
+/// The warnings of all videos; with several, the evidence names the video.
+std::vector<Warning> all_warnings(const ActivityResult& result);
 
 /// Measures the videos in sequence and fits the exposure lines. Without `noise` and `threshold_px` the
 /// smallest threshold of all videos is used. Throws the errors of FlowSource, and Error(interrupted).

@@ -157,13 +157,14 @@ class Comparer {
     }
     result.notes = other.notes();
     if (other.method() != reference.method())
-      result.notes.push_back(fmt::format(
-          "its flows were computed with {}, those of the reference with {}: they are not comparable",
-          other.method(), reference.method()));
+      result.warnings.push_back({"method",
+                                 "the flows were computed with different methods: they are not comparable",
+                                 fmt::format("{}; reference: {}", other.method(), reference.method()),
+                                 "compute both with the same method and parameters", Quality::poor});
     if (ratio != 1)
-      result.notes.push_back(
-          fmt::format("its frame period is {:.3g} times that of the reference; flows were scaled accordingly",
-                      1 / ratio));
+      result.warnings.push_back({"frame_rate", "the frame periods differ; the flows were scaled accordingly",
+                                 fmt::format("{:.3g} times that of the reference", 1 / ratio),
+                                 "record both at the same frame rate: optical flow depends on it"});
     return result;
   }
 
@@ -317,6 +318,16 @@ std::optional<double> score_of(const Comparison& c, const ComparedRun& run) {
   return (run.distance.mean - *c.noise_floor) / (c.naive.mean - *c.noise_floor);
 }
 
+std::vector<Warning> all_warnings(const Comparison& c) {
+  std::vector<Warning> all = c.warnings;
+  for (const ComparedRun& r : c.runs)
+    for (Warning w : r.warnings) {
+      w.evidence = fmt::format("{}: {}", r.file.string(), w.evidence);
+      all.push_back(std::move(w));
+    }
+  return all;
+}
+
 Comparison compare_videos(const CompareJob& job) {
   Comparer comparer(job);
   Comparison c;
@@ -327,9 +338,10 @@ Comparison compare_videos(const CompareJob& job) {
   c.direction_given = job.direction_deg.has_value();
   c.filter.direction_deg = job.direction_deg.value_or(reference.direction_deg);
   if (!c.direction_given && reference.by < ResponseStart::By::motion)
-    c.notes.push_back(
-        "no directed motion was detected in the reference; the distance of the thesis (legacy) uses the flow "
-        "to the right; specify --direction");
+    c.warnings.push_back({"direction",
+                          "no directed motion was detected in the reference; the distance of the thesis "
+                          "(legacy) uses the flow to the right",
+                          "", "specify --direction"});
   c.reference_t0_s = job.reference_t0_s.value_or(job.align ? reference.t0_s : 0);
   c.alignment = !job.align           ? "from the first frame"
                 : job.reference_t0_s ? "from the given time"

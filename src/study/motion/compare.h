@@ -7,6 +7,7 @@
 
 #include "study/data/flow_source.h"
 #include "study/motion/flow_histograms.h"
+#include "study/quality/quality.h"
 #include "study/stats/statistics.h"
 
 namespace faba {
@@ -57,6 +58,7 @@ struct ComparedRun {
   double t0_s = 0;
   DistanceSeries distance;
   ComparedPair furthest;  ///< pair with the largest distance
+  std::vector<Warning> warnings;
   std::vector<std::string> notes;
 };
 
@@ -69,8 +71,12 @@ struct Comparison {
   std::optional<double> noise_floor;  ///< mean distance between runs of one scenario with different seeds
   std::string noise_floor_from;       ///< how the noise floor was determined, or why it was not
   DistanceSeries naive;               ///< distance to a video without motion
+  std::vector<Warning> warnings;
   std::vector<std::string> notes;
 };
+
+/// The warnings of the reference and of all runs; those of a run name it in the evidence.
+std::vector<Warning> all_warnings(const Comparison& comparison);
 
 /// The mean distance of a run on a scale from 0, the distance to the same scenario with another seed, to 1,
 /// the distance to a video without motion. Empty when the noise floor is unknown or not below the latter.

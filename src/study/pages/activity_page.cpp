@@ -6,6 +6,7 @@
 #include "core/counted.h"
 #include "study/motion/flow_histograms.h"
 #include "study/pages/activity_report.h"
+#include "study/pages/quality_output.h"
 #include "study/plot/markup.h"
 #include "study/plot/plot_svg.h"
 #include "study/plot/report_page.h"
@@ -236,6 +237,7 @@ std::vector<Figure> activity_figures(const ActivityResult& r) {
 
 std::string activity_page(const ActivityResult& r) {
   std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
+  out += quality_markup(all_warnings(r));
   for (const VideoActivity& a : r.videos)
     for (const std::string& note : a.notes)
       out += fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(title_of(a)), escape_markup(note));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/toml.h"
+#include "study/pages/quality_output.h"
 
 namespace faba {
 namespace {
@@ -61,6 +62,7 @@ Json video_json(const VideoActivity& a) {
                         : Json();
   j["maximum_s"] = or_null(a.maximum_s);
   j["departure_s"] = or_null(a.departure_s);
+  add_quality(j, a.warnings);
   j["notes"] = a.notes;
   return j;
 }
@@ -95,6 +97,7 @@ Json activity_json(const ActivityResult& r) {
   j["cutoff_s"] = r.cutoff ? Json(r.cutoff->cutoff_s) : Json();
   j["cutoff_wrong"] = r.cutoff ? Json(r.cutoff->wrong) : Json();
   j["cutoff_between_s"] = r.cutoff ? Json(r.cutoff->between_s) : Json();
+  add_quality(j, all_warnings(r));
   return j;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/toml.h"
+#include "study/pages/quality_output.h"
 #include "study/plot/figure.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
@@ -154,12 +155,14 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
                           {{"mean", d.legacy_mean},
                            {"sd", d.legacy_sd},
                            {"slope", d.legacy_line.slope},
-                           {"intercept", d.legacy_line.intercept}}},
-                         {"notes", r.notes}});
+                           {"intercept", d.legacy_line.intercept}}}});
+    add_quality(j["runs"].back(), r.warnings);
+    j["runs"].back()["notes"] = r.notes;
   }
   j["floor"] = c.noise_floor ? Json(*c.noise_floor) : Json();
   j["floor_from"] = c.noise_floor_from;
   j["naive"] = c.naive.mean;
+  add_quality(j, all_warnings(c));
   j["notes"] = c.notes;
   return j;
 }
@@ -170,6 +173,7 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
       "<p class=\"lead\">{} compared with the reference, {}.</p>\n",
       c.runs.size() == 1 ? escape_markup(name_of(c.runs.front().file)) : counted(c.runs.size(), "video"),
       escape_markup(c.alignment));
+  out += quality_markup(all_warnings(c));
   for (const std::string& note : c.notes)
     out += fmt::format("<p class=\"note\">{}.</p>\n", escape_markup(note));
   for (const ComparedRun& r : c.runs)

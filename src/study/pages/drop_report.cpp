@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/toml.h"
+#include "study/drop/drop_warnings.h"
+#include "study/pages/quality_output.h"
 #include "vision/draw/overlay.h"
 #include "vision/files/picture.h"
 
@@ -18,6 +20,7 @@ nlohmann::ordered_json drop_json(const DropEdge& edge) {
   json["arc_deg"] = edge.arc_deg;
   json["inside"] = {edge.inside_image.x, edge.inside_image.y};
   json["image_size"] = {edge.image_width, edge.image_height};
+  add_quality(json, drop_warnings(edge));
   return json;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "study/pages/quality_output.h"
+
 namespace faba {
 namespace {
 
@@ -86,14 +88,16 @@ Json field_json(const FieldFit& f) {
   Json j;
   j["values"] = f.values;
   j["gain"] = f.best.gain;
-  j["gain_se"] = f.standard_error.gain;
+  j["gain_se"] = std::isnan(f.standard_error.gain) ? Json() : Json(f.standard_error.gain);
   j["shift_m"] = f.best.shift;
   j["shift_se_m"] = null_if_nan(f.standard_error.shift);
   j["offset_t"] = f.best.offset;
   j["offset_se_t"] = null_if_nan(f.standard_error.offset);
   j["rms_t"] = f.rms;
   j["rms_field_t"] = f.rms_field;
-  j["note"] = f.note;
+  j["undetermined"] = f.undetermined;
+  j["note"] = f.warnings.empty() ? "" : sentence(f.warnings.front());
+  add_quality(j, f.warnings);
   return j;
 }
 

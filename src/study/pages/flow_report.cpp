@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/toml.h"
+#include "study/pages/quality_output.h"
 #include "vision/draw/flow_picture.h"
 #include "vision/files/picture.h"
 #include "vision/files/video_writer.h"
@@ -81,6 +82,8 @@ nlohmann::ordered_json flow_json(const PairFlow& r) {
     j["truth"] = {{"endpoint_px", r.error->endpoint_px},
                   {"angular_deg", r.error->angular_deg},
                   {"known", r.error->known}};
+  j["unexplained"] = r.unexplained ? Json(*r.unexplained) : Json();
+  add_quality(j, r.warnings);
   j["notes"] = r.notes;
   return j;
 }
@@ -92,6 +95,8 @@ nlohmann::ordered_json flow_json(const VideoFlow& r) {
   j["pairs"] = r.pairs;
   j["seconds"] = r.seconds;
   j["mean_speed_px"] = r.mean_speed_px;
+  j["unexplained"] = r.unexplained ? Json(*r.unexplained) : Json();
+  add_quality(j, r.warnings);
   j["notes"] = r.notes;
   return j;
 }
@@ -111,7 +116,7 @@ VideoFlow flow_of_video(const std::filesystem::path& video, const FlowJob& job) 
                             .t1_s = job.to_s,
                             .fps = job.fps,
                             .options_text = job.options_text,
-                            .frames = !job.overlay.empty(),
+                            .frames = true,
                             .threads = job.threads});
   FlowOutputs outputs(source, video, job);
   std::uint64_t pairs = 0;

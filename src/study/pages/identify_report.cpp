@@ -1,6 +1,10 @@
 #include "study/pages/identify_report.h"
 
+#include <cmath>
+
 #include "core/toml.h"
+#include "study/identify/identify_warnings.h"
+#include "study/pages/quality_output.h"
 
 namespace faba {
 namespace {
@@ -30,6 +34,14 @@ nlohmann::ordered_json identify_json(const Identification& r) {
       one["fit_p"] = m.fit_p;
       one["simulations"] = m.simulations;
       for (const FoundParameter& p : m.parameters) one["parameters"][p.parameter.path] = parameter_json(p);
+      one["checks"] = Json::array();
+      for (const StatisticCheck& c : checks_of(r, m))
+        one["checks"].push_back({{"what", c.name},
+                                 {"observed", c.observed},
+                                 {"predicted", c.predicted},
+                                 {"sd", c.sd},
+                                 {"deviation", std::isfinite(c.deviation()) ? Json(c.deviation()) : Json()},
+                                 {"fits", c.fits()}});
     }
     j["models"].push_back(std::move(one));
   }
@@ -60,6 +72,7 @@ nlohmann::ordered_json identify_json(const Identification& r) {
          {"sd", m.sd},
          {"least_distance_at", m.least_distance_at},
          {"invalid_reason", m.invalid_reason.empty() ? Json() : Json(m.invalid_reason)}});
+  add_quality(j, identify_warnings(r));
   j["notes"] = notes_of(r);
   return j;
 }

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/toml.h"
+#include "study/pages/quality_output.h"
 #include "vision/draw/ruler_overlay.h"
 #include "vision/files/picture.h"
 
@@ -27,6 +28,7 @@ void add_advice(Json& j, const Scale& s) {
   j["note"] = scale_note(s);
   j["method"] = calibration_of(s).method;
   j["source"] = s.source;
+  add_quality(j, s.warnings);
 }
 
 }  // namespace
@@ -92,7 +94,6 @@ nlohmann::ordered_json scale_json(const PictureScale& s) {
   j["mark_polarity"] = s.dark ? "dark" : "bright";
   add_ratios(j, s.ratios);
   j["image_size"] = {s.image_width, s.image_height};
-  j["quality"] = word_of(s.quality);
   add_advice(j, s);
   return j;
 }

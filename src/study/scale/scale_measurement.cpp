@@ -35,11 +35,26 @@ std::optional<double> repeatability(const std::map<double, std::vector<double>>&
   return std::sqrt(squares / freedom);
 }
 
-MarkQuality quality_of(const MarkRow& row) {
+// Too few or too irregular marks. The limits are assumed.
+std::vector<Warning> warnings_of(const MarkRow& row) {
   const double relative_residual = row.residual_px / row.pitch_px;
   const int used = row.used();
-  if (relative_residual < 0.02 && used >= 20) return MarkQuality::good;
-  return relative_residual < 0.05 && used >= 8 ? MarkQuality::fair : MarkQuality::poor;
+  if (relative_residual < 0.02 && used >= 20) return {};
+  const bool usable = relative_residual < 0.05 && used >= 8;
+  return {{"marks", "the detected marks are few or irregular",
+           fmt::format("{} marks, scatter {:.2g} % of their spacing", used, 100 * relative_residual),
+           "check them with --overlay; use a picture with more marks in focus",
+           usable ? Quality::doubtful : Quality::poor}};
+}
+
+// An uncertainty of the scale is one of every length and speed.
+std::vector<Warning> warnings_of(const TableScale& s) {
+  constexpr double kUncertain = 0.1, kUseless = 0.3;  // half of the 95 % interval over the scale, assumed
+  const double relative = (s.ci95[1] - s.ci95[0]) / 2 / s.um_per_px;
+  if (relative <= kUncertain) return {};
+  return {{"readings", "the readings do not determine the scale well",
+           fmt::format("the 95 % interval is +- {:.0f} %", 100 * relative), "add readings, of more widths",
+           relative > kUseless ? Quality::poor : Quality::doubtful}};
 }
 
 // Ratios of the gaps between neighbouring marks, um/px.
@@ -73,10 +88,6 @@ Calibration calibration_with(const ScaleMeasurement& scale, std::string method) 
 
 bool TableScale::edge_excess_significant() const {
   return intercept_ci95_px[0] > 0 || intercept_ci95_px[1] < 0;
-}
-
-const char* word_of(MarkQuality quality) {
-  return quality == MarkQuality::good ? "good" : quality == MarkQuality::fair ? "fair" : "poor";
 }
 
 TableScale measure_scale(const RulerReadings& readings, const std::string& name) {
@@ -115,6 +126,7 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
   s.ratios = ratios_of(std::move(ratios));
   s.ratio_bias = s.ratios.mean * line.slope - 1;
   s.source = name;
+  s.warnings = warnings_of(s);
   return s;
 }
 
@@ -138,7 +150,7 @@ PictureScale measure_scale(const Ruler& ruler, double tick_m, const std::string&
   s.ratios = ratios_of(gap_ratios(row, s.tick_um));
   s.image_width = ruler.image_width;
   s.image_height = ruler.image_height;
-  s.quality = quality_of(row);
+  s.warnings = warnings_of(row);
   s.source = name;
   return s;
 }
@@ -148,8 +160,9 @@ Calibration calibration_of(const TableScale& scale) {
 }
 
 Calibration calibration_of(const PictureScale& scale) {
-  return calibration_with(scale, fmt::format("{} marks of a ruler in a picture, {:g} um apart; quality {}",
-                                             scale.marks, scale.tick_um, word_of(scale.quality)));
+  return calibration_with(
+      scale, fmt::format("{} marks of a ruler in a picture, {:g} um apart; quality {}", scale.marks,
+                         scale.tick_um, word_of(quality_of(scale.warnings))));
 }
 
 }  // namespace faba

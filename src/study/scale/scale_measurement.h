@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/scenario/calibration_file.h"
+#include "study/quality/quality.h"
 #include "study/scale/ruler_table.h"
 #include "vision/ruler/ruler.h"
 
@@ -27,6 +28,7 @@ struct ScaleMeasurement {
   double residual_px = 0;        ///< standard deviation about the regression line
   ScaleRatios ratios;
   std::string source;  ///< the measured file
+  std::vector<Warning> warnings;
 };
 
 /// The scale from a table of readings, by both estimators of theory A20. Regression: reading = intercept +
@@ -50,10 +52,6 @@ struct TableScale : ScaleMeasurement {
   bool edge_excess_significant() const;
 };
 
-/// Quality of the marks of a ruler.
-enum class MarkQuality { good, fair, poor };
-const char* word_of(MarkQuality quality);
-
 /// The scale from a picture of a ruler. Regression: positions of the marks on their index. Ratios: one per
 /// gap between neighbouring marks.
 struct PictureScale : ScaleMeasurement {
@@ -65,7 +63,6 @@ struct PictureScale : ScaleMeasurement {
   double mark_width_px = 0, mark_length_px = 0;
   bool dark = true;  ///< marks darker than the background
   int image_width = 0, image_height = 0;
-  MarkQuality quality = MarkQuality::poor;
 };
 
 /// Throws Error(input, name) with fewer than three readings or two widths, and when the readings do not

@@ -10,6 +10,8 @@
 #include "core/statistics.h"
 #include "core/threads/ordered_work.h"
 #include "core/threads/parallel.h"
+#include "study/tracks/link_check.h"
+#include "study/tracks/track_warnings.h"
 #include "vision/drop/drop_edge.h"
 #include "vision/files/video_reader.h"
 
@@ -24,6 +26,8 @@ std::optional<DropMask> drop_of(const TrackOptions& o, const TrackSurvey& s) {
   return DropMask{edge.centre_image, edge.radius_px, edge.centre_side_inside, s.size_px};
 }
 
+constexpr std::size_t kMostSnr = 200000;  // spots
+
 // The second pass over the frames: detection and tracking.
 class TrackPass {
  public:
@@ -32,7 +36,9 @@ class TrackPass {
         survey_(s),
         listener_(listener),
         tracker_(o.tracker),
+        links_(o.tracker),
         statistics_(s.frame_s, o.interval_frames),
+        populations_(s.frame_s),
         drop_(drop_of(o, s)) {}
 
   void run(const std::filesystem::path& video, const std::function<void(std::int64_t)>& tick) {
@@ -72,8 +78,10 @@ class TrackPass {
     d.background_frames = survey_.background.frames;
     d.noise_grey = double(robust_spread_low(noise).median);
     d.threshold_snr = threshold_;
+    d.threshold_given = options_.threshold_sd > 0;
     d.spots_per_frame = spots_found_ / std::max(1.0, frames_);
     d.stationary_spots = survey_.stationary_spots;
+    if (!snr_.empty()) d.median_snr = median(snr_);
     if (spots_found_ > 0) {
       d.mean_place_sd_px = place_sd_ / n;
       d.mean_elongation = elongation_ / n;
@@ -81,15 +89,16 @@ class TrackPass {
     d.drop = drop_;
     return d;
   }
-  TrackJoining joining() const {
-    return {tracker_.search_radius_px(), tracker_.motion(), options_.tracker.max_gap_frames,
-            options_.tracker.min_points, tracker_.discarded_tracks()};
+  TrackJoining joining() {
+    return {tracker_.search_radius_px(), tracker_.motion(),           options_.tracker.max_gap_frames,
+            options_.tracker.min_points, tracker_.discarded_tracks(), tracker_.crowded(),
+            links_.reproduced()};
+  }
+  std::vector<SpeedPopulation> populations(const TrackSummary& s) const {
+    return populations_.populations(s.interval_frames, s.localisation_px);
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }
-  bool crowded() const { return tracker_.crowded(); }
-  // Mean per frame, at least 1.
-  double spots_in_view() const { return std::max(1.0, spots_found_ / frames_); }
 
  private:
   struct SpottedFrame {
@@ -110,6 +119,7 @@ class TrackPass {
     count_spots(f.spots);
     if (f.t_s > last_s_) {
       tracker_.take(f.index, f.t_s, f.spots);
+      links_.take(f.index, f.t_s, f.spots);
       last_s_ = f.t_s;
     } else {
       ++repeated_times_;
@@ -123,12 +133,15 @@ class TrackPass {
     for (const Spot& s : found) {
       elongation_ += s.elongation;
       place_sd_ += s.sd_px;
+      if (snr_.size() < kMostSnr) snr_.push_back(s.snr);
     }
   }
   void emit_tracks() {
     for (const Track& t : tracker_.finished()) {
       listener_.track(t);
       statistics_.take(t);
+      populations_.take(t);
+      links_.track(t);
     }
   }
 
@@ -136,50 +149,17 @@ class TrackPass {
   const TrackSurvey& survey_;
   TrackListener& listener_;
   Tracker tracker_;
+  LinkCheck links_;
   TrackStatistics statistics_;
+  PopulationSurvey populations_;
+  std::vector<double> snr_;
   std::optional<DropMask> drop_;
   double last_s_ = -1;
   double threshold_ = 0, spots_found_ = 0, frames_ = 0, elongation_ = 0, place_sd_ = 0;
   std::int64_t repeated_times_ = 0;
 };
 
-// Warning about unreliable speeds; empty if there is no reason for one.
-std::string speed_warning(const TrackSurvey& survey, const TrackPass& pass, const TrackSummary& s) {
-  // When the displacement per frame exceeds about a quarter of the mean spacing, tracks often join wrong
-  // cells.
-  const double spacing = std::sqrt(double(survey.first.width) * survey.first.height / pass.spots_in_view());
-  const double step = s.speed_count > 0 ? s.mean_speed_px_s.value * survey.frame_s : 0;
-  if (pass.crowded() || step > 0.3 * spacing)
-    return "the displacement of cells between frames is similar to their distance: many tracks join "
-           "different cells, and speeds are too small; use a higher frame rate or fewer cells";
-  // A persistence time below 1.5 frames is typical of steps to wrong cells.
-  if (supported_walk(s) == SupportedWalk::persistent && !s.persistent.tau_open &&
-      (!s.persistent.good || s.tau_s.value < 1.5 * survey.frame_s))
-    return fmt::format(
-        "{}: cells turn faster than the frame rate resolves, or tracks join different cells; speeds are too "
-        "small; use a higher frame rate, or a smaller --reach",
-        s.persistent.good ? fmt::format("the persistence time is {:.3g} frames; at least 1.5 are needed",
-                                        s.tau_s.value / survey.frame_s)
-                          : "the persistence time could not be determined");
-  return "";
-}
-
 }  // namespace
-
-SupportedWalk supported_walk(const TrackSummary& s) {
-  if (s.msd.size() < 2) return SupportedWalk::none;
-  return s.persists ? SupportedWalk::persistent : SupportedWalk::diffusion;
-}
-
-double mean_order(const TrackSummary& s) {
-  double order = 0, n = 0;
-  for (std::size_t i = 0; i < s.order_in_time.size(); ++i) {
-    if (!std::isfinite(s.order_in_time[i])) continue;
-    order += s.order_in_time[i] * s.count_in_time[i];
-    n += s.count_in_time[i];
-  }
-  return n > 0 ? order / n : std::nan("");
-}
 
 TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, const TrackSurvey& survey,
                                 TrackListener& listener, const std::function<void(std::int64_t)>& tick) {
@@ -206,8 +186,6 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
   if (const auto& drop = m.detection.drop)
     m.notes.push_back(fmt::format("drop: centre ({:.0f}, {:.0f}) px, radius {:.0f} px, from the first frame",
                                   drop->centre_image.x, drop->centre_image.y, drop->radius_px));
-  if (const std::string warning = speed_warning(survey, pass, m.summary); !warning.empty())
-    m.notes.push_back(warning);
   if (o.interval_frames > 0 && m.summary.tracks > 0 && m.summary.speed_count == 0)
     m.notes.push_back(fmt::format(
         "--interval is {} frames, but no track has this length (the video has {}): speeds and turns are not "
@@ -223,6 +201,8 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
                           : fmt::format("no track has {} (the video has {}); reduce --least",
                                         counted(std::uint64_t(o.tracker.min_points), "detection"),
                                         counted(std::uint64_t(survey.frames), "frame")));
+  m.populations = pass.populations(m.summary);
+  m.warnings = track_warnings(m);
   return m;
 }
 

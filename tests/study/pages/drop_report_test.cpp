@@ -16,9 +16,10 @@ TEST_CASE("drop report: exactly the documented fields, in order") {
   edge.inside_image = {3, 4};
   edge.image_width = 518;
   edge.image_height = 488;
+  edge.support = 0.9;
   CHECK(drop_json(edge).dump() ==
         R"({"center_px":[258.5,-12.25],"radius_px":161.0,"sd_px":{"x":0.5,"y":0.75,"radius":0.25},)"
-        R"("arc_deg":90.0,"inside":[3.0,4.0],"image_size":[518,488]})");
+        R"("arc_deg":90.0,"inside":[3.0,4.0],"image_size":[518,488],"quality":"good","warnings":[]})");
 }
 
 TEST_CASE("drop report: a picture without a drop gives a default circle and a reason") {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -8,6 +9,7 @@
 #include "cli/options/field.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/quality_text.h"
 #include "study/pages/field_report.h"
 
 namespace faba::cli {
@@ -40,14 +42,16 @@ int field_fit(const FieldFitVerb& v, const Common& c) {
     return 0;
   }
   if (c.quiet) return 0;
-  fmt::print("{:<12}{:>9.4f} +- {:.4f}\n", "gain", fit.best.gain, fit.standard_error.gain);
+  if (!std::isnan(fit.standard_error.gain))
+    fmt::print("{:<12}{:>9.4f} +- {:.4f} (standard error)\n", "gain", fit.best.gain, fit.standard_error.gain);
   print_fitted("shift", fit.best.shift, fit.standard_error.shift, 1e-3, "mm");
   print_fitted("offset", fit.best.offset, fit.standard_error.offset, 1e-6, "uT");
   fmt::print("residual    {:>9.3g} uT rms, field {:.4g} uT rms, {} values\n", fit.rms * 1e6,
              fit.rms_field * 1e6, fit.values);
   for (const auto& file : {v.out, v.picture})
     if (!file.empty()) fmt::print("  {}\n", file.string());
-  if (!fit.note.empty()) print_stderr(fmt::format("faba: note: {}: {}", v.measured.string(), fit.note));
+  if (!fit.undetermined.empty()) fmt::print("not determined: {}\n", fmt::join(fit.undetermined, ", "));
+  print_quality(fit.warnings, 12);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/toml.h"
+#include "study/pages/quality_output.h"
 
 namespace faba {
 namespace {
@@ -108,7 +109,8 @@ Json detection_of(const TrackDetection& d) {
          {"spots_per_frame", d.spots_per_frame},
          {"stationary_spots", d.stationary_spots},
          {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
-         {"mean_elongation", or_null(d.mean_elongation)}};
+         {"mean_elongation", or_null(d.mean_elongation)},
+         {"median_snr", or_null(d.median_snr)}};
   if (d.drop) {
     j["drop_center_px"] = {d.drop->centre_image.x, d.drop->centre_image.y};
     j["drop_radius_px"] = d.drop->radius_px;
@@ -121,7 +123,20 @@ Json joining_of(const TrackJoining& t) {
           {"motion", word_of(t.motion)},
           {"memory_frames", t.max_gap_frames},
           {"least_points", t.min_points},
-          {"discarded_tracks", t.discarded_tracks}};
+          {"discarded_tracks", t.discarded_tracks},
+          {"links_reproduced", t.reproduced ? Json(*t.reproduced) : Json(nullptr)}};
+}
+
+Json populations_of(const TrackMeasurement& m) {
+  Json all = Json::array();
+  for (const SpeedPopulation& p : m.populations)
+    all.push_back({{"fraction", p.fraction},
+                   {"speed_px_per_s", p.speed_px_s},
+                   {"speed_um_per_s", m.um_per_px ? Json(*m.um_per_px * p.speed_px_s) : Json(nullptr)},
+                   {"ci90", p.ci90},
+                   {"motion", word_of(p.motion)},
+                   {"tracks", p.tracks}});
+  return all;
 }
 
 Json supported_of(const TrackSummary& s) {
@@ -182,6 +197,8 @@ nlohmann::ordered_json track_json(const TrackMeasurement& m) {
   j["detection"] = detection_of(m.detection);
   j["tracking"] = joining_of(m.joining);
   add_summary(j, m.summary, m.um_per_px.value_or(0));
+  j["populations"] = populations_of(m);
+  add_quality(j, m.warnings);
   j["notes"] = m.notes;
   return j;
 }

@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/file.h"
+#include "study/pages/quality_output.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
@@ -114,6 +115,16 @@ std::string turning(const TrackSummary& s) {
       estimate(turn, 1, "°/s"), noise);
 }
 
+/// "62 % moving, median speed 49.2 px/s (90 % interval 47 to 51)".
+std::string population(const SpeedPopulation& p, const TrackMeasurement& m) {
+  const double scale = m.um_per_px.value_or(1);
+  const char* unit = m.um_per_px ? (m.timed ? " µm/s" : " µm/frame") : m.timed ? " px/s" : " px/frame";
+  if (p.motion == PopulationMotion::still) return fmt::format("{:.0f} % {}", 100 * p.fraction, word_of(p.motion));
+  return fmt::format("{:.0f} % {}, median speed {} (90 % interval {} to {})", 100 * p.fraction,
+                     word_of(p.motion), number(scale * p.speed_px_s, unit), number(scale * p.ci90[0], ""),
+                     number(scale * p.ci90[1], unit));
+}
+
 std::string table(const TrackMeasurement& m) {
   const TrackDetection& d = m.detection;
   const TrackJoining& t = m.joining;
@@ -132,6 +143,7 @@ std::string table(const TrackMeasurement& m) {
                                     "with fewer than {} points ignored",
                                     number(t.search_radius_px, " px"), word_of(t.motion), t.max_gap_frames,
                                     t.discarded_tracks, t.min_points));
+  for (const SpeedPopulation& p : m.populations) out += row("Population", population(p, m));
   out += row("Drift", drift(m));
   out += row("Diffusion", diffusion(m));
   out += row("Persistent walk", walk_speed(m) + ", persistence time " + walk_time(m));
@@ -144,6 +156,8 @@ std::string lead(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
   if (s.tracks == 0) return "No tracks.";
   const std::string tracks = counted(s.tracks, "track");
+  if (quality_of(m.warnings) == Quality::poor)
+    return tracks + "; the quality of the measurement is poor, and no speed is stated here.";
   if (s.speed_count > 0 && s.order > 0.5)
     return fmt::format("{}: collective motion, mean speed {}.", tracks, mean_speed(m));
   if (supported_walk(s) == SupportedWalk::persistent)
@@ -158,6 +172,7 @@ std::string lead(const TrackMeasurement& m) {
 std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& figures,
                        const RgbImage& tracks) {
   std::string out = fmt::format("<h1>Tracks</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(m)));
+  out += quality_markup(m.warnings);
   for (const std::string& note : m.notes)
     out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note));
   out += cards(m);

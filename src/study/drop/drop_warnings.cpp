@@ -1,0 +1,44 @@
+#include "study/drop/drop_warnings.h"
+
+#include <fmt/format.h>
+
+namespace faba {
+namespace {
+
+// Assumed. Along an arc of 30 degrees a circle departs from its chord by 3.4 % of its radius.
+constexpr double kShortArc = 30;  // degrees
+constexpr double kUncertainRadius = 0.03,
+                 kUselessRadius = 0.15;  // standard deviation of the radius, over the radius
+constexpr double kIncomplete = 0.6;      // fraction of the visible arc with an edge
+constexpr double kBlurredEdge = 0.1;     // width of the edge over the radius
+
+}  // namespace
+
+std::vector<Warning> drop_warnings(const DropEdge& e) {
+  std::vector<Warning> out;
+  const double relative = e.sd_radius_px / e.radius_px;
+  if (relative > kUncertainRadius)
+    out.push_back({"radius", "the visible arc does not determine the radius well",
+                   fmt::format("{:.3g} +- {:.2g} px, standard error; {:.0f} degrees are visible", e.radius_px,
+                               e.sd_radius_px, e.arc_deg),
+                   "use a picture that shows more of the edge",
+                   relative > kUselessRadius ? Quality::poor : Quality::doubtful});
+  else if (e.arc_deg < kShortArc)
+    out.push_back({"arc",
+                   "only a short arc of the edge is visible: an edge that is not exactly circular gives "
+                   "another radius",
+                   fmt::format("{:.0f} degrees", e.arc_deg), "use a picture that shows more of the edge"});
+  if (e.support < kIncomplete)
+    out.push_back({"outline",
+                   "the edge was detected along a part of the visible arc only: other structures of "
+                   "the picture may be included",
+                   fmt::format("{:.0f} % of the arc", 100 * e.support), "check the edge with --overlay",
+                   e.support < 0.5 * kIncomplete ? Quality::poor : Quality::doubtful});
+  if (e.edge_width_px > kBlurredEdge * e.radius_px)
+    out.push_back({"focus", "the edge is blurred",
+                   fmt::format("its width is {:.2g} px, the radius {:.3g} px", e.edge_width_px, e.radius_px),
+                   "focus on the edge of the drop"});
+  return out;
+}
+
+}  // namespace faba
