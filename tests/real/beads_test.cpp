@@ -27,4 +27,5 @@ TEST_CASE("beads of 1 um in water diffuse with the Stokes-Einstein coefficient, 
   CHECK(d > 0.38);
   CHECK(d < 0.52);
   CHECK(j["alpha"].get<double>() == doctest::Approx(1).epsilon(0.06));
+  CHECK(j["quality"] == "good");
 }

@@ -29,4 +29,12 @@ TEST_CASE("rods in a suspension swim on straight paths in random directions") {
   CHECK(q[2].get<double>() < 45);
   CHECK(j["alpha"].get<double>() > 1.8);
   CHECK(j["order"].get<double>() < 0.25);  // no common direction
+  // About half of the objects do not move, and a mean over all of them describes neither half.
+  CHECK(j["quality"] == "good");
+  REQUIRE(j["populations"].size() == 2);
+  CHECK(j["populations"][0]["motion"] == "still");
+  CHECK(j["populations"][1]["motion"] == "moving");
+  CHECK(j["populations"][1]["fraction"].get<double>() == doctest::Approx(0.5).epsilon(0.2));
+  CHECK(j["populations"][1]["speed_um_per_s"].get<double>() > 20);
+  CHECK(j["populations"][1]["speed_um_per_s"].get<double>() < 40);
 }
