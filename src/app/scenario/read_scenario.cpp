@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "app/scenario/calibration_file.h"
 #include "app/scenario/control_rules.h"
 #include "app/scenario/file_kind.h"

@@ -117,7 +117,8 @@ void print_summary(const TrackMeasurement& m) {
   fmt::print("tracks   {} in {}, {:.3g} positions each\n", s.tracks,
              counted(std::uint64_t(m.frames), "frame"), s.mean_points);
   if (quality_of(m.warnings) == Quality::poor) {
-    fmt::print("         speeds and motion are not stated, because the quality is poor; --json gives all values\n");
+    fmt::print(
+        "         speeds and motion are not stated, because the quality is poor; --json gives all values\n");
     return;
   }
   if (m.populations.size() > 1)
@@ -129,8 +130,8 @@ void print_summary(const TrackMeasurement& m) {
   const char* about = !together ? "" : drifts ? "relative to the drift: " : "relative to the common motion: ";
   const SupportedWalk walk = supported_walk(s);
   if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))
-    fmt::print("speed    mean {} (+- standard error; displacements over {})\n", units.velocity(s.mean_speed_px_s),
-               units.duration(s.interval_s));
+    fmt::print("speed    mean {} (+- standard error; displacements over {})\n",
+               units.velocity(s.mean_speed_px_s), units.duration(s.interval_s));
   if (drifts)
     fmt::print("drift    {} right, {} down\n", units.velocity(s.drift_x_px_s),
                units.velocity(s.drift_y_px_s));

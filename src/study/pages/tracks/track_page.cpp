@@ -119,7 +119,8 @@ std::string turning(const TrackSummary& s) {
 std::string population(const SpeedPopulation& p, const TrackMeasurement& m) {
   const double scale = m.um_per_px.value_or(1);
   const char* unit = m.um_per_px ? (m.timed ? " µm/s" : " µm/frame") : m.timed ? " px/s" : " px/frame";
-  if (p.motion == PopulationMotion::still) return fmt::format("{:.0f} % {}", 100 * p.fraction, word_of(p.motion));
+  if (p.motion == PopulationMotion::still)
+    return fmt::format("{:.0f} % {}", 100 * p.fraction, word_of(p.motion));
   return fmt::format("{:.0f} % {}, median speed {} (90 % interval {} to {})", 100 * p.fraction,
                      word_of(p.motion), number(scale * p.speed_px_s, unit), number(scale * p.ci90[0], ""),
                      number(scale * p.ci90[1], unit));
