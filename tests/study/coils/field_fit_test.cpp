@@ -36,31 +36,27 @@ TEST_CASE("the field is evaluated again only for a new shift of the coils") {
   CHECK(evaluations < 40);
 }
 
-TEST_CASE("a scan along the axis does not determine the lateral position, and the rest is fitted") {
+TEST_CASE("the axial field along the axis does not determine the lateral position; the rest is fitted") {
   const test::TemporaryFolder folder("fit");
   const std::string coil = "[[coil]]\ntype = 'loop'\nradius = '20 mm'\nturns = 50\ncurrent = 2\n";
   write_file(folder.path() / "drawn.toml", coil);
   write_file(folder.path() / "real.toml", coil + "gain = 0.9\nposition = [0, 0, '3 mm']\n");
   const auto real = read_rig(folder.path() / "real.toml", builtin_parts()).make({});
-  std::string table = "x_m,y_m,z_m,bx_t,by_t,bz_t\n";
-  for (int i = -15; i <= 15; ++i) {
-    const Vec3 b = real->at({0, 0, 2e-3 * i}, std::vector<double>{2.0});
-    table += fmt::format("0,0,{},{:.17g},{:.17g},{:.17g}\n", 2e-3 * i, b.x, b.y, b.z + 1e-7 * (i % 3));
-  }
+  std::string table = "x_m,y_m,z_m,bz_t\n";
+  for (int i = -15; i <= 15; ++i)
+    table +=
+        fmt::format("0,0,{},{:.17g}\n", 2e-3 * i, real->at({0, 0, 2e-3 * i}, std::vector<double>{2.0}).z);
   write_file(folder.path() / "m.csv", table);
   const FieldFit fit = field_fit(folder.path() / "drawn.toml", folder.path() / "m.csv", {}, {});
-  CHECK(fit.best.gain == doctest::Approx(0.9).epsilon(1e-3));
-  CHECK(fit.best.shift[2] == doctest::Approx(3e-3).epsilon(1e-2));
-  // Across the axis the field changes with the square of the distance only.
-  for (const char* name : {"shift x", "shift y"}) {
-    CAPTURE(name);
-    CHECK(std::count(fit.undetermined.begin(), fit.undetermined.end(), name) <= 1);
-  }
-  for (std::size_t k = 0; k < 2; ++k) {
-    const bool fixed = std::isnan(fit.standard_error.shift[k]);
-    CHECK((fixed || fit.standard_error.shift[k] < 0.5 * 30e-3));
-    CHECK(std::fabs(fit.best.shift[k]) < 5e-3);
-  }
+  // Across the axis the axial field changes with the square of the distance only.
+  for (const char* name : {"shift x", "shift y"})
+    CHECK(std::count(fit.undetermined.begin(), fit.undetermined.end(), name) == 1);
+  CHECK(fit.undetermined.size() == 2);
+  CHECK(fit.best.shift[0] == 0);
+  CHECK(std::isnan(fit.standard_error.shift[0]));
+  // For an exact model the accuracy of least squares is limited by the forward differences.
+  CHECK(fit.best.gain == doctest::Approx(0.9).epsilon(1e-5));
+  CHECK(fit.best.shift[2] == doctest::Approx(3e-3).epsilon(1e-4));
 }
 
 TEST_CASE(
