@@ -234,6 +234,7 @@ std::vector<SpeedPopulation> PopulationSurvey::populations(int interval, double 
       ++k;
     }
   std::vector<SpeedPopulation> out;
+  out.reserve(groups.size());
   for (const Members& g : groups)
     out.push_back({double(g.speeds.size()) / double(windows.size()), median(g.speeds),
                    median_interval(g.speeds, double(g.tracks.size())), g.motion, g.tracks.size()});

@@ -94,7 +94,7 @@ void warn_motion(const TrackMeasurement& m, std::vector<Warning>& out) {
 
 void warn_lengths(const TrackMeasurement& m, std::vector<Warning>& out) {
   const double all = m.detection.spots_per_frame * double(m.frames);
-  if (m.frames < 2 * m.joining.min_points || all < 100) return;
+  if (m.frames < 2 * std::int64_t{m.joining.min_points} || all < 100) return;
   const double outside = 1 - double(m.summary.points) / all;
   if (outside < kShort) return;
   out.push_back(

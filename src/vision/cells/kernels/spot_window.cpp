@@ -70,8 +70,8 @@ void SpotWindow::place(const GrayF& picture, int col, int row) {
   top_ = std::max(0, row - half);
   right_ = std::min(picture.width - 1, col + half);
   bottom_ = std::min(picture.height - 1, row + half);
-  const auto columns = std::size_t(right_ - left_ + 1);
-  px_.resize(columns * std::size_t(bottom_ - top_ + 1));
+  const std::size_t columns = width();
+  px_.resize(columns * (std::size_t(bottom_) - std::size_t(top_) + 1));
   for (int r = top_; r <= bottom_; ++r) {
     const float* from = &picture.px[std::size_t(r) * std::size_t(picture.width) + std::size_t(left_)];
     std::copy(from, from + columns, this->row(r));
@@ -86,7 +86,7 @@ void SpotWindow::subtract(const GaussianSpot& other) {
   const double det = other.cov.xx * other.cov.yy - other.cov.xy * other.cov.xy;
   const double xx = other.cov.yy / det, xy = -other.cov.xy / det, yy = other.cov.xx / det,
                half = std::exp(-0.5 * xx), curvature = half * half;
-  const auto columns = std::size_t(right_ - left_ + 1);
+  const std::size_t columns = width();
   for (int first = top_; first <= bottom_; first += kRowsAtOnce) {
     const int rows = std::min(kRowsAtOnce, bottom_ - first + 1);
     // The recursion along the rows starts near their maxima.
@@ -144,7 +144,8 @@ SpotMoments SpotWindow::moments(double x, double y, double offset) {
   const int left = std::max(left_, int(x - reach)), right = std::min(right_, int(x + reach + 1));
   const int top = std::max(top_, int(y - reach)), bottom = std::min(bottom_, int(y + reach + 1));
   if (left > right || top > bottom) return m;
-  const auto columns = std::size_t(right - left + 1), rows = std::size_t(bottom - top + 1);
+  const std::size_t columns = std::size_t(right) - std::size_t(left) + 1,
+                    rows = std::size_t(bottom) - std::size_t(top) + 1;
   across_.resize(columns + rows);
   const Gaussian gaussian(sd_);
   gaussian.write(x, left, right, across_.data());
@@ -155,8 +156,8 @@ SpotMoments SpotWindow::moments(double x, double y, double offset) {
     weights_[r] = {w, w * dy, w * dy * dy};
   }
   sums_.assign(3 * columns, 0);
-  column_sums(row(top) + (left - left_), std::size_t(right_ - left_ + 1), int(rows), int(columns), offset,
-              weights_.data(), sums_.data());
+  column_sums(row(top) + (left - left_), width(), int(rows), int(columns), offset, weights_.data(),
+              sums_.data());
   for (std::size_t c = 0; c < columns; ++c) {
     const double w = across_[c], dx = left + double(c) - x;
     m.mass += w * sums_[c];

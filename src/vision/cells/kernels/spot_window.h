@@ -40,7 +40,8 @@ class SpotWindow {
   SpotMoments moments(double x, double y, double offset);
 
  private:
-  double* row(int r) { return &px_[std::size_t(r - top_) * std::size_t(right_ - left_ + 1)]; }
+  std::size_t width() const { return std::size_t(right_) - std::size_t(left_) + 1; }
+  double* row(int r) { return &px_[std::size_t(r - top_) * width()]; }
 
   double sd_;
   int col_ = 0, row_ = 0, left_ = 0, top_ = 0, right_ = -1, bottom_ = -1;
