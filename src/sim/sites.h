@@ -24,6 +24,11 @@ class Sites {
   /// The word of a site; its bit is site & 63. Sites of different words may be changed by different threads.
   std::uint64_t& word(std::int32_t site) { return words_[std::size_t(site) >> 6]; }
   std::uint64_t word(std::int32_t site) const { return words_[std::size_t(site) >> 6]; }
+  std::span<std::uint64_t> words() { return words_; }
+  std::span<const std::uint64_t> words() const { return words_; }
+  /// Adds or removes sites at the end; new ones are free.
+  void resize_words(std::size_t words) { words_.resize(words); }
+  void clear() { words_.assign(words_.size(), 0); }
   static std::uint64_t bit(std::int32_t site) { return std::uint64_t{1} << (site & 63); }
 
   friend bool operator==(const Sites&, const Sites&) = default;

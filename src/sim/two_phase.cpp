@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <limits>
 
 #include "core/random/splitmix64.h"
 
@@ -9,21 +11,27 @@ namespace faba {
 namespace {
 
 constexpr std::int32_t kGranted = -1;
-constexpr std::size_t kWishes = 4096;  // agents per block of sorted wishes
+constexpr std::size_t kAgentsAtOnce = 1024;  // their sites fit into the L1 cache
+constexpr std::size_t kWords = 8;  // of a block of sites: a cache line, 512 sites
+constexpr unsigned kSiteShift = 9;
+constexpr std::size_t kBlocksAtOnce = 512;
+constexpr std::size_t kSmall = 4096;   // agents for which threads do not pay
+constexpr unsigned kMostParts = 8;     // each has three bits per site
 constexpr int kSweeps = 8;             // of follow()
-// A stripe, three bits per site, fits into the L1 cache. Stripes are larger if their number would exceed
-// kMostStripes; they consist of complete words of Sites.
-constexpr unsigned kStripeShift = 14;
-constexpr std::size_t kMostStripes = 256;
 
-// The wishes for the sites of a stripe.
-struct Wanted {
-  std::vector<std::uint64_t> once, more;  // wanted at least once, more than once
-  void clear(std::size_t words) {
-    once.assign(words, 0);
-    more.assign(words, 0);
+// Calls use(i, from, to) for the agents [begin, end), where from and to are their sites.
+template <class Use>
+void each_move(const Grid& grid, std::span<const float> x, std::span<const float> y,
+               std::span<const float> to_x, std::span<const float> to_y, std::size_t begin, std::size_t end,
+               Use&& use) {
+  std::array<std::int32_t, kAgentsAtOnce> from, to;
+  for (std::size_t first = begin; first < end; first += kAgentsAtOnce) {
+    const std::size_t n = std::min(kAgentsAtOnce, end - first);
+    find_sites(grid, x.subspan(first, n), y.subspan(first, n), from.data());
+    find_sites(grid, to_x.subspan(first, n), to_y.subspan(first, n), to.data());
+    for (std::size_t k = 0; k < n; ++k) use(std::uint32_t(first + k), from[k], to[k]);
   }
-};
+}
 
 }  // namespace
 
@@ -31,156 +39,160 @@ std::uint64_t TwoPhase::priority(std::uint64_t key, std::int32_t cell, std::uint
   return splitmix64(key ^ (std::uint64_t(std::uint32_t(cell)) << 32 | agent));
 }
 
-TwoPhase::TwoPhase(const Grid& grid) : grid_(grid) {
-  const std::size_t last = std::size_t(grid.columns) * std::size_t(grid.rows) - 1;
-  for (shift_ = kStripeShift; last >> shift_ >= kMostStripes;) ++shift_;
-  stripes_ = (last >> shift_) + 1;
-}
-
 void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::span<float> to_x,
                        std::span<float> to_y, Sites& taken, std::uint64_t key, bool follows, Pool& pool) {
-  blocks_ = (x.size() + kWishes - 1) / kWishes;
-  wish_.resize(x.size());
-  left_.resize(x.size());
-  refused_.resize(x.size());
-  segment_.resize(blocks_ * stripes_);
-  const auto each = [&](std::size_t n, auto&& job) {
-    if (blocks_ > 1) return pool.run(n, job);
-    for (std::size_t i = 0; i < n; ++i) job(i);  // too small for threads
+  prepare(x.size(), taken.words().size(), x.size() <= kSmall ? 1 : std::min(pool.threads(), kMostParts));
+  const auto each_part = [&](auto&& job) {
+    if (parts_used_ == 1) return job(parts_[0]);
+    pool.run(parts_used_, [&](std::size_t k) { job(parts_[k]); });
   };
-  each(blocks_, [&](std::size_t b) { sort(x, y, to_x, to_y, b); });
-  each(stripes_, [&](std::size_t k) { decide(k, taken, key); });
-  // After decide(): occupied sites are closed to all wishes. One thread: few agents leave their stripe.
-  for (const Segment& s : segment_)
-    for (std::uint32_t i = 0; i < s.left; ++i) taken.leave(left_[s.begin + i]);
+  const auto each_block = [&](auto&& job) {
+    if (parts_used_ == 1) return job(std::size_t{0}, blocks_);
+    pool.for_blocks(blocks_, kBlocksAtOnce, job);
+  };
+  each_part([&](Part& p) { mark(x, y, to_x, to_y, p); });
+  each_block([&](std::size_t first, std::size_t end) { grant(taken, first, end); });
+  each_part([&](Part& p) { decide(x, y, to_x, to_y, p); });
+  settle(key);
+  each_block([&](std::size_t first, std::size_t end) { update(taken, first, end); });
   if (follows) follow(taken, key);
-  each(blocks_, [&](std::size_t b) {
-    for (std::size_t k = 0; k < stripes_; ++k) {
-      const Segment& s = segment(b, k);
-      for (std::uint32_t i = 0; i < s.refused; ++i) {
-        const Wish& w = wish_[refused_[s.begin + i]];
-        if (w.to == kGranted) continue;
-        to_x[w.agent] = x[w.agent];
-        to_y[w.agent] = y[w.agent];
-      }
+  each_part([&](Part& p) {
+    for (const Wish& w : std::span(p.refused).first(p.refusals)) {
+      if (w.to == kGranted) continue;
+      to_x[w.agent] = x[w.agent];
+      to_y[w.agent] = y[w.agent];
     }
   });
 }
 
-// Agents that stay on their site are sorted into an additional stripe that is not read: this avoids a branch
-// that is often mispredicted.
-void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
-                    std::span<const float> to_y, std::size_t block) {
-  const std::size_t first = block * kWishes, n = std::min(kWishes, x.size() - first);
-  std::array<std::int32_t, kWishes> from, to;
-  find_sites(grid_, x.subspan(first, n), y.subspan(first, n), from.data());
-  find_sites(grid_, to_x.subspan(first, n), to_y.subspan(first, n), to.data());
-  const auto stripe = [&from, &to, none = stripes_, shift = shift_](std::size_t i) {
-    return from[i] == to[i] ? none : std::size_t(to[i]) >> shift;
-  };
-  std::array<std::uint32_t, kMostStripes + 2> next{};  // counts, shifted by one entry, then positions
-  for (std::size_t i = 0; i < n; ++i) ++next[stripe(i) + 1];
-  next[0] = std::uint32_t(first);
-  for (std::size_t k = 0; k < stripes_; ++k) {
-    next[k + 1] += next[k];
-    segment(block, k) = {next[k], next[k + 1]};
+void TwoPhase::prepare(std::size_t agents, std::size_t words, unsigned parts) {
+  words_ = words;
+  blocks_ = (words + kWords - 1) / kWords;
+  parts_.resize(std::max<std::size_t>(parts_.size(), parts));
+  parts_used_ = parts;
+  for (Sites* s : {&granted_, &wanted_}) s->resize_words(words);
+  before_.resize(words);
+  for (std::size_t k = 0; k < parts; ++k) {
+    Part& p = parts_[k];
+    p.begin = agents * k / parts;
+    p.end = agents * (k + 1) / parts;
+    // One more than the agents: decide() writes each wish to the ends of both lists.
+    p.contested.resize(p.end - p.begin + 1);
+    p.refused.resize(p.end - p.begin + 1);
+    for (Sites* s : {&p.once, &p.more, &p.left}) s->resize_words(words);
+    p.used.resize(blocks_);
   }
-  Wish* const wish = wish_.data();
-  for (std::size_t i = 0; i < n; ++i) wish[next[stripe(i)]++] = {std::uint32_t(first + i), from[i], to[i]};
 }
 
-// Finds the sites that are wanted once and more than once; a single wish is granted, and only the others are
-// compared. Loops over all wishes have no branches, which would often be mispredicted.
-void TwoPhase::decide(std::size_t stripe, Sites& taken, std::uint64_t key) {
-  const auto first = std::int32_t(stripe << shift_);
-  const Wish* const wish = wish_.data();
-  static thread_local Wanted wanted;
-  wanted.clear((std::size_t{1} << shift_) / 64);
-  std::uint64_t *const once = wanted.once.data(), *const more = wanted.more.data(),
-                       *const full = &taken.word(first);
-  std::size_t wishes = 0;
-  for (std::size_t b = 0; b < blocks_; ++b) {
-    const Segment s = segment(b, stripe);
-    wishes += s.end - s.begin;
-    for (std::uint32_t i = s.begin; i < s.end; ++i) {
-      const auto site = std::size_t(wish[i].to - first), w = site >> 6;
-      const std::uint64_t bit = std::uint64_t{1} << (site & 63), before = once[w];
-      more[w] |= before & bit;
-      once[w] = before | bit;
-    }
+template <class Use>
+void TwoPhase::each_used_word(std::size_t first_block, std::size_t end_block, Use&& use) const {
+  for (std::size_t b = first_block; b < end_block; ++b) {
+    unsigned used = 0;
+    for (std::size_t k = 0; k < parts_used_; ++k) used |= parts_[k].used[b];
+    if (used == 0) continue;
+    for (std::size_t w = b * kWords; w < std::min(words_, (b + 1) * kWords); ++w) use(w);
   }
-  static thread_local std::vector<std::uint32_t> contested, best;
-  if (contested.size() < wishes) contested.resize(wishes);
-  if (best.size() >> shift_ == 0) best.resize(std::size_t{1} << shift_);
-  std::uint32_t* const contest = contested.data();
-  std::size_t contests = 0;
-  for (std::size_t b = 0; b < blocks_; ++b) {
-    Segment& s = segment(b, stripe);
-    std::int32_t* const left = &left_[s.begin];
-    std::uint32_t* const others = &refused_[s.begin];
-    std::uint32_t granted = 0;
-    for (std::uint32_t i = s.begin, end = s.end, k = 0; i < end;
-         ++i, ++k) {  // written to both lists; only one index advances
-      const auto site = std::size_t(wish[i].to - first), w = site >> 6;
-      const std::uint64_t alone = ~(full[w] | more[w]) >> (site & 63) & 1;
-      left[granted] = wish[i].from;
-      others[k - granted] = i;
-      granted += std::uint32_t(alone);
-      full[w] |= alone << (site & 63);
-    }
-    std::uint32_t refused = 0;
-    for (std::uint32_t k = 0; k < s.end - s.begin - granted; ++k) {
-      const std::uint32_t i = others[k];
-      const bool closed = taken.taken(wish[i].to);
-      others[refused] = i;
-      contest[contests] = i;
-      refused += closed;
-      contests += !closed;
-    }
-    s.left = granted;
-    s.refused = refused;
-  }
-  const auto best_for = [&](std::uint32_t i) -> std::uint32_t& {
-    return best[std::size_t(wish[i].to - first)];
-  };
-  const auto rank = [&](std::uint32_t i) { return priority(key, wish[i].to, wish[i].agent); };
-  for (const std::uint32_t i : std::span(contest, contests)) best_for(i) = i;
-  for (const std::uint32_t i : std::span(contest, contests))
-    if (rank(i) < rank(best_for(i))) best_for(i) = i;
-  for (const std::uint32_t i : std::span(contest, contests)) {
-    Segment& s = segment(wish[i].agent / kWishes, stripe);
-    taken.take(wish[i].to);
-    if (best_for(i) == i)
-      left_[s.begin + s.left++] = wish[i].from;
-    else
-      refused_[s.begin + s.refused++] = i;
-  }
-  leave(stripe, taken);
 }
 
-// All wishes for this stripe are decided, so its sites can be left; those in other stripes stay in the list.
-void TwoPhase::leave(std::size_t stripe, Sites& taken) {
-  for (std::size_t b = 0; b < blocks_; ++b) {
-    Segment& s = segment(b, stripe);
-    std::int32_t* const left = &left_[s.begin];
-    std::uint32_t others = 0;
-    for (std::uint32_t i = 0; i < s.left; ++i) {
-      const std::int32_t site = left[i];
-      if (std::size_t(site) >> shift_ == stripe)
-        taken.leave(site);
-      else
-        left[others++] = site;
+// An agent that stays on its site marks no bit.
+void TwoPhase::mark(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
+                    std::span<const float> to_y, Part& part) const {
+  std::uint8_t* const used = part.used.data();
+  each_move(grid_, x, y, to_x, to_y, part.begin, part.end,
+            [&](std::uint32_t, std::int32_t from, std::int32_t to) {
+              const std::uint64_t bit = std::uint64_t{from != to} << (to & 63);
+              std::uint64_t& once = part.once.word(to);
+              part.more.word(to) |= once & bit;
+              once |= bit;
+              used[from >> kSiteShift] = 1;
+              used[to >> kSiteShift] = 1;
+            });
+}
+
+void TwoPhase::grant(const Sites& taken, std::size_t first_block, std::size_t end_block) {
+  each_used_word(first_block, end_block, [&](std::size_t w) {
+    std::uint64_t once = 0, more = 0;
+    for (std::size_t k = 0; k < parts_used_; ++k) {
+      const std::uint64_t of_part = parts_[k].once.words()[w];
+      more |= parts_[k].more.words()[w] | (once & of_part);
+      once |= of_part;
     }
-    s.left = others;
-  }
+    const std::uint64_t open = ~taken.words()[w];
+    granted_.words()[w] = once & ~more & open;
+    wanted_.words()[w] = more & open;
+  });
+}
+
+// No branches, which would often be mispredicted: each wish is written to both lists, of which at most one
+// advances.
+void TwoPhase::decide(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
+                      std::span<const float> to_y, Part& part) const {
+  Wish *const contested = part.contested.data(), *const refused = part.refused.data();
+  std::size_t contests = 0, refusals = 0;
+  each_move(grid_, x, y, to_x, to_y, part.begin, part.end,
+            [&](std::uint32_t agent, std::int32_t from, std::int32_t to) {
+              const std::uint64_t moves = from != to, granted = granted_.word(to) >> (to & 63) & moves,
+                                  wanted = wanted_.word(to) >> (to & 63) & moves;
+              part.left.word(from) |= granted << (from & 63);
+              contested[contests] = refused[refusals] = {agent, from, to};
+              contests += wanted;
+              refusals += moves & ~(granted | wanted);
+            });
+  part.contests = contests;
+  part.refusals = refusals;
+}
+
+// One thread: few wishes are contested.
+void TwoPhase::settle(std::uint64_t key) {
+  std::uint32_t sites = 0;
+  each_used_word(0, blocks_, [&](std::size_t w) {
+    before_[w] = sites;
+    sites += std::uint32_t(std::popcount(wanted_.words()[w]));
+  });
+  const auto rank = [&](std::int32_t site) {
+    const std::uint64_t smaller = wanted_.word(site) & (Sites::bit(site) - 1);
+    return std::size_t(before_[std::size_t(site) >> 6] + std::uint32_t(std::popcount(smaller)));
+  };
+  best_.assign(sites, std::numeric_limits<std::uint64_t>::max());
+  winner_.resize(sites);
+  for (const Part& p : std::span(parts_).first(parts_used_))
+    for (const Wish& w : std::span(p.contested).first(p.contests)) {
+      const std::size_t r = rank(w.to);
+      const std::uint64_t mine = priority(key, w.to, w.agent);
+      const bool better = mine <= best_[r];
+      best_[r] = better ? mine : best_[r];
+      winner_[r] = better ? w.agent : winner_[r];
+    }
+  for (Part& p : std::span(parts_).first(parts_used_))
+    for (const Wish& w : std::span(p.contested).first(p.contests)) {
+      const std::uint64_t wins = winner_[rank(w.to)] == w.agent;
+      p.left.word(w.from) |= wins << (w.from & 63);
+      p.refused[p.refusals] = w;
+      p.refusals += 1 - wins;
+    }
+}
+
+// After all decisions: occupied sites are closed to all wishes.
+void TwoPhase::update(Sites& taken, std::size_t first_block, std::size_t end_block) {
+  each_used_word(first_block, end_block, [&](std::size_t w) {
+    std::uint64_t left = 0;
+    for (Part& p : std::span(parts_).first(parts_used_)) {
+      left |= p.left.words()[w];
+      for (Sites* s : {&p.once, &p.more, &p.left}) s->words()[w] = 0;
+    }
+    taken.words()[w] = (taken.words()[w] & ~left) | granted_.words()[w] | wanted_.words()[w];
+    granted_.words()[w] = wanted_.words()[w] = 0;
+  });
+  for (Part& p : std::span(parts_).first(parts_used_))
+    std::fill(&p.used[first_block], &p.used[first_block] + (end_block - first_block), std::uint8_t{0});
 }
 
 // Repeated simultaneous sweeps. Two agents that would swap sites block each other. One thread: few agents are
 // affected.
 void TwoPhase::follow(Sites& taken, std::uint64_t key) {
   std::vector<Wish*> waiting, winners;
-  for (const Segment& s : segment_)
-    for (std::uint32_t i = 0; i < s.refused; ++i) waiting.push_back(&wish_[refused_[s.begin + i]]);
+  for (Part& p : std::span(parts_).first(parts_used_))
+    for (Wish& w : std::span(p.refused).first(p.refusals)) waiting.push_back(&w);
   std::sort(waiting.begin(), waiting.end(), [key](const Wish* a, const Wish* b) {
     return a->to != b->to ? a->to < b->to : priority(key, a->to, a->agent) < priority(key, b->to, b->agent);
   });

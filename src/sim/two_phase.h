@@ -10,13 +10,14 @@
 namespace faba {
 
 /// Simultaneous exclusion (theory D4): all agents propose a move ("wish"), and each free site accepts the
-/// wish with the smallest hash(key, site, agent). Four passes, independent of order and number of threads:
-/// wishes are sorted by the stripe of the grid that contains their target; each stripe is decided by one
-/// thread, in its cache and without atomics, and granted agents leave their sites in it; granted agents leave
-/// their sites in other stripes; the proposals of the others are reset. 24 bytes per agent.
+/// wish with the smallest hash(key, site, agent). Set operations on bitmaps of the sites, which do not depend
+/// on the order of the agents or the number of threads: each thread marks the sites that its agents want once
+/// and more than once; a free site that one agent wants is granted to it; only the wishes for the others are
+/// compared; granted agents leave their sites at the end. Blocks of sites that no agent leaves or wants are
+/// skipped. Between two calls no bit is set.
 class TwoPhase {
  public:
-  explicit TwoPhase(const Grid& grid);
+  explicit TwoPhase(const Grid& grid) : grid_(grid) {}
 
   /// Priority of a wish; the smallest value is granted.
   static std::uint64_t priority(std::uint64_t key, std::int32_t cell, std::uint32_t agent);
@@ -32,25 +33,36 @@ class TwoPhase {
     std::uint32_t agent;
     std::int32_t from, to;  ///< `to` is kGranted for moves granted by follow()
   };
-  /// The wishes of one block of agents for one stripe.
-  struct Segment {
-    std::uint32_t begin = 0, end = 0, left = 0, refused = 0;
+  /// The wishes of a part of the agents.
+  struct Part {
+    std::size_t begin = 0, end = 0;  ///< agents
+    Sites once, more;                ///< sites that are wanted at least once, more than once
+    Sites left;                      ///< sites that granted agents leave
+    std::vector<std::uint8_t> used;  ///< 1 for blocks of sites from or to which an agent moves
+    std::vector<Wish> contested, refused;
+    std::size_t contests = 0, refusals = 0;  ///< used elements of the lists
   };
-  void sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
-            std::span<const float> to_y, std::size_t block);
-  void decide(std::size_t stripe, Sites& taken, std::uint64_t key);
-  void leave(std::size_t stripe, Sites& taken);
+  /// Calls use(word) for all words in used blocks of [first_block, end_block).
+  template <class Use>
+  void each_used_word(std::size_t first_block, std::size_t end_block, Use&& use) const;
+  void prepare(std::size_t agents, std::size_t words, unsigned parts);
+  void mark(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
+            std::span<const float> to_y, Part& part) const;
+  void grant(const Sites& taken, std::size_t first_block, std::size_t end_block);
+  void decide(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
+              std::span<const float> to_y, Part& part) const;
+  void settle(std::uint64_t key);
+  void update(Sites& taken, std::size_t first_block, std::size_t end_block);
   void follow(Sites& taken, std::uint64_t key);
 
-  Segment& segment(std::size_t block, std::size_t stripe) { return segment_[block * stripes_ + stripe]; }
-
   Grid grid_;
-  unsigned shift_ = 0;  ///< sites with equal index >> shift_ form a stripe
-  std::size_t stripes_ = 0, blocks_ = 0;
-  std::vector<Wish> wish_;              ///< sorted by block of agents, then by stripe
-  std::vector<Segment> segment_;        ///< segments of wish_, in the same order
-  std::vector<std::int32_t> left_;      ///< per segment: sites in other stripes that granted agents leave
-  std::vector<std::uint32_t> refused_;  ///< per segment: refused wishes
+  std::vector<Part> parts_;
+  std::size_t parts_used_ = 0;
+  std::size_t words_ = 0, blocks_ = 0;  ///< of the bitmaps
+  Sites granted_, wanted_;  ///< free sites that one agent wants, that several agents want
+  /// Of the sites in wanted_, in order: agent with the smallest priority so far. Their number before each word.
+  std::vector<std::uint64_t> best_;
+  std::vector<std::uint32_t> winner_, before_;
 };
 
 }  // namespace faba

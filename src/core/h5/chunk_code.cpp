@@ -24,6 +24,53 @@ libdeflate_compressor& compressor() {
   return *one;
 }
 
+// The low bytes of floating-point numbers are noise to a compressor, which takes as long for them as for the
+// others. A shuffled chunk begins with them: its first bytes are stored if a sample of them does not shrink.
+// Twice the distance at which the values of a cell that does not move repeat (PositionTable's columns), so
+// that a sample contains repetitions.
+constexpr std::size_t kSample = 16384;
+// A sample shrinks if it loses 1/256 of its size: less is not worth the time of a level-1 compressor.
+constexpr std::size_t kLeastGain = kSample / 256;
+
+bool shrinks(std::span<const std::uint8_t> sample) {
+  std::uint8_t shrunk[kSample - kLeastGain];
+  return libdeflate_deflate_compress(&compressor(), sample.data(), sample.size(), shrunk, sizeof shrunk) > 0;
+}
+
+// The number of bytes at the beginning of a shuffled chunk that are to be stored.
+std::size_t stored_bytes(std::span<const std::uint8_t> shuffled, std::size_t element_bytes) {
+  const std::size_t plane = shuffled.size() / element_bytes;
+  if (plane < 2 * kSample) return 0;  // a sample costs too much of the compression
+  std::size_t stored = 0;
+  while (stored + plane <= shuffled.size() && !shrinks(shuffled.subspan(stored, kSample))) stored += plane;
+  return stored;
+}
+
+// Compresses to zlib's format (RFC 1950, RFC 1951): blocks that are stored, then compressed ones. Returns the
+// size, or 0 if it exceeds that of `out`.
+std::size_t compress(std::span<const std::uint8_t> in, std::size_t stored, std::span<std::uint8_t> out) {
+  constexpr std::size_t kBlock = 65535, kBlockHeader = 5, kEnds = 2 + 4;
+  if (stored + kEnds + kBlockHeader * (stored / kBlock + 1) > out.size()) return 0;
+  std::uint8_t* to = out.data();
+  *to++ = 0x78;  // deflate with a window of 32 KiB
+  *to++ = 0x01;  // fastest level; makes the two bytes a multiple of 31
+  for (std::size_t at = 0; at < stored;) {
+    const std::size_t n = std::min(kBlock, stored - at), not_n = ~n;
+    for (const std::size_t byte : {std::size_t{0}, n, n >> 8, not_n, not_n >> 8})
+      *to++ = std::uint8_t(byte & 0xFF);
+    to = std::copy_n(in.data() + at, n, to);
+    at += n;
+  }
+  const auto used = std::size_t(to - out.data());
+  const std::size_t size = libdeflate_deflate_compress(&compressor(), in.data() + stored, in.size() - stored,
+                                                       to, out.size() - used - 4);
+  if (size == 0) return 0;
+  to += size;
+  const std::uint32_t sum = libdeflate_adler32(1, in.data(), in.size());
+  for (int shift = 24; shift >= 0; shift -= 8) *to++ = std::uint8_t(sum >> shift & 0xFF);
+  return std::size_t(to - out.data());
+}
+
 // HDF5's filter "shuffle": first byte of all elements, then the second byte of all elements ...
 template <std::size_t kBytes>
 void shuffle(std::span<const std::uint8_t> in, std::uint8_t* out) {
@@ -80,8 +127,7 @@ void encode_chunk(std::span<const std::uint8_t> chunk, const ChunkFilters& filte
     shuffled.resize(chunk.size());
     shuffle(chunk, filters.element_bytes, shuffled.data());
     out.bytes.resize(chunk.size());
-    const std::size_t size = libdeflate_zlib_compress(&compressor(), shuffled.data(), shuffled.size(),
-                                                      out.bytes.data(), out.bytes.size());
+    const std::size_t size = compress(shuffled, stored_bytes(shuffled, filters.element_bytes), out.bytes);
     if (size > 0) {
       out.bytes.resize(size);
     } else {  // it does not become smaller

@@ -209,11 +209,17 @@ void FlowSource::Impl::do_jobs(Item& item) {
 void FlowSource::Impl::compute(Item& item, FlowMethod& flow) const {
   do_jobs(item);
   FlowPair& pair = item.pair;
+  pair.image = *item.after;
+  if (options.kept && options.samples == 0)
+    if (std::optional<Flow> kept = options.kept->take(pair.frame)) {
+      pair.flow = std::move(*kept);
+      return;
+    }
   flow.between(*item.before, *item.after, pair.flow);
   if (const int side = video->side(); side > 1)
     for (GrayF* c : {&pair.flow.u, &pair.flow.v})
       for (float& x : c->px) x *= float(side);
-  pair.image = *item.after;
+  if (options.kept && options.samples > 0) options.kept->keep(pair.frame, pair.flow);
 }
 
 bool FlowSource::Impl::next_of_video(FlowPair& pair) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "study/data/frame_inspector.h"
+#include "study/data/kept_flows.h"
 #include "vision/flow/flow.h"
 
 namespace faba {
@@ -32,6 +33,8 @@ struct FlowSourceOptions {
   bool frames = false;              ///< frames are needed with the flows: the video of a run is used
   unsigned threads = 0;             ///< 0: all; each computes the flow of another pair
   FrameInspector inspect = {};      ///< may be empty; not called for files of flows
+  /// A reading of samples keeps its flows here, a complete reading takes them from here. May be empty.
+  std::shared_ptr<KeptFlows> kept = {};
 };
 
 /// The flows of a video, a run directory or a file of flows in sequence; memory does not depend on their

@@ -82,12 +82,14 @@ struct Prepared {
   double threshold_px = 0;
   bool quiet = true;
   std::optional<CellCount> cells;
+  std::shared_ptr<KeptFlows> flows;
 };
 
 NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std::size_t index,
-                        const FrameInspector& inspect) {
+                        const FrameInspector& inspect, const std::shared_ptr<KeptFlows>& flows) {
   FlowSourceOptions options = source_options(job, video);
   options.inspect = inspect;
+  options.kept = flows;
   return noise_level(video.file, options, [&](std::uint64_t done, std::uint64_t total) {
     job.progress(index, done, total);
     check_stop(job, video);
@@ -115,7 +117,8 @@ Prepared prepare(const ActivityJob& job, std::size_t index, bool measure_noise) 
     survey = p.cells->survey();
   }
   if (measure_noise) {
-    const NoiseLevel level = threshold_of(job, video, index, survey);
+    if (job.videos.size() == 1) p.flows = std::make_shared<KeptFlows>();
+    const NoiseLevel level = threshold_of(job, video, index, survey, p.flows);
     p.threshold_px = level.threshold_px;
     p.quiet = level.quiet;
   }
@@ -125,11 +128,13 @@ Prepared prepare(const ActivityJob& job, std::size_t index, bool measure_noise) 
 
 // Sets the signature, the pair of frames with the largest motion, the number of cells and the notes of the
 // source.
-void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, CellCount* cells) {
+void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index, Prepared& prepared) {
+  CellCount* const cells = prepared.cells ? &*prepared.cells : nullptr;
   const double zero = a.input.direction_deg.value_or(0);
   a.signature = Signature(a.threshold_px, zero);
   FlowSourceOptions options = source_options(job, a.input);
   if (cells) options.inspect = cells->count();
+  options.kept = std::move(prepared.flows);
   FlowSource source(a.input.file, options);
   FlowPair pair;
   double most = -1;
@@ -185,7 +190,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, Prepared& prepa
     prepared.cells.emplace(cells_of(job, a.input));
     end_survey(*prepared.cells, prepared.cells->survey(), [&] { check_stop(job, a.input); });
   }
-  read_signature(a, job, index, prepared.cells ? &*prepared.cells : nullptr);
+  read_signature(a, job, index, prepared);
   a.segments = motion_segments(a.signature, a.input.direction_deg);
   a.direction_deg = a.direction_given ? *a.input.direction_deg : detected_direction(a);
   const double cone = a.signature.nearest_deg(a.direction_deg);
@@ -266,7 +271,7 @@ ActivityResult measure_activity(const ActivityJob& job) {
   }
   if (job.threshold_px || !job.noise.empty()) {
     const double level =
-        job.threshold_px ? *job.threshold_px : threshold_of(job, {.file = job.noise}, 0, {}).threshold_px;
+        job.threshold_px ? *job.threshold_px : threshold_of(job, {.file = job.noise}, 0, {}, nullptr).threshold_px;
     for (Prepared& p : prepared) p.threshold_px = level;
   } else {
     // One threshold for all videos, so that their activities are comparable.
