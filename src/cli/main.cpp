@@ -6,6 +6,10 @@
 #include <cstdio>
 #include <new>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "cli/command_line.h"
 #include "cli/usage_message.h"
 #include "core/schema.h"
@@ -34,6 +38,15 @@ std::string command_of(const CLI::App& app, const std::vector<std::string>& argu
     at = at->get_subcommand(word);
   }
   return command;
+}
+
+// Freed memory of pictures stays with the process: to return it and request it again for every frame takes a
+// tenth of the time of a measurement, because the kernel clears each page.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes; the largest permitted value
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
 }
 
 int dispatch(int argc, char** argv) {
@@ -71,6 +84,7 @@ int dispatch(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is reported as a write error
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported as a write error
+  faba::cli::keep_freed_memory();
   try {
     const int code = faba::cli::dispatch(argc, argv);
     if (std::fflush(stdout) != 0)

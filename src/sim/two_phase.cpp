@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::int32_t kGranted = -1;
 constexpr std::size_t kAgentsAtOnce = 1024;  // their sites fit into the L1 cache
-constexpr std::size_t kWords = 8;  // of a block of sites: a cache line, 512 sites
+constexpr std::size_t kWords = 8;            // of a block of sites: a cache line, 512 sites
 constexpr unsigned kSiteShift = 9;
 constexpr std::size_t kBlocksAtOnce = 512;
-constexpr std::size_t kSmall = 4096;   // agents for which threads do not pay
-constexpr unsigned kMostParts = 8;     // each has three bits per site
-constexpr int kSweeps = 8;             // of follow()
+constexpr std::size_t kSmall = 4096;  // agents for which threads do not pay
+constexpr unsigned kMostParts = 8;    // each has three bits per site
+constexpr int kSweeps = 8;            // of follow()
 
 // Calls use(i, from, to) for the agents [begin, end), where from and to are their sites.
 template <class Use>

@@ -59,8 +59,9 @@ class TwoPhase {
   std::vector<Part> parts_;
   std::size_t parts_used_ = 0;
   std::size_t words_ = 0, blocks_ = 0;  ///< of the bitmaps
-  Sites granted_, wanted_;  ///< free sites that one agent wants, that several agents want
-  /// Of the sites in wanted_, in order: agent with the smallest priority so far. Their number before each word.
+  Sites granted_, wanted_;              ///< free sites that one agent wants, that several agents want
+  /// Of the sites in wanted_, in order: agent with the smallest priority so far. Their number before each
+  /// word.
   std::vector<std::uint64_t> best_;
   std::vector<std::uint32_t> winner_, before_;
 };

@@ -9,6 +9,7 @@
 
 #include "app/recording/session.h"
 #include "core/error.h"
+#include "core/threads/ordered_work.h"
 #include "study/data/run_info.h"
 #include "study/data/run_video.h"
 #include "study/identify/found_segments.h"
@@ -158,6 +159,7 @@ void estimate_background(ResponseVideo& v, Measure measure, double from_s, doubl
   VideoBackgroundOptions o;
   o.fps = v.input.part.fps;
   o.side = v.side;
+  o.threads = v.input.threads;
   o.tick = tick;
   if (measure == Measure::density)
     o.quantile = v.view.cells.polarity == Polarity::bright ? 1 - kCoverage : kCoverage;
@@ -281,7 +283,7 @@ void take_frames(ResponseVideo& v, Boundary boundary, Measure measure, const std
 
 std::vector<GrayF> frames_at(const ResponseVideo& v, const std::vector<double>& times_s,
                              const std::function<void()>& tick) {
-  GreyVideo video(v.file, v.input.part.fps, v.side);
+  GreyVideo video(VideoReader(v.file, v.input.part.fps, OrderedWork::threads(v.input.threads)), v.side);
   std::vector<GrayF> frames(times_s.size());
   std::vector<double> off(times_s.size(), std::numeric_limits<double>::infinity());
   const double last = times_s.empty() ? 0 : *std::max_element(times_s.begin(), times_s.end());

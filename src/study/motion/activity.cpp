@@ -270,8 +270,9 @@ ActivityResult measure_activity(const ActivityJob& job) {
     check_stop(job, job.videos[i]);
   }
   if (job.threshold_px || !job.noise.empty()) {
-    const double level =
-        job.threshold_px ? *job.threshold_px : threshold_of(job, {.file = job.noise}, 0, {}, nullptr).threshold_px;
+    const double level = job.threshold_px
+                             ? *job.threshold_px
+                             : threshold_of(job, {.file = job.noise}, 0, {}, nullptr).threshold_px;
     for (Prepared& p : prepared) p.threshold_px = level;
   } else {
     // One threshold for all videos, so that their activities are comparable.

@@ -11,7 +11,7 @@
 namespace faba {
 namespace {
 
-constexpr std::int64_t kFramesCounted = 50;
+constexpr std::int64_t kFramesCounted = 50;  // at most
 
 // Number of visible cells recorded by the simulation.
 std::optional<double> counted_by_run(const std::filesystem::path& run, const VideoPart& part) {
@@ -58,7 +58,7 @@ void CellCount::end_survey() {
         std::make_unique<Detector>(std::move(survey_.background), detector_options(options_, survey_, {}));
   survey_.background = {};
   survey_.first = {};
-  step_ = std::max<std::int64_t>(1, survey_.frames / kFramesCounted);
+  step_ = std::max<std::int64_t>(1, (survey_.frames + kFramesCounted - 1) / kFramesCounted);
 }
 
 FrameInspector CellCount::count() {

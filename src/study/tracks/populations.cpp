@@ -1,6 +1,7 @@
 #include "study/tracks/populations.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -14,6 +15,7 @@ namespace {
 constexpr std::size_t kMostWindows = 20000;
 constexpr std::size_t kFewWindows = 5;
 constexpr int kWindowLags = 4;
+constexpr std::size_t kMostComponents = 3;
 constexpr double kSmallest = 0.05;  // fraction of a population
 // Of one of three: a third component also fits the flank of a skewed distribution.
 constexpr double kSmallestOfThree = 0.15;
@@ -67,12 +69,16 @@ Mixture fitted(const std::vector<Sample>& samples, std::size_t components) {
             components == 1 ? sd : std::max(kLeastSpread, sd / double(components))};
   for (int i = 0; i < kIterations && components > 1; ++i) {
     std::vector<std::array<double, 3>> sums(components);  // weight, first and second moment
+    std::array<double, kMostComponents> density{};
     for (const Sample& s : samples) {
       double p = 0;
-      for (const Component& c : m) p += c.density(s.log_speed);
+      for (std::size_t k = 0; k < components; ++k) {
+        density[k] = m[k].density(s.log_speed);
+        p += density[k];
+      }
       if (!(p > 0)) continue;
       for (std::size_t k = 0; k < components; ++k) {
-        const double w = s.weight * m[k].density(s.log_speed) / p;
+        const double w = s.weight * density[k] / p;
         sums[k][0] += w;
         sums[k][1] += w * s.log_speed;
         sums[k][2] += w * s.log_speed * s.log_speed;
@@ -106,7 +112,7 @@ Mixture chosen(const std::vector<Sample>& samples) {
     return -2 * log_likelihood(samples, m) + (3 * double(m.size()) - 1) * std::log(n);
   };
   Mixture best = fitted(samples, 1);
-  for (const std::size_t components : {std::size_t(2), std::size_t(3)}) {
+  for (std::size_t components = 2; components <= kMostComponents; ++components) {
     if (samples.size() < kFewWindows * components) break;
     const Mixture m = fitted(samples, components);
     if (separated(m) && criterion(m) < criterion(best)) best = m;

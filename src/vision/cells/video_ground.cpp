@@ -9,6 +9,8 @@
 #include "core/error.h"
 #include "core/random/distributions.h"
 #include "core/statistics.h"
+#include "core/threads/ordered_work.h"
+#include "core/threads/parallel.h"
 #include "vision/files/grey_video.h"
 #include "vision/foreground/background.h"
 
@@ -52,13 +54,17 @@ class Changes {
   std::vector<std::uint64_t> count_ = std::vector<std::uint64_t>(kChangeBins);
 };
 
-GrayF quantile_over_time(const std::vector<GrayF>& frames, double quantile) {
+GrayF quantile_over_time(const std::vector<GrayF>& frames, double quantile, unsigned threads) {
+  constexpr std::size_t kPixelsPerBlock = 4096;
   GrayF out(frames.front().width, frames.front().height);
-  std::vector<float> values(frames.size());
-  for (std::size_t i = 0; i < out.px.size(); ++i) {
-    for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
-    out.px[i] = quantile_nearest(values, quantile);
-  }
+  Pool pool(threads);
+  pool.for_blocks(out.px.size(), kPixelsPerBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> values(frames.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
+      out.px[i] = quantile_nearest(values, quantile);
+    }
+  });
   return out;
 }
 
@@ -66,7 +72,8 @@ GrayF quantile_over_time(const std::vector<GrayF>& frames, double quantile) {
 
 VideoBackground read_video_background(const std::filesystem::path& video, const VideoBackgroundOptions& o) {
   constexpr float kWhite = 255;
-  GreyVideo frames(video, o.fps, o.side);
+  const unsigned threads = OrderedWork::threads(o.threads);
+  GreyVideo frames(VideoReader(video, o.fps, threads), o.side);
   BackgroundSampler sampler(kMostFrames);
   const bool integer_greys = o.side == 1 && frames.reader().bits() <= 8;
   Changes changes(integer_greys ? 1 : kFineStep);
@@ -80,7 +87,7 @@ VideoBackground read_video_background(const std::filesystem::path& video, const 
   }
   if (sampler.kept().empty())
     throw Error(Errc::input, video.string(), "the video has no frames in the requested time range");
-  VideoBackground ground{quantile_over_time(sampler.kept(), o.quantile), changes.sd()};
+  VideoBackground ground{quantile_over_time(sampler.kept(), o.quantile, threads), changes.sd()};
   const auto off = o.quantile == 0.5 ? 0.0F : float(normal_quantile(o.quantile) * ground.noise_sd);
   for (float& grey : ground.light.px) grey = (grey - off) / kWhite;
   ground.noise_sd /= double(kWhite);

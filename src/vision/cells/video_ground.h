@@ -14,6 +14,7 @@ struct VideoBackgroundOptions {
   /// larger if dark objects cover the pixel most of the time, smaller for bright objects.
   double quantile = 0.5;
   double from_s = 0, to_s = 1e300;     ///< time range of the frames used
+  unsigned threads = 1;                ///< 0: all; they do not change the result
   std::function<void()> tick = [] {};  ///< called after each frame
 };
 

@@ -106,3 +106,44 @@ TEST_CASE("the bytes of a chunk do not depend on the thread") {
   CHECK(coded[0].bytes.size() < bytes.size() / 4);
   for (const CodedChunk& c : coded) CHECK(c.bytes == coded[0].bytes);
 }
+
+TEST_CASE("bytes that do not shrink are stored, and HDF5 reads the others beside them") {
+  constexpr std::size_t kCells = 8192, kChunkRows = 5;
+  const TestFolder folder;
+  const auto file = folder.path / "t.h5";
+  // Numbers of which only the high bytes are similar, and numbers of which all bytes are.
+  const auto noise = [](std::size_t i) { return 512 + float(splitmix64(i) >> 40) / float(1 << 17); };
+  const auto steps = [](std::size_t i) { return float(i / 64); };
+  const auto stored_at_start = [&](const auto& number) {
+    std::vector<float> chunk(kChunkRows * kCells);
+    for (std::size_t i = 0; i < chunk.size(); ++i) chunk[i] = number(i);
+    CodedChunk coded;
+    encode_chunk({reinterpret_cast<const std::uint8_t*>(chunk.data()), 4 * chunk.size()}, {4, true}, coded);
+    CHECK(coded.skipped == 0);
+    CHECK(coded.bytes.size() < 4 * chunk.size());
+    // RFC 1951, 3.2.3: the first bits after the two bytes of zlib's header are 0, 00 for a stored block that
+    // is not the last.
+    return (coded.bytes[2] & 7) == 0;
+  };
+  CHECK(stored_at_start(noise));
+  CHECK_FALSE(stored_at_start(steps));
+  constexpr std::uint64_t kRows = 2 * kChunkRows + 1;
+  const auto row = [&](std::uint64_t r) {
+    std::vector<float> v(kCells);
+    for (std::size_t i = 0; i < kCells; ++i) v[i] = r < kChunkRows ? noise(i + r * kCells) : steps(i + r);
+    return v;
+  };
+  {
+    H5File f = H5File::create(file, 2);
+    H5Table t = f.table<float>("t", {kCells}, kChunkRows, kCells, true);
+    f.begin_writing();
+    for (std::uint64_t r = 0; r < kRows; ++r) t.append<float>(row(r));
+    f.close();
+  }
+  const H5File f = H5File::open(file);
+  std::vector<float> read(kCells);
+  for (std::uint64_t r = 0; r < kRows; ++r) {
+    f.table("t").read<float>(r, read);
+    CHECK(read == row(r));
+  }
+}
