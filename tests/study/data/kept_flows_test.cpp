@@ -30,7 +30,10 @@ TEST_CASE("a complete reading takes the kept flows, with the same result") {
   v.width = 64;
   v.height = 48;
   v.frames = 13;
-  v.cells = [](double t) { return std::vector<CameraCell>{{20 + 9 * t, 24, 0, 0}, {40, 10 + 8 * t, 0, 0}}; };
+  v.cells = [](double t) {
+    const auto s = float(t);
+    return std::vector<CameraCell>{{20 + 9 * s, 24, 0, 0}, {40, 10 + 8 * s, 0, 0}};
+  };
   write_rendered(v, file);
 
   FlowSourceOptions options;
