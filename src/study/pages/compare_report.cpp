@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/toml.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/plot/figure.h"
 #include "study/plot/inline_picture.h"
@@ -167,7 +168,7 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
   return j;
 }
 
-std::string compare_page(const Comparison& c, const CompareJob& job) {
+std::string compare_page(const Comparison& c, const CompareJob& job, const Provenance& provenance) {
   std::string out = fmt::format("<h1>Comparison with {}</h1>\n", escape_markup(name_of(job.reference)));
   out += fmt::format(
       "<p class=\"lead\">{} compared with the reference, {}.</p>\n",
@@ -191,7 +192,7 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
   out += table(c);
   int number = 1;
   for (const ComparedRun& r : c.runs) out += pictures(r, c.filter, number);
-  return html_page("Comparison", out);
+  return html_page("Comparison", out + provenance_markup(provenance));
 }
 
 std::string compare_csv(const Comparison& c) {

@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/file.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/plot/inline_picture.h"
@@ -170,8 +171,8 @@ std::string lead(const TrackMeasurement& m) {
 
 }  // namespace
 
-std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& figures,
-                       const RgbImage& tracks) {
+std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& figures, const RgbImage& tracks,
+                       const Provenance& provenance) {
   std::string out = fmt::format("<h1>Tracks</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(m)));
   out += quality_markup(m.warnings);
   for (const std::string& note : m.notes)
@@ -182,8 +183,7 @@ std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& fig
          "<figcaption>All tracks on the first frame.</figcaption>\n</figure>\n";
   out += "<div class=\"figures\">\n";
   int number_of_figure = 0;
-  for (const Figure& f : figures) out += figure_markup(f, ++number_of_figure);
-  out += "</div>\n" + table(m);
+  out += figures_markup(figures, number_of_figure) + "</div>\n" + table(m) + provenance_markup(provenance);
   return html_page("Tracks", out);
 }
 
