@@ -15,9 +15,10 @@ namespace faba::cli {
 namespace {
 
 // Options of all verbs that do not change the result: outputs, and how it is computed or printed.
-constexpr std::array<std::string_view, 16> kWithoutEffect{
-    "--help",    "--json",  "--quiet",  "--threads", "--force",   "--out",   "--report", "--picture",
-    "--overlay", "--swarm", "--stages", "--figures", "--preview", "--shard", "--merge",  "--check"};
+constexpr std::array<std::string_view, 17> kWithoutEffect{
+    "--help",    "--json",    "--quiet",   "--threads", "--force",     "--out",
+    "--report",  "--picture", "--overlay", "--swarm",   "--per-track", "--stages",
+    "--figures", "--preview", "--shard",   "--merge",   "--check"};
 
 }  // namespace
 

@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -102,9 +103,7 @@ class TrackUnits {
   const char* per_time() const { return timed_ ? "/s" : "/frame"; }
   static std::string estimate(const Estimated& e, double scale, const std::string& unit) {
     if (!std::isfinite(scale * e.value)) return "-";
-    std::string text = fmt::format("{:.3g}", scale * e.value);
-    if (std::isfinite(scale * e.se)) text += fmt::format(" +- {:.2g}", scale * e.se);
-    return text + " " + unit;
+    return with_uncertainty(scale * e.value, scale * e.se) + " " + unit;
   }
   double um_per_px_;
   bool timed_;

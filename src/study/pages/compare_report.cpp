@@ -182,7 +182,8 @@ std::string compare_page(const Comparison& c, const CompareJob& job, const Prove
       out +=
           fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
   out += fmt::format(
-      "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Figure 1. Quadratic-Chi "
+      "<figure class=\"wide\">\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Figure 1. "
+      "Quadratic-Chi "
       "distance (m = {:g}, bin similarity threshold {:g} bins) between the sums of the flow over columns and "
       "rows. Dashed lines: straight line fitted to the distance of each run by least squares; its slope is "
       "in "

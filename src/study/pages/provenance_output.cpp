@@ -19,7 +19,8 @@ void add_provenance(nlohmann::ordered_json& j, const Provenance& p) {
   for (const Provenance::Input& one : p.inputs)
     out["inputs"].push_back({{"path", one.path}, {"sha256", one.sha256}});
   out["options"] = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : p.options) out["options"][name] = value;
+  for (const auto& [name, value] : p.options)
+    out["options"][name] = value.empty() ? nlohmann::ordered_json(true) : nlohmann::ordered_json(value);
 }
 
 std::string short_digest(const std::string& sha256) {

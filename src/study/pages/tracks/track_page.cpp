@@ -13,6 +13,7 @@
 #include "study/plot/markup.h"
 #include "study/plot/plot_svg.h"
 #include "study/plot/report_page.h"
+#include "study/quality/rounded.h"
 
 namespace faba {
 namespace {
@@ -31,11 +32,9 @@ std::string number(double v, const char* unit) {
   return std::isfinite(v) ? three_digits(v) + unit : std::string("–");
 }
 
-// "12.3 ± 0.4", `scale` times the value.
+// "12.34 ± 0.41", `scale` times the value.
 std::string with_error(const Estimated& e, double scale) {
-  std::string text = three_digits(scale * e.value);
-  if (std::isfinite(scale * e.se)) text += " ± " + three_digits(scale * e.se);
-  return text;
+  return with_uncertainty(scale * e.value, scale * e.se, "±");
 }
 
 std::string estimate(const Estimated& e, double scale, const std::string& unit) {
