@@ -60,7 +60,7 @@ int run_session(Session& session, Progress& bar, const Common& c, const std::str
   const Series series = session.series();
   write_run_report(session.dir(), run_info(manifest), series, session.frames());
   session.complete();
-  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
+  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px, manifest.setpoints);
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
     for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})

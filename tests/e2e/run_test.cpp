@@ -47,6 +47,53 @@ TEST_CASE("run: files, JSON fields, same hash for any number of threads and for 
   CHECK(faba_in(f.path, "run s.toml --seed 6 --out d --json").json()["state_hash"] != j["state_hash"]);
 }
 
+TEST_CASE("pages are equal byte by byte for any number of threads, output folder and date") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  for (const char* how : {"--threads 1 --out a", "--threads 2 --out other/b"})
+    REQUIRE(faba_in(f.path, std::string("run s.toml --seed 5 --as-seen --quiet ") + how).exit == 0);
+  CHECK(read_file(f.path / "a/report.html") == read_file(f.path / "other/b/report.html"));
+  CHECK(read_file(f.path / "a/report.html").find("poster=\"data:image/png") != std::string::npos);
+  const auto manifest = nlohmann::json::parse(read_file(f.path / "other/b/manifest.json"));
+  CHECK(manifest["out"] == "other/b");
+  CHECK(manifest["threads"] == 2);
+  CHECK(manifest["date"].get<std::string>().size() == std::string("2026-03-01T12:00:00Z").size());
+
+  for (const std::string verb : {"activity a/video.mp4 --direction 0", "compare a a --no-floor --no-align",
+                                 "track a/video.mp4 --size 4"}) {
+    std::string pages[2];
+    for (int k = 0; k < 2; ++k) {
+      const std::string name = k == 0 ? "one.html" : "other/two.html";
+      const Called c =
+          faba_in(f.path, verb + " --json --force --threads " + std::to_string(k + 1) + " --report " + name);
+      REQUIRE_MESSAGE(c.exit == 0, verb << ": " << c.err);
+      const auto p = c.json()["provenance"];
+      CHECK(p["version"] == manifest["version"]);
+      CHECK(p["inputs"][0]["sha256"].get<std::string>().size() == 64);
+      CHECK_FALSE(p["options"].contains("--threads"));
+      CHECK_FALSE(p["options"].contains("--report"));
+      CHECK_FALSE(p["options"].empty());
+      pages[k] = read_file(f.path / name);
+    }
+    CHECK(pages[0] == pages[1]);
+    CHECK(pages[0].find("<h2>Provenance</h2>") != std::string::npos);
+  }
+}
+
+TEST_CASE("a run that ends before its last setpoint is not settled, in the terminal, the page and --json") {
+  const TestFolder f;
+  write_file(
+      f.path / "s.toml",
+      "duration = '2 s'\n[arena]\ntype = 'box'\nsize_px = [160, 120]\n[[swarm]]\ncount = 5\n"
+      "model = 'basic'\nstart = { type = 'places', places_px = [[80, 60]] }\n[controller]\ntype = 'manual'\n"
+      "[reference]\ntype = 'route'\nsetpoints_px = [[80, 60], [20, 20]]\nhold_frames = 1000\n");
+  const Called c = faba_in(f.path, "run s.toml --seed 1 --out a --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["settling_time_s"].is_null());
+  CHECK(faba_in(f.path, "run s.toml --seed 1 --out b").out.find("not settled") != std::string::npos);
+  CHECK(read_file(f.path / "a/report.html").find("<b>not settled</b>") != std::string::npos);
+}
+
 TEST_CASE("run: a random seed is printed and recorded, and repeats the run") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);

@@ -192,7 +192,9 @@ Manifest BenchSession::describe() const {
   all.frames = m.loop->next;
   all.duration_s = m.loop->last_t + m.loop->frame_period;
   all.wall_time_s = m.recording.wall_time();
-  all.setpoints = m.controls->reference->setpoints().size();
+  all.date = m.recording.date();
+  all.out = dir();
+  all.setpoints = setpoint_count(*m.controls->reference);
   all.setpoint_tolerance_px = m.controls->reference->tolerance_px();
   all.video_shows = "camera";
   all.distance_source = "estimated";

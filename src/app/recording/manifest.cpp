@@ -110,7 +110,9 @@ Json manifest_json(const Manifest& m) {
             {"view_px", {int(m.view_px.x), int(m.view_px.y)}},
             {"arena", arena_json(m)},
             {"polarity", m.polarity},
-            {"complete", m.complete}};
+            {"complete", m.complete},
+            {"date", m.date},
+            {"out", m.out.string()}};
   if (m.simulated) add_simulated(j, m);
   if (m.bench) add_bench(j, m);
   return j;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct Manifest {
   bool complete = false;
   std::uint64_t frames = 0;  ///< number of control cycles
   double duration_s = 0, wall_time_s = 0;
+  std::string date;           ///< start of the recording by this process, UTC, ISO 8601
+  std::filesystem::path out;  ///< run directory, as given
   std::size_t setpoints = 0;  ///< number of setpoints of the reference, reached or not
   std::optional<double>
       setpoint_tolerance_px;    ///< distance at which the reference counts a setpoint as reached

@@ -8,6 +8,7 @@
 #include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -141,10 +142,16 @@ int activity(const ActivityVerb& v, const Common& c) {
   const ActivityResult result = measure_activity(job);
   bar.clear();
   if (!v.out.empty()) write_file(v.out, activity_csv(result));
-  if (!v.report.empty()) write_file(v.report, activity_page(result));
+  Provenance provenance;
+  if (c.json || !v.report.empty()) {
+    for (const ActivityInput& input : job.videos) inputs.push_back(input.file);
+    inputs.push_back(job.noise);
+    provenance = provenance_of(c, inputs);
+  }
+  if (!v.report.empty()) write_file(v.report, activity_page(result, provenance));
   if (!v.picture.empty()) write_activity_picture(v.picture, result.videos.front());
   if (c.json) {
-    fmt::print("{}\n", activity_json(result).dump());
+    print_json(activity_json(result), provenance);
     return 0;
   }
   if (c.quiet) return 0;

@@ -5,11 +5,13 @@
 #include "cli/command_line.h"
 #include "cli/options/study.h"
 #include "cli/options/video_part.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/file.h"
 #include "study/identify/best_scene.h"
 #include "study/identify/identify_warnings.h"
 #include "study/pages/identify_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -17,9 +19,12 @@ namespace {
 // `abc`: name of the second method.
 void print_parameter(const FoundParameter& p, const char* abc) {
   const FreeParameter& q = p.parameter;
-  fmt::print("  {:<28} {:.4g} {}  90 % interval {:.4g} to {:.4g}   ({} {:.4g}, {:.4g} to {:.4g})\n", q.path,
-             q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), abc,
-             q.shown(p.abc_median), q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
+  const auto text = [&](double median, const std::array<double, 2>& ci90) {
+    return rounded_interval(q.shown(median), {q.shown(ci90[0]), q.shown(ci90[1])});
+  };
+  const RoundedInterval found = text(p.median, p.ci90), second = text(p.abc_median, p.abc_ci90);
+  fmt::print("  {:<28} {} {}  90 % interval {} to {}   ({} {}, {} to {})\n", q.path, found.value,
+             q.shown_unit(), found.low, found.high, abc, second.value, second.low, second.high);
   if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
 }
 
@@ -84,8 +89,12 @@ int identify(const IdentifyOptions& o, const Common& c) {
   bar.clear();
   if (!result) return report_partial(v, c, dir);
   write_best_scene(*result, dir.path());
-  write_file(dir.path() / "identify.html", identify_page(*result));
-  finish(dir, "identify", identify_json(*result), c);
+  std::vector<std::filesystem::path> inputs{v.study};
+  for (const ResponseInput& video : study.videos) inputs.push_back(video.file);
+  const Provenance provenance = provenance_of(c, inputs);
+  write_file(dir.path() / "identify.html", identify_page(*result, provenance));
+  finish(dir, "identify", identify_json(*result), provenance, v);
+  if (c.json) print_study(dir, "identify");
   if (!c.json && !c.quiet) {
     for (const std::string& note : notes_of(*result)) print_stderr("faba: note: " + note);
     summary(*result);

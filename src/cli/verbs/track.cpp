@@ -11,11 +11,13 @@
 #include "cli/options/video_part.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/counted.h"
 #include "core/error.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -101,9 +103,7 @@ class TrackUnits {
   const char* per_time() const { return timed_ ? "/s" : "/frame"; }
   static std::string estimate(const Estimated& e, double scale, const std::string& unit) {
     if (!std::isfinite(scale * e.value)) return "-";
-    std::string text = fmt::format("{:.3g}", scale * e.value);
-    if (std::isfinite(scale * e.se)) text += fmt::format(" +- {:.2g}", scale * e.se);
-    return text + " " + unit;
+    return with_uncertainty(scale * e.value, scale * e.se) + " " + unit;
   }
   double um_per_px_;
   bool timed_;
@@ -147,7 +147,9 @@ int track(const TrackVerb& v, const Common& c) {
   check_outputs(v);
   const auto& stop = stop_requested();
   Progress bar("tracking", !c.quiet);
-  const TrackMeasurement tracks = track_video(options_of(v), [&](std::int64_t done, std::int64_t total) {
+  TrackOptions options = options_of(v);
+  if (c.json || !v.report.empty()) options.provenance = provenance_of(c, {v.video});
+  const TrackMeasurement tracks = track_video(options, [&](std::int64_t done, std::int64_t total) {
     bar.update(std::uint64_t(done), std::uint64_t(total));
     return !stop;
   });
@@ -155,7 +157,7 @@ int track(const TrackVerb& v, const Common& c) {
   if (!c.quiet && !c.json)
     for (const std::string& note : tracks.notes) print_stderr("faba: note: " + note);
   if (c.json) {
-    fmt::print("{}\n", track_json(tracks).dump());
+    print_json(track_json(tracks), options.provenance);
     return 0;
   }
   if (c.quiet) return 0;

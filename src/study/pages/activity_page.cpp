@@ -6,6 +6,7 @@
 #include "core/counted.h"
 #include "study/motion/flow_histograms.h"
 #include "study/pages/activity_report.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/plot/markup.h"
 #include "study/plot/plot_svg.h"
@@ -235,7 +236,7 @@ std::vector<Figure> activity_figures(const ActivityResult& r) {
   return figures;
 }
 
-std::string activity_page(const ActivityResult& r) {
+std::string activity_page(const ActivityResult& r, const Provenance& provenance) {
   std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
   out += quality_markup(all_warnings(r));
   for (const VideoActivity& a : r.videos)
@@ -246,7 +247,7 @@ std::string activity_page(const ActivityResult& r) {
     out += fmt::format(
         "<figure class=\"wide\">\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
         escape_markup(f.heading), svg(f.plot), ++number, escape_markup(f.caption));
-  return html_page("Activity", out + table(r));
+  return html_page("Activity", out + table(r) + provenance_markup(provenance));
 }
 
 void write_activity_picture(const std::filesystem::path& file, const VideoActivity& a) {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/data/provenance.h"
 #include "study/motion/activity.h"
 #include "study/pages/run_figures.h"
 
@@ -26,7 +27,7 @@ std::string activity_csv(const ActivityResult& result);
 std::vector<Figure> activity_figures(const ActivityResult& result);
 
 /// HTML report.
-std::string activity_page(const ActivityResult& result);
+std::string activity_page(const ActivityResult& result, const Provenance& provenance = {});
 
 /// Writes the pair of frames with the largest activity as PNG: the flow, and beside it the flow above the
 /// threshold and within 45 degrees of the direction (Fig. 3.27 of the thesis). Throws Error(usage,

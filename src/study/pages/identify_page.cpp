@@ -5,9 +5,11 @@
 
 #include "study/pages/identify_figures.h"
 #include "study/pages/identify_report.h"
+#include "study/pages/provenance_output.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
 #include "study/plot/report_page.h"
+#include "study/quality/rounded.h"
 #include "vision/files/picture.h"
 
 namespace faba {
@@ -15,8 +17,9 @@ namespace {
 
 std::string with_interval(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
-  return fmt::format("{} [{}, {}]{}", three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
-                     three_digits(q.shown(p.ci90[1])), q.shown_unit().empty() ? "" : " " + q.shown_unit());
+  const RoundedInterval text = rounded_interval(q.shown(p.median), {q.shown(p.ci90[0]), q.shown(p.ci90[1])});
+  return fmt::format("{} [{}, {}]{}", text.value, text.low, text.high,
+                     q.shown_unit().empty() ? "" : " " + q.shown_unit());
 }
 
 std::string lead(const Identification& r) {
@@ -184,13 +187,13 @@ std::string notes(const Identification& r) {
         "{:.4g} s of the video.</li>\n",
         escape_markup(v.input.file.string()), v.um_per_px, v.fps,
         1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().start_s);
-  out += fmt::format("<li>Seed {}; Faba {}.</li>\n", r.study.seed, FABA_VERSION);
+  out += fmt::format("<li>Seed {}.</li>\n", r.study.seed);
   return "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
 }
 
 }  // namespace
 
-std::string identify_page(const Identification& r) {
+std::string identify_page(const Identification& r, const Provenance& provenance) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) + models_table(r);
   out += "<h2>Observation and posterior prediction of the best model</h2>\n<div class=\"figures\">\n";
   for (const Figure& f : predictive_figures(r)) out += figure_markup(f);
@@ -198,7 +201,7 @@ std::string identify_page(const Identification& r) {
          "<div class=\"figures\">\n";
   for (const FoundParameter& p : r.models[r.best].parameters)
     out += figure_markup(posterior_figure(p, r.parts)) + figure_markup(profile_figure(p));
-  return html_page(r.study.title, out + "</div>\n" + legacy(r) + notes(r));
+  return html_page(r.study.title, out + "</div>\n" + legacy(r) + notes(r) + provenance_markup(provenance));
 }
 
 }  // namespace faba

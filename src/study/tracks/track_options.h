@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "study/data/provenance.h"
 #include "study/data/video_part.h"
 #include "vision/cells/tracker.h"
 #include "vision/foreground/background.h"
@@ -34,7 +35,8 @@ struct TrackOptions {
   double threshold_sd = 0;   ///< smallest signal-to-noise ratio; 0: for 0.1 false detections per frame
   bool inside_drop = false;  ///< detect the edge of the drop in the first frame and search inside it only
   TrackerOptions tracker;
-  int interval_frames = 0;  ///< interval of displacements for speeds and turns; 0: automatic
+  int interval_frames = 0;     ///< interval of displacements for speeds and turns; 0: automatic
+  Provenance provenance = {};  ///< for the report
 };
 
 }  // namespace faba

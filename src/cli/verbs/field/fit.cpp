@@ -9,8 +9,10 @@
 #include "cli/options/field.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "study/pages/field_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -20,12 +22,18 @@ struct FieldFitVerb {
   bool force = false;
 };
 
+// +- is the standard error.
+void print_estimate(const std::string& name, double value, double error, const char* unit) {
+  const Rounded text = rounded(value, error);
+  fmt::print("{:<12}{:>9} +- {} {}\n", name, text.value, text.uncertainty.empty() ? "0" : text.uncertainty,
+             unit);
+}
+
 void print_fitted(const char* what, const std::array<double, 3>& value, const std::array<double, 3>& error,
                   double per_unit, const char* unit) {
   for (std::size_t k = 0; k < 3; ++k)
     if (!std::isnan(error[k]))
-      fmt::print("{:<12}{:>9.4g} +- {:.2g} {}\n", fmt::format("{} {}", what, "xyz"[k]), value[k] / per_unit,
-                 error[k] / per_unit, unit);
+      print_estimate(fmt::format("{} {}", what, "xyz"[k]), value[k] / per_unit, error[k] / per_unit, unit);
 }
 
 int field_fit(const FieldFitVerb& v, const Common& c) {
@@ -38,12 +46,12 @@ int field_fit(const FieldFitVerb& v, const Common& c) {
                                        [&](std::uint64_t evaluations) { bar.update(evaluations, 0); });
   bar.clear();
   if (c.json) {
-    fmt::print("{}\n", field_json(fit).dump());
+    print_json(field_json(fit), provenance_of(c, {v.rig, v.measured}));
     return 0;
   }
   if (c.quiet) return 0;
   if (!std::isnan(fit.standard_error.gain))
-    fmt::print("{:<12}{:>9.4f} +- {:.4f} (standard error)\n", "gain", fit.best.gain, fit.standard_error.gain);
+    print_estimate("gain", fit.best.gain, fit.standard_error.gain, "(standard error)");
   print_fitted("shift", fit.best.shift, fit.standard_error.shift, 1e-3, "mm");
   print_fitted("offset", fit.best.offset, fit.standard_error.offset, 1e-6, "uT");
   fmt::print("residual    {:>9.3g} uT rms, field {:.4g} uT rms, {} values\n", fit.rms * 1e6,

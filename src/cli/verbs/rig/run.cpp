@@ -70,7 +70,7 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   const Series series = session.series();
   write_run_report(session.dir(), run_info(manifest), series);
   if (complete) session.complete();
-  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
+  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px, manifest.setpoints);
   if (!c.quiet)
     for (const std::string& note : manifest.notes)
       print_stderr(fmt::format("faba: note: {}: {}", v.run.scene, note));

@@ -103,6 +103,7 @@ Figure heading_figure(const TrackSummary& s) {
   f.plot.inlined = true;
   f.plot.x.label = "time (s)";
   f.plot.y.label = "heading (degrees, clockwise)";
+  f.plot.y.ticks = Ticks::degrees;
   f.plot.y.lo = -180;
   f.plot.y.hi = 180;
   // The curve is drawn in units of the right axis, from 0 to 1.

@@ -6,12 +6,14 @@
 
 #include "core/counted.h"
 #include "core/file.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
 #include "study/plot/plot_svg.h"
 #include "study/plot/report_page.h"
+#include "study/quality/rounded.h"
 
 namespace faba {
 namespace {
@@ -30,11 +32,9 @@ std::string number(double v, const char* unit) {
   return std::isfinite(v) ? three_digits(v) + unit : std::string("–");
 }
 
-// "12.3 ± 0.4", `scale` times the value.
+// "12.34 ± 0.41", `scale` times the value.
 std::string with_error(const Estimated& e, double scale) {
-  std::string text = three_digits(scale * e.value);
-  if (std::isfinite(scale * e.se)) text += " ± " + three_digits(scale * e.se);
-  return text;
+  return with_uncertainty(scale * e.value, scale * e.se, "±");
 }
 
 std::string estimate(const Estimated& e, double scale, const std::string& unit) {
@@ -170,8 +170,8 @@ std::string lead(const TrackMeasurement& m) {
 
 }  // namespace
 
-std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& figures,
-                       const RgbImage& tracks) {
+std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& figures, const RgbImage& tracks,
+                       const Provenance& provenance) {
   std::string out = fmt::format("<h1>Tracks</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(m)));
   out += quality_markup(m.warnings);
   for (const std::string& note : m.notes)
@@ -182,8 +182,7 @@ std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& fig
          "<figcaption>All tracks on the first frame.</figcaption>\n</figure>\n";
   out += "<div class=\"figures\">\n";
   int number_of_figure = 0;
-  for (const Figure& f : figures) out += figure_markup(f, ++number_of_figure);
-  out += "</div>\n" + table(m);
+  out += figures_markup(figures, number_of_figure) + "</div>\n" + table(m) + provenance_markup(provenance);
   return html_page("Tracks", out);
 }
 

@@ -131,7 +131,7 @@ TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progres
   if (!o.picture.empty()) write_png(o.picture, picture);
   if (!o.figures.empty())
     write_track_figures(o.figures, figures, path_plot(files.drawn(), m.width, m.height));
-  if (!o.report.empty()) write_file(o.report, track_page(m, figures, picture));
+  if (!o.report.empty()) write_file(o.report, track_page(m, figures, picture, o.provenance));
   return m;
 }
 

@@ -29,7 +29,7 @@ std::string page_with_turns(double deg_s, double se, double noise_deg_s) {
 
 TEST_CASE("track page: a rate of turn within its error is not distinguishable from zero") {
   const std::string page = page_with_turns(30, 2, 28);
-  CHECK(has(page, "not distinguishable from zero: the mean absolute rate is 30.0 ± 2.00\u00A0°/s, and the"));
+  CHECK(has(page, "not distinguishable from zero: the mean absolute rate is 30.0 ± 2.0\u00A0°/s, and the"));
   CHECK(has(page, "alone gives 28.0°/s"));
   CHECK_FALSE(has(page_with_turns(40, 2, 28), "not distinguishable"));
 }
