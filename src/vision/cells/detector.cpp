@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "vision/cells/spot_fit.h"
+#include "vision/image/coding_traces.h"
 #include "vision/image/kernels/any_above.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -158,7 +159,7 @@ Detector::Detector(Background background, DetectorOptions options)
   relative_noise_ = background_.noise_sd;
   std::vector<float> work = relative_noise_.px;
   const float typical = robust_spread_low(work).median;
-  for (float& v : relative_noise_.px) v /= typical;
+  for (float& v : relative_noise_.px) v = options_.coded ? 1 : v / typical;
 }
 
 std::vector<Spot> Detector::find(const GrayF& frame) const {
@@ -171,7 +172,8 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
     if (options_.polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
     const GrayF difference = difference_of(frame, background_, sign);
     const GrayF response = band_passed(difference, sd_px_);
-    const float sd = spread_of(response);
+    const float sd = options_.coded ? std::max(spread_of(response), coded_noise(difference, response))
+                                    : spread_of(response);
     // A uniform picture, or one whose noise was removed by a codec, has zero spread: the quantisation step is
     // then the noise.
     const float noise = std::max(sd, float(noise_gain_) * 0.25F);
@@ -180,7 +182,9 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
     for (const Maximum& m : maxima(response, reach, margin, threshold)) {
       if (masked(options_.drop, m.col, m.row)) continue;
       const double local = double(noise * relative_noise_.at(m.col, m.row));
-      seeds.push_back({m.col, m.row, double(m.value) / local, double(background_.noise_sd.at(m.col, m.row))});
+      double pixel_noise = double(background_.noise_sd.at(m.col, m.row));
+      if (options_.coded) pixel_noise = std::max(pixel_noise, double(noise) / noise_gain_);
+      seeds.push_back({m.col, m.row, double(m.value) / local, pixel_noise});
     }
     for (Spot& spot : fit_spots(difference, seeds, sd_px_)) {
       spot.bright = sign > 0;

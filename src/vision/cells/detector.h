@@ -26,6 +26,8 @@ struct DetectorOptions {
   double false_alarms = 0.1;
   double threshold_sd = 0;   ///< > 0: minimum signal-to-noise ratio, overrides false_alarms
   double separation_px = 0;  ///< minimum distance of two maxima; 0: half of size_px, at least 1 px
+  /// The video was coded (see CodingTraces): the noise is that of the coded blocks, one value per frame.
+  bool coded = false;
   std::optional<DropMask> drop;
 };
 
