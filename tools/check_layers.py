@@ -71,7 +71,7 @@ WITHIN = {
         "sweep": "",
         "plot": "",
         "scale": "stats quality",
-        "drop": "quality",
+        "drop": "data quality",
         "flow": "data quality",
         "tracks": "data stats quality",
         "motion": "data stats tracks quality",

@@ -115,6 +115,28 @@ TEST_CASE("run: the tracks open in h5py with fps and um_per_px") {
   CHECK(read_file(f.path / "out.txt") == "(30, 50, 2) 15.0 0.9164 0.06666666666666667\n");
 }
 
+TEST_CASE("run: the origin of the scale is in the manifest; a simulated camera has a scale") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  const auto j = faba_in(f.path, "run s.toml --seed 1 --json --out a").json();
+  CHECK(j["um_per_px"].is_number());
+  CHECK(j["um_per_px_source"].is_null());
+  CHECK(j["warnings"].empty());
+  const auto typed =
+      faba_in(f.path, "run s.toml --seed 1 --json --out b --as-seen --set scale.um_per_px=1.5").json();
+  CHECK(typed["um_per_px_source"] == "typed");
+  const auto tracked = faba_in(f.path, "track b --json").json();
+  CHECK(tracked["um_per_px"] == 1.5);
+  CHECK(tracked["um_per_px_source"] == "typed");
+  const auto nominal =
+      faba_in(f.path, "run s.toml --seed 1 --json --out c --as-seen --set scale.nominal_um_per_px=1.5")
+          .json();
+  CHECK(nominal["um_per_px"].is_null());
+  CHECK(nominal["warnings"][0]["aspect"] == "scale");
+  CHECK(nominal["state_hash"] == typed["state_hash"]);
+  CHECK(faba_in(f.path, "track c --json").json()["um_per_px"].is_null());
+}
+
 TEST_CASE("run --as-seen: the videos have camera frames, and the run records this") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene + "[record]\nlossless = true\n");

@@ -18,8 +18,9 @@ struct Latency {
 struct Manifest {
   std::string title, scenario_hash;
   std::uint64_t seed = 0;
-  double um_per_px = 0;
-  Vec2 view_px;  ///< width and height of the picture
+  std::optional<double> um_per_px, nominal_um_per_px;  ///< nominal: of a picture of unknown scale
+  Json um_per_px_source;                               ///< see scale_source_json()
+  Vec2 view_px;                                        ///< width and height of the picture
   std::string arena_type;
   Vec2 arena_centre_px;
   double arena_radius_px = 0;  ///< of a drop; 0: the arena is a rectangle of the size of the view

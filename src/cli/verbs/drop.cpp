@@ -27,7 +27,7 @@ int drop(const DropVerb& v, const Common& c) {
     for (const char* stage : kDropStages) check_output(v.stages / stage, {".png"}, v.force, {v.picture});
   const DropEdge edge = report_drop(v.picture, v.overlay, v.stages);
   if (c.json) {
-    print_json(drop_json(edge), provenance_of(c, {v.picture}));
+    print_json(drop_json(edge, scale_of_file(v.picture)), provenance_of(c, {v.picture}));
   } else if (!c.quiet) {
     fmt::print(
         "centre  ({}, {}) px\nradius  {} px\narc     {:.0f} degrees visible; +- is the standard error\n",

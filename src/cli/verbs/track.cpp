@@ -45,7 +45,10 @@ TrackOptions options_of(const TrackVerb& v) {
   o.part = v.part.part(v.fps);
   o.threads = v.threads;
   o.out = v.out;
-  if (!v.scale.empty()) o.um_per_px = parse_calibration(v.scale, "--um-per-px").um_per_px;
+  if (!v.scale.empty()) {
+    const Calibration c = parse_calibration(v.scale, "--um-per-px");
+    o.scale = {c.um_per_px, c.typed() ? "typed" : "calibration", ""};
+  }
   o.swarm = v.swarm;
   o.overlay = v.overlay;
   o.report = v.report;

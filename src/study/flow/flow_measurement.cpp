@@ -120,6 +120,7 @@ PairFlow measure_flow(const std::filesystem::path& a, const std::filesystem::pat
   FlowSums sums;
   sums.add(r.flow);
   const double n = double(sums.n);
+  r.scale = scale_of_file(a);
   r.method = part.resolved.dump();
   r.effort = method->effort();
   r.mean_px = {sums.u / n, sums.v / n};
@@ -153,6 +154,7 @@ VideoFlow measure_flow(FlowSource& source, const std::function<void(const FlowPa
     if (r.pairs % kCheckedPairs == kCheckedPairs - 1) before = pair.image;
     take(pair);
   }
+  r.scale = source.scale();
   r.width = source.width();
   r.height = source.height();
   r.method = source.method();

@@ -151,6 +151,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
     check_stop(job, a.input);
   }
   a.notes = source.notes();
+  a.scale = source.scale();
   a.timed = source.fps() > 0;
   if (!cells) return;
   if (cells->reads_frames() && !cells->mean())

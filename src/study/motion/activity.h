@@ -44,6 +44,7 @@ struct ActivityJob {
 /// The activity of one video.
 struct VideoActivity {
   ActivityInput input;
+  VideoScale scale;
   Signature signature{0, 0};
   double threshold_px = 0;
   double direction_deg = 0;      ///< of the expected response

@@ -78,6 +78,17 @@ ResponseStart response_start(const Signature& s, std::optional<double> direction
   return b;
 }
 
+// Flows in px are comparable at the same scale only; 2 % is within the uncertainty of a calibration (A20).
+void warn_scale(const VideoScale& reference, ComparedRun& run) {
+  constexpr double kSame = 0.02;
+  const auto& of_reference = reference.um_per_px;
+  const auto& of_run = run.scale.um_per_px;
+  if (!of_reference || !of_run || std::fabs(*of_run / *of_reference - 1) < kSame) return;
+  run.warnings.push_back({"scale", "the videos have different scales, but flows are compared in px",
+                          fmt::format("{:.4g} and {:.4g} um per px", *of_reference, *of_run),
+                          "compare videos of one magnification", Quality::poor});
+}
+
 class Comparer {
  public:
   explicit Comparer(const CompareJob& job)
@@ -128,6 +139,8 @@ class Comparer {
           fmt::format(
               "has frames of {} x {} px, but the reference has {} x {} px; both must show the same view",
               other.width(), other.height(), reference.width(), reference.height()));
+    result.scale = other.scale();
+    warn_scale(reference.scale(), result);
     FlowPair a, b;
     bool have = other.next(b);
     double ratio = 1;

@@ -39,6 +39,7 @@ Json video_json(const VideoActivity& a) {
   j["video"] = a.input.file.string();
   j["exposure_s"] = or_null(a.input.exposure_s);
   j["experiment"] = a.input.experiment;
+  add_scale(j, a.scale);
   j["pairs"] = a.t_s.size();
   j["threshold_px"] = a.threshold_px;
   j["direction_deg"] = a.direction_deg;

@@ -157,6 +157,7 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
                            {"sd", d.legacy_sd},
                            {"slope", d.legacy_line.slope},
                            {"intercept", d.legacy_line.intercept}}}});
+    add_scale(j["runs"].back(), r.scale);
     add_quality(j["runs"].back(), r.warnings);
     j["runs"].back()["notes"] = r.notes;
   }

@@ -86,6 +86,7 @@ class TrackPass {
       d.mean_place_sd_px = place_sd_ / n;
       d.mean_elongation = elongation_ / n;
     }
+    d.coding = survey_.coding;
     d.drop = drop_;
     return d;
   }
@@ -173,7 +174,8 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
   m.timed = survey.timed;
   m.width = survey.first.width;
   m.height = survey.first.height;
-  if (source.um_per_px && *source.um_per_px > 0) m.um_per_px = source.um_per_px;
+  m.um_per_px = source.scale.um_per_px;
+  m.um_per_px_source = source.scale.source;
   m.detection = pass.detection();
   m.joining = pass.joining();
   m.summary = pass.summary();

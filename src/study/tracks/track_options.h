@@ -5,6 +5,7 @@
 
 #include "study/data/provenance.h"
 #include "study/data/video_part.h"
+#include "study/data/video_scale.h"
 #include "vision/cells/tracker.h"
 #include "vision/foreground/background.h"
 
@@ -19,10 +20,10 @@ enum class BackgroundKind {
 
 /// Options of `faba track`. Unspecified values are determined from the video.
 struct TrackOptions {
-  std::filesystem::path video;  ///< anything VideoReader reads, or a run directory
-  VideoPart part;               ///< frames outside of it are not used
-  unsigned threads = 0;         ///< 0: all; they do not change the result
-  std::optional<double> um_per_px;
+  std::filesystem::path video;             ///< anything VideoReader reads, or a run directory
+  VideoPart part;                          ///< frames outside of it are not used
+  unsigned threads = 0;                    ///< 0: all; they do not change the result
+  VideoScale scale;                        ///< given by the user; overrides that of the run or file
   std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
   std::filesystem::path swarm;    ///< table of position and dispersion of the swarm in each frame, .csv
   std::filesystem::path overlay;  ///< video with the tracks, .mp4 or .avi

@@ -10,6 +10,7 @@
 #include "study/tracks/track_statistics.h"
 #include "vision/cells/detector.h"
 #include "vision/cells/tracker.h"
+#include "vision/image/coding_traces.h"
 
 namespace faba {
 
@@ -27,6 +28,7 @@ struct TrackDetection {
   std::optional<double> mean_place_sd_px;  ///< standard deviation of a position; empty without spots
   std::optional<double> mean_elongation;   ///< empty without spots
   std::optional<DropMask> drop;            ///< searched region, when restricted to the drop
+  CodingTraces coding;                     ///< of the video
   std::optional<double> median_snr;        ///< of the spots; empty without spots
 };
 
@@ -45,11 +47,12 @@ struct TrackJoining {
 struct TrackMeasurement {
   std::filesystem::path video;
   std::int64_t frames = 0;
-  double duration_s = 0;      ///< from the first frame to the last
-  double frame_s = 0;         ///< median time between frames
-  bool timed = true;          ///< false: times are frame counts
-  int width = 0, height = 0;  ///< of the frames, px
-  std::optional<double> um_per_px;
+  double duration_s = 0;            ///< from the first frame to the last
+  double frame_s = 0;               ///< median time between frames
+  bool timed = true;                ///< false: times are frame counts
+  int width = 0, height = 0;        ///< of the frames, px
+  std::optional<double> um_per_px;  ///< empty: not known
+  std::string um_per_px_source;     ///< see VideoScale
   TrackDetection detection;
   TrackJoining joining;
   TrackSummary summary;

@@ -85,6 +85,7 @@ DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
   d.size_px = s.size_px;
   d.polarity = s.polarity;
   d.threshold_sd = o.threshold_sd;
+  d.coded = s.coding.coded();
   d.drop = drop;
   return d;
 }
@@ -142,6 +143,7 @@ TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
   std::vector<float> levels = s.first.px;
   s.black = quantile_low(levels, 0.001);
   s.white = quantile_low(levels, 0.999);
+  if (side_ == 1) s.coding = coding_traces(sampler_.kept());
   choose_background(options_, s, sampler_, pool);
   return s;
 }

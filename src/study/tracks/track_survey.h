@@ -6,6 +6,7 @@
 
 #include "study/data/frame_inspector.h"
 #include "study/tracks/track_options.h"
+#include "vision/image/coding_traces.h"
 
 namespace faba {
 
@@ -23,6 +24,7 @@ struct TrackSurvey {
   double smoothing_px = 0;  ///< smoothing of that copy
   Polarity polarity = Polarity::dark;
   double size_px = 0;
+  CodingTraces coding;
   bool size_found = true;             ///< false: no spots were detected, size_px is the default
   std::int64_t stationary_spots = 0;  ///< stationary spots: detected in the median
   std::int64_t spots = 0;             ///< number of spots in the middle frame with the selected background

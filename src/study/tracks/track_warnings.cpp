@@ -13,6 +13,9 @@ namespace {
 // Noise of a pixel at which the detector stops (see Background): less is below the quantisation to integers.
 constexpr double kNoNoise = 0.25;
 constexpr double kFaint = 4;  // times the threshold: a median below it is a tail of noise or texture
+// The same for the errors of a codec, whose sd is measured: with a scatter of a quarter of their strengths, a
+// tenth of the objects is below the threshold (assumed).
+constexpr double kWeak = 1.5;
 constexpr double kCovered =
     0.05;  // of the picture: spots this dense overlap the rings of their local offsets
 constexpr double kDoubtfulLinks = 0.9, kPoorLinks = 0.75;  // fraction of the links that are reproduced
@@ -28,8 +31,24 @@ double covered(const TrackMeasurement& m) {
   return m.detection.spots_per_frame * std::numbers::pi / 4 * size * size / area_of(m);
 }
 
+// The errors of coding have a wider distribution than noise: a detection near the threshold may be one.
 void warn_coding(const TrackMeasurement& m, std::vector<Warning>& out) {
   const TrackDetection& d = m.detection;
+  if (d.threshold_given || !d.median_snr || !d.coding.coded() || *d.median_snr > kWeak * d.threshold_snr)
+    return;
+  out.push_back(
+      {"coding",
+       "the video was coded with losses, and its objects are hardly stronger than the errors of the "
+       "codec: objects are missed or displaced, and some detections are artefacts",
+       fmt::format("the changes are {:.0f} % larger across the edges of blocks of 8 px; the median "
+                   "signal-to-noise ratio of the detections is {:.3g}, the threshold {:.3g}",
+                   100 * d.coding.block_steps, *d.median_snr, d.threshold_snr),
+       "use a video that was not compressed, or compressed without losses"});
+}
+
+void warn_noise(const TrackMeasurement& m, std::vector<Warning>& out) {
+  const TrackDetection& d = m.detection;
+  if (d.coding.coded()) return;
   if (d.threshold_given || !d.median_snr || d.noise_grey > kNoNoise ||
       *d.median_snr > kFaint * d.threshold_snr)
     return;
@@ -110,6 +129,7 @@ std::vector<Warning> track_warnings(const TrackMeasurement& m) {
   std::vector<Warning> out;
   if (m.frames < 2 || m.summary.tracks == 0) return out;
   warn_coding(m, out);
+  warn_noise(m, out);
   warn_texture(m, out);
   warn_links(m, out);
   warn_motion(m, out);

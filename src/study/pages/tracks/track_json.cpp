@@ -110,7 +110,11 @@ Json detection_of(const TrackDetection& d) {
          {"stationary_spots", d.stationary_spots},
          {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
          {"mean_elongation", or_null(d.mean_elongation)},
-         {"median_snr", or_null(d.median_snr)}};
+         {"median_snr", or_null(d.median_snr)},
+         {"coding",
+          {{"coded", d.coding.coded()},
+           {"block_steps", d.coding.block_steps},
+           {"unchanged", d.coding.unchanged}}}};
   if (d.drop) {
     j["drop_center_px"] = {d.drop->centre_image.x, d.drop->centre_image.y};
     j["drop_radius_px"] = d.drop->radius_px;
@@ -192,8 +196,8 @@ nlohmann::ordered_json track_json(const TrackMeasurement& m) {
          {"duration_s", m.duration_s},
          {"frame_s", m.frame_s},
          {"timed", m.timed},
-         {"image_size", {m.width, m.height}},
-         {"um_per_px", m.um_per_px ? Json(*m.um_per_px) : Json(nullptr)}};
+         {"image_size", {m.width, m.height}}};
+  add_scale(j, {m.um_per_px, m.um_per_px_source, ""});
   j["detection"] = detection_of(m.detection);
   j["tracking"] = joining_of(m.joining);
   add_summary(j, m.summary, m.um_per_px.value_or(0));
