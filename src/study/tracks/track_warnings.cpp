@@ -13,9 +13,8 @@ namespace {
 // Noise of a pixel at which the detector stops (see Background): less is below the quantisation to integers.
 constexpr double kNoNoise = 0.25;
 constexpr double kFaint = 4;  // times the threshold: a median below it is a tail of noise or texture
-// The same for the errors of a codec, whose sd is measured: with a scatter of a quarter of their strengths, a
-// tenth of the objects is below the threshold (assumed).
-constexpr double kWeak = 1.5;
+// The same for the errors of a codec, whose sd is measured (assumed; beads in a coded video have 1.3).
+constexpr double kWeak = 1.25;
 constexpr double kCovered =
     0.05;  // of the picture: spots this dense overlap the rings of their local offsets
 constexpr double kDoubtfulLinks = 0.9, kPoorLinks = 0.75;  // fraction of the links that are reproduced
