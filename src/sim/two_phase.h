@@ -11,10 +11,10 @@ namespace faba {
 
 /// Simultaneous exclusion (theory D4): all agents propose a move ("wish"), and each free site accepts the
 /// wish with the smallest hash(key, site, agent). Set operations on bitmaps of the sites, which do not depend
-/// on the order of the agents or the number of threads: each thread marks the sites that its agents want once
-/// and more than once; a free site that one agent wants is granted to it; only the wishes for the others are
-/// compared; granted agents leave their sites at the end. Blocks of sites that no agent leaves or wants are
-/// skipped. Between two calls no bit is set.
+/// on the order of the agents or the number of threads: each thread marks the sites that its agents request
+/// once and more than once; a free site that one agent requests is granted to it; only the wishes for the
+/// others are compared; granted agents leave their sites at the end. Blocks of sites that no agent leaves or
+/// requests are skipped. Between two calls no bit is set.
 class TwoPhase {
  public:
   explicit TwoPhase(const Grid& grid) : grid_(grid) {}
@@ -36,7 +36,7 @@ class TwoPhase {
   /// The wishes of a part of the agents.
   struct Part {
     std::size_t begin = 0, end = 0;  ///< agents
-    Sites once, more;                ///< sites that are wanted at least once, more than once
+    Sites once, more;                ///< sites that are requested at least once, more than once
     Sites left;                      ///< sites that granted agents leave
     std::vector<std::uint8_t> used;  ///< 1 for blocks of sites from or to which an agent moves
     std::vector<Wish> contested, refused;
@@ -59,7 +59,7 @@ class TwoPhase {
   std::vector<Part> parts_;
   std::size_t parts_used_ = 0;
   std::size_t words_ = 0, blocks_ = 0;  ///< of the bitmaps
-  Sites granted_, wanted_;              ///< free sites that one agent wants, that several agents want
+  Sites granted_, wanted_;              ///< free sites with one request, with several
   /// Of the sites in wanted_, in order: agent with the smallest priority so far. Their number before each
   /// word.
   std::vector<std::uint64_t> best_;
