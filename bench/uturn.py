@@ -2,8 +2,7 @@
 """Estimates the magnetic moment of cells from U-turns in rendered videos with `faba moment`, and compares it with the moment that was
 simulated. Each case is a culture with its own moment, distribution of moments among cells, size, speed and camera rate, recorded by the
 simulated microscope at two or three field strengths with several reversals each. The videos are detected and tracked like real ones. The
-size that the study file states deviates from the simulated one by the stated uncertainty. Writes bench/results/uturn.md. Takes an hour on two
-cores.
+size that the study file states deviates from the simulated one by the stated uncertainty. Writes bench/results/uturn.md. Takes a quarter of an hour on two cores.
 
     bench/uturn.py [--program build/faba] [--cases 40] [--first 1000] [--out bench/results]
 
@@ -24,7 +23,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
 BOLTZMANN, TEMPERATURE, VISCOSITY = 1.380649e-23, 298.15, 0.89e-3
 SIZE_SD = 0.05  # of the stated size
-LEGS = 3  # reversals per video
+LEGS = 2  # reversals per video
 
 
 def faba(program, *arguments):
@@ -35,14 +34,14 @@ def faba(program, *arguments):
 
 
 def draw(seed):
-    """The culture and the protocol of one case: field strengths from kappa = 8 to the one at which a cell turns by 0.4 rad per frame."""
+    """The culture and the protocol of one case: field strengths from kappa = 10 to the one at which a cell turns by 0.4 rad per frame."""
     r = random.Random(seed)
     c = {"seed": seed, "moment": math.exp(r.uniform(math.log(3e-16), math.log(2e-15))), "spread": r.choice([0, 0.1, 0.2]),
-         "radius": r.uniform(0.6e-6, 0.9e-6), "speed": r.uniform(60e-6, 180e-6), "rate": r.choice([30, 60, 90])}
+         "radius": r.uniform(0.6e-6, 0.9e-6), "speed": r.uniform(40e-6, 120e-6), "rate": r.choice([30, 60, 90])}
     c["stated"] = c["radius"] * math.exp(r.gauss(0, SIZE_SD))
     drag = 8 * math.pi * VISCOSITY * c["radius"] ** 3
-    weakest = 8 * BOLTZMANN * TEMPERATURE / c["moment"]
-    strongest = min(0.4 * c["rate"] * drag / c["moment"], 4 * weakest)
+    weakest = 10 * BOLTZMANN * TEMPERATURE / c["moment"]
+    strongest = min(0.4 * c["rate"] * drag / c["moment"], 3 * weakest)
     number = r.choice([2, 3])
     c["fields"] = [weakest * (strongest / weakest) ** (i / (number - 1)) if strongest > 1.2 * weakest else weakest for i in range(number)]
     c["fields"] = sorted(set(c["fields"]))
@@ -54,17 +53,19 @@ def record(program, folder, c, field, number):
     """A rendered run: LEGS reversals, each leg long enough for the turn and an aligned part."""
     rate = c["moment"] * field / c["drag"]
     kappa = c["moment"] * field / (BOLTZMANN * TEMPERATURE)
-    leg = 6.5 / rate * math.log(4 * kappa) / 2
+    leg = 3.5 * math.log(4 * kappa) / (2 * rate)  # half of the cells turn within ln(4 kappa) / (2 rate)
     reversals = [leg * (i + 1) for i in range(LEGS)]
     scene = folder / f"scene-{number}.toml"
     text = f"""duration = "{leg * (LEGS + 1)} s"
 [camera]
 rate = "{c['rate']} Hz"
 [arena]
-type = "box"
-size_px = [900, 700]
+type = "drop"
+radius_px = 900
+view_px = [480, 360]
+centre_px = [240, 180]
 [[swarm]]
-count = 90
+count = 750
 start = {{ type = "uniform" }}
 [swarm.model]
 type = "dipole"

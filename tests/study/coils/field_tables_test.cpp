@@ -60,7 +60,7 @@ struct Scanned {
   std::normal_distribution<> noise_{0, kNoise};
 };
 
-// The truth is within 4.5 standard errors: for 5 tables of 3 parameters wrong by chance once in 10 000.
+// The truth is within 4.5 standard errors: outside for 5 tables of 3 parameters once in 10 000.
 void check_truth(const FieldFit& fit, std::size_t axis, double zero_of_ruler) {
   constexpr double kErrors = 4.5;
   CHECK(std::fabs(fit.best.gain - kGain) < kErrors * fit.standard_error.gain);

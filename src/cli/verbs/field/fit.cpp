@@ -84,12 +84,14 @@ void add_field_fit(CLI::App& field, CommandLine& line) {
        "--columns", o->columns,
        "Names of the columns of a text file, in order: x, y, z, rho, bx, by, bz, brho, b (the component "
        "along the only coordinate), - (not used); default: those in its header")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   v->add_option(
        "--units", o->units,
        "Units of the columns, or one of length and one of field, such as cm,G; default: those in the "
        "header")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   v->add_option("-o,--out", o->out, "Write a coil system file (.toml) with the fitted values")
       ->check(not_empty);
   v->add_option("--picture", o->picture, "Write a plot of the residuals, as SVG")->check(not_empty);
