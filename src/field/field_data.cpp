@@ -61,8 +61,8 @@ FieldData from_columns(const Table& t) {
   const auto any = [](const auto& list) {
     return std::any_of(list.begin(), list.end(), [](const auto& c) { return c.has_value(); });
   };
-  const auto along = column_of(t, "b");
-  if (along && !any(field) && any(place)) field[scanned_axis(d.source, place, d.about_axis)] = along;
+  if (!any(field) && any(place))
+    if (const auto along = column_of(t, "b")) field[scanned_axis(d.source, place, d.about_axis)] = along;
   if (d.about_axis && (place[1] || field[1]))
     throw Error(Errc::input, d.source,
                 "has both rho, a distance from an axis, and a y component; specify one or the other");

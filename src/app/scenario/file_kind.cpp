@@ -33,8 +33,11 @@ std::optional<FileKind> kind_of(const Node& root) {
 void require_kind(const Node& root, FileKind wanted) {
   const std::optional<FileKind> kind = kind_of(root);
   if (!kind || *kind == wanted) return;
-  // A study for identification may lack its models; its reader asks for them.
-  if (*kind == FileKind::activity_study && wanted == FileKind::identify_study) return;
+  // The keys that distinguish a study for identification or of moments may be missing; its reader asks for
+  // them.
+  if (*kind == FileKind::activity_study &&
+      (wanted == FileKind::identify_study || wanted == FileKind::moment_study))
+    return;
   root.fail(kMessages.at(std::size_t(*kind)));
 }
 
