@@ -5,6 +5,7 @@
 #include "cli/command_line.h"
 #include "cli/options/video_part.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "study/pages/moment_report.h"
 #include "study/uturn/moment_study.h"
@@ -51,7 +52,9 @@ int moment(const MomentVerb& v, const Common& c) {
   const MomentEstimate estimate = measure_moment(job);
   bar.clear();
   if (c.json) {
-    fmt::print("{}\n", moment_json(estimate).dump());
+    std::vector<std::filesystem::path> inputs{v.study};
+    for (const MomentVideo& video : job.videos) inputs.push_back(video.file);
+    print_json(moment_json(estimate), provenance_of(c, inputs));
     return 0;
   }
   if (c.quiet) return 0;
