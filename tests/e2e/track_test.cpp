@@ -88,8 +88,8 @@ TEST_CASE("track: preview and region before the long job") {
   CHECK(shown["detection"]["region"].is_null());
   for (const auto& frame : shown["frames"]) CHECK(std::abs(frame["spots"].get<int>() - 28) <= 3);
 
-  const auto part = faba_in(folder.path(), "track film --fps 15 --region 40,30,200,150 --json --per-track t.csv")
-                        .json();
+  const auto part =
+      faba_in(folder.path(), "track film --fps 15 --region 40,30,200,150 --json --per-track t.csv").json();
   CHECK(part["detection"]["region"] == nlohmann::json{40, 30, 200, 150});
   CHECK(part["tracks"].get<int>() > 3);
   CHECK(part["tracks"].get<int>() < 25);

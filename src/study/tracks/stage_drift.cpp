@@ -12,10 +12,11 @@ constexpr std::size_t kMostDriftPoints = 2000000;
 constexpr std::size_t kLeastPoints = 16;     // of a track: random walks and white errors then differ clearly
 constexpr std::size_t kMostCompared = 1000;  // tracks
 constexpr std::size_t kFewReferences = 5;    // assumed
-constexpr double kAgree = 9.21;              // chi-square with two degrees of freedom, 99 %
-constexpr double kLeastError = 0.02;         // px, of the position of a well resolved spot (assumed)
-constexpr double kSteady = 3;                // times the error of the steadiest tracks
-constexpr double kSteadiest = 0.05;          // quantile of the errors
+constexpr double kFewMoving = 0.1;    // of the points, of a set that moves: fewer agree at random (assumed)
+constexpr double kAgree = 9.21;       // chi-square with two degrees of freedom, 99 %
+constexpr double kLeastError = 0.02;  // px, of the position of a well resolved spot (assumed)
+constexpr double kSteady = 3;         // times the error of the steadiest tracks
+constexpr double kSteadiest = 0.05;   // quantile of the errors
 // Von Neumann's ratio (1941) of the squared successive differences to the squared residuals is 2 for white
 // errors and 6 / n for a random walk of n steps, 0.4 for 16; a coded video correlates the errors.
 constexpr double kWhite = 0.6;
@@ -94,10 +95,21 @@ double points_of(const std::vector<StraightTrack>& lines) {
   return n;
 }
 
+// Whether the mean velocity of the lines, each compatible with rest, is zero as well.
+bool are_at_rest(const std::vector<StraightTrack>& lines) {
+  Vec2 sum;
+  double weight = 0;
+  for (const StraightTrack& l : lines) {
+    sum = sum + (1 / l.velocity2) * l.velocity;
+    weight += 1 / l.velocity2;
+  }
+  return dot(sum, sum) <= kAgree * weight;
+}
+
 // The lines that agree on a velocity: those at rest if there are enough, else the largest set.
 std::vector<StraightTrack> largest_set(const std::vector<StraightTrack>& lines) {
   std::vector<StraightTrack> best = with_velocity(lines, {}, 0);
-  if (best.size() >= kFewReferences) return best;
+  if (best.size() >= kFewReferences && are_at_rest(best)) return best;
   for (const StraightTrack& l : lines)
     if (std::vector<StraightTrack> set = with_velocity(lines, l.velocity, l.velocity2);
         points_of(set) > points_of(best))
@@ -252,6 +264,7 @@ StageDrift DriftSurvey::result() const {
   set_velocity(d, rigid.lines);
   path = common_path(rigid.lines, tracks_, d.drift_px_s, frame_s_);
   d.references = rigid.lines.size();
+  d.error_px = rigid.error;
   d.jitter_px = jitter_of(path, d.drift_px_s, frame_s_, rigid.error);
   d.first_frame = path.first;
   double all = 0;
@@ -261,6 +274,7 @@ StageDrift DriftSurvey::result() const {
   const bool drifts =
       speed > kClearDrift * d.drift_se_px_s && speed * frame_s_ * double(path.at.size()) > kSeenMotion;
   const bool moves = drifts || d.jitter_px > kSeenJitter;
+  if (drifts && points_of(rigid.lines) < kFewMoving * all) return {};
   d.finding = !moves                                      ? StageFinding::at_rest
               : points_of(rigid.lines) > kNearlyAll * all ? StageFinding::all_rigid
                                                           : StageFinding::drifting;

@@ -10,7 +10,7 @@ namespace faba {
 
 /// What the tracks show about a motion of the stage.
 enum class StageFinding {
-  undecided,  ///< no set of objects keeps its distances, so that a drift cannot be told from swimming
+  undecided,  ///< no set of objects keeps its distances, so that a drift cannot be separated from swimming
   at_rest,    ///< such a set does not move
   drifting,   ///< such a set moves, and other objects move relative to it
   all_rigid   ///< all objects move and keep their distances: a drifting stage, or a swarm in formation
@@ -24,6 +24,7 @@ struct StageDrift {
   double drift_se_px_s = 0;      ///< standard error per axis
   double jitter_px = 0;          ///< standard deviation of the position per axis, about the drift
   std::uint64_t references = 0;  ///< number of tracks that keep their distances
+  double error_px = 0;           ///< standard deviation of their positions per axis: the localisation error
   bool removed = false;          ///< speeds and mean-square displacements are relative to the stage
 
   std::uint64_t first_frame = 0;

@@ -73,7 +73,7 @@ class TrackPass {
   std::vector<TrackScore> scores() const { return scores_.scores(links_); }
   const StageDrift& stage() const { return stage_; }
   std::vector<SpeedPopulation> populations(const TrackSummary& s) const {
-    return populations_.populations(s.interval_frames, s.localisation_px);
+    return populations_.populations(s.interval_frames, std::max(s.localisation_px, stage_.error_px));
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }
@@ -188,6 +188,11 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
   m.populations = pass.populations(m.summary);
   m.stage = pass.stage();
   m.scores = pass.scores();
+  if (m.stage.finding == StageFinding::undecided && mean_order(m.summary) > 0.5)
+    m.notes.emplace_back(
+        "it cannot be decided whether the common motion is that of the objects or of the stage: no objects "
+        "keep "
+        "their distances");
   m.warnings = track_warnings(m);
   return m;
 }

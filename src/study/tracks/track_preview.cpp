@@ -10,34 +10,39 @@
 namespace faba {
 namespace {
 
-constexpr std::int64_t kShown = 9, kRead = 27;  // frames; the background needs more of them than are shown
+constexpr std::int64_t kShown = 9;       // frames
+constexpr std::int64_t kIfUnknown = 40;  // frames, when the file does not state its length
 
 }  // namespace
 
 TrackPreview preview_tracks(const TrackOptions& o, const RunVideo& source,
                             const std::function<void(std::int64_t, std::int64_t)>& tick) {
   VideoReader reader(source.file, o.part.fps, 1);
-  const std::int64_t stated = frames_stated(reader, o.part);
-  const std::int64_t wanted = stated > 0 ? std::min(stated, kRead) : kRead;
-  const std::int64_t show = std::max<std::int64_t>(1, wanted / kShown);
-  const double frame_s = reader.fps() > 0 ? 1 / reader.fps() : 1,
-               step_s = frame_s * std::max(1.0, double(stated) / double(kRead));
+  const PixelRegion region = searched_region(o, reader.width(), reader.height());
+  const std::int64_t stated = frames_stated(reader, o.part), frames = stated > 0 ? stated : kIfUnknown;
+  const auto stride = std::int64_t(BackgroundSampler().stride_for(
+      std::uint64_t(frames), std::size_t(region.width) * std::size_t(region.height)));
+  const std::int64_t wanted = (frames + stride - 1) / stride;
+  const double frame_s = reader.fps() > 0 ? 1 / reader.fps() : 1;
   TrackSurveyor surveyor(o);
   const FrameInspector inspector = surveyor.inspector();
   TrackPreview out;
   GrayF frame;
-  double t_s = 0;
+  double t_s = 0, first_s = 0;
   std::int64_t done = 0;
   if (o.part.from_s > 0) reader.skip_to(o.part.from_s);
   while (done < wanted && reader.next(t_s) && !o.part.ends_before(t_s)) {
-    const double next_s = o.part.from_s + double(done) * step_s;
+    if (done == 0) first_s = t_s;
+    const double next_s = first_s + double(done * stride) * frame_s;
     if (!o.part.holds(t_s) || t_s < next_s - 0.5 * frame_s || !inspector.needs(t_s)) continue;
     reader.picture(frame);
     make_finite(frame);
     inspector.take(frame);
-    if (done % show == show / 2 && std::ssize(out.frames) < kShown) out.frames.push_back({t_s, frame, {}});
+    // Evenly spread over those that are read.
+    const bool show = (done + 1) * kShown / wanted > done * kShown / wanted || wanted <= kShown;
+    if (show) out.frames.push_back({t_s, frame, {}});
     tick(++done, wanted);
-    reader.skip_to(next_s + step_s);
+    reader.skip_to(first_s + double(done * stride) * frame_s);
   }
   if (done == 0) throw_no_frames(source.file, o.part);
   Pool pool(o.threads);

@@ -18,17 +18,17 @@ struct PreviewFrame {
 
 /// The detection of spots in some frames of a video, before all of them are tracked.
 struct TrackPreview {
-  TrackSurvey survey;  ///< of up to 27 frames spread over the part of the video
+  TrackSurvey survey;  ///< of the frames from which the background of the video is computed
   TrackDetection detection;
   std::vector<PreviewFrame> frames;  ///< nine of them, or all if there are fewer
   std::vector<Warning> warnings;     ///< of the detection
   std::vector<std::string> notes;
 };
 
-/// Reads up to 27 frames spread over the part of the video that the options name: the frames between them are
-/// skipped, where the format permits it without being decoded. Background, polarity and size follow from
-/// these frames and can differ a little from those of all frames. If the file does not state its length, the
-/// first 27 frames are used. `tick` is called after each frame. Throws as survey_tracks().
+/// Reads the frames from which the background is computed (see BackgroundSampler) in the part of the video
+/// that the options name: the frames between them are skipped, where the format permits it without being
+/// decoded. Background, polarity and size are those of the tracking of all frames. If the file does not state
+/// its length, the first 40 frames are used. `tick` is called after each frame. Throws as survey_tracks().
 TrackPreview preview_tracks(const TrackOptions& o, const RunVideo& source,
                             const std::function<void(std::int64_t done, std::int64_t total)>& tick);
 

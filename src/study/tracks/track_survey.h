@@ -25,8 +25,8 @@ struct TrackSurvey {
   Polarity polarity = Polarity::dark;
   double size_px = 0;
   bool size_found = true;  ///< false: no spots were detected, size_px is the default
-  std::optional<std::array<double, 2>> other_sizes_px;  ///< see SpotSize; empty when the size was given
-  std::int64_t stationary_spots = 0;                    ///< stationary spots: detected in the median
+  std::optional<std::array<double, 2>> two_sizes_px;  ///< see SpotSize; empty when the size was given
+  std::int64_t stationary_spots = 0;                  ///< stationary spots: detected in the median
   std::int64_t spots = 0;  ///< number of spots in the middle frame with the selected background
   std::vector<std::string> notes;
 };

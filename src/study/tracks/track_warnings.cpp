@@ -22,7 +22,9 @@ constexpr double kShort = 0.5;     // fraction of detections outside of tracks
 
 constexpr double kBiasedSpeed = 0.5;  // drift over speed: the mean speed is then 6 % too large
 constexpr double kIsotropic = 0.5;    // ratio of the variances of the velocity along its main axes
-constexpr double kSignificant = 3;    // standard errors
+// Score below which tracks have gaps in a third of the frames, or hardly any link that could be tested.
+constexpr double kLowScore = 0.6;
+constexpr double kSignificant = 3;  // standard errors
 
 // Fraction of the searched area that is covered by the detected spots.
 double covered(const TrackDetection& d) {
@@ -57,8 +59,8 @@ void warn_texture(const TrackDetection& d, std::vector<Warning>& out) {
 }
 
 void warn_size(const TrackDetection& d, std::vector<Warning>& out) {
-  if (!d.other_sizes_px) return;
-  const auto [small, large] = *d.other_sizes_px;
+  if (!d.two_sizes_px) return;
+  const auto [small, large] = *d.two_sizes_px;
   out.push_back({"size", "the size of the objects is ambiguous: two sizes are frequent",
                  fmt::format("{:.2g} and {:.2g} px; {:.2g} px is used", small, large, d.size_px),
                  "look at --preview and give the --size of the objects that you want to track"});
@@ -73,6 +75,15 @@ void warn_links(const TrackMeasurement& m, std::vector<Warning>& out) {
        fmt::format("{:.0f} % of the links across an omitted frame are reproduced", 100 * *links),
        "use a higher frame rate or fewer objects, or a smaller --reach",
        *links < kPoorLinks ? Quality::poor : Quality::doubtful});
+}
+
+void warn_scores(const TrackMeasurement& m, std::vector<Warning>& out) {
+  const ScoreSummary s = summary_of(m.scores);
+  if (!s.mean || *s.mean >= kLowScore) return;
+  out.push_back(
+      {"linking", "the tracks are short or have gaps, and it is not known whether their links are right",
+       fmt::format("their mean score is {:.2f}; tracks of ten frames without gaps have 0.8", *s.mean),
+       "use more frames, or give --size and a larger --least"});
 }
 
 void warn_motion(const TrackMeasurement& m, std::vector<Warning>& out) {
@@ -140,9 +151,10 @@ void warn_stage(const TrackMeasurement& m, std::vector<Warning>& out) {
 void warn_direction(const TrackMeasurement& m, std::vector<Warning>& out) {
   const TrackSummary& s = m.summary;
   if (m.stage.finding != StageFinding::undecided || supported_walk(s) != SupportedWalk::persistent) return;
-  const double drift = std::hypot(s.drift_x_px_s.value, s.drift_y_px_s.value),
-               error = std::hypot(s.drift_x_px_s.se, s.drift_y_px_s.se), speed = s.speed_rms_px_s.value;
-  if (!(drift > kSignificant * error) || drift < kBiasedSpeed * speed || speed < kBiasedSpeed * drift ||
+  const double drift = std::hypot(s.drift_x_px_s.value, s.drift_y_px_s.value), speed = s.speed_rms_px_s.value;
+  const double significance =
+      std::hypot(s.drift_x_px_s.value / s.drift_x_px_s.se, s.drift_y_px_s.value / s.drift_y_px_s.se);
+  if (!(significance > kSignificant) || drift < kBiasedSpeed * speed || speed < kBiasedSpeed * drift ||
       s.velocity_isotropy < kIsotropic)
     return;
   out.push_back(
@@ -191,6 +203,7 @@ std::vector<Warning> track_warnings(const TrackMeasurement& m) {
     return out;
   }
   warn_links(m, out);
+  warn_scores(m, out);
   warn_motion(m, out);
   warn_stage(m, out);
   warn_direction(m, out);

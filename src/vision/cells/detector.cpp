@@ -149,12 +149,30 @@ std::vector<double> objects_of_sizes(const std::vector<std::vector<ScaledMaximum
   return counts;
 }
 
-std::optional<std::array<double, 2>> other_sizes(const std::vector<std::vector<ScaledMaximum>>& maxima,
-                                                 const std::vector<double>& sizes) {
-  const std::vector<double> n = objects_of_sizes(maxima, sizes);
-  if (getenv("DBG"))
-    for (std::size_t k = 0; k < sizes.size(); ++k) fprintf(stderr, "size %.1f n %g\n", sizes[k], n[k]);
-  return {};
+// Two sizes that differ by a factor of two or more: the most frequent one, and the `estimate` or another
+// frequent one. Sizes are counted with their neighbours.
+std::optional<std::array<double, 2>> two_sizes(const std::vector<double>& objects,
+                                               const std::vector<double>& sizes, double estimate) {
+  constexpr double kFactor = 2, kFrequent = 0.2, kFew = 5, kValley = 0.5;  // assumed
+  std::vector<double> n(sizes.size());
+  for (std::size_t k = 0; k < n.size(); ++k)
+    for (std::size_t i = k > 0 ? k - 1 : 0; i <= std::min(k + 1, n.size() - 1); ++i) n[k] += objects[i];
+  const auto mode = std::size_t(std::max_element(n.begin(), n.end()) - n.begin());
+  const auto pair_with = [&](double size) {
+    return std::array<double, 2>{std::min(size, sizes[mode]), std::max(size, sizes[mode])};
+  };
+  const auto apart = [&](double size) { return pair_with(size)[1] >= kFactor * pair_with(size)[0]; };
+  if (n[mode] < kFew) return {};
+  if (apart(estimate)) return pair_with(estimate);
+  std::optional<std::size_t> other;
+  for (std::size_t k = 0; k < n.size(); ++k) {
+    if (!apart(sizes[k]) || n[k] < std::max(kFew, kFrequent * n[mode])) continue;
+    const auto [low, high] = std::minmax(k, mode);
+    const bool valley =
+        *std::min_element(n.begin() + std::ptrdiff_t(low), n.begin() + std::ptrdiff_t(high)) < kValley * n[k];
+    if (valley && (!other || n[k] > n[*other])) other = k;
+  }
+  return other ? std::optional(pair_with(sizes[*other])) : std::nullopt;
 }
 
 }  // namespace
@@ -253,7 +271,7 @@ SpotSize spot_size(const GrayF& frame, const Background& background, Polarity po
       out.px = sizes[k];
     }
   }
-  if (out.px > 0) out.other = other_sizes(maxima, sizes);
+  if (out.px > 0) out.two = two_sizes(objects_of_sizes(maxima, sizes), sizes, out.px);
   return out;
 }
 

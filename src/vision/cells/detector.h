@@ -69,7 +69,7 @@ double detection_threshold(double size_px, double pixels, double false_alarms);
 struct SpotSize {
   double px = 0;  ///< full width at half maximum; 0: no spots
   /// Two sizes that are both frequent, smaller first: the estimate is ambiguous.
-  std::optional<std::array<double, 2>> other;
+  std::optional<std::array<double, 2>> two;
 };
 
 /// Estimates the size of spots: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest

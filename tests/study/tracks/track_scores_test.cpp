@@ -55,8 +55,8 @@ TEST_CASE("track scores: long tracks without gaps are near 1, gaps and short tra
   CHECK(*good.score > 0.9);
   CHECK(good.path_px == doctest::Approx(79));
   CHECK(good.distance_px == doctest::Approx(79));
-  CHECK(*gaps.score < 0.55);   // half of the frames
-  CHECK(*brief.score < 0.7);   // at most one link was tested
+  CHECK(*gaps.score < 0.55);  // half of the frames
+  CHECK(*brief.score < 0.7);  // at most one link was tested
   const ScoreSummary s = summary_of(all);
   REQUIRE(s.mean);
   CHECK(*s.mean == doctest::Approx((80 * *good.score + 40 * *gaps.score + 4 * *brief.score) / 124));

@@ -94,7 +94,8 @@ TEST_CASE("a stage that drifts and shakes is subtracted when objects fixed to it
   std::vector<double> angle;
   for (std::size_t k = 0; k < start.size(); ++k) angle.push_back(6.283 * dice.uniform());
   std::vector<Vec2> stage;
-  for (int k = 0; k < 40; ++k) stage.push_back(k * Vec2{0.8, 0.4} + 0.25 * Vec2{dice.normal(), dice.normal()});
+  for (int k = 0; k < 40; ++k)
+    stage.push_back(k * Vec2{0.8, 0.4} + 0.25 * Vec2{dice.normal(), dice.normal()});
   const auto frame = [&](int k) {
     std::vector<Vec2> at;
     for (const Vec2 p : fixed) at.push_back(p + stage[std::size_t(k)]);

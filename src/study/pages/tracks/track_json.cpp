@@ -115,7 +115,7 @@ nlohmann::ordered_json detection_json(const TrackDetection& d) {
   const auto or_null = [](std::optional<double> v) { return v ? Json(*v) : Json(nullptr); };
   Json j{{"size_px", d.size_px},
          {"size_given", d.size_given},
-         {"other_sizes_px", d.other_sizes_px ? Json(*d.other_sizes_px) : Json(nullptr)},
+         {"two_sizes_px", d.two_sizes_px ? Json(*d.two_sizes_px) : Json(nullptr)},
          {"polarity", word_of(d.polarity)},
          {"background", background_word(d)},
          {"background_frames", d.background_frames},
