@@ -193,7 +193,9 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
         "it cannot be decided whether the common motion is that of the objects or of the stage: no objects "
         "keep "
         "their distances");
-  m.warnings = track_warnings(m);
+  m.warnings = survey.warnings;
+  const std::vector<Warning> found = track_warnings(m);
+  m.warnings.insert(m.warnings.end(), found.begin(), found.end());
   return m;
 }
 

@@ -56,7 +56,9 @@ TrackPreview preview_tracks(const TrackOptions& o, const RunVideo& source,
     sums.take(f.spots);
   }
   sums.describe(out.detection);
-  out.warnings = detection_warnings(out.detection);
+  out.warnings = out.survey.warnings;
+  const std::vector<Warning> found = detection_warnings(out.detection);
+  out.warnings.insert(out.warnings.end(), found.begin(), found.end());
   return out;
 }
 

@@ -15,9 +15,11 @@
 namespace faba {
 namespace {
 
-constexpr int kFewFrames = 10;        // smallest number of frames for a temporal median
-constexpr double kSizeIfNone = 4;     // px
-constexpr int kSmallestRegion = 16;   // px; smallest side
+constexpr int kFewFrames = 10;       // smallest number of frames for a temporal median
+constexpr double kSizeIfNone = 4;    // px
+constexpr int kSmallestRegion = 16;  // px; smallest side
+constexpr double kChanging = 1.5;  // temporal over spatial noise: half of the variance is not noise (assumed)
+constexpr double kFloorNoise = 0.25;  // smallest noise of a Background, which a coded video has
 constexpr std::size_t kGaps = 10000;  // largest number of stored frame intervals
 
 // Polarity of the differences from the surroundings at the scale of cells, 1.5 to 8 px.
@@ -33,6 +35,26 @@ Polarity detected_polarity(const GrayF& frame, const Background& b) {
 std::int64_t count_spots(const TrackOptions& o, const TrackSurvey& s, const Background& b,
                          const GrayF& frame) {
   return std::int64_t(Detector(b, detector_options(o, s, {})).find(frame).size());
+}
+
+double typical_noise(const Background& b) {
+  std::vector<float> noise = b.noise_sd.px;
+  return double(robust_spread_low(noise).median);
+}
+
+// The temporal statistics of a background at rest are those of its noise. Moving objects cover a pixel in a
+// minority of the frames and do not change its median deviation.
+void warn_background(TrackSurvey& s, const Background& median, const Background& smooth) {
+  const double temporal = typical_noise(median), spatial = typical_noise(smooth);
+  if (spatial <= kFloorNoise || temporal < kChanging * spatial) return;
+  s.warnings.push_back(
+      {"background",
+       "the background changes by more than its noise: it has a texture that moves, the light flickers, or "
+       "objects "
+       "cover most of the picture; detections may be parts of it",
+       fmt::format("standard deviation of a pixel over time {:.3g}, between neighbours {:.3g} grey levels",
+                   temporal, spatial),
+       "look at --preview; give the --size and --threshold of the objects, or a --region"});
 }
 
 void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler, Pool& pool) {
@@ -66,6 +88,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
       }};
   pool.run(many ? std::size(counts) : 1, [&](std::size_t i) { counts[i](); });
   s.stationary_spots = stationary;
+  if (many && !(o.size_px > 0 && o.threshold_sd > 0)) warn_background(s, median, smooth);
   s.temporal = o.background == BackgroundKind::median ||
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "study/data/frame_inspector.h"
+#include "study/quality/quality.h"
 #include "study/tracks/track_options.h"
 
 namespace faba {
@@ -27,7 +28,8 @@ struct TrackSurvey {
   bool size_found = true;  ///< false: no spots were detected, size_px is the default
   std::optional<std::array<double, 2>> two_sizes_px;  ///< see SpotSize; empty when the size was given
   std::int64_t stationary_spots = 0;                  ///< stationary spots: detected in the median
-  std::int64_t spots = 0;  ///< number of spots in the middle frame with the selected background
+  std::int64_t spots = 0;         ///< number of spots in the middle frame with the selected background
+  std::vector<Warning> warnings;  ///< a background that changes
   std::vector<std::string> notes;
 };
 

@@ -122,7 +122,7 @@ TEST_CASE("objects of two sizes: the estimated size is ambiguous, a given size i
   large.cell_sd_px = 9;
   large.noise = 0;
   large.uneven = small.uneven = false;
-  const auto few = cells::scattered(large, 6, 60, 40, 5), many = cells::scattered(small, 60, 12, 10, 6);
+  const auto few = cells::scattered(large, 12, 50, 30, 5), many = cells::scattered(small, 40, 12, 10, 6);
   const auto frame = [&](int k) {
     std::vector<Vec2> a = few, b = many;
     for (Vec2& p : a) p.x += 0.5 * k;
