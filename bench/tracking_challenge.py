@@ -65,7 +65,7 @@ lossless = true
 SIDE, FRAMES, GATE, LEAST = 256, 50, 5, 3  # px, frames, px, detections
 CELLS = (25, 100, 250)  # in view; the challenge has about 100, 500 and 1000 in 512 x 512 px, four times this area
 DROP_PX = 190  # radius; the corners of the view are at 181 px
-NOISE = (2, 8, 16)  # grey levels of 255; a cell is 60 grey levels darker than its surroundings at its centre
+NOISE = (2, 12, 24)  # grey levels of 255; a cell is 60 grey levels darker than its surroundings at its centre
 
 
 def faba(program, *words):
