@@ -122,10 +122,10 @@ TEST_CASE("objects of two sizes: the estimated size is ambiguous, a given size i
   large.cell_sd_px = 9;
   large.noise = 0;
   large.uneven = small.uneven = false;
-  const auto few = cells::scattered(large, 12, 50, 30, 5), many = cells::scattered(small, 40, 12, 10, 6);
+  const auto few = cells::scattered(large, 10, 45, 30, 5), many = cells::scattered(small, 40, 12, 10, 6);
   const auto frame = [&](int k) {
     std::vector<Vec2> a = few, b = many;
-    for (Vec2& p : a) p.x += 0.5 * k;
+    for (Vec2& p : a) p.x += 4.0 * k;  // else they become background
     for (Vec2& p : b) p.y += 1.0 * k;
     GrayF out = cells::picture(small, b, std::uint64_t(k));
     const GrayF shade = cells::picture(large, a, 1);
