@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct DropMask {
   bool inside = true;    ///< true: spots inside the circle are detected; false: outside
   double margin_px = 0;  ///< margin at the edge that is excluded as well
 };
+
+/// Whether a position is excluded. No mask excludes nothing.
+bool excludes(const std::optional<DropMask>& drop, double x_px, double y_px);
 
 /// Parameters of Detector.
 struct DetectorOptions {
@@ -63,9 +67,16 @@ class Detector {
 /// the band pass for spots of `size_px`.
 double detection_threshold(double size_px, double pixels, double false_alarms);
 
-/// Spot size of a frame: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest
+/// Size of the spots of a frame.
+struct SpotSize {
+  double px = 0;  ///< full width at half maximum; 0: no spots
+  /// Two sizes that are both frequent, smaller first: the estimate is ambiguous.
+  std::optional<std::array<double, 2>> two;
+};
+
+/// Estimates the size of spots: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest
 /// signal-to-noise ratio (relative to white noise) at the strongest maxima. 0 when no maximum is significant
 /// at any size.
-double spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool);
+SpotSize spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool);
 
 }  // namespace faba

@@ -128,11 +128,12 @@ TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progres
   for (const std::string& note : {overridden, ignored})
     if (!note.empty()) m.notes.push_back(note);
   const RgbImage picture = draw_tracks(survey.first, survey.black, survey.white, files.drawn(), false, 0);
-  const std::vector<Figure> figures = track_figures(m.summary, m.um_per_px.value_or(0));
+  const std::vector<Figure> figures = track_figures(m.summary, m.um_per_px.value_or(0), m.populations);
   files.complete();
   if (!o.picture.empty()) write_png(o.picture, picture);
   if (!o.figures.empty())
     write_track_figures(o.figures, figures, path_plot(files.drawn(), m.width, m.height));
+  if (!o.per_track.empty()) write_file(o.per_track, per_track_csv(m.scores));
   if (!o.report.empty()) write_file(o.report, track_page(m, figures, picture, o.provenance));
   return m;
 }
