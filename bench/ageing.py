@@ -5,7 +5,7 @@ thesis's scale, with another number of cells and a shorter gathering), with know
     bench/ageing.py [--program build/faba] [--drops 20] [--first-seed 2000] [--out bench/results]
 
 The true responding fraction is that of the cells in view in the second after the reversal, the true speed is the mean displacement of
-those that respond along the new direction. Exit status 1 if a goal is not met.
+the responding cells along the new direction. Exit status 1 if a goal is not met.
 """
 
 import argparse

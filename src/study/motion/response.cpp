@@ -103,7 +103,7 @@ std::array<double, 2> clipped(std::array<double, 2> interval, double most) {
 }
 
 // Speed and fraction of a response. With free space around the swarm, the fraction is the velocity of the
-// centroid of all objects over the speed of those that respond.
+// centroid of all objects over the speed of the responding objects.
 void take_speed(Response& r, const CommonDisplacement& common, const ResponseFrames& frames, double frame_s) {
   if (!r.responds) {
     r.fraction = {0, {0, std::clamp(std::max(common.fraction, common.opposite), 0.0, 1.0)}};

@@ -36,7 +36,7 @@ struct Response {
   ChangePoint change;                ///< also without a response
   std::string fraction_method;       ///< of `fraction`; empty when it is unknown
   std::optional<Measured> fraction;  ///< of the objects in view in the second after the rise; 0: no response
-  std::optional<Measured> speed_px_s;  ///< mean, along the direction, of those that respond
+  std::optional<Measured> speed_px_s;  ///< mean, along the direction, of the responding objects
   std::optional<FlowVerdict> flow;
 };
 
