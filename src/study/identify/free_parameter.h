@@ -23,6 +23,10 @@ struct FreeParameter {
     double mean = 0, sd = 0;
   };
   std::optional<NormalPrior> normal_prior = {};
+  /// Of a nuisance parameter, which the program frees by default: the source of its prior. Empty for the
+  /// parameters of the study.
+  std::string nuisance_source = {};
+  bool nuisance() const { return !nuisance_source.empty(); }
 
   std::string name() const;  ///< last key of the path: "max_speed"
   /// Unit for display ("um/s" for "m/s"), and a value converted to that unit.
