@@ -22,7 +22,7 @@ import random
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from recovery import call, drop_centre, scene  # noqa: E402
+from recovery import FIRST_S, SEGMENT_S, SEGMENTS, UM_PER_PX, call, scene  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 SPEED = 120.0
@@ -73,10 +73,22 @@ def scene_of(t):
     return text.replace("[controller]\n", added + "[controller]\n")
 
 
+def video_of(t):
+    """The run directory; with a wrong field strength the bare video, because a run directory has the true one."""
+    if CASES[t["case"]][3] == 1:
+        return ["[[video]]", 'file = "film"']
+    lines = ["[[video]]", 'file = "film/video.avi"', f"um_per_px = {UM_PER_PX}"]
+    for k in range(SEGMENTS):
+        start = FIRST_S + k * SEGMENT_S
+        lines += ["[[video.segment]]", f'from = "{start} s"', f'to = "{start + SEGMENT_S} s"',
+                  f"direction = {(t['side'] + t['tilt'] + 180 * (k % 2)) % 360:g}"]
+    return lines
+
+
 def study_of(t, o):
     field = FIELD_UT * CASES[t["case"]][3]
     lines = [f"seed = {t['number']}", f"simulations = {o.simulations}", 'boundary = "drop"', f'field_strength = "{field:.4g} uT"',
-             "[[video]]", 'file = "film"']
+             *video_of(t)]
     for m, free in (("basic", '"swarm[0].model.max_speed" = [1, 20]'), ("adapted", '"swarm[0].model.max_speed" = [1, 20]'),
                     ("dipole", '"swarm[0].model.speed" = ["20 um/s", "300 um/s"]')):
         if m in o.models:

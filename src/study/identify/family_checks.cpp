@@ -45,11 +45,12 @@ std::vector<std::array<double, 2>> intervals(const MatrixXd& simulated) {
   return out;
 }
 
-// Change of the statistics by a drift of all cells.
-VectorXd drift_change(const ObservedStatistics& o, Vec2 velocity) {
+// Change of the statistics when all cells drift in the direction of the first field segment.
+VectorXd drift_change(const ObservedStatistics& o, const std::vector<ResponseVideo>& videos, double px_s) {
+  const Vec2 direction = unit_vector(videos.front().episodes.front().segments.front().direction_deg);
   VectorXd change(o.numbers.size());
   for (const ObservedStatistics::Part& part : o.parts) {
-    const std::vector<double> values = part.statistics->of_drift(velocity);
+    const std::vector<double> values = part.statistics->of_drift(px_s * direction);
     change.segment(part.begin, part.count) = Eigen::Map<const VectorXd>(values.data(), part.count);
   }
   return change;
@@ -124,7 +125,8 @@ void test_families(SearchedModel& m, const Tested& t, const ObservedStatistics& 
   sort_and_name(checks);
   for (std::size_t c = 0; c < checks.size() && checks[c].significant; ++c)
     for (std::size_t f = 0; f < t.families.size(); ++f)
-      if (t.families[f].what == checks[c].what) extend(m, t, prediction, o, scale, f, c);
+      if (t.families[f].what == checks[c].what && t.families[f].of_cells)
+        extend(m, t, prediction, o, scale, f, c);
 }
 
 Tested plan(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos, const SearchedModel& m,
@@ -137,7 +139,7 @@ Tested plan(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos
                                   .root);
   round.add(candidate, t.u, kNumber);
   for (const ModelFamily& f : t.families)
-    if (!f.drift) round.add(candidate, t.u.topRows(kPairs), kNumber, &f);
+    if (f.drift_px_s == 0) round.add(candidate, t.u.topRows(kPairs), kNumber, &f);
   return t;
 }
 
@@ -157,8 +159,9 @@ bool check_families(const IdentifyStudy& study, const std::vector<ResponseVideo>
     t.simulated = round.take(results, t.u.rows());
     models[c].found->predicted90 = intervals(t.simulated);
     for (const ModelFamily& f : t.families)
-      t.changes.push_back(f.drift ? drift_change(o, *f.drift)
-                                  : mean_change(round.take(results, kPairs), t.simulated.topRows(kPairs)));
+      t.changes.push_back(f.drift_px_s != 0
+                              ? drift_change(o, videos, f.drift_px_s)
+                              : mean_change(round.take(results, kPairs), t.simulated.topRows(kPairs)));
     test_families(models[c], t, o, scale);
   }
   return true;

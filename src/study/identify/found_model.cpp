@@ -123,7 +123,9 @@ void add_doubts(FoundModel& m, const MatrixXd& draws, const char* parts) {
     }
     for (Index k = 0; k < draws.cols(); ++k) {
       const double r = off.col(j).dot(off.col(k)) / (off.col(j).norm() * off.col(k).norm());
-      if (k != j && std::fabs(r) > kMaxCorrelation)
+      // The interval contains the uncertainty of a nuisance parameter already.
+      const bool both = p.parameter.nuisance() == m.parameters[std::size_t(k)].parameter.nuisance();
+      if (k != j && both && std::fabs(r) > kMaxCorrelation)
         p.doubt = fmt::format("{} and {} are not identifiable separately: posterior correlation {:.2f}",
                               p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
     }

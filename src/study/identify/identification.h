@@ -52,8 +52,8 @@ struct FoundModel {
   /// Tests of the families of the model, in ascending order of p.
   std::vector<FamilyCheck> families = {};
   bool misses_family() const { return !families.empty() && families.front().significant; }
-  /// Index of the significant family whose extension gives the lowest scores, and these scores; empty when no
-  /// family is significant.
+  /// Index of the significant family of the cells whose extension gives the lowest scores, and these scores;
+  /// empty when none is significant.
   std::optional<std::size_t> extension = {};
   std::vector<double> extended_scores = {};
   static constexpr double kPoorFit = 0.01;

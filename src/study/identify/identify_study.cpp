@@ -20,9 +20,9 @@ namespace {
 constexpr const char* kFieldStrength = "field_strength";
 constexpr const char* kOldFieldStrength = "drive";
 
-// Relative standard deviation of the number of cells that is measured in the first frame: in experiments 0
-// and 1 of bench/recovery.py it was 6 % above the true number.
-constexpr double kCountError = 0.1;
+// Relative standard deviation of the number of cells that is detected in the first frame (assumed): at the
+// dark edge of a drop a third of the cells can be missed.
+constexpr double kCountError = 0.4;
 constexpr double kNormal95 = 1.96;  // half of a 95 % interval, in standard deviations
 
 // Tables of a scenario that are not determined by the video.

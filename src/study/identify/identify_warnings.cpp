@@ -9,8 +9,9 @@
 namespace faba {
 namespace {
 
-constexpr double kMisses = 2.5;    // standard deviations; 1.2 % of the statistics of a model that is right
-constexpr std::size_t kNamed = 3;  // statistics in a sentence
+constexpr double kMisses = 2.5;      // standard deviations; 1.2 % of the statistics of a model that is right
+constexpr double kSameField = 0.02;  // relative
+constexpr std::size_t kNamed = 3;    // statistics in a sentence
 
 // The statistics that the model misses most.
 std::string missed(const Identification& r, const FoundModel& m) {
@@ -70,6 +71,17 @@ void warn_rival(const Identification& r, std::vector<Warning>& out) {
 void warn_inputs(const Identification& r, std::vector<Warning>& out) {
   for (const ResponseVideo& v : r.videos) {
     const std::string file = v.input.file.string();
+    if (v.recorded_um_per_px)
+      out.push_back({"scale",
+                     "the scale of the study differs from the recorded one; all lengths depend on it",
+                     fmt::format("{}: {:g} um per px recorded", file, *v.recorded_um_per_px),
+                     "remove um_per_px and scale from the study if the record is right"});
+    const double field = r.study.candidates[r.best].field_strength_in(v);
+    if (v.field_t && field > 0 && std::fabs(field / *v.field_t - 1) > kSameField)
+      out.push_back(
+          {"field_strength", "the field strength of the study differs from the recorded one",
+           fmt::format("{}: {:.4g} uT recorded, {:.4g} uT simulated", file, 1e6 * *v.field_t, 1e6 * field),
+           "remove field_strength from the study if the record is right"});
     if (v.segments_detected)
       out.push_back({"timing", "the field segments were detected in the video; all results depend on them",
                      file, "give reversal and direction, or [[video.segment]]"});

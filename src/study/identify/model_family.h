@@ -1,10 +1,8 @@
 #pragma once
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "core/vec.h"
 #include "study/identify/identify_study.h"
 
 namespace faba {
@@ -18,13 +16,15 @@ struct ModelFamily {
   std::string unit;         ///< of the amount, "per s"
   double amount = 0;        ///< that is simulated
   bool two_sided = false;   ///< the amount can be negative
+  bool of_cells = true;     ///< a property of the cells, which may differ between models
   std::string advice = {};  ///< what to do, with the line for the study
   /// How a simulation with it differs: changes of the scenario, of the field strength, and of the times of
   /// field reversals.
   std::function<void(Document&)> edit = {};
   double field_factor = 1, delay_frames = 0;
-  /// Velocity of all cells in the picture, px/s: not simulated, see EpisodeStatistics::of_drift().
-  std::optional<Vec2> drift = {};
+  /// Speed of all cells in the direction of the first field segment, px/s: not simulated, see
+  /// EpisodeStatistics::of_drift(). 0: none.
+  double drift_px_s = 0;
 };
 
 /// The families by which a candidate can be extended. `scenario`: of the candidate, with its free parameters.

@@ -26,6 +26,9 @@ constexpr double kWider = 1.8;         // sd of the last round over sd of the po
 constexpr double kMaxSquare = 25;      // limit of a squared difference of a statistic, in robust sd
 constexpr double kAbcFraction = 0.25;  // of the simulations since the second round: accepted by ABC
 constexpr std::size_t kMaxRounds = 6;
+// With more parameters the early rounds are wide, and their compression loses information: the last round is
+// computed at least twice, so that the compression is fitted near the posterior.
+constexpr int kFewParameters = 3;
 constexpr double kMaxAtLimit = 0.01;  // fraction of the posterior at a limit of the last round
 constexpr int kProposalDraws = 400;   // posterior samples that define the last round
 
@@ -191,7 +194,8 @@ void ParameterSearch::take(const MatrixXd& statistics) {
     return;
   }
   fit_emulator();
-  if (done > 3 && (done == kMaxRounds || !truncated())) return;
+  const std::size_t rounds = d_ > kFewParameters ? 5 : 4;
+  if (done >= rounds && (done == kMaxRounds || !truncated())) return;
   const MatrixXd draws = posterior({}, kProposalDraws, derived_seed(seed_, SeedUse::proposal));
   propose({draws.colwise().mean(), kWider * kWider * covariance_of(draws), 0}, rounds_.last);
 }
@@ -230,7 +234,15 @@ SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& column
     const SimulationTable both = part(rows_of(all_, rows_since(1)));
     return {both, both, observed_(selected), centre_};
   }
-  // The compression is fitted to the simulations of earlier rounds in and near the region of the last one.
+  // The compression is fitted to simulations that the likelihood does not use: those of the repetitions of
+  // the last round before the latest one, else those of earlier rounds in and near the region of the last
+  // one.
+  if (const std::size_t latest = proposals_.size() - 1; latest > 3) {
+    std::vector<Index> before = rows_since(3);
+    before.resize(std::size_t(round_begin_[latest] - round_begin_[3]));
+    return {part(rows_of(all_, before)), part(rows_of(all_, rows_since(latest))), observed_(selected),
+            centre_};
+  }
   const VectorXd margin = 0.5 * (box_.high - box_.low);
   const ParameterBox about{box_.low - margin, box_.high + margin};
   std::vector<Index> earlier;

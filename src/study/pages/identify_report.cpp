@@ -34,7 +34,7 @@ Json sampled_json(const IdentifyStudy& s) {
     if (sd > 0) j[name] = {{"relative_sd", sd}, {"source", source}};
   };
   add("count", s.count_sd,
-      "error of the number of cells in the first frame, bench/recovery.py; unless the study gives the count");
+      "assumed error of the number of cells in the first frame; not if the study gives swarm[0].count");
   add("scale", s.scale_sd, "scale_uncertainty of the study, or the calibration file");
   add("field_strength", s.field_sd, "field_uncertainty of the study");
   return j;
