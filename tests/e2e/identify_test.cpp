@@ -119,7 +119,7 @@ TEST_CASE(
   const auto motile = m["nuisances"]["swarm[0].model.motile"];
   CHECK(motile["ci90"][0].get<double>() <= 0.5);
   CHECK(motile["ci90"][1].get<double>() < 0.9);
-  CHECK(motile["prior"]["source"].get<std::string>().find("assumed") == 0);
+  CHECK(motile["prior"].get<std::string>().find("assumed") == 0);
   CHECK(!m["parameters"].contains("swarm[0].model.motile"));
   CHECK(!m["nuisances"].contains("swarm[0].model.speed_sd"));  // the study fixes it
   CHECK(m["families"].size() >= 4);

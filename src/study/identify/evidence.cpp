@@ -67,8 +67,10 @@ void rate(Identification& r, const Lead& plain, const Lead& next) {
   r.score_lead_ci95 = {next.mean - next.half, next.mean + next.half};
   // A model that does not fit is at most the better one of two wrong models.
   const bool fits = best.fit_p >= FoundModel::kDoubtfulFit && !best.misses_family();
+  const bool all_converged = std::all_of(
+      r.models.begin(), r.models.end(), [](const FoundModel& m) { return !m.failed.empty() || m.converged; });
   if (plain.clear() && !next.clear() && next.extended) r.rival = next.model;
-  r.evidence = next.clear() && fits ? "clear" : next.mean > next.se ? "weak" : "none";
+  r.evidence = next.clear() && fits && all_converged ? "clear" : next.mean > next.se ? "weak" : "none";
   // Without evidence the model with fewer parameters is preferred.
   std::string simpler;
   const FoundModel& other = r.models[next.model];

@@ -159,6 +159,21 @@ double fit_p(const ParameterSearch& s, const VectorXd& mode, const VectorXd& obs
   return (further + 1) / double(residuals.rows() + 1);
 }
 
+// Whether the posterior lies where simulations are near the observation. Distances are in units of the noise
+// over all simulations, which a posterior in a wrong region does not distort.
+bool converged(const ParameterSearch& s, const VectorXd& mode) {
+  constexpr double kMuchNearer = 0.1;
+  const SimulationTable& all = s.simulations();
+  const Eigen::RowVectorXd mean = all.s.colwise().mean();
+  const VectorXd scale =
+      (all.s.rowwise() - mean).array().square().colwise().mean().sqrt().max(0.01).matrix().transpose();
+  const auto squared_distance = [&](const VectorXd& off) { return off.cwiseQuotient(scale).squaredNorm(); };
+  double nearest = squared_distance(all.s.row(0).transpose() - s.observed());
+  for (Index i = 1; i < all.size(); ++i)
+    nearest = std::min(nearest, squared_distance(all.s.row(i).transpose() - s.observed()));
+  return nearest > kMuchNearer * squared_distance(s.emulator().mean(mode) - s.observed());
+}
+
 }  // namespace
 
 ScoredModel found_model(const Candidate& candidate, const ParameterSearch& s,
@@ -204,6 +219,7 @@ ScoredModel found_model(const Candidate& candidate, const ParameterSearch& s,
   m.simulations = std::size_t(s.simulations().size());
   m.rounds = s.rounds();
   m.fit_p = fit_p(s, middle, s.observed());
+  m.converged = converged(s, middle);
   const VectorXd mean = s.emulator().mean(middle), noise = noise_of(s);
   m.predicted.assign(mean.begin(), mean.end());
   m.predicted_sd.assign(noise.begin(), noise.end());

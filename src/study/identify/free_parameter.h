@@ -16,7 +16,7 @@ struct FreeParameter {
   bool low_is_limit = false, high_is_limit = false;  ///< the range ends at the limit of the parameter itself
   double low = 0, high = 1;
   /// Scale on which the prior is uniform: 0 linear; > 0 exponential, so that the middle of the range lies at
-  /// the default of the part (the bounds of a schema are wide).
+  /// the default of the part (the bounds of a schema are wide); < 0 exponential with values near `high`.
   double stretch = 0;
   /// Normal prior, for example from a calibration, instead of a uniform one.
   struct NormalPrior {

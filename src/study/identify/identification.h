@@ -56,6 +56,9 @@ struct FoundModel {
   /// empty when none is significant.
   std::optional<std::size_t> extension = {};
   std::vector<double> extended_scores = {};
+  /// Whether no simulation of the search is much nearer to the videos than the model at its posterior. If
+  /// false, the search ended in a wrong region of the parameters.
+  bool converged = true;
   static constexpr double kPoorFit = 0.01;
   static constexpr double kDoubtfulFit = 0.05;  ///< below it the evidence for the model is not clear
   std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior median
@@ -64,7 +67,7 @@ struct FoundModel {
   /// Valid simulations of all rounds, for each video. More than the study requests when the last round was
   /// repeated, fewer when some failed.
   std::size_t simulations = 0;
-  std::size_t rounds = 0;  ///< 4, up to 6 with repetitions of the last round
+  std::size_t rounds = 0;  ///< 4 or 5, and up to 2 repetitions of the last round
   Json best;               ///< posterior medians of the parameters, by path
 };
 

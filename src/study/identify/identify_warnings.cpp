@@ -68,6 +68,19 @@ void warn_rival(const Identification& r, std::vector<Warning>& out) {
        amount_of(c), fmt::format("{} of {}, and repeat", c.advice, m.name), Quality::doubtful});
 }
 
+// A search that ended in a wrong region: the model may be better than it appears.
+void warn_search(const Identification& r, std::vector<Warning>& out) {
+  for (const FoundModel& m : r.models)
+    if (m.failed.empty() && !m.converged)
+      out.push_back(
+          {"search",
+           fmt::format("the search for the parameters of {} ended far from the simulations that are nearest "
+                       "to the videos",
+                       m.name),
+           fmt::format("fit p = {:.2g}", m.fit_p), "increase simulations, or give narrower ranges",
+           &m == &r.models[r.best] ? Quality::poor : Quality::doubtful});
+}
+
 void warn_inputs(const Identification& r, std::vector<Warning>& out) {
   for (const ResponseVideo& v : r.videos) {
     const std::string file = v.input.file.string();
@@ -110,6 +123,7 @@ std::vector<Warning> identify_warnings(const Identification& r) {
   std::vector<Warning> out;
   warn_fit(r, out);
   warn_rival(r, out);
+  warn_search(r, out);
   warn_inputs(r, out);
   for (const FoundParameter& p : r.models[r.best].parameters)
     if (!p.doubt.empty() && !p.parameter.nuisance())

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/random/distributions.h"
-#include "study/identify/synthetic_likelihood.h"
+#include "study/stats/emulator.h"
 
 namespace faba {
 namespace {
@@ -14,6 +14,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kRegular = 1e-9;  // relative: parameters without any effect
+constexpr double kDistinct =
+    1e-6;  // of the squared change: less is rounding, the parameters produce the change
 constexpr double kLeastNoise = 1e-9;  // statistics without noise are ignored
 
 /// Weights of the statistics in an estimate of the amount of a change.
@@ -32,12 +35,14 @@ Projection project(const MatrixXd& slope, const MatrixXd& covariance, int freedo
   const MatrixXd s = scale.asDiagonal() * slope;
   const VectorXd c = scale.asDiagonal() * change;
   MatrixXd information = s.transpose() * factor.solve(s);
-  information.diagonal().array() += kPriorPrecision;
+  information.diagonal().array() += kRegular * (1 + information.trace());
   Projection p;
   p.adapted = -information.ldlt().solve(s.transpose() * factor.solve(c));
   const VectorXd rest = c + s * p.adapted, weighted = factor.solve(rest);
   const double strength = rest.dot(weighted);
-  p.weights = strength > 0 ? VectorXd(scale.asDiagonal() * weighted / strength) : VectorXd::Zero(c.size());
+  p.weights = strength > kDistinct * c.dot(factor.solve(c))
+                  ? VectorXd(scale.asDiagonal() * weighted / strength)
+                  : VectorXd::Zero(c.size());
   return p;
 }
 

@@ -6,9 +6,12 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kMostFree = 8;
-// Limit of the spread of the speed over the largest mean speed (assumed): twice that of the default of
-// dipole, 45 um/s at 186 um/s.
-constexpr double kWidest = 0.5;
+// Limit of the spread of the speed over the largest mean speed: that of the default of dipole, 45 um/s at
+// 186 um/s (assumed).
+constexpr double kWidest = 0.25;
+// Scale of the prior of a fraction (assumed): most cells of a healthy culture swim. The median is 0.88, and
+// 5 % of the prior is below 0.18.
+constexpr double kHealthy = -4;
 
 const char* const kSpeed = "swarm[0].model.speed";
 
@@ -36,20 +39,22 @@ std::vector<FreeParameter> default_nuisances(const Candidate& c, const Json& sce
   struct Nuisance {
     const char* path;
     bool matters;
-    double high;
+    double high, stretch;
     const char* source;
   };
   const Nuisance all[] = {
-      {"swarm[0].model.motile", fastest > 0, 1, "assumed: uniform, any fraction of a culture can be motile"},
-      {"swarm[0].responding", field, 1, "assumed: uniform, any fraction of a culture can respond"},
-      {"swarm[0].model.speed_sd", fastest > 0, kWidest * fastest,
-       "assumed: uniform, up to half of the largest mean speed"}};
+      {"swarm[0].model.motile", fastest > 0, 1, kHealthy,
+       "assumed: median 0.88, 90 % between 0.18 and 0.996"},
+      {"swarm[0].responding", field, 1, kHealthy, "assumed: median 0.88, 90 % between 0.18 and 0.996"},
+      {"swarm[0].model.speed_sd", fastest > 0, kWidest * fastest, 0,
+       "assumed: uniform, up to a quarter of the largest mean speed"}};
   std::vector<FreeParameter> found;
   for (const Nuisance& n : all) {
     if (!n.matters || is_given(c, n.path) || !scenario_number(n.path, scenario)) continue;
     if (c.free.size() + found.size() == kMostFree) break;
     const Json range{{n.path, {0.0, n.high}}};
     FreeParameter p = read_free_parameters({range, "nuisances", nullptr}, scenario).front();
+    p.stretch = n.stretch;
     p.nuisance_source = n.source;
     found.push_back(std::move(p));
   }

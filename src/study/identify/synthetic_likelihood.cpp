@@ -9,6 +9,7 @@
 namespace faba {
 namespace {
 
+constexpr double kPriorPrecision = 12;  // of a uniform distribution on 0 to 1; bounds uninformed parameters
 constexpr int kThinning = 20;
 
 }  // namespace

@@ -8,10 +8,6 @@
 
 namespace faba {
 
-/// Precision of a uniform distribution on 0 to 1, the prior of a parameter as a fraction of its range; bounds
-/// parameters without information.
-inline constexpr double kPriorPrecision = 12;
-
 /// Simulations of one model: row i of `u` holds the parameters of simulation i as fractions of their ranges
 /// (0 to 1), row i of `s` its statistics.
 struct SimulationTable {

@@ -45,8 +45,9 @@ std::string simulations_text(const Identification& r) {
   for (const FoundModel& m : r.models)
     if (m.failed.empty()) rounds += fmt::format("{}{} {}", rounds.empty() ? "" : ", ", m.name, m.rounds);
   return fmt::format(
-      "Valid simulations: per video, of all rounds. The study requests {} in four rounds; the last round is "
-      "repeated, at most twice, while the posterior extends beyond it (rounds: {}), and simulations without "
+      "Valid simulations: per video, of all rounds. The study requests {} in four rounds, and "
+      "one more round if a model has more than three parameters; the last round is repeated, at most twice, "
+      "while the posterior extends beyond it (rounds: {}), and simulations without "
       "a result, for example without cells in view, are not counted.",
       r.study.simulations, escape_markup(rounds));
 }
@@ -128,17 +129,17 @@ std::string models_table(const Identification& r) {
         escape_markup(m.name), parameters_text(m, false), parameters_text(m, true), three_digits(m.score),
         m.fit_p, m.simulations);
   }
-  return out +
-         fmt::format(
-             "</tbody></table></div>\n<p class=\"note\">Energy score: mean over {} "
-             "{}, each predicted from the others; lower is better. Fit p: fraction of the "
-             "simulations that deviate from their mean as much as the videos do; below 0.01 the model "
-             "does not explain the videos. Nuisance parameters: free by default, uniform priors (assumed). "
-             "{}{}</p>\n",
-             r.experiments.size(), r.parts, simulations_text(r),
-             single_experiment(r) ? " The field segments show the same swarm and are not independent: the "
-                                    "interval of the score difference is too narrow."
-                                  : "");
+  return out + fmt::format(
+                   "</tbody></table></div>\n<p class=\"note\">Energy score: mean over {} "
+                   "{}, each predicted from the others; lower is better. Fit p: fraction of the "
+                   "simulations that deviate from their mean as much as the videos do; below 0.01 the model "
+                   "does not explain the videos. Nuisance parameters: free by default, with assumed priors. "
+                   "{}{}</p>\n",
+                   r.experiments.size(), r.parts, simulations_text(r),
+                   single_experiment(r)
+                       ? " The field segments show the same swarm and are not independent: the "
+                         "interval of the score difference is too narrow."
+                       : "");
 }
 
 // Both with the grey scale of the video.

@@ -23,7 +23,7 @@ Json parameter_json(const FoundParameter& p) {
 // A parameter that the program frees by default, with its prior.
 Json nuisance_json(const FoundParameter& p) {
   Json j = parameter_json(p);
-  j["prior"] = {{"distribution", "uniform"}, {"source", p.parameter.nuisance_source}};
+  j["prior"] = p.parameter.nuisance_source;
   return j;
 }
 
@@ -58,6 +58,7 @@ nlohmann::ordered_json identify_json(const Identification& r) {
       one["score"] = m.score;
       one["scores"] = m.scores;
       one["fit_p"] = m.fit_p;
+      one["converged"] = m.converged;
       one["simulations"] = m.simulations;
       one["nuisances"] = Json::object();
       for (const FoundParameter& p : m.parameters) {

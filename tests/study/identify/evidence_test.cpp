@@ -104,3 +104,11 @@ TEST_CASE("warnings: doubts about nuisance parameters are not reported") {
   r.models[1].parameters[0].parameter.nuisance_source = "assumed";
   CHECK(identify_warnings(r).empty());
 }
+
+TEST_CASE("evidence: not clear when the search of another model ended in a wrong region") {
+  Identification r = compared();
+  r.models[0].converged = false;
+  judge(r);
+  CHECK(r.evidence != "clear");
+  CHECK(warns(r, "search", "increase simulations"));
+}

@@ -43,8 +43,14 @@ TEST_CASE(
   CHECK(nuisances(s) == Paths{"swarm[0].model.motile", "swarm[0].responding", "swarm[0].model.speed_sd"});
   const Candidate& c = s.candidates.front();
   CHECK(c.free.front().path == "swarm[0].model.speed");
-  CHECK(c.free.back().high == doctest::Approx(100e-6));  // half of the largest speed
+  CHECK(c.free.back().high == doctest::Approx(50e-6));  // a quarter of the largest speed
   CHECK(c.simulations == ParameterSearch::least_simulations(4));
+  // Most cells of a culture swim, but any fraction is possible.
+  const FreeParameter& motile = c.free[1];
+  CHECK(motile.value(0) == 0);
+  CHECK(motile.value(1) == 1);
+  CHECK(motile.value(0.5) == doctest::Approx(0.881).epsilon(0.001));
+  CHECK(motile.fraction(motile.value(0.3)) == doctest::Approx(0.3));
   CHECK(s.count_sd > 0);
 }
 
