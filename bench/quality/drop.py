@@ -21,13 +21,20 @@ def geometry(rng, arc=None):
     return (inset + r if rng.random() < 0.5 else m.WIDTH - inset - r), m.HEIGHT / 2 + rng.uniform(-20, 20), r
 
 
-def picture(kit, rng, at, **look):
-    """The first frame of a run in the drop `at` (centre and radius), with cells in view."""
+MARGIN = 60  # px around the picture, for blur and motion at its border
+
+
+def picture(kit, rng, at, margin=0, **look):
+    """The first frame of a run in the drop `at` (centre and radius), with cells in view; larger by a margin on each side."""
     x, y, r = at
     cells = look.pop("cells", 60)
-    text = m.scene(cells=cells, duration=0.1, rate=10, arena=f"radius_px = {r:.3f}\ncentre_px = [{x:.3f}, {y:.3f}]", um_per_px=1.16,
-                   **{"noise": 0.01, **look})
+    text = m.scene(cells=cells, duration=0.1, rate=10, arena=f"radius_px = {r:.3f}\ncentre_px = [{x + margin:.3f}, {y + margin:.3f}]", um_per_px=1.16,
+                   size=(m.WIDTH + 2 * margin, m.HEIGHT + 2 * margin), **{"noise": 0.01, **look})
     return kit.frames(kit.run(text, int(rng.integers(1, 1 << 30))))[0].astype(float)
+
+
+def cut(image):
+    return image[MARGIN:-MARGIN, MARGIN:-MARGIN]
 
 
 def measured(kit, rng, image, at):
@@ -40,7 +47,7 @@ def measured(kit, rng, image, at):
     sd, off = a["sd_px"], [abs(p - q) for p, q in zip((*a["center_px"], a["radius_px"]), at)] if at else [math.inf] * 3
     wrong = off[2] > 2 * sd["radius"] + 0.1 or off[0] > 3 * sd["x"] + 0.1 or off[1] > 3 * sd["y"] + 0.1
     return outcome(a, wrong, f"radius {at[2]:.1f}" if at else "no circle", f"radius {a['radius_px']:.1f}",
-                   f"+- {2 * sd['radius']:.1f}")
+                   f"+- {2 * sd['radius']:.1f}; arc {a['arc_deg']:.0f} deg")
 
 
 def suitable(kit, rng, k):
@@ -56,7 +63,7 @@ def on_texture(kit, rng, k):
 
 def unfocused(kit, rng, k):
     at = geometry(rng, None if k % 2 else 60)
-    return measured(kit, rng, m.blurred(picture(kit, rng, at, noise=0), rng.uniform(4, 14)) + 2 * rng.standard_normal((m.HEIGHT, m.WIDTH)), at)
+    return measured(kit, rng, cut(m.blurred(picture(kit, rng, at, MARGIN, noise=0), rng.uniform(4, 14))) + 2 * rng.standard_normal((m.HEIGHT, m.WIDTH)), at)
 
 
 def not_round(kit, rng, k):
@@ -65,7 +72,7 @@ def not_round(kit, rng, k):
     stretch = rng.uniform(1.06, 1.25)
     cx, cy = m.WIDTH / 2, m.HEIGHT / 2
     px, py = m.grid((m.HEIGHT, m.WIDTH))
-    image = m.warped(picture(kit, rng, at), x + (px - cx) * math.sqrt(stretch), y + (py - cy) / math.sqrt(stretch))
+    image = m.warped(picture(kit, rng, at, MARGIN), MARGIN + x + (px - cx) * math.sqrt(stretch), MARGIN + y + (py - cy) / math.sqrt(stretch))
     a = measured(kit, rng, image, (cx, cy, r / math.sqrt(stretch)))
     b = measured(kit, rng, image, (cx, cy, r * math.sqrt(stretch)))
     return {**a, "wrong": a["wrong"] or b["wrong"], "truth": f"half axes {r / math.sqrt(stretch):.1f} and {r * math.sqrt(stretch):.1f}"}
@@ -131,13 +138,13 @@ def too_dense(kit, rng, k):
 def streaks(kit, rng, k):
     """The stage moved during the exposure."""
     at = geometry(rng, None if k % 2 else 60)
-    image = picture(kit, rng, at, noise=0)
+    image = picture(kit, rng, at, MARGIN, noise=0)
     n, length = 24, rng.uniform(10, 30)
     px, py = m.grid(image.shape)
     angle = rng.uniform(0, math.pi)
     moved = [m.warped(image, px + (i / (n - 1) - 0.5) * length * math.cos(angle), py + (i / (n - 1) - 0.5) * length * math.sin(angle))
              for i in range(n)]
-    return measured(kit, rng, sum(moved) / n + 2 * rng.standard_normal(image.shape), at)
+    return measured(kit, rng, cut(sum(moved) / n) + 2 * rng.standard_normal((m.HEIGHT, m.WIDTH)), at)
 
 
 KINDS = {"suitable": (suitable, 12), "textured background": (on_texture, 3), "wrong focus": (unfocused, 3), "not round": (not_round, 3),

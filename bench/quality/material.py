@@ -107,8 +107,8 @@ class Kit:
         code, out, error = self.call(*words, "--json", "--quiet", cwd=cwd)
         if code == 0:
             return json.loads(out)
-        if code in (2, 3):
-            return {"refused": error.strip().splitlines()[-1] if error.strip() else f"exit code {code}"}
+        if code == 3:  # the material is unsuitable; all other codes are errors of the call or the program
+            return {"refused": error.strip().splitlines()[-1]}
         raise RuntimeError(f"faba {' '.join(map(str, words))}: exit code {code}: {error}")
 
     def made(self, key, make):

@@ -1,15 +1,21 @@
 #include "vision/drop/drop_edge.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/error.h"
+#include "vision/drop/arc_strip.h"
 #include "vision/drop/drop_picture.h"
 #include "vision/drop/drop_search.h"
 #include "vision/drop/drop_side.h"
 
 namespace faba {
 namespace {
+
+constexpr double kProfileHalfWidth =
+    24;  // px of the level: half width of the profile of an edge (ArcStripOptions)
 
 /// Systematic uncertainty of the edge position: a tenth of its width (half level, steepest point, centre of a
 /// line) and a twentieth of a pixel.
@@ -23,7 +29,10 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   d.edge_width_px = c.profile.width * c.scale;
   const double systematic = position_sd(d.edge_width_px);
   d.sd_centre_px = c.fit.sd_centre;
-  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic);
+  d.out_of_round_px = c.out_of_round_px;
+  // Standard deviation of the radius along an ellipse: its amplitude over the square root of two.
+  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic +
+                             c.out_of_round_px * c.out_of_round_px / 2);
   d.arc_deg = c.seen_rad * 180 / std::numbers::pi;
   d.image_width = picture.width;
   d.image_height = picture.height;
@@ -42,6 +51,38 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   return d;
 }
 
+/// The picture without an edge: minus its mean radial profile, which is constant further away.
+GrayF without_edge(const GrayF& picture, const DropCandidate& c) {
+  const int half = int(kProfileHalfWidth * c.scale);
+  const std::vector<double> profile = mean_profile(picture, c.circle, c.evidence.angles, half);
+  GrayF rest = picture;
+  for (int row = 0; row < rest.height; ++row)
+    for (int col = 0; col < rest.width; ++col) {
+      const double off = norm(Vec2{double(col), double(row)} - c.circle.centre) - c.circle.radius;
+      const double at = std::clamp(off + half, 0.0, 2.0 * half - 1e-9);
+      const std::size_t i = std::size_t(at);
+      const double f = at - double(i);
+      rest.at(col, row) -= float((1 - f) * profile[i] + f * profile[i + 1]);
+    }
+  return rest;
+}
+
+/// Another circular edge than `c`, detected in the picture without it.
+std::optional<Circle> other_edge(const GrayF& picture, const DropCandidate& c, const DropEdgeOptions& o) {
+  std::optional<DropCandidate> other;
+  try {
+    other = search_drop_edge(prepare_drop_picture(without_edge(picture, c), o), o).accepted;
+  } catch (const Error&) {
+    return std::nullopt;  // the rest is uniform
+  }
+  if (!other) return std::nullopt;
+  // What remains of the edge where its contrast varies along it is not another one.
+  const double apart = std::max(6 * std::max(c.scale, other->scale), 3 * c.profile.width * c.scale);
+  for (Vec2 p : other->points)
+    if (std::fabs(norm(p - c.circle.centre) - c.circle.radius) > apart) return other->circle;
+  return std::nullopt;
+}
+
 }  // namespace
 
 DropEdge find_drop_edge(const GrayF& picture, const DropEdgeOptions& options) {
@@ -55,6 +96,7 @@ DropEdge find_drop_edge(const GrayF& picture, const DropEdgeOptions& options) {
                 "and that the edge is in view");
   DropEdge edge = describe(*search.accepted, picture, prepared, options);
   edge.segments = std::move(search.segments);
+  edge.other = other_edge(picture, *search.accepted, options);
   return edge;
 }
 
