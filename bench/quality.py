@@ -78,7 +78,7 @@ def reduced(program):
         rows = [(verb, cases.measure(verb, kind, 1, 1)) for verb, kinds in REDUCED.items() for kind in kinds]
     bad = [(v, r) for v, r in rows if table.is_confident_error(r) or (r["kind"] == "suitable" and r["quality"] != "good")]
     for verb, r in rows:
-        print(f"{verb}: {r['name']}: {r['quality']}{', wrong' if r['wrong'] else ''}: truth {r['truth']}, answer {r['said']} ({r['interval']})")
+        print(f"{verb}: {r['name']}: {r['quality']}{', wrong' if r['wrong'] else ''}: truth {r['truth']}, answer {r['stated']} ({r['interval']})")
     return 1 if bad or len(rows) < 10 else 0
 
 
@@ -110,7 +110,7 @@ def main():
         for (verb, *_), row in zip(todo, pool.map(lambda c: cases.measure(*c), todo)):
             results[verb].append(row)
             if o.verbose or table.is_confident_error(row) or (row["kind"] == "suitable" and row["quality"] != "good"):
-                print(f"{verb}: {row['name']}: {row['quality']}{', wrong' if row['wrong'] else ''}: truth {row['truth']}, answer {row['said']} "
+                print(f"{verb}: {row['name']}: {row['quality']}{', wrong' if row['wrong'] else ''}: truth {row['truth']}, answer {row['stated']} "
                       f"({row['interval']}) {' '.join(row['aspects'])}", flush=True)
     for verb, rows in results.items():
         print("\n".join([f"\n{verb}"] + table.verdict(rows)))

@@ -5,7 +5,7 @@ import numpy
 from . import film, material as m
 from .outcome import outcome
 
-INTERVAL = ("wrong: a response where there is none or none where there is one; a segment whose direction is off by more than 30 degrees; an onset "
+INTERVAL = ("wrong: a response of cells that do not respond, or no response of cells that do; a segment whose direction is off by more than 30 degrees; an onset "
             "whose 90 % interval, widened by 1.19, does not overlap with the time from the field reversal to three frames after it")
 REVERSAL = 1.0
 WIDER = 1.96 / 1.645
@@ -14,14 +14,14 @@ WIDER = 1.96 / 1.645
 def judged(kit, rng, f, frames, responds=True, file=None):
     file = file or kit.film(frames, f.text, f.seed, float(frames.sum()), float(frames.std()))
     a = kit.json("activity", file, "--fps", f.rate, "--direction", 0, "--threads", 1)
-    told = f"a response at {REVERSAL} s to the right" if responds else "no response"
+    true_value = f"a response at {REVERSAL} s to the right" if responds else "no response"
     if "refused" in a:
-        return outcome(a, False, told, "", "")
+        return outcome(a, False, true_value, "", "")
     v = a["videos"][0]
     wrong = v["responds"] != responds
-    said = [f"responds: {str(v['responds']).lower()}"]
+    stated = [f"responds: {str(v['responds']).lower()}"]
     for s in v["segments"]:
-        said.append(f"{s['t0_s']:.2f} to {s['t1_s']:.2f} s at {s['direction_deg']:.0f} deg")
+        stated.append(f"{s['t0_s']:.2f} to {s['t1_s']:.2f} s at {s['direction_deg']:.0f} deg")
         right = 180 if (s["t0_s"] + s["t1_s"]) / 2 < REVERSAL else 0
         off = abs((s["direction_deg"] - right + 180) % 360 - 180)
         wrong = wrong or (responds and off > 30)
@@ -29,9 +29,9 @@ def judged(kit, rng, f, frames, responds=True, file=None):
     if responds and v["responds"] and v["onset_s"] is not None:
         low, high = (v["onset_s"] + WIDER * (x - v["onset_s"]) for x in v["onset_ci90"])
         wrong = wrong or high < REVERSAL or low > REVERSAL + 3 / f.rate
-        said.append(f"onset {v['onset_s']:.2f} s")
+        stated.append(f"onset {v['onset_s']:.2f} s")
         interval = f"{low:.2f} to {high:.2f} s"
-    return outcome(a, wrong, told, "; ".join(said), interval)
+    return outcome(a, wrong, true_value, "; ".join(stated), interval)
 
 
 def base(kit, rng, **look):

@@ -62,7 +62,7 @@ def other_size(frames, rng):
 
 
 def undriven(kit, rng, k):
-    """The run shows cells that do not respond: nothing tells where to start the comparison."""
+    """The run shows cells that do not respond: the start of the comparison is not determined."""
     a, b = pair(kit, rng, reversal=None, field=0, motile=k % 2)
     return judged(kit, rng, b, a.frames(kit), b.frames(kit))
 

@@ -1,11 +1,11 @@
 """What a verb answered for one piece of material, beside the truth."""
 
 
-def outcome(answer, wrong, truth, said, interval):
-    """`answer`: the verb's JSON or {"refused": ...}; `truth`, `said`, `interval`: texts for the table."""
+def outcome(answer, wrong, truth, stated, interval):
+    """`answer`: the verb's JSON or {"refused": ...}; `truth`, `stated`, `interval`: texts for the table."""
     if "refused" in answer:
-        return {"quality": "refused", "wrong": False, "truth": truth, "said": answer["refused"], "interval": "", "aspects": []}
-    return {"quality": answer["quality"], "wrong": bool(wrong), "truth": truth, "said": said, "interval": interval,
+        return {"quality": "refused", "wrong": False, "truth": truth, "stated": answer["refused"], "interval": "", "aspects": []}
+    return {"quality": answer["quality"], "wrong": bool(wrong), "truth": truth, "stated": stated, "interval": interval,
             "aspects": sorted({w["aspect"] for w in answer["warnings"]})}
 
 

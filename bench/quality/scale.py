@@ -60,11 +60,11 @@ def measured(kit, rng, image, pitch, tick=10.0):
 
 
 def judged(a, truth):
-    told = f"{truth:.4f} um/px" if truth else "no ruler"
+    true_value = f"{truth:.4f} um/px" if truth else "no ruler"
     if "refused" in a:
-        return outcome(a, False, told, "", "")
+        return outcome(a, False, true_value, "", "")
     low, high = a["ci95"]
-    return outcome(a, truth is None or not inside(low, truth, high), told, f"{a['um_per_px']:.4f}", f"{low:.4f} to {high:.4f}")
+    return outcome(a, truth is None or not inside(low, truth, high), true_value, f"{a['um_per_px']:.4f}", f"{low:.4f} to {high:.4f}")
 
 
 def table(kit, rng, widths, readings):

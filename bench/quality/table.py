@@ -50,10 +50,10 @@ def of_verb(verb, interval, rows):
     lines += [""] + verdict(rows) + [""]
     for r in rows:
         if is_confident_error(r):
-            lines.append(f"- wrong and good: {r['name']}: truth {r['truth']}; answer {r['said']} ({r['interval']})")
+            lines.append(f"- wrong and good: {r['name']}: truth {r['truth']}; answer {r['stated']} ({r['interval']})")
     for r in rows:
         if r["kind"] == "suitable" and r["quality"] != "good":
-            lines.append(f"- suitable but {r['quality']}: {r['name']}: {', '.join(r['aspects']) or r['said']}")
+            lines.append(f"- suitable but {r['quality']}: {r['name']}: {', '.join(r['aspects']) or r['stated']}")
     return lines + [""]
 
 

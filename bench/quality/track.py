@@ -17,9 +17,9 @@ def judged(kit, rng, f, frames, *words, drift=(0, 0), moving=None, file=None, ce
     """`moving`: the cells that swim, if not all do. With a drift of the view, speeds in the picture and in the liquid are both right."""
     file = file or kit.film(frames, f.text, f.seed, float(frames.sum()), float(frames.std()))
     a = kit.json("track", file, "--fps", f.rate, "--threads", 1, *words)
-    told = f"{f.speed(1):.1f} px/s, {f.in_view().sum(1).mean():.0f} cells"
-    if "refused" in a or not a["speed"]:
-        return outcome(a, False, told, "no speed", "")
+    true_value = f"{f.speed(1):.1f} px/s, {f.in_view().sum(1).mean():.0f} cells"
+    if "refused" in a or not a["speed"] or a["speed"]["mean_px_s"] is None:
+        return outcome(a, False, true_value, "no speed", "")
     gap = a["speed"]["interval_frames"]
     right = {f.speed(gap), f.speed(gap, drift)} if moving is None else set()
     medians = {f.median_speed(numpy.arange(f.at.shape[1]) if moving is None else moving)}
@@ -32,10 +32,10 @@ def judged(kit, rng, f, frames, *words, drift=(0, 0), moving=None, file=None, ce
         ok = ok or any(inside(value - WIDER * (value - lo) - 0.03 * v, v, value + WIDER * (hi - value) + 0.03 * v) for v in medians)
     count, true = a["detection"]["spots_per_frame"], f.in_view().sum(1).mean()
     ok = ok and (not cells or abs(count / true - 1) < 0.25)
-    said = f"{a['speed']['mean_px_s']:.1f} px/s, {count:.0f} per frame"
+    stated = f"{a['speed']['mean_px_s']:.1f} px/s, {count:.0f} per frame"
     if len(a["populations"]) > 1:
-        said += ", populations " + ", ".join(f"{p['speed_px_per_s']:.1f} ({p['motion']})" for p in a["populations"])
-    return outcome(a, not ok, told, said, f"{low or math.nan:.1f} to {high or math.nan:.1f}")
+        stated += ", populations " + ", ".join(f"{p['speed_px_per_s']:.1f} ({p['motion']})" for p in a["populations"])
+    return outcome(a, not ok, true_value, stated, f"{low or math.nan:.1f} to {high or math.nan:.1f}")
 
 
 def base(kit, rng, **look):
