@@ -29,7 +29,7 @@ double at(const GrayF& p, double x, double y) {
 }  // namespace
 
 void FlowCheck::add(const GrayF& a, const GrayF& b, const Flow& flow, double side) {
-  const double noise_a = noise_sd(a), noise_b = noise_sd(b);
+  const double noise_a = picture_noise(a), noise_b = picture_noise(b);
   const double noise = noise_a * noise_a + noise_b * noise_b, changed = kChanged * std::sqrt(noise);
   double grey = 0, gradient = 0;
   std::size_t n = 0;

@@ -39,7 +39,7 @@ void VideoLook::add(const GrayF& frame) {
                    gy = half_difference(frame.at(c, r + 1), frame.at(c, r - 1));
       gradient += gx * gx + gy * gy;
     }
-  const double n = double(d.width - 2) * (d.height - 2), sd = noise_sd(frame);
+  const double n = double(d.width - 2) * (d.height - 2), sd = picture_noise(frame);
   noise_ += sd * sd;
   change_ += change / n;
   gradient_ += slope / n;

@@ -7,7 +7,7 @@
 
 namespace faba {
 
-double noise_sd(const GrayF& p) {
+double picture_noise(const GrayF& p) {
   constexpr double kRounding = 0.2887;  // standard deviation of rounding, 1 / sqrt(12)
   std::vector<float> size;
   for (int r = 1; r + 1 < p.height; ++r)
