@@ -85,7 +85,7 @@ def reduced(program):
 def main():
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     a.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba", help="the program, default build/faba")
-    a.add_argument("--only", nargs="+", choices=list(VERBS), help="only these verbs; writes no table")
+    a.add_argument("--only", nargs="+", choices=list(VERBS), help="only these verbs; writes a table only with --out")
     a.add_argument("--kind", nargs="+", help="only these kinds of material; writes no table")
     a.add_argument("--seeds", type=int, default=1, help="number of seeds, default 1")
     a.add_argument("--held-out", action="store_true", help="seeds on which no threshold was chosen")
@@ -93,7 +93,7 @@ def main():
     a.add_argument("--keep", type=pathlib.Path, default=HERE.parent / "build/quality", help="folder of material and results")
     a.add_argument("--clear", action="store_true", help="delete this folder first")
     a.add_argument("--verbose", action="store_true", help="print every case")
-    a.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the table, default bench/results")
+    a.add_argument("--out", type=pathlib.Path, help="folder of the table, default bench/results")
     a.add_argument("--reduced", action="store_true", help="a few cases, for the test suite")
     o = a.parse_args()
     program = o.program.resolve()
@@ -114,9 +114,10 @@ def main():
                       f"({row['interval']}) {' '.join(row['aspects'])}", flush=True)
     for verb, rows in results.items():
         print("\n".join([f"\n{verb}"] + table.verdict(rows)))
-    if not o.only and not o.kind:
-        o.out.mkdir(parents=True, exist_ok=True)
-        (o.out / "quality.md").write_text(table.page(results, {v: VERBS[v].INTERVAL for v in verbs}, o.held_out, o.seeds))
+    out = o.out or (None if o.only else HERE / "results")
+    if out and not o.kind:
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "quality.md").write_text(table.page(results, {v: x.INTERVAL for v, x in VERBS.items()}, o.held_out, o.seeds))
     return 0 if table.met(results) else 1
 
 

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "core/error.h"
-#include "vision/drop/arc_strip.h"
 #include "vision/drop/drop_picture.h"
 #include "vision/drop/drop_search.h"
 #include "vision/drop/drop_side.h"
 
 namespace faba {
 namespace {
-
-constexpr double kProfileHalfWidth =
-    24;  // px of the level: half width of the profile of an edge (ArcStripOptions)
 
 /// Systematic uncertainty of the edge position: a tenth of its width (half level, steepest point, centre of a
 /// line) and a twentieth of a pixel.
@@ -28,10 +23,17 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   d.radius_px = c.circle.radius;
   d.edge_width_px = c.profile.width * c.scale;
   const double systematic = position_sd(d.edge_width_px);
-  d.sd_centre_px = c.fit.sd_centre;
+  // An error of the edge position by e between the middle and the ends of an arc of half-angle a < 90 degrees
+  // moves the centre and changes the radius by e / (1 - cos a). It is assumed to be half of the systematic
+  // uncertainty.
+  const double half = std::min(c.arc_rad / 2, std::numbers::pi / 2);
+  const double bend = c.arc_rad < std::numbers::pi ? 0.5 * systematic / (1 - std::cos(half)) : 0;
+  const Vec2 axis = c.points[c.points.size() / 2] - c.circle.centre;
+  d.sd_centre_px = {std::hypot(c.fit.sd_centre.x, bend * axis.x / norm(axis)),
+                    std::hypot(c.fit.sd_centre.y, bend * axis.y / norm(axis))};
   d.out_of_round_px = c.out_of_round_px;
   // Standard deviation of the radius along an ellipse: its amplitude over the square root of two.
-  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic +
+  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic + bend * bend +
                              c.out_of_round_px * c.out_of_round_px / 2);
   d.arc_deg = c.seen_rad * 180 / std::numbers::pi;
   d.image_width = picture.width;
@@ -51,35 +53,36 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   return d;
 }
 
-/// The picture without an edge: minus its mean radial profile, which is constant further away.
-GrayF without_edge(const GrayF& picture, const DropCandidate& c) {
-  const int half = int(kProfileHalfWidth * c.scale);
-  const std::vector<double> profile = mean_profile(picture, c.circle, c.evidence.angles, half);
+/// The picture without an edge: minus the fitted step and line. `gain`: grey of the profile per grey of the
+/// picture.
+GrayF without_edge(const GrayF& picture, const DropCandidate& c, double gain) {
+  const double width = c.profile.width * c.scale;
   GrayF rest = picture;
   for (int row = 0; row < rest.height; ++row)
     for (int col = 0; col < rest.width; ++col) {
       const double off = norm(Vec2{double(col), double(row)} - c.circle.centre) - c.circle.radius;
-      const double at = std::clamp(off + half, 0.0, 2.0 * half - 1e-9);
-      const std::size_t i = std::size_t(at);
-      const double f = at - double(i);
-      rest.at(col, row) -= float((1 - f) * profile[i] + f * profile[i + 1]);
+      const double t = off / width;
+      const double step = c.profile.step * 0.5 * std::erfc(-t / std::numbers::sqrt2);
+      rest.at(col, row) -= float((step + c.profile.ring * std::exp(-0.5 * t * t)) / gain);
     }
   return rest;
 }
 
 /// Another circular edge than `c`, detected in the picture without it.
-std::optional<Circle> other_edge(const GrayF& picture, const DropCandidate& c, const DropEdgeOptions& o) {
+std::optional<Circle> other_edge(const GrayF& picture, const DropCandidate& c, double gain,
+                                 const DropEdgeOptions& o) {
   std::optional<DropCandidate> other;
   try {
-    other = search_drop_edge(prepare_drop_picture(without_edge(picture, c), o), o).accepted;
+    other = search_drop_edge(prepare_drop_picture(without_edge(picture, c, gain), o), o).accepted;
   } catch (const Error&) {
     return std::nullopt;  // the rest is uniform
   }
   if (!other) return std::nullopt;
-  // What remains of the edge where its contrast varies along it is not another one.
-  const double apart = std::max(6 * std::max(c.scale, other->scale), 3 * c.profile.width * c.scale);
+  // What remains of the edge, where its contrast or width varies along it, is not another one.
+  const double apart = std::max(6 * std::max(c.scale, other->scale), 4 * c.profile.width * c.scale);
+  const auto off = [](const Circle& circle, Vec2 p) { return norm(p - circle.centre) - circle.radius; };
   for (Vec2 p : other->points)
-    if (std::fabs(norm(p - c.circle.centre) - c.circle.radius) > apart) return other->circle;
+    if (std::fabs(off(c.circle, p) - off(other->circle, p)) > apart) return other->circle;
   return std::nullopt;
 }
 
@@ -96,7 +99,7 @@ DropEdge find_drop_edge(const GrayF& picture, const DropEdgeOptions& options) {
                 "and that the edge is in view");
   DropEdge edge = describe(*search.accepted, picture, prepared, options);
   edge.segments = std::move(search.segments);
-  edge.other = other_edge(picture, *search.accepted, options);
+  edge.other = other_edge(picture, *search.accepted, prepared.gain, options);
   return edge;
 }
 
