@@ -23,17 +23,10 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   d.radius_px = c.circle.radius;
   d.edge_width_px = c.profile.width * c.scale;
   const double systematic = position_sd(d.edge_width_px);
-  // An error of the edge position by e between the middle and the ends of an arc of half-angle a < 90 degrees
-  // moves the centre and changes the radius by e / (1 - cos a). It is assumed to be half of the systematic
-  // uncertainty.
-  const double half = std::min(c.arc_rad / 2, std::numbers::pi / 2);
-  const double bend = c.arc_rad < std::numbers::pi ? 0.5 * systematic / (1 - std::cos(half)) : 0;
-  const Vec2 axis = c.points[c.points.size() / 2] - c.circle.centre;
-  d.sd_centre_px = {std::hypot(c.fit.sd_centre.x, bend * axis.x / norm(axis)),
-                    std::hypot(c.fit.sd_centre.y, bend * axis.y / norm(axis))};
+  d.sd_centre_px = c.fit.sd_centre;
   d.out_of_round_px = c.out_of_round_px;
   // Standard deviation of the radius along an ellipse: its amplitude over the square root of two.
-  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic + bend * bend +
+  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic +
                              c.out_of_round_px * c.out_of_round_px / 2);
   d.arc_deg = c.seen_rad * 180 / std::numbers::pi;
   d.image_width = picture.width;
