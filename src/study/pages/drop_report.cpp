@@ -18,6 +18,9 @@ nlohmann::ordered_json drop_json(const DropEdge& edge, const VideoScale& scale) 
   json["sd_px"]["y"] = edge.sd_centre_px.y;
   json["sd_px"]["radius"] = edge.sd_radius_px;
   json["arc_deg"] = edge.arc_deg;
+  json["support"] = edge.support;
+  json["edge_width_px"] = edge.edge_width_px;
+  json["out_of_round_px"] = edge.out_of_round_px;
   json["inside"] = {edge.inside_image.x, edge.inside_image.y};
   json["image_size"] = {edge.image_width, edge.image_height};
   add_scale(json, scale);
