@@ -189,15 +189,17 @@ void warn_misfit(const TrackMeasurement& m, std::vector<Warning>& out) {
   if (walk == SupportedWalk::none || !misfit_of(s).significant) return;
   const MsdMisfit& misfit = misfit_of(s);
   const bool diffusion = walk == SupportedWalk::diffusion;
-  out.push_back({"model",
-                 diffusion ? "the mean-square displacement is not that of diffusion, and D has no meaning"
-                           : "the mean-square displacement is not that of a persistent walk; its speed and "
-                             "persistence time have no meaning",
-                 fmt::format("it differs by {:+.0f} +- {:.2g} % from the fit at {:.3g} s",
-                             100 * misfit.deviation, 100 * misfit.se, misfit.lag_s),
-                 "look at the curve in --report; use populations, or a part of the video",
-                 // The speeds of displacements do not depend on a model; for diffusion only D is stated.
-                 diffusion ? Quality::doubtful : Quality::good});
+  const bool together = s.order > 0.5 || mean_order(s) > 0.5;
+  out.push_back(
+      {"model",
+       diffusion ? "the mean-square displacement is not that of diffusion, and D has no meaning"
+                 : "the mean-square displacement is not that of a persistent walk; its speed and "
+                   "persistence time have no meaning",
+       fmt::format("it differs by {:+.0f} +- {:.2g} % from the fit at {:.3g} s", 100 * misfit.deviation,
+                   100 * misfit.se, misfit.lag_s),
+       "look at the curve in --report; use populations, or a part of the video",
+       // The speeds of displacements do not depend on a model. Without common motion D is the result.
+       diffusion && !together ? Quality::doubtful : Quality::good});
 }
 
 }  // namespace
