@@ -164,7 +164,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   a.notes = source.notes();
   a.scale = source.scale();
   a.timed = source.fps() > 0;
-  a.um_per_px = source.um_per_px();
+  a.um_per_px = source.scale().um_per_px;
   a.view_px = double(source.width()) * source.height() * source.shrink() * source.shrink();
   if (!cells) return;
   if (cells->reads_frames() && !cells->mean())

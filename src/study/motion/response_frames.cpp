@@ -59,8 +59,8 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = middle.px[i] - smooth.level.px[i];
   const Polarity polarity = polarity_of(differences);
   sign_ = polarity == Polarity::dark ? 1 : -1;
-  size_ = spot_size(middle, median, polarity, pool);
-  if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool);
+  size_ = spot_size(middle, median, polarity, pool).px;
+  if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
   if (!(size_ > 0)) size_ = kDefaultSize;
   filled_ = line_closing(scaled(median.level, float(sign_)), std::max(3.0, kSegmentSizes * size_)).least;
 }
