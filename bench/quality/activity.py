@@ -11,9 +11,10 @@ REVERSAL = 1.0
 WIDER = 1.96 / 1.645
 
 
-def judged(kit, rng, f, frames, responds=True, file=None):
+def judged(kit, rng, k, f, frames, responds=True, file=None):
     file = file or kit.film(frames, f.text, f.seed, float(frames.sum()), float(frames.std()))
-    a = kit.json("activity", file, "--fps", f.rate, "--direction", 0, "--threads", 1)
+    known = ["--reversal", REVERSAL] if k % 2 else []  # half of the users recorded it
+    a = kit.json("activity", file, "--fps", f.rate, "--direction", 0, "--threads", 1, *known)
     true_value = f"a response at {REVERSAL} s to the right" if responds else "no response"
     if "refused" in a:
         return outcome(a, False, true_value, "", "")
@@ -44,13 +45,13 @@ def base(kit, rng, **look):
 
 def suitable(kit, rng, k):
     f = base(kit, rng)
-    return judged(kit, rng, f, f.frames(kit))
+    return judged(kit, rng, k, f, f.frames(kit))
 
 
 def defect(change, **look):
     def case(kit, rng, k):
         f = base(kit, rng, **look)
-        return judged(kit, rng, f, change(f.frames(kit), rng))
+        return judged(kit, rng, k, f, change(f.frames(kit), rng))
     return case
 
 
@@ -58,7 +59,7 @@ def without_response(change, **look):
     """Cells that do not respond: dead ones (even cases), or ones that swim in all directions."""
     def case(kit, rng, k):
         f = base(kit, rng, **{"reversal": None, "field": 0, "motile": k % 2, "start": film.DISC, **look})
-        return judged(kit, rng, f, change(f.frames(kit), rng), False)
+        return judged(kit, rng, k, f, change(f.frames(kit), rng), False)
     return case
 
 
@@ -72,13 +73,13 @@ def drifting(frames, rng):
 
 def h264(kit, rng, k):
     f = base(kit, rng, contrast=-0.12) if k % 2 else base(kit, rng, contrast=-0.12, reversal=None, field=0, motile=0, start=film.DISC)
-    return judged(kit, rng, f, f.frames(kit), bool(k % 2), file=f.run / "video.mp4")
+    return judged(kit, rng, k, f, f.frames(kit), bool(k % 2), file=f.run / "video.mp4")
 
 
 def polarity(kit, rng, k):
     """Half of the cells swim along the field, the other half against it."""
     f = base(kit, rng)
-    return judged(kit, rng, f, (lambda p: (p + p[:, :, ::-1]) / 2)(f.frames(kit)))
+    return judged(kit, rng, k, f, (lambda p: (p + p[:, :, ::-1]) / 2)(f.frames(kit)))
 
 
 KINDS = {"suitable": (suitable, 10), "undriven": (without_response(unchanged), 3), "textured background": (defect(film.textured), 2),

@@ -86,7 +86,7 @@ def h264(kit, rng, k):
 
 def too_fast(kit, rng, k):
     """Cells that move by several times their width per frame: the start of the response is found, the flow is not theirs."""
-    a, b = pair(kit, rng, speed=rng.uniform(400, 700))
+    a, b = pair(kit, rng, speed=rng.uniform(400, 700), extra=", speed_max = \"2000 um/s\"")
     return judged(kit, rng, b, a.frames(kit), b.frames(kit))
 
 

@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "study/data/run_info.h"
 #include "study/data/run_video.h"
+#include "study/motion/activity_checks.h"
 #include "study/motion/video_response.h"
 #include "study/tracks/cell_count.h"
 
@@ -148,9 +149,11 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   options.kept = std::move(prepared.flows);
   FlowSource source(a.input.file, options);
   FlowPair pair;
+  VideoLook look;
   double most = -1;
   while (source.next(pair)) {
     a.signature.add(pair, source.shrink());
+    look.add(pair.image);
     const std::size_t k = a.signature.size() - 1;
     const double now = a.direction_given ? a.signature.along(k, zero) : norm(a.signature.sum(k));
     if (now > most) {
@@ -161,6 +164,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
     job.progress(index, k + 1, source.pairs());
     check_stop(job, a.input);
   }
+  if (auto warning = light_warning(look, source.shrink(), a.threshold_px)) a.warnings.push_back(*warning);
   a.notes = source.notes();
   a.scale = source.scale();
   a.timed = source.fps() > 0;
@@ -214,6 +218,8 @@ void note_response(VideoActivity& a) {
 
 void note_motion(VideoActivity& a) {
   warn_of_flow(a);
+  if (!a.responds)
+    if (auto warning = opposite_warning(a.signature, a.direction_deg)) a.warnings.push_back(*warning);
   note_response(a);
   if (a.signature.still())
     a.notes.emplace_back("no motion was detected");

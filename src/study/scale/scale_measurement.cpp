@@ -54,25 +54,28 @@ struct Curvature {
   int freedom = 0;
 };
 
-Curvature curvature_of(const std::vector<double>& width, const std::vector<double>& px, const LineFit& line) {
+// Of the mean readings of each width: readings of one width have the error of that width in common.
+Curvature curvature_of(const std::map<double, std::vector<double>>& by_width) {
+  std::vector<double> width, px, square;
+  for (const auto& [w, list] : by_width) {
+    width.push_back(w);
+    px.push_back(mean(list));
+    square.push_back(w * w);
+  }
   const int n = int(width.size());
   if (n < 5) return {};
-  const auto [low, high] = std::minmax_element(width.begin(), width.end());
-  std::vector<double> square;
-  for (const double w : width) square.push_back(w * w);
-  const LineFit of_square = fit_line(width, square);
+  const LineFit line = fit_line(width, px), of_square = fit_line(width, square);
   double qq = 0, qr = 0, rr = 0;
-  for (int i = 0; i < n; ++i) {
-    const double w = width[std::size_t(i)];
-    const double q = square[std::size_t(i)] - of_square.intercept - of_square.slope * w;
-    const double r = px[std::size_t(i)] - line.intercept - line.slope * w;
+  for (std::size_t i = 0; i < width.size(); ++i) {
+    const double q = square[i] - of_square.intercept - of_square.slope * width[i];
+    const double r = px[i] - line.intercept - line.slope * width[i];
     qq += q * q;
     qr += q * r;
     rr += r * r;
   }
-  if (!(qq > 1e-12 * of_square.slope * of_square.slope * *high * *high)) return {};  // two widths
   const double c = qr / qq, rest = std::max(0.0, rr - c * qr);
-  return {c / std::sqrt(std::max(rest / (n - 3), 1e-12) / qq), 2 * c * (*high - *low) / line.slope, n - 3};
+  return {c / std::sqrt(std::max(rest / (n - 3), 1e-12) / qq),
+          2 * c * (width.back() - width.front()) / line.slope, n - 3};
 }
 
 Warning curvature_warning(const Curvature& bend) {
@@ -164,7 +167,7 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
   s.source = name;
   s.warnings = warnings_of(s);
   // Significant at 1 %.
-  const Curvature bend = curvature_of(width_um, readings.reading_px, line);
+  const Curvature bend = curvature_of(by_width);
   if (bend.freedom > 0 && std::fabs(bend.t) > student_t_quantile(0.995, bend.freedom))
     s.warnings.push_back(curvature_warning(bend));
   return s;

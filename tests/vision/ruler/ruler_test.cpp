@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "tests/vision/ruler_pictures.h"
 #include "vision/draw/ruler_overlay.h"
+#include "vision/files/picture.h"
 
 using namespace faba;
 
