@@ -234,6 +234,16 @@ void note_motion(VideoActivity& a) {
                           rounded_degrees(a.direction_deg)));
 }
 
+// Widens the interval of a fraction by its binomial variance: the objects in view are a sample. The variance
+// is at least that of one object.
+void add_sampling_error(Measured& f, double objects) {
+  constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
+  const double least = 1 / objects;
+  const double p = std::clamp(f.value, least, 1 - least), error = k90 * std::sqrt(p * (1 - p) / objects);
+  f.ci90 = {std::max(0.0, f.value - std::hypot(f.value - f.ci90[0], error)),
+            std::min(1.0, f.value + std::hypot(f.ci90[1] - f.value, error))};
+}
+
 void take_response(VideoActivity& a, const ActivityJob& job) {
   const ResponseJob response{.video = a.input.file,
                              .part = {a.input.from_s, a.input.to_s, job.fps},
@@ -245,6 +255,8 @@ void take_response(VideoActivity& a, const ActivityJob& job) {
   a.response = video_response(response, {a.signature, a.segments, a.direction_deg});
   if (!a.response) return;
   if (is_run(a.input.file)) a.um_per_px = read_run_info(a.input.file / "manifest.json").um_per_px;
+  if (a.response->fraction && a.visible_cells && *a.visible_cells >= 2)
+    add_sampling_error(*a.response->fraction, *a.visible_cells);
   // Nearest-neighbour distance of points at random, for the mean number in view.
   if (a.response->flow && a.visible_cells && *a.visible_cells >= 2)
     a.response->flow->neighbour_px = 0.5 * std::sqrt(a.view_px / *a.visible_cells);

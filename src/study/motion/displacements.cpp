@@ -6,6 +6,7 @@
 #include "core/random/distributions.h"
 #include "core/units.h"
 #include "core/vec.h"
+#include "study/stats/study_random.h"
 #include "vision/cells/spot_fit.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -18,9 +19,13 @@ constexpr double kSurroundRatio = 2.5;    // as in Detector
 constexpr double kThresholdSd = 1.5;      // of the noise of the band-passed picture
 constexpr int kPairBlocks = 5;            // of the pairs
 constexpr double kShiftSizes = 1.25;      // displacement in sizes of an object
-constexpr double kLongestGap = 0.25;      // s: cells turn and leave the picture
-constexpr double kExplained = 0.8;        // fraction of the variance that the model must explain
-constexpr double kSignificant = 3;        // standard errors of the fraction
+// Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
+// limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
+constexpr double kLeastSpread = 0.15;
+constexpr double kShiftStep = 0.1;    // px: grid of the fitted displacement
+constexpr double kLongestGap = 0.25;  // s: cells turn and leave the picture
+constexpr double kExplained = 0.8;    // fraction of the variance that the model must explain
+constexpr double kSignificant = 3;    // standard errors of the fraction
 
 using Profile = std::array<double, 2 * kRadius + 1>;  ///< against the displacement along, in px
 
@@ -48,6 +53,14 @@ Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
       if (s.band.px[i] != 0) s.pixels.push_back({c, r, v});
     }
   return s;
+}
+
+// White noise of the video, treated as a picture.
+Sparse noise_picture(const ResponseFrames& frames) {
+  GrayF noise(frames.width(), frames.height());
+  StudyRandom random(0, StudyDraws::measurement);
+  for (float& v : noise.px) v = float(frames.noise() * random.normal());
+  return sparse_of(noise, frames.object_px(), frames.noise());
 }
 
 /// Sums of products of two pictures against the displacement between the pixels, projected on a direction.
@@ -202,18 +215,23 @@ ShiftFit fit_with(const PairBlock& b, double shift, double sd, double way) {
 ShiftFit fit_of(const PairBlock& b, double size, double way) {
   ShiftFit best;
   const auto take = [&](double shift, double sd) {
-    if (const ShiftFit f = fit_with(b, shift, sd, way); f.explained > best.explained) best = f;
+    if (const ShiftFit f = fit_with(b, shift, std::max(sd, kLeastSpread * shift), way);
+        f.explained > best.explained)
+      best = f;
   };
   for (double shift = size / 4; shift < kRadius - size; shift += 0.5)
     for (const double sd : {0.3, 0.7, 1.2, 2.0, 3.0, 4.5}) take(shift, sd);
   const ShiftFit rough = best;
-  for (double shift = rough.shift - 0.5; shift <= rough.shift + 0.5; shift += 0.1)
+  for (double shift = rough.shift - 0.5; shift <= rough.shift + 0.5; shift += kShiftStep)
     for (const double factor : {0.75, 0.9, 1.0, 1.15, 1.35}) take(std::max(shift, 0.1), rough.sd * factor);
   return best;
 }
 
-std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, std::size_t gap, double direction_deg) {
+std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const Sparse& noise, std::size_t gap,
+                                 double direction_deg) {
   Correlator correlate(direction_deg);
+  // Noise correlates with itself only: it is not part of the objects.
+  const Profile of_noise = correlate.between(noise, noise.band);
   std::vector<PairBlock> blocks(kPairBlocks);
   const std::size_t pairs = pictures.size() - gap;
   for (std::size_t k = 0; k < pairs; ++k) {
@@ -222,19 +240,20 @@ std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, std::size_
     const Profile self = correlate.between(pictures[k], pictures[k].band);
     for (std::size_t i = 0; i < next.size(); ++i) {
       b.next[i] += next[i];
-      b.self[i] += self[i];
+      b.self[i] += self[i] - of_noise[i];
     }
     add_energy(b, pictures[k], correlate.along());
   }
   return blocks;
 }
 
-std::array<double, 2> interval(double value, const std::vector<double>& without) {
+// `least`: half width at least, for values on a grid.
+std::array<double, 2> jackknife_interval(double value, const std::vector<double>& without, double least) {
   double mean = 0, squares = 0;
   for (const double v : without) mean += v / double(without.size());
   for (const double v : without) squares += (v - mean) * (v - mean);
-  const double n = double(without.size()),
-               half = student_t_quantile(0.95, n - 1) * std::sqrt((n - 1) / n * squares);
+  const auto n = double(without.size());
+  const double half = std::max(least, student_t_quantile(0.95, n - 1) * std::sqrt((n - 1) / n * squares));
   return {value - half, value + half};
 }
 
@@ -252,8 +271,8 @@ CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const ShiftFi
   CommonDisplacement c;
   c.fraction = fit.fraction;
   c.shift_px = fit.shift * scale;
-  c.fraction_ci90 = interval(fit.fraction, fractions);
-  c.shift_ci90 = interval(fit.shift, shifts);
+  c.fraction_ci90 = jackknife_interval(fit.fraction, fractions, 0);
+  c.shift_ci90 = jackknife_interval(fit.shift, shifts, kShiftStep / 2);
   for (double& v : c.shift_ci90) v *= scale;
   c.clear = fit.explained > kExplained && c.fraction > 0 &&
             (c.fraction_ci90[1] - c.fraction) * kSignificant / student_t_quantile(0.95, kPairBlocks - 1) <
@@ -267,15 +286,15 @@ CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const ShiftFi
 
 std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames, const VideoPart& part,
                                                       double direction_deg, double frame_s) {
+  const double size = frames.object_px();
   std::vector<Sparse> pictures;
   frames.each(part, [&](const GrayF& objects, double) {
-    if (pictures.size() < kMostFrames)
-      pictures.push_back(sparse_of(objects, frames.object_px(), frames.noise()));
+    if (pictures.size() < kMostFrames) pictures.push_back(sparse_of(objects, size, frames.noise()));
   });
   if (pictures.size() < kLeastFrames) return {};
-  const double size = frames.object_px();
+  const Sparse noise = noise_picture(frames);
   for (std::size_t gap = 1;; gap *= 2) {
-    const std::vector<PairBlock> blocks = blocks_of(pictures, gap, direction_deg);
+    const std::vector<PairBlock> blocks = blocks_of(pictures, noise, gap, direction_deg);
     PairBlock all;
     for (const PairBlock& b : blocks) all.add(b, 1);
     if (!(all.energy > 0)) return {};

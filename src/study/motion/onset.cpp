@@ -20,9 +20,7 @@ constexpr double kLeastAfter = 0.4;  // s of that window, at least
 constexpr std::size_t kPairsBefore = 3, kPairsAfter = 8;
 constexpr std::size_t kWindowBlocks = 6;  // of the window, assumed independent
 constexpr double kPerPair = 10;           // steps of the onset per pair
-constexpr double kModelError = 0.02;      // of the rise: a real rise is not exactly linear; assumed
-
-/// Consecutive pairs [begin, end) about the change.
+constexpr double kModelError = 0.05;  // of the rise: rms deviation of a logistic rise from the nearest ramp
 struct ChangeWindow {
   std::size_t begin = 0, change = 0, end = 0;
   double half_s = 0;  ///< time at which the smoothed velocity has half of its rise
@@ -156,7 +154,8 @@ std::vector<OnsetTime> posterior_of(const ShiftSeries& s, const ChangeWindow& w,
   return posterior;
 }
 
-void summarise(const std::vector<OnsetTime>& posterior, ChangePoint& c) {
+// `step`: of the grid of times; each of them stands for the half step on either side.
+void summarise(const std::vector<OnsetTime>& posterior, double earliest, double step, ChangePoint& c) {
   double below = 0;
   for (const OnsetTime& p : posterior) {
     below += p.weight;
@@ -170,7 +169,7 @@ void summarise(const std::vector<OnsetTime>& posterior, ChangePoint& c) {
     while (inside - posterior[from].weight >= 0.9) inside -= posterior[from++].weight;
     if (inside < 0.9 || p.t_s - posterior[from].t_s >= shortest) continue;
     shortest = p.t_s - posterior[from].t_s;
-    c.ci90 = {posterior[from].t_s, p.t_s};
+    c.ci90 = {std::max(earliest, posterior[from].t_s - step / 2), p.t_s + step / 2};
   }
 }
 
@@ -201,7 +200,7 @@ std::optional<ChangePoint> change_point(const ShiftSeries& s, double earliest, d
       *std::min_element(trials.begin(), trials.end(),
                         [](const RampTrial& a, const RampTrial& b) { return a.squares < b.squares; });
   ChangePoint c;
-  summarise(posterior_of(s, *w, trials, best), c);
+  summarise(posterior_of(s, *w, trials, best), earliest, w->pair_s / kPerPair, c);
   c.rise_s = best.rise_s;
   std::size_t after = w->change;
   while (after + kPairsBefore < w->end && s.t0_s[after] < w->half_s) ++after;

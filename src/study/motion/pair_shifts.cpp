@@ -10,8 +10,8 @@
 namespace faba {
 namespace {
 
-constexpr double kSurround = 8;  // px: sd of the smoothed copy that the band pass subtracts
-constexpr std::array kRegistrationScales{4.0, 12.0};  // px
+constexpr double kSurround = 12;  // px: sd of the smoothed copy that the band pass subtracts
+constexpr std::array kRegistrationScales{4.0, 18.0};  // px
 constexpr double kForegroundSd = 4;                   // standard deviations of the smoothed noise
 
 /// What the measures need of one picture.
@@ -75,7 +75,7 @@ const char* word_of(ShiftMeasure measure) {
     case ShiftMeasure::fine:
       return "registration, 4 px";
     case ShiftMeasure::coarse:
-      return "registration, 12 px";
+      return "registration, 18 px";
   }
   return "";
 }

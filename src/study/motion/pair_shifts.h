@@ -11,7 +11,7 @@ namespace faba {
 enum class ShiftMeasure {
   centroid,  ///< shift of the centroid of the objects: for a swarm with free space around it
   fine,      ///< registration on a scale of 4 px: for slow objects in the entire picture
-  coarse     ///< on a scale of 12 px
+  coarse     ///< on a scale of 18 px
 };
 inline constexpr std::array kShiftMeasures{ShiftMeasure::centroid, ShiftMeasure::fine, ShiftMeasure::coarse};
 const char* word_of(ShiftMeasure measure);
@@ -25,7 +25,7 @@ struct PairShifts {
   const std::vector<Vec2>& of(ShiftMeasure measure) const { return by[std::size_t(measure)]; }
 };
 
-/// The registration compares a picture B, band-passed between the size of an object and 8 px, with the
+/// The registration compares a picture B, band-passed between the size of an object and 12 px, with the
 /// gradient of the next one smoothed on the scale R, S = G_R * B (theory A16):
 ///   u_k = sum(B_k grad S_(k+1) - B_(k+1) grad S_k) / sum(grad B . grad S),
 /// the mean displacement of objects that move by less than R. What does not move contributes nothing, and

@@ -122,7 +122,7 @@ const char* reversal_source(const Response& r) {
 
 std::string decimals(double value, double width) {
   const double step = width / 20;
-  const int digits = step > 0 ? std::clamp(int(std::ceil(-std::log10(step))), 0, 6) : 6;
+  const int digits = step > 0 ? std::clamp(int(std::ceil(-std::log10(step))), 0, 6) : 2;
   return fmt::format("{:.{}f}", value, digits);
 }
 

@@ -15,7 +15,8 @@ namespace faba {
 /// "given", "recorded" by the run, or "detected" in the video.
 const char* reversal_source(const Response& response);
 
-/// A value with as many decimals as a twentieth of the width of its interval needs, at most six.
+/// A value with as many decimals as a twentieth of the width of its interval needs, at most six; two for a
+/// width of zero.
 std::string decimals(double value, double width);
 inline double width_of(const std::array<double, 2>& interval) { return interval[1] - interval[0]; }
 
