@@ -15,11 +15,11 @@ constexpr std::size_t kFewReferences = 5;    // assumed
 constexpr double kFewMoving = 0.1;    // of the points, of a set that moves: fewer agree at random (assumed)
 constexpr double kAgree = 9.21;       // chi-square with two degrees of freedom, 99 %
 constexpr double kLeastError = 0.02;  // px, of the position of a well resolved spot (assumed)
-constexpr double kSteady = 3;         // times the error of the steadiest tracks
+constexpr double kSteadyTrack = 3;    // times the error of the steadiest tracks
 constexpr double kSteadiest = 0.05;   // quantile of the errors
 // Von Neumann's ratio (1941) of the squared successive differences to the squared residuals is 2 for white
 // errors and 6 / n for a random walk of n steps, 0.4 for 16; a coded video correlates the errors.
-constexpr double kWhite = 0.6;
+constexpr double kWhiteErrors = 0.6;
 constexpr double kNearlyAll = 0.9;       // of the points: all objects keep their distances
 constexpr double kClearDrift = 3;        // standard errors
 constexpr double kSeenMotion = 1;        // px over the video: less does not matter
@@ -70,7 +70,7 @@ std::vector<StraightTrack> steady_lines(const std::vector<Track>& tracks) {
     errors.push_back(lines.back().error);
   }
   if (lines.empty()) return lines;
-  const double most = kSteady * quantile(errors, kSteadiest);
+  const double most = kSteadyTrack * quantile(errors, kSteadiest);
   std::erase_if(lines, [&](const StraightTrack& l) { return l.error > most; });
   std::stable_sort(lines.begin(), lines.end(), [](const StraightTrack& a, const StraightTrack& b) {
     return a.track->points.size() > b.track->points.size();
@@ -185,7 +185,7 @@ Rigid rigid_lines(const std::vector<StraightTrack>& set, const CommonPath& path)
   rigid.error = median(errors);
   for (const StraightTrack& l : set)
     if (const PathResidual r = residual_of(*l.track, path);
-        r.error <= kSteady * rigid.error && r.neumann > kWhite)
+        r.error <= kSteadyTrack * rigid.error && r.neumann > kWhiteErrors)
       rigid.lines.push_back(l);
   return rigid;
 }

@@ -10,8 +10,8 @@
 namespace faba {
 namespace {
 
-constexpr std::int64_t kShown = 9;       // frames
-constexpr std::int64_t kIfUnknown = 40;  // frames, when the file does not state its length
+constexpr std::int64_t kPreviewShown = 9;  // frames
+constexpr std::int64_t kIfUnknown = 40;    // frames, when the file does not state its length
 
 }  // namespace
 
@@ -39,7 +39,8 @@ TrackPreview preview_tracks(const TrackOptions& o, const RunVideo& source,
     make_finite(frame);
     inspector.take(frame);
     // Evenly spread over those that are read.
-    const bool show = (done + 1) * kShown / wanted > done * kShown / wanted || wanted <= kShown;
+    const bool show =
+        (done + 1) * kPreviewShown / wanted > done * kPreviewShown / wanted || wanted <= kPreviewShown;
     if (show) out.frames.push_back({t_s, frame, {}});
     tick(++done, wanted);
     reader.skip_to(first_s + double(done * stride) * frame_s);

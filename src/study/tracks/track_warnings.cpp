@@ -26,7 +26,7 @@ constexpr double kBiasedSpeed = 0.5;  // drift over speed: the mean speed is the
 constexpr double kIsotropic = 0.5;    // ratio of the variances of the velocity along its main axes
 // Score below which tracks have gaps in a third of the frames, or hardly any link that could be tested.
 constexpr double kLowScore = 0.6;
-constexpr double kSignificant = 3;  // standard errors
+constexpr double kSignificantDrift = 3;  // standard errors
 
 // Fraction of the searched area that is covered by the detected spots.
 double covered(const TrackDetection& d) {
@@ -171,7 +171,7 @@ void warn_direction(const TrackMeasurement& m, std::vector<Warning>& out) {
   const double drift = std::hypot(s.drift_x_px_s.value, s.drift_y_px_s.value), speed = s.speed_rms_px_s.value;
   const double significance =
       std::hypot(s.drift_x_px_s.value / s.drift_x_px_s.se, s.drift_y_px_s.value / s.drift_y_px_s.se);
-  if (!(significance > kSignificant) || drift < kBiasedSpeed * speed || speed < kBiasedSpeed * drift ||
+  if (!(significance > kSignificantDrift) || drift < kBiasedSpeed * speed || speed < kBiasedSpeed * drift ||
       s.velocity_isotropy < kIsotropic)
     return;
   out.push_back(
