@@ -13,7 +13,6 @@ namespace faba::cli {
   X(track)               \
   X(flow)                \
   X(activity)            \
-  X(moment)              \
   X(compare)             \
   X(distance)            \
   X(scale)               \

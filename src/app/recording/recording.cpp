@@ -1,7 +1,5 @@
 #include "app/recording/recording.h"
 
-#include <fmt/chrono.h>
-
 #include "app/recording/checkpoint.h"
 #include "core/file.h"
 
@@ -43,10 +41,6 @@ void Recording::checkpoint(Archive& a) {
 void Recording::finish(const Manifest& m, bool keep) {
   for (const auto& s : sinks_) s->finish(keep);
   write_file(dir() / kManifest, manifest_json(m).dump(2) + "\n");
-}
-
-std::string Recording::date() const {
-  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(date_)));
 }
 
 double Recording::wall_time() const {

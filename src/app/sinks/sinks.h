@@ -46,8 +46,7 @@ struct SinkContext {
   std::shared_ptr<const Field> field;
   Frame frame;
   Scale scale;
-  std::optional<double> um_per_px;  ///< empty: `scale` is nominal, and lengths are stated in px
-  double frame_rate;                ///< Hz
+  double frame_rate;  ///< Hz
   Record record;
   bool dose = false;                 ///< cells may stop responding during the run
   bool jitter = false;               ///< frames are not taken at regular times

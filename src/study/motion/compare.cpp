@@ -11,7 +11,6 @@
 #include "study/data/run_info.h"
 #include "study/data/run_video.h"
 #include "study/motion/segments.h"
-#include "study/motion/video_look.h"
 #include "vision/image/kernels/histogram_distance.h"
 
 namespace faba {
@@ -79,17 +78,6 @@ ResponseStart response_start(const Signature& s, std::optional<double> direction
   return b;
 }
 
-// Flows in px are comparable at the same scale only; 2 % is within the uncertainty of a calibration (A20).
-void warn_scale(const VideoScale& reference, ComparedRun& run) {
-  constexpr double kSame = 0.02;
-  const auto& of_reference = reference.um_per_px;
-  const auto& of_run = run.scale.um_per_px;
-  if (!of_reference || !of_run || std::fabs(*of_run / *of_reference - 1) < kSame) return;
-  run.warnings.push_back({"scale", "the videos have different scales, but flows are compared in px",
-                          fmt::format("{:.4g} and {:.4g} um per px", *of_reference, *of_run),
-                          "compare videos of one magnification", Quality::poor});
-}
-
 class Comparer {
  public:
   explicit Comparer(const CompareJob& job)
@@ -140,10 +128,7 @@ class Comparer {
           fmt::format(
               "has frames of {} x {} px, but the reference has {} x {} px; both must show the same view",
               other.width(), other.height(), reference.width(), reference.height()));
-    result.scale = other.scale();
-    warn_scale(reference.scale(), result);
     FlowPair a, b;
-    VideoLook looks[2];
     bool have = other.next(b);
     double ratio = 1;
     while ((have || no_motion) && reference.next(a)) {
@@ -158,8 +143,6 @@ class Comparer {
       ratio = period / (b.t1_s - b.t0_s);
       if (std::fabs(ratio - 1) < kSamePeriod) ratio = 1;
       take(at, a, b, ratio, filter, result);
-      looks[0].add(a.image);
-      looks[1].add(b.image);
     }
     if (result.distance.t_s.size() < 3)
       throw Error(
@@ -173,7 +156,6 @@ class Comparer {
       reference_notes_ = reference.notes();
     }
     result.notes = other.notes();
-    result.warnings = look_warnings(looks[0], looks[1], filter.threshold_px);
     if (other.method() != reference.method())
       result.warnings.push_back({"method",
                                  "the flows were computed with different methods: they are not comparable",
@@ -375,11 +357,10 @@ Comparison compare_videos(const CompareJob& job) {
     ComparedRun run =
         comparer.compare(file, c.reference_t0_s, t0, c.filter, c.runs.empty() ? &c.naive : nullptr);
     if (found && (job.reference_t0_s ? b.by != ResponseStart::By::reversal : b.by != reference.by))
-      run.warnings.push_back({"alignment",
-                              "the start of the response was detected by another rule than in the reference",
-                              fmt::format("{}, at {:.2f} s; the reference {}, at {:.2f} s",
-                                          alignment_text(b.by), t0, c.alignment, c.reference_t0_s),
-                              "specify --t0 and --reference-t0"});
+      run.notes.push_back(fmt::format(
+          "aligned {}, at {:.2f} s; the reference {}, at {:.2f} s. Specify --t0 if these times do "
+          "not correspond",
+          alignment_text(b.by), t0, c.alignment, c.reference_t0_s));
     // The last pair ends half a period after its time; one further period is rounding.
     const std::vector<double>& t = run.distance.t_s;
     if (job.duration_s < CompareJob{}.duration_s && t.back() + 1.5 * (t[1] - t[0]) < job.duration_s)

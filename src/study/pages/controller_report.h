@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/data/provenance.h"
 #include "study/plot/figure.h"
 #include "study/steering/controller_study.h"
 
@@ -23,6 +22,6 @@ std::string controllers_csv(const ControllerComparison& comparison);
 std::vector<Figure> controllers_figures(const ControllerComparison& comparison);
 
 /// HTML report.
-std::string controllers_page(const ControllerComparison& comparison, const Provenance& provenance);
+std::string controllers_page(const ControllerComparison& comparison);
 
 }  // namespace faba

@@ -19,7 +19,6 @@ constexpr std::size_t kMostComponents = 3;
 constexpr double kSmallest = 0.05;  // fraction of a population
 // Of one of three: a third component also fits the flank of a skewed distribution.
 constexpr double kSmallestOfThree = 0.15;
-constexpr double kLeastPenalty = 2;          // per parameter, for few tracks: that of Akaike's criterion
 constexpr double kSeparation = 2;            // Ashman's D: two normal distributions have two maxima above it
 constexpr double kLeastSpread = 0.05;        // of the logarithm of the speed
 constexpr double kStill = 2;                 // localisation errors of a displacement (97.7 %)
@@ -110,8 +109,7 @@ Mixture chosen(const std::vector<Sample>& samples) {
   double n = 0;
   for (const Sample& s : samples) n += s.weight;
   const auto criterion = [&](const Mixture& m) {
-    return -2 * log_likelihood(samples, m) +
-           (3 * double(m.size()) - 1) * std::max(kLeastPenalty, std::log(n));
+    return -2 * log_likelihood(samples, m) + (3 * double(m.size()) - 1) * std::log(n);
   };
   Mixture best = fitted(samples, 1);
   for (std::size_t components = 2; components <= kMostComponents; ++components) {

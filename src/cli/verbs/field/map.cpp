@@ -9,7 +9,6 @@
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
-#include "cli/provenance.h"
 #include "core/error.h"
 #include "study/pages/field_report.h"
 
@@ -89,7 +88,7 @@ int field_map(const FieldMapVerb& v, const Common& c) {
   }
   const FieldMap map = faba::field_map(v.rig, o);
   if (c.json) {
-    print_json(field_json(map), provenance_of(c, {v.rig}));
+    fmt::print("{}\n", field_json(map).dump());
     return 0;
   }
   if (c.quiet) return 0;
