@@ -72,7 +72,7 @@ def page(results, intervals, held_out, seeds):
         lines.append(f"| `{verb}` | {len(each)} | {g[0][1]} | {g[1][1]} | {'met' if all(x[2] for x in g) else '**NOT MET**'} |")
     g = goals(rows)
     lines += [f"| `{verb}` | not measured | | | |" for verb in intervals if verb not in results]
-    lines += [f"| all | {len(rows)} | {g[0][1]} | {g[1][1]} | {'met' if all(x[2] for x in g) else '**NOT MET**'} |", ""]
+    lines += [f"| all that were measured | {len(rows)} | {g[0][1]} | {g[1][1]} | {'met' if all(x[2] for x in g) else '**NOT MET**'} |", ""]
     for verb, each in results.items():
         lines += of_verb(verb, intervals[verb], each)
     return "\n".join(lines).rstrip() + "\n"
