@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
@@ -20,7 +21,7 @@ void print_parameter(const FoundParameter& p, const char* abc) {
   fmt::print("  {:<28} {:.4g} {}  90 % interval {:.4g} to {:.4g}   ({} {:.4g}, {:.4g} to {:.4g})\n", q.path,
              q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), abc,
              q.shown(p.abc_median), q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
-  if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
+  if (!p.doubt.empty() && !q.nuisance()) fmt::print("    {}\n", p.doubt);
 }
 
 void summary(const Identification& r) {
@@ -37,9 +38,15 @@ void summary(const Identification& r) {
     if (m.fit_p < FoundModel::kPoorFit)
       fmt::print("  {} does not explain the videos (fit p = {:.2g}): do not use its intervals\n", m.name,
                  m.fit_p);
-    for (const FoundParameter& p : m.parameters) {
-      print_parameter(p, abc);
-      abc = "ABC";
+    for (const bool nuisance : {false, true}) {
+      const auto of_kind = [&](const FoundParameter& p) { return p.parameter.nuisance() == nuisance; };
+      if (nuisance && std::any_of(m.parameters.begin(), m.parameters.end(), of_kind))
+        fmt::print("  nuisance parameters, free by default:\n");
+      for (const FoundParameter& p : m.parameters) {
+        if (!of_kind(p)) continue;
+        print_parameter(p, abc);
+        abc = "ABC";
+      }
     }
   }
   for (const LegacyModel& m : r.legacy)
