@@ -17,10 +17,10 @@
 namespace faba {
 namespace {
 
-constexpr double kReversalGap = 0.7;  // largest time between opposite motions of a reversal, s
-constexpr double kRise = 0.4;         // window before and after a rise of activity, s
-constexpr double kOpposite = 120;     // degrees
-constexpr double kSamePeriod = 0.02;  // relative difference below which frame periods count as equal
+constexpr double kReversalGap = 0.7;    // largest time between opposite motions of a reversal, s
+constexpr double kRise = 0.4;           // window before and after a rise of activity, s
+constexpr double kOppositeStart = 120;  // degrees
+constexpr double kSamePeriod = 0.02;    // relative difference below which frame periods count as equal
 
 /// The start of the response in a video.
 struct ResponseStart {
@@ -73,7 +73,7 @@ ResponseStart response_start(const Signature& s, std::optional<double> direction
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const double turn =
         std::fabs(std::remainder(segments[i].direction_deg - segments[i - 1].direction_deg, 360));
-    if (turn < kOpposite || segments[i].t0_s - segments[i - 1].t1_s > kReversalGap) continue;
+    if (turn < kOppositeStart || segments[i].t0_s - segments[i - 1].t1_s > kReversalGap) continue;
     return {segments[i].t0_s, segments[i].direction_deg, ResponseStart::By::reversal};
   }
   return b;

@@ -14,14 +14,14 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kMostFrames = 64, kLeastFrames = 6;
-constexpr int kRadius = 32, kAcross = 6;  // px: displacements along and across
-constexpr double kSurroundRatio = 2.5;    // as in Detector
-constexpr double kThresholdSd = 1.5;      // of the noise of the band-passed picture
-constexpr int kPairBlocks = 5;            // of the pairs
-constexpr double kShiftSizes = 1.25;      // displacement in sizes of an object
+constexpr int kRadius = 32, kAcrossMotion = 6;  // px: displacements along and across
+constexpr double kSurroundRatio = 2.5;          // as in Detector
+constexpr double kThresholdSd = 1.5;            // of the noise of the band-passed picture
+constexpr int kPairBlocks = 5;                  // of the pairs
+constexpr double kShiftSizes = 1.25;            // displacement in sizes of an object
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
 // limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
-constexpr double kLeastSpread = 0.15;
+constexpr double kLeastShiftSpread = 0.15;
 constexpr double kShiftStep = 0.1;    // px: grid of the fitted displacement
 constexpr double kLongestGap = 0.25;  // s: cells turn and leave the picture
 constexpr double kExplained = 0.8;    // fraction of the variance that the model must explain
@@ -99,7 +99,7 @@ class Correlator {
   };
   bool inside(int dx, int dy) const {
     const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
-    return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcross;
+    return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
   }
   Profile projected() const {
     Profile profile{};
@@ -215,7 +215,7 @@ ShiftFit fit_with(const PairBlock& b, double shift, double sd, double way) {
 ShiftFit fit_of(const PairBlock& b, double size, double way) {
   ShiftFit best;
   const auto take = [&](double shift, double sd) {
-    if (const ShiftFit f = fit_with(b, shift, std::max(sd, kLeastSpread * shift), way);
+    if (const ShiftFit f = fit_with(b, shift, std::max(sd, kLeastShiftSpread * shift), way);
         f.explained > best.explained)
       best = f;
   };
