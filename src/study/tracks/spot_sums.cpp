@@ -56,7 +56,7 @@ TrackDetection detection_of(const TrackOptions& o, const TrackSurvey& s, const D
   TrackDetection d;
   d.size_px = s.size_px;
   d.size_given = o.size_px > 0;
-  d.two_sizes_px = s.two_sizes_px;
+  d.two_sizes = s.two_sizes;
   d.polarity = s.polarity;
   d.temporal = s.temporal;
   d.background_frames = s.background.frames;

@@ -20,6 +20,9 @@ constexpr double kSteadiest = 0.05;   // quantile of the errors
 // Von Neumann's ratio (1941) of the squared successive differences to the squared residuals is 2 for white
 // errors and 6 / n for a random walk of n steps, 0.4 for 16; a coded video correlates the errors.
 constexpr double kWhiteErrors = 0.6;
+// px: the pixel grid biases positions in the rhythm in which objects cross pixels, which is not white
+// (assumed).
+constexpr double kGridError = 0.15;
 constexpr double kNearlyAll = 0.9;       // of the points: all objects keep their distances
 constexpr double kClearDrift = 3;        // standard errors
 constexpr double kSeenMotion = 1;        // px over the video: less does not matter
@@ -185,7 +188,7 @@ Rigid rigid_lines(const std::vector<StraightTrack>& set, const CommonPath& path)
   rigid.error = median(errors);
   for (const StraightTrack& l : set)
     if (const PathResidual r = residual_of(*l.track, path);
-        r.error <= kSteadyTrack * rigid.error && r.neumann > kWhiteErrors)
+        r.error <= kSteadyTrack * rigid.error && (r.neumann > kWhiteErrors || r.error < kGridError))
       rigid.lines.push_back(l);
   return rigid;
 }

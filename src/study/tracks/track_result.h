@@ -20,9 +20,9 @@ namespace faba {
 
 /// Parameters and results of the detection of spots.
 struct TrackDetection {
-  double size_px = 0;                                 ///< full width at half maximum of a spot
-  bool size_given = false;                            ///< else it was estimated
-  std::optional<std::array<double, 2>> two_sizes_px;  ///< see SpotSize
+  double size_px = 0;                 ///< full width at half maximum of a spot
+  bool size_given = false;            ///< else it was estimated
+  std::optional<TwoSizes> two_sizes;  ///< see SpotSize
   Polarity polarity = Polarity::dark;
   bool temporal = false;         ///< see TrackSurvey
   int background_frames = 0;     ///< number of frames used for the background

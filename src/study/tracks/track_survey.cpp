@@ -69,7 +69,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   if (!(size.px > 0)) size = spot_size(middle, first_guess, s.polarity, pool);
   if (!(size.px > 0) && many) size = spot_size(middle, fine, s.polarity, pool);
   s.size_px = size.px;
-  s.two_sizes_px = size.two;
+  s.two_sizes = size.two;
   if (!(s.size_px > 0)) {
     s.size_px = kSizeIfNone;
     s.size_found = false;

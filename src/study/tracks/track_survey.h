@@ -27,11 +27,11 @@ struct TrackSurvey {
   Polarity polarity = Polarity::dark;
   double size_px = 0;
   CodingTraces coding;
-  bool size_found = true;  ///< false: no spots were detected, size_px is the default
-  std::optional<std::array<double, 2>> two_sizes_px;  ///< see SpotSize; empty when the size was given
-  std::int64_t stationary_spots = 0;                  ///< stationary spots: detected in the median
-  std::int64_t spots = 0;         ///< number of spots in the middle frame with the selected background
-  std::vector<Warning> warnings;  ///< a background that changes
+  bool size_found = true;             ///< false: no spots were detected, size_px is the default
+  std::optional<TwoSizes> two_sizes;  ///< see SpotSize; empty when the size was given
+  std::int64_t stationary_spots = 0;  ///< stationary spots: detected in the median
+  std::int64_t spots = 0;             ///< number of spots in the middle frame with the selected background
+  std::vector<Warning> warnings;      ///< a background that changes
   std::vector<std::string> notes;
 };
 

@@ -76,11 +76,16 @@ void warn_texture(const TrackDetection& d, std::vector<Warning>& out) {
 }
 
 void warn_size(const TrackDetection& d, std::vector<Warning>& out) {
-  if (!d.two_sizes_px) return;
-  const auto [small, large] = *d.two_sizes_px;
-  out.push_back({"size", "the size of the objects is ambiguous: two sizes are frequent",
-                 fmt::format("{:.2g} and {:.2g} px; {:.2g} px is used", small, large, d.size_px),
-                 "look at --preview and give the --size of the objects that you want to track"});
+  if (!d.two_sizes) return;
+  const bool mixed = d.two_sizes->most_have_other;  // the detections are of objects of both sizes
+  out.push_back(
+      {"size",
+       mixed ? "the size of the objects is ambiguous: the strongest objects are not of the most frequent size"
+             : "the size of the objects is ambiguous: two sizes are frequent",
+       fmt::format("{:.2g} and {:.2g} px; {:.2g} px is used", d.two_sizes->smaller_px, d.two_sizes->larger_px,
+                   d.size_px),
+       "look at --preview and give the --size of the objects that you want to track",
+       mixed ? Quality::poor : Quality::doubtful});
 }
 
 void warn_links(const TrackMeasurement& m, std::vector<Warning>& out) {

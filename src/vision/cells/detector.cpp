@@ -1,7 +1,6 @@
 #include "vision/cells/detector.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -152,19 +151,25 @@ std::vector<double> objects_of_sizes(const std::vector<std::vector<ScaledMaximum
 
 // Two sizes that differ by a factor of two or more: the most frequent one, and the `estimate` or another
 // frequent one. Sizes are counted with their neighbours.
-std::optional<std::array<double, 2>> two_sizes(const std::vector<double>& objects,
-                                               const std::vector<double>& sizes, double estimate) {
+std::optional<TwoSizes> two_sizes(const std::vector<double>& objects, const std::vector<double>& sizes,
+                                  double estimate) {
   constexpr double kFactor = 2, kFrequent = 0.2, kFew = 5, kValley = 0.5;  // assumed
   std::vector<double> n(sizes.size());
   for (std::size_t k = 0; k < n.size(); ++k)
     for (std::size_t i = k > 0 ? k - 1 : 0; i <= std::min(k + 1, n.size() - 1); ++i) n[k] += objects[i];
   const auto mode = std::size_t(std::max_element(n.begin(), n.end()) - n.begin());
   const auto pair_with = [&](double size) {
-    return std::array<double, 2>{std::min(size, sizes[mode]), std::max(size, sizes[mode])};
+    return TwoSizes{std::min(size, sizes[mode]), std::max(size, sizes[mode])};
   };
-  const auto apart = [&](double size) { return pair_with(size)[1] >= kFactor * pair_with(size)[0]; };
+  const auto apart = [&](double size) {
+    return pair_with(size).larger_px >= kFactor * pair_with(size).smaller_px;
+  };
   if (n[mode] < kFew) return {};
-  if (apart(estimate)) return pair_with(estimate);
+  if (apart(estimate)) {
+    TwoSizes pair = pair_with(estimate);
+    pair.most_have_other = true;
+    return pair;
+  }
   std::optional<std::size_t> other;
   for (std::size_t k = 0; k < n.size(); ++k) {
     if (!apart(sizes[k]) || n[k] < std::max(kFew, kFrequent * n[mode])) continue;

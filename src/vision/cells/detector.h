@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -67,11 +66,16 @@ class Detector {
 /// the band pass for spots of `size_px`.
 double detection_threshold(double size_px, double pixels, double false_alarms);
 
+/// Two sizes that are both frequent in a frame: the estimate is ambiguous.
+struct TwoSizes {
+  double smaller_px = 0, larger_px = 0;
+  bool most_have_other = false;  ///< the most frequent size is not the estimate
+};
+
 /// Size of the spots of a frame.
 struct SpotSize {
   double px = 0;  ///< full width at half maximum; 0: no spots
-  /// Two sizes that are both frequent, smaller first: the estimate is ambiguous.
-  std::optional<std::array<double, 2>> two;
+  std::optional<TwoSizes> two;
 };
 
 /// Estimates the size of spots: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest

@@ -63,8 +63,8 @@ GrayF grains(const cells::Look& l, int margin, double size_px, double contrast) 
 
 TEST_CASE("a textured background that drifts slowly is not a population of good tracks") {
   cells::Look l;
-  l.width = 200;
-  l.height = 160;
+  l.width = 320;  // with fewer than five grains in view a drift is not recognised
+  l.height = 240;
   constexpr int kMargin = 20;
   const GrayF texture = grains(l, kMargin, 4, 6);
   for (const double step : {0.1, 0.5}) {

@@ -113,26 +113,27 @@ Json turn_of(const TrackSummary& s) {
 
 nlohmann::ordered_json detection_json(const TrackDetection& d) {
   const auto or_null = [](std::optional<double> v) { return v ? Json(*v) : Json(nullptr); };
-  Json j{{"size_px", d.size_px},
-         {"size_given", d.size_given},
-         {"two_sizes_px", d.two_sizes_px ? Json(*d.two_sizes_px) : Json(nullptr)},
-         {"polarity", word_of(d.polarity)},
-         {"background", background_word(d)},
-         {"background_frames", d.background_frames},
-         {"noise_grey", d.noise_grey},
-         {"threshold_snr", d.threshold_snr},
-         {"threshold_given", d.threshold_given},
-         {"region",
-          d.region ? Json{d.region->col, d.region->row, d.region->width, d.region->height} : Json(nullptr)},
-         {"spots_per_frame", d.spots_per_frame},
-         {"stationary_spots", d.stationary_spots},
-         {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
-         {"mean_elongation", or_null(d.mean_elongation)},
-         {"median_snr", or_null(d.median_snr)},
-         {"coding",
-          {{"coded", d.coding.coded()},
-           {"block_steps", d.coding.block_steps},
-           {"unchanged", d.coding.unchanged}}}};
+  Json j{
+      {"size_px", d.size_px},
+      {"size_given", d.size_given},
+      {"two_sizes_px", d.two_sizes ? Json{d.two_sizes->smaller_px, d.two_sizes->larger_px} : Json(nullptr)},
+      {"polarity", word_of(d.polarity)},
+      {"background", background_word(d)},
+      {"background_frames", d.background_frames},
+      {"noise_grey", d.noise_grey},
+      {"threshold_snr", d.threshold_snr},
+      {"threshold_given", d.threshold_given},
+      {"region",
+       d.region ? Json{d.region->col, d.region->row, d.region->width, d.region->height} : Json(nullptr)},
+      {"spots_per_frame", d.spots_per_frame},
+      {"stationary_spots", d.stationary_spots},
+      {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
+      {"mean_elongation", or_null(d.mean_elongation)},
+      {"median_snr", or_null(d.median_snr)},
+      {"coding",
+       {{"coded", d.coding.coded()},
+        {"block_steps", d.coding.block_steps},
+        {"unchanged", d.coding.unchanged}}}};
   if (d.drop) {
     j["drop_center_px"] = {d.drop->centre_image.x, d.drop->centre_image.y};
     j["drop_radius_px"] = d.drop->radius_px;
@@ -229,12 +230,8 @@ const char* background_word(const TrackDetection& d) { return d.temporal ? "medi
 const char* word_of(Motion m) { return m == Motion::velocity ? "velocity" : "nearest"; }
 
 nlohmann::ordered_json track_json(const TrackMeasurement& m) {
-  Json j{{"video", m.video.string()},
-         {"frames", m.frames},
-         {"duration_s", m.duration_s},
-         {"frame_s", m.frame_s},
-         {"timed", m.timed},
-         {"image_size", {m.width, m.height}}};
+  Json j{{"video", m.video.string()}, {"frames", m.frames}, {"duration_s", m.duration_s},
+         {"frame_s", m.frame_s},      {"timed", m.timed},   {"image_size", {m.width, m.height}}};
   add_scale(j, {m.um_per_px, m.um_per_px_source, ""});
   j["detection"] = detection_json(m.detection);
   j["tracking"] = joining_of(m.joining);
