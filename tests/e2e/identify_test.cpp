@@ -98,6 +98,33 @@ TEST_CASE("a rendered step response: model and parameter; shards and a kill do n
   CHECK(read_file(f.path / "uninterrupted/identify.json") == read_file(f.path / "killed/identify.json"));
 }
 
+TEST_CASE(
+    "cells that are not motile: a nuisance parameter takes them up, and the interval of the speed contains "
+    "it") {
+  const TestFolder f;
+  make_film(f,
+            "--set swarm[0].count=80 --set swarm[0].model='{type=\"dipole\", speed=\"60 um/s\", "
+            "speed_sd=\"10 um/s\", "
+            "motile=0.5}'");
+  write_file(f.path / "study.toml", kHead +
+                                        "[[model]]\ntype = \"dipole\"\nspeed_sd = \"10 um/s\"\nfree = { "
+                                        "\"swarm[0].model.speed\" = [\"10 um/s\", "
+                                        "\"200 um/s\"] }\n");
+  const Called c = faba_in(f.path, "identify study.toml --json --out out");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  const auto m = c.json()["models"][0];
+  const auto speed = m["parameters"]["swarm[0].model.speed"]["ci90"];
+  CHECK(speed[0].get<double>() <= 60e-6);
+  CHECK(60e-6 <= speed[1].get<double>());
+  const auto motile = m["nuisances"]["swarm[0].model.motile"];
+  CHECK(motile["ci90"][0].get<double>() <= 0.5);
+  CHECK(motile["ci90"][1].get<double>() < 0.9);
+  CHECK(motile["prior"].get<std::string>().find("assumed") == 0);
+  CHECK(!m["parameters"].contains("swarm[0].model.motile"));
+  CHECK(!m["nuisances"].contains("swarm[0].model.speed_sd"));  // the study fixes it
+  CHECK(m["families"].size() >= 4);
+}
+
 TEST_CASE("the 90 % interval of a parameter contains the true value for about nine videos in ten") {
   const TestFolder f;
   write_file(f.path / "scene.toml", kScene);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
@@ -25,7 +26,7 @@ void print_parameter(const FoundParameter& p, const char* abc) {
   const RoundedInterval found = text(p.median, p.ci90), second = text(p.abc_median, p.abc_ci90);
   fmt::print("  {:<28} {} {}  90 % interval {} to {}   ({} {}, {} to {})\n", q.path, found.value,
              q.shown_unit(), found.low, found.high, abc, second.value, second.low, second.high);
-  if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
+  if (!p.doubt.empty() && !q.nuisance()) fmt::print("    {}\n", p.doubt);
 }
 
 void summary(const Identification& r) {
@@ -42,9 +43,15 @@ void summary(const Identification& r) {
     if (m.fit_p < FoundModel::kPoorFit)
       fmt::print("  {} does not explain the videos (fit p = {:.2g}): do not use its intervals\n", m.name,
                  m.fit_p);
-    for (const FoundParameter& p : m.parameters) {
-      print_parameter(p, abc);
-      abc = "ABC";
+    for (const bool nuisance : {false, true}) {
+      const auto of_kind = [&](const FoundParameter& p) { return p.parameter.nuisance() == nuisance; };
+      if (nuisance && std::any_of(m.parameters.begin(), m.parameters.end(), of_kind))
+        fmt::print("  nuisance parameters, free by default:\n");
+      for (const FoundParameter& p : m.parameters) {
+        if (!of_kind(p)) continue;
+        print_parameter(p, abc);
+        abc = "ABC";
+      }
     }
   }
   for (const LegacyModel& m : r.legacy)

@@ -59,6 +59,16 @@ class BurstStatistics final : public EpisodeStatistics {
     return statistics_of(spots);
   }
 
+  // Squared steps change at second order only where cells swim across the drift; that is neglected.
+  std::vector<double> of_drift(Vec2 velocity) const override {
+    std::vector<double> out;
+    for (const FieldSegment& segment : episode_.segments) {
+      const double along = dot(velocity, unit_vector(segment.direction_deg)) * view_.frame_s;
+      out.insert(out.end(), {along, along, along, 0, 0, 0});
+    }
+    return out;
+  }
+
   void blur(std::vector<double>& numbers, StudyRandom& random) const override {
     for (std::size_t k = 0; k < numbers.size(); ++k)
       numbers[k] += kBurstNumbers[k % std::size(kBurstNumbers)].blur * random.normal();
