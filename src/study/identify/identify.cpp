@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "study/identify/derived_seed.h"
 #include "study/identify/evidence.h"
-#include "study/identify/family_checks.h"
+#include "study/identify/families/family_checks.h"
 #include "study/identify/legacy_selection.h"
 #include "study/identify/response_survey.h"
 #include "study/identify/simulation_round.h"

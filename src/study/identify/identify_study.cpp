@@ -9,8 +9,8 @@
 #include "app/scenario/read_scenario.h"
 #include "core/error.h"
 #include "core/units.h"
+#include "study/identify/families/nuisances.h"
 #include "study/identify/identify_study.h"
-#include "study/identify/nuisances.h"
 #include "study/identify/parameter_search.h"
 
 namespace faba {
@@ -22,7 +22,7 @@ constexpr const char* kOldFieldStrength = "drive";
 
 // Relative standard deviation of the number of cells that is detected in the first frame (assumed): at the
 // dark edge of a drop a third of the cells can be missed.
-constexpr double kCountError = 0.4;
+constexpr double kCountUncertainty = 0.4;
 constexpr double kNormal95 = 1.96;  // half of a 95 % interval, in standard deviations
 
 // Tables of a scenario that are not determined by the video.
@@ -250,8 +250,10 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
     throw Error(Errc::usage, c.model.origin,
                 fmt::format("{} free parameters need at least {} simulations, not {}", c.free.size(), least,
                             study.simulations));
+  const bool has_field = c.field_strength_t.value_or(kDefaultFieldStrength) > 0;
   if (f.nuisances)
-    for (FreeParameter& p : default_nuisances(c, d.root)) c.free.push_back(std::move(p));
+    for (FreeParameter& p : default_nuisances(c.free, c.model, has_field, d.root))
+      c.free.push_back(std::move(p));
   c.simulations = std::max(study.simulations, ParameterSearch::least_simulations(int(c.free.size())));
   // The middle and both ends of every range must give a valid scenario.
   for (const double u : {0.5, 0.0, 1.0}) {
@@ -290,7 +292,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   study.legacy = f.legacy;
   study.scale_sd = f.scale_uncertainty.value_or(0);
   study.field_sd = f.field_uncertainty;
-  study.count_sd = f.nuisances ? kCountError : 0;
+  study.count_sd = f.nuisances ? kCountUncertainty : 0;
   if (root.has("scene")) {
     if (!root.child("scene").json->is_object())
       root.child("scene").fail("must be a table of scenario tables");

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "study/data/video_part.h"
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 #include "vision/cells/video_ground.h"
 #include "vision/drop/drop_edge.h"
 

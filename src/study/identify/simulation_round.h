@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "study/identify/model_family.h"
-#include "study/identify/observed_statistics.h"
+#include "study/identify/families/model_family.h"
+#include "study/identify/statistics/observed_statistics.h"
 #include "study/sweep/sweep.h"
 
 namespace faba {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 
 using namespace faba;
 

@@ -1,5 +1,5 @@
 // Score tests of changes of a linear model with normal noise.
-#include "study/identify/misfit.h"
+#include "study/identify/families/misfit.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Which nuisance parameters a study frees by default.
-#include "study/identify/nuisances.h"
+#include "study/identify/families/nuisances.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "study/identify/identify_study.h"
 #include "study/identify/parameter_search.h"
 #include "tests/app/run_directory.h"
 

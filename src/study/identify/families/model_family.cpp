@@ -1,4 +1,4 @@
-#include "study/identify/model_family.h"
+#include "study/identify/families/model_family.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace {
 constexpr double kTumbles = 1, kReversals = 0.5;         // per s and cell
 constexpr double kLess = 0.3;                            // of the fraction
 constexpr double kSlowFraction = 0.3, kSlowSpeed = 0.4;  // of the cells, of their speed
-constexpr double kOpposite = 0.2;                        // of the cells
+constexpr double kOppositeFraction = 0.2;                // of the cells
 constexpr double kStronger = 1.5, kWiderSpeeds = 0.25;   // factor; sd over mean of the speed
 constexpr double kDelayFrames = 2, kDrift = 5;           // frames, px/s
 
@@ -99,11 +99,11 @@ void add_steering(std::vector<ModelFamily>& all, const Candidate& c, const Json&
         {.aspect = "polarity",
          .what = "a part of the cells swims in the opposite direction",
          .unit = "of them",
-         .amount = kOpposite,
+         .amount = kOppositeFraction,
          .advice = "add to the model: populations = 2, set = { \"swarm[1].polarity\" = \"north\" }, and to "
                    "free: \"swarm[1].count\" = [1, 1000]",
          .edit = [](Document& d) {
-           divide(d, kOpposite);
+           divide(d, kOppositeFraction);
            Json& second = d.root["swarm"][1];
            const bool north = second.contains("polarity") && second["polarity"] == "north";
            second["polarity"] = north ? "south" : "north";

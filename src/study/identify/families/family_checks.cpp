@@ -1,11 +1,11 @@
-#include "study/identify/family_checks.h"
+#include "study/identify/families/family_checks.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/statistics.h"
 #include "study/identify/derived_seed.h"
-#include "study/identify/misfit.h"
+#include "study/identify/families/misfit.h"
 #include "study/identify/simulation_round.h"
 
 namespace faba {

@@ -1,4 +1,4 @@
-#include "study/identify/misfit.h"
+#include "study/identify/families/misfit.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

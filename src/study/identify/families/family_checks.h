@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "study/identify/found_model.h"
-#include "study/identify/observed_statistics.h"
+#include "study/identify/statistics/observed_statistics.h"
 #include "study/sweep/sweep.h"
 
 namespace faba {

@@ -1,4 +1,4 @@
-#include "study/identify/observed_statistics.h"
+#include "study/identify/statistics/observed_statistics.h"
 
 #include <fmt/format.h>
 

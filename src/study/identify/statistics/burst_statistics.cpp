@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/statistics.h"
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 #include "study/stats/statistics.h"
 #include "vision/cells/detector.h"
 #include "vision/cells/tracker.h"
