@@ -230,7 +230,7 @@ await step('the picture is drawn with WebGL', async () => {
 
 await step('a job continues when the page is reloaded, and is cancelled', async () => {
   await tab('Analyse');
-  writeFileSync(join(workspace, 'studies/long.toml'), readFileSync(join(workspace, 'studies/controllers.toml'), 'utf8'));
+  writeFileSync(join(workspace, 'studies/long.toml'), readFileSync(join(workspace, 'studies/controllers.toml'), 'utf8').replace('seeds = 20', 'seeds = 2000'));
   await page.reload();
   await tab('Analyse');
   await page.getByLabel('Study').selectOption('studies/long.toml');
