@@ -40,6 +40,7 @@ accuracy: build       ## test measurements on rendered videos with known ground 
 	@$(SETUP) test bench
 	@cmake --build build -j $(JOBS) --target bench_exposure
 	@/usr/bin/python3 bench/tracking.py
+	@/usr/bin/python3 bench/quality.py --held-out
 	@/usr/bin/python3 bench/exposure.py --seeds $(or $(SEEDS),2)
 	@/usr/bin/python3 bench/recovery.py --experiments $(or $(EXPERIMENTS),6) --keep build/recovery --out $(if $(EXPERIMENTS),bench/results,build/recovery)
 

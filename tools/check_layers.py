@@ -71,21 +71,22 @@ WITHIN = {
         "sweep": "",
         "plot": "",
         "scale": "stats quality",
-        "drop": "quality",
+        "drop": "data quality",
         "flow": "data quality",
         "tracks": "data stats quality",
         "motion": "data stats tracks quality",
+        "uturn": "data stats tracks quality",
         "steering": "data stats sweep",
         "coils": "plot quality",
         "identify": "data stats sweep tracks motion quality",
-        "pages": "data stats quality sweep plot scale drop flow tracks motion steering coils identify",
+        "pages": "data stats quality sweep plot scale drop flow tracks motion uturn steering coils identify",
     },
 }
 # Folders whose results are structs; study/pages, cli and server convert them to JSON. Files that use JSON for another
-# purpose: activity_study reads a study file and has its JSON Schema, field_fit writes the table of a part of a scenario,
+# purpose: activity_study and moment_study read a study file and have its JSON Schema, field_fit writes the table of a part of a scenario,
 # field_library writes the keys of its file.
-NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion coils".split()]
-MAY_JSON = ["study/motion/activity_study", "study/coils/field_fit", "study/coils/field_library"]
+NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion uturn coils".split()]
+MAY_JSON = ["study/motion/activity_study", "study/uturn/moment_study", "study/coils/field_fit", "study/coils/field_library"]
 # Folders of the engine include only each other, even if the tables above permit more (CMakeLists.txt: faba_engine).
 ENGINE = (
     "core core/kernels core/random core/threads field sim control vision/image vision/foreground vision/render rig/setup rig/simulated "

@@ -44,7 +44,7 @@ OTHER_MEANINGS = (
     ("none", "no defect", "src/rig/setup/amplifier.cpp"),
     ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
     ("none", "no exclusion", "src/sim/exclusion.cpp"),
-    ("none", "no evidence", "src/study/identify/found_model.cpp"),
+    ("none", "no evidence", "src/study/identify/evidence.cpp"),
     ("none", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("none", "an option of FFmpeg",
      "src/vision/files/av_stream.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),

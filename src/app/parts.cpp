@@ -81,7 +81,7 @@ Parts all_parts() {
   p.flow = builtin_flow_methods();
   FABA_PROGRAM_PARTS(FABA_ADD)
   FABA_COIL_DRIVERS(FABA_ADD)
-  p.readers.table = read_field_points;
+  p.readers.table = [](const std::filesystem::path& file) { return read_field_points(file); };
   p.readers.library = open_library;
   p.readers.library_task = library_task;
   p.readers.ground = [](const std::filesystem::path& video) { return read_video_background(video); };

@@ -37,6 +37,7 @@ class HelpFormatter final : public CLI::Formatter {
 CLI::App* verb(CLI::App& parent, CommandLine& line, const char* name, const char* description,
                const char* examples) {
   CLI::App* v = parent.add_subcommand(name, description);
+  v->parse_complete_callback([&line, v] { line.common.verb = v; });
   v->add_flag("--json", line.common.json,
               "Print the result as one JSON object; standard output has no other text");
   v->add_flag("-q,--quiet", line.common.quiet, "Print no progress bar, no notes and no summary");

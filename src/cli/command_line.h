@@ -16,8 +16,9 @@ namespace faba::cli {
 
 /// Flags of all verbs.
 struct Common {
-  bool json = false;   ///< print one JSON object and no other text to standard output
-  bool quiet = false;  ///< print no progress bar, no notes and no summary
+  bool json = false;               ///< print one JSON object and no other text to standard output
+  bool quiet = false;              ///< print no progress bar, no notes and no summary
+  const CLI::App* verb = nullptr;  ///< the verb with the options that were given
 };
 
 /// State of a command line: the flags of all verbs, and the exit code.

@@ -6,8 +6,10 @@
 #include "cli/command_line.h"
 #include "cli/progress.h"
 #include "core/error.h"
+#include "study/pages/quality_output.h"
 #include "study/pages/run_report.h"
 #include "study/plot/markup.h"
+#include "study/quality/scale_warning.h"
 
 namespace faba::cli {
 namespace {
@@ -60,12 +62,13 @@ int run_session(Session& session, Progress& bar, const Common& c, const std::str
   const Series series = session.series();
   write_run_report(session.dir(), run_info(manifest), series, session.frames());
   session.complete();
-  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
+  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px, manifest.setpoints);
   if (c.json) {
     Json j = {{"out", session.dir().string()}};
     for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})
       for (const auto& [k, v] : source.items())
         if (!j.contains(k)) j[k] = v;  // the manifest has precedence
+    add_warnings(j, scale_warnings(manifest.nominal_um_per_px));
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
     print_run_summary(session, manifest, metrics, next);

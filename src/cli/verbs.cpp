@@ -13,6 +13,7 @@ namespace faba::cli {
   X(track)               \
   X(flow)                \
   X(activity)            \
+  X(moment)              \
   X(compare)             \
   X(distance)            \
   X(scale)               \

@@ -77,6 +77,12 @@ Table::Table(std::string source, std::vector<std::string> names, std::vector<std
   }
 }
 
+Table::Table(std::string source, std::vector<std::string> names, std::vector<std::vector<double>> columns,
+             std::vector<std::size_t> lines)
+    : Table(std::move(source), std::move(names), std::move(columns)) {
+  lines_ = std::move(lines);
+}
+
 bool Table::has(std::string_view name) const noexcept {
   return std::find(names_.begin(), names_.end(), name) != names_.end();
 }
@@ -98,7 +104,7 @@ std::span<const double> Table::column(std::string_view name) const {
 }
 
 std::string Table::location(std::size_t row) const {
-  return fmt::format("{}:{}", source_, header_line_ + row + 1);
+  return fmt::format("{}:{}", source_, row < lines_.size() ? lines_[row] : header_line_ + row + 1);
 }
 
 Table read_table(const std::filesystem::path& path, LastLine last_line) {

@@ -15,6 +15,9 @@ class Table {
   /// numbers of names and columns differ, or if a name is empty or used twice.
   Table(std::string source, std::vector<std::string> names, std::vector<std::vector<double>> columns,
         bool last_line_cut = false, std::size_t header_line = 1);
+  /// `lines`: the line of each row in the file.
+  Table(std::string source, std::vector<std::string> names, std::vector<std::vector<double>> columns,
+        std::vector<std::size_t> lines);
 
   /// Number of rows.
   std::size_t size() const noexcept { return columns_.empty() ? 0 : columns_.front().size(); }
@@ -38,6 +41,7 @@ class Table {
   std::vector<std::vector<double>> columns_;
   bool last_line_cut_;
   std::size_t header_line_;
+  std::vector<std::size_t> lines_;  ///< empty: the rows follow the header
 };
 
 /// Treatment of a last line without a line end.

@@ -4,28 +4,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <span>
 
 #include "core/error.h"
+#include "field/field_columns.h"
 
 namespace faba {
 namespace {
 
-struct Unit {
-  const char* name;
-  double in_si;
-};
-constexpr Unit kLengths[] = {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
 constexpr double kLargestValue = 1e3;  // m and T
-constexpr Unit kFields[] = {{"t", 1}, {"mt", 1e-3}, {"ut", 1e-6}, {"nt", 1e-9}, {"gauss", 1e-4}};
-
-std::string lower(std::string s) {
-  for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return s;
-}
 
 /// One quantity among the columns, in SI units.
 struct Column {
@@ -34,35 +23,46 @@ struct Column {
   double operator[](std::size_t row) const { return values[row] * in_si; }
 };
 
-// The column of `quantity`; its name ends in one of the units.
-std::optional<Column> column_of(const Table& t, const std::string& quantity, std::span<const Unit> units) {
+// The column of `quantity`.
+std::optional<Column> column_of(const Table& t, const std::string& quantity) {
   for (const std::string& name : t.names()) {
-    const std::string word = lower(name);
-    if (!word.starts_with(quantity + "_") && word != quantity) continue;
-    const std::string unit = word.substr(std::min(word.size(), quantity.size() + 1));
-    for (const Unit& u : units)
-      if (unit == u.name) return Column{t.column(name), u.in_si};
-    std::vector<std::string> known;
-    for (const Unit& u : units) known.push_back(quantity + "_" + u.name);
-    throw Error(
-        Errc::input, t.source(),
-        fmt::format("column \"{}\" has no known unit; permitted names: {}", name, fmt::join(known, ", ")));
+    const auto column = field_column(name);
+    if (!column || column->quantity != quantity) continue;
+    if (column->unit) return Column{t.column(name), column->unit->in_si};
+    throw Error(Errc::input, t.source(),
+                fmt::format("column \"{}\" has no known unit; write it like \"{} ({})\" or give {}", name,
+                            quantity, column->is_field() ? "mT" : "mm",
+                            column->is_field() ? "T, mT, uT, nT or gauss" : "m, cm, mm, um or inch"));
   }
   return std::nullopt;
+}
+
+// The component of a column "B": along the only coordinate.
+std::size_t scanned_axis(const std::string& source, const std::array<std::optional<Column>, 3>& place,
+                         bool about_axis) {
+  const auto given = std::count_if(place.begin(), place.end(), [](const auto& c) { return c.has_value(); });
+  if (given != 1 || (about_axis && place[0]))
+    throw Error(Errc::input, source,
+                "column \"B\" does not state which component it is: this is clear only along one axis; name "
+                "it bx, by or bz");
+  return std::size_t(std::find_if(place.begin(), place.end(), [](const auto& c) { return c.has_value(); }) -
+                     place.begin());
 }
 
 FieldData from_columns(const Table& t) {
   FieldData d;
   d.source = t.source();
-  const auto rho = column_of(t, "rho", kLengths), b_rho = column_of(t, "brho", kFields);
+  const auto rho = column_of(t, "rho"), b_rho = column_of(t, "brho");
   d.about_axis = rho || b_rho;
-  const std::array<std::optional<Column>, 3> place{d.about_axis ? rho : column_of(t, "x", kLengths),
-                                                   column_of(t, "y", kLengths), column_of(t, "z", kLengths)};
-  const std::array<std::optional<Column>, 3> field{d.about_axis ? b_rho : column_of(t, "bx", kFields),
-                                                   column_of(t, "by", kFields), column_of(t, "bz", kFields)};
+  const std::array<std::optional<Column>, 3> place{d.about_axis ? rho : column_of(t, "x"), column_of(t, "y"),
+                                                   column_of(t, "z")};
+  std::array<std::optional<Column>, 3> field{d.about_axis ? b_rho : column_of(t, "bx"), column_of(t, "by"),
+                                             column_of(t, "bz")};
   const auto any = [](const auto& list) {
     return std::any_of(list.begin(), list.end(), [](const auto& c) { return c.has_value(); });
   };
+  if (!any(field) && any(place))
+    if (const auto along = column_of(t, "b")) field[scanned_axis(d.source, place, d.about_axis)] = along;
   if (d.about_axis && (place[1] || field[1]))
     throw Error(Errc::input, d.source,
                 "has both rho, a distance from an axis, and a y component; specify one or the other");

@@ -18,9 +18,9 @@ struct FieldData {
 };
 
 /// Reads a field from a table with the coordinates `x`, `y`, `z`, or `rho`, `z` about an axis, and the
-/// components `bx`, `by`, `bz`, or `brho`, `bz`, each followed by its unit: `x_mm`, `bz_gauss`. Units of
-/// length: m, cm, mm, um; of field: t, mt, ut, nt, gauss. Missing coordinates are 0. Throws Error(input) with
-/// the file, the line or column and the expected format.
+/// components `bx`, `by`, `bz`, or `brho`, `bz`; or with one coordinate and `b`, the component along it. The
+/// names have units, see field_column(). Missing coordinates are 0. Throws Error(input) with the file, the
+/// line or column and the expected format.
 FieldData field_data(const Table& t);
 
 }  // namespace faba

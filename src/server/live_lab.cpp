@@ -149,6 +149,7 @@ Json LiveLab::state() const {
 Json LiveLab::run_news() const {
   const LiveRun& live = shown_->live;
   const Simulation& s = shown_->live.simulation();
+  const ScaleParams& scale = live.scenario().scale;
   const World& w = s.world();
   const Outline edge = w.parts().arena->outline();
   Json populations = Json::array();
@@ -161,7 +162,8 @@ Json LiveLab::run_news() const {
   j["seed"] = live.seed();
   j["frame"] = {{"width", s.frame().width},
                 {"height", s.frame().height},
-                {"um_per_px", s.frame().m_per_px * 1e6},
+                {"um_per_px", scale.um_per_px ? Json(*scale.um_per_px) : Json()},
+                {"nominal_um_per_px", scale.used_um_per_px()},
                 {"rate", live.scenario().camera.rate}};
   j["outline"] = {{"centre_px", {edge.centre_image.x, edge.centre_image.y}}, {"radius_px", edge.radius_px}};
   j["box"] = box_json(shown_->box);

@@ -54,19 +54,21 @@ Json describe_run(const std::filesystem::path& dir) {
     at += n;
   }
   const double every = f.number_attribute("/", "every_frames"), fps = f.number_attribute("/", "fps");
-  return {{"scene",
-           {{"view",
-             {{"width", int(scene.view_px.x)},
-              {"height", int(scene.view_px.y)},
-              {"um_per_px", scene.run.um_per_px ? Json(*scene.run.um_per_px) : Json()}}},
-            {"outline",
-             {{"centre_px", {scene.arena.centre_px.x, scene.arena.centre_px.y}},
-              {"radius_px", scene.arena.radius_px ? Json(*scene.arena.radius_px) : Json(0)}}},
-            {"box", {{"left", box.left}, {"top", box.top}, {"right", box.right}, {"bottom", box.bottom}}},
-            {"setpoints", Json::array()}}},
-          {"populations", populations},
-          {"frames", PositionTable(f).rows()},
-          {"rate", fps / every}};
+  return {
+      {"scene",
+       {{"view",
+         {{"width", int(scene.view_px.x)},
+          {"height", int(scene.view_px.y)},
+          {"um_per_px", scene.run.um_per_px ? Json(*scene.run.um_per_px) : Json()},
+          {"nominal_um_per_px", scene.run.nominal_um_per_px ? Json(*scene.run.nominal_um_per_px) : Json()}}},
+        {"outline",
+         {{"centre_px", {scene.arena.centre_px.x, scene.arena.centre_px.y}},
+          {"radius_px", scene.arena.radius_px ? Json(*scene.arena.radius_px) : Json(0)}}},
+        {"box", {{"left", box.left}, {"top", box.top}, {"right", box.right}, {"bottom", box.bottom}}},
+        {"setpoints", Json::array()}}},
+      {"populations", populations},
+      {"frames", PositionTable(f).rows()},
+      {"rate", fps / every}};
 }
 
 std::string run_frames(const std::filesystem::path& dir, std::uint64_t from, std::uint64_t count) {

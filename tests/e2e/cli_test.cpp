@@ -145,6 +145,15 @@ TEST_CASE("drop: a rendered drop is detected; run --from-video keeps the swarm i
   CHECK(run.err.find(" px, from drop.pgm") != std::string::npos);
   CHECK(faba_in(f.path, "track drop.pgm --drop").err.find("faba: note: drop: centre (") != std::string::npos);
   CHECK(run.json()["settling_time_s"].is_number());
+  // The scale of the picture is not known.
+  CHECK(j["um_per_px"].is_null());
+  CHECK(run.json()["um_per_px"].is_null());
+  CHECK(run.json()["um_per_px_source"].is_null());
+  CHECK(run.json()["nominal_um_per_px"] == 0.9164);
+  REQUIRE(run.json()["warnings"].size() == 1);
+  CHECK(run.json()["warnings"][0]["aspect"] == "scale");
+  CHECK(run.err.find("scale of the picture is not known") != std::string::npos);
+  CHECK(faba_in(f.path, "track drop.pgm --json").json()["um_per_px"].is_null());
   const H5File tracks = H5File::open(f.path / "run/tracks.h5");
   const H5Table position = tracks.table("position_px");
   std::vector<float> row(position.row_size());

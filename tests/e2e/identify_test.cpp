@@ -98,6 +98,39 @@ TEST_CASE("a rendered step response: model and parameter; shards and a kill do n
   CHECK(read_file(f.path / "uninterrupted/identify.json") == read_file(f.path / "killed/identify.json"));
 }
 
+TEST_CASE(
+    "half of the cells is not motile: with nuisance parameters the interval of the speed contains the true "
+    "value, "
+    "without them the result is wrong and has a warning") {
+  const TestFolder f;
+  make_film(f,
+            "--set swarm[0].count=80 --set swarm[0].model='{type=\"dipole\", speed=\"60 um/s\", "
+            "speed_sd=\"10 um/s\", "
+            "motile=0.5}'");
+  const std::string study = kHead +
+                            "[[model]]\ntype = \"dipole\"\nspeed_sd = \"10 um/s\"\nfree = { "
+                            "\"swarm[0].model.speed\" = [\"10 um/s\", \"200 um/s\"] }\n";
+  const auto result = [&](const std::string& head, const std::string& out) {
+    write_file(f.path / "study.toml", head + study);
+    const Called c = faba_in(f.path, "identify study.toml --json --out " + out);
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    return c.json();
+  };
+  const auto m = result("", "out")["models"][0];
+  const auto speed = m["parameters"]["swarm[0].model.speed"]["ci90"];
+  CHECK(speed[0].get<double>() <= 60e-6);
+  CHECK(60e-6 <= speed[1].get<double>());
+  CHECK(m["nuisances"]["swarm[0].model.motile"]["prior"].get<std::string>().find("assumed") == 0);
+  CHECK(!m["parameters"].contains("swarm[0].model.motile"));
+  CHECK(!m["nuisances"].contains("swarm[0].model.speed_sd"));  // the study fixes it
+  CHECK(m["families"].size() >= 4);
+
+  const auto off = result("nuisances = false\n", "off");
+  CHECK(off["models"][0]["parameters"]["swarm[0].model.speed"]["ci90"][1].get<double>() < 60e-6);
+  CHECK(off["models"][0]["nuisances"].empty());
+  CHECK(off["quality"] != "good");
+}
+
 TEST_CASE("the 90 % interval of a parameter contains the true value for about nine videos in ten") {
   const TestFolder f;
   write_file(f.path / "scene.toml", kScene);
@@ -135,8 +168,9 @@ TEST_CASE(
 
   const std::string models =
       "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n";
-  const std::string head =  // the old name of field_strength is still read
-      "boundary = \"box\"\nsimulations = 150\ndrive = \"69 uT\"\n";
+  // The old name of field_strength is still read. A part of the cells that does not respond would look like
+  // cells that do not gather in time, so it is fixed.
+  const std::string head = "boundary = \"box\"\nnuisances = false\nsimulations = 150\ndrive = \"69 uT\"\n";
   write_file(f.path / "forwards.toml",
              head +
                  "reversal = \"0.6 s\"\ndirection = 0\nduration = \"2.4 s\"\n[[video]]\nfile = \"film\"\n" +

@@ -47,6 +47,53 @@ TEST_CASE("run: files, JSON fields, same hash for any number of threads and for 
   CHECK(faba_in(f.path, "run s.toml --seed 6 --out d --json").json()["state_hash"] != j["state_hash"]);
 }
 
+TEST_CASE("pages are equal byte by byte for any number of threads, output folder and date") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  for (const char* how : {"--threads 1 --out a", "--threads 2 --out other/b"})
+    REQUIRE(faba_in(f.path, std::string("run s.toml --seed 5 --as-seen --quiet ") + how).exit == 0);
+  CHECK(read_file(f.path / "a/report.html") == read_file(f.path / "other/b/report.html"));
+  CHECK(read_file(f.path / "a/report.html").find("poster=\"data:image/png") != std::string::npos);
+  const auto manifest = nlohmann::json::parse(read_file(f.path / "other/b/manifest.json"));
+  CHECK(manifest["out"] == "other/b");
+  CHECK(manifest["threads"] == 2);
+  CHECK(manifest["date"].get<std::string>().size() == std::string("2026-03-01T12:00:00Z").size());
+
+  for (const std::string verb : {"activity a/video.mp4 --direction 0", "compare a a --no-floor --no-align",
+                                 "track a/video.mp4 --size 4"}) {
+    std::string pages[2];
+    for (int k = 0; k < 2; ++k) {
+      const std::string name = k == 0 ? "one.html" : "other/two.html";
+      const Called c =
+          faba_in(f.path, verb + " --json --force --threads " + std::to_string(k + 1) + " --report " + name);
+      REQUIRE_MESSAGE(c.exit == 0, verb << ": " << c.err);
+      const auto p = c.json()["provenance"];
+      CHECK(p["version"] == manifest["version"]);
+      CHECK(p["inputs"][0]["sha256"].get<std::string>().size() == 64);
+      CHECK_FALSE(p["options"].contains("--threads"));
+      CHECK_FALSE(p["options"].contains("--report"));
+      CHECK_FALSE(p["options"].empty());
+      pages[k] = read_file(f.path / name);
+    }
+    CHECK(pages[0] == pages[1]);
+    CHECK(pages[0].find("<h2>Provenance</h2>") != std::string::npos);
+  }
+}
+
+TEST_CASE("a run that ends before its last setpoint is not settled, in the terminal, the page and --json") {
+  const TestFolder f;
+  write_file(
+      f.path / "s.toml",
+      "duration = '2 s'\n[arena]\ntype = 'box'\nsize_px = [160, 120]\n[[swarm]]\ncount = 5\n"
+      "model = 'basic'\nstart = { type = 'places', places_px = [[80, 60]] }\n[controller]\ntype = 'manual'\n"
+      "[reference]\ntype = 'route'\nsetpoints_px = [[80, 60], [20, 20]]\nhold_frames = 1000\n");
+  const Called c = faba_in(f.path, "run s.toml --seed 1 --out a --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["settling_time_s"].is_null());
+  CHECK(faba_in(f.path, "run s.toml --seed 1 --out b").out.find("not settled") != std::string::npos);
+  CHECK(read_file(f.path / "a/report.html").find("<b>not settled</b>") != std::string::npos);
+}
+
 TEST_CASE("run: a random seed is printed and recorded, and repeats the run") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);
@@ -66,6 +113,28 @@ TEST_CASE("run: the tracks open in h5py with fps and um_per_px") {
   const std::string command = "cd '" + f.path.string() + "' && /usr/bin/python3 read.py > out.txt 2>&1";
   CHECK(std::system(command.c_str()) == 0);
   CHECK(read_file(f.path / "out.txt") == "(30, 50, 2) 15.0 0.9164 0.06666666666666667\n");
+}
+
+TEST_CASE("run: the origin of the scale is in the manifest; a simulated camera has a scale") {
+  const TestFolder f;
+  write_file(f.path / "s.toml", kSmallScene);
+  const auto j = faba_in(f.path, "run s.toml --seed 1 --json --out a").json();
+  CHECK(j["um_per_px"].is_number());
+  CHECK(j["um_per_px_source"].is_null());
+  CHECK(j["warnings"].empty());
+  const auto typed =
+      faba_in(f.path, "run s.toml --seed 1 --json --out b --as-seen --set scale.um_per_px=1.5").json();
+  CHECK(typed["um_per_px_source"] == "typed");
+  const auto tracked = faba_in(f.path, "track b --json").json();
+  CHECK(tracked["um_per_px"] == 1.5);
+  CHECK(tracked["um_per_px_source"] == "typed");
+  const auto nominal =
+      faba_in(f.path, "run s.toml --seed 1 --json --out c --as-seen --set scale.nominal_um_per_px=1.5")
+          .json();
+  CHECK(nominal["um_per_px"].is_null());
+  CHECK(nominal["warnings"][0]["aspect"] == "scale");
+  CHECK(nominal["state_hash"] == typed["state_hash"]);
+  CHECK(faba_in(f.path, "track c --json").json()["um_per_px"].is_null());
 }
 
 TEST_CASE("run --as-seen: the videos have camera frames, and the run records this") {

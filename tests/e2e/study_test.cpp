@@ -84,6 +84,14 @@ TEST_CASE("four merged shards and one process give identical files") {
   REQUIRE_MESSAGE(c.exit == 0, c.err);
   for (const char* name : {"controllers.json", "controllers.csv", "report.html"})
     CHECK(read_file(f.path / "single" / name) == read_file(f.path / "merged" / name));
+  const auto p = nlohmann::json::parse(read_file(f.path / "single/controllers.json"))["provenance"];
+  REQUIRE(p["inputs"].size() == 2);
+  CHECK(p["inputs"][0]["path"] == "study.toml");
+  CHECK(p["options"].empty());
+  const auto about = nlohmann::json::parse(read_file(f.path / "single/study.json"));
+  CHECK(about["threads"] == 2);
+  CHECK(about["out"] == "single");
+  CHECK(about["date"].get<std::string>().ends_with("Z"));
 }
 
 TEST_CASE("a study is resumed and not overwritten") {

@@ -74,6 +74,39 @@ TEST_CASE("track: text and JSON output, files, and refused input") {
         std::string::npos);
 }
 
+TEST_CASE("track: preview and region before the long job") {
+  const test::TemporaryFolder folder("preview");
+  film(folder.path() / "film");
+  const Called text = faba_in(folder.path(), "track film --fps 15 --region 40,30,200,150 --preview p.png");
+  CHECK(text.exit == 0);
+  CHECK(text.out.find("--region 40,30,200,150 (given)") != std::string::npos);
+  CHECK(text.out.find("--size ") != std::string::npos);
+  CHECK(std::filesystem::file_size(folder.path() / "p.png") > 1000);
+  const auto shown = faba_in(folder.path(), "track film --preview q.png --size 3 --json").json();
+  CHECK(shown["frames"].size() == 9);
+  CHECK(shown["detection"]["size_given"] == true);
+  CHECK(shown["detection"]["region"].is_null());
+  for (const auto& frame : shown["frames"]) CHECK(std::abs(frame["spots"].get<int>() - 28) <= 3);
+
+  const auto part =
+      faba_in(folder.path(), "track film --fps 15 --region 40,30,200,150 --json --per-track t.csv").json();
+  CHECK(part["detection"]["region"] == nlohmann::json{40, 30, 200, 150});
+  CHECK(part["tracks"].get<int>() > 3);
+  CHECK(part["tracks"].get<int>() < 25);
+  CHECK(part["track_quality"]["mean"].get<double>() > 0.5);
+  const Table each = read_table(folder.path() / "t.csv");
+  CHECK(each.size() == part["tracks"].get<std::size_t>());
+
+  for (const char* arguments :
+       {"track film --region 300,30,200,150", "track film --region 1,2,3", "track film --region 0,0,5,5",
+        "track film --preview r.png --out u.csv", "track film --preview r.jpg"}) {
+    CAPTURE(arguments);
+    const Called c = faba_in(folder.path(), arguments);
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+  }
+}
+
 TEST_CASE("estimator image: the centroid of a swarm at the edge of a drop from rendered frames") {
   const test::TemporaryFolder folder("as-seen");
   const Called run = faba_in(

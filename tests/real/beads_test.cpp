@@ -17,7 +17,7 @@ TEST_CASE("beads of 1 um in water diffuse with the Stokes-Einstein coefficient, 
   if (test::skipped_without(kVideo)) return;
   TrackOptions o;
   o.video = kVideo;
-  o.um_per_px = 100.0 / 285;  // value of the trackpy walkthrough for these beads
+  o.scale.um_per_px = 100.0 / 285;  // value of the trackpy walkthrough for these beads
   const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 480);
   CHECK(j["supported"] == "diffusion");

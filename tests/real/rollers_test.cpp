@@ -22,7 +22,7 @@ TEST_CASE("rollers among dust in a coded video: no speed is trusted without the 
   const auto j = track_json(track_video(o));
   CHECK(j["quality"] == "poor");
   bool named = false;
-  for (const auto& w : j["warnings"]) named = named || w["aspect"] == "noise";
+  for (const auto& w : j["warnings"]) named = named || w["aspect"] == "size";
   CHECK(named);
 }
 

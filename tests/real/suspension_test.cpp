@@ -18,7 +18,7 @@ TEST_CASE("rods in a suspension swim on straight paths in random directions") {
   TrackOptions o;
   o.video = kFolder / "frame_*.tif";
   o.part.fps = 26.87;
-  o.um_per_px = 1 / 2.2;
+  o.scale.um_per_px = 1 / 2.2;
   const auto j = track_json(track_video(o));
   CHECK(j["frames"] == 25);
   CHECK(j["supported"] == "persistent_walk");

@@ -1,4 +1,6 @@
 // Errors of the mock of NI-DAQmx, and the reaction of the guard's process.
+#include "core/file.h"
+#include "rig/bench/device_list.h"
 #include "tests/rig/devices.h"
 
 using namespace faba;
@@ -43,4 +45,42 @@ TEST_CASE("NI: missing library, unknown device") {
     }
     CHECK_MESSAGE(what.find(reason) != std::string::npos, what);
   }
+}
+
+TEST_CASE("NI-DAQmx Base: its functions have other names, and an enable line is a bit of a port") {
+  NiDevice ni;
+  Json driver = ni.driver();
+  driver["library"] = FABA_FAKE_NI_BASE;
+  {
+    GuardLink g(coils_on(driver, {"Dev1/ao0"}, {"Dev1/ai0"}), FABA_GUARD);
+    g.arm();
+    steer(g, 0.2);
+    CHECK(g.report().state == CoilGuard::State::armed);
+  }
+  bool high = false, driven = false;
+  for (const NiDevice::Line& l : ni.log()) {
+    if (l.channel == "Dev1/port0/line0") {
+      CHECK((l.value == 0 || l.value == 1));
+      high = high || l.value == 1;
+    } else if (l.channel == "Dev1/ao0") {
+      driven = driven || l.value != kNeutral;
+    }
+  }
+  CHECK(high);
+  CHECK(driven);
+  CHECK(ni.last("Dev1/ao0") == kNeutral);
+}
+
+TEST_CASE("the list of devices names a USB-6009 that has no library, and says what drives it") {
+  const test::TemporaryFolder sys("sys");
+  const auto device = sys.path() / "bus/usb/devices/1-2";
+  std::filesystem::create_directories(device);
+  write_file(device / "idVendor", "3923\n");
+  write_file(device / "product", "USB-6009\n");
+  const std::vector<Device> all = device_list("libnone.so", sys.path());
+  const auto found =
+      std::find_if(all.begin(), all.end(), [](const Device& d) { return d.kind == "USB device"; });
+  REQUIRE(found != all.end());
+  CHECK(found->what.find("USB-6009") != std::string::npos);
+  CHECK(found->what.find("NI-DAQmx Base") != std::string::npos);
 }

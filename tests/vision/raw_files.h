@@ -28,6 +28,7 @@ struct TiffPage {
   std::uint32_t tile_width = 0;      ///< tile width; 0: strips
   std::uint32_t subfile = 0;         ///< 1: reduced-resolution page
   std::string description{};
+  double x_resolution = 0, y_resolution = 0;  ///< pixels per unit; 0: no tag
   std::string pixels{};
 };
 
@@ -58,6 +59,9 @@ class TiffWriter {
     TiffEntry entry{tag, brief ? 3U : 4U, static_cast<std::uint32_t>(values.size()), ""};
     for (const auto value : values) entry.data += bytes(value, brief ? 2 : 4);
     return entry;
+  }
+  TiffEntry ratio(std::uint32_t tag, double value) const {
+    return {tag, 5, 1, bytes(std::uint64_t(value * 1e6), 4) + bytes(1000000, 4)};
   }
   std::vector<TiffEntry> entries(const TiffPage& page, std::size_t pixels_at) const;
   void append_directory(const std::vector<TiffEntry>& entries);
@@ -95,6 +99,8 @@ inline std::vector<TiffEntry> TiffWriter::entries(const TiffPage& page, std::siz
   if (!tiled) all.push_back(list(273, offsets));
   all.push_back(number(277, page.samples));
   if (!tiled) all.insert(all.end(), {number(278, rows), list(279, counts)});
+  if (page.x_resolution > 0) all.push_back(ratio(282, page.x_resolution));
+  if (page.y_resolution > 0) all.push_back(ratio(283, page.y_resolution));
   all.push_back(number(284, page.planar));
   if (tiled) {
     all.insert(all.end(),

@@ -12,6 +12,11 @@ test('the arena has the edge of the drop, and the swarm the first preset', () =>
     swarm: [{ model: { type: 'rod', preset: 'first' }, start: { type: 'seen' } }],
   });
 });
+test('a scale of the metadata keeps its origin; without a scale the default of the program is nominal', () => {
+  expect(dropScenario(sampleSchema, { ...drop, um_per_px_source: 'metadata' })!.scale).toEqual({ um_per_px: 0.9, um_per_px_source: 'metadata' });
+  const schema = { properties: { ...sampleSchema.properties, scale: { properties: { um_per_px: { type: 'number', default: 0.75 } } } } };
+  expect(dropScenario(schema as typeof sampleSchema, { ...drop, um_per_px: null })!.scale).toEqual({ nominal_um_per_px: 0.75 });
+});
 test('the swarm has the default model if no model has presets', () => {
   const { arena } = sampleSchema.properties!;
   expect(dropScenario({ properties: { arena } }, drop)!.swarm[0]).not.toHaveProperty('model');
@@ -29,5 +34,5 @@ test('the editor gives the reason why a drop cannot be started', () => {
   expect(missingForStart({ ...complete, r: null }, true)).toBe('gallery.needs_radius');
   expect(missingForStart({ ...complete, r: kLeastRadius - 1 }, true)).toBe('gallery.needs_radius');
   expect(missingForStart({ ...complete, scale: 0 }, true)).toBe('gallery.needs_scale');
-  expect(missingForStart({ ...complete, scale: null }, true)).toBe('gallery.needs_scale');
+  expect(missingForStart({ ...complete, scale: null }, true)).toBeNull(); // lengths in px
 });

@@ -86,6 +86,7 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
   s.params.seed = seed;
   s.record.as_seen = true;
   s.record.tracks = false;
+  if (!s.rig->camera.has(Trait::simulated)) s.scale.require_known();
   m->seed = seed;
   m->options = o;
   m->pool = std::make_unique<Pool>(o.threads);
@@ -103,6 +104,7 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
   m->commands_before = guard.passed;
   m->refused_before = guard.refused;
   m->timeouts_before = m->rig->coils()->command_timeouts();
+  if (const std::string note = scale_note(s.scale); !note.empty()) m->notes.push_back(note);
   m->scenario = std::move(s);
   m->controls = std::make_unique<BenchControls>(m->scenario);
   m->recording = Recording(std::move(directory), m->scenario, false);
@@ -111,6 +113,7 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
                       .field = m->controls->field,
                       .frame = frame,
                       .scale = m->scenario.si_scale(),
+                      .um_per_px = m->scenario.scale.um_per_px,
                       .frame_rate = m->scenario.camera.rate,
                       .record = m->scenario.record,
                       .jitter = true,
@@ -192,7 +195,9 @@ Manifest BenchSession::describe() const {
   all.frames = m.loop->next;
   all.duration_s = m.loop->last_t + m.loop->frame_period;
   all.wall_time_s = m.recording.wall_time();
-  all.setpoints = m.controls->reference->setpoints().size();
+  all.date = m.recording.date();
+  all.out = dir();
+  all.setpoints = setpoint_count(*m.controls->reference);
   all.setpoint_tolerance_px = m.controls->reference->tolerance_px();
   all.video_shows = "camera";
   all.distance_source = "estimated";

@@ -54,10 +54,14 @@ Table from_hdf5(const std::filesystem::path& file) {
 
 }  // namespace
 
-Table read_field_points(const std::filesystem::path& file) {
+Table read_field_points(const std::filesystem::path& file, const FieldTableFormat& format) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".h5" || extension == ".hdf5" ? from_hdf5(file) : read_table(file);
+  if (extension != ".h5" && extension != ".hdf5") return read_field_table(file, format);
+  if (!format.empty())
+    throw Error(Errc::usage, format.columns.empty() ? "--units" : "--columns",
+                "is for text files; the datasets of an HDF5 file have names and SI units");
+  return from_hdf5(file);
 }
 
 }  // namespace faba

@@ -12,4 +12,10 @@ namespace faba {
 /// there is no usable picture or no edge in it.
 std::string fit_to_picture(Document& scenario, const std::filesystem::path& picture_or_video);
 
+/// Sets the scale of a scenario to that of a real picture, unless the scenario gives `um_per_px` or `file` in
+/// [scale]: the pixel size in the metadata of the picture (see PictureMetadata), otherwise a nominal scale,
+/// with which the results are stated in pixels only. Returns a note on a pixel size that differs from the
+/// scenario's, or that is not valid; otherwise empty.
+std::string take_scale(Document& scenario, const std::filesystem::path& picture_or_video);
+
 }  // namespace faba

@@ -82,6 +82,8 @@ Manifest manifest_of(const Scenario& s, std::uint64_t seed, const Frame& frame, 
   m.scenario_hash = s.hash();
   m.seed = seed;
   m.um_per_px = s.scale.um_per_px;
+  if (!m.um_per_px) m.nominal_um_per_px = s.scale.used_um_per_px();
+  m.um_per_px_source = scale_source_json(s.scale);
   m.view_px = {double(frame.width), double(frame.height)};
   m.arena_type = s.arena.type;
   m.arena_centre_px = outline.centre_image;
@@ -106,11 +108,15 @@ Json manifest_json(const Manifest& m) {
             {"title", m.title},
             {"scenario_hash", m.scenario_hash},
             {"seed", m.seed},
-            {"um_per_px", m.um_per_px},
+            {"um_per_px", m.um_per_px ? Json(*m.um_per_px) : Json()},
+            {"um_per_px_source", m.um_per_px_source},
             {"view_px", {int(m.view_px.x), int(m.view_px.y)}},
             {"arena", arena_json(m)},
             {"polarity", m.polarity},
-            {"complete", m.complete}};
+            {"complete", m.complete},
+            {"date", m.date},
+            {"out", m.out.string()}};
+  if (m.nominal_um_per_px) j["nominal_um_per_px"] = *m.nominal_um_per_px;
   if (m.simulated) add_simulated(j, m);
   if (m.bench) add_bench(j, m);
   return j;

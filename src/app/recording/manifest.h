@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,8 +18,9 @@ struct Latency {
 struct Manifest {
   std::string title, scenario_hash;
   std::uint64_t seed = 0;
-  double um_per_px = 0;
-  Vec2 view_px;  ///< width and height of the picture
+  std::optional<double> um_per_px, nominal_um_per_px;  ///< nominal: of a picture of unknown scale
+  Json um_per_px_source;                               ///< see scale_source_json()
+  Vec2 view_px;                                        ///< width and height of the picture
   std::string arena_type;
   Vec2 arena_centre_px;
   double arena_radius_px = 0;  ///< of a drop; 0: the arena is a rectangle of the size of the view
@@ -27,6 +29,8 @@ struct Manifest {
   bool complete = false;
   std::uint64_t frames = 0;  ///< number of control cycles
   double duration_s = 0, wall_time_s = 0;
+  std::string date;           ///< start of the recording by this process, UTC, ISO 8601
+  std::filesystem::path out;  ///< run directory, as given
   std::size_t setpoints = 0;  ///< number of setpoints of the reference, reached or not
   std::optional<double>
       setpoint_tolerance_px;    ///< distance at which the reference counts a setpoint as reached

@@ -1,5 +1,7 @@
 #include "app/recording/recording.h"
 
+#include <fmt/chrono.h>
+
 #include "app/recording/checkpoint.h"
 #include "core/file.h"
 
@@ -41,6 +43,10 @@ void Recording::checkpoint(Archive& a) {
 void Recording::finish(const Manifest& m, bool keep) {
   for (const auto& s : sinks_) s->finish(keep);
   write_file(dir() / kManifest, manifest_json(m).dump(2) + "\n");
+}
+
+std::string Recording::date() const {
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(date_)));
 }
 
 double Recording::wall_time() const {

@@ -35,6 +35,8 @@ class Recording {
   std::vector<SmallFrame> frames() const { return kept_ ? kept_->frames() : std::vector<SmallFrame>{}; }
   /// Wall time since the start of the recording, s.
   double wall_time() const;
+  /// Start of the recording, UTC, as "2026-03-01T12:00:00Z".
+  std::string date() const;
 
  private:
   RunDirectory directory_;
@@ -43,6 +45,7 @@ class Recording {
   std::vector<std::unique_ptr<RunSink>> sinks_;
   std::shared_ptr<const KeptFrames> kept_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::chrono::system_clock::time_point date_ = std::chrono::system_clock::now();
 };
 
 }  // namespace faba

@@ -6,6 +6,7 @@
 
 #include "app/recording/checkpoint.h"
 #include "app/run/notes.h"
+#include "control/setpoint_count.h"
 #include "core/file.h"
 
 namespace faba {
@@ -108,15 +109,14 @@ bool Session::run() {
 Manifest Session::manifest() const {
   const Loop& loop = simulation_->loop();
   const World& world = simulation_->world();
-  std::vector<Vec2> setpoints = simulation_->reference().setpoints();
-  setpoints.erase(std::unique(setpoints.begin(), setpoints.end()),
-                  setpoints.end());  // repeated setpoints count once, as in series.csv
   Manifest m = manifest_of(scenario_, seed_, simulation_->frame(), world.parts().arena->outline());
   m.complete = loop.next == scenario_.frames();
   m.frames = loop.next;
   m.duration_s = double(loop.next) * scenario_.frame_period();
   m.wall_time_s = recording_.wall_time();
-  m.setpoints = setpoints.size();
+  m.date = recording_.date();
+  m.out = dir();
+  m.setpoints = setpoint_count(simulation_->reference());
   m.setpoint_tolerance_px = simulation_->reference().tolerance_px();
   m.video_shows = scenario_.record.as_seen ? "camera" : "drawing";
   m.distance_source = "true";

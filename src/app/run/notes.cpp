@@ -320,10 +320,20 @@ void note_size(const Scenario& s, std::size_t cells, std::filesystem::path out, 
 
 }  // namespace
 
+std::string scale_note(const ScaleParams& p) {
+  if (p.um_per_px) return {};
+  return fmt::format(
+      "scale: the scale of the picture is not known; a nominal {:g} um per px is used, and lengths are "
+      "stated "
+      "in px only; give scale.um_per_px, or scale.file, a calibration file of `faba scale`",
+      p.used_um_per_px());
+}
+
 std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& simulation,
                                         const std::filesystem::path& out) {
   Notes notes;
   note_parts(s, notes);
+  if (std::string note = scale_note(s.scale); !note.empty()) notes.push_back(std::move(note));
   note_without_effect(s, simulation, notes);
   note_events(s, notes);
   note_recording(s, notes);

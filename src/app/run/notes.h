@@ -6,6 +6,9 @@
 
 namespace faba {
 
+/// A note on a scale that is not known; empty if it is.
+std::string scale_note(const ScaleParams& p);
+
 /// Warnings about valid but probably unintended settings, one line each: the notes of its parts
 /// (Schema::note), an unreachable setpoint, cells that do not respond, a field too weak to move them, a swarm
 /// out of view, a recording larger than the free disk space. `out`: run directory.

@@ -33,7 +33,8 @@ Calibration read_calibration(const std::filesystem::path& file) {
   if (!d.root.contains("scale"))
     throw Error(Errc::usage, file.string(),
                 "is not a calibration file: section [scale] not found; `faba scale --out` writes one");
-  return Calibration::schema().parse(Node(d).child("scale"), {"iteration", "field_unit"});
+  return Calibration::schema().parse(Node(d).child("scale"),
+                                     {"iteration", "field_unit", "nominal_um_per_px", "um_per_px_source"});
 }
 
 void write_calibration(const std::filesystem::path& file, const Calibration& calibration) {
@@ -85,6 +86,7 @@ void include_calibration(Document& scenario) {
   const Calibration calibration = read_calibration(file);
   scale.erase("file");
   scale["um_per_px"] = calibration.um_per_px;
+  scale["um_per_px_source"] = "calibration";
   scenario.origin["scale.um_per_px"] = file.string();
 }
 

@@ -10,9 +10,10 @@ namespace faba {
 /// The scale of a camera: table [scale] of a calibration file, written by `faba scale --out`.
 struct Calibration {
   double um_per_px = 0;
-  std::optional<Vec2> ci95;  ///< limits of its 95 % interval, um/px
-  std::string method;        ///< method of measurement
-  std::string source;        ///< file with the measurement
+  std::optional<Vec2> ci95;                         ///< limits of its 95 % interval, um/px
+  std::string method;                               ///< method of measurement
+  std::string source;                               ///< file with the measurement
+  bool typed() const { return method == "given"; }  ///< a number, not a calibration file
   static Schema<Calibration> schema();
 };
 

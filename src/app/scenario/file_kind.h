@@ -4,7 +4,7 @@
 namespace faba {
 
 /// Kinds of TOML files that users write.
-enum class FileKind { scenario, coil_system, identify_study, activity_study, controller_study };
+enum class FileKind { scenario, coil_system, identify_study, activity_study, controller_study, moment_study };
 
 /// Throws Error(usage), with the command that reads the file, if the keys of the document show that it is of
 /// another kind than `wanted`. A document of unknown kind is accepted: its reader names the missing keys.

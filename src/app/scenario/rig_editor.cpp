@@ -48,6 +48,11 @@ Vec3 RigEditor::axis(std::size_t coil) const {
   return {std::cos(angle), std::sin(angle), 0};
 }
 
+std::optional<Vec3> RigEditor::position(std::size_t coil) const {
+  const Json* position = find(coil, Role::position);
+  return position ? std::optional(vector(*position)) : std::nullopt;
+}
+
 void RigEditor::move(std::size_t coil, Vec3 by) {
   if (Json* position = find(coil, Role::position)) *position = json(vector(*position) + by);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "field/field.h"
 
@@ -16,6 +17,8 @@ class RigEditor {
   /// Unit vector of the direction of the coil's field; for a coil without an axis, such as a map: x rotated
   /// about z.
   Vec3 axis(std::size_t coil) const;
+  /// Position of the coil, m; empty for a coil without one.
+  std::optional<Vec3> position(std::size_t coil) const;
   void move(std::size_t coil, Vec3 by);
   /// Tilts the axis by `angle` (rad) towards `across`, a unit vector perpendicular to it; a coil without an
   /// axis is rotated about z by `angle`.

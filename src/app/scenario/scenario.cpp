@@ -29,7 +29,7 @@ std::uint64_t Scenario::frames() const {
 }
 
 Scale Scenario::si_scale() const {
-  return {scale.um_per_px / 1e6, scale.iteration.value_or(frame_period()), scale.field_unit};
+  return {scale.used_um_per_px() / 1e6, scale.iteration.value_or(frame_period()), scale.field_unit};
 }
 
 int Scenario::polarity() const {

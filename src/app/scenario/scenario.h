@@ -57,7 +57,8 @@ struct Scenario {
   template <class Sections>
   static void describe(Sections& s) {
     using S = Scenario;
-    s.table("scale", &S::scale, ScaleParams::schema).also_key("file", calibration_file_json_schema());
+    s.table("scale", &S::scale, ScaleParams::schema).also_key("file", calibration_file_json_schema()).hashed =
+        [](const S& from) { return hashed_scale(from.scale); };
     s.table("camera", &S::camera, CameraParams::schema);
     s.table("microscope", &S::microscope, MicroscopeParams::schema)
         .when(&S::renders)

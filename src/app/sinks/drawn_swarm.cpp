@@ -4,7 +4,7 @@
 
 namespace faba {
 
-DrawnSwarm::DrawnSwarm(const World& world, const Loop& loop, double um_per_px)
+DrawnSwarm::DrawnSwarm(const World& world, const Loop& loop, std::optional<double> um_per_px)
     : world_(world), loop_(loop), um_per_px_(um_per_px) {}
 
 RgbImage DrawnSwarm::draw(double t, Vec2 target) {

@@ -10,15 +10,15 @@ namespace faba {
 /// route, the field at the centroid. The constant background is drawn once.
 class DrawnSwarm {
  public:
-  /// `world` and `loop` must outlive it. `um_per_px` is for the scale bar.
-  DrawnSwarm(const World& world, const Loop& loop, double um_per_px);
+  /// `world` and `loop` must outlive it. `um_per_px` is for the scale bar; empty: in px.
+  DrawnSwarm(const World& world, const Loop& loop, std::optional<double> um_per_px);
   /// `target`: setpoint in world coordinates; not finite: none.
   RgbImage draw(double t, Vec2 target);
 
  private:
   const World& world_;
   const Loop& loop_;
-  double um_per_px_;
+  std::optional<double> um_per_px_;
   std::vector<Vec2> route_;
   std::vector<SwarmScene::Cell> cells_;
   std::optional<SwarmPicture> picture_;

@@ -13,8 +13,8 @@ class FlowSink final : public RunSink {
       : c_(c), path_(c.dir / "flow.h5"), method_(c.flow.make({c.pool})) {
     std::uint64_t keep = 0;
     if (resume) *resume& keep& before_.px& t_before_;
-    const FlowInfo info{c.frame.width,          c.frame.height,         c.frame_rate,
-                        c.scale.m_per_px * 1e6, c.flow.resolved.dump(), "rendered frames of the run"};
+    const FlowInfo info{c.frame.width, c.frame.height,         c.frame_rate,
+                        c.um_per_px,   c.flow.resolved.dump(), "rendered frames of the run"};
     before_.width = info.width;
     before_.height = info.height;
     writer_.emplace(keep ? path_.string() + ".new" : path_.string(), info);

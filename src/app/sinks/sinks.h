@@ -46,7 +46,8 @@ struct SinkContext {
   std::shared_ptr<const Field> field;
   Frame frame;
   Scale scale;
-  double frame_rate;  ///< Hz
+  std::optional<double> um_per_px;  ///< empty: `scale` is nominal, and lengths are stated in px
+  double frame_rate;                ///< Hz
   Record record;
   bool dose = false;                 ///< cells may stop responding during the run
   bool jitter = false;               ///< frames are not taken at regular times

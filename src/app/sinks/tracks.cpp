@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "app/files/position_table.h"
 #include "app/sinks/sinks.h"
@@ -88,7 +89,7 @@ class Tracks final : public RunSink {
   void describe() {
     file_.attribute("/", "format", std::string("faba tracks 1"));
     file_.attribute("/", "fps", c_.frame_rate);
-    file_.attribute("/", "um_per_px", c_.scale.m_per_px * 1e6);
+    file_.attribute("/", "um_per_px", c_.um_per_px.value_or(std::numeric_limits<double>::quiet_NaN()));
     file_.attribute("/", "every_frames", double(c_.record.tracks_every));
     file_.attribute("/", "width_px", double(c_.frame.width));
     file_.attribute("/", "height_px", double(c_.frame.height));

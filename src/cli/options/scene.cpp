@@ -21,6 +21,9 @@ Document read_scene(const SceneOptions& v, std::string* drop_note) {
       throw Error(Errc::usage, "--set " + s, "is also given as --" + path + "; give only one of the two");
     d.set(path, s.substr(equals + 1), "--set");
   }
+  if (!v.from_video.empty())
+    if (const std::string note = take_scale(d, v.from_video); !note.empty() && drop_note)
+      *drop_note += "; " + note;
   if (v.duration) d.set("duration", *v.duration, "--duration");
   if (v.seed) d.set("seed", *v.seed, "--seed");
   if (v.as_seen) d.set("record.as_seen", Json(true), "--as-seen");

@@ -1,12 +1,16 @@
 #include "cli/options/study.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <chrono>
+#include <thread>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "study/pages/provenance_output.h"
 
 #include <nlohmann/json.hpp>
 
@@ -37,7 +41,7 @@ std::filesystem::path out_of(const StudyOptions& v) {
   return v.out.empty() ? std::filesystem::path("runs") / v.study.stem() : v.out;
 }
 
-void print_json(const std::filesystem::path& out, const nlohmann::ordered_json& j) {
+void print_complete(const std::filesystem::path& out, const nlohmann::ordered_json& j) {
   nlohmann::ordered_json all{{"out", out.string()}, {"complete", true}};
   all.update(j);
   fmt::print("{}\n", all.dump());
@@ -76,7 +80,7 @@ bool report_if_complete(const StudyOptions& v, const std::string& name, const st
   if (v.force || !holds_complete_study(out, study_hash)) return false;
   check_merge(v.merge, study_hash);  // a wrong name is an error even if there is nothing to import
   if (c.json)
-    print_json(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
+    print_complete(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
   else if (!c.quiet)
     fmt::print("{}: this study is already complete; --force writes its pages again\n", out.string());
   return true;
@@ -91,10 +95,18 @@ SweepOptions sweep_options(const StudyOptions& v, Progress& bar) {
   return o;
 }
 
-void finish(StudyDirectory& dir, const std::string& name, const nlohmann::ordered_json& j, const Common& c) {
+void finish(StudyDirectory& dir, const std::string& name, nlohmann::ordered_json j, const Provenance& p,
+            const StudyOptions& v) {
+  add_provenance(j, p);
   write_file(dir.path() / (name + ".json"), j.dump(2) + "\n");
-  dir.complete();
-  if (c.json) print_json(dir.path(), j);
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  dir.complete({{"date", fmt::format("{:%FT%TZ}", fmt::gmtime(now))},
+                {"threads", v.threads > 0 ? v.threads : std::thread::hardware_concurrency()},
+                {"out", dir.path().string()}});
+}
+
+void print_study(const StudyDirectory& dir, const std::string& name) {
+  print_complete(dir.path(), nlohmann::ordered_json::parse(read_file(dir.path() / (name + ".json"))));
 }
 
 int report_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir) {

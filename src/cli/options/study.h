@@ -5,6 +5,7 @@
 
 #include "cli/command_line.h"
 #include "cli/progress.h"
+#include "study/data/provenance.h"
 #include "study/sweep/study_directory.h"
 #include "study/sweep/sweep.h"
 
@@ -37,8 +38,12 @@ bool report_if_complete(const StudyOptions& v, const std::string& name, const st
 /// "--shard").
 SweepOptions sweep_options(const StudyOptions& v, Progress& bar);
 
-/// Writes NAME.json, the last file of a study; with --json also prints it with the directory.
-void finish(StudyDirectory& dir, const std::string& name, const nlohmann::ordered_json& j, const Common& c);
+/// Writes NAME.json with the provenance, the last file of a study, and date, threads and directory to
+/// study.json.
+void finish(StudyDirectory& dir, const std::string& name, nlohmann::ordered_json j, const Provenance& p,
+            const StudyOptions& v);
+/// Prints NAME.json of a complete study, with the directory.
+void print_study(const StudyDirectory& dir, const std::string& name);
 
 /// Reports that other shards have pending tasks; returns the exit code.
 int report_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir);

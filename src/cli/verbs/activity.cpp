@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -22,6 +24,7 @@ struct ActivityVerb {
   std::vector<std::filesystem::path> videos;  ///< or one study file
   std::filesystem::path noise, out, report, picture;
   ResponseOptions response;
+  std::optional<double> reversal;  ///< s
   FlowOptions flow;
   bool force = false;
 };
@@ -55,6 +58,11 @@ ActivityJob job_of(const ActivityVerb& v) {
     input.from_s = part.part().from_s;
     input.to_s = part.to;
     if (v.response.direction) input.direction_deg = v.response.direction;
+    if (v.reversal) input.reversal_s = v.reversal;
+    if (input.reversal_s && input.to_s && *input.reversal_s >= *input.to_s)
+      throw Error(Errc::usage, "--reversal",
+                  fmt::format("{:g} s is not before the end of the evaluation, {:g} s", *input.reversal_s,
+                              *input.to_s));
   }
   if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
   return job;
@@ -64,10 +72,36 @@ std::string line_text(double intercept, double slope) {
   return fmt::format("{:.4g} {} {:.4g} x exposure", intercept, slope < 0 ? '-' : '+', std::fabs(slope));
 }
 
-// A time of a video without a frame rate is the number of a frame.
-std::string time_text(const VideoActivity& a, double t, double se) {
-  return a.timed ? fmt::format("at {:.3g} +- {:.2g} s", t, se)
-                 : fmt::format("at frame {:.3g} +- {:.2g}", t, se);
+// Rounded to two digits of its uncertainty.
+std::string with_error(double value, double se) {
+  const int digits = se > 0 ? std::clamp(1 - int(std::floor(std::log10(se))), 0, 6) : 6;
+  return fmt::format("{:.{}f} +- {:.{}f}", value, digits, se, digits);
+}
+
+std::string with_interval(const Measured& m, double scale) {
+  const double width = scale * width_of(m.ci90);
+  return fmt::format("{} [{}, {}]", decimals(scale * m.value, width), decimals(scale * m.ci90[0], width),
+                     decimals(scale * m.ci90[1], width));
+}
+
+void print_response(const VideoActivity& a) {
+  if (!a.response) return;
+  const Response& r = *a.response;
+  const char* unit = a.timed ? "s" : "frames";
+  if (const auto onset = onset_of(a)) {
+    fmt::print("  onset {} {} (90 % interval; {})\n", with_interval({onset->t_s, onset->ci90}, 1), unit,
+               r.source == Response::Source::detected
+                   ? "time of the field reversal unknown"
+                   : fmt::format("field reversal at {:g} {}, {}", r.earliest_s, unit, reversal_source(r)));
+  } else {
+    fmt::print("  no response to the field reversal\n");
+  }
+  if (r.fraction)
+    fmt::print("  responding fraction {} (90 % interval; {})\n", with_interval(*r.fraction, 1),
+               r.fraction_method);
+  if (r.speed_px_s)
+    fmt::print("  speed {} {}/s (90 % interval)\n", with_interval(*r.speed_px_s, a.um_per_px.value_or(1)),
+               a.um_per_px ? "um" : "px");
 }
 
 void print_video(const VideoActivity& a) {
@@ -83,12 +117,14 @@ void print_video(const VideoActivity& a) {
     fmt::print("  activity per visible cell {:.3g} px^3 ({} {})\n", *per_cell, cells,
                cells == "1" ? "cell" : "cells");
   }
+  print_response(a);
+  // A time of a video without a frame rate is the number of a frame.
   if (a.fit.good)
-    fmt::print("  {}maximum {}, width {:.3g} {}\n",
-               a.onset_s ? fmt::format("onset {}, ", time_text(a, *a.onset_s, *a.se_onset_s)) : "",
-               time_text(a, a.fit.peak_s, a.fit.se_peak_s), a.fit.sigma_s, a.timed ? "s" : "frames");
+    fmt::print("  maximum at {}{}{}, width {:.3g}{} (+- standard error)\n", a.timed ? "" : "frame ",
+               with_error(a.fit.peak_s, a.fit.se_peak_s), a.timed ? " s" : "", a.fit.sigma_s,
+               a.timed ? " s" : " frames");
   else
-    fmt::print("  no Gaussian fit: {}; onset and time of the maximum are unknown\n", a.fit.reason);
+    fmt::print("  no time of the maximum: {}\n", a.fit.reason);
   for (const MotionSegment& s : a.segments)
     fmt::print("  {}{:7.2f} to {:7.2f}{}  direction {:3} degrees\n", a.timed ? "" : "frame ", s.t0_s, s.t1_s,
                a.timed ? " s" : "", rounded_degrees(s.direction_deg));
@@ -141,10 +177,16 @@ int activity(const ActivityVerb& v, const Common& c) {
   const ActivityResult result = measure_activity(job);
   bar.clear();
   if (!v.out.empty()) write_file(v.out, activity_csv(result));
-  if (!v.report.empty()) write_file(v.report, activity_page(result));
+  Provenance provenance;
+  if (c.json || !v.report.empty()) {
+    for (const ActivityInput& input : job.videos) inputs.push_back(input.file);
+    inputs.push_back(job.noise);
+    provenance = provenance_of(c, inputs);
+  }
+  if (!v.report.empty()) write_file(v.report, activity_page(result, provenance));
   if (!v.picture.empty()) write_activity_picture(v.picture, result.videos.front());
   if (c.json) {
-    fmt::print("{}\n", activity_json(result).dump());
+    print_json(activity_json(result), provenance);
     return 0;
   }
   if (c.quiet) return 0;
@@ -166,12 +208,17 @@ void add_activity(CLI::App& app, CommandLine& line) {
       verb(app, line, "activity",
            "Measure when cells in videos move in one direction, how much, and when the motion is largest",
            "  faba activity film.mp4 --report activity.html\n"
+           "  faba activity film.mp4 --direction 90 --reversal \"1 s\"\n"
            "  faba activity film.mp4 --direction 90 --noise dead.mp4 --out signature.csv\n"
            "  faba activity study.toml --report study.html");
   v->add_option("videos", o->videos,
                 "Videos, run directories or flow files; or a study file (TOML) that lists them")
       ->required();
   add_response_options(v, o->response);
+  v->add_option("--reversal", o->reversal,
+                "Time of the field reversal in the video, s; default: as recorded by a run, else unknown")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
   v->add_option("--noise", o->noise, "Video of a dead sample, from which the threshold is measured")
       ->check(not_empty)
       ->excludes("--flow-threshold");

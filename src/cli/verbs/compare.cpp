@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/command_line.h"
 #include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/file.h"
 #include "study/motion/segments.h"
@@ -79,9 +81,14 @@ int compare(const CompareVerb& v, const Common& c) {
   const Comparison result = compare_videos(job);
   bar.reset();
   if (!v.out.empty()) write_file(v.out, compare_csv(result));
-  if (!v.report.empty()) write_file(v.report, compare_page(result, job));
+  Provenance provenance;
+  if (c.json || !v.report.empty()) {
+    std::rotate(inputs.begin(), inputs.end() - 1, inputs.end());  // the reference first
+    provenance = provenance_of(c, inputs);
+  }
+  if (!v.report.empty()) write_file(v.report, compare_page(result, job, provenance));
   if (c.json) {
-    fmt::print("{}\n", compare_json(result, job).dump());
+    print_json(compare_json(result, job), provenance);
     return 0;
   }
   if (c.quiet) return 0;

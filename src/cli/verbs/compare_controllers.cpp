@@ -6,10 +6,11 @@
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
+#include "cli/provenance.h"
 #include "core/counted.h"
 #include "core/file.h"
 #include "study/pages/controller_report.h"
-#include "study/plot/markup.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -26,7 +27,7 @@ void summary(const ControllerComparison& r) {
     const auto it = combination.metrics.find(name);
     if (it == combination.metrics.end()) return std::string("-");
     const double half_width = it->second.mean - it->second.ci95[0];
-    return std::isfinite(half_width) ? fmt::format("{:.3g} +- {:.2g}", it->second.mean, half_width)
+    return std::isfinite(half_width) ? with_uncertainty(it->second.mean, half_width)
                                      : fmt::format("{:.3g} (one trial)", it->second.mean);
   };
   for (const Combination& combination : r.combinations)
@@ -49,10 +50,11 @@ int compare_controllers(const StudyOptions& v, const Common& c) {
   const auto result = compare_controllers(study, dir.results(), options);
   bar.clear();
   if (!result) return report_partial(v, c, dir);
-  const auto j = controllers_json(*result);
+  const Provenance provenance = provenance_of(c, {v.study, study.scene.name});
   write_file(dir.path() / "controllers.csv", controllers_csv(*result));
-  write_file(dir.path() / "report.html", controllers_page(*result));
-  finish(dir, "controllers", j, c);
+  write_file(dir.path() / "report.html", controllers_page(*result, provenance));
+  finish(dir, "controllers", controllers_json(*result), provenance, v);
+  if (c.json) print_study(dir, "controllers");
   if (!c.quiet)
     for (const std::string& note : result->notes) print_stderr("faba: note: " + note);
   if (!c.json && !c.quiet) {

@@ -5,10 +5,12 @@
 
 #include "cli/command_line.h"
 #include "cli/output_file.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/error.h"
 #include "study/drop/drop_warnings.h"
 #include "study/pages/drop_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -25,13 +27,13 @@ int drop(const DropVerb& v, const Common& c) {
     for (const char* stage : kDropStages) check_output(v.stages / stage, {".png"}, v.force, {v.picture});
   const DropEdge edge = report_drop(v.picture, v.overlay, v.stages);
   if (c.json) {
-    fmt::print("{}\n", drop_json(edge).dump());
+    print_json(drop_json(edge, scale_of_file(v.picture)), provenance_of(c, {v.picture}));
   } else if (!c.quiet) {
     fmt::print(
-        "centre  ({:.1f} +- {:.1f}, {:.1f} +- {:.1f}) px\nradius  {:.1f} +- {:.1f} px\narc     {:.0f} "
-        "degrees visible; +- is the standard error\n",
-        edge.centre_image.x, edge.sd_centre_px.x, edge.centre_image.y, edge.sd_centre_px.y, edge.radius_px,
-        edge.sd_radius_px, edge.arc_deg);
+        "centre  ({}, {}) px\nradius  {} px\narc     {:.0f} degrees visible; +- is the standard error\n",
+        with_uncertainty(edge.centre_image.x, edge.sd_centre_px.x),
+        with_uncertainty(edge.centre_image.y, edge.sd_centre_px.y),
+        with_uncertainty(edge.radius_px, edge.sd_radius_px), edge.arc_deg);
     print_quality(drop_warnings(edge), 8);
     if (!v.overlay.empty()) fmt::print("overlay {}\n", v.overlay.string());
     if (!v.stages.empty()) fmt::print("stages  {}\n", v.stages.string());

@@ -7,6 +7,7 @@
 #include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/counted.h"
 #include "core/error.h"
@@ -62,7 +63,7 @@ int flow_pair(const FlowVerb& v, const Common& c) {
     if (given) throw Error(Errc::usage, option, "requires a video, but two pictures are given");
   const PairFlow flow = flow_of_pair(v.a, v.b, job_of(v));
   if (c.json) {
-    fmt::print("{}\n", flow_json(flow).dump());
+    print_json(flow_json(flow), provenance_of(c, {v.a, v.b, v.truth}));
     return 0;
   }
   print_notes(flow.notes, v.a, c);
@@ -95,7 +96,7 @@ int flow_video(const FlowVerb& v, const Common& c) {
   const VideoFlow flow = flow_of_video(v.a, job);
   bar.clear();
   if (c.json) {
-    fmt::print("{}\n", flow_json(flow).dump());
+    print_json(flow_json(flow), provenance_of(c, {v.a}));
     return 0;
   }
   print_notes(flow.notes, v.a, c);

@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
 #include "cli/options/video_part.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/file.h"
 #include "study/identify/best_scene.h"
 #include "study/identify/identify_warnings.h"
 #include "study/pages/identify_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -17,10 +20,13 @@ namespace {
 // `abc`: name of the second method.
 void print_parameter(const FoundParameter& p, const char* abc) {
   const FreeParameter& q = p.parameter;
-  fmt::print("  {:<28} {:.4g} {}  90 % interval {:.4g} to {:.4g}   ({} {:.4g}, {:.4g} to {:.4g})\n", q.path,
-             q.shown(p.median), q.shown_unit(), q.shown(p.ci90[0]), q.shown(p.ci90[1]), abc,
-             q.shown(p.abc_median), q.shown(p.abc_ci90[0]), q.shown(p.abc_ci90[1]));
-  if (!p.doubt.empty()) fmt::print("    {}\n", p.doubt);
+  const auto text = [&](double median, const std::array<double, 2>& ci90) {
+    return rounded_interval(q.shown(median), {q.shown(ci90[0]), q.shown(ci90[1])});
+  };
+  const RoundedInterval found = text(p.median, p.ci90), second = text(p.abc_median, p.abc_ci90);
+  fmt::print("  {:<28} {} {}  90 % interval {} to {}   ({} {}, {} to {})\n", q.path, found.value,
+             q.shown_unit(), found.low, found.high, abc, second.value, second.low, second.high);
+  if (!p.doubt.empty() && !q.nuisance()) fmt::print("    {}\n", p.doubt);
 }
 
 void summary(const Identification& r) {
@@ -37,9 +43,15 @@ void summary(const Identification& r) {
     if (m.fit_p < FoundModel::kPoorFit)
       fmt::print("  {} does not explain the videos (fit p = {:.2g}): do not use its intervals\n", m.name,
                  m.fit_p);
-    for (const FoundParameter& p : m.parameters) {
-      print_parameter(p, abc);
-      abc = "ABC";
+    for (const bool nuisance : {false, true}) {
+      const auto of_kind = [&](const FoundParameter& p) { return p.parameter.nuisance() == nuisance; };
+      if (nuisance && std::any_of(m.parameters.begin(), m.parameters.end(), of_kind))
+        fmt::print("  nuisance parameters, free by default:\n");
+      for (const FoundParameter& p : m.parameters) {
+        if (!of_kind(p)) continue;
+        print_parameter(p, abc);
+        abc = "ABC";
+      }
     }
   }
   for (const LegacyModel& m : r.legacy)
@@ -84,8 +96,12 @@ int identify(const IdentifyOptions& o, const Common& c) {
   bar.clear();
   if (!result) return report_partial(v, c, dir);
   write_best_scene(*result, dir.path());
-  write_file(dir.path() / "identify.html", identify_page(*result));
-  finish(dir, "identify", identify_json(*result), c);
+  std::vector<std::filesystem::path> inputs{v.study};
+  for (const ResponseInput& video : study.videos) inputs.push_back(video.file);
+  const Provenance provenance = provenance_of(c, inputs);
+  write_file(dir.path() / "identify.html", identify_page(*result, provenance));
+  finish(dir, "identify", identify_json(*result), provenance, v);
+  if (c.json) print_study(dir, "identify");
   if (!c.json && !c.quiet) {
     for (const std::string& note : notes_of(*result)) print_stderr("faba: note: " + note);
     summary(*result);

@@ -6,10 +6,12 @@
 
 #include "cli/command_line.h"
 #include "cli/output_file.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "cli/quantity.h"
 #include "core/error.h"
 #include "study/pages/scale_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -33,6 +35,11 @@ double tick_of(const std::string& text) {
   return tick;
 }
 
+void print_regression(double um_per_px, const std::array<double, 2>& ci95) {
+  const RoundedInterval text = rounded_interval(um_per_px, ci95);
+  fmt::print("regression   {} um/px, 95 % interval {} to {}\n", text.value, text.low, text.high);
+}
+
 void print_table(const TableScale& s) {
   fmt::print("  width um   um per px\n");
   for (std::size_t i = 0; i < s.ratios.each.size(); ++i)
@@ -40,8 +47,7 @@ void print_table(const TableScale& s) {
   fmt::print(
       "mean ratio   {:.6f} um/px, s.d. {:.6f}, s.e.m. {:.4f}; trend with width (Spearman) {:.2f}, p {:.3f}\n",
       s.ratios.mean, s.ratios.sd, s.ratios.sem, s.spearman, s.spearman_p);
-  fmt::print("regression   {:.4f} um/px, 95 % interval {:.3f} to {:.3f}\n", s.um_per_px, s.ci95[0],
-             s.ci95[1]);
+  print_regression(s.um_per_px, s.ci95);
   fmt::print("             reading = {:.2f} px (95 % interval {:.1f} to {:.1f} px) + {:.4f} px/um x width",
              s.intercept_px, s.intercept_ci95_px[0], s.intercept_ci95_px[1], s.slope_px_per_um);
   if (s.repeatability_px) fmt::print("; repeatability {:.2f} px", *s.repeatability_px);
@@ -55,15 +61,14 @@ void print_picture(const PictureScale& s) {
       s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px);
   fmt::print("mean ratio   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
              s.ratios.sem);
-  fmt::print("regression   {:.5f} um/px, 95 % interval {:.5f} to {:.5f}\n", s.um_per_px, s.ci95[0],
-             s.ci95[1]);
+  print_regression(s.um_per_px, s.ci95);
 }
 
 template <class Scale, class Print>
 void print_scale(const Scale& s, const ScaleVerb& v, const Common& c, Print&& print) {
   if (!v.out.empty()) write_calibration(v.out, calibration_of(s));
   if (c.json) {
-    fmt::print("{}\n", scale_json(s).dump());
+    print_json(scale_json(s), provenance_of(c, {v.ruler}));
     return;
   }
   if (c.quiet) return;

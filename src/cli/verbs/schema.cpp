@@ -9,6 +9,7 @@
 #include "study/identify/identify.h"
 #include "study/motion/activity_study.h"
 #include "study/steering/controller_study.h"
+#include "study/uturn/moment_study.h"
 
 namespace faba::cli {
 namespace {
@@ -36,6 +37,7 @@ int schema(const std::string& file, const Common& c) {
                  : file == "identify"            ? identify_study_schema()
                  : file == "compare-controllers" ? controller_study_schema()
                  : file == "activity"            ? activity_study_schema()
+                 : file == "moment"              ? moment_study_schema()
                                                  : scenario_json_schema(parts);
   fmt::print("{}\n", j.dump(2));
   return 0;
@@ -51,7 +53,7 @@ void add_schema(CLI::App& app, CommandLine& line) {
   v->add_option("kind", *of,
                 "Kind of file: scenario (default) or rig; the verb that reads the study file; or series, "
                 "which lists the columns of series.csv")
-      ->check(one_of({"scenario", "rig", "identify", "compare-controllers", "activity", "series"}));
+      ->check(one_of({"scenario", "rig", "identify", "compare-controllers", "activity", "moment", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 

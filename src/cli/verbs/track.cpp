@@ -11,25 +11,29 @@
 #include "cli/options/video_part.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "study/pages/tracks/preview_output.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
 
 struct TrackVerb {
-  std::filesystem::path video, swarm, overlay, report, picture, figures;
+  std::filesystem::path video, swarm, overlay, report, picture, figures, per_track, preview;
   std::vector<std::filesystem::path> out;
-  std::string scale;  ///< number or calibration file
+  std::string scale;        ///< number or calibration file
+  std::vector<int> region;  ///< column, row, width, height
   std::string polarity = "auto", background = "auto", motion = "auto";
   double fps = 0, size_px = 0, threshold = 0, search_radius_px = 0;
   int max_gap_frames = 2, min_points = 3, interval = 0;
   PartOptions part;
   unsigned threads = 0;
-  bool drop = false, force = false;
+  bool drop = false, keep_drift = false, force = false;
 };
 
 template <class Enum>
@@ -43,7 +47,10 @@ TrackOptions options_of(const TrackVerb& v) {
   o.part = v.part.part(v.fps);
   o.threads = v.threads;
   o.out = v.out;
-  if (!v.scale.empty()) o.um_per_px = parse_calibration(v.scale, "--um-per-px").um_per_px;
+  if (!v.scale.empty()) {
+    const Calibration c = parse_calibration(v.scale, "--um-per-px");
+    o.scale = {c.um_per_px, c.typed() ? "typed" : "calibration", ""};
+  }
   o.swarm = v.swarm;
   o.overlay = v.overlay;
   o.report = v.report;
@@ -52,6 +59,9 @@ TrackOptions options_of(const TrackVerb& v) {
   o.size_px = v.size_px;
   o.threshold_sd = v.threshold;
   o.inside_drop = v.drop;
+  o.keep_drift = v.keep_drift;
+  o.per_track = v.per_track;
+  if (!v.region.empty()) o.region = PixelRegion{v.region[0], v.region[1], v.region[2], v.region[3]};
   o.interval_frames = v.interval;
   o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
   o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
@@ -65,12 +75,14 @@ TrackOptions options_of(const TrackVerb& v) {
 void check_outputs(const TrackVerb& v) {
   for (const auto& path : v.out) check_output(path, {".csv", ".h5"}, v.force, {v.video});
   std::vector<std::filesystem::path> all = v.out;
-  all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture});
+  all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture, v.per_track, v.preview});
   check_distinct(std::move(all));
   check_output(v.swarm, {".csv"}, v.force, {v.video});
   check_output(v.overlay, {".mp4", ".avi"}, v.force, {v.video});
   check_output(v.report, {".html"}, v.force, {v.video});
   check_output(v.picture, {".png"}, v.force, {v.video});
+  check_output(v.preview, {".png"}, v.force, {v.video});
+  check_output(v.per_track, {".csv"}, v.force, {v.video});
   check_output_folder(v.figures, "--figures");
   if (!v.figures.empty() && std::filesystem::is_directory(v.figures))
     for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
@@ -101,21 +113,34 @@ class TrackUnits {
   const char* per_time() const { return timed_ ? "/s" : "/frame"; }
   static std::string estimate(const Estimated& e, double scale, const std::string& unit) {
     if (!std::isfinite(scale * e.value)) return "-";
-    std::string text = fmt::format("{:.3g}", scale * e.value);
-    if (std::isfinite(scale * e.se)) text += fmt::format(" +- {:.2g}", scale * e.se);
-    return text + " " + unit;
+    return with_uncertainty(scale * e.value, scale * e.se) + " " + unit;
   }
   double um_per_px_;
   bool timed_;
 };
+
+std::string given(bool is_given) { return is_given ? "given" : "estimated"; }
+
+// The options that determine the result, as they could be given.
+void print_options(const TrackDetection& d) {
+  fmt::print("options  --size {:.3g} ({}), --threshold {:.3g} ({}), --region {}", d.size_px,
+             given(d.size_given), d.threshold_snr, given(d.threshold_given),
+             d.region ? fmt::format("{},{},{},{} (given)", d.region->col, d.region->row, d.region->width,
+                                    d.region->height)
+                      : "not given");
+}
 
 void print_summary(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
   const TrackUnits units(m);
   fmt::print("spots    {:.4g} per frame, {}, {:.2g} px wide, background: {}\n", m.detection.spots_per_frame,
              word_of(m.detection.polarity), m.detection.size_px, background_word(m.detection));
-  fmt::print("tracks   {} in {}, {:.3g} positions each\n", s.tracks,
-             counted(std::uint64_t(m.frames), "frame"), s.mean_points);
+  print_options(m.detection);
+  fmt::print(", --least {}, --reach {:.3g}\n", m.joining.min_points, m.joining.search_radius_px);
+  const ScoreSummary score = summary_of(m.scores);
+  fmt::print("tracks   {} in {}, {:.3g} positions each{}\n", s.tracks,
+             counted(std::uint64_t(m.frames), "frame"), s.mean_points,
+             score.mean ? fmt::format(", mean score {:.2f}", *score.mean) : "");
   if (quality_of(m.warnings) == Quality::poor) {
     fmt::print(
         "         speeds and motion are not stated, because the quality is poor; --json gives all values\n");
@@ -128,8 +153,8 @@ void print_summary(const TrackMeasurement& m) {
   const bool drifts = s.speed_count > 0 && s.order > 0.5 && s.msd.size() > 0;
   const bool together = drifts || mean_order(s) > 0.5;
   const char* about = !together ? "" : drifts ? "relative to the drift: " : "relative to the common motion: ";
-  const SupportedWalk walk = supported_walk(s);
-  if (s.speed_count > 0 && (together || walk != SupportedWalk::diffusion))
+  const SupportedWalk walk = misfit_of(s).significant ? SupportedWalk::none : supported_walk(s);
+  if (s.speed_count > 0 && one_population(m) && (together || walk != SupportedWalk::diffusion))
     fmt::print("speed    mean {} (+- standard error; displacements over {})\n",
                units.velocity(s.mean_speed_px_s), units.duration(s.interval_s));
   if (drifts)
@@ -138,16 +163,42 @@ void print_summary(const TrackMeasurement& m) {
   if (walk == SupportedWalk::diffusion && s.diffusion.good)
     fmt::print("motion   {}diffusion, D = {} (standard error)\n", about, units.diffusion(s.d_px2_s));
   if (walk == SupportedWalk::persistent && s.persistent.good)
-    fmt::print("motion   {}persistent walk, speed {} (rms), persistence time {}\n", about,
-               units.velocity(s.speed_rms_px_s),
+    fmt::print("motion   {}persistent walk, {}persistence time {}\n", about,
+               one_population(m) ? fmt::format("speed {} (rms), ", units.velocity(s.speed_rms_px_s)) : "",
                s.persistent.tau_open ? "longer than the observed time" : units.time(s.tau_s));
+}
+
+int preview(const TrackVerb& v, const Common& c) {
+  const auto& stop = stop_requested();
+  Progress bar("preview", !c.quiet);
+  const TrackPreview p = preview_video(options_of(v), v.preview, [&](std::int64_t done, std::int64_t total) {
+    bar.update(std::uint64_t(done), std::uint64_t(total));
+    return !stop;
+  });
+  bar.clear();
+  if (c.json) {
+    fmt::print("{}\n", preview_json(p).dump());
+    return 0;
+  }
+  if (c.quiet) return 0;
+  const TrackDetection& d = p.detection;
+  fmt::print("spots    {:.4g} per frame in {}, {}, {:.2g} px wide, background: {}\n", d.spots_per_frame,
+             counted(p.frames.size(), "frame"), word_of(d.polarity), d.size_px, background_word(d));
+  print_options(d);
+  fmt::print("\n");
+  print_quality(p.warnings);
+  fmt::print("wrote    {}\n", v.preview.string());
+  return 0;
 }
 
 int track(const TrackVerb& v, const Common& c) {
   check_outputs(v);
+  if (!v.preview.empty()) return preview(v, c);
   const auto& stop = stop_requested();
   Progress bar("tracking", !c.quiet);
-  const TrackMeasurement tracks = track_video(options_of(v), [&](std::int64_t done, std::int64_t total) {
+  TrackOptions options = options_of(v);
+  if (c.json || !v.report.empty()) options.provenance = provenance_of(c, {v.video});
+  const TrackMeasurement tracks = track_video(options, [&](std::int64_t done, std::int64_t total) {
     bar.update(std::uint64_t(done), std::uint64_t(total));
     return !stop;
   });
@@ -155,14 +206,14 @@ int track(const TrackVerb& v, const Common& c) {
   if (!c.quiet && !c.json)
     for (const std::string& note : tracks.notes) print_stderr("faba: note: " + note);
   if (c.json) {
-    fmt::print("{}\n", track_json(tracks).dump());
+    print_json(track_json(tracks), options.provenance);
     return 0;
   }
   if (c.quiet) return 0;
   print_summary(tracks);
   print_quality(tracks.warnings);
   for (const auto& path : v.out) fmt::print("wrote    {}\n", path.string());
-  for (const auto* path : {&v.swarm, &v.overlay, &v.report, &v.picture, &v.figures})
+  for (const auto* path : {&v.swarm, &v.overlay, &v.report, &v.picture, &v.per_track, &v.figures})
     if (!path->empty()) fmt::print("wrote    {}\n", path->string());
   return 0;
 }
@@ -193,7 +244,14 @@ void add_track(CLI::App& app, CommandLine& line) {
   v->add_option("--overlay", t->overlay, "Write the video with the tracks, as MP4 or AVI");
   v->add_option("--report", t->report, "Write a page with all figures, as HTML");
   v->add_option("--picture", t->picture, "Write the first frame with all tracks, as PNG");
+  v->add_option("--per-track", t->per_track, "Write a row with length and quality of each track, as CSV");
   v->add_option("--figures", t->figures, "Write the figures into this folder, as SVG");
+  CLI::Option* preview =
+      v->add_option("--preview", t->preview,
+                    "Detect the cells in some frames only, write these frames as PNG, and do not track");
+  for (const char* other :
+       {"--out", "--swarm", "--overlay", "--report", "--picture", "--per-track", "--figures"})
+    preview->excludes(other);
   v->add_option("--size", t->size_px, "Full width of a cell at half its contrast, px; default: measured")
       ->check(between(1, 60));
   v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; default: auto, measured")
@@ -225,6 +283,15 @@ void add_track(CLI::App& app, CommandLine& line) {
        "--interval", t->interval,
        "Number of frames over which displacements are measured for speeds and turns; default: measured")
       ->check(integers(1, 100000));
+  v->add_option(
+       "--region", t->region,
+       "Search this part of the frames only: column and row of its corner at the top left, width and "
+       "height, px; default: all")
+      ->delimiter(',')
+      ->expected(4);
+  v->add_flag("--keep-drift", t->keep_drift,
+              "Do not subtract the motion of the stage from speeds and displacements; default: subtracted "
+              "where objects fixed to the stage show it");
   v->add_flag("--drop", t->drop, "Detect the edge of the drop in the first frame and search inside it only");
   v->add_flag("--force", t->force, "Replace existing files");
   v->callback([t, &line] { line.code = track(*t, line.common); });

@@ -50,13 +50,31 @@ void add_ni(std::vector<Device>& all, const std::string& library) {
   }
 }
 
+// National Instruments devices on the USB. NI-DAQmx for Linux does not list those that it does not support.
+void add_ni_usb(std::vector<Device>& all, const fs::path& sys) {
+  for (const fs::path& device : entries(sys / "bus/usb/devices", "")) {
+    if (first_line(device / "idVendor") != "3923") continue;
+    const std::string product = first_line(device / "product");
+    const bool listed = std::any_of(all.begin(), all.end(), [&](const Device& d) {
+      return d.kind == "output device" && d.what == product;
+    });
+    if (listed) continue;
+    const bool without_linux = product.find("USB-600") != std::string::npos;
+    all.push_back(
+        {"USB device", device.filename().string(),
+         product + (without_linux
+                        ? ": not supported by NI-DAQmx for Linux; use NI-DAQmx Base, or a serial board"
+                        : ": install NI-DAQmx, or NI-DAQmx Base if it does not support this device")});
+  }
+}
+
 }  // namespace
 
-std::vector<Device> device_list(const std::string& ni_library) {
+std::vector<Device> device_list(const std::string& ni_library, const fs::path& sys) {
   std::vector<Device> all;
-  for (const fs::path& video : entries("/sys/class/video4linux", "video"))
+  for (const fs::path& video : entries(sys / "class/video4linux", "video"))
     all.push_back({"camera", "/dev/" + video.filename().string(), first_line(video / "name")});
-  for (const fs::path& fw : entries("/sys/bus/firewire/devices", "fw"))
+  for (const fs::path& fw : entries(sys / "bus/firewire/devices", "fw"))
     if (fs::exists(fw / "model_name"))
       all.push_back({"camera", fw.filename().string(), first_line(fw / "model_name")});
   for (const char* kind : {"ttyACM", "ttyUSB"})
@@ -64,6 +82,7 @@ std::vector<Device> device_list(const std::string& ni_library) {
   for (const fs::path& line : entries("/dev/serial/by-id", ""))
     all.push_back({"serial line", line.string(), fs::read_symlink(line).filename().string()});
   add_ni(all, ni_library);
+  add_ni_usb(all, sys);
   return all;
 }
 

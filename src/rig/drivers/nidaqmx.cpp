@@ -15,27 +15,43 @@ constexpr std::int32_t kDefaultTerminal = -1;  // DAQmx_Val_Cfg_Default
 constexpr std::int32_t kAllLines = 1;          // DAQmx_Val_ChanForAllLines
 constexpr std::uint32_t kByChannel = 0;        // DAQmx_Val_GroupByChannel
 
-/// The library, loaded at run time: the program does not link to it.
+constexpr const char* kLibrary = "libnidaqmx.so.1";
+constexpr const char* kBaseLibrary =
+    "libnidaqmxbase.so";  // supports devices that NI-DAQmx for Linux does not
+
+/// The library, loaded at run time: the program does not link to it. NI-DAQmx, or NI-DAQmx Base, whose
+/// functions have the prefix DAQmxBase, the same arguments, and no function for single digital lines.
 class Daqmx {
  public:
   explicit Daqmx(const std::string& library) : library_(dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    const std::string reason = library_ ? "" : dlerror();
+    if (!library_ && library == kLibrary) {
+      dlopen("liblvrtdark.so",
+             RTLD_NOW | RTLD_GLOBAL);  // NI-DAQmx Base needs its symbols, but does not load it
+      library_ = dlopen(kBaseLibrary, RTLD_NOW | RTLD_LOCAL);
+    }
     if (!library_)
       throw Error(
           Errc::device, "nidaqmx",
-          fmt::format("cannot load {} ({}); install NI-DAQmx for Linux, or set the path of the library in "
-                      "rig.driver.library",
-                      library, dlerror()));
-    find(create_task, "DAQmxCreateTask");
-    find(create_output, "DAQmxCreateAOVoltageChan");
-    find(create_input, "DAQmxCreateAIVoltageChan");
-    find(create_line, "DAQmxCreateDOChan");
-    find(start, "DAQmxStartTask");
-    find(clear, "DAQmxClearTask");
-    find(write, "DAQmxWriteAnalogF64");
-    find(read, "DAQmxReadAnalogF64");
-    find(write_line, "DAQmxWriteDigitalLines");
-    find(error_text, "DAQmxGetExtendedErrorInfo");
+          fmt::format(
+              "cannot load {} ({}); install NI-DAQmx for Linux, or NI-DAQmx Base for devices that it does "
+              "not support, such as the USB-6009; or set the path of the library in rig.driver.library",
+              library, reason));
+    base_ = dlsym(library_, "DAQmxBaseCreateTask") != nullptr;
+    find(create_task, "CreateTask");
+    find(create_output, "CreateAOVoltageChan");
+    find(create_input, "CreateAIVoltageChan");
+    find(create_line, "CreateDOChan");
+    find(start, "StartTask");
+    find(clear, "ClearTask");
+    find(write, "WriteAnalogF64");
+    find(read, "ReadAnalogF64");
+    find(write_line, base_ ? "WriteDigitalU8" : "WriteDigitalLines");
+    find(error_text, "GetExtendedErrorInfo");
   }
+  /// The value of a high line: one byte per line, or the bits of a port, of which only those of the task
+  /// count.
+  std::uint8_t high() const { return base_ ? 0xFF : 1; }
   // Never unloaded: the library runs its own threads.
 
   std::int32_t (*create_task)(const char*, Task*) = nullptr;
@@ -66,11 +82,13 @@ class Daqmx {
  private:
   template <class Function>
   void find(Function& f, const char* name) {
-    f = reinterpret_cast<Function>(dlsym(library_, name));
-    if (!f) throw Error(Errc::device, "nidaqmx", fmt::format("the library has no function {}", name));
+    const std::string full = (base_ ? "DAQmxBase" : "DAQmx") + std::string(name);
+    f = reinterpret_cast<Function>(dlsym(library_, full.c_str()));
+    if (!f) throw Error(Errc::device, "nidaqmx", fmt::format("the library has no function {}", full));
   }
   std::int32_t (*error_text)(char*, std::uint32_t) = nullptr;
   void* library_;
+  bool base_ = false;
 };
 
 /// Analogue outputs of National Instruments devices, such as the thesis's USB-6009 (two outputs of 0 to 5 V,
@@ -78,14 +96,17 @@ class Daqmx {
 class NiDaqmx final : public CoilDriver {
  public:
   struct Params {
-    std::string library = "libnidaqmx.so.1";
+    std::string library = kLibrary;
     std::string enable_line;
     double timeout = 0.05;
   };
   static Schema<Params> schema() {
     return Schema<Params>("nidaqmx",
                           "National Instruments devices, through the NI-DAQmx library if installed")
-        .add("library", &Params::library, {.doc = "Name or path of the library"})
+        .add("library", &Params::library,
+             {.doc = "Name or path of the library: NI-DAQmx, or NI-DAQmx Base, which is also loaded if the "
+                     "default is not "
+                     "installed"})
         .add("enable_line", &Params::enable_line,
              {.doc = "Digital line such as \"Dev1/port0/line0\" that toggles while the guard runs; the "
                      "electronics must permit current only while it toggles"})
@@ -96,7 +117,9 @@ class NiDaqmx final : public CoilDriver {
               .doc = "Timeout of a call to the device; a longer call is a device error"})
         .validity(
             "Channels have NI names: outputs \"Dev1/ao0\", inputs \"Dev1/ai0\". The driver "
-            "was tested with a mock of the library, not on hardware. A USB-6009 keeps its last voltage if "
+            "was tested with mocks of both libraries, not on hardware. NI-DAQmx for Linux does not support "
+            "the "
+            "USB-6008 and USB-6009; NI-DAQmx Base does. A USB-6009 keeps its last voltage if "
             "the computer fails and has no watchdog: without an enable line the guard does not arm.");
   }
   NiDaqmx(const Params& p, const DriverContext& c) : p_(p), ni_(p.library) {
@@ -133,7 +156,7 @@ class NiDaqmx final : public CoilDriver {
     };
     if (line_) {  // first, so that the current is cut off even if writing the outputs fails
       high_ = enable && !high_;
-      const std::uint8_t level = high_;
+      const std::uint8_t level = high_ ? ni_.high() : 0;
       check_call(ni_.write_line(line_, 1, 0, p_.timeout, kByChannel, &level, nullptr, nullptr));
     }
     for (auto& [device, g] : outputs_) {

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "app/recording/session.h"
 #include "core/counted.h"
 #include "core/threads/ordered_work.h"
+#include "study/data/run_info.h"
 #include "study/data/run_video.h"
 #include "vision/files/grey_video.h"
 #include "vision/flow/flow_file.h"
@@ -19,7 +21,7 @@ namespace {
 struct Input {
   std::filesystem::path file;
   bool flows = false;
-  std::optional<double> um_per_px;
+  VideoScale scale;
 };
 
 /// What a reader has found in a video up to some pair of frames.
@@ -45,14 +47,16 @@ struct Item {
 };
 
 Input resolve(const std::filesystem::path& path, bool frames) {
-  if (!frames && is_run(path) && std::filesystem::exists(path / "flow.h5"))
-    return {path / "flow.h5", true, {}};
+  if (!frames && is_run(path) && std::filesystem::exists(path / "flow.h5")) {
+    const RunInfo info = read_run_info(path / run_files::kManifest);
+    return {path / "flow.h5", true, {info.um_per_px, info.um_per_px_source, ""}};
+  }
   const RunVideo video = run_video(path);
   const bool flows = FlowFileReader::recognises(video.file);
   if (frames && flows)
     throw Error(Errc::input, path.string(),
                 "contains flows but no frames, which are needed; specify the video");
-  return {video.file, flows, video.um_per_px};
+  return {video.file, flows, video.scale};
 }
 
 }  // namespace
@@ -118,7 +122,7 @@ void FlowSource::Impl::open_flows() {
   pairs = flows->size();
   end_s = double(pairs) / (fps > 0 ? fps : 1);
   set_samples();
-  if (!input.um_per_px) input.um_per_px = info.um_per_px;
+  if (!input.scale.um_per_px && info.um_per_px) input.scale = {info.um_per_px, "metadata", ""};
   if (flows->size() == 0) throw Error(Errc::input, path.string(), "contains no flows");
 }
 
@@ -266,7 +270,7 @@ int FlowSource::shrink() const { return impl_->video ? impl_->video->side() : 1;
 double FlowSource::fps() const { return impl_->fps; }
 std::uint64_t FlowSource::every() const { return impl_->every; }
 std::uint64_t FlowSource::pairs() const { return impl_->pairs; }
-std::optional<double> FlowSource::um_per_px() const { return impl_->input.um_per_px; }
+const VideoScale& FlowSource::scale() const { return impl_->input.scale; }
 const std::string& FlowSource::method() const { return impl_->method; }
 
 std::vector<std::string> FlowSource::notes() const {
@@ -280,9 +284,10 @@ std::vector<std::string> FlowSource::notes() const {
     return notes;
   }
   if (const std::string note =
-          override_note(impl_->path, {impl_->input.file, impl_->input.um_per_px}, impl_->options.fps, {});
+          override_note(impl_->path, {impl_->input.file, impl_->input.scale}, impl_->options.fps, {});
       !note.empty())
     notes.push_back(note);
+  if (!impl_->input.scale.ignored.empty()) notes.push_back(impl_->input.scale.ignored);
   if (impl_->video->side() > 1 && impl_->options.shrink == 0)
     notes.push_back(
         fmt::format("frames were averaged over blocks of {0} x {0} px; flows are in px of the video",

@@ -9,6 +9,7 @@
 
 #include "study/data/frame_inspector.h"
 #include "study/data/kept_flows.h"
+#include "study/data/video_scale.h"
 #include "vision/flow/flow.h"
 
 namespace faba {
@@ -62,7 +63,7 @@ class FlowSource {
   std::uint64_t every() const;
   /// Pairs of the interval from t0_s to t1_s as stated in the file, for progress; 0: unknown.
   std::uint64_t pairs() const;
-  std::optional<double> um_per_px() const;
+  const VideoScale& scale() const;
   /// The flow method and its parameters, as JSON.
   const std::string& method() const;
   /// Notes for the user on the pairs that were taken: damage, shrinking, grey scaling, missing frame rate.

@@ -93,6 +93,8 @@ RunInfo run_info(const Json& json, const std::string& source) {
   info.setpoint_tolerance_px = keys.number("setpoint_tolerance_px");
   info.um_per_px = keys.number("um_per_px");
   if (info.um_per_px && !(*info.um_per_px > 0)) keys.fail("um_per_px", "greater than 0");
+  info.um_per_px_source = keys.text("um_per_px_source");
+  info.nominal_um_per_px = keys.number("nominal_um_per_px");
   info.view_px = keys.pair("view_px");
   if (info.view_px && !(info.view_px->x > 0 && info.view_px->y > 0)) keys.fail("view_px", "greater than 0");
 
@@ -134,7 +136,9 @@ RunInfo run_info(const Manifest& m) {
   info.scenario_hash = m.scenario_hash;
   info.complete = m.complete;
   info.open_loop = m.open_loop;
-  if (m.um_per_px > 0) info.um_per_px = m.um_per_px;
+  info.um_per_px = m.um_per_px;
+  info.nominal_um_per_px = m.nominal_um_per_px;
+  if (m.um_per_px_source.is_string()) info.um_per_px_source = m.um_per_px_source.get<std::string>();
   info.view_px = m.view_px;
   info.arena = {m.arena_type, m.arena_centre_px, {}, {}};
   if (m.arena_radius_px > 0)

@@ -26,7 +26,9 @@ struct RunInfo {
   std::string video_shows;          ///< "camera" or "drawing"
   bool complete = true;             ///< false when the run was stopped before its end
   bool open_loop = false;           ///< no controller of the run uses the setpoints; not in manifest.json
-  std::optional<double> um_per_px;  ///< image scale, micrometre per pixel, > 0
+  std::optional<double> um_per_px;  ///< image scale, micrometre per pixel, > 0; empty: not known
+  std::optional<double> nominal_um_per_px;  ///< used for the simulation when the scale is not known
+  std::string um_per_px_source;             ///< "calibration", "typed" or "metadata"
   std::optional<double> duration_s, wall_time_s;
   std::optional<double> setpoints;              ///< number of setpoints of the scenario
   std::optional<double> setpoint_tolerance_px;  ///< distance within which a setpoint counts as reached
@@ -41,10 +43,11 @@ struct RunInfo {
 RunInfo run_info(const Manifest& m);
 
 /// Reads a manifest: a JSON object with `version` and optionally `seed, threads, state_hash, scenario_hash,
-/// video_shows, duration_s, um_per_px, title, wall_time_s, view_px = [w, h], arena = {type, centre_px,
-/// radius_px | size_px}, polarity, swarms = [{count, ...}], setpoints, setpoint_tolerance_px, notes = [..]`.
-/// null counts as missing; unknown keys are ignored. Throws Error(Errc::input) with file and key when the
-/// file is missing or not JSON, and for a value of the wrong type.
+/// video_shows, duration_s, um_per_px, um_per_px_source, nominal_um_per_px, title, wall_time_s, view_px = [w,
+/// h], arena = {type, centre_px, radius_px | size_px}, polarity, swarms = [{count, ...}], setpoints,
+/// setpoint_tolerance_px, notes = [..]`. null counts as missing; unknown keys are ignored. Throws
+/// Error(Errc::input) with file and key when the file is missing or not JSON, and for a value of the wrong
+/// type.
 RunInfo read_run_info(const std::filesystem::path& path);
 
 }  // namespace faba

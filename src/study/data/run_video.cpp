@@ -35,21 +35,21 @@ bool has_camera_video(const std::filesystem::path& run) {
 }
 
 RunVideo run_video(const std::filesystem::path& path) {
-  if (!is_run(path)) return {path, {}};
+  if (!is_run(path)) return {path, scale_of_file(path)};
   const RunInfo info = read_run_info(path / run_files::kManifest);
   for (const char* video : kVideos) {
     if (!std::filesystem::exists(path / video)) continue;
     if (info.video_shows != "camera")
       throw Error(Errc::input, path.string(),
                   "its video is a drawing, not a camera video; record the run with --as-seen");
-    return {path / video, info.um_per_px};
+    return {path / video, {info.um_per_px, info.um_per_px_source, ""}};
   }
   throw Error(Errc::input, path.string(), "the run has no video; record it with --as-seen");
 }
 
 std::string override_note(const std::filesystem::path& path, const RunVideo& video, double fps,
                           const std::optional<double>& um_per_px) {
-  if (!is_run(path)) return "";
+  const bool run = is_run(path);
   std::vector<std::string> stated, used, options;
   const auto compare = [&](double of_run, double given, const char* unit, const char* option) {
     if (!(of_run > 0) || std::fabs(given / of_run - 1) < 1e-6) return;
@@ -57,10 +57,10 @@ std::string override_note(const std::filesystem::path& path, const RunVideo& vid
     used.push_back(fmt::format("{:.6g} {}", given, unit));
     options.emplace_back(option);
   };
-  if (fps > 0) compare(VideoReader(video.file).fps(), fps, "Hz", "--fps");
-  if (um_per_px && video.um_per_px) compare(*video.um_per_px, *um_per_px, "um/px", "--um-per-px");
+  if (fps > 0 && run) compare(VideoReader(video.file).fps(), fps, "Hz", "--fps");
+  if (um_per_px && video.scale.um_per_px) compare(*video.scale.um_per_px, *um_per_px, "um/px", "--um-per-px");
   if (stated.empty()) return "";
-  return fmt::format("the run states {}; {} {} used ({})", fmt::join(stated, " and "),
+  return fmt::format("the {} states {}; {} {} used ({})", run ? "run" : "file", fmt::join(stated, " and "),
                      fmt::join(used, " and "), used.size() == 1 ? "is" : "are", fmt::join(options, ", "));
 }
 

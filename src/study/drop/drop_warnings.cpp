@@ -9,8 +9,9 @@ namespace {
 constexpr double kShortArc = 30;  // degrees
 constexpr double kUncertainRadius = 0.03,
                  kUselessRadius = 0.15;  // standard deviation of the radius, over the radius
-constexpr double kIncomplete = 0.6;      // fraction of the visible arc with an edge
+constexpr double kIncomplete = 0.8;      // fraction of the visible arc with an edge; below 0.65 it is refused
 constexpr double kBlurredEdge = 0.1;     // width of the edge over the radius
+constexpr double kOutOfRound = 0.03;     // half the difference of the axes over the radius
 
 }  // namespace
 
@@ -32,8 +33,17 @@ std::vector<Warning> drop_warnings(const DropEdge& e) {
     out.push_back({"outline",
                    "the edge was detected along a part of the visible arc only: other structures of "
                    "the picture may be included",
-                   fmt::format("{:.0f} % of the arc", 100 * e.support), "check the edge with --overlay",
-                   e.support < 0.5 * kIncomplete ? Quality::poor : Quality::doubtful});
+                   fmt::format("{:.0f} % of the arc", 100 * e.support), "check the edge with --overlay"});
+  if (e.other)
+    out.push_back(
+        {"edges", "the picture has another circular edge",
+         fmt::format("radius {:.4g} px about ({:.4g}, {:.4g}); the reported one is longer or clearer",
+                     e.other->radius, e.other->centre.x, e.other->centre.y),
+         "check with --overlay which of them is the edge of the drop; crop or mask the other one"});
+  if (e.out_of_round_px > kOutOfRound * e.radius_px)
+    out.push_back({"shape", "the edge is not a circle",
+                   fmt::format("its half axes differ from the radius by {:.2g} px", e.out_of_round_px),
+                   "use the radius as a mean value only"});
   if (e.edge_width_px > kBlurredEdge * e.radius_px)
     out.push_back({"focus", "the edge is blurred",
                    fmt::format("its width is {:.2g} px, the radius {:.3g} px", e.edge_width_px, e.radius_px),

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "study/data/video_scale.h"
 #include "vision/drop/drop_edge.h"
 
 namespace faba {
@@ -10,6 +11,7 @@ namespace faba {
 struct ProposedDrop {
   bool found = false;            ///< whether the edge of a drop was found
   std::string reason;            ///< reason when not found
+  VideoScale scale;              ///< in the metadata of the picture
   std::optional<DropEdge> edge;  ///< edge of a drop, or of an air bubble in the liquid
   Vec2 centre_image;     ///< px, pixel centres at integers; of the edge, or of the picture without edge
   double radius_px = 0;  ///< of the edge, or 0.4 of the smaller side of the picture

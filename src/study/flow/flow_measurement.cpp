@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "study/flow/flow_check.h"
 #include "vision/files/picture.h"
 #include "vision/flow/flow_file.h"
 #include "vision/image/kernels/grey_scale.h"
@@ -65,45 +67,6 @@ void require_same_format(const Picture& first, const std::string& a, const Pictu
                             second.bits, a, first.bits));
 }
 
-// Sums of the squared differences of two pictures, before and after the second one was moved back along the
-// flow (bilinear interpolation); pixels that move out of the picture are omitted.
-struct Differences {
-  double before = 0, after = 0;
-  // `side`: of a pixel, px of the flow.
-  void add(const GrayF& a, const GrayF& b, const Flow& flow, double side) {
-    for (int r = 0; r < a.height; ++r)
-      for (int c = 0; c < a.width; ++c) {
-        const double x = c + double(flow.u.at(c, r)) / side, y = r + double(flow.v.at(c, r)) / side;
-        if (!(x >= 0 && y >= 0 && x < a.width - 1 && y < a.height - 1)) continue;
-        const int left = int(x), top = int(y);
-        const double fx = x - left, fy = y - top;
-        const double moved =
-            (1 - fy) * ((1 - fx) * double(b.at(left, top)) + fx * double(b.at(left + 1, top))) +
-            fy * ((1 - fx) * double(b.at(left, top + 1)) + fx * double(b.at(left + 1, top + 1)));
-        const double was = double(b.at(c, r)) - double(a.at(c, r)), is = moved - double(a.at(c, r));
-        before += was * was;
-        after += is * is;
-      }
-  }
-  std::optional<double> unexplained() const {
-    return before > 0 ? std::optional(after / before) : std::nullopt;
-  }
-};
-
-// `mean_px`: mean speed, where noise of the pictures moves nothing.
-void warn(const std::optional<double>& unexplained, double largest_px, std::vector<Warning>& out) {
-  // Noise that changes from frame to frame cannot be explained by a flow; half is left for it (assumed).
-  constexpr double kUnexplained = 0.5, kMoves = 0.1;
-  if (!unexplained || *unexplained < kUnexplained || largest_px < kMoves) return;
-  out.push_back({"displacement",
-                 "the flow does not explain the difference of the frames: objects move by more than their "
-                 "size between frames, the light changes, or the pictures are mostly noise",
-                 fmt::format("{:.0f} % of the mean square difference remains after the motion is undone",
-                             100 * *unexplained),
-                 "use a higher frame rate, --method dis for large displacements, or a pyramid",
-                 *unexplained > 0.8 ? Quality::poor : Quality::doubtful});
-}
-
 }  // namespace
 
 PairFlow measure_flow(const std::filesystem::path& a, const std::filesystem::path& b,
@@ -120,6 +83,7 @@ PairFlow measure_flow(const std::filesystem::path& a, const std::filesystem::pat
   FlowSums sums;
   sums.add(r.flow);
   const double n = double(sums.n);
+  r.scale = scale_of_file(a);
   r.method = part.resolved.dump();
   r.effort = method->effort();
   r.mean_px = {sums.u / n, sums.v / n};
@@ -131,10 +95,10 @@ PairFlow measure_flow(const std::filesystem::path& a, const std::filesystem::pat
     r.warnings.push_back({"iteration", "the iteration has not converged: the flow is biased towards zero",
                           fmt::format("{} iterations", r.effort->iterations),
                           "increase --iterations, or use --solver multigrid"});
-  Differences differences;
-  differences.add(first.grey, second.grey, r.flow, 1);
-  r.unexplained = differences.unexplained();
-  warn(r.unexplained, r.largest_px, r.warnings);
+  FlowCheck check;
+  check.add(first.grey, second.grey, r.flow);
+  r.unexplained = check.unexplained();
+  std::ranges::move(check.warnings(r.mean_speed_px), std::back_inserter(r.warnings));
   return r;
 }
 
@@ -143,24 +107,25 @@ VideoFlow measure_flow(FlowSource& source, const std::function<void(const FlowPa
   FlowPair pair;
   FlowSums sums;
   double t0 = 0;
-  Differences differences;
+  FlowCheck check;
   GrayF before;
   while (source.next(pair)) {
     if (r.pairs++ == 0) t0 = pair.t0_s;
     sums.add(pair.flow);
     if (r.pairs % kCheckedPairs == 0 && !before.empty())
-      differences.add(before, pair.image, pair.flow, source.shrink());
+      check.add(before, pair.image, pair.flow, source.shrink());
     if (r.pairs % kCheckedPairs == kCheckedPairs - 1) before = pair.image;
     take(pair);
   }
+  r.scale = source.scale();
   r.width = source.width();
   r.height = source.height();
   r.method = source.method();
   r.seconds = pair.t1_s - t0;
   r.timed = source.fps() > 0;
   r.mean_speed_px = sums.speed / double(sums.n);
-  r.unexplained = differences.unexplained();
-  warn(r.unexplained, sums.largest, r.warnings);
+  r.unexplained = check.unexplained();
+  r.warnings = check.warnings(r.mean_speed_px);
   r.notes = source.notes();
   return r;
 }

@@ -22,6 +22,7 @@ struct FlowError {
 /// The flow from one picture to another.
 struct PairFlow {
   Flow flow;
+  VideoScale scale;                  ///< of the first picture
   std::string method;                ///< flow part and its parameters, as JSON
   std::optional<FlowEffort> effort;  ///< iterations, where the method reports them
   Vec2 mean_px;                      ///< image frame, y down
@@ -38,6 +39,7 @@ struct PairFlow {
 /// The flows of a video.
 struct VideoFlow {
   int width = 0, height = 0;          ///< of the flows, px
+  VideoScale scale;                   ///< of the video
   std::string method;                 ///< flow part and its parameters, as JSON
   std::uint64_t pairs = 0;            ///< number of pairs of frames
   double seconds = 0;                 ///< duration from the first frame to the last

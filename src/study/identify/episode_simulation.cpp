@@ -40,6 +40,14 @@ Json field_along(double direction_deg, double strength_t, bool north) {
   return {quantity(b * direction.x, "T"), quantity(-b * direction.y, "T")};
 }
 
+// Divides the swarm into equal populations.
+void add_populations(Json& swarms, const Variant& model) {
+  const auto populations = model.extra.value(kPopulations, std::size_t(1));
+  if (populations < 2) return;
+  swarms[0]["count"] = std::max<std::size_t>(1, swarms[0]["count"].get<std::size_t>() / populations);
+  while (swarms.size() < populations) swarms.push_back(swarms[0]);
+}
+
 /// Records the frames or cell positions at the times of the statistics.
 class EpisodeSink final : public Sink {
  public:
@@ -103,7 +111,7 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   d.name = settings.model.origin;
   Json places = Json::array();
   for (const Vec2 at : e.positions_image) places.push_back({at.x, at.y});
-  const double px = v.um_per_px;
+  const double px = v.um_per_px * settings.scale_factor;
   d.root = {{"title", e.name},
             {"duration", quantity(timing.lead_s + e.length_s() + 1 / v.fps, "s")},
             {"exposure", quantity(v.input.exposure_s, "s")},
@@ -139,6 +147,7 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
           {{"at", quantity(timing.starts_s[i], "s")}, {"field", along(e.segments[i].direction_deg)}});
   d.root["controller"] = {{"type", "manual"}, {"field", first}};
   if (!segments.empty()) d.root["controller"]["segment"] = segments;
+  add_populations(d.root["swarm"], settings.model);
   apply(settings.model, "model", d);
   return d;
 }

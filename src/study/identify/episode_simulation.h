@@ -8,12 +8,16 @@
 
 namespace faba {
 
+/// Key of a [[model]]: number of swarms with equal numbers of cells, of which each has parameters of its own.
+inline constexpr const char* kPopulations = "populations";
+
 /// Settings of a simulated episode that are not determined by its video.
 struct EpisodeSettings {
   Boundary boundary = Boundary::drop;
-  Json scene = Json::object();  ///< tables of a scenario that all candidates share
-  Variant model;
+  Json scene = Json::object();     ///< tables of a scenario that all candidates share
+  Variant model;                   ///< `extra` may have the number of populations, see kPopulations
   double field_strength_t = 1e-3;  ///< strength of the applied field, T
+  double scale_factor = 1;         ///< simulated over stated micrometres per pixel
 };
 
 /// Times of the field segments in a simulation of an episode.

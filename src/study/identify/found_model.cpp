@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/random/distributions.h"
@@ -25,6 +26,18 @@ using Eigen::VectorXd;
 VectorXd noise_of(const ParameterSearch& s) {
   // 0.01 is below the resolution of a video for all statistics, in pixels per frame or as a fraction.
   return (s.emulator().residuals().array().square().colwise().mean().sqrt().max(0.01)).matrix().transpose();
+}
+
+double energy_score(const MatrixXd& draws, const VectorXd& observed, const VectorXd& scale) {
+  const MatrixXd x = draws * scale.cwiseInverse().asDiagonal();
+  const VectorXd y = observed.cwiseQuotient(scale);
+  double to_observed = 0, between_draws = 0;
+  for (Index i = 0; i < x.rows(); ++i) {
+    to_observed += (x.row(i).transpose() - y).norm();
+    for (Index j = 0; j < i; ++j) between_draws += (x.row(i) - x.row(j)).norm();
+  }
+  const double m = double(x.rows());
+  return (to_observed / m - between_draws / (m * (m - 1))) / std::sqrt(double(observed.size()));
 }
 
 namespace {
@@ -61,20 +74,6 @@ FoundParameter found(const FreeParameter& p, const VectorXd& u, const VectorXd& 
   f.abc_ci90 = {p.value(weighted_quantile(abc_u, abc_weight, low)),
                 p.value(weighted_quantile(abc_u, abc_weight, high))};
   return f;
-}
-
-/// Energy score of samples (rows) against an observation, in units of `scale`, divided by the square root of
-/// the number of statistics, so that scores of experiments of different length are comparable.
-double energy_score(const MatrixXd& draws, const VectorXd& observed, const VectorXd& scale) {
-  const MatrixXd x = draws * scale.cwiseInverse().asDiagonal();
-  const VectorXd y = observed.cwiseQuotient(scale);
-  double to_observed = 0, between_draws = 0;
-  for (Index i = 0; i < x.rows(); ++i) {
-    to_observed += (x.row(i).transpose() - y).norm();
-    for (Index j = 0; j < i; ++j) between_draws += (x.row(i) - x.row(j)).norm();
-  }
-  const double m = double(x.rows());
-  return (to_observed / m - between_draws / (m * (m - 1))) / std::sqrt(double(observed.size()));
 }
 
 // Predictive samples of an experiment at parameters `u`: expected statistics plus the residuals of a
@@ -125,7 +124,9 @@ void add_doubts(FoundModel& m, const MatrixXd& draws, const char* parts) {
     }
     for (Index k = 0; k < draws.cols(); ++k) {
       const double r = off.col(j).dot(off.col(k)) / (off.col(j).norm() * off.col(k).norm());
-      if (k != j && std::fabs(r) > kMaxCorrelation)
+      // The interval contains the uncertainty of a nuisance parameter already.
+      const bool both = p.parameter.nuisance() == m.parameters[std::size_t(k)].parameter.nuisance();
+      if (k != j && both && std::fabs(r) > kMaxCorrelation)
         p.doubt = fmt::format("{} and {} are not identifiable separately: posterior correlation {:.2f}",
                               p.parameter.path, m.parameters[std::size_t(k)].parameter.path, r);
     }
@@ -135,8 +136,10 @@ void add_doubts(FoundModel& m, const MatrixXd& draws, const char* parts) {
       add_doubt(p, fmt::format("the 90 % intervals of {} from the synthetic likelihood and from approximate "
                                "Bayesian computation do not overlap: neither is reliable",
                                q.path));
-    const bool differ = p.resampled90 && ((*p.resampled90)[1] - (*p.resampled90)[0] >
-                                          kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]));
+    // The field segments of one swarm determine a parameter unequally, which makes their bootstrap wide.
+    const bool differ =
+        p.resampled90 && std::string_view(parts) == "experiments" &&
+        ((*p.resampled90)[1] - (*p.resampled90)[0] > kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]));
     if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
           "{} differs between {} by more than the model predicts: the 90 % bootstrap interval over {} is "
@@ -159,22 +162,28 @@ double fit_p(const ParameterSearch& s, const VectorXd& mode, const VectorXd& obs
   return (further + 1) / double(residuals.rows() + 1);
 }
 
-// A sentence about a model that does not fit, else nothing.
-std::string poor_fit(const FoundModel& m) {
-  if (m.fit_p >= FoundModel::kPoorFit) return "";
-  return fmt::format(
-      " {} does not explain the videos: only {:.1g} % of its simulations deviate from their mean as much as "
-      "the "
-      "videos.",
-      m.name, 100 * m.fit_p);
+// Whether the posterior lies where simulations are near the observation. Distances are in units of the noise
+// over all simulations, which a posterior in a wrong region does not distort.
+bool converged(const ParameterSearch& s, const VectorXd& mode) {
+  constexpr double kMuchNearer = 0.1;
+  const SimulationTable& all = s.simulations();
+  const Eigen::RowVectorXd mean = all.s.colwise().mean();
+  const VectorXd scale =
+      (all.s.rowwise() - mean).array().square().colwise().mean().sqrt().max(0.01).matrix().transpose();
+  const auto squared_distance = [&](const VectorXd& off) { return off.cwiseQuotient(scale).squaredNorm(); };
+  double nearest = squared_distance(all.s.row(0).transpose() - s.observed());
+  for (Index i = 1; i < all.size(); ++i)
+    nearest = std::min(nearest, squared_distance(all.s.row(i).transpose() - s.observed()));
+  return nearest > kMuchNearer * squared_distance(s.emulator().mean(mode) - s.observed());
 }
 
 }  // namespace
 
-FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
-                       const std::vector<std::vector<Index>>& experiments, const char* parts,
-                       const VectorXd& scale, std::uint64_t seed) {
-  FoundModel m;
+ScoredModel found_model(const Candidate& candidate, const ParameterSearch& s,
+                        const std::vector<std::vector<Index>>& experiments, const char* parts,
+                        const VectorXd& scale, std::uint64_t seed) {
+  ScoredModel scored;
+  FoundModel& m = scored.model;
   const MatrixXd draws = s.posterior({}, kDraws, seed);
   const auto abc = s.abc_posterior();
   VectorXd middle(draws.cols());
@@ -213,6 +222,7 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
   m.simulations = std::size_t(s.simulations().size());
   m.rounds = s.rounds();
   m.fit_p = fit_p(s, middle, s.observed());
+  m.converged = converged(s, middle);
   const VectorXd mean = s.emulator().mean(middle), noise = noise_of(s);
   m.predicted.assign(mean.begin(), mean.end());
   m.predicted_sd.assign(noise.begin(), noise.end());
@@ -227,61 +237,11 @@ FoundModel found_model(const Candidate& candidate, const ParameterSearch& s,
       u = s.posterior(others, kPredictions, derived_seed(seed, SeedUse::left_out, e));
     }
     const auto& columns = experiments[e];
-    m.scores.push_back(energy_score(predict(s, u, columns, random), s.observed()(columns), scale(columns)));
+    scored.samples.push_back(predict(s, u, columns, random));
+    m.scores.push_back(energy_score(scored.samples.back(), s.observed()(columns), scale(columns)));
     m.score += m.scores.back() / double(experiments.size());
   }
-  return m;
-}
-
-void judge(Identification& r) {
-  std::vector<std::size_t> order;
-  for (std::size_t i = 0; i < r.models.size(); ++i)
-    if (r.models[i].failed.empty()) order.push_back(i);
-  if (order.empty()) throw Error(Errc::input, r.study.title, r.models.front().failed);
-  std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return r.models[a].score < r.models[b].score; });
-  r.best = order[0];
-  const FoundModel& best = r.models[r.best];
-  r.evidence = "none";
-  if (order.size() < 2) {
-    r.words = "Only one model was identified; there is no comparison of models." + poor_fit(best);
-    return;
-  }
-  const FoundModel& next = r.models[order[1]];
-  const double n = double(best.scores.size());
-  std::vector<double> lead;
-  for (std::size_t e = 0; e < best.scores.size(); ++e) lead.push_back(next.scores[e] - best.scores[e]);
-  for (const double x : lead) r.score_lead += x / n;
-  if (n < 2) {
-    r.words =
-        fmt::format(
-            "No evidence: a comparison needs at least two experiments. The energy score of {} is lower than "
-            "that of {}.",
-            best.name, next.name) +
-        poor_fit(best);
-    return;
-  }
-  const double se = sample_sd(lead) / std::sqrt(n), half = student_t_quantile(0.975, n - 1) * se;
-  r.score_lead_ci95 = {r.score_lead - half, r.score_lead + half};
-  // A model that does not fit is at most the better one of two wrong models.
-  const bool fits = best.fit_p >= FoundModel::kDoubtfulFit;
-  r.evidence = r.score_lead - half > 0 && fits ? "clear" : r.score_lead > se ? "weak" : "none";
-  // Without evidence the model with fewer parameters is preferred.
-  std::string simpler;
-  if (r.evidence == "none" && next.parameters.size() < best.parameters.size()) {
-    r.best = order[1];
-    simpler = fmt::format(" {} has fewer parameters and is preferred.", next.name);
-  }
-  const std::string lead_words =
-      fmt::format("the energy score of {} is lower by {:.3g} per experiment (95 % interval {:.3g} to {:.3g})",
-                  best.name, r.score_lead, (*r.score_lead_ci95)[0], (*r.score_lead_ci95)[1]);
-  r.words =
-      (r.evidence == "clear"
-           ? fmt::format("Clear evidence for {} over {}: {}.", best.name, next.name, lead_words)
-       : r.evidence == "weak"
-           ? fmt::format("Weak evidence for {} over {}: {}.", best.name, next.name, lead_words)
-           : fmt::format("No evidence for {} over {}: {}.{}", best.name, next.name, lead_words, simpler)) +
-      poor_fit(r.models[r.best]);
+  return scored;
 }
 
 }  // namespace faba

@@ -145,6 +145,7 @@ std::vector<FieldSegment> segments_of_motion(const std::filesystem::path& video,
   job.shrink = side;
   job.threads = threads;
   job.cells = false;
+  job.responses = false;
   job.progress = [&](auto, auto, auto) { tick(); };
   std::vector<FieldSegment> segments;
   const ActivityResult activity = measure_activity(job);

@@ -6,7 +6,7 @@
 #include "core/vec.h"
 #include "study/data/series.h"
 #include "study/data/video_part.h"
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 
 namespace faba {
 

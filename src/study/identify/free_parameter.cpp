@@ -169,14 +169,14 @@ double FreeParameter::shown(double value) const {
 }
 
 double FreeParameter::value(double u) const {
-  const double linear = stretch > 0 ? std::expm1(stretch * u) / std::expm1(stretch) : u;
+  const double linear = stretch != 0 ? std::expm1(stretch * u) / std::expm1(stretch) : u;
   const double v = low + (high - low) * linear;
   return integer ? std::floor(v + 0.5) : v;
 }
 
 double FreeParameter::fraction(double value) const {
   const double at = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  return stretch > 0 ? std::log1p(at * std::expm1(stretch)) / stretch : at;
+  return stretch != 0 ? std::log1p(at * std::expm1(stretch)) / stretch : at;
 }
 
 Json FreeParameter::json(double u) const {

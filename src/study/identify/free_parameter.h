@@ -16,13 +16,17 @@ struct FreeParameter {
   bool low_is_limit = false, high_is_limit = false;  ///< the range ends at the limit of the parameter itself
   double low = 0, high = 1;
   /// Scale on which the prior is uniform: 0 linear; > 0 exponential, so that the middle of the range lies at
-  /// the default of the part (the bounds of a schema are wide).
+  /// the default of the part (the bounds of a schema are wide); < 0 exponential with values near `high`.
   double stretch = 0;
   /// Normal prior, for example from a calibration, instead of a uniform one.
   struct NormalPrior {
     double mean = 0, sd = 0;
   };
   std::optional<NormalPrior> normal_prior = {};
+  /// Of a nuisance parameter, which the program frees by default: the source of its prior. Empty for the
+  /// parameters of the study.
+  std::string nuisance_source = {};
+  bool nuisance() const { return !nuisance_source.empty(); }
 
   std::string name() const;  ///< last key of the path: "max_speed"
   /// Unit for display ("um/s" for "m/s"), and a value converted to that unit.

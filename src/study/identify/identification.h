@@ -27,6 +27,17 @@ struct FoundParameter {
   std::string doubt = {};  ///< why the estimate is not reliable; empty when there is no reason
 };
 
+/// Test of an extension of a model (see ModelFamily): whether it explains how the videos deviate from the
+/// model.
+struct FamilyCheck {
+  std::string aspect, what, unit, advice;  ///< as in ModelFamily
+  double amount = 0, sd = 0;               ///< estimated amount, in `unit`
+  double t = 0, p = 1;                     ///< Student's t of the score test, and its p-value
+  double explained = 0;                    ///< fraction of the squared deviations that it removes
+  bool significant = false;                ///< at the level of all tests of a model together
+  bool named = false;                      ///< significant, and not clearly worse than the best family
+};
+
 /// Result for one candidate model.
 struct FoundModel {
   std::string name;
@@ -38,15 +49,29 @@ struct FoundModel {
   /// Fraction of the simulations of this model that deviate from their mean as much as the observation. Below
   /// 0.01 the model does not explain the videos.
   double fit_p = 0;
+  /// Tests of the families of the model, in ascending order of p.
+  std::vector<FamilyCheck> families = {};
+  const FamilyCheck* missed_family() const {  ///< the most significant one; null for none
+    for (const FamilyCheck& c : families)
+      if (c.significant) return &c;
+    return nullptr;
+  }
+  /// Index of the significant family of the cells whose extension gives the lowest scores, and these scores;
+  /// empty when none is significant.
+  std::optional<std::size_t> extension = {};
+  std::vector<double> extended_scores = {};
+  /// Whether no simulation of the search is much nearer to the videos than the model at its posterior. If
+  /// false, the search ended in a wrong region of the parameters.
+  bool converged = true;
   static constexpr double kPoorFit = 0.01;
   static constexpr double kDoubtfulFit = 0.05;  ///< below it the evidence for the model is not clear
   std::vector<double> predicted, predicted_sd;  ///< statistics at the posterior median
-  /// 90 % posterior predictive interval of each statistic; of the best model only.
+  /// 90 % posterior predictive interval of each statistic.
   std::vector<std::array<double, 2>> predicted90 = {};
   /// Valid simulations of all rounds, for each video. More than the study requests when the last round was
   /// repeated, fewer when some failed.
   std::size_t simulations = 0;
-  std::size_t rounds = 0;  ///< 4, up to 6 with repetitions of the last round
+  std::size_t rounds = 0;  ///< 4 or 5, and up to 2 repetitions of the last round
   Json best;               ///< posterior medians of the parameters, by path
 };
 
@@ -95,6 +120,8 @@ struct Identification {
   std::string words;      ///< the evidence as a sentence
   double score_lead = 0;  ///< mean difference of energy scores per experiment: second-best minus best model
   std::optional<std::array<double, 2>> score_lead_ci95;
+  /// Model whose extension by a family removes the clear evidence for the best one; empty for none.
+  std::optional<std::size_t> rival = {};
   std::vector<LegacyModel> legacy;  ///< rule of the thesis for each candidate, when requested
 };
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include "app/scenario/calibration_file.h"
@@ -9,9 +8,8 @@
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/units.h"
-#include "study/data/run_video.h"
+#include "study/identify/families/nuisances.h"
 #include "study/identify/identify_study.h"
 #include "study/identify/parameter_search.h"
 
@@ -21,6 +19,11 @@ namespace {
 // Key of a [[model]], and its name in the previous version, which is still read.
 constexpr const char* kFieldStrength = "field_strength";
 constexpr const char* kOldFieldStrength = "drive";
+
+// Relative standard deviation of the number of cells that is detected in the first frame (assumed): at the
+// dark edge of a drop a third of the cells can be missed.
+constexpr double kCountUncertainty = 0.4;
+constexpr double kNormal95 = 1.96;  // half of a 95 % interval, in standard deviations
 
 // Tables of a scenario that are not determined by the video.
 constexpr const char* kOfScene[] = {"exclusion", "field", "library", "limits", "motility", "simulation"};
@@ -32,7 +35,9 @@ struct IdentifyFile {
   Look look = Look::video;
   std::optional<Measure> measure;
   int simulations = 600;
-  bool legacy = false;
+  bool legacy = false, nuisances = true;
+  std::optional<double> scale_uncertainty;
+  double field_uncertainty = 0;
   std::optional<double> um_per_px, reversal, direction, duration, timing;
   std::string scale;
   std::optional<double> field_strength;
@@ -56,6 +61,18 @@ struct IdentifyFile {
              {.min = 100, .max = 1e6, .doc = "Number of simulations of each video with each model"})
         .add("legacy", &IdentifyFile::legacy,
              {.doc = "Apply the selection rule of the 2016 thesis as well; it is not reliable"})
+        .add("nuisances", &IdentifyFile::nuisances,
+             {.doc = "Estimate what is different in every culture as well, unless the model fixes it: motile "
+                     "fraction, responsive fraction and spread of the speed; and sample the number of cells"})
+        .add("scale_uncertainty", &IdentifyFile::scale_uncertainty,
+             {.min = 0,
+              .max = 0.5,
+              .doc = "Relative standard deviation of the scale, which each simulation samples; default: that "
+                     "of the calibration file, else 0"})
+        .add("field_uncertainty", &IdentifyFile::field_uncertainty,
+             {.min = 0,
+              .max = 0.5,
+              .doc = "Relative standard deviation of the field strength, which each simulation samples"})
         .add("um_per_px", &IdentifyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
         .add("scale", &IdentifyFile::scale, {.doc = "Calibration file of `faba scale`, instead of um_per_px"})
         .add("reversal", &IdentifyFile::reversal,
@@ -188,6 +205,15 @@ ResponseVideo any_video() {
   return v;
 }
 
+// The number of populations of a candidate, for episode_scenario().
+void check_populations(const Variant& model, const Node& here) {
+  if (!model.extra.contains(kPopulations)) return;
+  constexpr int kMost = 4;
+  const Json& n = model.extra[kPopulations];
+  if (!n.is_number_integer() || n.get<int>() < 1 || n.get<int>() > kMost)
+    here.fail(fmt::format("populations must be an integer from 1 to {}", kMost));
+}
+
 Candidate candidate_of(const Variant& model, const IdentifyFile& f, const IdentifyStudy& study,
                        const Node& root, std::size_t index) {
   Candidate c{model, f.field_strength, {}, {}};
@@ -199,6 +225,7 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
     const Node n{c.model.extra[key], here.path + "." + key, root.document};
     c.field_strength_t = schema_detail::read_number(n, {.unit = "T", .min = 0, .max = 1});
   }
+  check_populations(model, here);
   const Parts& parts = builtin_parts();
   if (!c.model.part.is_null()) (void)parts.model.resolve({c.model.part, here.path, root.document});
   const ResponseVideo video = any_video();
@@ -223,6 +250,11 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
     throw Error(Errc::usage, c.model.origin,
                 fmt::format("{} free parameters need at least {} simulations, not {}", c.free.size(), least,
                             study.simulations));
+  const bool has_field = c.field_strength_t.value_or(kDefaultFieldStrength) > 0;
+  if (f.nuisances)
+    for (FreeParameter& p : default_nuisances(c.free, c.model, has_field, d.root))
+      c.free.push_back(std::move(p));
+  c.simulations = std::max(study.simulations, ParameterSearch::least_simulations(int(c.free.size())));
   // The middle and both ends of every range must give a valid scenario.
   for (const double u : {0.5, 0.0, 1.0}) {
     Document one = d;
@@ -258,6 +290,9 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   study.measure = f.measure.value_or(f.boundary == Boundary::none ? Measure::tracks : Measure::density);
   study.timing_s = f.timing;
   study.legacy = f.legacy;
+  study.scale_sd = f.scale_uncertainty.value_or(0);
+  study.field_sd = f.field_uncertainty;
+  study.count_sd = f.nuisances ? kCountUncertainty : 0;
   if (root.has("scene")) {
     if (!root.child("scene").json->is_object())
       root.child("scene").fail("must be a table of scenario tables");
@@ -273,7 +308,10 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   std::optional<double> um_per_px = f.um_per_px;
   if (!f.scale.empty()) {
     if (um_per_px) root.fail("um_per_px and scale are both given; give only one");
-    um_per_px = parse_calibration(root.file(f.scale).string(), root.where("scale")).um_per_px;
+    const Calibration calibration = parse_calibration(root.file(f.scale).string(), root.where("scale"));
+    um_per_px = calibration.um_per_px;
+    if (calibration.ci95 && !f.scale_uncertainty)
+      study.scale_sd = (calibration.ci95->y - calibration.ci95->x) / (2 * kNormal95 * *um_per_px);
   }
   if (root.has("video") && !root.child("video").json->is_array())
     root.child("video").fail("must be an array of tables; write [[video]] with file = \"video.avi\"");
@@ -288,7 +326,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   }
   if (!root.has("model")) root.fail("[[model]] is missing; give one for each candidate");
   const std::vector<Variant> models =
-      read_variants(root, "model", {"free", kFieldStrength, kOldFieldStrength, "legacy"});
+      read_variants(root, "model", {"free", kFieldStrength, kOldFieldStrength, "legacy", kPopulations});
   for (std::size_t i = 0; i < models.size(); ++i)
     study.candidates.push_back(candidate_of(models[i], f, study, root, i));
   return study;
@@ -313,79 +351,13 @@ Json identify_study_schema() {
       {"type", "array"},
       {"items", {{"type", "number"}}},
       {"description", "Values of the first free parameter for the rule of the thesis"}};
+  model["properties"][kPopulations] = {
+      {"type", "integer"},
+      {"description",
+       "Number of swarms with equal numbers of cells; the parameters of the second one have paths such as "
+       "swarm[1].model.speed"}};
   p["model"] = {{"type", "array"}, {"description", "One [[model]] for each candidate"}, {"items", model}};
   return j;
-}
-
-namespace {
-
-// Hashes the content of a video, not its path: a different video under the same name is a different study.
-void hash_content(const std::filesystem::path& file, Hash& h) {
-  namespace fs = std::filesystem;
-  if (fs::is_directory(file)) {
-    std::set<fs::path> inside;  // sorted
-    for (const auto& e : fs::directory_iterator(file)) inside.insert(e.path());
-    for (const fs::path& p : inside) {
-      const std::string name = p.filename().string();
-      const bool counts = !is_run(file) || name.starts_with("video.") || name == "series.csv";
-      if (fs::is_regular_file(p) && counts) {
-        h.text(name);
-        hash_content(p, h);
-      }
-    }
-    return;
-  }
-  std::ifstream in(file, std::ios::binary);
-  std::vector<char> block(1u << 20);
-  while (in) {
-    in.read(block.data(), std::streamsize(block.size()));
-    h.text({block.data(), std::size_t(in.gcount())});
-  }
-}
-
-}  // namespace
-
-std::string study_hash(const IdentifyStudy& study) {
-  Hash h;
-  h.text("identify");
-  h.value(study.seed);
-  h.value(int(study.boundary));
-  h.value(int(study.look));
-  h.value(int(study.measure));
-  h.value(study.simulations);
-  h.value(study.timing_s.value_or(-1));
-  h.text(study.scene.dump());
-  for (const ResponseInput& v : study.videos) {
-    hash_content(v.file, h);
-    h.text(v.experiment);
-    for (const double x : {v.exposure_s, v.part.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
-                           v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
-      h.value(x);
-    if (v.part.from_s > 0 || v.part.to_s)  // studies of complete videos keep their hash
-      for (const double x : {v.part.from_s, v.part.to_s.value_or(-1)}) h.value(x);
-    for (const FieldSegment& d : v.segments) {
-      h.value(d.t0_s);
-      h.value(d.t1_s);
-      h.value(d.direction_deg);
-    }
-  }
-  for (const Candidate& c : study.candidates) {
-    h.text(c.model.name);
-    h.text(c.model.part.dump());
-    h.value(c.field_strength_t.value_or(-1));
-    for (const double v : c.legacy_values) h.value(v);
-    for (const auto& [path, value] : c.model.set) {
-      h.text(path);
-      h.text(value.dump());
-    }
-    for (const FreeParameter& p : c.free) {
-      h.text(p.path);
-      for (const double x : {p.low, p.high, p.stretch, p.normal_prior ? p.normal_prior->mean : 0,
-                             p.normal_prior ? p.normal_prior->sd : 0})
-        h.value(x);
-    }
-  }
-  return h.hex();
 }
 
 }  // namespace faba

@@ -16,10 +16,12 @@ inline constexpr double kDefaultFieldStrength = 1e-3;
 struct Candidate {
   Variant model;
   std::optional<double> field_strength_t;  ///< field strength, T; empty: as recorded by the run
-  std::vector<FreeParameter> free;
+  std::vector<FreeParameter> free;         ///< the parameters of the study, then the nuisance parameters
   /// Values of the first free parameter for the rule of the thesis; empty: the middles of five equal parts of
   /// its range.
   std::vector<double> legacy_values = {};
+  /// Simulations per episode: as many as the study has, or more if the nuisance parameters need them.
+  int simulations = 0;
 
   /// Field strength in a video, T: as given, else as recorded, else the default.
   double field_strength_in(const ResponseVideo& v) const {
@@ -39,6 +41,9 @@ struct IdentifyStudy {
   /// Standard deviation of the times of field reversals, s. Empty: 0.58 frames, or 1.5 frames for segments
   /// that are detected in the video.
   std::optional<double> timing_s;
+  /// Relative standard deviations of the scale, of the field strength and of the number of cells, which each
+  /// simulation samples.
+  double scale_sd = 0, field_sd = 0, count_sd = 0;
   Json scene = Json::object();
   std::vector<ResponseInput> videos;
   std::vector<Candidate> candidates;

@@ -9,8 +9,9 @@
 namespace faba {
 namespace {
 
-constexpr double kMisses = 2.5;    // standard deviations; 1.2 % of the statistics of a model that is right
-constexpr std::size_t kNamed = 3;  // statistics in a sentence
+constexpr double kMisses = 2.5;      // standard deviations; 1.2 % of the statistics of a model that is right
+constexpr double kSameField = 0.02;  // relative
+constexpr std::size_t kNamed = 3;    // statistics in a sentence
 
 // The statistics that the model misses most.
 std::string missed(const Identification& r, const FoundModel& m) {
@@ -27,20 +28,73 @@ std::string missed(const Identification& r, const FoundModel& m) {
                      fmt::join(names, ", "));
 }
 
+std::string amount_of(const FamilyCheck& c) {
+  return fmt::format("{:.2g} +- {:.1g} {} (standard error, extrapolated), t = {:.1f}", c.amount, c.sd, c.unit,
+                     c.t);
+}
+
+// The aspect of the misfit, by the tests of families.
+void warn_families(const FoundModel& m, std::vector<Warning>& out) {
+  for (const FamilyCheck& c : m.families)
+    if (c.named)
+      out.push_back({c.aspect,
+                     fmt::format("{} does not describe the videos as well as if {}", m.name, c.what),
+                     fmt::format("{}; it removes {:.0f} % of the squared deviations", amount_of(c),
+                                 100 * std::max(0.0, c.explained)),
+                     fmt::format("{}, and repeat", c.advice),
+                     m.fit_p < FoundModel::kPoorFit ? Quality::poor : Quality::doubtful});
+}
+
 void warn_fit(const Identification& r, std::vector<Warning>& out) {
   const FoundModel& m = r.models[r.best];
-  if (!m.failed.empty() || m.fit_p >= FoundModel::kDoubtfulFit) return;
+  if (!m.failed.empty() || !m.converged) return;  // tests near a wrong posterior mean nothing
+  warn_families(m, out);
+  if (m.missed_family() || m.fit_p >= FoundModel::kPoorFit) return;
   out.push_back(
       {"fit", fmt::format("{} does not explain the videos: its intervals are not those of the cells", m.name),
        fmt::format("goodness-of-fit p = {:.2g}; {}", m.fit_p, missed(r, m)),
-       "let the motile fraction, the responding fraction and the spread of the speed be free, and "
-       "try other models",
-       m.fit_p < FoundModel::kPoorFit ? Quality::poor : Quality::doubtful});
+       "no known property of the cells explains it; try other models, and check boundary, scale and times",
+       Quality::poor});
+}
+
+// A model that would explain the videos as well as the best one.
+void warn_rival(const Identification& r, std::vector<Warning>& out) {
+  if (!r.rival) return;
+  const FoundModel& m = r.models[*r.rival];
+  const FamilyCheck& c = m.families[*m.extension];
+  out.push_back(
+      {c.aspect,
+       fmt::format("{} may explain the videos as well as {} if {}", m.name, r.models[r.best].name, c.what),
+       amount_of(c), fmt::format("{} of {}, and repeat", c.advice, m.name), Quality::doubtful});
+}
+
+// A search that ended in a wrong region: the model may be better than it appears.
+void warn_search(const Identification& r, std::vector<Warning>& out) {
+  for (const FoundModel& m : r.models)
+    if (m.failed.empty() && !m.converged)
+      out.push_back(
+          {"search",
+           fmt::format("the search for the parameters of {} ended far from the simulations that are nearest "
+                       "to the videos",
+                       m.name),
+           fmt::format("fit p = {:.2g}", m.fit_p), "increase simulations, or give narrower ranges",
+           &m == &r.models[r.best] ? Quality::poor : Quality::doubtful});
 }
 
 void warn_inputs(const Identification& r, std::vector<Warning>& out) {
   for (const ResponseVideo& v : r.videos) {
     const std::string file = v.input.file.string();
+    if (v.recorded_um_per_px)
+      out.push_back({"scale",
+                     "the scale of the study differs from the recorded one; all lengths depend on it",
+                     fmt::format("{}: {:g} um per px recorded", file, *v.recorded_um_per_px),
+                     "remove um_per_px and scale from the study if the record is right"});
+    const double field = r.study.candidates[r.best].field_strength_in(v);
+    if (v.field_t && field > 0 && std::fabs(field / *v.field_t - 1) > kSameField)
+      out.push_back(
+          {"field_strength", "the field strength of the study differs from the recorded one",
+           fmt::format("{}: {:.4g} uT recorded, {:.4g} uT simulated", file, 1e6 * *v.field_t, 1e6 * field),
+           "remove field_strength from the study if the record is right"});
     if (v.segments_detected)
       out.push_back({"timing", "the field segments were detected in the video; all results depend on them",
                      file, "give reversal and direction, or [[video.segment]]"});
@@ -68,9 +122,12 @@ std::vector<StatisticCheck> checks_of(const Identification& r, const FoundModel&
 std::vector<Warning> identify_warnings(const Identification& r) {
   std::vector<Warning> out;
   warn_fit(r, out);
+  warn_rival(r, out);
+  warn_search(r, out);
   warn_inputs(r, out);
   for (const FoundParameter& p : r.models[r.best].parameters)
-    if (!p.doubt.empty()) out.push_back({"parameter", p.doubt, "", "", Quality::doubtful});
+    if (!p.doubt.empty() && !p.parameter.nuisance())
+      out.push_back({"parameter", p.doubt, "", "", Quality::doubtful});
   return out;
 }
 

@@ -21,11 +21,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNearFraction = 0.2;  // of the simulations: centres of the next proposal
-constexpr double kWider = 1.8;         // sd of the last round over sd of the posterior
-constexpr double kMaxSquare = 25;      // limit of a squared difference of a statistic, in robust sd
-constexpr double kAbcFraction = 0.25;  // of the simulations since the second round: accepted by ABC
-constexpr std::size_t kMaxRounds = 6;
+constexpr double kNearFraction = 0.2;    // of the simulations: centres of the next proposal
+constexpr double kWider = 1.8;           // sd of the last round over sd of the posterior
+constexpr double kMaxSquare = 25;        // limit of a squared difference of a statistic, in robust sd
+constexpr double kAbcFraction = 0.25;    // of the simulations since the second round: accepted by ABC
+constexpr std::size_t kRepetitions = 2;  // of the last round, at most
+// Rounds before the last one: over the full ranges, then around the nearest simulations. With more parameters
+// the region has to be narrowed once more before a quadratic function describes it.
+constexpr int kFewParameters = 3;
+std::size_t narrowing_rounds(int d) { return d > kFewParameters ? 4 : 3; }
 constexpr double kMaxAtLimit = 0.01;  // fraction of the posterior at a limit of the last round
 constexpr int kProposalDraws = 400;   // posterior samples that define the last round
 
@@ -108,7 +112,12 @@ double ParameterSearch::Proposal::density(const VectorXd& u) const {
 
 ParameterSearch::ParameterSearch(int d, VectorXd observed, LogPrior log_prior, SearchRounds rounds,
                                  std::uint64_t seed)
-    : d_(d), observed_(std::move(observed)), log_prior_(std::move(log_prior)), rounds_(rounds), seed_(seed) {
+    : d_(d),
+      narrowing_(narrowing_rounds(d)),
+      observed_(std::move(observed)),
+      log_prior_(std::move(log_prior)),
+      rounds_(rounds),
+      seed_(seed) {
   all_ = {MatrixXd(0, d), MatrixXd(0, observed_.size())};
   propose({}, rounds_.first);
 }
@@ -184,14 +193,14 @@ void ParameterSearch::take(const MatrixXd& statistics) {
   all_ = {std::move(u), std::move(s)};
   next_.reset();
   const std::size_t done = proposals_.size();
-  if (done < 3) {
+  if (done < narrowing_) {
     const Index near = std::max<Index>(Index(kNearFraction * double(all_.size())), Index(8) * d_);
     const MatrixXd centres = all_.u(nearest(near), Eigen::all);
     propose({centres, 2 * covariance_of(centres) / (done == 1 ? 1 : 2), 0}, rounds_.refinement);
     return;
   }
   fit_emulator();
-  if (done > 3 && (done == kMaxRounds || !truncated())) return;
+  if (done > narrowing_ && (done == narrowing_ + 1 + kRepetitions || !truncated())) return;
   const MatrixXd draws = posterior({}, kProposalDraws, derived_seed(seed_, SeedUse::proposal));
   propose({draws.colwise().mean(), kWider * kWider * covariance_of(draws), 0}, rounds_.last);
 }
@@ -214,8 +223,8 @@ bool ParameterSearch::truncated() const {
 
 // Sets region, centre, spread and emulator from the latest rounds.
 void ParameterSearch::fit_emulator() {
-  const bool last = proposals_.size() > 3;
-  const SimulationTable here = rows_of(all_, rows_since(last ? 3 : 1));
+  const bool last = proposals_.size() > narrowing_;
+  const SimulationTable here = rows_of(all_, rows_since(last ? narrowing_ : 1));
   box_ = {here.u.colwise().minCoeff(), here.u.colwise().maxCoeff()};
   const std::vector<Index> near = nearest(std::max<Index>(10, all_.size() / 20));
   centre_ = last ? VectorXd(here.u.colwise().mean()) : VectorXd(all_.u(near, Eigen::all).colwise().mean());
@@ -226,7 +235,7 @@ void ParameterSearch::fit_emulator() {
 SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& columns) const {
   const auto selected = columns.empty() ? all_columns(observed_.size()) : columns;
   const auto part = [&](SimulationTable t) { return SimulationTable{t.u, t.s(Eigen::all, selected)}; };
-  if (proposals_.size() <= 3) {
+  if (proposals_.size() <= narrowing_) {
     const SimulationTable both = part(rows_of(all_, rows_since(1)));
     return {both, both, observed_(selected), centre_};
   }
@@ -234,13 +243,14 @@ SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& column
   const VectorXd margin = 0.5 * (box_.high - box_.low);
   const ParameterBox about{box_.low - margin, box_.high + margin};
   std::vector<Index> earlier;
-  for (Index i = round_begin_[1]; i < round_begin_[3]; ++i)
+  for (Index i = round_begin_[1]; i < round_begin_[narrowing_]; ++i)
     if (about.contains(all_.u.row(i).transpose())) earlier.push_back(i);
   if (int(earlier.size()) < 2 * Emulator::terms(d_)) {
     earlier.clear();
-    for (Index i = round_begin_[1]; i < round_begin_[3]; ++i) earlier.push_back(i);
+    for (Index i = round_begin_[1]; i < round_begin_[narrowing_]; ++i) earlier.push_back(i);
   }
-  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(3))), observed_(selected), centre_};
+  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(narrowing_))), observed_(selected),
+          centre_};
 }
 
 MatrixXd ParameterSearch::posterior(const std::vector<Index>& columns, int count, std::uint64_t seed) const {

@@ -74,6 +74,7 @@ class ParameterSearch {
   std::vector<Eigen::Index> rows_since(std::size_t round) const;
 
   int d_;
+  std::size_t narrowing_;  ///< number of rounds before the last one
   Eigen::VectorXd observed_;
   LogPrior log_prior_;
   SearchRounds rounds_;

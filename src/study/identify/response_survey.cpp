@@ -312,17 +312,19 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   v.input = input;
   const RunVideo source = run_video(input.file);
   v.file = source.file;
-  const std::optional<double> scale = input.um_per_px ? input.um_per_px : source.um_per_px;
+  const std::optional<double> scale = input.um_per_px ? input.um_per_px : source.scale.um_per_px;
   if (!scale)
     throw Error(Errc::input, input.where.empty() ? input.file.string() : input.where,
                 fmt::format("picture scale of {} unknown; set um_per_px of this [[video]], or scale = "
                             "\"calibration.toml\" at the top of the study",
                             input.file.filename().string()));
   v.um_per_px = *scale;
-  if (source.um_per_px && std::fabs(*scale / *source.um_per_px - 1) > kSameScale)
+  if (const auto& stated = source.scale.um_per_px; stated && std::fabs(*scale / *stated - 1) > kSameScale) {
+    v.recorded_um_per_px = stated;
     v.notes.push_back(
         fmt::format("recorded picture scale {:g} um per pixel; {:g} um per pixel of the study is used",
-                    *source.um_per_px, *scale));
+                    *stated, *scale));
+  }
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 
   const std::vector<FieldSegment> recorded = recorded_segments(input.file);

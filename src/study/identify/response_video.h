@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "study/data/video_part.h"
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 #include "vision/cells/video_ground.h"
 #include "vision/drop/drop_edge.h"
 
@@ -46,7 +46,8 @@ struct ResponseVideo {
   std::shared_ptr<const VideoBackground> ground;  ///< background and noise
   double cell_px = 0, contrast = 0;  ///< of a rendered cell: width (FWHM), and contrast as in [microscope]
   std::optional<double> field_t;     ///< recorded field strength, T
-  bool segments_detected = false;    ///< detected in the video, neither given nor recorded
+  std::optional<double> recorded_um_per_px = {};  ///< recorded scale, if it differs from the one of the study
+  bool segments_detected = false;                 ///< detected in the video, neither given nor recorded
   std::vector<Episode> episodes;
   std::vector<std::shared_ptr<const EpisodeStatistics>> statistics;  ///< of each episode
   std::vector<std::vector<double>> observed;                         ///< statistics of the video

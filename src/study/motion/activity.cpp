@@ -8,6 +8,10 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "study/data/run_info.h"
+#include "study/data/run_video.h"
+#include "study/motion/activity_checks.h"
+#include "study/motion/video_response.h"
 #include "study/tracks/cell_count.h"
 
 namespace faba {
@@ -22,8 +26,6 @@ void check_stop(const ActivityJob& job, const ActivityInput& v) {
   if (job.stop()) throw Error(Errc::interrupted, v.file.string(), "stopped; no output was written");
 }
 
-double angle_of(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
-
 double detected_direction(const VideoActivity& a) {
   double longest = -1, deg = 0;
   for (const MotionSegment& s : a.segments)
@@ -34,17 +36,27 @@ double detected_direction(const VideoActivity& a) {
   if (longest >= 0) return deg;
   Vec2 all{0, 0};
   for (std::size_t k = 0; k < a.signature.size(); ++k) all = all + a.signature.sum(k);
-  return angle_of(all);
+  return direction_of(all);
 }
 
-// Times at which the fitted curve is a tenth of its height on either side of the maximum, inside the video.
+// The maximum, and the time after it at which the fitted curve is a tenth of its height, inside the video.
 void mark_points(VideoActivity& a) {
   if (!a.fit.good) return;
   a.maximum_s = a.fit.peak_s;
-  const double widths = std::sqrt(-2 * std::log(kEdgeFraction)), half_width = a.fit.sigma_s * widths;
-  a.se_onset_s = std::hypot(a.fit.se_peak_s, widths * a.fit.se_sigma_s);
-  if (a.fit.peak_s - half_width > a.t_s.front()) a.onset_s = a.fit.peak_s - half_width;
+  const double half_width = a.fit.sigma_s * std::sqrt(-2 * std::log(kEdgeFraction));
   if (a.fit.peak_s + half_width < a.t_s.back()) a.departure_s = a.fit.peak_s + half_width;
+}
+
+bool reversal_is_known(const VideoActivity& a) {
+  return a.response && a.response->source != Response::Source::detected;
+}
+
+// Whether anything moves in one direction: else a maximum of the activity is a fluctuation, and its standard
+// error, which assumes a peak, is meaningless. A file of flows with a given direction has only its activity.
+bool directed(const VideoActivity& a) {
+  if (a.response) return a.response->responds || !a.segments.empty();
+  if (a.direction_given) return true;
+  return !a.segments.empty();
 }
 
 // The expectation of the flow across the direction is zero: its means over blocks give the standard error of
@@ -137,28 +149,48 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   options.kept = std::move(prepared.flows);
   FlowSource source(a.input.file, options);
   FlowPair pair;
+  VideoLook look;
   double most = -1;
   while (source.next(pair)) {
     a.signature.add(pair, source.shrink());
+    look.add(pair.image);
     const std::size_t k = a.signature.size() - 1;
     const double now = a.direction_given ? a.signature.along(k, zero) : norm(a.signature.sum(k));
     if (now > most) {
       most = now;
       a.busiest = pair;
-      a.busiest_deg = angle_of(a.signature.sum(k));
+      a.busiest_deg = direction_of(a.signature.sum(k));
     }
     job.progress(index, k + 1, source.pairs());
     check_stop(job, a.input);
   }
+  if (auto warning = light_warning(look, source.shrink(), a.threshold_px)) a.warnings.push_back(*warning);
   a.notes = source.notes();
+  a.scale = source.scale();
   a.timed = source.fps() > 0;
+  a.um_per_px = source.scale().um_per_px;
+  a.view_px = double(source.width()) * source.height() * source.shrink() * source.shrink();
   if (!cells) return;
   if (cells->reads_frames() && !cells->mean())
     cells->read(options.inspect, [&] { check_stop(job, a.input); });
   a.visible_cells = cells->mean();
 }
 
-void note_motion(VideoActivity& a) {
+void warn_of_flow(VideoActivity& a) {
+  if (a.response && a.response->flow) {
+    const FlowVerdict& v = *a.response->flow;
+    if (v.valid()) return;
+    a.warnings.push_back(
+        {"frame_rate",
+         "the optical flow has no direction: objects move by more than twice their width between frames. The "
+         "activity is an index only; speed and responding fraction are measured by image correlation",
+         fmt::format(
+             "{:.3g} px between frames, width {:.2g} px{}", v.shift_px, v.object_px,
+             v.neighbour_px ? fmt::format(", {:.3g} px to the nearest neighbour", *v.neighbour_px) : ""),
+         fmt::format("use {:.0f} frames per second or more to measure the direction of the flow",
+                     std::ceil(v.shift_px / (2 * v.object_px) / a.frame_s))});
+    return;
+  }
   if (a.segments.empty() && a.fit.good && (!a.direction_given || *a.signal_to_noise < kResponds))
     a.warnings.push_back(
         {"frame_rate",
@@ -167,7 +199,28 @@ void note_motion(VideoActivity& a) {
          fmt::format("the activity changes with time, but at no time has half of the flow one direction; "
                      "{:.3g} s per frame",
                      a.frame_s),
-         "use a higher frame rate", Quality::poor});
+         "use a higher frame rate, or give the time of the field reversal with --reversal", Quality::poor});
+}
+
+void note_response(VideoActivity& a) {
+  if (!a.response) return;
+  const Response& r = *a.response;
+  if (!r.responds)
+    a.notes.push_back(fmt::format(
+        "no response: the velocity along {} degrees does not change significantly (t = {:.2g}; a sample "
+        "without a response exceeds the limit once in {:.0f} videos)",
+        rounded_degrees(r.direction_deg), r.change.t_statistic, 1 / kFalseResponse));
+  else if (r.source == Response::Source::detected)
+    a.notes.emplace_back(
+        "the time of the field reversal is unknown: the onset is that of the first detected motion; give "
+        "--reversal");
+}
+
+void note_motion(VideoActivity& a) {
+  warn_of_flow(a);
+  if (!a.responds)
+    if (auto warning = opposite_warning(a.signature, a.direction_deg)) a.warnings.push_back(*warning);
+  note_response(a);
   if (a.signature.still())
     a.notes.emplace_back("no motion was detected");
   else if (!a.direction_given)
@@ -179,6 +232,34 @@ void note_motion(VideoActivity& a) {
             : fmt::format("no direction was given; the direction of the longest detected motion is used: "
                           "{} degrees",
                           rounded_degrees(a.direction_deg)));
+}
+
+// Widens the interval of a fraction by its binomial variance: the objects in view are a sample. The variance
+// is at least that of one object.
+void add_sampling_error(Measured& f, double objects) {
+  constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
+  const double least = 1 / objects;
+  const double p = std::clamp(f.value, least, 1 - least), error = k90 * std::sqrt(p * (1 - p) / objects);
+  f.ci90 = {std::max(0.0, f.value - std::hypot(f.value - f.ci90[0], error)),
+            std::min(1.0, f.value + std::hypot(f.ci90[1] - f.value, error))};
+}
+
+void take_response(VideoActivity& a, const ActivityJob& job) {
+  const ResponseJob response{.video = a.input.file,
+                             .part = {a.input.from_s, a.input.to_s, job.fps},
+                             .reversal_s = a.input.reversal_s,
+                             .direction_deg = a.input.direction_deg,
+                             .frame_s = a.frame_s,
+                             .threads = job.threads,
+                             .check = [&] { check_stop(job, a.input); }};
+  a.response = video_response(response, {a.signature, a.segments, a.direction_deg});
+  if (!a.response) return;
+  if (is_run(a.input.file)) a.um_per_px = read_run_info(a.input.file / "manifest.json").um_per_px;
+  if (a.response->fraction && a.visible_cells && *a.visible_cells >= 2)
+    add_sampling_error(*a.response->fraction, *a.visible_cells);
+  // Nearest-neighbour distance of points at random, for the mean number in view.
+  if (a.response->flow && a.visible_cells && *a.visible_cells >= 2)
+    a.response->flow->neighbour_px = 0.5 * std::sqrt(a.view_px / *a.visible_cells);
 }
 
 VideoActivity measure(const ActivityJob& job, std::size_t index, Prepared& prepared) {
@@ -208,9 +289,16 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, Prepared& prepa
     gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
   a.frame_s = median_high(gaps);
   a.fit = fit_gaussian(a.t_s, a.amount);
+  if (job.responses) take_response(a, job);
+  if (a.fit.good && job.responses && !directed(a)) {
+    a.fit.good = false;
+    a.fit.reason = "nothing moves in one direction, so that a maximum is a fluctuation";
+  }
   mark_points(a);
   if (a.direction_given) a.signal_to_noise = signal_to_noise(a);
-  a.responds = has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds : !a.segments.empty());
+  a.responds = reversal_is_known(a) ? a.response->responds
+                                    : has_peak(a) || (a.direction_given ? *a.signal_to_noise >= kResponds
+                                                                        : !a.segments.empty());
   note_motion(a);
   return a;
 }
@@ -257,6 +345,11 @@ std::vector<Warning> all_warnings(const ActivityResult& r) {
       all.push_back(std::move(w));
     }
   return all;
+}
+
+std::optional<ChangePoint> onset_of(const VideoActivity& a) {
+  if (!a.response || !a.response->responds) return {};
+  return a.response->change;
 }
 
 bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }

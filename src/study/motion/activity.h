@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "study/motion/response.h"
 #include "study/motion/segments.h"
 #include "study/quality/quality.h"
 #include "study/stats/exposure_lines.h"
@@ -18,6 +19,7 @@ struct ActivityInput {
   std::optional<double> exposure_s = {};     ///< air exposure time of the sample before the video
   std::string experiment = {};               ///< name of the experiment; may be empty
   std::optional<double> direction_deg = {};  ///< of the expected response, image frame; detected when empty
+  std::optional<double> reversal_s = {};     ///< time of the field reversal
   double from_s = 0;                         ///< start of the evaluation, and zero of time for exposure lines
   std::optional<double> to_s = {};           ///< end of the evaluation
 };
@@ -33,6 +35,7 @@ struct ActivityJob {
   std::string options_text = {};  ///< see FlowSourceOptions
   bool frames = false;            ///< see FlowSourceOptions
   bool cells = true;              ///< count the cells in view; reads the video again
+  bool responses = true;          ///< measure the response to the field reversal; reads part of it again
   unsigned threads = 0;           ///< 0: all
   /// Called with the index of the video, and the number of its pairs of frames done and in total; the total
   /// is 0 when unknown.
@@ -44,6 +47,7 @@ struct ActivityJob {
 /// The activity of one video.
 struct VideoActivity {
   ActivityInput input;
+  VideoScale scale;
   Signature signature{0, 0};
   double threshold_px = 0;
   double direction_deg = 0;      ///< of the expected response
@@ -56,17 +60,18 @@ struct VideoActivity {
   double frame_s = 0;                   ///< median time between the frames of a pair
   std::optional<double> visible_cells;  ///< mean number; empty for a file of flows
   GaussianFit fit;                      ///< of `amount`
-  std::optional<double> onset_s, maximum_s,
-      departure_s;  ///< points (1), (2), (3) of Fig. 4.9 of the thesis; only with a good fit
-  /// Standard error of onset and departure, from those of the peak and the width, taken as independent.
-  std::optional<double> se_onset_s;
+  /// Points (2) and (3) of Fig. 4.9 of the thesis; only with a good fit.
+  std::optional<double> maximum_s, departure_s;
+  std::optional<Response> response;  ///< to the field reversal, with point (1)
+  double view_px = 0;                ///< area of the frames, px^2
+  std::optional<double> um_per_px;   ///< image scale; empty when it is unknown
   /// Mean flow along the direction over its standard error, estimated from the flow across. Only for a given
   /// direction: a detected one is biased towards the largest flow. Infinite when the flow across is exactly
   /// zero, as in computed flows.
   std::optional<double> signal_to_noise;
-  /// Whether there is a response: a peak of activity, or a flow along the direction of at least four standard
-  /// errors. The flow of cells that move further than their size between frames has no direction; their
-  /// response is detected by the peak only.
+  /// Whether there is a response: that of Response when the time of the reversal is known, else a peak of
+  /// activity, or a flow along the direction of at least four standard errors. The flow of cells that move
+  /// further than their size between frames has no direction; their response is detected by the peak only.
   bool responds = false;
   FlowPair busiest;        ///< pair with the largest flow (along the direction if given), for pictures
   double busiest_deg = 0;  ///< direction of its flow
@@ -74,6 +79,8 @@ struct VideoActivity {
   std::vector<std::string> notes;
 };
 
+/// Point (1) of Fig. 4.9 of the thesis, the onset of the response; empty without a response.
+std::optional<ChangePoint> onset_of(const VideoActivity& video);
 /// A good peak that at least doubles the activity: random clusters of cells give smaller peaks.
 bool has_peak(const VideoActivity& video);
 /// Mean activity over the number of cells in view, to compare drops with different numbers of cells. Empty

@@ -16,7 +16,7 @@ namespace {
 
 struct ActivityVideoFile {
   std::string file, experiment;
-  std::optional<double> exposure, direction, from, to;
+  std::optional<double> exposure, direction, reversal, from, to;
   static Schema<ActivityVideoFile> schema() {
     return Schema<ActivityVideoFile>("video", "One video of the study")
         .add("file", &ActivityVideoFile::file,
@@ -30,6 +30,11 @@ struct ActivityVideoFile {
               .min = -360,
               .max = 360,
               .doc = "Direction of the expected response: 0 right, 90 down in the image"})
+        .add("reversal", &ActivityVideoFile::reversal,
+             {.unit = "s",
+              .min = 0,
+              .max = 1e9,
+              .doc = "Time of the field reversal in the video; default: as recorded by the run"})
         .add("from", &ActivityVideoFile::from,
              {.unit = "s",
               .min = 0,
@@ -44,12 +49,17 @@ struct ActivityVideoFile {
 };
 
 struct ActivityFile {
-  std::optional<double> direction, threshold, from, to;
+  std::optional<double> direction, threshold, reversal, from, to;
   std::string noise;
   static Schema<ActivityFile> schema() {
     return Schema<ActivityFile>("study", "Videos of samples after different air exposure times")
         .add("direction", &ActivityFile::direction,
              {.unit = "deg", .min = -360, .max = 360, .doc = "Default direction for videos without one"})
+        .add("reversal", &ActivityFile::reversal,
+             {.unit = "s",
+              .min = 0,
+              .max = 1e9,
+              .doc = "Default time of the field reversal for videos without one"})
         .add("from", &ActivityFile::from,
              {.unit = "s", .min = 0, .max = 1e9, .doc = "Default start time for videos without one"})
         .add("to", &ActivityFile::to,
@@ -107,7 +117,8 @@ void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
       throw Error(Errc::usage, n.where("to"),
                   fmt::format("{:g} s is not later than from = {:g} s", *to, from));
     job.videos.push_back({existing_file(n, "file", v.file), v.exposure, v.experiment,
-                          v.direction ? v.direction : study.direction, from, to});
+                          v.direction ? v.direction : study.direction,
+                          v.reversal ? v.reversal : study.reversal, from, to});
   }
 }
 

@@ -11,15 +11,16 @@
 #include "study/data/run_info.h"
 #include "study/data/run_video.h"
 #include "study/motion/segments.h"
+#include "study/motion/video_look.h"
 #include "vision/image/kernels/histogram_distance.h"
 
 namespace faba {
 namespace {
 
-constexpr double kReversalGap = 0.7;  // largest time between opposite motions of a reversal, s
-constexpr double kRise = 0.4;         // window before and after a rise of activity, s
-constexpr double kOpposite = 120;     // degrees
-constexpr double kSamePeriod = 0.02;  // relative difference below which frame periods count as equal
+constexpr double kReversalGap = 0.7;    // largest time between opposite motions of a reversal, s
+constexpr double kRise = 0.4;           // window before and after a rise of activity, s
+constexpr double kOppositeStart = 120;  // degrees
+constexpr double kSamePeriod = 0.02;    // relative difference below which frame periods count as equal
 
 /// The start of the response in a video.
 struct ResponseStart {
@@ -72,10 +73,21 @@ ResponseStart response_start(const Signature& s, std::optional<double> direction
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const double turn =
         std::fabs(std::remainder(segments[i].direction_deg - segments[i - 1].direction_deg, 360));
-    if (turn < kOpposite || segments[i].t0_s - segments[i - 1].t1_s > kReversalGap) continue;
+    if (turn < kOppositeStart || segments[i].t0_s - segments[i - 1].t1_s > kReversalGap) continue;
     return {segments[i].t0_s, segments[i].direction_deg, ResponseStart::By::reversal};
   }
   return b;
+}
+
+// Flows in px are comparable at the same scale only; 2 % is within the uncertainty of a calibration (A20).
+void warn_scale(const VideoScale& reference, ComparedRun& run) {
+  constexpr double kSame = 0.02;
+  const auto& of_reference = reference.um_per_px;
+  const auto& of_run = run.scale.um_per_px;
+  if (!of_reference || !of_run || std::fabs(*of_run / *of_reference - 1) < kSame) return;
+  run.warnings.push_back({"scale", "the videos have different scales, but flows are compared in px",
+                          fmt::format("{:.4g} and {:.4g} um per px", *of_reference, *of_run),
+                          "compare videos of one magnification", Quality::poor});
 }
 
 class Comparer {
@@ -128,7 +140,10 @@ class Comparer {
           fmt::format(
               "has frames of {} x {} px, but the reference has {} x {} px; both must show the same view",
               other.width(), other.height(), reference.width(), reference.height()));
+    result.scale = other.scale();
+    warn_scale(reference.scale(), result);
     FlowPair a, b;
+    VideoLook looks[2];
     bool have = other.next(b);
     double ratio = 1;
     while ((have || no_motion) && reference.next(a)) {
@@ -143,6 +158,8 @@ class Comparer {
       ratio = period / (b.t1_s - b.t0_s);
       if (std::fabs(ratio - 1) < kSamePeriod) ratio = 1;
       take(at, a, b, ratio, filter, result);
+      looks[0].add(a.image);
+      looks[1].add(b.image);
     }
     if (result.distance.t_s.size() < 3)
       throw Error(
@@ -156,6 +173,7 @@ class Comparer {
       reference_notes_ = reference.notes();
     }
     result.notes = other.notes();
+    result.warnings = look_warnings(looks[0], looks[1], filter.threshold_px);
     if (other.method() != reference.method())
       result.warnings.push_back({"method",
                                  "the flows were computed with different methods: they are not comparable",
@@ -357,10 +375,11 @@ Comparison compare_videos(const CompareJob& job) {
     ComparedRun run =
         comparer.compare(file, c.reference_t0_s, t0, c.filter, c.runs.empty() ? &c.naive : nullptr);
     if (found && (job.reference_t0_s ? b.by != ResponseStart::By::reversal : b.by != reference.by))
-      run.notes.push_back(fmt::format(
-          "aligned {}, at {:.2f} s; the reference {}, at {:.2f} s. Specify --t0 if these times do "
-          "not correspond",
-          alignment_text(b.by), t0, c.alignment, c.reference_t0_s));
+      run.warnings.push_back({"alignment",
+                              "the start of the response was detected by another rule than in the reference",
+                              fmt::format("{}, at {:.2f} s; the reference {}, at {:.2f} s",
+                                          alignment_text(b.by), t0, c.alignment, c.reference_t0_s),
+                              "specify --t0 and --reference-t0"});
     // The last pair ends half a period after its time; one further period is rounding.
     const std::vector<double>& t = run.distance.t_s;
     if (job.duration_s < CompareJob{}.duration_s && t.back() + 1.5 * (t[1] - t[0]) < job.duration_s)

@@ -55,6 +55,7 @@ struct ComparedPair {
 
 struct ComparedRun {
   std::filesystem::path file;
+  VideoScale scale;
   double t0_s = 0;
   DistanceSeries distance;
   ComparedPair furthest;  ///< pair with the largest distance

@@ -14,7 +14,6 @@ constexpr double kWindow = 0.4, kShortest = 0.5, kGap = 0.3;  // s
 constexpr double kOneWay = 0.5, kOfMost = 1.0 / 7, kTurn = 60;
 constexpr double kRayleigh = 6.9;  // threshold of n R^2, exceeded with probability exp(-n R^2) = 1e-3
 
-double angle(Vec2 w) { return std::fmod(std::atan2(w.y, w.x) / kDegree + 360, 360); }
 double between(double a, double b) { return std::fabs(std::remainder(a - b, 360)); }
 Vec2 unit(double deg) { return {std::cos(deg * kDegree), std::sin(deg * kDegree)}; }
 
@@ -59,7 +58,7 @@ std::vector<Run> runs_of(const Signature& s, const Pairs& p) {
   for (std::size_t k = 0; k < n; ++k) {
     if (!(size[k] > p.one_way * speed[k] && size[k] > kOfMost * most)) continue;
     const bool continues = !runs.empty() && s.t0_s(k) - s.t1_s(runs.back().end - 1) < kGap &&
-                           between(angle(flow[k]), angle(runs.back().sum)) < kTurn;
+                           between(direction_of(flow[k]), direction_of(runs.back().sum)) < kTurn;
     if (!continues) runs.push_back({k, k, {0, 0}});
     runs.back().end = k + 1;
     runs.back().sum = runs.back().sum + flow[k];
@@ -78,7 +77,7 @@ bool significantly_directed(const Run& r, const Pairs& p) {
 /// Start and end where the flow along the direction of the run crosses half of its median, within the
 /// neighbouring runs.
 MotionSegment trimmed(const Signature& s, const Pairs& p, const Run& r, std::size_t from, std::size_t to) {
-  const double direction = angle(r.sum);
+  const double direction = direction_of(r.sum);
   const Vec2 d = unit(direction);
   std::vector<double> along(s.size());
   for (std::size_t k = from; k < to; ++k) along[k] = dot(p.flow[k], d);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/units.h"
 #include "study/motion/signature.h"
 
 namespace faba {
@@ -15,6 +16,9 @@ struct MotionSegment {
 
 /// A direction for display, rounded to integer degrees, 0 to 359.
 inline int rounded_degrees(double deg) { return int(std::lround(deg) % 360 + 360) % 360; }
+
+/// Direction of a vector of the image frame, 0 to 360 degrees.
+inline double direction_of(Vec2 v) { return std::fmod(std::atan2(v.y, v.x) / kDegree + 360, 360); }
 
 /// Splits a video into segments of directed motion. In windows of 0.4 s (at least three pairs) at least half
 /// of the flow must be in one direction and be at least a seventh of the maximum in the video. A segment

@@ -6,6 +6,7 @@
 #include "core/counted.h"
 #include "study/motion/flow_histograms.h"
 #include "study/pages/activity_report.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/plot/markup.h"
 #include "study/plot/plot_svg.h"
@@ -40,6 +41,17 @@ const char* time_unit(const ActivityResult& r) {
   return timed ? "s" : none ? "frames" : "s or frames";
 }
 
+std::string onset_caption(const VideoActivity& a) {
+  if (!a.response)
+    return "The onset is unknown: no field reversal is known and no motion starts in the video.";
+  if (const auto onset = onset_of(a))
+    return fmt::format("(1) Onset of the response, with its 90 % interval in blue; {}.",
+                       a.response->source == Response::Source::detected
+                           ? "the time of the field reversal is unknown"
+                           : fmt::format("field reversal at {:.3f} s", a.response->earliest_s));
+  return "No response to the field reversal.";
+}
+
 Figure signature_figure(const VideoActivity& a) {
   Figure f;
   f.heading = title_of(a);
@@ -70,20 +82,22 @@ Figure signature_figure(const VideoActivity& a) {
     }
     p.add(std::move(curve));
   }
-  const std::pair<const std::optional<double>*, const char*> points[] = {
-      {&a.onset_s, "(1)"}, {&a.maximum_s, "(2)"}, {&a.departure_s, "(3)"}};
-  for (const auto& [at, name] : points)
-    if (*at) p.add(Rule{.at = **at, .label = name});
+  if (const auto onset = onset_of(a)) {
+    p.add(Band{onset->ci90[0], onset->ci90[1], {}, true, Ink::blue});
+    p.add(Rule{.at = onset->t_s, .label = "(1)"});
+  }
+  if (a.maximum_s) p.add(Rule{.at = *a.maximum_s, .label = "(2)"});
+  if (a.departure_s) p.add(Rule{.at = *a.departure_s, .label = "(3)"});
   f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
                           a.direction_deg, compass(a.direction_deg));
   if (!a.segments.empty()) f.caption += "Grey: motion in one direction. ";
-  f.caption +=
-      a.fit.good
-          ? fmt::format(
-                "(1) Onset and (3) departure of the swarm: the fitted Gaussian is at 10 % of its "
-                "amplitude; standard error {} s. (2) Maximum; standard error {} s.",
-                three_digits(a.se_onset_s.value_or(0)), three_digits(a.fit.se_peak_s))
-          : "The Gaussian fit failed: " + a.fit.reason + ". No onset, maximum and departure are given.";
+  f.caption += onset_caption(a);
+  f.caption += a.fit.good
+                   ? fmt::format(
+                         " (2) Maximum of the fitted Gaussian, standard error {} s; (3) departure of the "
+                         "swarm, where it is at 10 % of its amplitude.",
+                         three_digits(a.fit.se_peak_s))
+                   : " The Gaussian fit failed: " + a.fit.reason + ". No maximum and departure are given.";
   return f;
 }
 
@@ -158,6 +172,29 @@ std::string with_error(const std::optional<double>& value, const std::optional<d
   return value && error ? fmt::format("{} ± {}", three_digits(*value), three_digits(*error)) : "–";
 }
 
+std::string onset_text(const VideoActivity& a) {
+  const auto onset = onset_of(a);
+  return onset ? fmt::format("{} [{}, {}]", decimals(onset->t_s, width_of(onset->ci90)),
+                             decimals(onset->ci90[0], width_of(onset->ci90)),
+                             decimals(onset->ci90[1], width_of(onset->ci90)))
+               : "–";
+}
+
+std::string fraction_text(const VideoActivity& a) {
+  if (!a.response || !a.response->fraction) return "–";
+  const Measured& f = *a.response->fraction;
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", f.value, f.ci90[0], f.ci90[1]);
+}
+
+std::string speed_text(const VideoActivity& a) {
+  if (!a.response || !a.response->speed_px_s) return "–";
+  const double scale = a.um_per_px.value_or(1);
+  const Measured& v = *a.response->speed_px_s;
+  const double width = scale * width_of(v.ci90);
+  return fmt::format("{} [{}, {}] {}/s", decimals(scale * v.value, width), decimals(scale * v.ci90[0], width),
+                     decimals(scale * v.ci90[1], width), a.um_per_px ? "µm" : "px");
+}
+
 std::string segments_table(const ActivityResult& r) {
   std::string out = "<h2>Motion in one direction</h2>\n<table class=\"numbers\">\n<thead>";
   const std::string unit = time_unit(r);
@@ -175,8 +212,8 @@ std::string table(const ActivityResult& r) {
   std::string out = "<h2>Results</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>";
   const std::string unit = time_unit(r);
   out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell",
-                   "signal-to-noise ratio", "onset (" + unit + ")", "maximum (" + unit + ")",
-                   "width (" + unit + ")"},
+                   "signal-to-noise ratio", "onset (" + unit + ")", "responding fraction", "speed",
+                   "maximum (" + unit + ")", "width (" + unit + ")"},
                   "th") +
          "</thead><tbody>\n";
   const auto if_good = [](const VideoActivity& a, double value) {
@@ -186,8 +223,8 @@ std::string table(const ActivityResult& r) {
     out += text_row(
         {title_of(a), fmt::format("{}°", rounded_degrees(a.direction_deg)), three_digits(a.threshold_px),
          three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
-         a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–", with_error(a.onset_s, a.se_onset_s),
-         with_error(if_good(a, a.fit.peak_s), a.fit.se_peak_s),
+         a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–", onset_text(a), fraction_text(a),
+         speed_text(a), with_error(if_good(a, a.fit.peak_s), a.fit.se_peak_s),
          with_error(if_good(a, a.fit.sigma_s), a.fit.se_sigma_s)},
         "td");
   out += "</tbody></table></div>\n";
@@ -235,7 +272,7 @@ std::vector<Figure> activity_figures(const ActivityResult& r) {
   return figures;
 }
 
-std::string activity_page(const ActivityResult& r) {
+std::string activity_page(const ActivityResult& r, const Provenance& provenance) {
   std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
   out += quality_markup(all_warnings(r));
   for (const VideoActivity& a : r.videos)
@@ -246,7 +283,7 @@ std::string activity_page(const ActivityResult& r) {
     out += fmt::format(
         "<figure class=\"wide\">\n<h3>{}</h3>\n{}<figcaption>Figure {}. {}</figcaption>\n</figure>\n",
         escape_markup(f.heading), svg(f.plot), ++number, escape_markup(f.caption));
-  return html_page("Activity", out + table(r));
+  return html_page("Activity", out + table(r) + provenance_markup(provenance));
 }
 
 void write_activity_picture(const std::filesystem::path& file, const VideoActivity& a) {

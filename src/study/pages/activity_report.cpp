@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/toml.h"
@@ -34,11 +35,45 @@ Json gaussian_json(const GaussianFit& f) {
           {"reason", f.reason}};
 }
 
+Json response_json(const Response& r) {
+  Json j{{"reversal_s", r.source == Response::Source::detected ? Json() : Json(r.earliest_s)},
+         {"reversal_source", reversal_source(r)},
+         {"direction_deg", r.direction_deg},
+         {"method", r.measure},
+         {"fraction_method", r.fraction_method},
+         {"t_statistic", std::isfinite(r.change.t_statistic) ? Json(r.change.t_statistic) : Json()},
+         {"responds", r.responds},
+         {"rise_s", r.change.rise_s}};
+  j["displacement_px"] = r.flow ? Json(r.flow->shift_px) : Json();
+  j["object_px"] = r.flow ? Json(r.flow->object_px) : Json();
+  j["neighbour_px"] = r.flow ? or_null(r.flow->neighbour_px) : Json();
+  j["flow_valid"] = r.flow ? Json(r.flow->valid()) : Json();
+  return j;
+}
+
+void add_measured(Json& j, const std::string& key, const std::optional<Measured>& m, double scale = 1) {
+  j[key] = m ? Json(m->value * scale) : Json();
+  j[key + "_ci90"] = m ? Json{m->ci90[0] * scale, m->ci90[1] * scale} : Json();
+}
+
+void add_response(Json& j, const VideoActivity& a) {
+  const auto onset = onset_of(a);
+  j["onset_s"] = onset ? Json(onset->t_s) : Json();
+  j["onset_ci90"] = onset ? Json(onset->ci90) : Json();
+  const std::optional<Measured> none, fraction = a.response ? a.response->fraction : none,
+                                      speed = a.response ? a.response->speed_px_s : none;
+  add_measured(j, "responding_fraction", fraction);
+  add_measured(j, "speed_px_per_s", speed);
+  add_measured(j, "speed_um_per_s", a.um_per_px ? speed : none, a.um_per_px.value_or(1));
+  j["response"] = a.response ? response_json(*a.response) : Json();
+}
+
 Json video_json(const VideoActivity& a) {
   Json j;
   j["video"] = a.input.file.string();
   j["exposure_s"] = or_null(a.input.exposure_s);
   j["experiment"] = a.input.experiment;
+  add_scale(j, a.scale);
   j["pairs"] = a.t_s.size();
   j["threshold_px"] = a.threshold_px;
   j["direction_deg"] = a.direction_deg;
@@ -55,11 +90,7 @@ Json video_json(const VideoActivity& a) {
   j["signal_to_noise"] = finite ? Json(*a.signal_to_noise) : Json();
   j["responds"] = a.responds;
   j["gaussian"] = gaussian_json(a.fit);
-  j["onset_s"] = or_null(a.onset_s);
-  constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
-  j["onset_ci90"] = a.onset_s && a.se_onset_s
-                        ? Json{*a.onset_s - k90 * *a.se_onset_s, *a.onset_s + k90 * *a.se_onset_s}
-                        : Json();
+  add_response(j, a);
   j["maximum_s"] = or_null(a.maximum_s);
   j["departure_s"] = or_null(a.departure_s);
   add_quality(j, a.warnings);
@@ -76,6 +107,24 @@ Json line_json(const std::optional<ExposureLine>& line) {
 }
 
 }  // namespace
+
+const char* reversal_source(const Response& r) {
+  switch (r.source) {
+    case Response::Source::given:
+      return "given";
+    case Response::Source::recorded:
+      return "recorded";
+    case Response::Source::detected:
+      return "detected";
+  }
+  return "";
+}
+
+std::string decimals(double value, double width) {
+  const double step = width / 20;
+  const int digits = step > 0 ? std::clamp(int(std::ceil(-std::log10(step))), 0, 6) : 2;
+  return fmt::format("{:.{}f}", value, digits);
+}
 
 Json activity_json(const ActivityResult& r) {
   Json j;

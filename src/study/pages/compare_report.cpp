@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/toml.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/plot/figure.h"
 #include "study/plot/inline_picture.h"
@@ -156,6 +157,7 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
                            {"sd", d.legacy_sd},
                            {"slope", d.legacy_line.slope},
                            {"intercept", d.legacy_line.intercept}}}});
+    add_scale(j["runs"].back(), r.scale);
     add_quality(j["runs"].back(), r.warnings);
     j["runs"].back()["notes"] = r.notes;
   }
@@ -167,7 +169,7 @@ Json compare_json(const Comparison& c, const CompareJob& job) {
   return j;
 }
 
-std::string compare_page(const Comparison& c, const CompareJob& job) {
+std::string compare_page(const Comparison& c, const CompareJob& job, const Provenance& provenance) {
   std::string out = fmt::format("<h1>Comparison with {}</h1>\n", escape_markup(name_of(job.reference)));
   out += fmt::format(
       "<p class=\"lead\">{} compared with the reference, {}.</p>\n",
@@ -181,7 +183,8 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
       out +=
           fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
   out += fmt::format(
-      "<figure>\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Figure 1. Quadratic-Chi "
+      "<figure class=\"wide\">\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Figure 1. "
+      "Quadratic-Chi "
       "distance (m = {:g}, bin similarity threshold {:g} bins) between the sums of the flow over columns and "
       "rows. Dashed lines: straight line fitted to the distance of each run by least squares; its slope is "
       "in "
@@ -191,7 +194,7 @@ std::string compare_page(const Comparison& c, const CompareJob& job) {
   out += table(c);
   int number = 1;
   for (const ComparedRun& r : c.runs) out += pictures(r, c.filter, number);
-  return html_page("Comparison", out);
+  return html_page("Comparison", out + provenance_markup(provenance));
 }
 
 std::string compare_csv(const Comparison& c) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/data/provenance.h"
 #include "study/motion/compare.h"
 
 namespace faba {
@@ -17,7 +18,7 @@ nlohmann::ordered_json compare_json(const Comparison& c, const CompareJob& job);
 
 /// HTML report: distances over time, and for each run both filtered flows with their histograms (Figs. 3.27
 /// to 3.29 of the thesis).
-std::string compare_page(const Comparison& c, const CompareJob& job);
+std::string compare_page(const Comparison& c, const CompareJob& job, const Provenance& provenance);
 
 /// CSV: `run,t_s,distance,legacy`; runs are numbered from 1, 0 is the video without motion.
 std::string compare_csv(const Comparison& c);

@@ -7,8 +7,10 @@
 
 #include "core/counted.h"
 #include "core/toml.h"
+#include "study/pages/provenance_output.h"
 #include "study/plot/markup.h"
 #include "study/plot/report_page.h"
+#include "study/quality/rounded.h"
 
 namespace faba {
 namespace {
@@ -26,8 +28,8 @@ Json mean_json(const MeanOverSeeds& m) {
 std::string with_interval(const MeanOverSeeds* m) {
   if (!m) return "–";
   if (m->n < 2) return three_digits(m->mean);
-  return fmt::format("{}<small>{} to {}</small>", three_digits(m->mean), three_digits(m->ci95[0]),
-                     three_digits(m->ci95[1]));
+  const RoundedInterval text = rounded_interval(m->mean, m->ci95);
+  return fmt::format("{}<small>{} to {}</small>", text.value, text.low, text.high);
 }
 
 constexpr std::pair<const char*, const char*> kColumns[] = {
@@ -122,23 +124,30 @@ Figure over_time(const ControllerComparison& r, const std::vector<const Combinat
 
 Figure against_delay(const ControllerComparison& r, const Variant& model) {
   Figure f{"Steady-state error against delay",
-           "Root mean square of the distance over the last third of the run, mean over the seeds.",
+           "Root mean square of the distance over the last third of the run, mean over the seeds. Bars: "
+           "95 % confidence interval of the mean.",
            {}};
   if (r.study.models.size() > 1) f.heading += ": " + model.name;
   f.plot.description = f.heading;
   f.plot.inlined = true;
   f.plot.x.label = "delay (frames)";
+  f.plot.x.ticks = Ticks::integers;
   f.plot.y.label = "steady-state error (px rms)";
   f.plot.y.lo = 0;
   for (std::size_t i = 0; i < r.study.controllers.size(); ++i) {
-    Line line{
-        .x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = kGroupInks[i % std::size(kGroupInks)]};
+    const Ink ink = kGroupInks[i % std::size(kGroupInks)];
+    Line line{.x = {}, .y = {}, .label = r.study.controllers[i].name, .ink = ink};
+    ErrorBars bars{{}, {}, {}, {}, ink};
     for (const Combination& c : r.combinations)
       if (c.model == model.name && c.controller == line.label)
         if (const MeanOverSeeds* m = metric(c, "steady_rms_px")) {
           line.x.push_back(c.delay);
           line.y.push_back(m->mean);
+          bars.x.push_back(c.delay);
+          bars.lo.push_back(m->ci95[0]);
+          bars.hi.push_back(m->ci95[1]);
         }
+    f.plot.add(std::move(bars));
     f.plot.add(Scatter{.x = line.x, .y = line.y, .label = {}, .ink = line.ink});
     f.plot.add(std::move(line));
   }
@@ -156,10 +165,15 @@ std::string verdict(const ControllerComparison& r) {
       if (c->excess_over_best && c->excess_over_best->ci95[0] <= 0) significant = false;
     }
     if (!best || group.size() < 2) continue;
-    const std::string at = fmt::format("{} px rms{}", three_digits(metric(*best, "steady_rms_px")->mean),
-                                       significant ? "" : " (not significantly smaller than all others)");
-    sentence = fmt::format("<p class=\"lead\">{} has the smallest steady-state error, {}.</p>\n",
-                           escape_markup(best->controller), at);
+    const MeanOverSeeds& least = *metric(*best, "steady_rms_px");
+    const std::string at =
+        fmt::format("{} px rms{}", with_uncertainty(least.mean, least.mean - least.ci95[0], "±"),
+                    significant ? "" : " (not significantly smaller than all others)");
+    sentence = fmt::format(
+        "<p class=\"lead\">{} has the smallest steady-state error, {}.</p>\n<p class=\"note\">± is half of "
+        "the "
+        "95 % confidence interval of the mean.</p>\n",
+        escape_markup(best->controller), at);
     rows += table_row(
         {escape_markup(condition(r, *best)), fmt::format("{}, {}", escape_markup(best->controller), at)},
         "td");
@@ -167,7 +181,8 @@ std::string verdict(const ControllerComparison& r) {
   if (groups(r).size() < 2 || rows.empty()) return sentence;
   return "<p class=\"lead\">Controller with the smallest steady-state error</p>\n<table "
          "class=\"facts\"><tbody>\n" +
-         rows + "</tbody></table>\n";
+         rows +
+         "</tbody></table>\n<p class=\"note\">± is half of the 95 % confidence interval of the mean.</p>\n";
 }
 
 }  // namespace
@@ -215,16 +230,15 @@ std::vector<Figure> controllers_figures(const ControllerComparison& r) {
   return figures;
 }
 
-std::string controllers_page(const ControllerComparison& r) {
+std::string controllers_page(const ControllerComparison& r, const Provenance& provenance) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + verdict(r) + table(r) +
                     "<h2>Figures</h2>\n";
   int number = 0;
   out += "<div class=\"figures\">\n";
-  for (const Figure& f : controllers_figures(r)) out += figure_markup(f, ++number);
-  out += "</div>\n";
+  out += figures_markup(controllers_figures(r), number) + "</div>\n";
   for (const std::string& note : r.notes)
     out += fmt::format("<p class=\"warning\">{}</p>\n", escape_markup(note));
-  return html_page(r.study.title, out);
+  return html_page(r.study.title, out + provenance_markup(provenance));
 }
 
 }  // namespace faba

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "study/data/provenance.h"
 #include "study/plot/figure.h"
 #include "study/steering/controller_study.h"
 
@@ -22,6 +23,6 @@ std::string controllers_csv(const ControllerComparison& comparison);
 std::vector<Figure> controllers_figures(const ControllerComparison& comparison);
 
 /// HTML report.
-std::string controllers_page(const ControllerComparison& comparison);
+std::string controllers_page(const ControllerComparison& comparison, const Provenance& provenance);
 
 }  // namespace faba

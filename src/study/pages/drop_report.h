@@ -11,11 +11,12 @@ namespace faba {
 /// The drop edge as reported by the command line and the web page:
 /// `{"center_px":[x,y],"radius_px":r,"sd_px":{"x":..,"y":..,"radius":..},"arc_deg":..,"inside":[x,y],"image_size":[w,h]}`,
 /// Positions in picture px, y down as in the image file; `inside` is a point of the picture inside the drop.
-nlohmann::ordered_json drop_json(const DropEdge& edge);
+/// `um_per_px` and `um_per_px_source` are null if the scale is not known.
+nlohmann::ordered_json drop_json(const DropEdge& edge, const VideoScale& scale);
 
-/// A proposed drop for the web page of the lab: the fields of drop_json(DropEdge) and `"found"`, and
+/// A proposed drop for the web page of the lab: the fields of the edge and `"found"`, and
 /// `"reason"` when a bubble was found; without an edge `"found": false, "reason", "center_px", "radius_px",
-/// "image_size"`.
+/// "image_size"`, and the scale.
 nlohmann::ordered_json drop_json(const ProposedDrop& drop);
 
 /// Detects the drop edge in a picture or in the first frame of a video. Unless `overlay` is empty, writes the

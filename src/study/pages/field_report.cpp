@@ -17,6 +17,16 @@ Json null_if_nan(const std::array<double, 3>& values) {
   return list;
 }
 
+Json interval_json(double value, double error, double t95) {
+  return std::isnan(error) ? Json() : Json({value - t95 * error, value + t95 * error});
+}
+
+Json intervals_json(const std::array<double, 3>& values, const std::array<double, 3>& errors, double t95) {
+  Json list = Json::array();
+  for (std::size_t k = 0; k < 3; ++k) list.push_back(interval_json(values[k], errors[k], t95));
+  return list;
+}
+
 }  // namespace
 
 Json field_json(const FieldAtPoints& f) {
@@ -93,6 +103,9 @@ Json field_json(const FieldFit& f) {
   j["shift_se_m"] = null_if_nan(f.standard_error.shift);
   j["offset_t"] = f.best.offset;
   j["offset_se_t"] = null_if_nan(f.standard_error.offset);
+  j["gain_ci95"] = interval_json(f.best.gain, f.standard_error.gain, f.t95);
+  j["shift_ci95_m"] = intervals_json(f.best.shift, f.standard_error.shift, f.t95);
+  j["offset_ci95_t"] = intervals_json(f.best.offset, f.standard_error.offset, f.t95);
   j["rms_t"] = f.rms;
   j["rms_field_t"] = f.rms_field;
   j["undetermined"] = f.undetermined;

@@ -21,8 +21,8 @@ class FlowOutputs {
  public:
   FlowOutputs(const FlowSource& source, const std::filesystem::path& video, const FlowJob& job) : job_(job) {
     if (!job.out.empty()) {
-      FlowInfo info{source.width(),     source.height(), source.fps(),
-                    source.um_per_px(), source.method(), video.string()};
+      FlowInfo info{source.width(),           source.height(), source.fps(),
+                    source.scale().um_per_px, source.method(), video.string()};
       file_.emplace(part(job.out), info);
     }
     if (!job.overlay.empty())
@@ -70,6 +70,7 @@ Json method_json(const std::string& method) { return Json::parse(method, nullptr
 nlohmann::ordered_json flow_json(const PairFlow& r) {
   Json j;
   j["image_size"] = {r.flow.width(), r.flow.height()};
+  add_scale(j, r.scale);
   j["method"] = method_json(r.method);
   if (r.effort) {
     j["iterations"] = r.effort->iterations;
@@ -91,6 +92,7 @@ nlohmann::ordered_json flow_json(const PairFlow& r) {
 nlohmann::ordered_json flow_json(const VideoFlow& r) {
   Json j;
   j["image_size"] = {r.width, r.height};
+  add_scale(j, r.scale);
   j["method"] = method_json(r.method);
   j["pairs"] = r.pairs;
   j["seconds"] = r.seconds;

@@ -78,17 +78,16 @@ std::vector<SmallFrame> shots_of(const std::filesystem::path& video) {
 
 }  // namespace
 
-std::string frame_strip(const std::filesystem::path& video) {
-  std::vector<SmallFrame> shots;
+std::vector<SmallFrame> strip_frames(const std::filesystem::path& video) {
   try {
-    shots = shots_of(video);
+    return shots_of(video);
   } catch (const Error&) {
-    return "";
+    return {};
   }
-  return shots.empty() ? "" : frame_strip(shots);
 }
 
 std::string frame_strip(const std::vector<SmallFrame>& shots) {
+  if (shots.empty()) return "";
   std::string out = "<figure class=\"frames\">\n<h3>Frames</h3>\n<div>\n";
   for (const SmallFrame& s : shots)
     out += fmt::format("<p>{}{}\u00A0s</p>\n",

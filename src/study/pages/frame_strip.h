@@ -7,10 +7,10 @@
 
 namespace faba {
 
-/// Figure for a page: up to six frames of a video at equal time intervals, including the first and the last,
-/// with their times below. Empty when the video cannot be read.
-std::string frame_strip(const std::filesystem::path& video);
-/// The same of the given frames.
+/// Up to six frames of a video at equal time intervals, including the first and the last. Empty when the
+/// video cannot be read.
+std::vector<SmallFrame> strip_frames(const std::filesystem::path& video);
+/// Figure for a page: the frames, with their times below. Empty without frames.
 std::string frame_strip(const std::vector<SmallFrame>& frames);
 
 }  // namespace faba

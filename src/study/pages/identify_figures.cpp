@@ -10,6 +10,7 @@
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
 #include "study/plot/markup.h"
+#include "study/quality/rounded.h"
 
 namespace faba {
 namespace {
@@ -113,6 +114,7 @@ Figure by_segment(const Identification& r) {
   }
   f.plot.x.lo = 0.5;
   f.plot.x.hi = n + 0.5;
+  f.plot.x.ticks = Ticks::integers;
   f.plot.add(std::move(bars)).add(std::move(dots));
   return f;
 }
@@ -188,11 +190,11 @@ std::vector<Figure> predictive_figures(const Identification& r) {
 
 Figure posterior_figure(const FoundParameter& p, const std::string& parts) {
   const FreeParameter& q = p.parameter;
+  const RoundedInterval text = rounded_interval(q.shown(p.median), {q.shown(p.ci90[0]), q.shown(p.ci90[1])});
   Figure f{q.path,
-           fmt::format("{} [{}, {}] {}: posterior median and 90 % interval. Dashed: 90 % interval from "
+           fmt::format("{} [{}, {}]{}{}: posterior median and 90 % interval. Dashed: 90 % interval from "
                        "approximate Bayesian computation (ABC){}.{}",
-                       three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
-                       three_digits(q.shown(p.ci90[1])), q.shown_unit(),
+                       text.value, text.low, text.high, q.shown_unit().empty() ? "" : " ", q.shown_unit(),
                        p.resampled90 ? " and from the bootstrap over " + parts : "",
                        p.doubt.empty() ? "" : " " + p.doubt + "."),
            plot_of("Posterior of " + q.path, label_of(q), "density")};
@@ -254,6 +256,7 @@ std::vector<Figure> legacy_figures(const LegacyModel& m) {
                 fmt::format("Dots: slope of each simulation. The line fit is zero at {}.",
                             three_digits(q.shown(m.zero))),
                 plot_of("Slope against the parameter", label_of(q), "slope per pair")};
+  distances.plot.x.ticks = Ticks::integers;
   Scatter dots{.x = {}, .y = {}, .label = {}, .ink = Ink::blue};
   constexpr Ink kInks[] = {Ink::blue, Ink::vermillion, Ink::green, Ink::purple, Ink::orange};
   std::size_t shown = 0;

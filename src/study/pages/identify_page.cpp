@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/identify/identify_warnings.h"
 #include "study/pages/identify_figures.h"
 #include "study/pages/identify_report.h"
+#include "study/pages/provenance_output.h"
+#include "study/pages/quality_output.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
 #include "study/plot/report_page.h"
+#include "study/quality/rounded.h"
 #include "vision/files/picture.h"
 
 namespace faba {
@@ -15,21 +19,20 @@ namespace {
 
 std::string with_interval(const FoundParameter& p) {
   const FreeParameter& q = p.parameter;
-  return fmt::format("{} [{}, {}]{}", three_digits(q.shown(p.median)), three_digits(q.shown(p.ci90[0])),
-                     three_digits(q.shown(p.ci90[1])), q.shown_unit().empty() ? "" : " " + q.shown_unit());
+  const RoundedInterval text = rounded_interval(q.shown(p.median), {q.shown(p.ci90[0]), q.shown(p.ci90[1])});
+  return fmt::format("{} [{}, {}]{}", text.value, text.low, text.high,
+                     q.shown_unit().empty() ? "" : " " + q.shown_unit());
 }
 
 std::string lead(const Identification& r) {
   const FoundModel& best = r.models[r.best];
   std::string found;
   for (const FoundParameter& p : best.parameters)
-    found += fmt::format("{}{} {}", found.empty() ? "" : ", ", p.parameter.name(), with_interval(p));
-  std::string out = fmt::format(
+    if (!p.parameter.nuisance())
+      found += fmt::format("{}{} {}", found.empty() ? "" : ", ", p.parameter.name(), with_interval(p));
+  return fmt::format(
       "<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {} (posterior median and 90 % interval).</p>\n",
       escape_markup(r.words), escape_markup(best.name), escape_markup(found));
-  for (const FoundParameter& p : best.parameters)
-    if (!p.doubt.empty()) out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(p.doubt));
-  return out;
 }
 
 bool single_experiment(const Identification& r) {
@@ -45,8 +48,9 @@ std::string simulations_text(const Identification& r) {
   for (const FoundModel& m : r.models)
     if (m.failed.empty()) rounds += fmt::format("{}{} {}", rounds.empty() ? "" : ", ", m.name, m.rounds);
   return fmt::format(
-      "Valid simulations: per video, of all rounds. The study requests {} in four rounds; the last round is "
-      "repeated, at most twice, while the posterior extends beyond it (rounds: {}), and simulations without "
+      "Valid simulations: per video, of all rounds. The study requests {} in four rounds, and "
+      "one more round if a model has more than three parameters; the last round is repeated, at most twice, "
+      "while the posterior extends beyond it (rounds: {}), and simulations without "
       "a result, for example without cells in view, are not counted.",
       r.study.simulations, escape_markup(rounds));
 }
@@ -80,30 +84,60 @@ std::string bootstrap_text(const Identification& r) {
   return out + "</p>\n";
 }
 
+// The parameters of the study, or the nuisance parameters.
+std::string parameters_text(const FoundModel& m, bool nuisance) {
+  std::string out;
+  for (const FoundParameter& p : m.parameters)
+    if (p.parameter.nuisance() == nuisance)
+      out += fmt::format("{}{} {}", out.empty() ? "" : "<br />", escape_markup(p.parameter.name()),
+                         escape_markup(with_interval(p)));
+  return out.empty() ? "–" : out;
+}
+
+std::string families_table(const Identification& r) {
+  const FoundModel& m = r.models[r.best];
+  if (m.families.empty()) return "";
+  std::string out = fmt::format(
+      "<h2>Extensions of {}</h2>\n<div class=\"wide\"><table "
+      "class=\"numbers\">\n<thead><tr><th>extension</th><th>amount ± standard "
+      "error</th><th>t</th><th>p</th></tr></thead>\n<tbody>\n",
+      escape_markup(m.name));
+  for (const FamilyCheck& c : m.families)
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}{}</th><td>{:.2g} ± {:.1g} {}</td><td>{:.1f}</td><td>{:.2g}</td></tr>\n",
+        escape_markup(c.what), c.significant ? " (significant)" : "", c.amount, c.sd, escape_markup(c.unit),
+        c.t, c.p);
+  return out +
+         "</tbody></table></div>\n<p class=\"note\">Score tests: does an extension explain how the videos "
+         "deviate from the model, while all its parameters may adapt? The amounts are extrapolated from "
+         "simulations with a fixed amount. Significant: the probability that any of these tests is "
+         "significant for a model that is right is 1 %.</p>\n";
+}
+
 std::string models_table(const Identification& r) {
   std::string out =
       "<h2>Models</h2>\n<div class=\"wide\"><table "
       "class=\"numbers\">\n<thead><tr><th>model</th><th>parameters, median "
-      "and 90 % interval</th><th>energy score</th><th>fit p</th><th>valid "
+      "and 90 % interval</th><th>nuisance parameters</th><th>energy score</th><th>fit p</th><th>valid "
       "simulations</th></tr></thead>\n<tbody>\n";
   for (const FoundModel& m : r.models) {
     if (!m.failed.empty()) {
-      out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>–</td><td>–</td><td>–</td></tr>\n",
-                         escape_markup(m.name), escape_markup(m.failed));
+      out += fmt::format(
+          "<tr><th scope=\"row\">{}</th><td>{}</td><td>–</td><td>–</td><td>–</td><td>–</td></tr>\n",
+          escape_markup(m.name), escape_markup(m.failed));
       continue;
     }
-    std::string parameters;
-    for (const FoundParameter& p : m.parameters)
-      parameters += fmt::format("{}{} {}", parameters.empty() ? "" : "<br />",
-                                escape_markup(p.parameter.name()), escape_markup(with_interval(p)));
-    out += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{:.2g}</td><td>{}</td></tr>\n",
-                       escape_markup(m.name), parameters, three_digits(m.score), m.fit_p, m.simulations);
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{:.2g}</td><td>{}</td></tr>\n",
+        escape_markup(m.name), parameters_text(m, false), parameters_text(m, true), three_digits(m.score),
+        m.fit_p, m.simulations);
   }
   return out + fmt::format(
                    "</tbody></table></div>\n<p class=\"note\">Energy score: mean over {} "
                    "{}, each predicted from the others; lower is better. Fit p: fraction of the "
                    "simulations that deviate from their mean as much as the videos do; below 0.01 the model "
-                   "does not explain the videos. {}{}</p>\n",
+                   "does not explain the videos. Nuisance parameters: free by default, with assumed priors. "
+                   "{}{}</p>\n",
                    r.experiments.size(), r.parts, simulations_text(r),
                    single_experiment(r)
                        ? " The field segments show the same swarm and are not independent: the "
@@ -184,21 +218,22 @@ std::string notes(const Identification& r) {
         "{:.4g} s of the video.</li>\n",
         escape_markup(v.input.file.string()), v.um_per_px, v.fps,
         1e6 * r.study.candidates[r.best].field_strength_in(v), v.episodes.front().start_s);
-  out += fmt::format("<li>Seed {}; Faba {}.</li>\n", r.study.seed, FABA_VERSION);
+  out += fmt::format("<li>Seed {}.</li>\n", r.study.seed);
   return "<h2>Notes</h2>\n<ul>\n" + out + "</ul>\n";
 }
 
 }  // namespace
 
-std::string identify_page(const Identification& r) {
-  std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) + models_table(r);
+std::string identify_page(const Identification& r, const Provenance& provenance) {
+  std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) +
+                    quality_markup(identify_warnings(r)) + models_table(r) + families_table(r);
   out += "<h2>Observation and posterior prediction of the best model</h2>\n<div class=\"figures\">\n";
   for (const Figure& f : predictive_figures(r)) out += figure_markup(f);
   out += "</div>\n" + pictures(r) + "<h2>Parameters of the best model</h2>\n" + bootstrap_text(r) +
          "<div class=\"figures\">\n";
   for (const FoundParameter& p : r.models[r.best].parameters)
     out += figure_markup(posterior_figure(p, r.parts)) + figure_markup(profile_figure(p));
-  return html_page(r.study.title, out + "</div>\n" + legacy(r) + notes(r));
+  return html_page(r.study.title, out + "</div>\n" + legacy(r) + notes(r) + provenance_markup(provenance));
 }
 
 }  // namespace faba

@@ -20,6 +20,32 @@ Json parameter_json(const FoundParameter& p) {
           {"resampled90", p.resampled90 ? Json(*p.resampled90) : Json()}};
 }
 
+// A parameter that the program frees by default, with its prior.
+Json nuisance_json(const FoundParameter& p) {
+  Json j = parameter_json(p);
+  j["prior"] = p.parameter.nuisance_source;
+  return j;
+}
+
+// Quantities with a known uncertainty: sampled in each simulation, not estimated.
+Json sampled_json(const IdentifyStudy& s) {
+  Json j = Json::object();
+  const auto add = [&](const char* name, double sd, const char* source) {
+    if (sd > 0) j[name] = {{"relative_sd", sd}, {"source", source}};
+  };
+  add("count", s.count_sd,
+      "assumed error of the number of cells in the first frame; not if the study gives swarm[0].count");
+  add("scale", s.scale_sd, "scale_uncertainty of the study, or the calibration file");
+  add("field_strength", s.field_sd, "field_uncertainty of the study");
+  return j;
+}
+
+Json family_json(const FamilyCheck& c) {
+  return {{"aspect", c.aspect}, {"what", c.what},           {"amount", c.amount},
+          {"sd", c.sd},         {"unit", c.unit},           {"t", c.t},
+          {"p", c.p},           {"explained", c.explained}, {"significant", c.significant}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json identify_json(const Identification& r) {
@@ -32,8 +58,17 @@ nlohmann::ordered_json identify_json(const Identification& r) {
       one["score"] = m.score;
       one["scores"] = m.scores;
       one["fit_p"] = m.fit_p;
+      one["converged"] = m.converged;
       one["simulations"] = m.simulations;
-      for (const FoundParameter& p : m.parameters) one["parameters"][p.parameter.path] = parameter_json(p);
+      one["nuisances"] = Json::object();
+      for (const FoundParameter& p : m.parameters) {
+        if (p.parameter.nuisance())
+          one["nuisances"][p.parameter.path] = nuisance_json(p);
+        else
+          one["parameters"][p.parameter.path] = parameter_json(p);
+      }
+      one["families"] = Json::array();
+      for (const FamilyCheck& c : m.families) one["families"].push_back(family_json(c));
       one["checks"] = Json::array();
       for (const StatisticCheck& c : checks_of(r, m))
         one["checks"].push_back({{"what", c.name},
@@ -45,6 +80,7 @@ nlohmann::ordered_json identify_json(const Identification& r) {
     }
     j["models"].push_back(std::move(one));
   }
+  j["sampled"] = sampled_json(r.study);
   j["best"] = r.models[r.best].name;
   j["evidence"] = r.evidence;
   j["summary"] = r.words;

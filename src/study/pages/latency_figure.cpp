@@ -42,6 +42,7 @@ std::optional<Figure> latency_figure(const std::filesystem::path& run_dir, doubl
   plot.x.logarithmic = true;
   plot.y.label = "frames";
   plot.y.lo = 0;
+  plot.y.ticks = Ticks::integers;
   plot.description = "Histogram of the latencies of frames and commands";
   plot.inlined = true;
   plot.add(Rule{.at = 1e3 * frame_s, .label = "one frame"});

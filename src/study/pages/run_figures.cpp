@@ -80,8 +80,9 @@ Figure distance_figure(const Series& series, const Metrics& m, const RunInfo& in
   Figure figure{
       "Distance to the setpoint",
       fmt::format("Distance between the {} and the setpoint. The band is the larger of 5 % of the "
-                  "initial error and 10 px; the swarm is settled after its last entry into the band.",
-                  centroid_of(series)),
+                  "initial error and 10 px; the swarm is settled after its last entry into the band{}.",
+                  centroid_of(series),
+                  m.route_unfinished() ? ", but this run ended before the last setpoint" : ""),
       lengths_over_time("distance", "Distance to the setpoint over time", info)};
   Plot& plot = figure.plot;
   const double band = m.settling_band_px.value_or(0);
@@ -116,6 +117,9 @@ Figure holding_figure(const Series& series, const Metrics& m, const RunInfo& inf
   Figure figure{
       "Steady-state error", "Distance to the setpoint over the last third of the frames.",
       lengths_over_time("distance", "Distance to the setpoint over the last third of the run", info)};
+  // With the band the axis shows how large the error is relative to the tolerance.
+  const double band = m.settling_band_px.value_or(0);
+  figure.plot.add(Band{0, band, fmt::format("settling band, {} px", three_digits(band)), false, Ink::green});
   figure.plot.add(Line{{t.begin() + from, t.end()}, {d.begin() + from, d.end()}, "distance"});
   figure.plot.add(Line{{t[std::size_t(from)], t.back()},
                        {*m.steady_rms_px, *m.steady_rms_px},
@@ -183,6 +187,7 @@ Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) 
   plot.inlined = plot.equal_aspect = plot.y.reversed = true;
   plot.x.label = "x (px)";
   plot.y.label = "y (px)";
+  if (!has_number(x)) return figure;  // without the path there is nothing to show
   const Setpoints setpoints = setpoints_of(series);
   set_path_range(plot, series, info, setpoints);
   add_outlines(plot, info);
@@ -327,6 +332,7 @@ Figure count_figure(const Series& series) {
                 : "Number of cells in the picture, and number of responsive cells.",
       over_time("cells", estimated ? "Visible cells over time" : "Visible and responsive cells over time")};
   figure.plot.y.lo = 0;
+  figure.plot.y.ticks = Ticks::integers;
   if (series.has("visible_count")) {
     figure.plot.add(Line{t, values(series.find("visible_count")), "visible", Ink::blue});
   }

@@ -10,18 +10,20 @@
 #include <fmt/format.h>
 
 #include "core/file.h"
+#include "core/sha256.h"
 #include "study/data/series.h"
 #include "study/pages/frame_strip.h"
 #include "study/pages/latency_figure.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/run_figures.h"
+#include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
 #include "study/plot/report_page.h"
 
 namespace faba {
 namespace {
 
-constexpr double kLate = 2.0 / 3;               // fraction of the run; start of the steady-state error
-constexpr std::size_t kMaxRouteSetpoints = 50;  // more are a moving setpoint, not a route
+constexpr double kLate = 2.0 / 3;  // fraction of the run; start of the steady-state error
 
 /// "12.3 px (9.86 µm)", in mm from 1000 µm, or only pixels without a picture scale.
 std::string length_text(double px, const RunInfo& info) {
@@ -88,20 +90,20 @@ std::string settling_text(const std::string& goal, bool single, const Metrics& m
 }
 
 std::string outcome_text(const Metrics& m, const RunInfo& info) {
-  const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
+  const std::size_t given = std::max(m.setpoints, m.given_setpoints);
   if (info.open_loop) {
     return fmt::format("The controller does not use the {}; distance to {} at the end: {}.",
                        given > 1 ? "setpoints" : "setpoint",
                        given > 1 ? fmt::format("setpoint {}", m.setpoints) : "the setpoint",
                        length_text(*m.final_distance_px, info));
   }
-  if (given > kMaxRouteSetpoints) return settling_text("its moving setpoint", false, m, info);
+  if (given > Metrics::kMaxRouteSetpoints) return settling_text("its moving setpoint", false, m, info);
   if (given <= 1) return settling_text("its setpoint", true, m, info);
   const std::string reached = reached_text(m, given, info);
-  if (m.setpoints < given) {
+  if (m.route_unfinished()) {
     return fmt::format(
-        "{} The run ended at {}, before the end of the route. The current setpoint was number {} of {}, at a "
-        "distance of {}.",
+        "{} The run ended at {}, before the end of the route, so the swarm is not settled. The current "
+        "setpoint was number {} of {}, at a distance of {}.",
         reached, seconds(run_duration(m, info)), m.setpoints, given, length_text(*m.final_distance_px, info));
   }
   return reached + " " + settling_text("the last setpoint", false, m, info);
@@ -167,36 +169,28 @@ std::string cards(const Metrics& m, const RunInfo& info) {
   return out.empty() ? out : "<dl class=\"cards\">\n" + out + "</dl>\n";
 }
 
-std::string video_figure(const RunInfo& info) {
+/// `poster`: the first frame, which browsers show until the video is played; null: none.
+std::string video_figure(const RunInfo& info, const SmallFrame* poster) {
   const Vec2 size =
       info.view_px.value_or(Vec2{4, 3});  // aspect ratio of the placeholder until the video is loaded
   return fmt::format(
       "<figure class=\"video\">\n<h3>Video</h3>\n<video controls=\"controls\" preload=\"metadata\" "
-      "width=\"{}\" height=\"{}\" src=\"video.mp4\"></video>\n<figcaption>{}: <a "
+      "width=\"{}\" height=\"{}\"{} src=\"video.mp4\"></video>\n<figcaption>{}: <a "
       "href=\"video.mp4\">video.mp4</a> in the directory of this page.</figcaption>\n</figure>\n",
-      size.x, size.y, info.video_shows == "camera" ? "Camera frames of the run" : "Drawing of the run");
+      size.x, size.y, poster ? fmt::format(" poster=\"{}\"", picture_url(poster->picture)) : "",
+      info.video_shows == "camera" ? "Camera frames of the run" : "Drawing of the run");
 }
 
 std::string figures_section(const std::vector<Figure>& figures, const std::string& video) {
   std::string out = "<h2>Figures</h2>\n<div class=\"figures\">\n";
   int number = 0;
-  for (const Figure& figure : figures) out += figure_markup(figure, ++number);
+  out += figures_markup(figures, number);
   return out + video + "</div>\n";
 }
 
 std::string fact(const char* name, const std::string& value) {
   if (value.empty()) return {};
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, escape_markup(value));
-}
-
-std::string computing_time(const Metrics& m, const RunInfo& info) {
-  if (!info.wall_time_s) return {};
-  std::string text = three_digits(*info.wall_time_s) + " s";
-  const double duration = run_duration(m, info);
-  if (*info.wall_time_s > 0 && duration > 0) {
-    text += fmt::format(", {} times real time", three_digits(duration / *info.wall_time_s));
-  }
-  return text;
 }
 
 /// "13.0 s (195 frames of 66.7 ms)"; without a manifest's duration "12.9 s from the first to the last of 195
@@ -208,7 +202,7 @@ std::string duration_fact(const Metrics& m, const RunInfo& info) {
                      three_digits(1000 * *info.duration_s / double(m.frames)));
 }
 
-std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {
+std::string provenance(const Metrics& m, const RunInfo& info, const std::string& scenario) {
   std::string out = "<h2>Provenance</h2>\n<table class=\"facts\"><tbody>\n";
   out += fact("Program", "Faba " + info.version);
   out += fact("Duration", duration_fact(m, info));
@@ -219,12 +213,18 @@ std::string provenance(const Metrics& m, const RunInfo& info, bool scenario) {
   if (info.arena) out += fact("Arena", info.arena->type);
   if (info.um_per_px) out += fact("Picture scale", fmt::format("{:.4g} µm per px", *info.um_per_px));
   out += fact("Seed", info.seed);
-  out += fact("Threads", info.threads.empty() ? "" : info.threads + " (without effect on the result)");
-  out += fact("Computing time", computing_time(m, info));
   out += fact("Scenario hash", info.scenario_hash);
   out += fact("State hash", info.state_hash);
-  out += "</tbody></table>\n";
-  if (!scenario) return out;
+  if (!scenario.empty()) {
+    Sha256 sum;
+    sum.add(scenario);
+    out += fmt::format("<tr><th scope=\"row\">scenario.toml</th><td>SHA-256 {}, with all options</td></tr>\n",
+                       short_digest(sum.hex()));
+  }
+  out +=
+      "</tbody></table>\n<p class=\"note\">Date, number of threads and computing time are in "
+      "manifest.json.</p>\n";
+  if (scenario.empty()) return out;
   const std::string command =
       "faba run scenario.toml" + (info.seed.empty() ? "" : " --seed " + info.seed) + " --out repeated";
   out += fmt::format("<p>To reproduce the run, execute in this directory:</p>\n<pre><code>{}</code></pre>\n",
@@ -243,13 +243,15 @@ std::string existing_text(const std::filesystem::path& file) {
 
 std::string body_of(const std::filesystem::path& run_dir, const std::string& title, const Series& series,
                     const RunInfo& info, const std::vector<SmallFrame>& frames) {
-  const Metrics m = control_metrics(series, info.setpoint_tolerance_px);
+  const Metrics m =
+      control_metrics(series, info.setpoint_tolerance_px, std::size_t(info.setpoints.value_or(0)));
   const std::string scenario = existing_text(run_dir / "scenario.toml");
   std::error_code ignored;
   const bool video = std::filesystem::is_regular_file(run_dir / "video.mp4", ignored);
+  const std::vector<SmallFrame> shots =
+      frames.empty() ? strip_frames(run_dir / (video ? "video.mp4" : "video.avi")) : frames;
   const std::string media =
-      (video ? video_figure(info) : "") +
-      (frames.empty() ? frame_strip(run_dir / (video ? "video.mp4" : "video.avi")) : frame_strip(frames));
+      (video ? video_figure(info, shots.empty() ? nullptr : &shots.front()) : "") + frame_strip(shots);
 
   const RunSummary summary = run_summary(m, info);
   std::string out = fmt::format("<h1>{}</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(title),
@@ -278,7 +280,7 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
       figures.push_back(*late);
   if (!figures.empty() || !media.empty()) out += figures_section(figures, media);
   if (m.frames > 0) out += metrics_table(m, info);
-  out += provenance(m, info, !scenario.empty());
+  out += provenance(m, info, scenario);
   if (!scenario.empty()) {
     out += fmt::format(
         "<details><summary>Scenario (scenario.toml)</summary>\n<pre><code>{}</code></pre></details>\n",
@@ -296,13 +298,10 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   summary.outcome = m.initial_error_px ? outcome_text(m, info)
                                        : fmt::format("The swarm had no setpoint and was recorded for {}.",
                                                      seconds(run_duration(m, info)));
-  const std::size_t given = std::max(m.setpoints, std::size_t(info.setpoints.value_or(0)));
-  if (m.setpoints > 0 && m.setpoints < given && given <= kMaxRouteSetpoints)
-    summary.setpoint = fmt::format(
-        "The settling time and the steady-state error refer to setpoint {} of {}: the run ended before the "
-        "last "
-        "one.",
-        m.setpoints, given);
+  if (m.route_unfinished())
+    summary.setpoint =
+        fmt::format("The steady-state error refers to setpoint {} of {}: the run ended before the last one.",
+                    m.setpoints, m.given_setpoints);
   if (m.cross_track_95_px) {
     summary.details =
         fmt::format("After the first setpoint, the swarm was within {} of the route in 95 % of the frames. ",

@@ -121,7 +121,7 @@ PictureScale report_scale_picture(const std::filesystem::path& picture, double t
   RulerOptions options;
   options.name = picture.string();
   const Ruler ruler = find_ruler(grey, options);
-  if (!overlay.empty()) write_png(overlay, ruler_overlay(grey, ruler));
+  if (!overlay.empty()) write_png(overlay, ruler_overlay(read_displayed(picture), ruler));
   return measure_scale(ruler, tick_m, picture.string());
 }
 

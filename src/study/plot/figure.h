@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "study/plot/plot.h"
 
@@ -11,7 +12,11 @@ struct Figure {
   Plot plot;
 };
 
-/// <figure> element for a page. `number`: figure number before the caption; 0: none.
+/// <figure> element for a page. `number`: figure number before the caption; 0: none. A figure without values
+/// is replaced by a sentence.
 std::string figure_markup(const Figure& figure, int number = 0);
+/// The same of several figures, with numbers after `number`, the last number on the page; counted on. A
+/// figure without values has no number.
+std::string figures_markup(const std::vector<Figure>& figures, int& number);
 
 }  // namespace faba

@@ -25,10 +25,14 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-std::string inline_picture(const RgbImage& picture, std::string_view alternative) {
+std::string picture_url(const RgbImage& picture) {
   FrameEncoder encoder(FrameEncoder::Kind::png_colour, picture.width, picture.height, {}, "report");
-  return fmt::format("<img style=\"width:100%;height:auto\" alt=\"{}\" src=\"data:image/png;base64,{}\" />\n",
-                     escape_markup(alternative), base64(encoder.encode(picture)));
+  return "data:image/png;base64," + base64(encoder.encode(picture));
+}
+
+std::string inline_picture(const RgbImage& picture, std::string_view alternative) {
+  return fmt::format("<img style=\"width:100%;height:auto\" alt=\"{}\" src=\"{}\" />\n",
+                     escape_markup(alternative), picture_url(picture));
 }
 
 }  // namespace faba

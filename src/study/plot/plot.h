@@ -48,6 +48,13 @@ struct Ribbon {
   Ink ink = Ink::automatic;
 };
 
+/// A vertical bar with caps from lo to hi at each x: an interval or a standard error.
+struct ErrorBars {
+  std::vector<double> x, lo, hi;  ///< equal length; non-finite ones are omitted
+  std::string label = {};
+  Ink ink = Ink::automatic;
+};
+
 /// A thin straight line across the plot at one value, with its label beside it.
 struct Rule {
   double at = 0;
@@ -72,10 +79,15 @@ struct Box {
   bool dashed = false;
 };
 
+/// Where the ticks of an axis are: at round numbers; at integers, for counts and numbers of frames; or
+/// at multiples of 45 degrees, or of a divisor of 45 for a small range of angles.
+enum class Ticks { numbers, integers, degrees };
+
 struct PlotAxis {
   std::string label = {};        ///< quantity and unit: "time (s)"
   std::optional<double> lo, hi;  ///< limits of the range, finite; empty: from the data
-  bool reversed = false;         ///< small values right or on top, as the rows of a picture
+  Ticks ticks = Ticks::numbers;
+  bool reversed = false;  ///< small values right or on top, as the rows of a picture
   /// Logarithmic scale: values that are not positive are omitted; lo and hi must be positive. Cannot be
   /// combined with equal_aspect or a second scale.
   bool logarithmic = false;
@@ -92,7 +104,7 @@ struct SecondScale {
 /// A plot: layers in drawing order, and axes. To add a kind of layer, add a struct to `Layer` and its
 /// extent(), draw() and swatch() in plot_layers.cpp.
 struct Plot {
-  using Layer = std::variant<Line, Scatter, Band, Ribbon, Rule, Ellipse, Box>;
+  using Layer = std::variant<Line, Scatter, Band, Ribbon, ErrorBars, Rule, Ellipse, Box>;
 
   std::string title = {};        ///< above the plot; may be empty
   std::string description = {};  ///< text for screen readers; empty: the title

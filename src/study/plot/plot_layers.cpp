@@ -85,6 +85,11 @@ void extent(const Ribbon& r, Range& x, Range& y) {
   for (const auto* side : {&r.lo, &r.hi})
     for (const double v : *side) y.take(v);
 }
+void extent(const ErrorBars& e, Range& x, Range& y) {
+  for (const double v : e.x) x.take(v);
+  for (const auto* end : {&e.lo, &e.hi})
+    for (const double v : *end) y.take(v);
+}
 void extent(const Rule& r, Range& x, Range& y) { (r.of_x ? x : y).take(r.at); }
 void extent(const Ellipse& e, Range& x, Range& y) {
   for (const double side : {-1.0, 1.0}) {
@@ -229,6 +234,20 @@ std::string draw(const Ribbon& r, Ink ink, const Map& map) {
   return out;
 }
 
+constexpr double kCap = 3;  // half the width of the cap of an error bar
+
+std::string draw(const ErrorBars& e, Ink ink, const Map& map) {
+  std::string path;
+  for (std::size_t i = 0; i < std::min({e.x.size(), e.lo.size(), e.hi.size()}); ++i) {
+    if (!std::isfinite(e.x[i] + e.lo[i] + e.hi[i])) continue;
+    const double x = map.to_x(e.x[i]), lo = map.to_y(e.lo[i]), hi = map.to_y(e.hi[i]);
+    path += fmt::format("M{0:.1f} {1:.1f}H{2:.1f}M{3:.1f} {1:.1f}V{4:.1f}M{0:.1f} {4:.1f}H{2:.1f}", x - kCap,
+                        lo, x + kCap, x, hi);
+  }
+  if (path.empty()) return {};
+  return fmt::format(R"(<path {} stroke-width="1.2" d="{}"/>)", stroke(shade(ink)), path);
+}
+
 std::string draw(const Rule& r, Ink ink, const Map& map) {
   if (!std::isfinite(r.at)) return {};
   const double at = r.of_x ? map.to_x(r.at) : map.to_y(r.at);
@@ -261,6 +280,12 @@ std::string draw(const Box& b, Ink ink, const Map& map) {
                    {map.to_x(b.x0), map.to_y(b.y0)}, {map.to_x(b.x1), map.to_y(b.y1)});
 }
 
+bool has_finite(const std::vector<double>& a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (std::isfinite(a[i]) && std::isfinite(b[i])) return true;
+  return false;
+}
+
 // Legend symbols of the layers, around (0, 0).
 std::string swatch(const Line& l, Ink ink) {
   return fmt::format(R"(<path {} stroke-width="{}"{} d="M-9 0h18"/>)", stroke(shade(ink)),
@@ -276,14 +301,29 @@ std::string swatch(const Ribbon&, Ink ink) {
 std::string swatch(const Band&, Ink ink) {
   return rectangle(fill(shade(ink)) + R"( fill-opacity="0.3")", {-9, -5}, {9, 5});
 }
+std::string swatch(const ErrorBars&, Ink ink) {
+  return fmt::format(R"(<path {} stroke-width="1.2" d="M0 -6v12M-3 -6h6M-3 6h6"/>)", stroke(shade(ink)));
+}
 std::string swatch(const Rule&, Ink) { return {}; }  // has its label in the plot
 template <class Outline>
 std::string swatch(const Outline& o, Ink ink) {
   return fmt::format(R"(<path {} stroke-width="1.5"{} d="M-9 0h18"/>)", stroke(shade(ink)), dashes(o.dashed));
 }
 
+bool has_points(const Line& l) { return has_finite(l.x, l.y); }
+bool has_points(const Scatter& s) { return has_finite(s.x, s.y); }
+bool has_points(const Ribbon& r) { return has_finite(r.lo, r.hi); }
+bool has_points(const ErrorBars& e) { return has_finite(e.lo, e.hi); }
+template <class Outline>
+bool has_points(const Outline&) {
+  return false;
+}
+
 }  // namespace
 
+bool layer_has_points(const Plot::Layer& layer) {
+  return std::visit([](const auto& l) { return has_points(l); }, layer);
+}
 void layer_extent(const Plot::Layer& layer, Range& x, Range& y) {
   std::visit([&](const auto& l) { extent(l, x, y); }, layer);
 }

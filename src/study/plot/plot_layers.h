@@ -65,5 +65,7 @@ std::string rectangle(const std::string& look, PlotPoint a, PlotPoint b);
 void layer_extent(const Plot::Layer& layer, Range& x, Range& y);
 std::string layer_drawing(const Plot::Layer& layer, Ink ink, const Map& map);
 std::string layer_swatch(const Plot::Layer& layer, Ink ink);
+/// Whether a layer draws at least one value; outlines, bands and rules are not values.
+bool layer_has_points(const Plot::Layer& layer);
 
 }  // namespace faba::drawing

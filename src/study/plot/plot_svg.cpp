@@ -84,8 +84,8 @@ struct Scale {
   double width = 0;
 };
 
-Scale scale_of(Range r, int tick_count, const std::string& label) {
-  Scale scale{tick_positions(r.lo, r.hi, tick_count), {}, label};
+Scale scale_of(Range r, int tick_count, const std::string& label, Ticks ticks = Ticks::numbers) {
+  Scale scale{tick_positions(r.lo, r.hi, tick_count, ticks), {}, label};
   if (scale.at.empty()) return scale;
   const double size = std::max(std::abs(r.lo), std::abs(r.hi));
   const int exponent = size >= 1e5 || size < 1e-2 ? int(std::floor(std::log10(size))) : 0;
@@ -125,7 +125,8 @@ Scale decades_of(Range r, int tick_count, const std::string& label) {
 }
 
 Scale scale_along(const PlotAxis& axis, Range r, int tick_count) {
-  return axis.logarithmic ? decades_of(r, tick_count, axis.label) : scale_of(r, tick_count, axis.label);
+  return axis.logarithmic ? decades_of(r, tick_count, axis.label)
+                          : scale_of(r, tick_count, axis.label, axis.ticks);
 }
 
 double logarithm(double v) { return v > 0 ? std::log10(v) : std::numeric_limits<double>::quiet_NaN(); }
@@ -295,18 +296,37 @@ std::string opening(const Plot& plot, double height) {
   return out + R"( fill="none" stroke-linecap="round" stroke-linejoin="round">)";
 }
 
+// The step of 1, 2 or 5 times a power of ten that is nearest to `raw`.
+double round_step(double raw) {
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double lead = raw / power;
+  return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+}
+
+// The smallest step of an axis of angles that is at least `raw`; below 1 degree a round number.
+double degree_step(double raw) {
+  if (raw < 1) return round_step(raw);
+  for (const double step : {1.0, 5.0, 15.0, 45.0, 90.0, 180.0})
+    if (raw <= step) return step;
+  return 360;
+}
+
 }  // namespace
 
-std::vector<double> tick_positions(double lo, double hi, int tick_count) {
+std::vector<double> tick_positions(double lo, double hi, int tick_count, Ticks ticks) {
   std::vector<double> at;
   if (!(lo < hi) || !std::isfinite(hi - lo)) return at;
   const double raw = (hi - lo) / std::max(1, tick_count);
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double lead = raw / power;
-  const double step = power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+  const double step = ticks == Ticks::degrees    ? degree_step(raw)
+                      : ticks == Ticks::integers ? std::max(1.0, round_step(raw))
+                                                 : round_step(raw);
   const double first = std::ceil(lo / step - 1e-9), last = std::floor(hi / step + 1e-9);
   for (double k = first; k <= last && at.size() < 1000; ++k) at.push_back(k * step + 0.0);
   return at;
+}
+
+bool has_values(const Plot& plot) {
+  return std::any_of(plot.layers.begin(), plot.layers.end(), layer_has_points);
 }
 
 std::string svg(const Plot& given) {

@@ -51,7 +51,10 @@ thead th{font-weight:600;border-bottom:2px solid var(--line)}
 .numbers th small{display:block;color:var(--muted);font-size:.82rem;line-height:1.35;max-width:34rem}
 .numbers td,.numbers thead th+th{text-align:right;white-space:nowrap;padding-right:0;padding-left:1rem}
 .numbers td small{display:block;color:var(--muted);font-size:.8rem}
-div.wide{overflow-x:auto}
+div.wide{overflow-x:auto;width:min(1240px,100vw - 2.4rem);margin-left:50%;transform:translateX(-50%)}
+.wide table{width:auto;min-width:min(1000px,100%);margin:0 auto}
+.wide .numbers{font-size:.92rem}
+.wide .numbers td,.wide .numbers thead th+th{padding-left:.9rem}
 .wide .numbers thead th{white-space:normal;vertical-align:bottom;line-height:1.3}
 .facts th{color:var(--muted);width:11rem}
 .facts td{overflow-wrap:anywhere;padding-right:0}

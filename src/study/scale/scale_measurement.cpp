@@ -47,6 +47,45 @@ std::vector<Warning> warnings_of(const MarkRow& row) {
            usable ? Quality::doubtful : Quality::poor}};
 }
 
+// Whether the readings bend: t-value of a square of the width beside the line, and the relative change of the
+// slope between the ends that it causes.
+struct Curvature {
+  double t = 0, change = 0;
+  int freedom = 0;
+};
+
+// Of the mean readings of each width: readings of one width have the error of that width in common.
+Curvature curvature_of(const std::map<double, std::vector<double>>& by_width) {
+  std::vector<double> width, px, square;
+  for (const auto& [w, list] : by_width) {
+    width.push_back(w);
+    px.push_back(mean(list));
+    square.push_back(w * w);
+  }
+  const int n = int(width.size());
+  if (n < 5) return {};
+  const LineFit line = fit_line(width, px), of_square = fit_line(width, square);
+  double qq = 0, qr = 0, rr = 0;
+  for (std::size_t i = 0; i < width.size(); ++i) {
+    const double q = square[i] - of_square.intercept - of_square.slope * width[i];
+    const double r = px[i] - line.intercept - line.slope * width[i];
+    qq += q * q;
+    qr += q * r;
+    rr += r * r;
+  }
+  const double c = qr / qq, rest = std::max(0.0, rr - c * qr);
+  return {c / std::sqrt(std::max(rest / (n - 3), 1e-12) / qq),
+          2 * c * (width.back() - width.front()) / line.slope, n - 3};
+}
+
+Warning curvature_warning(const Curvature& bend) {
+  return {"linearity",
+          "the readings are not proportional to the width: distortion of the lens, or a wrong width",
+          fmt::format("the slope changes by {:.0f} % from the smallest to the largest width (t = {:.1f})",
+                      100 * bend.change, bend.t),
+          "measure in the middle of the picture, and check the widths"};
+}
+
 // An uncertainty of the scale is one of every length and speed.
 std::vector<Warning> warnings_of(const TableScale& s) {
   constexpr double kUncertain = 0.1, kUseless = 0.3;  // half of the 95 % interval over the scale, assumed
@@ -127,6 +166,10 @@ TableScale measure_scale(const RulerReadings& readings, const std::string& name)
   s.ratio_bias = s.ratios.mean * line.slope - 1;
   s.source = name;
   s.warnings = warnings_of(s);
+  // Significant at 1 %.
+  const Curvature bend = curvature_of(by_width);
+  if (bend.freedom > 0 && std::fabs(bend.t) > student_t_quantile(0.995, bend.freedom))
+    s.warnings.push_back(curvature_warning(bend));
   return s;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace faba {
 namespace {
@@ -132,6 +133,57 @@ double fit_exponent(const Msd& m, double offset, std::size_t first) {
   }
   if (x.size() < 3) return std::numeric_limits<double>::quiet_NaN();
   return straight_line(x, y, w).slope;
+}
+
+double jackknife_se(const std::vector<double>& v) {
+  if (v.size() < 4) return std::numeric_limits<double>::quiet_NaN();
+  double mean = 0, square = 0;
+  for (const double x : v) mean += x / double(v.size());
+  for (const double x : v) square += (x - mean) * (x - mean);
+  return std::sqrt(square * double(v.size() - 1) / double(v.size()));
+}
+
+std::size_t last_compared(const Msd& m, const DiffusionFit& f) {
+  constexpr double kBeyond = 4;
+  if (m.size() == 0) return 0;
+  std::size_t last = std::min(f.first + std::max<std::size_t>(1, f.lags), m.size()) - 1;
+  const double most = kBeyond * m.lag_s[last];
+  while (last + 1 < m.size() && m.lag_s[last + 1] <= most) ++last;
+  return last;
+}
+
+MsdMisfit msd_misfit(const FittedMsd& all, const std::vector<FittedMsd>& left_out, std::size_t first,
+                     std::size_t last) {
+  constexpr int kCompared = 6;
+  constexpr double kMatters = 0.1;
+  // Two-sided quantile of Student's t with 19 degrees of freedom for a chance of 1 % over six comparisons.
+  constexpr double kStudent = 3.66;
+  std::set<std::size_t> compared;
+  for (int i = 0; i < kCompared && last < all.msd.size() && first <= last; ++i)
+    compared.insert(std::size_t(std::lround(
+        double(first + 1) * std::pow(double(last + 1) / double(first + 1), double(i) / (kCompared - 1)) -
+        1)));
+  const auto deviation = [](const FittedMsd& f, std::size_t k) {
+    return f.msd.msd_px2[k] / f.law_px2[k] - 1;
+  };
+  MsdMisfit worst;
+  double clearest = 0;
+  for (const std::size_t k : compared) {
+    if (!(all.law_px2[k] > 0)) continue;
+    std::vector<double> others;
+    for (const FittedMsd& f : left_out)
+      if (k < f.msd.size() && f.law_px2[k] > 0) others.push_back(deviation(f, k));
+    const MsdMisfit m{all.msd.lag_s[k], deviation(all, k), jackknife_se(others), false};
+    const double size = std::fabs(m.deviation);
+    // Among significant deviations the largest, else the clearest.
+    const bool significant = size > kMatters && size > kStudent * m.se;
+    const double clear = significant ? 1e6 * (1 + size) : m.se > 0 ? size / m.se : 0;
+    if (clear < clearest) continue;
+    clearest = clear;
+    worst = m;
+    worst.significant = significant;
+  }
+  return worst;
 }
 
 double diffusion_msd(const DiffusionFit& f, double t) { return 4 * f.d_px2_s * t + f.offset_px2; }

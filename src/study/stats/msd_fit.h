@@ -44,6 +44,31 @@ PersistentFit fit_persistent(const Msd& msd);
 /// three such lags.
 double fit_exponent(const Msd& msd, double offset_px2, std::size_t first = 0);
 
+/// Largest deviation of a mean-square displacement from a fitted law.
+struct MsdMisfit {
+  double lag_s = 0;
+  double deviation = 0, se = 0;  ///< relative to the law; se NaN: unknown
+  /// Whether it exceeds 10 % (assumed to matter), and its standard error by more than chance gives in 1 % of
+  /// the videos.
+  bool significant = false;
+};
+/// A mean-square displacement, and the law that was fitted to it at each of its lags.
+struct FittedMsd {
+  Msd msd;
+  std::vector<double> law_px2;
+};
+/// Compares up to six lags between the indices `first` and `last`, spaced evenly on a logarithmic scale. The
+/// values at different lags are correlated, therefore the standard error of each deviation is that of a
+/// jackknife: `left_out` are the same fits with each group of tracks left out; with fewer than four nothing
+/// is significant.
+MsdMisfit msd_misfit(const FittedMsd& all, const std::vector<FittedMsd>& left_out, std::size_t first,
+                     std::size_t last);
+/// The last index of the comparison for diffusion: lags up to four times that of the last fitted one.
+std::size_t last_compared(const Msd& msd, const DiffusionFit& fit);
+
+/// The standard error from estimates that each leave out one of as many groups; NaN for fewer than four.
+double jackknife_se(const std::vector<double>& estimates);
+
 /// The fitted curves, for plots.
 double diffusion_msd(const DiffusionFit& fit, double lag_s);
 double persistent_msd(const PersistentFit& fit, double lag_s);

@@ -15,6 +15,8 @@ enum class StudyDraws : std::uint32_t {
   bootstrap = 3,        ///< resampling of experiments
   timing = 9,           ///< start times of field segments
   measurement = 10,     ///< measurement noise added to statistics of simulations
+  apparatus = 11,       ///< errors of the stated scale, field strength and number of cells
+  u_turn = 12,          ///< simulated U-turns and their resampling
   first_proposal = 100  ///< parameters of search round 0; round n has first_proposal + n
 };
 

@@ -12,6 +12,7 @@
 #include "app/scenario/file_kind.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
+#include "control/setpoint_count.h"
 #include "core/hash.h"
 #include "core/random/distributions.h"
 #include "study/stats/statistics.h"
@@ -55,6 +56,7 @@ struct Setting {
   std::size_t controller = 0, model = 0;
   int delay = 0;
   Scenario scenario;
+  std::size_t setpoints = 0;  ///< of the reference
 };
 
 std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::string>* notes = nullptr) {
@@ -80,15 +82,15 @@ std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::str
           for (const std::string& note : scenario_notes(s, check, std::filesystem::current_path()))
             if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
         const int frames = s.camera.delay_frames;
-        all.push_back({c, m, frames, std::move(s)});
+        all.push_back({c, m, frames, std::move(s), setpoint_count(check.reference())});
       }
   return all;
 }
 
 /// Results of a trial: the metrics, then times, distances and radii of some of the frames.
-std::vector<double> trial_values(const Scenario& s, std::uint64_t seed, const std::function<bool()>& stop) {
-  const Series series = trial(s, seed, stop);
-  const Metrics m = control_metrics(series);
+std::vector<double> trial_values(const Setting& s, std::uint64_t seed, const std::function<bool()>& stop) {
+  const Series series = trial(s.scenario, seed, stop);
+  const Metrics m = control_metrics(series, {}, s.setpoints);
   std::vector<double> values;
   for (const MetricInfo* one : compared_metrics()) values.push_back((m.*one->value).value_or(kNaN));
   const std::size_t stride = (series.size() + kMostPoints - 1) / kMostPoints;
@@ -243,8 +245,8 @@ std::optional<ControllerComparison> compare_controllers(const ControllerStudy& s
     for (int k = 0; k < study.seeds; ++k) {
       const std::uint64_t seed = study.first_seed + std::uint64_t(k);
       tasks.push_back(
-          {task_key(fmt::format("controller trial, metrics of version 0.2, {} {}", s.scenario.hash(), seed)),
-           [&s, seed, &options] { return trial_values(s.scenario, seed, options.stop); }});
+          {task_key(fmt::format("controller trial, metrics of version 0.3, {} {}", s.scenario.hash(), seed)),
+           [&s, seed, &options] { return trial_values(s, seed, options.stop); }});
     }
   if (!sweep(results, tasks, options)) return {};
   ControllerComparison c{study, {}, std::move(notes)};

@@ -193,7 +193,8 @@ void measure_command(Metrics& m, const Series& series, Values t) {
 
 }  // namespace
 
-Metrics control_metrics(const Series& series, std::optional<double> tolerance_px) {
+Metrics control_metrics(const Series& series, std::optional<double> tolerance_px,
+                        std::size_t given_setpoints) {
   const Values t = series.column("t_s"), d = series.column("distance_px");
   const SwarmColumns swarm = swarm_columns(series);
   check_times(series, t);
@@ -210,6 +211,8 @@ Metrics control_metrics(const Series& series, std::optional<double> tolerance_px
   measure_error(m, t, d, first_leg_end);
   m.setpoints = route.vertex.size();
   if (m.setpoints == 0 && m.initial_error_px) m.setpoints = 1;  // older recordings have the distance only
+  m.given_setpoints = std::max(m.setpoints, given_setpoints);
+  if (m.route_unfinished()) m.settling_time_s.reset();
   if (m.initial_error_px) {
     const std::vector<std::size_t> since = route.since.empty() ? std::vector<std::size_t>{0} : route.since;
     m.setpoints_reached = double(reached(d, since, tolerance_px.value_or(*m.settling_band_px)));

@@ -19,6 +19,8 @@ struct Metrics {
   std::size_t frames = 0;     ///< rows of the series
   double duration_s = 0;      ///< from the first to the last frame
   std::size_t setpoints = 0;  ///< distinct successive setpoints: 0 no target, 1 hold, more on a route
+  /// Setpoints of the reference, including those that were not reached before the end of the run.
+  std::size_t given_setpoints = 0;
 
   /// Number of reached setpoints: those with a frame with d <= the tolerance of the reference, or <= the
   /// settling band when the reference has no tolerance. A repeated setpoint counts again. Empty without a
@@ -32,7 +34,8 @@ struct Metrics {
   /// Half-width of the settling band, px: the larger of 5 % of d0 and 10 px.
   std::optional<double> settling_band_px;
   /// Time from t0 to the last entry into the band, s: to the first frame from which all targeted frames have
-  /// d <= band. 0 when the band is never left; empty when the last targeted frame is outside.
+  /// d <= band. 0 when the band is never left; empty when the swarm is not settled: the last targeted frame
+  /// is outside, or the run ended before the last setpoint of its route, where d leaves the band again.
   std::optional<double> settling_time_s;
   /// Time from the first fall of d to 90 % of d0 to its first fall to 10 %, s, interpolated linearly between
   /// frames, in the first leg: the frames up to the first change of the setpoint. Empty when 10 % is not
@@ -74,11 +77,19 @@ struct Metrics {
   std::optional<double> total_variation_ut;
   /// Fraction of the frames whose command was clipped by a limit, 0 to 1.
   std::optional<double> limited_fraction;
+
+  static constexpr std::size_t kMaxRouteSetpoints = 50;  ///< more are a moving setpoint, not a route
+  /// Whether the run ended before the last setpoint of its route.
+  bool route_unfinished() const {
+    return setpoints > 0 && setpoints < given_setpoints && given_setpoints <= kMaxRouteSetpoints;
+  }
 };
 
 /// Computes the metrics that the columns permit. Needs `t_s`, `distance_px`, the centroid and sigmas of
 /// swarm_columns(), and increasing times; else throws Error(Errc::input) with file and line. For a series
-/// without rows frames is 0 and all metrics are empty. `tolerance_px`: of the reference, if it has one.
-Metrics control_metrics(const Series& series, std::optional<double> tolerance_px = {});
+/// without rows frames is 0 and all metrics are empty. `tolerance_px`: of the reference, if it has one;
+/// `given_setpoints`: the number of its setpoints, if known.
+Metrics control_metrics(const Series& series, std::optional<double> tolerance_px = {},
+                        std::size_t given_setpoints = 0);
 
 }  // namespace faba

@@ -77,6 +77,14 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
   results_ = std::make_unique<ResultStore>(dir / kResults);
 }
 
+void StudyDirectory::complete(const nlohmann::ordered_json& more) {
+  nlohmann::ordered_json j{{"study_hash", study_hash_}, {"version", FABA_VERSION}};
+  j.update(more);
+  write_file(dir_ / kStudy, j.dump(2) + "\n");
+  lock_.complete();
+  complete_ = true;
+}
+
 void check_merge(const std::vector<fs::path>& dirs, const std::string& study_hash) {
   for (const fs::path& other : dirs) {
     if (!fs::exists(other))

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "core/file_lock.h"
 #include "study/sweep/result_store.h"
 
@@ -34,11 +36,8 @@ class StudyDirectory {
   /// Adds the results of other directories of the same study. Throws Error(usage) for a different study,
   /// Error(input) for a directory without a study.
   void merge(const std::vector<std::filesystem::path>& dirs);
-  /// Marks the study as complete; call it when everything is written.
-  void complete() {
-    lock_.complete();
-    complete_ = true;
-  }
+  /// Marks the study as complete; call it when everything is written. `more`: added to study.json.
+  void complete(const nlohmann::ordered_json& more);
 
  private:
   std::filesystem::path dir_;

@@ -50,6 +50,11 @@ void LinkCheck::take_links() {
     }
 }
 
+LinkCheck::Tested LinkCheck::tested(std::uint64_t track) const {
+  const auto at = tested_.find(track);
+  return at == tested_.end() ? Tested{} : at->second;
+}
+
 std::optional<double> LinkCheck::reproduced() {
   reduced_.finish();
   take_links();
@@ -57,7 +62,13 @@ std::optional<double> LinkCheck::reproduced() {
   for (const auto& [from, to] : links_) {
     const auto a = track_of_.find(from), b = track_of_.find(to);
     ++compared;
-    if (a != track_of_.end() && b != track_of_.end() && a->second == b->second) ++same;
+    const bool is_same = a != track_of_.end() && b != track_of_.end() && a->second == b->second;
+    if (is_same) ++same;
+    if (a != track_of_.end()) {
+      tested_[a->second].links += 1;
+      tested_[a->second].reproduced += is_same;
+    }
+    if (b != track_of_.end() && !is_same) tested_[b->second].links += 1;
   }
   if (compared < kFewLinks) return {};
   return double(same) / double(compared);

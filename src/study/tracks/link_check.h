@@ -23,6 +23,15 @@ class LinkCheck {
   /// To be called after the last frame. Empty with fewer than 30 links.
   std::optional<double> reproduced();
 
+  /// Links across an omitted frame with an end in one track, and those of them that were reproduced.
+  struct Tested {
+    std::uint64_t links = 0, reproduced = 0;
+  };
+  /// Of the track with this number; to be called after reproduced().
+  Tested tested(std::uint64_t track) const;
+  /// The last frame that was compared.
+  std::uint64_t last_frame() const { return last_frame_; }
+
  private:
   static constexpr std::size_t kMostSpots = 200000;
   using Key = std::uint64_t;
@@ -36,7 +45,8 @@ class LinkCheck {
   std::vector<std::uint64_t> omitted_;  ///< frame numbers, ascending
   std::size_t spots_ = 0;
   std::unordered_map<Key, std::uint64_t> track_of_;  ///< number of the track of all frames
-  std::vector<std::pair<Key, Key>> links_;           ///< across omitted frames
+  std::unordered_map<std::uint64_t, Tested> tested_;
+  std::vector<std::pair<Key, Key>> links_;  ///< across omitted frames
 };
 
 }  // namespace faba

@@ -19,8 +19,9 @@ constexpr std::size_t kMostComponents = 3;
 constexpr double kSmallest = 0.05;  // fraction of a population
 // Of one of three: a third component also fits the flank of a skewed distribution.
 constexpr double kSmallestOfThree = 0.15;
+constexpr double kLeastPenalty = 2;          // per parameter, for few tracks: that of Akaike's criterion
 constexpr double kSeparation = 2;            // Ashman's D: two normal distributions have two maxima above it
-constexpr double kLeastSpread = 0.05;        // of the logarithm of the speed
+constexpr double kLeastLogSpread = 0.05;     // of the logarithm of the speed
 constexpr double kStill = 2;                 // localisation errors of a displacement (97.7 %)
 constexpr double kTogether = 0.5;            // mean velocity over speed, of a drift
 constexpr double kLeastDisplacement = 0.02;  // px, of a well resolved spot
@@ -60,13 +61,13 @@ Mixture fitted(const std::vector<Sample>& samples, std::size_t components) {
     square += s.weight * s.log_speed * s.log_speed;
   }
   mean /= total;
-  const double sd = std::max(kLeastSpread, std::sqrt(std::max(0.0, square / total - mean * mean)));
+  const double sd = std::max(kLeastLogSpread, std::sqrt(std::max(0.0, square / total - mean * mean)));
   Mixture m(components);
   const double low = samples.front().log_speed, high = samples.back().log_speed;
   for (std::size_t k = 0; k < components; ++k)
     m[k] = {1 / double(components),
             components == 1 ? mean : low + (high - low) * (double(k) + 0.5) / double(components),
-            components == 1 ? sd : std::max(kLeastSpread, sd / double(components))};
+            components == 1 ? sd : std::max(kLeastLogSpread, sd / double(components))};
   for (int i = 0; i < kIterations && components > 1; ++i) {
     std::vector<std::array<double, 3>> sums(components);  // weight, first and second moment
     std::array<double, kMostComponents> density{};
@@ -88,7 +89,7 @@ Mixture fitted(const std::vector<Sample>& samples, std::size_t components) {
       const double w = std::max(sums[k][0], 1e-9 * total);
       const double centre = sums[k][1] / w;
       m[k] = {w / total, centre,
-              std::max(kLeastSpread, std::sqrt(std::max(0.0, sums[k][2] / w - centre * centre)))};
+              std::max(kLeastLogSpread, std::sqrt(std::max(0.0, sums[k][2] / w - centre * centre)))};
     }
   }
   std::sort(m.begin(), m.end(), [](const Component& a, const Component& b) { return a.mean < b.mean; });
@@ -109,7 +110,8 @@ Mixture chosen(const std::vector<Sample>& samples) {
   double n = 0;
   for (const Sample& s : samples) n += s.weight;
   const auto criterion = [&](const Mixture& m) {
-    return -2 * log_likelihood(samples, m) + (3 * double(m.size()) - 1) * std::log(n);
+    return -2 * log_likelihood(samples, m) +
+           (3 * double(m.size()) - 1) * std::max(kLeastPenalty, std::log(n));
   };
   Mixture best = fitted(samples, 1);
   for (std::size_t components = 2; components <= kMostComponents; ++components) {

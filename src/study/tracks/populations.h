@@ -28,9 +28,9 @@ struct SpeedPopulation {
 /// may stop and start. The speed in a window is the mean of its displacements, corrected for the
 /// localisation error. A mixture of up to three normal distributions of the logarithm of the speed is fitted;
 /// the number of components has the smallest Bayesian information criterion with as many observations as
-/// there are tracks. Components of less than 5 % of the windows (15 % with three components), or nearer to
-/// each other than two standard deviations (Ashman's D), are not separated. Memory: 20 000 windows for each
-/// of six lags.
+/// there are tracks, or that of Akaike for fewer than eight. Components of less than 5 % of the windows (15 %
+/// with three components), or nearer to each other than two standard deviations (Ashman's D), are not
+/// separated. Memory: 20 000 windows for each of six lags.
 class PopulationSurvey {
  public:
   /// `frame_s`: time between frames, s.

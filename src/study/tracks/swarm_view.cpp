@@ -22,7 +22,8 @@ void multiply(GrayF& frame, float by) {
 
 }  // namespace
 
-SwarmView::SwarmView(const TrackSurvey& survey, int bits) : foreground_(options_of(survey)) {
+SwarmView::SwarmView(const TrackSurvey& survey, int bits)
+    : foreground_(options_of(survey)), region_(survey.region) {
   // The scale keeps black at 0, so that the absorbed fraction of the light is preserved.
   if (bits > 8 && survey.white > 0) scale_ = 255 / survey.white;
   std::vector<float> noise = survey.background.noise_sd.px;
@@ -34,11 +35,13 @@ SwarmView::SwarmView(const TrackSurvey& survey, int bits) : foreground_(options_
 }
 
 SwarmMoments SwarmView::take(const GrayF& frame, double t_s) {
-  GrayF grey = frame;
+  GrayF grey = cropped(frame, region_);
   if (scale_ != 1) multiply(grey, scale_);
   foreground_.take(grey, noise_, t_s - last_s_);
   last_s_ = t_s;
-  return foreground_.moments();
+  SwarmMoments m = foreground_.moments();
+  m.centroid_image = m.centroid_image + Vec2{double(region_.col), double(region_.row)};
+  return m;
 }
 
 }  // namespace faba

@@ -7,26 +7,15 @@
 #include <fmt/format.h>
 
 #include "core/counted.h"
-#include "core/statistics.h"
 #include "core/threads/ordered_work.h"
 #include "core/threads/parallel.h"
 #include "study/tracks/link_check.h"
+#include "study/tracks/spot_sums.h"
 #include "study/tracks/track_warnings.h"
-#include "vision/drop/drop_edge.h"
 #include "vision/files/video_reader.h"
 
 namespace faba {
 namespace {
-
-std::optional<DropMask> drop_of(const TrackOptions& o, const TrackSurvey& s) {
-  if (!o.inside_drop) return {};
-  DropEdgeOptions edge_options;
-  edge_options.name = o.video.string();
-  const DropEdge edge = find_drop_edge(s.first, edge_options);
-  return DropMask{edge.centre_image, edge.radius_px, edge.centre_side_inside, s.size_px};
-}
-
-constexpr std::size_t kMostSnr = 200000;  // spots
 
 // The second pass over the frames: detection and tracking.
 class TrackPass {
@@ -39,13 +28,14 @@ class TrackPass {
         links_(o.tracker),
         statistics_(s.frame_s, o.interval_frames),
         populations_(s.frame_s),
+        drift_(s.frame_s),
         drop_(drop_of(o, s)) {}
 
   void run(const std::filesystem::path& video, const std::function<void(std::int64_t)>& tick) {
     const unsigned threads = OrderedWork::threads(options_.threads);
     VideoReader reader(video, options_.part.fps, threads);
     const Detector detector(survey_.background, detector_options(options_, survey_, drop_));
-    threshold_ = detector.threshold_sd();
+    detection_ = detection_of(options_, survey_, detector, drop_);
     std::uint64_t index = options_.part.from_s > 0 ? std::uint64_t(reader.skip_to(options_.part.from_s)) : 0;
     std::vector<SpottedFrame> frames(OrderedWork::slots(threads));
     const auto read = [&](std::size_t slot) {
@@ -66,27 +56,12 @@ class TrackPass {
     }
     tracker_.finish();
     emit_tracks();
+    remove_drift();
   }
 
   TrackDetection detection() const {
-    const double n = std::max(1.0, spots_found_);
-    std::vector<float> noise = survey_.background.noise_sd.px;
-    TrackDetection d;
-    d.size_px = survey_.size_px;
-    d.polarity = survey_.polarity;
-    d.temporal = survey_.temporal;
-    d.background_frames = survey_.background.frames;
-    d.noise_grey = double(robust_spread_low(noise).median);
-    d.threshold_snr = threshold_;
-    d.threshold_given = options_.threshold_sd > 0;
-    d.spots_per_frame = spots_found_ / std::max(1.0, frames_);
-    d.stationary_spots = survey_.stationary_spots;
-    if (!snr_.empty()) d.median_snr = median(snr_);
-    if (spots_found_ > 0) {
-      d.mean_place_sd_px = place_sd_ / n;
-      d.mean_elongation = elongation_ / n;
-    }
-    d.drop = drop_;
+    TrackDetection d = detection_;
+    spots_.describe(d);
     return d;
   }
   TrackJoining joining() {
@@ -94,8 +69,11 @@ class TrackPass {
             options_.tracker.min_points, tracker_.discarded_tracks(), tracker_.crowded(),
             links_.reproduced()};
   }
+  /// To be called after joining().
+  std::vector<TrackScore> scores() const { return scores_.scores(links_); }
+  const StageDrift& stage() const { return stage_; }
   std::vector<SpeedPopulation> populations(const TrackSummary& s) const {
-    return populations_.populations(s.interval_frames, s.localisation_px);
+    return populations_.populations(s.interval_frames, std::max(s.localisation_px, stage_.error_px));
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }
@@ -110,13 +88,10 @@ class TrackPass {
 
   void find_spots(const Detector& detector, SpottedFrame& f) const {
     make_finite(f.picture);
-    f.spots = survey_.temporal ? detector.find(f.picture)
-                               : Detector(spatial_background(f.picture, survey_.smoothing_px),
-                                          detector_options(options_, survey_, drop_))
-                                     .find(f.picture);
+    f.spots = spots_in(f.picture, detector, survey_);
   }
   void take(const SpottedFrame& f) {
-    count_spots(f.spots);
+    spots_.take(f.spots);
     if (f.t_s > last_s_) {
       tracker_.take(f.index, f.t_s, f.spots);
       links_.take(f.index, f.t_s, f.spots);
@@ -127,21 +102,27 @@ class TrackPass {
     listener_.frame(f.index, f.t_s, f.picture, tracker_);
     emit_tracks();
   }
-  void count_spots(const std::vector<Spot>& found) {
-    ++frames_;
-    spots_found_ += double(found.size());
-    for (const Spot& s : found) {
-      elongation_ += s.elongation;
-      place_sd_ += s.sd_px;
-      if (snr_.size() < kMostSnr) snr_.push_back(s.snr);
-    }
-  }
   void emit_tracks() {
     for (const Track& t : tracker_.finished()) {
       listener_.track(t);
       statistics_.take(t);
       populations_.take(t);
       links_.track(t);
+      scores_.take(t);
+      drift_.take(t);
+    }
+  }
+  // Speeds and mean-square displacements relative to the stage, when it moves.
+  void remove_drift() {
+    stage_ = drift_.result();
+    stage_.removed = stage_.finding == StageFinding::drifting && !options_.keep_drift;
+    if (!stage_.removed) return;
+    statistics_ = TrackStatistics(survey_.frame_s, options_.interval_frames);
+    populations_ = PopulationSurvey(survey_.frame_s);
+    for (const Track& t : drift_.tracks()) {
+      const Track relative = stage_.relative(t);
+      statistics_.take(relative);
+      populations_.take(relative);
     }
   }
 
@@ -152,10 +133,13 @@ class TrackPass {
   LinkCheck links_;
   TrackStatistics statistics_;
   PopulationSurvey populations_;
-  std::vector<double> snr_;
+  TrackScores scores_;
+  DriftSurvey drift_;
+  StageDrift stage_;
+  SpotSums spots_;
+  TrackDetection detection_;
   std::optional<DropMask> drop_;
   double last_s_ = -1;
-  double threshold_ = 0, spots_found_ = 0, frames_ = 0, elongation_ = 0, place_sd_ = 0;
   std::int64_t repeated_times_ = 0;
 };
 
@@ -173,7 +157,8 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
   m.timed = survey.timed;
   m.width = survey.first.width;
   m.height = survey.first.height;
-  if (source.um_per_px && *source.um_per_px > 0) m.um_per_px = source.um_per_px;
+  m.um_per_px = source.scale.um_per_px;
+  m.um_per_px_source = source.scale.source;
   m.detection = pass.detection();
   m.joining = pass.joining();
   m.summary = pass.summary();
@@ -202,7 +187,16 @@ TrackMeasurement measure_tracks(const TrackOptions& o, const RunVideo& source, c
                                         counted(std::uint64_t(o.tracker.min_points), "detection"),
                                         counted(std::uint64_t(survey.frames), "frame")));
   m.populations = pass.populations(m.summary);
-  m.warnings = track_warnings(m);
+  m.stage = pass.stage();
+  m.scores = pass.scores();
+  if (m.stage.finding == StageFinding::undecided && mean_order(m.summary) > 0.5)
+    m.notes.emplace_back(
+        "it cannot be decided whether the common motion is that of the objects or of the stage: no objects "
+        "keep "
+        "their distances");
+  m.warnings = survey.warnings;
+  const std::vector<Warning> found = track_warnings(m);
+  m.warnings.insert(m.warnings.end(), found.begin(), found.end());
   return m;
 }
 

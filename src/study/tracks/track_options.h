@@ -3,9 +3,12 @@
 #include <optional>
 #include <vector>
 
+#include "study/data/provenance.h"
 #include "study/data/video_part.h"
+#include "study/data/video_scale.h"
 #include "vision/cells/tracker.h"
 #include "vision/foreground/background.h"
+#include "vision/image/region.h"
 
 namespace faba {
 
@@ -18,23 +21,27 @@ enum class BackgroundKind {
 
 /// Options of `faba track`. Unspecified values are determined from the video.
 struct TrackOptions {
-  std::filesystem::path video;  ///< anything VideoReader reads, or a run directory
-  VideoPart part;               ///< frames outside of it are not used
-  unsigned threads = 0;         ///< 0: all; they do not change the result
-  std::optional<double> um_per_px;
+  std::filesystem::path video;             ///< anything VideoReader reads, or a run directory
+  VideoPart part;                          ///< frames outside of it are not used
+  unsigned threads = 0;                    ///< 0: all; they do not change the result
+  VideoScale scale;                        ///< given by the user; overrides that of the run or file
   std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
-  std::filesystem::path swarm;    ///< table of position and dispersion of the swarm in each frame, .csv
-  std::filesystem::path overlay;  ///< video with the tracks, .mp4 or .avi
-  std::filesystem::path report;   ///< page with the figures, .html
-  std::filesystem::path picture;  ///< all tracks on the first frame, .png
-  std::filesystem::path figures;  ///< folder for the figures, one .svg each
-  double size_px = 0;             ///< full width at half maximum of a spot; 0: automatic
+  std::filesystem::path swarm;      ///< table of position and dispersion of the swarm in each frame, .csv
+  std::filesystem::path overlay;    ///< video with the tracks, .mp4 or .avi
+  std::filesystem::path report;     ///< page with the figures, .html
+  std::filesystem::path picture;    ///< all tracks on the first frame, .png
+  std::filesystem::path per_track;  ///< table with a row for each track, .csv
+  std::filesystem::path figures;    ///< folder for the figures, one .svg each
+  double size_px = 0;               ///< full width at half maximum of a spot; 0: automatic
   Polarity polarity = Polarity::automatic;
   BackgroundKind background = BackgroundKind::automatic;
-  double threshold_sd = 0;   ///< smallest signal-to-noise ratio; 0: for 0.1 false detections per frame
+  double threshold_sd = 0;  ///< smallest signal-to-noise ratio; 0: for 0.1 false detections per frame
+  std::optional<PixelRegion> region;  ///< only this part of the frames is searched; empty: all of it
   bool inside_drop = false;  ///< detect the edge of the drop in the first frame and search inside it only
   TrackerOptions tracker;
-  int interval_frames = 0;  ///< interval of displacements for speeds and turns; 0: automatic
+  bool keep_drift = false;  ///< do not subtract the motion of the stage
+  int interval_frames = 0;     ///< interval of displacements for speeds and turns; 0: automatic
+  Provenance provenance = {};  ///< for the report
 };
 
 }  // namespace faba

@@ -9,6 +9,10 @@ SupportedWalk supported_walk(const TrackSummary& s) {
   return s.persists ? SupportedWalk::persistent : SupportedWalk::diffusion;
 }
 
+const MsdMisfit& misfit_of(const TrackSummary& s) {
+  return s.persists ? s.persistent_misfit : s.diffusion_misfit;
+}
+
 double mean_order(const TrackSummary& s) {
   double order = 0, n = 0;
   for (std::size_t i = 0; i < s.order_in_time.size(); ++i) {

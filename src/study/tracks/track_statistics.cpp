@@ -31,16 +31,12 @@ std::vector<int> lags_up_to(int most) {
   return lags;
 }
 
-// Index of the point of a track for each frame time since its first detection; -1: not detected.
-std::vector<int> slots_of(const Track& track, double frame_s) {
-  std::vector<int> slots;
-  for (std::size_t i = 0; i < track.points.size(); ++i) {
-    const auto at = std::size_t(std::lround((track.points[i].t_s - track.points[0].t_s) / frame_s));
-    if (at > 10000000) break;  // a pause of months in the time stamps
-    slots.resize(std::max(slots.size(), at + 1), -1);
-    slots[at] = int(i);
-  }
-  return slots;
+// The law of a fit at the lags of a mean-square displacement.
+template <class Law>
+FittedMsd fitted_msd(const Msd& m, const Law& law) {
+  FittedMsd f{m, {}};
+  for (const double lag : m.lag_s) f.law_px2.push_back(law(lag));
+  return f;
 }
 
 }  // namespace
@@ -58,7 +54,7 @@ struct TrackStatistics::Impl {
   double track_count = 0;
   std::vector<double> speed_bins = std::vector<double>(kSpeedBins),
                       turn_bins = std::vector<double>(kTurnBins);
-  double sum_x = 0, sum_y = 0, sum_length = 0;
+  VelocitySums velocity;
   TimeBins in_time;
 
   Impl(double frame, int frames) : frame_s(frame), interval(frames), lags(lags_up_to(400)), in_time(frame) {
@@ -77,6 +73,7 @@ struct TrackStatistics::Impl {
   Estimated product(std::size_t which, std::vector<ProductSums> TrackGroup::*list) const;
   void test_persistence(TrackSummary& s) const;
   void fit(TrackSummary& s) const;
+  void fit_without_groups(TrackSummary& s, double offset, std::size_t skipped) const;
   void motion(TrackSummary& s) const;
 };
 
@@ -137,9 +134,7 @@ void TrackStatistics::Impl::add_motion(const Track& t) {
     g.speed.v += v;
     const double bin = length > kLowSpeed ? kBinsPerDecade * std::log10(length / kLowSpeed) : 0;
     speed_bins[std::min(kSpeedBins - 1, std::size_t(bin))] += 1;
-    sum_x += d.x / dt;
-    sum_y += d.y / dt;
-    sum_length += norm(d) / dt;
+    velocity.take((1 / dt) * d);
     const bool clear = dot(d, d) > 9 * 2 * noise2 && dot(d, d) > 0;
     if (clear && has_last) {
       const double turn = std::atan2(last.x * d.y - last.y * d.x, dot(last, d));
@@ -245,24 +240,39 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
   s.persistent = fit_persistent(s.msd);
   const double offset = s.persists && s.persistent.good ? s.persistent.offset_px2 : s.diffusion.offset_px2;
   s.localisation_px = std::sqrt(std::max(0.0, offset / 4));
-  // The same lags and weights with each group left out.
-  const auto left_out = [&](const TrackGroup& g) {
+  fit_without_groups(s, offset, skipped);
+}
+
+// Standard errors and misfit: the same lags and weights with each group left out.
+void TrackStatistics::Impl::fit_without_groups(TrackSummary& s, double offset, std::size_t skipped) const {
+  std::vector<double> d, speed, tau, alpha;
+  std::vector<FittedMsd> diffusion, persistent;
+  const auto with = [](const auto& fit, double (*law)(decltype(fit), double)) {
+    return [&fit, law](double lag) { return law(fit, lag); };
+  };
+  for (const TrackGroup& g : groups) {
+    if (!(g.tracks > 0)) continue;
     Msd m = msd_without(&g);
     for (std::size_t k = 0; k < m.size(); ++k) m.se_px2[k] = s.msd.se_px2[k];
-    return m;
-  };
-  s.d_px2_s = {s.diffusion.d_px2_s, jackknife_se(groups, [&](const TrackGroup& g) {
-                 return fit_diffusion(left_out(g), s.diffusion.first, s.diffusion.lags).d_px2_s;
-               })};
-  s.speed_rms_px_s = {s.persistent.speed_px_s, jackknife_se(groups, [&](const TrackGroup& g) {
-                        return fit_persistent(left_out(g)).speed_px_s;
-                      })};
-  s.tau_s = {s.persistent.tau_s,
-             jackknife_se(groups, [&](const TrackGroup& g) { return fit_persistent(left_out(g)).tau_s; })};
-  if (s.persistent.tau_open) s.tau_s.se = kNaN;
-  s.alpha = {fit_exponent(s.msd, offset, skipped), jackknife_se(groups, [&](const TrackGroup& g) {
-               return fit_exponent(left_out(g), offset, skipped);
-             })};
+    const DiffusionFit straight = fit_diffusion(m, s.diffusion.first, s.diffusion.lags);
+    const PersistentFit walk = fit_persistent(m);
+    d.push_back(straight.d_px2_s);
+    speed.push_back(walk.speed_px_s);
+    tau.push_back(walk.tau_s);
+    alpha.push_back(fit_exponent(m, offset, skipped));
+    diffusion.push_back(fitted_msd(m, with(straight, diffusion_msd)));
+    persistent.push_back(fitted_msd(m, with(walk, persistent_msd)));
+  }
+  s.d_px2_s = {s.diffusion.d_px2_s, jackknife_se(d)};
+  s.speed_rms_px_s = {s.persistent.speed_px_s, jackknife_se(speed)};
+  s.tau_s = {s.persistent.tau_s, s.persistent.tau_open ? kNaN : jackknife_se(tau)};
+  s.alpha = {fit_exponent(s.msd, offset, skipped), jackknife_se(alpha)};
+  if (s.diffusion.good)
+    s.diffusion_misfit = msd_misfit(fitted_msd(s.msd, with(s.diffusion, diffusion_msd)), diffusion,
+                                    s.diffusion.first, last_compared(s.msd, s.diffusion));
+  if (s.persistent.good)
+    s.persistent_misfit =
+        msd_misfit(fitted_msd(s.msd, with(s.persistent, persistent_msd)), persistent, 0, s.msd.size() - 1);
 }
 
 void TrackStatistics::Impl::set_interval() {
@@ -317,7 +327,8 @@ void TrackStatistics::Impl::motion(TrackSummary& s) const {
     s.speed_quantiles_px_s.push_back(binned_quantile(speed_bins, q, speed_at));
     s.turn_quantiles_deg_s.push_back(binned_quantile(turn_bins, q, turn_at));
   }
-  s.order = sum_length > 0 ? std::hypot(sum_x, sum_y) / sum_length : kNaN;
+  s.velocity_isotropy = velocity.isotropy();
+  s.order = velocity.length > 0 ? norm(velocity.sum) / velocity.length : kNaN;
   const double typical = s.speed_quantiles_px_s[1] * s.interval_s;
   if (typical > 0)
     s.turn_noise_deg_s =

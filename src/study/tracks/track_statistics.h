@@ -26,10 +26,14 @@ struct TrackSummary {
   double mean_points = 0;                ///< per track
   Msd msd;                               ///< relative to the common drift
   Estimated drift_x_px_s, drift_y_px_s;  ///< mean velocity
+  /// Smaller over larger variance of the velocities of displacements along their main axes; NaN: too few.
+  double velocity_isotropy = 0;
   DiffusionFit diffusion;
   Estimated d_px2_s;
+  MsdMisfit diffusion_misfit;
   PersistentFit persistent;
   Estimated speed_rms_px_s, tau_s;  ///< of the persistent random walk
+  MsdMisfit persistent_misfit;
   Estimated alpha;
   /// Mean product of two displacements separated by a pause of the same duration, relative to the drift, over
   /// the mean-square displacement; the maximum over durations of 1, 2, 4 or 8 frames. 0 for diffusion with

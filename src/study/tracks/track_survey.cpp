@@ -15,8 +15,11 @@
 namespace faba {
 namespace {
 
-constexpr int kFewFrames = 10;        // smallest number of frames for a temporal median
-constexpr double kSizeIfNone = 4;     // px
+constexpr int kFewFrames = 10;       // smallest number of frames for a temporal median
+constexpr double kSizeIfNone = 4;    // px
+constexpr int kSmallestRegion = 16;  // px; smallest side
+constexpr double kChanging = 1.5;  // temporal over spatial noise: half of the variance is not noise (assumed)
+constexpr double kFloorNoise = 0.25;  // smallest noise of a Background, which a coded video has
 constexpr std::size_t kGaps = 10000;  // largest number of stored frame intervals
 
 // Polarity of the differences from the surroundings at the scale of cells, 1.5 to 8 px.
@@ -34,6 +37,26 @@ std::int64_t count_spots(const TrackOptions& o, const TrackSurvey& s, const Back
   return std::int64_t(Detector(b, detector_options(o, s, {})).find(frame).size());
 }
 
+double typical_noise(const Background& b) {
+  std::vector<float> noise = b.noise_sd.px;
+  return double(robust_spread_low(noise).median);
+}
+
+// The temporal statistics of a background at rest are those of its noise. Moving objects cover a pixel in a
+// minority of the frames and do not change its median deviation.
+void warn_background(TrackSurvey& s, const Background& median, const Background& smooth) {
+  const double temporal = typical_noise(median), spatial = typical_noise(smooth);
+  if (spatial <= kFloorNoise || temporal < kChanging * spatial) return;
+  s.warnings.push_back(
+      {"background",
+       "the background changes by more than its noise: it has a texture that moves, the light flickers, or "
+       "objects "
+       "cover most of the picture; detections may be parts of it",
+       fmt::format("standard deviation of a pixel over time {:.3g}, between neighbours {:.3g} grey levels",
+                   temporal, spatial),
+       "look at --preview; give the --size and --threshold of the objects, or a --region"});
+}
+
 void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler, Pool& pool) {
   const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
   const Background fine =
@@ -42,8 +65,11 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   const bool many = s.frames >= kFewFrames;
   const Background& first_guess = many ? median : fine;
   s.polarity = o.polarity == Polarity::automatic ? detected_polarity(middle, first_guess) : o.polarity;
-  s.size_px = o.size_px > 0 ? o.size_px : spot_size(middle, first_guess, s.polarity, pool);
-  if (!(s.size_px > 0) && many) s.size_px = spot_size(middle, fine, s.polarity, pool);
+  SpotSize size{o.size_px, {}};
+  if (!(size.px > 0)) size = spot_size(middle, first_guess, s.polarity, pool);
+  if (!(size.px > 0) && many) size = spot_size(middle, fine, s.polarity, pool);
+  s.size_px = size.px;
+  s.two_sizes = size.two;
   if (!(s.size_px > 0)) {
     s.size_px = kSizeIfNone;
     s.size_found = false;
@@ -62,6 +88,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
       }};
   pool.run(many ? std::size(counts) : 1, [&](std::size_t i) { counts[i](); });
   s.stationary_spots = stationary;
+  if (many && !(o.size_px > 0 && o.threshold_sd > 0)) warn_background(s, median, smooth);
   s.temporal = o.background == BackgroundKind::median ||
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;
@@ -69,7 +96,9 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   s.background = std::move(s.temporal ? median : smooth);
 }
 
-[[noreturn]] void throw_no_frames(const std::filesystem::path& video, const VideoPart& part) {
+}  // namespace
+
+void throw_no_frames(const std::filesystem::path& video, const VideoPart& part) {
   if (part.from_s > 0 || part.to_s)
     throw Error(Errc::input, video.string(),
                 fmt::format("has no frames from {:g} s to {}; give an earlier --from or a later --to",
@@ -77,16 +106,28 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
   throw Error(Errc::input, video.string(), "contains no readable frames");
 }
 
-}  // namespace
-
 DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
                                  const std::optional<DropMask>& drop) {
   DetectorOptions d;
   d.size_px = s.size_px;
   d.polarity = s.polarity;
   d.threshold_sd = o.threshold_sd;
+  d.coded = s.coding.coded();
   d.drop = drop;
+  if (d.drop) d.drop->centre_image = d.drop->centre_image - Vec2{double(s.region.col), double(s.region.row)};
   return d;
+}
+
+PixelRegion searched_region(const TrackOptions& o, int width, int height) {
+  if (!o.region) return {0, 0, width, height};
+  const PixelRegion& r = *o.region;
+  const bool inside = r.col >= 0 && r.row >= 0 && r.width <= width - r.col && r.height <= height - r.row;
+  if (inside && std::min(r.width, r.height) >= kSmallestRegion) return r;
+  throw Error(
+      Errc::usage, "--region",
+      fmt::format("{},{},{},{}: must be inside of the frames, which have {} x {} px, and at least {} px "
+                  "wide and high",
+                  r.col, r.row, r.width, r.height, width, height, kSmallestRegion));
 }
 
 void make_finite(GrayF& frame) {
@@ -124,8 +165,11 @@ void TrackSurveyor::take(const GrayF& frame) {
     shrink(finite, side_, small);
     std::swap(small, finite);
   }
-  if (frames_ == 1) first_ = finite;
-  sampler_.take(finite);
+  if (frames_ == 1) {
+    first_ = finite;
+    region_ = searched_region(options_, finite.width, finite.height);
+  }
+  sampler_.take(options_.region ? cropped(finite, region_) : finite);
 }
 
 TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
@@ -134,6 +178,7 @@ TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
   s.timed = timed;
   s.bits = bits;
   s.first = first_;
+  s.region = region_;
   s.duration_s = last_s_ - first_s_;
   if (!gaps_.empty()) {
     std::vector<double> gaps = gaps_;
@@ -142,6 +187,7 @@ TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
   std::vector<float> levels = s.first.px;
   s.black = quantile_low(levels, 0.001);
   s.white = quantile_low(levels, 0.999);
+  if (side_ == 1) s.coding = coding_traces(sampler_.kept());
   choose_background(options_, s, sampler_, pool);
   return s;
 }

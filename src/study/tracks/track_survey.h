@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "study/data/frame_inspector.h"
+#include "study/quality/quality.h"
 #include "study/tracks/track_options.h"
+#include "vision/image/coding_traces.h"
 
 namespace faba {
 
@@ -17,19 +19,27 @@ struct TrackSurvey {
   bool timed = true;           ///< false: no frame rate is stated, and times are frame counts
   int bits = 8;                ///< of the grey scale, see VideoReader
   GrayF first;                 ///< the first frame
+  PixelRegion region;          ///< the searched part of the frames
   float black = 0, white = 1;  ///< 0.1 and 99.9 % quantiles of its grey values
-  Background background;
-  bool temporal = false;    ///< the background is the temporal median, else a smoothed copy of each frame
-  double smoothing_px = 0;  ///< smoothing of that copy
+  Background background;       ///< of the region
+  bool temporal = false;       ///< the background is the temporal median, else a smoothed copy of each frame
+  double smoothing_px = 0;     ///< smoothing of that copy
   Polarity polarity = Polarity::dark;
   double size_px = 0;
+  CodingTraces coding;
   bool size_found = true;             ///< false: no spots were detected, size_px is the default
+  std::optional<TwoSizes> two_sizes;  ///< see SpotSize; empty when the size was given
   std::int64_t stationary_spots = 0;  ///< stationary spots: detected in the median
   std::int64_t spots = 0;             ///< number of spots in the middle frame with the selected background
+  std::vector<Warning> warnings;      ///< a background that changes
   std::vector<std::string> notes;
 };
 
-/// Options for the detector; `drop` restricts the searched region.
+/// Throws Error(Errc::input): the part of the video contains no frames.
+[[noreturn]] void throw_no_frames(const std::filesystem::path& video, const VideoPart& part);
+
+/// Options for a detector in the region of the survey; `drop`, in coordinates of the frame, restricts the
+/// search further.
 DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
                                  const std::optional<DropMask>& drop);
 
@@ -55,10 +65,16 @@ class TrackSurveyor {
   int side_;
   BackgroundSampler sampler_;
   GrayF first_;
+  PixelRegion region_;
   std::vector<double> gaps_;
   std::int64_t frames_ = 0;
   double first_s_ = 0, last_s_ = 0;
 };
+
+/// The region of the options in frames of this size. Throws Error(Errc::usage) for a region that is not
+/// inside of them, or with fewer than 16 px on a side: smaller ones have no room for a spot and its
+/// surroundings.
+PixelRegion searched_region(const TrackOptions& o, int width, int height);
 
 /// Replaces values that are not finite, as in a TIFF of floats, by the median of the others.
 void make_finite(GrayF& frame);

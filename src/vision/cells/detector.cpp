@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "vision/cells/spot_fit.h"
+#include "vision/image/coding_traces.h"
 #include "vision/image/kernels/any_above.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -48,11 +49,11 @@ GrayF difference_of(const GrayF& frame, const Background& background, double sig
   return d;
 }
 
-bool masked(const std::optional<DropMask>& drop, double x, double y) {
-  if (!drop) return false;
-  const double depth = drop->radius_px - norm(Vec2{x, y} - drop->centre_image);
-  return (drop->inside ? depth : -depth) < drop->margin_px;
-}
+// A maximum of the response of spots of one size.
+struct ScaledMaximum {
+  Vec2 at;
+  double snr = 0, size = 0;
+};
 
 struct Maximum {
   int col = 0, row = 0;
@@ -107,27 +108,86 @@ float spread_of(const GrayF& g) {
   return work.empty() ? 0 : robust_spread_low(work).sd;
 }
 
-// Signal-to-noise ratios of the significant maxima of spots of one size, the largest first. Relative to white
-// noise: the measured noise is not comparable between sizes because of defocused objects and smoothing by
-// codecs.
-std::vector<double> snr_of_maxima(const GrayF& frame, const Background& background, Polarity polarity,
-                                  double size) {
+// The significant maxima of spots of one size, with their signal-to-noise ratios relative to white noise: the
+// measured noise is not comparable between sizes because of defocused objects and smoothing by codecs.
+std::vector<ScaledMaximum> significant_maxima(const GrayF& frame, const Background& background,
+                                              Polarity polarity, double size) {
   constexpr double kMinSnr = 6;
   const double sd = size / kFwhmPerSd, gain = noise_response(sd).gain;
-  std::vector<double> snr;
+  std::vector<ScaledMaximum> out;
   for (const double sign : {-1.0, 1.0}) {
     if (polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
     const GrayF response = band_passed(difference_of(frame, background, sign), sd);
     const float noise = std::max(spread_of(response), float(gain) * 0.25F);
     const float least = float(kMinSnr) * noise;
     for (const Maximum& m : maxima(response, std::max(1, int(sd)), 2, Threshold{least}))
-      snr.push_back(double(m.value) / gain);
+      out.push_back({{double(m.col), double(m.row)}, double(m.value) / gain, size});
   }
-  std::sort(snr.begin(), snr.end(), std::greater<>());
-  return snr;
+  std::sort(out.begin(), out.end(),
+            [](const ScaledMaximum& a, const ScaledMaximum& b) { return a.snr > b.snr; });
+  return out;
+}
+
+// The number of objects whose response is largest at each size.
+std::vector<double> objects_of_sizes(const std::vector<std::vector<ScaledMaximum>>& maxima,
+                                     const std::vector<double>& sizes) {
+  std::vector<ScaledMaximum> all;
+  for (const auto& of_size : maxima) all.insert(all.end(), of_size.begin(), of_size.end());
+  std::sort(all.begin(), all.end(),
+            [](const ScaledMaximum& a, const ScaledMaximum& b) { return a.snr > b.snr; });
+  std::vector<double> counts(sizes.size());
+  std::vector<ScaledMaximum> objects;
+  for (const ScaledMaximum& m : all) {
+    // The other sizes respond to the same object, less strongly.
+    if (std::any_of(objects.begin(), objects.end(), [&](const ScaledMaximum& o) {
+          return norm(o.at - m.at) < 0.5 * std::max(o.size, m.size);
+        }))
+      continue;
+    objects.push_back(m);
+    counts[std::size_t(std::find(sizes.begin(), sizes.end(), m.size) - sizes.begin())] += 1;
+  }
+  return counts;
+}
+
+// Two sizes that differ by a factor of two or more: the most frequent one, and the `estimate` or another
+// frequent one. Sizes are counted with their neighbours.
+std::optional<TwoSizes> two_sizes(const std::vector<double>& objects, const std::vector<double>& sizes,
+                                  double estimate) {
+  constexpr double kFactor = 2, kFrequent = 0.2, kFew = 5, kValley = 0.5;  // assumed
+  std::vector<double> n(sizes.size());
+  for (std::size_t k = 0; k < n.size(); ++k)
+    for (std::size_t i = k > 0 ? k - 1 : 0; i <= std::min(k + 1, n.size() - 1); ++i) n[k] += objects[i];
+  const auto mode = std::size_t(std::max_element(n.begin(), n.end()) - n.begin());
+  const auto pair_with = [&](double size) {
+    return TwoSizes{std::min(size, sizes[mode]), std::max(size, sizes[mode])};
+  };
+  const auto apart = [&](double size) {
+    return pair_with(size).larger_px >= kFactor * pair_with(size).smaller_px;
+  };
+  if (n[mode] < kFew) return {};
+  if (apart(estimate)) {
+    TwoSizes pair = pair_with(estimate);
+    pair.most_have_other = true;
+    return pair;
+  }
+  std::optional<std::size_t> other;
+  for (std::size_t k = 0; k < n.size(); ++k) {
+    if (!apart(sizes[k]) || n[k] < std::max(kFew, kFrequent * n[mode])) continue;
+    const auto [low, high] = std::minmax(k, mode);
+    const bool valley =
+        *std::min_element(n.begin() + std::ptrdiff_t(low), n.begin() + std::ptrdiff_t(high)) < kValley * n[k];
+    if (valley && (!other || n[k] > n[*other])) other = k;
+  }
+  return other ? std::optional(pair_with(sizes[*other])) : std::nullopt;
 }
 
 }  // namespace
+
+bool excludes(const std::optional<DropMask>& drop, double x_px, double y_px) {
+  if (!drop) return false;
+  const double depth = drop->radius_px - norm(Vec2{x_px, y_px} - drop->centre_image);
+  return (drop->inside ? depth : -depth) < drop->margin_px;
+}
 
 double detection_threshold(double size_px, double pixels, double false_alarms) {
   const double sd = size_px / kFwhmPerSd;
@@ -158,7 +218,7 @@ Detector::Detector(Background background, DetectorOptions options)
   relative_noise_ = background_.noise_sd;
   std::vector<float> work = relative_noise_.px;
   const float typical = robust_spread_low(work).median;
-  for (float& v : relative_noise_.px) v /= typical;
+  for (float& v : relative_noise_.px) v = options_.coded ? 1 : v / typical;
 }
 
 std::vector<Spot> Detector::find(const GrayF& frame) const {
@@ -171,52 +231,57 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
     if (options_.polarity == (sign > 0 ? Polarity::dark : Polarity::bright)) continue;
     const GrayF difference = difference_of(frame, background_, sign);
     const GrayF response = band_passed(difference, sd_px_);
-    const float sd = spread_of(response);
+    const float sd = options_.coded ? std::max(spread_of(response), coded_noise(difference, response))
+                                    : spread_of(response);
     // A uniform picture, or one whose noise was removed by a codec, has zero spread: the quantisation step is
     // then the noise.
     const float noise = std::max(sd, float(noise_gain_) * 0.25F);
     const Threshold threshold{float(threshold_) * noise, relative_noise_.px.data()};
     std::vector<SpotSeed> seeds;
     for (const Maximum& m : maxima(response, reach, margin, threshold)) {
-      if (masked(options_.drop, m.col, m.row)) continue;
+      if (excludes(options_.drop, m.col, m.row)) continue;
       const double local = double(noise * relative_noise_.at(m.col, m.row));
-      seeds.push_back({m.col, m.row, double(m.value) / local, double(background_.noise_sd.at(m.col, m.row))});
+      double pixel_noise = double(background_.noise_sd.at(m.col, m.row));
+      if (options_.coded) pixel_noise = std::max(pixel_noise, double(noise) / noise_gain_);
+      seeds.push_back({m.col, m.row, double(m.value) / local, pixel_noise});
     }
     for (Spot& spot : fit_spots(difference, seeds, sd_px_)) {
       spot.bright = sign > 0;
-      if (!masked(options_.drop, spot.x_px, spot.y_px)) spots.push_back(spot);
+      if (!excludes(options_.drop, spot.x_px, spot.y_px)) spots.push_back(spot);
     }
   }
   std::stable_sort(spots.begin(), spots.end(), [](const Spot& a, const Spot& b) { return a.y_px < b.y_px; });
   return spots;
 }
 
-double spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool) {
+SpotSize spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool) {
   constexpr int kSizes = 16;  // 2 to 30.8 px
   std::vector<double> sizes;
   for (double size = 2; int(sizes.size()) < kSizes; size *= 1.2) {
     if (8 * size / kFwhmPerSd > std::min(frame.width, frame.height)) break;
     sizes.push_back(size);
   }
-  std::vector<std::vector<double>> snr(sizes.size());
+  std::vector<std::vector<ScaledMaximum>> maxima(sizes.size());
   pool.run(sizes.size(), [&](std::size_t i) {
     const std::size_t k = sizes.size() - 1 - i;  // the large sizes take longest
-    snr[k] = snr_of_maxima(frame, background, polarity, sizes[k]);
+    maxima[k] = significant_maxima(frame, background, polarity, sizes[k]);
   });
-  double best = 0, size_of_best = 0;
+  double best = 0;
+  SpotSize out;
   std::size_t count = 0;
   for (std::size_t k = 0; k < sizes.size(); ++k) {
     // The same number of maxima is used for every size: the strongest fifth at the first size with
     // significant maxima.
-    if (count == 0 && !snr[k].empty()) count = std::max<std::size_t>(1, snr[k].size() / 5);
+    if (count == 0 && !maxima[k].empty()) count = std::max<std::size_t>(1, maxima[k].size() / 5);
     double sum = 0;
-    for (std::size_t i = 0; i < std::min(count, snr[k].size()); ++i) sum += snr[k][i];
+    for (std::size_t i = 0; i < std::min(count, maxima[k].size()); ++i) sum += maxima[k][i].snr;
     if (sum > best) {
       best = sum;
-      size_of_best = sizes[k];
+      out.px = sizes[k];
     }
   }
-  return size_of_best;
+  if (out.px > 0) out.two = two_sizes(objects_of_sizes(maxima, sizes), sizes, out.px);
+  return out;
 }
 
 }  // namespace faba

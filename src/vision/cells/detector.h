@@ -17,6 +17,9 @@ struct DropMask {
   double margin_px = 0;  ///< margin at the edge that is excluded as well
 };
 
+/// Whether a position is excluded. No mask excludes nothing.
+bool excludes(const std::optional<DropMask>& drop, double x_px, double y_px);
+
 /// Parameters of Detector.
 struct DetectorOptions {
   double size_px = 4;                  ///< full width at half maximum of the spots, 1 to 60 px
@@ -26,6 +29,8 @@ struct DetectorOptions {
   double false_alarms = 0.1;
   double threshold_sd = 0;   ///< > 0: minimum signal-to-noise ratio, overrides false_alarms
   double separation_px = 0;  ///< minimum distance of two maxima; 0: half of size_px, at least 1 px
+  /// The video was coded (see CodingTraces): the noise is that of the coded blocks, one value per frame.
+  bool coded = false;
   std::optional<DropMask> drop;
 };
 
@@ -61,9 +66,21 @@ class Detector {
 /// the band pass for spots of `size_px`.
 double detection_threshold(double size_px, double pixels, double false_alarms);
 
-/// Spot size of a frame: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest
+/// Two sizes that are both frequent in a frame: the estimate is ambiguous.
+struct TwoSizes {
+  double smaller_px = 0, larger_px = 0;
+  bool most_have_other = false;  ///< the most frequent size is not the estimate
+};
+
+/// Size of the spots of a frame.
+struct SpotSize {
+  double px = 0;  ///< full width at half maximum; 0: no spots
+  std::optional<TwoSizes> two;
+};
+
+/// Estimates the size of spots: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest
 /// signal-to-noise ratio (relative to white noise) at the strongest maxima. 0 when no maximum is significant
 /// at any size.
-double spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool);
+SpotSize spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool);
 
 }  // namespace faba

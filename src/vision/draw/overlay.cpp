@@ -7,7 +7,6 @@
 
 #include "vision/draw/fixed_point.h"
 #include "vision/drop/drop_picture.h"
-#include "vision/files/picture.h"
 
 namespace faba {
 namespace {
@@ -16,11 +15,10 @@ namespace {
 const cv::Scalar kSky(86, 180, 233), kYellow(240, 228, 66), kOrange(255, 170, 0), kViolet(204, 121, 167);
 const cv::Scalar kRim(0, 0, 0);
 
-cv::Mat3b grey_canvas(const GrayF& picture) {
-  const Gray8 grey = stretched(picture, 0.001, 0.999);
-  cv::Mat3b out(grey.height, grey.width);
-  std::transform(grey.px.begin(), grey.px.end(), out.begin(),
-                 [](std::uint8_t g) { return cv::Vec3b(g, g, g); });
+cv::Mat3b canvas_of(const RgbImage& picture) {
+  cv::Mat3b out(picture.height, picture.width);
+  std::transform(picture.px.begin(), picture.px.end(), out.begin(),
+                 [](const Rgb& v) { return cv::Vec3b(v.r, v.g, v.b); });
   return out;
 }
 
@@ -76,7 +74,7 @@ RgbImage rgb_image(const cv::Mat3b& m) {
   return out;
 }
 
-int pen_width(const GrayF& picture) {
+int pen_width(const RgbImage& picture) {
   return std::max(1, int(std::lround(std::min(picture.width, picture.height) / 500.0)));
 }
 
@@ -102,9 +100,9 @@ void draw(Pen pen, const DropEdge& edge, int width) {
 
 }  // namespace
 
-RgbImage drop_overlay(const GrayF& picture, const DropEdge& edge) {
+RgbImage drop_overlay(const RgbImage& picture, const DropEdge& edge) {
   if (picture.empty()) return {};
-  cv::Mat3b m = grey_canvas(picture), rims = m.clone();
+  cv::Mat3b m = canvas_of(picture), rims = m.clone();
   const int width = pen_width(picture);
   draw(Pen(rims, width, true), edge, width);
   cv::addWeighted(m, 0.4, rims, 0.6, 0, m);
@@ -121,9 +119,9 @@ Gray8 edge_pixel_picture(const GrayF& picture, const DropEdgeOptions& options) {
   return out;
 }
 
-RgbImage hough_picture(const GrayF& picture, const DropEdge& edge) {
+RgbImage hough_picture(const RgbImage& picture, const DropEdge& edge) {
   if (picture.empty()) return {};
-  cv::Mat3b m = grey_canvas(picture);
+  cv::Mat3b m = canvas_of(picture);
   m.convertTo(m, -1, 0.5);
   Pen pen(m, 2 * pen_width(picture), false);
   for (const EdgeSegment& s : edge.segments) pen.line(s.a, s.b, kViolet);

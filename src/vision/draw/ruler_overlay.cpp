@@ -6,7 +6,6 @@
 #include <string>
 
 #include "vision/draw/fixed_point.h"
-#include "vision/files/picture.h"
 
 namespace faba {
 namespace {
@@ -26,14 +25,13 @@ void label(cv::Mat3b& canvas, Vec2 at, const std::string& text, double size) {
 
 }  // namespace
 
-RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler) {
-  const Gray8 grey = stretched(picture, 0.001, 0.999);
-  cv::Mat3b canvas(grey.height, grey.width);
-  std::transform(grey.px.begin(), grey.px.end(), canvas.begin(),
-                 [](std::uint8_t g) { return cv::Vec3b(g, g, g); });
+RgbImage ruler_overlay(const RgbImage& picture, const Ruler& ruler) {
+  cv::Mat3b canvas(picture.height, picture.width);
+  std::transform(picture.px.begin(), picture.px.end(), canvas.begin(),
+                 [](const Rgb& v) { return cv::Vec3b(v.r, v.g, v.b); });
   const MarkRow& row = ruler.row;
   const int width = std::clamp(int(row.pitch_px / 8), 1, 3);
-  const double size = std::clamp(std::min(grey.width, grey.height) / 1100.0, 0.4, 1.2);
+  const double size = std::clamp(std::min(picture.width, picture.height) / 1100.0, 0.4, 1.2);
   const Vec2 across{-std::sin(row.angle), std::cos(row.angle)};
   const int every = std::max(1, int(std::ceil(28 * size * 2 / (10 * row.pitch_px)))) * 10;
   for (const RowMark& m : row.marks) {
@@ -49,7 +47,7 @@ RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler) {
              width, cv::LINE_AA, kShift);
     if (number % every == 0) label(canvas, end + (14 * size * 2) * across, std::to_string(number), size);
   }
-  RgbImage out(grey.width, grey.height);
+  RgbImage out(picture.width, picture.height);
   std::transform(canvas.begin(), canvas.end(), out.px.begin(), [](const cv::Vec3b& v) {
     return Rgb{v[0], v[1], v[2]};
   });

@@ -4,9 +4,9 @@
 
 namespace faba {
 
-/// The picture in grey with the measured ruler marks: a light blue line over one half of each mark, so that
-/// the other half shows the alignment; yellow with its number (counted from the first) for every tenth mark;
-/// orange for marks excluded from the fit. Same size as the picture.
-RgbImage ruler_overlay(const GrayF& picture, const Ruler& ruler);
+/// The picture (see read_displayed()) with the measured ruler marks: a light blue line over one half of each
+/// mark, so that the other half shows the alignment; yellow with its number (counted from the first) for
+/// every tenth mark; orange for marks excluded from the fit. Same size as the picture.
+RgbImage ruler_overlay(const RgbImage& picture, const Ruler& ruler);
 
 }  // namespace faba

@@ -16,8 +16,8 @@ struct SwarmScene {
     bool responding;     ///< false: drawn pale
   };
   int width = 640, height = 480;
-  double um_per_px = 1;
-  double t = 0;  ///< s
+  std::optional<double> um_per_px = 1;  ///< for the scale bar; empty: in px
+  double t = 0;                         ///< s
   std::span<const Cell> cells;
   double cell_radius_px = 1.2;
   Vec2 edge_centre;

@@ -1,5 +1,6 @@
 #include "vision/drop/drop_edge.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,7 +24,10 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   d.edge_width_px = c.profile.width * c.scale;
   const double systematic = position_sd(d.edge_width_px);
   d.sd_centre_px = c.fit.sd_centre;
-  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic);
+  d.out_of_round_px = c.out_of_round_px;
+  // Standard deviation of the radius along an ellipse: its amplitude over the square root of two.
+  d.sd_radius_px = std::sqrt(c.fit.sd_radius * c.fit.sd_radius + systematic * systematic +
+                             c.out_of_round_px * c.out_of_round_px / 2);
   d.arc_deg = c.seen_rad * 180 / std::numbers::pi;
   d.image_width = picture.width;
   d.image_height = picture.height;
@@ -42,6 +46,39 @@ DropEdge describe(const DropCandidate& c, const GrayF& picture, const DropPictur
   return d;
 }
 
+/// The picture without an edge: minus the fitted step and line. `gain`: grey of the profile per grey of the
+/// picture.
+GrayF without_edge(const GrayF& picture, const DropCandidate& c, double gain) {
+  const double width = c.profile.width * c.scale;
+  GrayF rest = picture;
+  for (int row = 0; row < rest.height; ++row)
+    for (int col = 0; col < rest.width; ++col) {
+      const double off = norm(Vec2{double(col), double(row)} - c.circle.centre) - c.circle.radius;
+      const double t = off / width;
+      const double step = c.profile.step * 0.5 * std::erfc(-t / std::numbers::sqrt2);
+      rest.at(col, row) -= float((step + c.profile.ring * std::exp(-0.5 * t * t)) / gain);
+    }
+  return rest;
+}
+
+/// Another circular edge than `c`, detected in the picture without it.
+std::optional<Circle> other_edge(const GrayF& picture, const DropCandidate& c, double gain,
+                                 const DropEdgeOptions& o) {
+  std::optional<DropCandidate> other;
+  try {
+    other = search_drop_edge(prepare_drop_picture(without_edge(picture, c, gain), o), o).accepted;
+  } catch (const Error&) {
+    return std::nullopt;  // the rest is uniform
+  }
+  if (!other) return std::nullopt;
+  // What remains of the edge, where its contrast or width varies along it, is not another one.
+  const double apart = std::max(6 * std::max(c.scale, other->scale), 4 * c.profile.width * c.scale);
+  const auto off = [](const Circle& circle, Vec2 p) { return norm(p - circle.centre) - circle.radius; };
+  for (Vec2 p : other->points)
+    if (std::fabs(off(c.circle, p) - off(other->circle, p)) > apart) return other->circle;
+  return std::nullopt;
+}
+
 }  // namespace
 
 DropEdge find_drop_edge(const GrayF& picture, const DropEdgeOptions& options) {
@@ -55,6 +92,7 @@ DropEdge find_drop_edge(const GrayF& picture, const DropEdgeOptions& options) {
                 "and that the edge is in view");
   DropEdge edge = describe(*search.accepted, picture, prepared, options);
   edge.segments = std::move(search.segments);
+  edge.other = other_edge(picture, *search.accepted, prepared.gain, options);
   return edge;
 }
 

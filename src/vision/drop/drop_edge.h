@@ -1,8 +1,10 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "core/vec.h"
 #include "vision/drop/drop_edge_options.h"
+#include "vision/image/circle.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -12,10 +14,14 @@ namespace faba {
 struct DropEdge {
   Vec2 centre_image;  ///< may lie far outside the picture
   double radius_px = 0;
-  Vec2 sd_centre_px;  ///< standard deviations, from the residuals of the edge points
-  double sd_radius_px = 0;
-  double arc_deg = 0;              ///< angle of the supporting arc seen from the centre, 0..360
-  Vec2 inside_image;               ///< a point of the picture that is inside the drop
+  Vec2 sd_centre_px;        ///< standard deviations, from the residuals of the edge points
+  double sd_radius_px = 0;  ///< includes the deviation of an elliptical edge from the circle
+  /// Half the difference of the axes of an ellipse along the edge; 0: not significant, or less than half a
+  /// circle.
+  double out_of_round_px = 0;
+  std::optional<Circle> other;  ///< another circular edge in the picture, as significant as an edge must be
+  double arc_deg = 0;           ///< angle of the supporting arc seen from the centre, 0..360
+  Vec2 inside_image;            ///< a point of the picture that is inside the drop
   bool centre_side_inside = true;  ///< whether the drop is on the side of the centre
   int image_width = 0, image_height = 0;
   double contrast = 0;       ///< step: grey inside minus outside; line: grey at the centre minus beside it

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -52,30 +53,84 @@ double correlation_factor(const std::vector<Vec2>& points, const CircleFit& fit)
   return factor;
 }
 
+/// Residuals of a fit along its arc, as Legendre polynomials of the arc angle. A circle absorbs the first
+/// three; the next four are the slowest deviations that remain.
+struct SlowDeviations {
+  static constexpr std::size_t kFirst = 3, kModes = 4;
+  std::array<double, kModes> sum{}, weight{};  ///< residuals times polynomial, square of the polynomial
+  double power = 0;                            ///< sum of the squared residuals
+  double points = 0;
+
+  SlowDeviations(const std::vector<Vec2>& at, const CircleFit& fit, double half_rad)
+      : points(double(at.size())) {
+    const Vec2 middle = at[at.size() / 2] - fit.centre;
+    const double axis = std::atan2(middle.y, middle.x);
+    for (Vec2 p : at) {
+      const Vec2 r = p - fit.centre;
+      const double off = norm(r) - fit.radius;
+      const double u =
+          std::clamp(std::remainder(std::atan2(r.y, r.x) - axis, 2 * std::numbers::pi) / half_rad, -1.0, 1.0);
+      power += off * off;
+      double before = 1, now = u;
+      for (std::size_t k = 1; k < kFirst + kModes; ++k) {
+        if (k >= kFirst) {
+          sum[k - kFirst] += off * now;
+          weight[k - kFirst] += now * now;
+        }
+        const double next = (double(2 * k + 1) * u * now - double(k) * before) / double(k + 1);
+        before = now;
+        now = next;
+      }
+    }
+  }
+  double amplitude(std::size_t k) const { return sum[k] / weight[k]; }
+  /// Mean power of the modes over that of independent residuals. The errors of the circle are due to the
+  /// three modes that it absorbs, whose power is that of these neighbours if errors of the edge position
+  /// change slowly along it.
+  double variance_factor() const {
+    double modes = 0;
+    for (std::size_t k = 0; k < kModes; ++k) modes += sum[k] * sum[k] / weight[k] / double(kModes);
+    return power > 0 ? modes * points / power : 1;
+  }
+};
+
 /// Deviation of the edge from a circular arc: the components of the residuals along the third and
 /// fourth Legendre polynomial of the arc angle, relative to the sagitta. A corner between two straight lines
 /// gives 0.3, an arc 0. Zero when it is below 3 standard errors or half a pixel.
 double non_circularity(const DropCandidate& d) {
   if (d.points.size() < 8) return 0;
-  const Vec2 middle = d.points[d.points.size() / 2] - d.fit.centre;
-  const double axis = std::atan2(middle.y, middle.x), half = d.arc_rad / 2;
-  double sum3 = 0, sum4 = 0, norm3 = 0, norm4 = 0, power = 0;
+  const double half = d.arc_rad / 2;
+  const SlowDeviations s(d.points, d.fit, half);
+  const double c3 = s.amplitude(0), c4 = s.amplitude(1), size = std::sqrt(c3 * c3 + c4 * c4);
+  const double rest = std::max(s.power - c3 * s.sum[0] - c4 * s.sum[1], 0.0) / double(d.points.size());
+  const double error = std::sqrt(rest * (1 / s.weight[0] + 1 / s.weight[1]));
+  return size > std::max(3 * error, kMinDeviationPx) ? size / (d.fit.radius * half * half / 3) : 0;
+}
+
+/// Half the difference of the axes of an ellipse along the edge: amplitude of the residuals' second harmonic
+/// of the angle. Zero when it is below 3 standard errors, and for less than half a circle, where it cannot be
+/// distinguished.
+double out_of_round(const DropCandidate& d) {
+  if (d.arc_rad < std::numbers::pi || d.points.size() < 8) return 0;
+  double cc = 0, ss = 0, cs = 0, co = 0, so = 0, power = 0;
   for (Vec2 p : d.points) {
     const Vec2 r = p - d.fit.centre;
-    const double u =
-        std::clamp(std::remainder(std::atan2(r.y, r.x) - axis, 2 * std::numbers::pi) / half, -1.0, 1.0);
-    const double u2 = u * u, p3 = u * (5 * u2 - 3) / 2, p4 = (u2 * (35 * u2 - 30) + 3) / 8,
-                 off = norm(r) - d.fit.radius;
-    sum3 += off * p3;
-    norm3 += p3 * p3;
-    sum4 += off * p4;
-    norm4 += p4 * p4;
+    const double angle = 2 * std::atan2(r.y, r.x), off = norm(r) - d.fit.radius;
+    const double c = std::cos(angle), s = std::sin(angle);
+    cc += c * c;
+    ss += s * s;
+    cs += c * s;
+    co += c * off;
+    so += s * off;
     power += off * off;
   }
-  const double c3 = sum3 / norm3, c4 = sum4 / norm4, size = std::sqrt(c3 * c3 + c4 * c4);
-  const double rest = std::max(power - c3 * sum3 - c4 * sum4, 0.0) / double(d.points.size());
-  const double error = std::sqrt(rest * (1 / norm3 + 1 / norm4));
-  return size > std::max(3 * error, kMinDeviationPx) ? size / (d.fit.radius * half * half / 3) : 0;
+  const double determinant = cc * ss - cs * cs;
+  if (!(determinant > 0)) return 0;
+  const double a = (ss * co - cs * so) / determinant, b = (cc * so - cs * co) / determinant;
+  const double rest = std::max(power - a * co - b * so, 0.0) / double(d.points.size());
+  const double error = std::sqrt(rest * (cc + ss) / determinant);
+  const double amplitude = std::hypot(a, b);
+  return amplitude > 3 * error ? amplitude : 0;
 }
 
 /// Sum of the angles between neighbouring points, without gaps of more than five pieces.
@@ -164,12 +219,14 @@ std::optional<DropCandidate> refine_once(const DropLevel& level, const Circle& s
   d.profile = fit_edge_profile(mean_profile(grey, fitted, d.evidence.angles, kProfile));
   d.circle = {d.fit.centre, d.fit.radius + d.profile.position * level.scale};
   if (!(d.circle.radius > 0)) return std::nullopt;
-  const double inflate = std::sqrt(correlation_factor(d.points, d.fit));
-  d.fit.sd_centre = inflate * d.fit.sd_centre;
-  d.fit.sd_radius *= inflate;
   const double piece_rad = d.evidence.piece_px * level.scale / d.circle.radius;
   d.arc_rad = std::min(2 * std::numbers::pi, d.fit.arc_rad + piece_rad);
   d.seen_rad = std::min(d.arc_rad, seen_angle(d.points, d.circle.centre, piece_rad));
+  const double inflate = std::sqrt(std::max(
+      correlation_factor(d.points, d.fit), SlowDeviations(d.points, d.fit, d.arc_rad / 2).variance_factor()));
+  d.fit.sd_centre = inflate * d.fit.sd_centre;
+  d.fit.sd_radius *= inflate;
+  d.out_of_round_px = out_of_round(d);
   return d;
 }
 

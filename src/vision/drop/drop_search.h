@@ -13,10 +13,12 @@ namespace faba {
 
 /// A circle refined to the edge in the picture. Lengths in px of the picture, not of a pyramid level.
 struct DropCandidate {
-  Circle circle;             ///< circle at the edge position: fit plus the position of the edge profile
-  CircleFit fit;             ///< fit to `points`, with standard deviations
-  double arc_rad = 0;        ///< angle between the outermost points
-  double seen_rad = 0;       ///< angle along which the edge is detected: arc_rad without long gaps
+  Circle circle;        ///< circle at the edge position: fit plus the position of the edge profile
+  CircleFit fit;        ///< fit to `points`, with standard deviations
+  double arc_rad = 0;   ///< angle between the outermost points
+  double seen_rad = 0;  ///< angle along which the edge is detected: arc_rad without long gaps
+  double out_of_round_px =
+      0;                     ///< half the difference of the axes of an ellipse along the edge, if significant
   std::vector<Vec2> points;  ///< sub-pixel edge points, along the arc
   ArcEvidence evidence;      ///< in px of the level
   EdgeProfile profile;       ///< across the edge, in px of the level

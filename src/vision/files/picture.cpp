@@ -68,6 +68,28 @@ Gray8 stretched(const GrayF& picture, double low_fraction, double high_fraction)
   return out;
 }
 
+RgbImage displayed(const GrayF& picture) {
+  const Gray8 grey = stretched(picture, 0.001, 0.999);
+  RgbImage out(grey.width, grey.height);
+  std::transform(grey.px.begin(), grey.px.end(), out.px.begin(), [](std::uint8_t g) { return Rgb{g, g, g}; });
+  return out;
+}
+
+RgbImage read_displayed(const std::filesystem::path& path) {
+  RgbImage colours;
+  if (check_input_file(path) == InputKind::tiff) {
+    TiffStack(path).read_colours(colours);
+  } else {
+    double t_s = 0;
+    AvStream(path).read_colours(colours, t_s);
+  }
+  constexpr int kGrey = 8;  // difference of the channels of a grey picture after lossy coding (assumed)
+  const bool coloured = std::any_of(colours.px.begin(), colours.px.end(), [](const Rgb& v) {
+    return std::max({v.r, v.g, v.b}) - std::min({v.r, v.g, v.b}) > kGrey;
+  });
+  return coloured ? colours : displayed(read_picture(path).grey);
+}
+
 void write_png(const std::filesystem::path& path, const RgbImage& picture) {
   FrameEncoder encoder(FrameEncoder::Kind::png_colour, picture.width, picture.height, {}, path.string());
   write_file(path, as_text(encoder.encode(picture)));

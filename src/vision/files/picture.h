@@ -26,6 +26,12 @@ Picture read_picture(const std::filesystem::path& path);
 /// 1.
 Gray8 stretched(const GrayF& picture, double low_fraction = 0.01, double high_fraction = 0.99);
 
+/// A grey picture for display: stretched between its 0.1 % and 99.9 % quantiles.
+RgbImage displayed(const GrayF& picture);
+/// The picture of a file for display, 8 bits: the colours of the file; if it has none (red, green and blue
+/// differ by at most 8 everywhere), displayed(). Throws as read_picture().
+RgbImage read_displayed(const std::filesystem::path& path);
+
 /// Writes a PNG of 8 bits per channel to a temporary file (`path` + ".tmp") and renames it when complete. An
 /// existing file is replaced. Throws Error(Errc::internal, path) when the file cannot be written or the disk
 /// is full.

@@ -82,27 +82,6 @@ bool is_pattern(const std::string& name) {
   return false;
 }
 
-std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
-  const bool folder = std::filesystem::is_directory(path);
-  const std::filesystem::path where = folder ? path : path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code failure;
-  std::filesystem::directory_iterator entries(where, failure);
-  if (failure == std::errc::no_such_file_or_directory)
-    throw Error(Errc::input, path.string(), fmt::format("folder {} not found", where.string()));
-  if (failure) throw Error(Errc::input, where.string(), "the folder cannot be read: " + failure.message());
-  const std::string pattern = path.filename().string();
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : entries) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with('.') || !entry.is_regular_file(failure)) continue;
-    if (folder ? has_picture_ending(name) : matches(pattern, name)) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
-  return files;
-}
-
 // Splits a name into alternating pieces: text at even indices, runs of digits at odd indices.
 std::vector<std::string> pieces_of(const std::string& name) {
   std::vector<std::string> pieces(1);
@@ -142,6 +121,27 @@ std::vector<double> only_number(const std::vector<std::filesystem::path>& files)
 
 }  // namespace
 
+std::vector<std::filesystem::path> sequence_files(const std::filesystem::path& path) {
+  const bool folder = std::filesystem::is_directory(path);
+  const std::filesystem::path where = folder ? path : path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code failure;
+  std::filesystem::directory_iterator entries(where, failure);
+  if (failure == std::errc::no_such_file_or_directory)
+    throw Error(Errc::input, path.string(), fmt::format("folder {} not found", where.string()));
+  if (failure) throw Error(Errc::input, where.string(), "the folder cannot be read: " + failure.message());
+  const std::string pattern = path.filename().string();
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : entries) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') || !entry.is_regular_file(failure)) continue;
+    if (folder ? has_picture_ending(name) : matches(pattern, name)) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
 bool natural_less(const std::string& a, const std::string& b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -169,7 +169,7 @@ bool is_picture_sequence(const std::filesystem::path& path) {
 }
 
 PictureSequence::PictureSequence(const std::filesystem::path& path, double fps)
-    : files_(files_of(path)), fps_(fps) {
+    : files_(sequence_files(path)), fps_(fps) {
   if (files_.empty())
     throw Error(Errc::input, path.string(),
                 std::filesystem::is_directory(path) ? "the folder contains no pictures (.tif, .png, .jpg, "

@@ -12,6 +12,9 @@ namespace faba {
 /// `%04d`) that is not the name of an existing file.
 bool is_picture_sequence(const std::filesystem::path& path);
 
+/// The pictures of a sequence in their order. Throws Error(Errc::input) if the folder cannot be read.
+std::vector<std::filesystem::path> sequence_files(const std::filesystem::path& sequence);
+
 /// Natural sort order: numbers in names are compared by value, frame_9 before frame_10. True when `a` is
 /// before `b`.
 bool natural_less(const std::string& a, const std::string& b);

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdarg>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -93,12 +92,6 @@ void to_float(const Layout& page, const std::uint8_t* bytes, std::vector<float>&
   }
 }
 
-// Value of `key` in an ImageJ description (lines of key=value); 0 when absent or not a number.
-double description_number(const std::string& description, const std::string& key) {
-  const auto at = description.find("\n" + key + "=");
-  return at == std::string::npos ? 0 : std::strtod(description.c_str() + at + key.size() + 2, nullptr);
-}
-
 }  // namespace
 
 struct TiffStack::Impl {
@@ -111,7 +104,7 @@ struct TiffStack::Impl {
   std::unique_ptr<TIFF, Close> tiff;
   Layout page;  // layout of the next page
   int first_width = 0, first_height = 0, first_bits = 0;
-  double fps = 0;
+  PictureMetadata metadata;
   bool at_end = false, page_unread = true;
   int page_number = 1;
   std::vector<std::uint8_t> buffer;
@@ -129,6 +122,7 @@ struct TiffStack::Impl {
   void read_tiles(std::uint16_t plane, GrayF& out);
   void read_samples(GrayF& out);
   void read_colour(GrayF& out);
+  std::vector<std::uint32_t> raster();
 };
 
 void TiffStack::Impl::open() {
@@ -144,17 +138,13 @@ void TiffStack::Impl::open() {
   first_height = static_cast<int>(page.height);
   first_bits = is_direct(page) ? page.bits : 8;
 
+  TiffDescription stated;
   const char* text = nullptr;
-  if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr) {
-    const std::string description = text;
-    if (!description.starts_with("ImageJ=")) return;
-    fps = description_number(description, "fps");
-    const double interval = description_number(description, "finterval");
-    const bool in_seconds = description.find("\ntunit=") == std::string::npos ||
-                            description.find("\ntunit=s") != std::string::npos;
-    if (!(fps > 0) && interval > 0 && in_seconds) fps = 1 / interval;
-    if (!(fps > 0 && fps < 1e9)) fps = 0;
-  }
+  if (TIFFGetField(tiff.get(), TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr) stated.text = text;
+  float across = 0, down = 0;
+  if (TIFFGetField(tiff.get(), TIFFTAG_XRESOLUTION, &across) == 1) stated.x_resolution = double(across);
+  if (TIFFGetField(tiff.get(), TIFFTAG_YRESOLUTION, &down) == 1) stated.y_resolution = double(down);
+  metadata = tiff_metadata(stated, path);
 }
 
 void TiffStack::Impl::read_layout() {
@@ -262,22 +252,42 @@ void TiffStack::Impl::read_samples(GrayF& out) {
   }
 }
 
-void TiffStack::Impl::read_colour(GrayF& out) {
+// 8-bit colours as packed by libtiff, pixels in storage order.
+std::vector<std::uint32_t> TiffStack::Impl::raster() {
   std::array<char, 1024> why{};
   if (TIFFRGBAImageOK(tiff.get(), why.data()) == 0) {
     refuse(std::string("TIFF layout not supported: ") + why.data() + "; save it as 8- or 16-bit grey");
   }
-  std::vector<std::uint32_t> raster(out.px.size());
+  std::vector<std::uint32_t> colours(std::size_t{page.width} * page.height);
   std::uint16_t as_stored = ORIENTATION_TOPLEFT;
   TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_ORIENTATION, &as_stored);
-  if (TIFFReadRGBAImageOriented(tiff.get(), page.width, page.height, raster.data(), as_stored, 1) != 1) {
+  if (TIFFReadRGBAImageOriented(tiff.get(), page.width, page.height, colours.data(), as_stored, 1) != 1) {
     refuse("cannot be read; the file is damaged or truncated");
   }
-  for (std::size_t i = 0; i < raster.size(); ++i) {
-    const std::uint32_t colour = raster[i];
-    out.px[i] = grey_of(static_cast<float>(TIFFGetR(colour)), static_cast<float>(TIFFGetG(colour)),
-                        static_cast<float>(TIFFGetB(colour)));
-  }
+  return colours;
+}
+
+void TiffStack::Impl::read_colour(GrayF& out) {
+  const std::vector<std::uint32_t> colours = raster();
+  std::transform(colours.begin(), colours.end(), out.px.begin(), [](std::uint32_t v) {
+    return grey_of(static_cast<float>(TIFFGetR(v)), static_cast<float>(TIFFGetG(v)),
+                   static_cast<float>(TIFFGetB(v)));
+  });
+}
+
+void TiffStack::read_colours(RgbImage& page) {
+  Impl& self = *impl_;
+  page = {};
+  const std::uint16_t kind = self.page.photometric;
+  const bool grey = kind == PHOTOMETRIC_MINISBLACK || kind == PHOTOMETRIC_MINISWHITE;
+  const bool integers =
+      self.page.format == SAMPLEFORMAT_UINT && (self.page.bits <= 8 || self.page.bits == 16);
+  if (grey || !integers) return;
+  const std::vector<std::uint32_t> colours = self.raster();
+  page = RgbImage(static_cast<int>(self.page.width), static_cast<int>(self.page.height));
+  std::transform(colours.begin(), colours.end(), page.px.begin(), [](std::uint32_t v) {
+    return Rgb{std::uint8_t(TIFFGetR(v)), std::uint8_t(TIFFGetG(v)), std::uint8_t(TIFFGetB(v))};
+  });
 }
 
 TiffStack::TiffStack(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
@@ -291,7 +301,7 @@ TiffStack& TiffStack::operator=(TiffStack&&) noexcept = default;
 int TiffStack::width() const { return impl_->first_width; }
 int TiffStack::height() const { return impl_->first_height; }
 int TiffStack::bits() const { return impl_->first_bits; }
-double TiffStack::fps() const { return impl_->fps; }
+const PictureMetadata& TiffStack::metadata() const { return impl_->metadata; }
 
 int TiffStack::pages() const {
   const auto count = TIFFNumberOfDirectories(impl_->tiff.get());

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "vision/files/tiff_description.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -28,14 +29,16 @@ class TiffStack {
   int bits() const;
   /// Number of pages, including reduced-resolution pages. Reads all directories of the file: O(pages).
   int pages() const;
-  /// Frames per second from the ImageJ description of the first page (`fps=` or `finterval=` in seconds); 0
-  /// when unknown.
-  double fps() const;
+  /// Pixel size and frame rate that the first page states.
+  const PictureMetadata& metadata() const;
+  double fps() const { return metadata().fps; }  ///< Frames per second; 0 when unknown.
 
   /// Reads the next page into `page` (resized as needed); returns false after the last one. NaN values of a
   /// float TIFF are kept. Throws Error(Errc::input, path) when the page is damaged, truncated or not
   /// supported.
   bool read(GrayF& page);
+  /// The next page in 8-bit colours, for display, without reading it; empty for grey pages.
+  void read_colours(RgbImage& page);
 
  private:
   struct Impl;

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "vision/files/av_stream.h"
 #include "vision/files/input_file.h"
+#include "vision/files/picture_metadata.h"
 #include "vision/files/picture_sequence.h"
 #include "vision/files/tiff_stack.h"
 
@@ -62,7 +63,7 @@ VideoReader::VideoReader(const std::filesystem::path& path, double fps, unsigned
   impl_->path = path;
   impl_->fps = fps;
   if (is_picture_sequence(path)) {
-    impl_->sequence.emplace(path, fps);
+    impl_->sequence.emplace(path, fps > 0 ? fps : picture_metadata(path).fps);
     impl_->width = impl_->sequence->width();
     impl_->height = impl_->sequence->height();
   } else if (check_input_file(path) == InputKind::tiff) {
@@ -87,7 +88,8 @@ int VideoReader::bits() const {
   return impl_->stack ? impl_->stack->bits() : impl_->stream->bits();
 }
 double VideoReader::fps() const {
-  if (impl_->fps > 0 || impl_->sequence) return impl_->fps;
+  if (impl_->sequence) return impl_->sequence->fps();
+  if (impl_->fps > 0) return impl_->fps;
   return impl_->stack ? impl_->stack->fps() : impl_->stream->fps();
 }
 std::int64_t VideoReader::frames_in_header() const {

@@ -37,8 +37,8 @@ class VideoReader {
   int height() const;  ///< px
   /// Bit depth of the grey scale: white is 2^bits - 1 (8 or 16; for TIFF see TiffStack::bits).
   int bits() const;
-  /// Mean frames per second, as given or from the file; 0 when unknown (TIFF without ImageJ description,
-  /// still images, folders of pictures).
+  /// Mean frames per second, as given or from the file; 0 when unknown (still images, TIFF files without a
+  /// frame interval in their metadata, see PictureMetadata).
   double fps() const;
   /// Number of frames according to the file header, for progress bars only; 0 when unknown.
   std::int64_t frames_in_header() const;

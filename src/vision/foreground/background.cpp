@@ -39,16 +39,25 @@ float fine_spread(const std::vector<float>& values) {
 BackgroundSampler::BackgroundSampler(int most_frames, std::size_t most_bytes)
     : most_frames_(std::max(1, most_frames)), most_bytes_(most_bytes) {}
 
+std::size_t BackgroundSampler::most_kept(std::size_t pixels) const {
+  const auto fit = most_bytes_ / std::max<std::size_t>(1, pixels * sizeof(float));
+  return std::clamp<std::size_t>(fit, std::size_t(std::min(kMinFrames, most_frames_)),
+                                 std::size_t(most_frames_));
+}
+
+std::uint64_t BackgroundSampler::stride_for(std::uint64_t frames, std::size_t pixels) const {
+  std::uint64_t stride = 1;
+  while ((frames + stride - 1) / stride > most_kept(pixels)) stride *= 2;
+  return stride;
+}
+
 void BackgroundSampler::take(const GrayF& frame) {
   if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
     throw Error(Errc::internal, "", "the frame differs in size from the previous frames of the background");
   const bool wanted = needs_next();
   ++seen_;
   if (!wanted) return;
-  const auto fit = most_bytes_ / std::max<std::size_t>(1, frame.px.size() * sizeof(float));
-  const auto most = std::clamp<std::size_t>(fit, std::size_t(std::min(kMinFrames, most_frames_)),
-                                            std::size_t(most_frames_));
-  if (kept_.size() >= most) {
+  if (kept_.size() >= most_kept(frame.px.size())) {
     std::size_t to = 0;
     for (std::size_t from = 0; from < kept_.size(); from += 2) std::swap(kept_[to++], kept_[from]);
     kept_.resize(to);

@@ -34,6 +34,8 @@ class BackgroundSampler {
   void skip() { ++seen_; }
   /// Offers the next frame. All frames must have the same size, else Error(Errc::internal).
   void take(const GrayF& frame);
+  /// The final stride for a video of `frames` frames of `pixels` pixels: one of this number of frames is sampled.
+  std::uint64_t stride_for(std::uint64_t frames, std::size_t pixels) const;
   /// Frames sampled so far.
   const std::vector<GrayF>& kept() const { return kept_; }
 
@@ -46,6 +48,8 @@ class BackgroundSampler {
   Background background(Pool& pool) const;
 
  private:
+  std::size_t most_kept(std::size_t pixels) const;
+
   int most_frames_;
   std::size_t most_bytes_;
   std::uint64_t seen_ = 0, stride_ = 1;

@@ -18,18 +18,33 @@ constexpr double kWidestSpot = 200;  // px, sd; limits the memory of the tables
 constexpr double kMostPixels = 1 << 28;
 constexpr double kDefaultExposure = 0.01;  // s
 
+// Light in fluorescence is additive, as that of bright cells on the background of the medium; there is no
+// refraction at the edge of a drop.
+MicroscopeParams as_bright_field(MicroscopeParams p) {
+  if (p.mode != MicroscopeParams::Mode::fluorescence) return p;
+  p.level = p.background_emission;
+  p.contrast = p.emission / p.background_emission;
+  p.edge_contrast = 0;
+  return p;
+}
+
+// Phase contrast is a density of either sign, because the light stays above zero where halos overlap.
+bool absorbing(const MicroscopeParams& p) {
+  return p.contrast < 0 || p.mode == MicroscopeParams::Mode::phase_contrast;
+}
+
 // Sum over the pixels of the contribution of one cell: optical density, or added light.
 double weight_of(const MicroscopeParams& p, double m_per_px) {
   const double d = p.cell_diameter / m_per_px, rod = (p.length() - p.cell_diameter) / m_per_px;
   const double area = portable::kPi / 4 * d * d + d * rod;
-  return area * (p.contrast < 0 ? -portable::log(1 + p.contrast) : p.contrast);
+  return area * (absorbing(p) ? -portable::log(1 + p.contrast) : p.contrast);
 }
 
 SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t seed) {
   if (std::max({p.psf_sd, p.cell_diameter / 4, p.length() / 64}) > kWidestSpot * m_per_px)
     throw Error(Errc::usage, "microscope",
-                fmt::format("the blur of a cell exceeds {:g} px at this scale; reduce psf_sd, cell_diameter "
-                            "or cell_length, or increase scale.um_per_px",
+                fmt::format("the blur of a cell or of its halo exceeds {:g} px at this scale; reduce psf_sd, "
+                            "halo_width, cell_diameter or cell_length, or increase scale.um_per_px",
                             kWidestSpot));
   SplatShape s;
   s.psf_sd_px = p.psf_sd / m_per_px;
@@ -39,6 +54,17 @@ SplatShape shape_of(const MicroscopeParams& p, double m_per_px, std::uint64_t se
   s.weight = weight_of(p, m_per_px);
   s.seed = seed;
   return s;
+}
+
+// The halo: the part of the diffracted light that passes the phase ring is a blurred copy of the cell with
+// the opposite sign.
+std::optional<CellSplats> halos_of(const MicroscopeParams& p, double m_per_px, std::uint64_t seed) {
+  if (p.mode != MicroscopeParams::Mode::phase_contrast || p.halo <= 0) return {};
+  MicroscopeParams wide = p;
+  wide.psf_sd = std::sqrt(p.psf_sd * p.psf_sd + p.halo_width * p.halo_width);
+  SplatShape s = shape_of(wide, m_per_px, seed);
+  s.weight *= -p.halo;
+  return CellSplats(s);
 }
 
 double exposure_of(const MicroscopeParams& p, double frame_period) {
@@ -64,13 +90,15 @@ const Frame& checked_size(const Frame& frame) {
 
 }  // namespace
 
-Microscope::Microscope(const MicroscopeParams& p, const Frame& frame, const Circle& edge, double frame_period,
-                       std::uint64_t seed, const VideoBackground* ground)
-    : params_(p),
+Microscope::Microscope(const MicroscopeParams& params, const Frame& frame, const Circle& edge,
+                       double frame_period, std::uint64_t seed, const VideoBackground* ground)
+    : params_(as_bright_field(params)),
       seed_(seed),
-      exposure_time_(exposure_of(p, frame_period)),
+      exposure_time_(exposure_of(params, frame_period)),
       sum_(checked_size(frame).width, frame.height),
-      splats_(shape_of(p, frame.m_per_px, seed)) {
+      splats_(shape_of(params_, frame.m_per_px, seed)),
+      halos_(halos_of(params_, frame.m_per_px, seed)) {
+  const MicroscopeParams& p = params_;
   if (p.background.empty()) {
     ground_ = illuminated_background(p, frame, edge, seed);
     const double read = p.read_noise / p.full_well;
@@ -100,6 +128,7 @@ template <class T>
 void Microscope::render_as(const Exposure& e, Pool& pool, Image<T>& out) {
   std::fill(sum_.px.begin(), sum_.px.end(), 0.0F);
   splats_.add(e.cells, sum_, pool);
+  if (halos_) halos_->add(e.cells, sum_, pool);
   CameraSensor s;
   s.seed = seed_;
   s.frame = std::uint32_t(e.frame);
@@ -108,7 +137,9 @@ void Microscope::render_as(const Exposure& e, Pool& pool, Image<T>& out) {
   s.lamp = std::max(s.lamp, 0.0);
   s.shot = shot_;
   s.constant = constant_;
-  s.absorbing = params_.contrast < 0;
+  s.absorbing = absorbing(params_);
+  if (params_.bleaching_time && params_.mode == MicroscopeParams::Mode::fluorescence)
+    s.emission = portable::exp(-e.t / *params_.bleaching_time);
   expose(s, ground_, sum_, pool, out);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/frame.h"
@@ -47,12 +48,13 @@ class Microscope {
   template <class T>
   void render_as(const Exposure& e, Pool& pool, Image<T>& out);
 
-  MicroscopeParams params_;
+  MicroscopeParams params_;  ///< in fluorescence, as those of a bright field with the same light
   std::uint64_t seed_;
   double exposure_time_;
   double shot_ = 0, constant_ = 0;  ///< noise variance per light, and without light; fractions of white
   GrayF ground_, sum_;
   CellSplats splats_;
+  std::optional<CellSplats> halos_;  ///< of phase contrast
 };
 
 }  // namespace faba

@@ -5,6 +5,48 @@
 namespace faba {
 namespace {
 
+void describe_mode(Schema<MicroscopeParams>& s) {
+  using P = MicroscopeParams;
+  s.add("mode", &P::mode,
+        {.doc =
+             "bright_field: cells absorb light; phase_contrast: a cell has a halo of the opposite contrast; "
+             "fluorescence: cells emit light on a dark background, and contrast, level and edge_contrast "
+             "have no effect",
+         .choices = {"bright_field", "phase_contrast", "fluorescence"}})
+      .add(
+          "halo", &P::halo,
+          {.min = 0,
+           .max = 1,
+           .doc = "Phase contrast: integrated optical density of the halo over that of the cell; 1: the mean "
+                  "light of the picture does not change",
+           .source = "assumed (G5)"})
+      .add("halo_width", &P::halo_width,
+           {.unit = "m",
+            .min = 1e-7,
+            .max = 1e-4,
+            .doc = "Phase contrast: Gaussian standard deviation of the halo before the blur",
+            .source = "assumed (G5)"})
+      .add("emission", &P::emission,
+           {.min = 0,
+            .max = 10,
+            .doc = "Fluorescence: light at the centre of a cell that is much larger than the blur, before "
+                   "bleaching, as a fraction of white",
+            .source = "assumed"})
+      .add("background_emission", &P::background_emission,
+           {.min = 1e-3,
+            .max = 1,
+            .doc = "Fluorescence: light of the medium at the picture centre, as a fraction of white; it does "
+                   "not bleach",
+            .source = "assumed"})
+      .add("bleaching_time", &P::bleaching_time,
+           {.unit = "s",
+            .min = 1e-3,
+            .max = 1e9,
+            .doc = "Fluorescence: time constant of the exponential decay of the emission of the cells; "
+                   "default: no bleaching",
+            .source = "first-order photobleaching [S45] (G5)"});
+}
+
 void describe_cells(Schema<MicroscopeParams>& s) {
   using P = MicroscopeParams;
   s.add("psf_sd", &P::psf_sd,
@@ -124,6 +166,7 @@ Schema<MicroscopeParams> MicroscopeParams::schema() {
   using P = MicroscopeParams;
   Schema<P> s("microscope",
               "Model of the camera picture: with camera.sensor = \"frames\" or record.as_seen = true");
+  describe_mode(s);
   describe_cells(s);
   describe_light(s);
   describe_camera(s);
@@ -134,8 +177,9 @@ Schema<MicroscopeParams> MicroscopeParams::schema() {
         return {};
       })
       .validity(
-          "Cells absorb or scatter light but do not refract it: a dark cell has no bright fringe, and a cell "
-          "out of focus has no diffraction rings.");
+          "In bright field, cells absorb or scatter light but do not refract it: a dark cell has no bright "
+          "fringe. A cell out of focus has no diffraction rings, a halo no shade-off, and all fluorescent "
+          "cells are equally bright.");
 }
 
 void MicroscopeParams::settle(MicroscopeParams& p, const Node& n) {

@@ -1,12 +1,19 @@
 /* A mock of the NI-DAQmx library: devices that only write a log. FAKE_NI_LOG is the log file, with a line
  * "time_s channel value" for each output, time on CLOCK_MONOTONIC. FAKE_NI_FAIL_AT=k makes the k-th call after the
  * start of the outputs and all later calls fail. Outputs keep their values when the process ends, like those of a
- * USB-6009: the last lines of the log remain valid. */
+ * USB-6009: the last lines of the log remain valid. With FAKE_NI_BASE it is a mock of NI-DAQmx Base: other names, ports
+ * instead of lines, and no list of devices. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+
+#ifdef FAKE_NI_BASE
+#define NI(name) DAQmxBase##name
+#else
+#define NI(name) DAQmx##name
+#endif
 
 enum { kMost = 16 };
 struct task {
@@ -42,12 +49,12 @@ static int broken(void) {
   return fail_at > 0 && calls >= fail_at ? fail(-200324, "The device was unplugged.") : 0;
 }
 
-int32_t DAQmxCreateTask(const char* name, void** task) {
+int32_t NI(CreateTask)(const char* name, void** task) {
   (void)name;
   *task = calloc(1, sizeof(struct task));
   return 0;
 }
-int32_t DAQmxCreateAOVoltageChan(void* task, const char* channel, const char* name, double least, double most,
+int32_t NI(CreateAOVoltageChan)(void* task, const char* channel, const char* name, double least, double most,
                                  int32_t units, const char* scale) {
   struct task* t = task;
   (void)name, (void)scale;
@@ -62,29 +69,29 @@ int32_t DAQmxCreateAOVoltageChan(void* task, const char* channel, const char* na
   ++t->outputs;
   return 0;
 }
-int32_t DAQmxCreateAIVoltageChan(void* task, const char* channel, const char* name, int32_t terminal, double least,
+int32_t NI(CreateAIVoltageChan)(void* task, const char* channel, const char* name, int32_t terminal, double least,
                                  double most, int32_t units, const char* scale) {
   struct task* t = task;
   (void)name, (void)terminal, (void)least, (void)most, (void)units, (void)scale;
   snprintf(t->channel[t->inputs++], sizeof t->channel[0], "%s", channel);
   return 0;
 }
-int32_t DAQmxCreateDOChan(void* task, const char* lines, const char* name, int32_t grouping) {
+int32_t NI(CreateDOChan)(void* task, const char* lines, const char* name, int32_t grouping) {
   struct task* t = task;
   (void)name, (void)grouping;
   snprintf(t->channel[0], sizeof t->channel[0], "%s", lines);
   t->lines = 1;
   return 0;
 }
-int32_t DAQmxStartTask(void* task) {
+int32_t NI(StartTask)(void* task) {
   (void)task;
   return 0;
 }
-int32_t DAQmxClearTask(void* task) {
+int32_t NI(ClearTask)(void* task) {
   free(task);
   return 0;
 }
-int32_t DAQmxWriteAnalogF64(void* task, int32_t samples, uint32_t start, double timeout, uint32_t layout,
+int32_t NI(WriteAnalogF64)(void* task, int32_t samples, uint32_t start, double timeout, uint32_t layout,
                             const double* values, int32_t* written, uint32_t* reserved) {
   struct task* t = task;
   int i;
@@ -98,7 +105,7 @@ int32_t DAQmxWriteAnalogF64(void* task, int32_t samples, uint32_t start, double 
   if (written) *written = samples;
   return 0;
 }
-int32_t DAQmxReadAnalogF64(void* task, int32_t samples, double timeout, uint32_t fill, double* values, uint32_t size,
+int32_t NI(ReadAnalogF64)(void* task, int32_t samples, double timeout, uint32_t fill, double* values, uint32_t size,
                            int32_t* got, uint32_t* reserved) {
   struct task* t = task;
   int i;
@@ -108,25 +115,36 @@ int32_t DAQmxReadAnalogF64(void* task, int32_t samples, double timeout, uint32_t
   if (got) *got = samples;
   return 0;
 }
-int32_t DAQmxWriteDigitalLines(void* task, int32_t samples, uint32_t start, double timeout, uint32_t layout,
-                               const uint8_t* values, int32_t* written, uint32_t* reserved) {
+#ifdef FAKE_NI_BASE
+int32_t NI(WriteDigitalU8)(
+#else
+int32_t NI(WriteDigitalLines)(
+#endif
+    void* task, int32_t samples, uint32_t start, double timeout, uint32_t layout, const uint8_t* values, int32_t* written,
+    uint32_t* reserved) {
   struct task* t = task;
   (void)start, (void)timeout, (void)layout, (void)reserved;
   if (log_file && broken()) return -200324;
+#ifdef FAKE_NI_BASE
+  note(t->channel[0], (values[0] >> (t->channel[0][strlen(t->channel[0]) - 1] - '0')) & 1); /* the bit of the line */
+#else
   note(t->channel[0], values[0]);
+#endif
   if (written) *written = samples;
   return 0;
 }
-int32_t DAQmxGetExtendedErrorInfo(char* text, uint32_t size) {
+int32_t NI(GetExtendedErrorInfo)(char* text, uint32_t size) {
   snprintf(text, size, "%s", error_text);
   return 0;
 }
-int32_t DAQmxGetSysDevNames(char* text, uint32_t size) {
+#ifndef FAKE_NI_BASE
+int32_t NI(GetSysDevNames)(char* text, uint32_t size) {
   snprintf(text, size, "Dev1, Dev2");
   return 0;
 }
-int32_t DAQmxGetDevProductType(const char* device, char* text, uint32_t size) {
+int32_t NI(GetDevProductType)(const char* device, char* text, uint32_t size) {
   (void)device;
   snprintf(text, size, "USB-6009");
   return 0;
 }
+#endif

@@ -26,8 +26,8 @@ TEST_CASE("the field is evaluated again only for a new shift of the coils") {
   }
   write_file(folder.path() / "m.csv", table);
   std::uint64_t evaluations = 0;
-  const FieldFit fit = field_fit(folder.path() / "drawn.toml", folder.path() / "m.csv", {}, {},
-                                 [&](std::uint64_t n) { CHECK(n == ++evaluations); });
+  const FieldFit fit = field_fit(folder.path() / "drawn.toml", folder.path() / "m.csv",
+                                 {.evaluated = [&](std::uint64_t n) { CHECK(n == ++evaluations); }});
   CHECK(fit.best.gain == doctest::Approx(0.9).epsilon(1e-5));
   CHECK(fit.best.shift[0] == doctest::Approx(1e-3).epsilon(1e-4));
   // Six iterations with the field for a shift and its three derivatives; without reuse there are 55
@@ -47,7 +47,7 @@ TEST_CASE("the axial field along the axis does not determine the lateral positio
     table +=
         fmt::format("0,0,{},{:.17g}\n", 2e-3 * i, real->at({0, 0, 2e-3 * i}, std::vector<double>{2.0}).z);
   write_file(folder.path() / "m.csv", table);
-  const FieldFit fit = field_fit(folder.path() / "drawn.toml", folder.path() / "m.csv", {}, {});
+  const FieldFit fit = field_fit(folder.path() / "drawn.toml", folder.path() / "m.csv");
   // Across the axis the axial field changes with the square of the distance only.
   for (const char* name : {"shift x", "shift y"})
     CHECK(std::count(fit.undetermined.begin(), fit.undetermined.end(), name) == 1);
@@ -74,7 +74,7 @@ TEST_CASE(
         fmt::format("0,0,{:.17g},{:.17g},{:.17g},{:.17g}\n", at.z, b.x + noise, b.y - noise, b.z + noise);
   }
   write_file(folder.path() / "m.csv", table);
-  const FieldFit fit = field_fit(folder.path() / "drawn.toml", folder.path() / "m.csv", {}, {});
+  const FieldFit fit = field_fit(folder.path() / "drawn.toml", folder.path() / "m.csv");
   CHECK(std::count(fit.undetermined.begin(), fit.undetermined.end(), "shift z") == 1);
   CHECK(std::fabs(fit.best.gain) < 10);
   CHECK(quality_of(fit.warnings) != Quality::good);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 
 using namespace faba;
 
@@ -70,4 +70,20 @@ TEST_CASE("episode statistics, density: position of the swarm as a fraction of t
     if (n.what == "cells in view") CHECK(numbers[k] == doctest::Approx(std::log(1.02)));
   }
   CHECK(numbers.back() == doctest::Approx(std::log1p(50)));
+}
+
+TEST_CASE("episode statistics: the change by a drift is that of shifted positions") {
+  for (const Measure measure : {Measure::tracks, Measure::density}) {
+    const auto s = make_statistics(measure, kEpisode, view());
+    auto seen = seen_at(s->times_s());
+    const auto before = s->of_positions(seen);
+    const Vec2 drift{4, 0};  // px/s
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      for (Vec2& at : seen[k]) at = at + s->times_s()[k] * drift;
+    const auto after = s->of_positions(seen), change = s->of_drift(drift);
+    REQUIRE(change.size() == before.size());
+    for (std::size_t k = 0; k < change.size(); ++k)
+      if (s->numbers()[k].what.find("along") != std::string::npos)
+        CHECK(std::fabs(after[k] - before[k] - change[k]) < 0.01);  // bins of one pixel, 3 of 321
+  }
 }

@@ -25,8 +25,15 @@ ActivityResult one_video(bool good) {
   a.fit.amplitude = 5;
   if (good) {
     a.maximum_s = 1;
-    a.onset_s = 0.5;
-    a.se_onset_s = 0.1;
+    a.um_per_px = 0.5;
+    Response r;
+    r.earliest_s = 0.25;
+    r.responds = true;
+    r.change.t_s = 0.5;
+    r.change.ci90 = {0.3, 0.7};
+    r.fraction = Measured{0.75, {0.5, 1}};
+    r.speed_px_s = Measured{100, {90, 110}};
+    a.response = r;
   } else {
     a.fit.reason = "the peak is wider than the video";
   }
@@ -37,23 +44,30 @@ ActivityResult one_video(bool good) {
 
 }  // namespace
 
-TEST_CASE("activity report: onset with its standard error and interval") {
+TEST_CASE("activity report: onset, fraction and speed with their 90 % intervals") {
   const ActivityResult r = one_video(true);
   const std::string page = activity_page(r);
   CHECK(test::XmlCheck::complaint(page) == "");
-  CHECK(has(page, "0.500 ± 0.100"));
-  CHECK(has(page, "standard error 0.100 s. (2) Maximum; standard error 0.0200 s"));
+  CHECK(has(page, "0.50 [0.30, 0.70]"));
+  CHECK(has(page, "field reversal at 0.250 s"));
+  CHECK(has(page, "standard error 0.0200 s"));
   const auto video = activity_json(r)["videos"][0];
   CHECK(video["onset_s"] == 0.5);
-  CHECK(video["onset_ci90"][0].get<double>() == doctest::Approx(0.5 - 0.1645));
-  CHECK(video["onset_ci90"][1].get<double>() == doctest::Approx(0.5 + 0.1645));
+  CHECK(video["onset_ci90"][0] == 0.3);
+  CHECK(video["onset_ci90"][1] == 0.7);
+  CHECK(video["responding_fraction"] == 0.75);
+  CHECK(video["responding_fraction_ci90"][0] == 0.5);
+  CHECK(video["speed_px_per_s"] == 100);
+  CHECK(video["speed_um_per_s"] == 50);
+  CHECK(video["speed_um_per_s_ci90"][1] == 55);
+  CHECK(video["response"]["reversal_s"] == 0.25);
 }
 
 TEST_CASE("activity report: a failed fit has a reason and no onset, maximum or width") {
   const ActivityResult r = one_video(false);
   const std::string page = activity_page(r);
   CHECK(test::XmlCheck::complaint(page) == "");
-  CHECK(has(page, "The Gaussian fit failed: the peak is wider than the video. No onset"));
+  CHECK(has(page, "The Gaussian fit failed: the peak is wider than the video. No maximum"));
   CHECK(has(page, "<td>–</td><td>–</td><td>–</td></tr>"));
   CHECK_FALSE(has(page, "(1) Onset"));
   const auto video = activity_json(r)["videos"][0];

@@ -17,9 +17,9 @@ TEST_CASE("drop report: exactly the documented fields, in order") {
   edge.image_width = 518;
   edge.image_height = 488;
   edge.support = 0.9;
-  CHECK(drop_json(edge).dump() ==
+  CHECK(drop_json(edge, {}).dump() ==
         R"({"center_px":[258.5,-12.25],"radius_px":161.0,"sd_px":{"x":0.5,"y":0.75,"radius":0.25},)"
-        R"("arc_deg":90.0,"inside":[3.0,4.0],"image_size":[518,488],"quality":"good","warnings":[]})");
+        R"("arc_deg":90.0,"support":0.9,"edge_width_px":0.0,"out_of_round_px":0.0,"inside":[3.0,4.0],"image_size":[518,488],"um_per_px":null,"um_per_px_source":null,"quality":"good","warnings":[]})");
 }
 
 TEST_CASE("drop report: a picture without a drop gives a default circle and a reason") {
@@ -29,5 +29,6 @@ TEST_CASE("drop report: a picture without a drop gives a default circle and a re
   nlohmann::ordered_json j = drop_json(drop);
   j["reason"] = "";
   CHECK(j.dump() ==
-        R"({"found":false,"reason":"","center_px":[99.5,49.5],"radius_px":40.0,"image_size":[200,100]})");
+        R"({"found":false,"reason":"","center_px":[99.5,49.5],"radius_px":40.0,"image_size":[200,100],)"
+        R"("um_per_px":null,"um_per_px_source":null})");
 }

@@ -301,6 +301,29 @@ TEST_CASE("plot: ticks are round numbers inside the range") {
   }
 }
 
+TEST_CASE("plot: ticks of counts are integers, those of angles multiples of 45 degrees") {
+  CHECK(tick_positions(0, 2.2, 6, Ticks::integers) == std::vector<double>{0, 1, 2});
+  CHECK(tick_positions(0, 100, 5, Ticks::integers) == std::vector<double>{0, 20, 40, 60, 80, 100});
+  CHECK(tick_positions(-180, 180, 8, Ticks::degrees) ==
+        std::vector<double>{-180, -135, -90, -45, 0, 45, 90, 135, 180});
+  CHECK(tick_positions(0, 360, 5, Ticks::degrees) == std::vector<double>{0, 90, 180, 270, 360});
+  CHECK(tick_positions(80, 100, 5, Ticks::degrees) == std::vector<double>{80, 85, 90, 95, 100});
+}
+
+TEST_CASE("plot: error bars extend the axis and have caps; without values they are not drawn") {
+  Plot plot;
+  plot.add(ErrorBars{{1, 2, kNan}, {3, 4, 0}, {5, 90, 1}, "interval", Ink::green});
+  CHECK(has_values(plot));
+  const std::string drawing = svg(plot);
+  check_sound(drawing);
+  CHECK(drawing.find(">80<") != std::string::npos);
+  CHECK(count(drawing, "<path class=\"s-green\"") == 2);  // the bars and the symbol of the legend
+  CHECK_FALSE(has_values(Plot{}));
+  Plot empty;
+  empty.add(Band{0, 1}).add(Rule{2}).add(Line{{kNan}, {1}}).add(ErrorBars{{1}, {kNan}, {kNan}});
+  CHECK_FALSE(has_values(empty));
+}
+
 TEST_CASE("plot: ticks of an axis have equal decimals; large and small numbers have a common power of ten") {
   Plot plot;
   plot.x.label = "time (s)";

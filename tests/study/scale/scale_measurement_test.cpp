@@ -134,6 +134,20 @@ TEST_CASE("without an edge excess both estimators agree, and the note states it"
   CHECK(says(scale_note(s), "not significantly different from 0"));
 }
 
+TEST_CASE("readings that bend are named; straight ones are not") {
+  // A lens that distorts: readings of wide distances are 8 % too large.
+  std::string bent = "width_um,px\n", straight = bent;
+  for (int i = 0; i < 12; ++i) {
+    const double width = 20 * (i / 2 + 1), scatter = i % 2 == 0 ? 0.3 : -0.3;
+    straight += fmt::format("{},{}\n", width, 1.2 * width + scatter);
+    bent += fmt::format("{},{}\n", width, 1.2 * width * (1 + 0.08 * width * width / 14400) + scatter);
+  }
+  CHECK(measured(straight).warnings.empty());
+  REQUIRE(measured(bent).warnings.size() == 1);
+  CHECK(measured(bent).warnings[0].aspect == "linearity");
+  CHECK(measured(kTable41).warnings.empty());
+}
+
 TEST_CASE("invalid tables are refused") {
   CHECK(says(refused("dear diary\nwe measured\n"), ":2"));
   CHECK(says(refused("width_um,px\n30,41\nforty,52\n"), ":3"));

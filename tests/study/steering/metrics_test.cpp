@@ -235,6 +235,15 @@ TEST_CASE("metrics: a setpoint is reached when a frame of its leg is within tole
   CHECK(metrics_json(control_metrics(s))["setpoints_reached"].dump() == "2");
 }
 
+TEST_CASE("metrics: a run that ended before the last setpoint of its route is not settled") {
+  const faba::Series s = approach(50, 0.1, [](double t) { return t < 2 ? 1.0 : 0.0; }).series();
+  CHECK(*control_metrics(s).settling_time_s == doctest::Approx(2));
+  CHECK(*control_metrics(s, 10, 1).settling_time_s == doctest::Approx(2));
+  CHECK_FALSE(control_metrics(s, 10, 4).settling_time_s);
+  CHECK(control_metrics(s, 10, 4).route_unfinished());
+  CHECK(control_metrics(s, 10, 900).settling_time_s);  // a moving setpoint has no last one
+}
+
 TEST_CASE("metrics: the cross-track error is the distance to the polyline of setpoints") {
   // A route with a corner, followed at a distance of 3 px on its first leg and 1 px on the second. The
   // approach before the first change of the setpoint is excluded.

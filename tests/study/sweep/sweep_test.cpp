@@ -7,6 +7,8 @@
 #include <fstream>
 #include <limits>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.h"
 #include "core/file.h"
 #include "study/sweep/study_directory.h"
@@ -106,7 +108,7 @@ TEST_CASE("study directory: resumed, neither mixed with another study nor overwr
     StudyDirectory d(dir, "one", "again", false);  // resumes after a kill
     CHECK(d.results().find("a"));
     CHECK_THROWS_WITH(StudyDirectory(dir, "one", "again", false), doctest::Contains("process"));
-    d.complete();
+    d.complete(nlohmann::ordered_json::object());
   }
   CHECK_THROWS_WITH(StudyDirectory(dir, "one", "again", false), doctest::Contains("complete"));
   CHECK_THROWS_WITH(StudyDirectory(dir, "two", "again", false), doctest::Contains("a different study"));

@@ -130,6 +130,36 @@ TEST_CASE("positions correlated over frames are detected and not mistaken for sw
   CHECK(r.d_px2_s.value == doctest::Approx(8).epsilon(0.08));
 }
 
+TEST_CASE("the fit of a mean-square displacement reports when the law does not describe it") {
+  // Particles that diffuse in a trap: MSD = 4 s^2 (1 - exp(-t / tau)), with D = s^2 / tau at short times.
+  const auto trapped = [](double tau_s, std::uint64_t seed) {
+    cells::Dice dice(seed);
+    TrackStatistics statistics(kFrame);
+    const double sd = 2, keep = std::exp(-kFrame / tau_s);
+    for (int i = 0; i < 100; ++i) {
+      Track t;
+      t.number = std::uint64_t(i + 1);
+      Vec2 p = sd * Vec2{dice.normal(), dice.normal()};
+      for (int k = 0; k < 80; ++k) {
+        t.points.push_back({std::uint64_t(k), k * kFrame, p.x, p.y, 1, 1});
+        p = keep * p + sd * std::sqrt(1 - keep * keep) * Vec2{dice.normal(), dice.normal()};
+      }
+      statistics.take(t);
+    }
+    return statistics.summary();
+  };
+  const TrackSummary trap = trapped(5 * kFrame, 1);
+  CHECK(trap.diffusion_misfit.significant);
+  CHECK(trap.diffusion_misfit.deviation < -0.1);  // it saturates
+  int false_alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const TrackSummary free = walk(80, 50, 0, 0, 8, {3, 1}, 0.5, 20 + seed);
+    false_alarms += free.diffusion_misfit.significant;
+    false_alarms += walk(80, 50, 40, 1, 0, {}, 0.3, 40 + seed).persistent_misfit.significant;
+  }
+  CHECK(false_alarms <= 1);  // each with a probability below 1 %
+}
+
 TEST_CASE("no track, one point: a summary without undefined values") {
   TrackStatistics none(kFrame);
   CHECK(none.summary().tracks == 0);

@@ -180,11 +180,11 @@ TEST_CASE("the spot size is estimated") {
     l.cell_sd_px = sd;
     l.noise = 3;
     const GrayF frame = cells::picture(l, cells::scattered(l, 40, 9 * sd, 4 * sd, 2), 3);
-    const double size = spot_size(frame, spatial_background(frame, 30), Polarity::dark, pool);
+    const double size = spot_size(frame, spatial_background(frame, 30), Polarity::dark, pool).px;
     // Sizes are tested in steps of 20 %; the maximum of the band-pass response can be off by another 15 %.
     CHECK(size > 0.68 * sd * kFwhmPerSd);
     CHECK(size < 1.38 * sd * kFwhmPerSd);
   }
   const GrayF black(64, 48);
-  CHECK(spot_size(black, spatial_background(black, 8), Polarity::dark, pool) == 0);
+  CHECK(spot_size(black, spatial_background(black, 8), Polarity::dark, pool).px == 0);
 }

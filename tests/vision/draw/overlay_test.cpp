@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/vision/drop_pictures.h"
+#include "vision/files/picture.h"
 
 using namespace faba;
 
@@ -13,7 +14,7 @@ TEST_CASE("the overlay keeps the grey picture and draws the edge in colour") {
   s.step = 60;
   const GrayF picture = render(s);
   const DropEdge edge = find_drop_edge(picture);
-  const RgbImage overlay = drop_overlay(picture, edge);
+  const RgbImage overlay = drop_overlay(displayed(picture), edge);
   CHECK(overlay.width == 640);
   CHECK(overlay.height == 480);
   auto is_grey = [&](int c, int r) {
@@ -45,6 +46,6 @@ TEST_CASE("a circle much larger than the picture and an empty picture can be dra
   edge.centre_image = {320, 1e6 + 240};
   edge.image_width = 64;
   edge.image_height = 48;
-  CHECK(drop_overlay(GrayF(64, 48, 3.f), edge).width == 64);
-  CHECK(drop_overlay(GrayF(), DropEdge{}).empty());
+  CHECK(drop_overlay(displayed(GrayF(64, 48, 3.f)), edge).width == 64);
+  CHECK(drop_overlay({}, DropEdge{}).empty());
 }

@@ -110,6 +110,46 @@ TEST_CASE("complete drops, wide arcs and dim 16-bit pictures are detected") {
   CHECK(wide.arc_deg < 161);
 }
 
+TEST_CASE("an elliptical drop: the uncertainty of the radius contains both half axes") {
+  DropScene s;
+  s.radius = 150;
+  s.step = 40;
+  const GrayF round = render(s);
+  const DropEdge circle = find_drop_edge(round);
+  CHECK(circle.out_of_round_px < 0.5);
+  GrayF stretched(round.width, round.height);  // by 5 % along x
+  for (int r = 0; r < round.height; ++r)
+    for (int c = 0; c < round.width; ++c) {
+      const double x = s.centre.x + (c - s.centre.x) / 1.05;
+      const int left = int(x);
+      const float f = float(x - left);
+      stretched.at(c, r) = (1 - f) * round.at(left, r) + f * round.at(left + 1, r);
+    }
+  const DropEdge d = find_drop_edge(stretched);
+  CHECK(d.out_of_round_px == doctest::Approx(0.025 * s.radius).epsilon(0.25));
+  CHECK(d.radius_px - 2 * d.sd_radius_px < s.radius);
+  CHECK(d.radius_px + 2 * d.sd_radius_px > 1.05 * s.radius);
+}
+
+TEST_CASE("a second circular edge is reported") {
+  DropScene s;
+  s.radius = 120;
+  s.step = 30;
+  GrayF im = render(s);
+  CHECK(!find_drop_edge(im).other);
+  for (int r = 0; r < im.height; ++r)
+    for (int c = 0; c < im.width; ++c) {
+      const double t = std::hypot(c - s.centre.x - 5, r - s.centre.y) - 160;
+      im.at(c, r) -= float(40 * std::exp(-t * t / 8));
+    }
+  const DropEdge d = find_drop_edge(im);
+  REQUIRE(d.other);
+  const double smaller = std::min(d.radius_px, d.other->radius),
+               larger = std::max(d.radius_px, d.other->radius);
+  CHECK(smaller == doctest::Approx(120).epsilon(0.02));
+  CHECK(larger == doctest::Approx(160).epsilon(0.02));
+}
+
 TEST_CASE("an edge below the pixel noise is detected in coarser pyramid levels") {
   DropScene s;
   s.radius = 600;

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include <sys/resource.h>
 
 #include <csignal>
@@ -79,6 +81,55 @@ TEST_CASE("grey PNG and PGM of 8 and 16 bits: exact values") {
       CHECK(picture.pages == 1);
       CHECK(wrong_pixels(picture.grey, [&](int col, int row) { return value_at(col, row, limit); }) == 0);
     }
+  }
+}
+
+TEST_CASE("12 bits: every level of a PGM or TIFF stays a level of its own") {
+  const media::ScratchFolder folder;
+  std::string pgm = "P5\n64 64\n4095\n", packed;
+  for (std::uint32_t v = 0; v < 4096; ++v) pgm += media::bytes_of(v, 2, true);
+  for (std::uint32_t v = 0; v < 4096; v += 2) packed += media::bytes_of((v << 12U) | (v + 1), 3, true);
+  media::write_bytes(folder / "p.pgm", pgm);
+  media::TiffPage page;
+  page.width = page.height = 64;
+  page.bits = 12;
+  page.pixels = packed;
+  media::write_bytes(folder / "p.tif", media::tiff_file({page}));
+  const Picture grey = read_picture(folder / "p.pgm"), tiff = read_picture(folder / "p.tif");
+  CHECK(grey.bits == 16);
+  CHECK(tiff.bits == 12);
+  int wrong = 0;
+  for (int v = 0; v < 4096; ++v) {
+    wrong += std::lround(double(grey.grey.px[std::size_t(v)]) * 4095 / 65535) != v;
+    wrong += tiff.grey.px[std::size_t(v)] != float(v);
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("read_displayed: the colours of a file, and a grey picture stretched") {
+  const media::ScratchFolder folder;
+  std::string colours, greys;
+  for (int i = 0; i < 64 * 48; ++i) {
+    colours += {char(200), char(30), char(i % 64)};
+    greys += std::string(3, char(100 + i % 8));
+  }
+  media::TiffPage page;
+  page.width = 64;
+  page.height = 48;
+  page.samples = 3;
+  page.photometric = 2;
+  page.pixels = colours;
+  media::write_bytes(folder / "c.tif", media::tiff_file({page}));
+  media::write_bytes(folder / "c.ppm", "P6\n64 48\n255\n" + colours);
+  page.pixels = greys;
+  media::write_bytes(folder / "g.tif", media::tiff_file({page}));
+  media::write_bytes(folder / "g.ppm", "P6\n64 48\n255\n" + greys);
+  for (const char* name : {"c.tif", "c.ppm"})
+    CHECK(read_displayed(folder / name).at(5, 7) == Rgb{200, 30, 5});
+  for (const char* name : {"g.tif", "g.ppm"}) {
+    const RgbImage grey = read_displayed(folder / name);
+    CHECK(grey.at(0, 3) == Rgb{0, 0, 0});
+    CHECK(grey.at(7, 3) == Rgb{255, 255, 255});
   }
 }
 

@@ -397,3 +397,76 @@ TEST_CASE("frame times of a rendered video are stored in mp4 and returned by Vid
   CHECK(off(reader.fps(), 15) < 0.05);
   CHECK(std::fabs(double(frame.at(60, 40)) - 0.58 * 255) < 12);  // grey at the centre, up to coding and noise
 }
+
+TEST_CASE("phase contrast: a halo of the opposite sign around a cell, and the mean light for halo = 1") {
+  MicroscopeParams p = still();
+  p.mode = MicroscopeParams::Mode::phase_contrast;
+  p.halo = 1;
+  p.halo_width = 4e-6;
+  const double ground = std::floor(0.8 * kWhite16 + 0.5);
+  const Image<std::uint16_t> im = shot(p, {{48, 32}});
+  CHECK(im.at(48, 32) < 0.9 * ground);
+  CHECK(im.at(54, 32) > 1.001 * ground);
+  double density = 0, of_halo = 0, variance = 0;
+  for (int r = 0; r < im.height; ++r)
+    for (int c = 0; c < im.width; ++c) density -= std::log(double(im.at(c, r)) / ground);
+  CHECK(std::fabs(density) < 2e-3 * area_px(p) * -std::log(0.7) + 0.01);  // rounding, see above
+  // Without the cell itself the halo is a Gaussian of its width, the blur and the disc.
+  MicroscopeParams bright = p;
+  bright.mode = MicroscopeParams::Mode::bright_field;
+  const Image<std::uint16_t> cell = shot(bright, {{48, 32}});
+  for (int r = 0; r < im.height; ++r)
+    for (int c = 0; c < im.width; ++c) {
+      const double d = std::log(double(im.at(c, r)) / double(cell.at(c, r)));
+      of_halo += d;
+      variance += d * (c - 48) * (c - 48);
+    }
+  CHECK(off(of_halo, area_px(p) * -std::log(0.7)) < 0.01);
+  CHECK(off(variance / of_halo, spot_variance(p) + 16 + 1.0 / 12) < 0.02);
+  // A bright cell has a dark halo; the light stays above zero where halos overlap.
+  p.contrast = 5;
+  const std::vector<CameraCell> crowd(400, CameraCell{48, 32});
+  CHECK(shot(p, {{48, 32}}).at(54, 32) < ground);
+  CHECK(shot(p, crowd).at(54, 32) < 0.1 * ground);
+  CHECK(shot(p, crowd).at(54, 32) > 0);
+}
+
+TEST_CASE("fluorescence: bright cells on a dark background that bleach exponentially, with shot noise") {
+  MicroscopeParams p = still();
+  p.mode = MicroscopeParams::Mode::fluorescence;
+  p.emission = 0.5;
+  p.background_emission = 0.05;
+  p.bleaching_time = 2;
+  const double ground = std::floor(0.05 * kWhite16 + 0.5);
+  const auto emitted = [&](std::uint64_t number) {  // time: number / 15 s
+    const Image<std::uint16_t> im = shot(p, {{48, 32}}, view(), number);
+    return std::accumulate(im.px.begin(), im.px.end(), 0.0) - ground * double(im.px.size());
+  };
+  CHECK(off(emitted(0), area_px(p) * 0.5 * kWhite16) < 2e-3);
+  CHECK(off(emitted(30) / emitted(0), std::exp(-1.0)) < 2e-3);       // one time constant
+  CHECK(shot(p, {}, view(), 30).at(5, 5) == std::uint16_t(ground));  // the background does not bleach
+
+  p.noise.reset();
+  p.read_noise = 0;
+  p.full_well = 1000;
+  const Image<std::uint16_t> im = shot(p, {});
+  double sum = 0, squares = 0;
+  for (const std::uint16_t v : im.px) {
+    sum += v;
+    squares += double(v) * v;
+  }
+  const auto n = double(im.px.size());
+  const double variance = squares / n - sum * sum / (n * n);
+  // Relative standard error of a variance of 6144 values: sqrt(2/6144) = 1.8 %.
+  CHECK(off(variance, 0.05 / 1000 * kWhite16 * kWhite16) < 0.08);
+}
+
+TEST_CASE("the parameters of other modes do not change a bright-field picture") {
+  MicroscopeParams p, q;
+  q.halo = 0.3;
+  q.halo_width = 9e-6;
+  q.emission = 2;
+  q.bleaching_time = 0.1;
+  const std::vector<CameraCell> cells{{40, 30}, {70.5F, 20.25F}};
+  CHECK(shot(p, cells, view(), 3).px == shot(q, cells, view(), 3).px);
+}

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "tests/vision/ruler_pictures.h"
 #include "vision/draw/ruler_overlay.h"
+#include "vision/files/picture.h"
 
 using namespace faba;
 
@@ -75,7 +76,7 @@ TEST_CASE("without noise the measured marks are at the drawn positions") {
     const double along = d.x * std::cos(a) + d.y * std::sin(a) - s.offset;
     CHECK(std::fabs(std::remainder(along, s.pitch)) < 0.1);  // marks are 3 px wide
   }
-  const RgbImage drawn = ruler_overlay(picture, r);
+  const RgbImage drawn = ruler_overlay(displayed(picture), r);
   CHECK(drawn.width == s.width);
   CHECK(drawn.height == s.height);
   int coloured = 0;

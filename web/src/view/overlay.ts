@@ -5,7 +5,8 @@ import type { Frame } from '../frame';
 import type { Box, Camera } from './camera';
 
 export interface Scene {
-  view: { width: number; height: number; um_per_px: number };
+  /** um_per_px is null if the scale is not known; the nominal one is then that of the simulation. */
+  view: { width: number; height: number; um_per_px: number | null; nominal_um_per_px?: number | null };
   outline: { centre_px: [number, number]; radius_px: number };
   box: Box;
   /** Setpoints in pixels; a route when there are several. */
@@ -243,14 +244,14 @@ export class Overlay {
   }
 
   private scaleBar(scene: Scene, f: Frame | null, camera: Camera, p: Palette, ratio: number) {
-    const g = this.g, perPixel = camera.scale / scene.view.um_per_px; // canvas px per um
+    const g = this.g, known = scene.view.um_per_px, perPixel = camera.scale / (known ?? 1); // canvas px per um, or per image px
     const wanted = (120 * ratio) / perPixel, power = 10 ** Math.floor(Math.log10(wanted));
     const um = [5, 2, 1].map((k) => k * power).find((v) => v <= wanted) ?? power;
     const length = um * perPixel, x = g.canvas.width - 16 * ratio, y = g.canvas.height - 16 * ratio;
     g.fillStyle = p.text;
     g.fillRect(x - length, y, length, 3 * ratio);
     g.textAlign = 'right';
-    this.words(p, um >= 1000 ? `${um / 1000} mm` : `${um} µm`, x, y - 6 * ratio);
+    this.words(p, known === null ? `${um} px` : um >= 1000 ? `${um / 1000} mm` : `${um} µm`, x, y - 6 * ratio);
     g.textAlign = 'left';
     if (f) this.words(p, `${f.t.toFixed(2)} s`, 12 * ratio, g.canvas.height - 14 * ratio);
   }

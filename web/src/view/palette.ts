@@ -1,7 +1,7 @@
 // Colour-blind-safe colours of the microscope view (Okabe and Ito), light and dark.
 
 import type { Rgb, Style } from './cells';
-import type { Palette } from './overlay';
+import type { Palette, Scene } from './overlay';
 
 const kSwarms: Record<'light' | 'dark', Rgb[]> = {
   light: [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167]],
@@ -15,7 +15,7 @@ export const cellColours = (dark: boolean): Pick<Style, 'colours' | 'mute' | 'gr
   ground: dark ? [11, 16, 23] : [240, 243, 246],
 });
 /** Radius of a dot, image px. */
-export const cellRadius = (umPerPx: number) => kCell / umPerPx;
+export const cellRadius = (view: Scene['view']) => kCell / (view.um_per_px ?? view.nominal_um_per_px ?? 1);
 
 export const overlayColours = (dark: boolean): Palette =>
   dark

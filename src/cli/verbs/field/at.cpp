@@ -6,6 +6,7 @@
 
 #include "cli/command_line.h"
 #include "cli/options/field.h"
+#include "cli/provenance.h"
 #include "study/pages/field_report.h"
 
 namespace faba::cli {
@@ -26,7 +27,7 @@ int field_at(const FieldAtVerb& v, const Common& c) {
   if (!c.quiet && std::all_of(f.current.begin(), f.current.end(), [](double i) { return i == 0; }))
     print_stderr("faba: note: all currents are zero; set `current` of the coils in the coil system file");
   if (c.json) {
-    fmt::print("{}\n", field_json(f).dump());
+    print_json(field_json(f), provenance_of(c, {v.rig, v.points}));
     return 0;
   }
   std::string out = "x_m,y_m,z_m,bx_t,by_t,bz_t\n";

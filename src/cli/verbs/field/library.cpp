@@ -7,6 +7,7 @@
 #include "cli/options/field.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "core/error.h"
 #include "study/pages/field_report.h"
 
@@ -46,7 +47,7 @@ int field_library(const FieldLibraryVerb& v, const Common& c) {
   const FieldLibrarySummary library = build_field_library(v.rig, v.out, o);
   bar.clear();
   if (c.json) {
-    fmt::print("{}\n", field_json(library).dump());
+    print_json(field_json(library), provenance_of(c, {v.rig}));
     return 0;
   }
   if (c.quiet) return 0;

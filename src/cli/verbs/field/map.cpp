@@ -9,6 +9,7 @@
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
+#include "cli/provenance.h"
 #include "core/error.h"
 #include "study/pages/field_report.h"
 
@@ -88,7 +89,7 @@ int field_map(const FieldMapVerb& v, const Common& c) {
   }
   const FieldMap map = faba::field_map(v.rig, o);
   if (c.json) {
-    fmt::print("{}\n", field_json(map).dump());
+    print_json(field_json(map), provenance_of(c, {v.rig}));
     return 0;
   }
   if (c.quiet) return 0;

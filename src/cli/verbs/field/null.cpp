@@ -4,6 +4,7 @@
 
 #include "cli/command_line.h"
 #include "cli/options/field.h"
+#include "cli/provenance.h"
 #include "study/pages/field_report.h"
 
 namespace faba::cli {
@@ -17,7 +18,7 @@ struct FieldNullVerb {
 int field_null(const FieldNullVerb& v, const Common& c) {
   const RigNull found = null_of_rig(v.rig, position("--at", v.at), v.polarity == "south" ? -1 : 1);
   if (c.json) {
-    fmt::print("{}\n", field_json(found).dump());
+    print_json(field_json(found), provenance_of(c, {v.rig}));
     return 0;
   }
   if (c.quiet) return 0;

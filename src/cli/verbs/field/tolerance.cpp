@@ -5,6 +5,7 @@
 #include "cli/command_line.h"
 #include "cli/options/field.h"
 #include "cli/output_file.h"
+#include "cli/provenance.h"
 #include "study/pages/field_report.h"
 
 namespace faba::cli {
@@ -21,7 +22,7 @@ int field_tolerance(const FieldToleranceVerb& v, const Common& c) {
   check_output(v.picture, {".svg"}, v.force, {v.rig});
   const FieldTolerance tolerance = faba::field_tolerance(v.rig, position("--at", v.at), v.picture);
   if (c.json) {
-    fmt::print("{}\n", field_json(tolerance).dump());
+    print_json(field_json(tolerance), provenance_of(c, {v.rig}));
     return 0;
   }
   if (c.quiet) return 0;

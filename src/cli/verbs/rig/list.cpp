@@ -20,6 +20,9 @@ int rig_list(const Common& c) {
   if (c.quiet) return 0;
   if (all.empty()) fmt::print("no camera, serial port or current output device (NI-DAQmx) found\n");
   fmt::print(
+      "coils: a serial board is recommended (driver \"serial\"), because it switches off by itself; NI-DAQmx "
+      "for Linux "
+      "does not support USB-6008 and USB-6009, NI-DAQmx Base does\n"
       "always available: camera \"simulated\" and \"playback\", driver \"simulated\" and \"none\"; see faba "
       "parts camera, faba parts driver\n");
   return 0;

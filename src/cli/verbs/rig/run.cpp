@@ -11,7 +11,9 @@
 #include "cli/options/bench.h"
 #include "cli/progress.h"
 #include "core/error.h"
+#include "study/pages/quality_output.h"
 #include "study/pages/run_report.h"
+#include "study/quality/scale_warning.h"
 #include "study/plot/markup.h"
 #include "study/steering/metrics.h"
 
@@ -70,7 +72,7 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   const Series series = session.series();
   write_run_report(session.dir(), run_info(manifest), series);
   if (complete) session.complete();
-  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px);
+  const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px, manifest.setpoints);
   if (!c.quiet)
     for (const std::string& note : manifest.notes)
       print_stderr(fmt::format("faba: note: {}: {}", v.run.scene, note));
@@ -79,6 +81,7 @@ int rig_run(const RigRunVerb& v, const Common& c) {
     for (const auto& source : {manifest_json(manifest), metrics_json(metrics)})
       for (const auto& [k, value] : source.items())
         if (!j.contains(k)) j[k] = value;
+    add_warnings(j, scale_warnings(manifest.nominal_um_per_px));
     fmt::print("{}\n", j.dump());
   } else if (!c.quiet) {
     fmt::print("{}\n", run_summary(metrics, run_info(manifest)).outcome);

@@ -17,7 +17,8 @@ struct Unit {
   std::string name = "px";
 };
 
-Figure speed_figure(const TrackSummary& s, const Unit& unit) {
+Figure speed_figure(const TrackSummary& s, const Unit& unit,
+                    const std::vector<SpeedPopulation>& populations) {
   Figure f{"Speeds",
            fmt::format(
                "Displacements over {} s divided by this interval, corrected for the localisation error; {} "
@@ -42,8 +43,16 @@ Figure speed_figure(const TrackSummary& s, const Unit& unit) {
   outline.x = bars.x;
   outline.y = bars.hi;
   f.plot.add(bars).add(outline);
-  const double mean = unit.length * s.mean_speed_px_s.value;
-  f.plot.add(Rule{mean, "mean " + three_digits(mean), true, Ink::text});
+  if (populations.size() < 2) {
+    const double mean = unit.length * s.mean_speed_px_s.value;
+    f.plot.add(Rule{mean, "mean " + three_digits(mean), true, Ink::text});
+  } else {
+    f.caption += " Lines: medians of the populations.";
+    for (const SpeedPopulation& p : populations) {
+      const double speed = unit.length * p.speed_px_s;
+      f.plot.add(Rule{speed, std::string(word_of(p.motion)) + " " + three_digits(speed), true, Ink::text});
+    }
+  }
   return f;
 }
 
@@ -103,6 +112,7 @@ Figure heading_figure(const TrackSummary& s) {
   f.plot.inlined = true;
   f.plot.x.label = "time (s)";
   f.plot.y.label = "heading (degrees, clockwise)";
+  f.plot.y.ticks = Ticks::degrees;
   f.plot.y.lo = -180;
   f.plot.y.hi = 180;
   // The curve is drawn in units of the right axis, from 0 to 1.
@@ -125,10 +135,11 @@ Figure heading_figure(const TrackSummary& s) {
 
 }  // namespace
 
-std::vector<Figure> track_figures(const TrackSummary& s, double um_per_px) {
+std::vector<Figure> track_figures(const TrackSummary& s, double um_per_px,
+                                  const std::vector<SpeedPopulation>& populations) {
   const Unit unit = um_per_px > 0 ? Unit{um_per_px, "µm"} : Unit{};
   std::vector<Figure> figures;
-  if (!s.speeds_px_s.counts.empty()) figures.push_back(speed_figure(s, unit));
+  if (!s.speeds_px_s.counts.empty()) figures.push_back(speed_figure(s, unit, populations));
   if (s.msd.size() > 1) figures.push_back(msd_figure(s, unit));
   if (s.time_s.size() > 2) figures.push_back(heading_figure(s));
   return figures;

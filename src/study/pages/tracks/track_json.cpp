@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/statistics.h"
 #include "core/toml.h"
 #include "study/pages/quality_output.h"
 
@@ -56,6 +57,13 @@ Json msd_of(const Msd& m) {
           {"pairs", list_of(m.pairs)}};
 }
 
+Json misfit_json(const MsdMisfit& m) {
+  return {{"lag_s", number(m.lag_s)},
+          {"deviation", number(m.deviation)},
+          {"deviation_se", number(m.se)},
+          {"significant", m.significant}};
+}
+
 Json diffusion_of(const TrackSummary& s, double um) {
   if (!s.diffusion.good) return nullptr;
   Writer w{Json::object(), um};
@@ -63,6 +71,7 @@ Json diffusion_of(const TrackSummary& s, double um) {
   w.json["offset_px2"] = number(s.diffusion.offset_px2);
   w.json["first_lag_s"] = s.msd.lag_s[s.diffusion.first];
   w.json["lags"] = s.diffusion.lags;
+  w.json["misfit"] = misfit_json(s.diffusion_misfit);
   return w.json;
 }
 
@@ -73,15 +82,17 @@ Json walk_of(const TrackSummary& s, double um) {
   w.one("tau_s", 1, s.tau_s);
   w.json["tau_exceeds_tracks"] = s.persistent.tau_open;
   w.json["offset_px2"] = number(s.persistent.offset_px2);
+  w.json["misfit"] = misfit_json(s.persistent_misfit);
   return w.json;
 }
 
-Json speed_of(const TrackSummary& s, double um) {
+// One mean describes neither of several populations, and is then null.
+Json speed_of(const TrackSummary& s, bool one_population, double um) {
   Writer w{Json::object(), um};
   w.json["interval_frames"] = s.interval_frames;
   w.json["interval_s"] = s.interval_s;
   w.json["displacements"] = s.speed_count;
-  w.put("mean", "px_s", "um_s", 1, s.mean_speed_px_s);
+  w.put("mean", "px_s", "um_s", 1, one_population ? s.mean_speed_px_s : Estimated{kNaN, kNaN});
   w.list("quantiles_10_50_90_px_s", "quantiles_10_50_90_um_s", s.speed_quantiles_px_s);
   w.list("histogram_edges_px_s", "histogram_edges_um_s", s.speeds_px_s.edges);
   w.json["histogram_counts"] = list_of(s.speeds_px_s.counts);
@@ -98,25 +109,39 @@ Json turn_of(const TrackSummary& s) {
   return w.json;
 }
 
-Json detection_of(const TrackDetection& d) {
+}  // namespace
+
+nlohmann::ordered_json detection_json(const TrackDetection& d) {
   const auto or_null = [](std::optional<double> v) { return v ? Json(*v) : Json(nullptr); };
-  Json j{{"size_px", d.size_px},
-         {"polarity", word_of(d.polarity)},
-         {"background", background_word(d)},
-         {"background_frames", d.background_frames},
-         {"noise_grey", d.noise_grey},
-         {"threshold_snr", d.threshold_snr},
-         {"spots_per_frame", d.spots_per_frame},
-         {"stationary_spots", d.stationary_spots},
-         {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
-         {"mean_elongation", or_null(d.mean_elongation)},
-         {"median_snr", or_null(d.median_snr)}};
+  Json j{
+      {"size_px", d.size_px},
+      {"size_given", d.size_given},
+      {"two_sizes_px", d.two_sizes ? Json{d.two_sizes->smaller_px, d.two_sizes->larger_px} : Json(nullptr)},
+      {"polarity", word_of(d.polarity)},
+      {"background", background_word(d)},
+      {"background_frames", d.background_frames},
+      {"noise_grey", d.noise_grey},
+      {"threshold_snr", d.threshold_snr},
+      {"threshold_given", d.threshold_given},
+      {"region",
+       d.region ? Json{d.region->col, d.region->row, d.region->width, d.region->height} : Json(nullptr)},
+      {"spots_per_frame", d.spots_per_frame},
+      {"stationary_spots", d.stationary_spots},
+      {"mean_place_sd_px", or_null(d.mean_place_sd_px)},
+      {"mean_elongation", or_null(d.mean_elongation)},
+      {"median_snr", or_null(d.median_snr)},
+      {"coding",
+       {{"coded", d.coding.coded()},
+        {"block_steps", d.coding.block_steps},
+        {"unchanged", d.coding.unchanged}}}};
   if (d.drop) {
     j["drop_center_px"] = {d.drop->centre_image.x, d.drop->centre_image.y};
     j["drop_radius_px"] = d.drop->radius_px;
   }
   return j;
 }
+
+namespace {
 
 Json joining_of(const TrackJoining& t) {
   return {{"reach_px", t.search_radius_px},
@@ -151,7 +176,25 @@ Json supported_of(const TrackSummary& s) {
   return nullptr;
 }
 
-void add_summary(Json& j, const TrackSummary& s, double um) {
+Json stage_of(const StageDrift& d) {
+  const bool known = d.references > 0;
+  return {{"finding", word_of(d.finding)},
+          {"references", d.references},
+          {"drift_px_per_s", known ? number(norm(d.drift_px_s)) : Json(nullptr)},
+          {"x_px_per_s", known ? number(d.drift_px_s.x) : Json(nullptr)},
+          {"y_px_per_s", known ? number(d.drift_px_s.y) : Json(nullptr)},
+          {"se_px_per_s", known ? number(d.drift_se_px_s) : Json(nullptr)},
+          {"jitter_px", known ? number(d.jitter_px) : Json(nullptr)},
+          {"removed", d.removed}};
+}
+
+Json score_of(const TrackMeasurement& m) {
+  const ScoreSummary s = summary_of(m.scores);
+  if (!s.mean) return nullptr;
+  return {{"mean", *s.mean}, {"quantiles_10_50_90", s.quantiles}};
+}
+
+void add_summary(Json& j, const TrackSummary& s, bool one_population, double um) {
   j["tracks"] = s.tracks;
   j["points"] = s.points;
   j["mean_points"] = s.mean_points;
@@ -170,7 +213,7 @@ void add_summary(Json& j, const TrackSummary& s, double um) {
   alpha.one("alpha", 1, s.alpha);
   j.update(alpha.json);
   j["localisation_px"] = s.msd.size() < 2 ? Json(nullptr) : number(s.localisation_px);
-  j["speed"] = s.speed_count > 0 ? speed_of(s, um) : Json(nullptr);
+  j["speed"] = s.speed_count > 0 ? speed_of(s, one_population, um) : Json(nullptr);
   j["turn"] = s.turn_count > 0 ? turn_of(s) : Json(nullptr);
   j["order"] = number(s.speed_count > 0 ? s.order : std::nan(""));
   j["mean_order"] = number(mean_order(s));
@@ -187,16 +230,14 @@ const char* background_word(const TrackDetection& d) { return d.temporal ? "medi
 const char* word_of(Motion m) { return m == Motion::velocity ? "velocity" : "nearest"; }
 
 nlohmann::ordered_json track_json(const TrackMeasurement& m) {
-  Json j{{"video", m.video.string()},
-         {"frames", m.frames},
-         {"duration_s", m.duration_s},
-         {"frame_s", m.frame_s},
-         {"timed", m.timed},
-         {"image_size", {m.width, m.height}},
-         {"um_per_px", m.um_per_px ? Json(*m.um_per_px) : Json(nullptr)}};
-  j["detection"] = detection_of(m.detection);
+  Json j{{"video", m.video.string()}, {"frames", m.frames}, {"duration_s", m.duration_s},
+         {"frame_s", m.frame_s},      {"timed", m.timed},   {"image_size", {m.width, m.height}}};
+  add_scale(j, {m.um_per_px, m.um_per_px_source, ""});
+  j["detection"] = detection_json(m.detection);
   j["tracking"] = joining_of(m.joining);
-  add_summary(j, m.summary, m.um_per_px.value_or(0));
+  add_summary(j, m.summary, one_population(m), m.um_per_px.value_or(0));
+  j["stage"] = stage_of(m.stage);
+  j["track_quality"] = score_of(m);
   j["populations"] = populations_of(m);
   add_quality(j, m.warnings);
   j["notes"] = m.notes;

@@ -6,9 +6,13 @@
 namespace faba {
 
 /// Output of `faba track --json` (docs/formats/cli.md): parameters of detection and linking, mean-square
-/// displacement, drift, diffusion and persistent walk, speeds, turns, order. Values have their standard error
-/// and 95 % interval; lengths are also in um when the scale is known; unknown values are null.
+/// displacement, drift, diffusion and persistent walk with their misfit, motion of the stage, quality of the
+/// tracks, speeds, turns, order. Values have their standard error and 95 % interval; lengths are also in um
+/// when the scale is known; unknown values are null, and the mean speed with several populations.
 nlohmann::ordered_json track_json(const TrackMeasurement& tracks);
+
+/// The member `detection` of this output.
+nlohmann::ordered_json detection_json(const TrackDetection& detection);
 
 /// "dark", "bright" or "both".
 const char* word_of(Polarity polarity);

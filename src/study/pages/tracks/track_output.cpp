@@ -91,6 +91,19 @@ class H5Tracks final : public TrackOutput {
 
 }  // namespace
 
+std::string per_track_csv(const std::vector<TrackScore>& scores) {
+  std::string out =
+      "track,first_frame,last_frame,points,duration_s,path_px,distance_px,links_tested,links_reproduced,"
+      "score\n";
+  for (const TrackScore& s : scores) {
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{:.6f},{:.3f},{:.3f},{},{},", s.number,
+                   s.first_frame, s.last_frame, s.points, s.duration_s, s.path_px, s.distance_px,
+                   s.links_tested, s.links_reproduced);
+    out += s.score ? fmt::format("{:.4f}\n", *s.score) : "\n";
+  }
+  return out;
+}
+
 std::unique_ptr<TrackOutput> track_output(const std::filesystem::path& path, const TrackedVideo& video) {
   if (path.extension() == ".csv") return std::make_unique<CsvTracks>(path);
   if (path.extension() == ".h5") return std::make_unique<H5Tracks>(path, video);

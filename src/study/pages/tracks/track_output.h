@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "study/tracks/track_scores.h"
 #include "vision/cells/tracker.h"
 
 namespace faba {
@@ -27,5 +29,8 @@ struct TrackedVideo {
 /// Creates the output for the extension of `path`: .csv or .h5. Throws Error(Errc::usage) for other
 /// extensions, Error(Errc::internal) when the file cannot be written.
 std::unique_ptr<TrackOutput> track_output(const std::filesystem::path& path, const TrackedVideo& video);
+
+/// Table with a row for each track; lengths in px.
+std::string per_track_csv(const std::vector<TrackScore>& scores);
 
 }  // namespace faba

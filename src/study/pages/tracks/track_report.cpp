@@ -74,7 +74,7 @@ class TrackFiles final : public TrackListener {
  public:
   TrackFiles(const TrackOptions& o, const RunVideo& source, const TrackSurvey& s) {
     for (const auto& path : o.out)
-      outputs_.push_back(track_output(path, {s.first.width, s.first.height, source.um_per_px.value_or(0)}));
+      outputs_.push_back(track_output(path, {s.first.width, s.first.height, source.scale.um_per_px.value_or(0)}));
     if (!o.overlay.empty()) overlay_ = std::make_unique<Overlay>(o.overlay, s);
     if (!o.swarm.empty()) swarm_ = std::make_unique<SwarmOutput>(o.swarm, s, s.bits);
   }
@@ -109,8 +109,9 @@ class TrackFiles final : public TrackListener {
 
 TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progress) {
   RunVideo source = run_video(o.video);
-  const std::string overridden = override_note(o.video, source, o.part.fps, o.um_per_px);
-  if (o.um_per_px) source.um_per_px = o.um_per_px;
+  const std::string overridden = override_note(o.video, source, o.part.fps, o.scale.um_per_px);
+  const std::string ignored = source.scale.ignored;
+  if (o.scale.um_per_px) source.scale = o.scale;
   std::int64_t total = 0;
   const auto tick = [&](std::int64_t done) {
     if (progress && !progress(done, total))
@@ -124,14 +125,16 @@ TrackMeasurement track_video(const TrackOptions& o, const TrackProgress& progres
   TrackFiles files(o, source, survey);
   TrackMeasurement m =
       measure_tracks(o, source, survey, files, [&](std::int64_t done) { tick(survey.frames + done); });
-  if (!overridden.empty()) m.notes.push_back(overridden);
+  for (const std::string& note : {overridden, ignored})
+    if (!note.empty()) m.notes.push_back(note);
   const RgbImage picture = draw_tracks(survey.first, survey.black, survey.white, files.drawn(), false, 0);
-  const std::vector<Figure> figures = track_figures(m.summary, m.um_per_px.value_or(0));
+  const std::vector<Figure> figures = track_figures(m.summary, m.um_per_px.value_or(0), m.populations);
   files.complete();
   if (!o.picture.empty()) write_png(o.picture, picture);
   if (!o.figures.empty())
     write_track_figures(o.figures, figures, path_plot(files.drawn(), m.width, m.height));
-  if (!o.report.empty()) write_file(o.report, track_page(m, figures, picture));
+  if (!o.per_track.empty()) write_file(o.per_track, per_track_csv(m.scores));
+  if (!o.report.empty()) write_file(o.report, track_page(m, figures, picture, o.provenance));
   return m;
 }
 

@@ -17,6 +17,7 @@ constexpr std::size_t kRow = PhiloxRow::kLength, kBlock = 4 * kRow;  // four nor
 struct SensorConstants {
   float lamp, shot, constant, white;
   bool absorbing;
+  float emission;
 };
 
 FABA_VECTORISED void make_normals(const PhiloxRow& row, float* z) {
@@ -34,7 +35,7 @@ FABA_VECTORISED void make_light(const SensorConstants& k, const float* ground, c
   if (k.absorbing)
     for (std::size_t i = 0; i < n; ++i) light[i] = k.lamp * ground[i] * portable::exp(-cells[i]);
   else
-    for (std::size_t i = 0; i < n; ++i) light[i] = k.lamp * ground[i] * (1.0F + cells[i]);
+    for (std::size_t i = 0; i < n; ++i) light[i] = k.lamp * ground[i] * (1.0F + k.emission * cells[i]);
 }
 
 FABA_VECTORISED void make_grey(const SensorConstants& k, const float* light, const float* z, std::size_t n,
@@ -67,7 +68,7 @@ void expose_as(const CameraSensor& s, const GrayF& ground, const GrayF& cells, P
   out.height = ground.height;
   out.px.resize(n);
   const SensorConstants k{float(s.lamp), float(s.shot), float(s.constant),
-                          float(std::numeric_limits<T>::max()), s.absorbing};
+                          float(std::numeric_limits<T>::max()), s.absorbing, float(s.emission)};
   const bool noisy = s.shot > 0 || s.constant > 0;
   pool.for_blocks(n, kBlock, [&](std::size_t begin, std::size_t end) {
     alignas(64) float z[kBlock] = {}, light[kBlock], grey[kBlock];

@@ -80,7 +80,7 @@ TEST_CASE("track: tables, overlay, picture, page and figures are complete and re
   TrackOptions o;
   o.video = folder / "frames";
   o.part.fps = 10;
-  o.um_per_px = 0.5;
+  o.scale.um_per_px = 0.5;
   o.out = {folder / "t.csv", folder / "t.h5"};
   o.overlay = folder / "o.mp4";
   o.report = folder / "r.html";

@@ -52,6 +52,8 @@ class EpisodeStatistics {
   virtual std::vector<double> of_frames(const std::vector<GrayF>& frames) const = 0;
   /// Statistics from the positions of the cells in view at each of times_s(), px.
   virtual std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const = 0;
+  /// Change of the statistics, to first order, when all cells have an additional velocity, px/s.
+  virtual std::vector<double> of_drift(Vec2 velocity) const = 0;
   /// Adds the model error of each statistic to the statistics of a simulation: rendered cells differ from
   /// real cells.
   virtual void blur(std::vector<double>& numbers, StudyRandom& random) const {

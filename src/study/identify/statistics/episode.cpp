@@ -1,4 +1,4 @@
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 
 namespace faba {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/statistics.h"
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 #include "study/stats/statistics.h"
 #include "vision/cells/detector.h"
 #include "vision/cells/tracker.h"
@@ -57,6 +57,16 @@ class BurstStatistics final : public EpisodeStatistics {
       for (const Vec2 at : frame) one.push_back({.x_px = at.x, .y_px = at.y, .mass = 1, .snr = 10});
     }
     return statistics_of(spots);
+  }
+
+  // Squared steps change at second order only where cells swim across the drift; that is neglected.
+  std::vector<double> of_drift(Vec2 velocity) const override {
+    std::vector<double> out;
+    for (const FieldSegment& segment : episode_.segments) {
+      const double along = dot(velocity, unit_vector(segment.direction_deg)) * view_.frame_s;
+      out.insert(out.end(), {along, along, along, 0, 0, 0});
+    }
+    return out;
   }
 
   void blur(std::vector<double>& numbers, StudyRandom& random) const override {

@@ -1,4 +1,4 @@
-#include "study/identify/episode.h"
+#include "study/identify/statistics/episode.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +39,8 @@ class LightProfile {
   void add_uniform(double weight) {
     for (double& m : mass_) m += weight / double(mass_.size());
   }
+  /// Length of the view in this direction, px.
+  double length() const { return double(mass_.size()); }
   /// Quantile p, as a fraction of the length of the view.
   double quantile(double p) const {
     double sum = 0;
@@ -65,6 +67,7 @@ class DensityStatistics final : public EpisodeStatistics {
   DensityStatistics(const Episode& episode, const CellView& view);
   std::vector<double> of_frames(const std::vector<GrayF>& frames) const override;
   std::vector<double> of_positions(const std::vector<std::vector<Vec2>>& seen) const override;
+  std::vector<double> of_drift(Vec2 velocity) const override;
   void blur(std::vector<double>& numbers, StudyRandom& random) const override {
     for (std::size_t k = 0; k + 1 < numbers.size(); k += std::size(kDensityNumbers))
       numbers[k] += kSignalError * random.normal();
@@ -93,6 +96,19 @@ DensityStatistics::DensityStatistics(const Episode& e, const CellView& view) : e
   for (std::size_t k = 0; k < times_s_.size(); ++k)
     for (const char* what : kDensityNumbers) numbers_.push_back({what, segment_at_[k], times_s_[k]});
   numbers_.push_back({"number of cells", 0, times_s_.back()});
+}
+
+// Cells that enter and leave the view are neglected.
+std::vector<double> DensityStatistics::of_drift(Vec2 velocity) const {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < times_s_.size(); ++k) {
+    const Vec2 along = unit_vector(episode_.segments[segment_at_[k]].direction_deg);
+    const double length = LightProfile(along, view_.width, view_.height).length(),
+                 shift = dot(velocity, along) * times_s_[k] / length;
+    out.insert(out.end(), {0, shift, shift, shift, 0});
+  }
+  out.push_back(0);
+  return out;
 }
 
 std::vector<double> DensityStatistics::of_frames(const std::vector<GrayF>& frames) const {

@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace faba {
+
+/// Scale of a video or picture.
+struct VideoScale {
+  std::optional<double> um_per_px;  ///< empty: not known
+  std::string source;   ///< "calibration", "typed" or "metadata"; empty: that of a simulated camera
+  std::string ignored;  ///< note on metadata that were ignored; empty: none
+};
+
+/// The scale in the metadata of a file (see PictureMetadata).
+VideoScale scale_of_file(const std::filesystem::path& file);
+
+}  // namespace faba

@@ -1,0 +1,40 @@
+#include "study/motion/activity_checks.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace faba {
+
+std::optional<Warning> light_warning(const VideoLook& look, int px_side, double threshold_px) {
+  if (look.empty()) return std::nullopt;
+  const double imitated = px_side * look.imitated_px();
+  if (imitated <= threshold_px) return std::nullopt;
+  return Warning{
+      "light", "the brightness changes from frame to frame, which counts as motion everywhere",
+      fmt::format("the mean change is that of a displacement by {:.2g} px; the threshold is {:.2g} px",
+                  imitated, threshold_px),
+      "use a constant light and exposure, or divide each frame by its mean"};
+}
+
+std::optional<Warning> opposite_warning(const Signature& s, double direction_deg) {
+  constexpr double kPreferred = 2;  // assumed: flow without a preferred direction gives 1
+  // The smaller of two opposite flows in each pair, along the direction and across it.
+  double along = 0, across = 0;
+  for (std::size_t k = 0; k < s.size(); ++k) {
+    const auto opposite = [&](double deg) {
+      return std::min(s.amount(k, s.nearest_deg(deg)), s.amount(k, s.nearest_deg(deg + 180)));
+    };
+    along += opposite(direction_deg);
+    across += opposite(direction_deg + 90);
+  }
+  if (!(along > kPreferred * across)) return std::nullopt;
+  return Warning{
+      "populations",
+      "cells move along the direction and against it at the same time, and their flows cancel: cells of both "
+      "polarities, or a part of them does not turn",
+      fmt::format("flow in both directions along the axis is {:.1f} times that across it", along / across),
+      "measure the speeds with faba track"};
+}
+
+}  // namespace faba

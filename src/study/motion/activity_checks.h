@@ -1,0 +1,18 @@
+#pragma once
+#include <optional>
+
+#include "study/motion/signature.h"
+#include "study/motion/video_look.h"
+#include "study/quality/quality.h"
+
+namespace faba {
+
+/// The brightness changes between frames by more than the flow of a pixel at the threshold; `px_side` is
+/// FlowSource::shrink().
+std::optional<Warning> light_warning(const VideoLook& look, int px_side, double threshold_px);
+
+/// Flows along a direction and against it at the same time, which cancel in along(): cells of both
+/// polarities.
+std::optional<Warning> opposite_warning(const Signature& signature, double direction_deg);
+
+}  // namespace faba

@@ -1,0 +1,308 @@
+#include "study/motion/displacements.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random/distributions.h"
+#include "core/units.h"
+#include "core/vec.h"
+#include "study/stats/study_random.h"
+#include "vision/cells/spot_fit.h"
+#include "vision/image/kernels/smoothing.h"
+
+namespace faba {
+namespace {
+
+constexpr std::size_t kMostFrames = 64, kLeastFrames = 6;
+constexpr int kRadius = 32, kAcrossMotion = 6;  // px: displacements along and across
+constexpr double kSurroundRatio = 2.5;          // as in Detector
+constexpr double kThresholdSd = 1.5;            // of the noise of the band-passed picture
+constexpr int kPairBlocks = 5;                  // of the pairs
+constexpr double kShiftSizes = 1.25;            // displacement in sizes of an object
+// Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
+// limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
+constexpr double kLeastShiftSpread = 0.15;
+constexpr double kShiftStep = 0.1;    // px: grid of the fitted displacement
+constexpr double kLongestGap = 0.25;  // s: cells turn and leave the picture
+constexpr double kExplained = 0.8;    // fraction of the variance that the model must explain
+constexpr double kSignificant = 3;    // standard errors of the fraction
+
+using Profile = std::array<double, 2 * kRadius + 1>;  ///< against the displacement along, in px
+
+/// A band-passed picture, and its pixels above the noise.
+struct Sparse {
+  struct Pixel {
+    int col, row;
+    float value;
+  };
+  GrayF band;  ///< 0 below the threshold
+  std::vector<Pixel> pixels;
+};
+
+Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
+  Sparse s;
+  const double sd = size_px / kFwhmPerSd;
+  s.band = smoothed(objects, sd);
+  const GrayF wide = smoothed(objects, kSurroundRatio * sd);
+  const auto least = float(kThresholdSd * noise / std::sqrt(4 * M_PI * sd * sd));
+  for (int r = 0; r < s.band.height; ++r)
+    for (int c = 0; c < s.band.width; ++c) {
+      const std::size_t i = std::size_t(r) * std::size_t(s.band.width) + std::size_t(c);
+      const float v = s.band.px[i] - wide.px[i];
+      s.band.px[i] = std::fabs(v) > least ? v : 0.0F;
+      if (s.band.px[i] != 0) s.pixels.push_back({c, r, v});
+    }
+  return s;
+}
+
+// White noise of the video, treated as a picture.
+Sparse noise_picture(const ResponseFrames& frames) {
+  GrayF noise(frames.width(), frames.height());
+  StudyRandom random(0, StudyDraws::measurement);
+  for (float& v : noise.px) v = float(frames.noise() * random.normal());
+  return sparse_of(noise, frames.object_px(), frames.noise());
+}
+
+/// Sums of products of two pictures against the displacement between the pixels, projected on a direction.
+class Correlator {
+ public:
+  explicit Correlator(double direction_deg)
+      : along_{std::cos(direction_deg * kDegree), std::sin(direction_deg * kDegree)} {
+    for (int dy = -kRadius; dy <= kRadius; ++dy)
+      for (int dx = -kRadius; dx <= kRadius; ++dx)
+        if (inside(dx, dy)) {
+          Row& row = rows_[std::size_t(dy + kRadius)];
+          row.from = std::min(row.from, dx);
+          row.to = std::max(row.to, dx);
+        }
+  }
+  Vec2 along() const { return along_; }
+
+  Profile between(const Sparse& a, const GrayF& b) {
+    for (auto& sums : sums_) sums.fill(0);
+    for (const Sparse::Pixel& p : a.pixels)
+      for (int dy = -kRadius; dy <= kRadius; ++dy) {
+        const Row& row = rows_[std::size_t(dy + kRadius)];
+        const int y = p.row + dy;
+        const int from = std::max(row.from, -p.col), to = std::min(row.to, b.width - 1 - p.col);
+        if (y < 0 || y >= b.height || from > to) continue;
+        const float* other = &b.px[std::size_t(y) * std::size_t(b.width) + std::size_t(p.col + from)];
+        float* sum = &sums_[std::size_t(dy + kRadius)][std::size_t(from + kRadius)];
+        for (int i = 0; i <= to - from; ++i) sum[i] += p.value * other[i];
+      }
+    return projected();
+  }
+
+ private:
+  struct Row {
+    int from = kRadius + 1, to = -kRadius - 1;
+  };
+  bool inside(int dx, int dy) const {
+    const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
+    return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
+  }
+  Profile projected() const {
+    Profile profile{};
+    for (int dy = -kRadius; dy <= kRadius; ++dy)
+      for (int dx = -kRadius; dx <= kRadius; ++dx) {
+        if (!inside(dx, dy)) continue;
+        const double s = dx * along_.x + dy * along_.y + kRadius, low = std::floor(s);
+        const double sum = double(sums_[std::size_t(dy + kRadius)][std::size_t(dx + kRadius)]);
+        profile[std::size_t(low)] += (low + 1 - s) * sum;
+        if (s > low) profile[std::size_t(low) + 1] += (s - low) * sum;
+      }
+    return profile;
+  }
+
+  Vec2 along_;
+  std::array<Row, 2 * kRadius + 1> rows_;
+  std::array<std::array<float, 2 * kRadius + 1>, 2 * kRadius + 1> sums_{};
+};
+
+/// Sums over the pairs of a block.
+struct PairBlock {
+  Profile next{}, self{};                 ///< of pictures with later ones and with themselves
+  std::array<double, kRadius> leaving{};  ///< energy of pixels by the distance to the border in the direction
+  double energy = 0;
+
+  void add(const PairBlock& o, double sign) {
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      next[i] += sign * o.next[i];
+      self[i] += sign * o.self[i];
+    }
+    for (std::size_t i = 0; i < leaving.size(); ++i) leaving[i] += sign * o.leaving[i];
+    energy += sign * o.energy;
+  }
+  /// Fraction of the objects that is still in the picture after a displacement.
+  double remaining(double shift) const {
+    double lost = 0;
+    for (std::size_t i = 0; i < leaving.size() && double(i) < shift; ++i) lost += leaving[i];
+    return energy > 0 ? 1 - lost / energy : 1;
+  }
+};
+
+void add_energy(PairBlock& b, const Sparse& s, Vec2 along) {
+  for (const Sparse::Pixel& p : s.pixels) {
+    const double e = double(p.value) * double(p.value);
+    const double right = along.x > 0 ? s.band.width - 1 - p.col : p.col;
+    const double down = along.y > 0 ? s.band.height - 1 - p.row : p.row;
+    const double distance =
+        std::min(right / std::max(std::fabs(along.x), 1e-9), down / std::max(std::fabs(along.y), 1e-9));
+    b.energy += e;
+    if (distance < kRadius) b.leaving[std::size_t(distance)] += e;
+  }
+}
+
+/// The Gaussian distribution of displacements that fits the difference of both directions.
+struct ShiftFit {
+  double fraction = 0, shift = 0, sd = 0, explained = 0;
+};
+
+// Odd part of the correlation of objects with displacements N(shift, sd), for one object per object.
+Profile template_of(const Profile& self, double shift, double sd) {
+  Profile t{};
+  double sum = 0;
+  std::array<double, 2 * kRadius + 1> weight{};
+  for (int u = -kRadius; u <= kRadius; ++u) {
+    // Integral over the pixel, so that a narrow distribution is not missed between two of them.
+    const double w =
+        std::erf((u + 0.5 - shift) / (sd * M_SQRT2)) - std::erf((u - 0.5 - shift) / (sd * M_SQRT2));
+    weight[std::size_t(u + kRadius)] = w;
+    sum += w;
+  }
+  for (int u = -kRadius; u <= kRadius; ++u) {
+    const double w = weight[std::size_t(u + kRadius)] / sum;
+    if (w < 1e-6) continue;
+    for (int s = -kRadius; s <= kRadius; ++s) {
+      if (std::abs(s - u) <= kRadius) t[std::size_t(s + kRadius)] += w * self[std::size_t(s - u + kRadius)];
+      if (std::abs(s + u) <= kRadius) t[std::size_t(s + kRadius)] -= w * self[std::size_t(s + u + kRadius)];
+    }
+  }
+  return t;
+}
+
+// Values for s = 1 ... kRadius - 1 without their part proportional to s, which is due to the pairs of
+// different objects: their density has a gradient where a swarm enters or leaves.
+void remove_slope(std::array<double, kRadius>& values) {
+  double sv = 0, ss = 0;
+  for (int s = 1; s < kRadius; ++s) {
+    sv += s * values[std::size_t(s)];
+    ss += s * s;
+  }
+  for (int s = 1; s < kRadius; ++s) values[std::size_t(s)] -= s * sv / ss;
+}
+
+// `way`: 1 in the direction, -1 against it.
+ShiftFit fit_with(const PairBlock& b, double shift, double sd, double way) {
+  const Profile model = template_of(b.self, shift, sd);
+  std::array<double, kRadius> t{}, a{};
+  for (int s = 1; s < kRadius; ++s) {
+    a[std::size_t(s)] = way * (b.next[std::size_t(kRadius + s)] - b.next[std::size_t(kRadius - s)]);
+    t[std::size_t(s)] = model[std::size_t(kRadius + s)];
+  }
+  remove_slope(t);
+  remove_slope(a);
+  double tt = 0, ta = 0, aa = 0;
+  for (std::size_t s = 1; s < kRadius; ++s) {
+    tt += t[s] * t[s];
+    ta += t[s] * a[s];
+    aa += a[s] * a[s];
+  }
+  if (!(tt > 0) || !(aa > 0)) return {};
+  return {ta / tt / b.remaining(shift), shift, sd, ta > 0 ? ta * ta / tt / aa : 0};
+}
+
+ShiftFit fit_of(const PairBlock& b, double size, double way) {
+  ShiftFit best;
+  const auto take = [&](double shift, double sd) {
+    if (const ShiftFit f = fit_with(b, shift, std::max(sd, kLeastShiftSpread * shift), way);
+        f.explained > best.explained)
+      best = f;
+  };
+  for (double shift = size / 4; shift < kRadius - size; shift += 0.5)
+    for (const double sd : {0.3, 0.7, 1.2, 2.0, 3.0, 4.5}) take(shift, sd);
+  const ShiftFit rough = best;
+  for (double shift = rough.shift - 0.5; shift <= rough.shift + 0.5; shift += kShiftStep)
+    for (const double factor : {0.75, 0.9, 1.0, 1.15, 1.35}) take(std::max(shift, 0.1), rough.sd * factor);
+  return best;
+}
+
+std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const Sparse& noise, std::size_t gap,
+                                 double direction_deg) {
+  Correlator correlate(direction_deg);
+  // Noise correlates with itself only: it is not part of the objects.
+  const Profile of_noise = correlate.between(noise, noise.band);
+  std::vector<PairBlock> blocks(kPairBlocks);
+  const std::size_t pairs = pictures.size() - gap;
+  for (std::size_t k = 0; k < pairs; ++k) {
+    PairBlock& b = blocks[k * kPairBlocks / pairs];
+    const Profile next = correlate.between(pictures[k], pictures[k + gap].band);
+    const Profile self = correlate.between(pictures[k], pictures[k].band);
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      b.next[i] += next[i];
+      b.self[i] += self[i] - of_noise[i];
+    }
+    add_energy(b, pictures[k], correlate.along());
+  }
+  return blocks;
+}
+
+// `least`: half width at least, for values on a grid.
+std::array<double, 2> jackknife_interval(double value, const std::vector<double>& without, double least) {
+  double mean = 0, squares = 0;
+  for (const double v : without) mean += v / double(without.size());
+  for (const double v : without) squares += (v - mean) * (v - mean);
+  const auto n = double(without.size());
+  const double half = std::max(least, student_t_quantile(0.95, n - 1) * std::sqrt((n - 1) / n * squares));
+  return {value - half, value + half};
+}
+
+CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const ShiftFit& fit, const PairBlock& all,
+                             double size, double side, std::size_t gap) {
+  std::vector<double> fractions, shifts;
+  for (const PairBlock& b : blocks) {
+    PairBlock rest = all;
+    rest.add(b, -1);
+    const ShiftFit f = fit_of(rest, size, 1);
+    fractions.push_back(f.fraction);
+    shifts.push_back(f.shift);
+  }
+  const double scale = side / double(gap);
+  CommonDisplacement c;
+  c.fraction = fit.fraction;
+  c.shift_px = fit.shift * scale;
+  c.fraction_ci90 = jackknife_interval(fit.fraction, fractions, 0);
+  c.shift_ci90 = jackknife_interval(fit.shift, shifts, kShiftStep / 2);
+  for (double& v : c.shift_ci90) v *= scale;
+  c.clear = fit.explained > kExplained && c.fraction > 0 &&
+            (c.fraction_ci90[1] - c.fraction) * kSignificant / student_t_quantile(0.95, kPairBlocks - 1) <
+                c.fraction;
+  c.opposite = fit_of(all, size, -1).fraction;
+  c.gap = int(gap);
+  return c;
+}
+
+}  // namespace
+
+std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames, const VideoPart& part,
+                                                      double direction_deg, double frame_s) {
+  const double size = frames.object_px();
+  std::vector<Sparse> pictures;
+  frames.each(part, [&](const GrayF& objects, double) {
+    if (pictures.size() < kMostFrames) pictures.push_back(sparse_of(objects, size, frames.noise()));
+  });
+  if (pictures.size() < kLeastFrames) return {};
+  const Sparse noise = noise_picture(frames);
+  for (std::size_t gap = 1;; gap *= 2) {
+    const std::vector<PairBlock> blocks = blocks_of(pictures, noise, gap, direction_deg);
+    PairBlock all;
+    for (const PairBlock& b : blocks) all.add(b, 1);
+    if (!(all.energy > 0)) return {};
+    const ShiftFit fit = fit_of(all, size, 1);
+    const bool longer = fit.shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
+                        pictures.size() >= 2 * gap + kLeastFrames;
+    if (!longer) return result_of(blocks, fit, all, size, frames.side(), gap);
+  }
+}
+
+}  // namespace faba

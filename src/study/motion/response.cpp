@@ -1,0 +1,161 @@
+#include "study/motion/response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "study/motion/displacements.h"
+#include "study/motion/segments.h"
+#include "study/tracks/cell_view.h"
+
+namespace faba {
+namespace {
+
+constexpr double kReadBefore = 0.8, kReadAfter = 4;  // s about a known reversal that are read
+constexpr double kMostSearched = 20;                 // s: part in which an unknown reversal is searched
+constexpr double kHalfSearch = 0.5;  // s before and after a possible change that are compared in the search
+constexpr double kEarlier = 0.5;     // s before the detected change at which the search of the onset starts
+constexpr double kNormal90 = 1.645;  // quantile of the normal distribution for a 90 % interval
+constexpr double kMeasured = 1;      // s after the rise in which speed and fraction are measured
+
+/// The components of one measure.
+struct ShiftComponents {
+  std::vector<double> along, across;
+};
+
+ShiftComponents components_of(const std::vector<Vec2>& shifts, Vec2 d) {
+  ShiftComponents c;
+  for (const Vec2 s : shifts) {
+    c.along.push_back(dot(s, d));
+    c.across.push_back(s.y * d.x - s.x * d.y);
+  }
+  return c;
+}
+
+Vec2 mean_between(const PairShifts& p, const std::vector<Vec2>& shifts, double from, double to) {
+  Vec2 sum;
+  double n = 0;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (p.t0_s[k] >= from && p.t1_s[k] <= to) {
+      sum = sum + shifts[k];
+      n += 1;
+    }
+  return n > 0 ? (1 / n) * sum : Vec2{};
+}
+
+/// The largest change between two means over kHalfSearch, relative to the scatter of such changes.
+struct Change {
+  double t_s = 0, score = 0;
+  Vec2 step;
+};
+
+Change largest_change(const PairShifts& p, const std::vector<Vec2>& shifts,
+                      const std::optional<double>& direction) {
+  Change best;
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    const double t = p.t0_s[k];
+    if (t < p.t0_s.front() + kHalfSearch || t > p.t1_s.back() - kHalfSearch) continue;
+    const Vec2 step =
+        mean_between(p, shifts, t, t + kHalfSearch) - mean_between(p, shifts, t - kHalfSearch, t);
+    const double size = direction ? dot(step, unit_vector(*direction)) : norm(step);
+    sizes.push_back(std::fabs(size));
+    if (size > best.score) best = {t, size, step};
+  }
+  if (sizes.empty()) return {};
+  std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(sizes.size() / 2), sizes.end());
+  best.score /= std::max(sizes[sizes.size() / 2], 1e-9);
+  return best;
+}
+
+// The change of the measure in which the response is clearest, with its time and direction; whether there is
+// one. `tests`: number of independent possibilities.
+bool take_clearest(Response& r, const PairShifts& p, const ResponseJob& job, double latest, double tests) {
+  bool found = false;
+  for (const ShiftMeasure m : kShiftMeasures) {
+    double earliest = r.earliest_s, direction = r.direction_deg;
+    if (!job.reversal_s) {
+      const Change change = largest_change(p, p.of(m), job.direction_deg);
+      if (!(change.score > 0)) continue;
+      earliest = change.t_s - kEarlier;
+      if (!job.direction_deg) direction = direction_of(change.step);
+    } else if (!job.direction_deg) {
+      direction = direction_of(mean_between(p, p.of(m), earliest + kHalfSearch, earliest + 3 * kHalfSearch) -
+                               mean_between(p, p.of(m), earliest - kReadBefore, earliest));
+    }
+    const ShiftComponents c = components_of(p.of(m), unit_vector(direction));
+    const auto change =
+        change_point({p.t0_s, p.t1_s, c.along, c.across}, earliest, std::min(latest, earliest + kReadAfter));
+    if (!change || (found && change->t_statistic <= r.change.t_statistic)) continue;
+    found = true;
+    r.change = *change;
+    r.earliest_s = earliest;
+    r.direction_deg = direction;
+    r.measure = word_of(m);
+  }
+  r.responds = found && r.change.after > 0 && r.change.t_statistic > least_t(tests);
+  return found;
+}
+
+std::array<double, 2> clipped(std::array<double, 2> interval, double most) {
+  for (double& v : interval) v = std::clamp(v, 0.0, most);
+  return interval;
+}
+
+// Speed and fraction of a response. With free space around the swarm, the fraction is the velocity of the
+// centroid of all objects over the speed of the responding objects.
+void take_speed(Response& r, const CommonDisplacement& common, const ResponseFrames& frames, double frame_s) {
+  if (!r.responds) {
+    r.fraction = {0, {0, std::clamp(std::max(common.fraction, common.opposite), 0.0, 1.0)}};
+    r.fraction_method = "image correlation";
+    return;
+  }
+  if (!common.clear) return;
+  const double speed = common.shift_px / frame_s;
+  r.speed_px_s = {speed, {common.shift_ci90[0] / frame_s, common.shift_ci90[1] / frame_s}};
+  r.flow = FlowVerdict{common.shift_px, frames.object_px() * frames.side(), {}};
+  r.fraction = {std::min(common.fraction, 1.0), clipped(common.fraction_ci90, 1)};
+  r.fraction_method = "image correlation";
+  if (r.measure != word_of(ShiftMeasure::centroid)) return;
+  const double ratio = r.change.after / common.shift_px;
+  const double error = std::hypot((r.change.after - r.change.before) / r.change.t_statistic / r.change.after,
+                                  (common.shift_ci90[1] / common.shift_px - 1) / kNormal90);
+  r.fraction = {std::min(ratio, 1.0),
+                clipped({ratio * (1 - kNormal90 * error), ratio * (1 + kNormal90 * error)}, 1)};
+  r.fraction_method = "centroid over image correlation";
+}
+
+VideoPart part_of(const ResponseJob& job) {
+  VideoPart part = job.part;
+  const double end = job.part.to_s.value_or(1e300);
+  if (job.reversal_s) {
+    part.from_s = std::max(0.0, *job.reversal_s - kReadBefore);
+    part.to_s = std::min(end, *job.reversal_s + kReadAfter);
+  } else {
+    part.to_s = std::min(end, job.part.from_s + kMostSearched);
+  }
+  return part;
+}
+
+}  // namespace
+
+std::optional<Response> measure_response(const ResponseJob& job) {
+  const VideoPart part = part_of(job);
+  const ResponseFrames frames(job.video, part, job.threads, job.check);
+  if (frames.frames() < 2) return {};
+  const PairShifts shifts = pair_shifts(frames, part);
+  Response r;
+  r.earliest_s = job.reversal_s.value_or(part.from_s);
+  r.direction_deg = job.direction_deg.value_or(0);
+  const double length = shifts.t1_s.back() - shifts.t0_s.front();
+  const double places = job.reversal_s ? 1 : std::max(1.0, length / kHalfSearch);
+  if (!take_clearest(r, shifts, job, *part.to_s, double(kShiftMeasures.size()) * places)) return {};
+  VideoPart after = part;
+  after.from_s = r.change.t_s + r.change.rise_s;
+  after.to_s = after.from_s + kMeasured;
+  if (const auto common = common_displacement(frames, after, r.direction_deg, job.frame_s))
+    take_speed(r, *common, frames, job.frame_s);
+  return r;
+}
+
+}  // namespace faba

@@ -1,0 +1,57 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "study/motion/onset.h"
+#include "study/motion/pair_shifts.h"
+
+namespace faba {
+
+/// Whether the optical flow of a video has a direction, from the displacement of the objects that respond.
+struct FlowVerdict {
+  double shift_px = 0;                      ///< displacement between consecutive frames, px of the video
+  double object_px = 0;                     ///< full width at half maximum of an object, px
+  std::optional<double> neighbour_px = {};  ///< mean distance to the nearest neighbour, px
+  /// The flow of objects that move by more than twice their width between frames has no direction (theory
+  /// A22).
+  bool valid() const { return shift_px <= 2 * object_px; }
+};
+
+/// A fraction or a speed with its 90 % interval.
+struct Measured {
+  double value = 0;
+  std::array<double, 2> ci90{};
+};
+
+/// Response of the objects in a video to a field reversal (theory A16).
+struct Response {
+  enum class Source { given, recorded, detected };
+  Source source = Source::given;     ///< of the time of the reversal
+  double earliest_s = 0;             ///< the reversal, or the start of the search if it was detected
+  double direction_deg = 0;          ///< of the motion after it
+  std::string measure;               ///< of the displacements for the onset
+  bool responds = false;             ///< whether the change of velocity is significant
+  ChangePoint change;                ///< also without a response
+  std::string fraction_method;       ///< of `fraction`; empty when it is unknown
+  std::optional<Measured> fraction;  ///< of the objects in view in the second after the rise; 0: no response
+  std::optional<Measured> speed_px_s;  ///< mean, along the direction, of the responding objects
+  std::optional<FlowVerdict> flow;
+};
+
+/// Input of measure_response().
+struct ResponseJob {
+  std::filesystem::path video;  ///< anything VideoReader reads
+  VideoPart part;
+  std::optional<double> reversal_s, direction_deg;
+  double frame_s = 0;  ///< median time between frames
+  unsigned threads = 0;
+  std::function<void()> check = [] {};  ///< called for each frame that is read
+};
+
+/// Detects the response to the field reversal, or, when its time is not given, the largest change of the mean
+/// velocity in the first 20 s of the part. Empty with too few frames before or after it.
+std::optional<Response> measure_response(const ResponseJob& job);
+
+}  // namespace faba

@@ -1,0 +1,91 @@
+#include "study/motion/response_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/statistics.h"
+#include "study/data/frame_inspector.h"
+#include "study/tracks/track_survey.h"
+#include "vision/cells/detector.h"
+#include "vision/foreground/kernels/line_closing.h"
+#include "vision/image/kernels/grey_scale.h"
+
+namespace faba {
+namespace {
+
+constexpr int kLongSide = 640;       // px; larger pictures are averaged over squares
+constexpr int kSampled = 40;         // frames of the median
+constexpr double kDefaultSize = 4;   // px, as DetectorOptions: when no spot is significant
+constexpr double kSmoothing = 8;     // px: scale of the illumination, for the polarity
+constexpr double kSegmentSizes = 3;  // length of the closing segment over the size of an object
+
+GrayF scaled(const GrayF& frame, float by) {
+  GrayF out = frame;
+  for (float& v : out.px) v *= by;
+  return out;
+}
+
+}  // namespace
+
+ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
+                               std::function<void()> check)
+    : video_(std::move(video)), threads_(threads), check_(std::move(check)) {
+  BackgroundSampler sampler(kSampled);
+  const FrameInspector sample{[](double) { return true; },
+                              [&](const GrayF& frame) -> std::function<void()> {
+                                side_ = std::max(
+                                    1, (std::max(frame.width, frame.height) + kLongSide - 1) / kLongSide);
+                                GrayF small = frame;
+                                make_finite(small);
+                                if (side_ > 1) {
+                                  shrink(GrayF(small), side_, small);
+                                }
+                                sampler.take(small);
+                                ++frames_;
+                                return {};
+                              }};
+  inspect_video(video_, part, sample, threads_, [&](auto, auto) { check_(); });
+  if (frames_ == 0) throw Error(Errc::input, video_.string(), "no frame in this part of the video");
+  Pool pool(threads_);
+  Background median = sampler.background(pool);
+  std::vector<float> noise(median.noise_sd.px);
+  noise_ = double(median_low(noise));
+  const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
+  const Background smooth = spatial_background(middle, kSmoothing);
+  std::vector<float> differences(middle.px.size());
+  for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = middle.px[i] - smooth.level.px[i];
+  const Polarity polarity = polarity_of(differences);
+  sign_ = polarity == Polarity::dark ? 1 : -1;
+  size_ = spot_size(middle, median, polarity, pool).px;
+  if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
+  if (!(size_ > 0)) size_ = kDefaultSize;
+  filled_ = line_closing(scaled(median.level, float(sign_)), std::max(3.0, kSegmentSizes * size_)).least;
+}
+
+GrayF ResponseFrames::prepared(const GrayF& frame) const {
+  GrayF out = frame;
+  make_finite(out);
+  if (side_ > 1) shrink(GrayF(out), side_, out);
+  const auto sign = float(sign_);
+  for (std::size_t i = 0; i < out.px.size(); ++i) out.px[i] = filled_.px[i] - sign * out.px[i];
+  return out;
+}
+
+void ResponseFrames::each(const VideoPart& part,
+                          const std::function<void(const GrayF&, double)>& take) const {
+  double now = 0;
+  const FrameInspector all{[&](double t_s) {
+                             now = t_s;
+                             return true;
+                           },
+                           [&](const GrayF& frame) -> std::function<void()> {
+                             take(prepared(frame), now);
+                             return {};
+                           }};
+  inspect_video(video_, part, all, threads_, [&](auto, auto) { check_(); });
+}
+
+}  // namespace faba

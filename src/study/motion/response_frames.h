@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "study/data/video_part.h"
+#include "vision/image/image.h"
+
+namespace faba {
+
+/// A part of a video as pictures of its objects: differences from an empty background, positive for objects,
+/// grey levels of the video averaged over squares of side() px.
+///
+/// The background is the temporal median with small objects filled by line_closing(): objects that do not
+/// move are not part of it, long lines such as the edge of a drop are.
+class ResponseFrames {
+ public:
+  /// Reads the part once. Throws the errors of VideoReader, and what `check`, called for each frame, throws.
+  ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
+                 std::function<void()> check);
+
+  int side() const { return side_; }          ///< px of the video per px of the pictures
+  double object_px() const { return size_; }  ///< full width at half maximum of an object, px of the pictures
+  double noise() const { return noise_; }     ///< standard deviation of a pixel, grey
+  std::int64_t frames() const { return frames_; }
+  int width() const { return filled_.width; }    ///< px of the pictures
+  int height() const { return filled_.height; }  ///< px of the pictures
+
+  /// Reads a part and passes each picture with its time.
+  void each(const VideoPart& part, const std::function<void(const GrayF& objects, double t_s)>& take) const;
+
+ private:
+  GrayF prepared(const GrayF& frame) const;
+
+  std::filesystem::path video_;
+  unsigned threads_;
+  std::function<void()> check_;
+  int side_ = 1;
+  std::int64_t frames_ = 0;
+  double size_ = 0, noise_ = 0, sign_ = 1;
+  GrayF filled_;  ///< background in the sense of dark objects
+};
+
+}  // namespace faba

@@ -1,0 +1,91 @@
+#include "study/motion/video_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "vision/image/picture_noise.h"
+
+namespace faba {
+namespace {
+
+// Assumed. A spot's flow is proportional to its size for displacements beyond it (docs/theory/video.md, A22),
+// and noise adds to every flow.
+constexpr double kSameSize = 1.2, kSameNoise = 1.5;  // ratios
+
+double half_difference(float a, float b) { return double(a - b) / 2; }
+
+}  // namespace
+
+void VideoLook::add(const GrayF& frame) {
+  if (frame.empty()) return;
+  if (before_.empty()) {
+    before_ = frame;
+    return;
+  }
+  double change = 0, sum = 0, slope = 0, gradient = 0;
+  GrayF d = frame;
+  for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] -= before_.px[i];
+  for (int r = 1; r + 1 < d.height; ++r)
+    for (int c = 1; c + 1 < d.width; ++c) {
+      const double here = double(d.at(c, r));
+      sum += here;
+      change += here * here;
+      const double x = half_difference(d.at(c + 1, r), d.at(c - 1, r)),
+                   y = half_difference(d.at(c, r + 1), d.at(c, r - 1));
+      slope += x * x + y * y;
+      const double gx = half_difference(frame.at(c + 1, r), frame.at(c - 1, r)),
+                   gy = half_difference(frame.at(c, r + 1), frame.at(c, r - 1));
+      gradient += gx * gx + gy * gy;
+    }
+  const double n = double(d.width - 2) * (d.height - 2), sd = picture_noise(frame);
+  noise_ += sd * sd;
+  change_ += change / n;
+  gradient_ += slope / n;
+  if (gradient > 0) imitated_px_ += std::fabs(sum / n) / std::sqrt(gradient / n);
+  ++pairs_;
+  before_ = frame;
+}
+
+double VideoLook::noise() const { return std::sqrt(noise_ / pairs_); }
+
+std::optional<double> VideoLook::size_px() const {
+  // A difference of two frames has twice the variance of the noise, a central difference in two directions
+  // the same.
+  const double change = change_ - 2 * noise_, gradient = gradient_ - 2 * noise_;
+  if (!(change > 0.2 * change_ && gradient > 0.2 * gradient_)) return std::nullopt;
+  return std::sqrt(change / gradient);
+}
+
+double VideoLook::imitated_px() const { return imitated_px_ / pairs_; }
+
+std::vector<Warning> look_warnings(const VideoLook& reference, const VideoLook& run, double threshold_px) {
+  std::vector<Warning> out;
+  if (reference.empty() || run.empty()) return out;
+  const double noise = run.noise() / reference.noise();
+  if (std::max(noise, 1 / noise) > kSameNoise)
+    out.push_back({"noise", "the noise of the videos differs, which contributes to their distance",
+                   fmt::format("{:.2g} grey levels; reference: {:.2g}", run.noise(), reference.noise()),
+                   "compare videos of the same camera and light, or render the noise of the camera"});
+  const auto size = run.size_px(), as = reference.size_px();
+  if (size && as && std::max(*size / *as, *as / *size) > kSameSize)
+    out.push_back({"focus",
+                   "the moving objects differ in size: focus or magnification differ, and with them the flow",
+                   fmt::format("{:.2g} px; reference: {:.2g} px", *size, *as),
+                   "compare videos with the same focus and magnification"});
+  else if (size.has_value() != as.has_value())
+    out.push_back({"contrast", "in one of the videos the motion is not distinguished from the noise",
+                   as ? "this video" : "the reference", "use more light or contrast"});
+  for (const auto& [look, name] : {std::pair{&reference, "the reference"}, std::pair{&run, "this video"}})
+    if (look->imitated_px() > threshold_px)
+      out.push_back(
+          {"light", "the brightness changes from frame to frame, which counts as motion everywhere",
+           fmt::format(
+               "{}: the mean change is that of a displacement by {:.2g} px; the threshold is {:.2g} px", name,
+               look->imitated_px(), threshold_px),
+           "use a constant light and exposure, or divide each frame by its mean"});
+  return out;
+}
+
+}  // namespace faba

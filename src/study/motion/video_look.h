@@ -1,0 +1,38 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/quality/quality.h"
+#include "vision/image/image.h"
+
+namespace faba {
+
+/// Properties of the frames of a video on which the optical flow of equal motion depends.
+class VideoLook {
+ public:
+  /// Frames in sequence; empty ones, of flows from a file, are ignored.
+  void add(const GrayF& frame);
+
+  bool empty() const { return pairs_ == 0; }
+  /// Standard deviation of the noise, grey levels.
+  double noise() const;
+  /// Size of what changes between frames, px: rms of the change over that of its gradient, without the noise;
+  /// the standard deviation for Gaussian spots. Empty when the change is not greater than the noise.
+  std::optional<double> size_px() const;
+  /// Displacement, px, that the mean change of the brightness between frames imitates at the mean gradient.
+  double imitated_px() const;
+
+ private:
+  GrayF before_;
+  double noise_ = 0;                  ///< variances, summed over pairs
+  double change_ = 0, gradient_ = 0;  ///< mean squares of the change and its gradient, summed over pairs
+  double imitated_px_ = 0;
+  int pairs_ = 0;
+};
+
+/// Differences of two videos that change their flows without a difference in motion. `threshold_px`: smaller
+/// flows are not counted.
+std::vector<Warning> look_warnings(const VideoLook& reference, const VideoLook& run, double threshold_px);
+
+}  // namespace faba

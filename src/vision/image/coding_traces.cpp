@@ -1,0 +1,111 @@
+#include "vision/image/coding_traces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/statistics.h"
+
+namespace faba {
+namespace {
+
+constexpr int kBlock = 8;  // px
+constexpr std::size_t kMostPairs = 12;
+constexpr int kSmallestFrame = 8 * kBlock;  // px, side of a frame
+constexpr double kMostSteps = 1000;         // where changes are the same in all pixels of each block
+constexpr double kClip = 4;                 // mean absolute changes: moving objects are not coding
+
+// Mean absolute step of the changes from one column (row) to the next.
+struct Steps {
+  std::vector<double> across, down;
+};
+
+double mean_absolute(const GrayF& change) {
+  double sum = 0;
+  for (const float v : change.px) sum += std::fabs(double(v));
+  return sum / double(change.px.size());
+}
+
+void add_steps(const GrayF& change, Steps& steps) {
+  const auto limit = float(kClip * mean_absolute(change));
+  const auto at = [&](int x, int y) { return std::clamp(change.at(x, y), -limit, limit); };
+  for (int y = 0; y + 1 < change.height; ++y)
+    for (int x = 0; x + 1 < change.width; ++x) {
+      const float here = at(x, y);
+      steps.across[std::size_t(x)] += double(std::fabs(at(x + 1, y) - here));
+      steps.down[std::size_t(y)] += double(std::fabs(at(x, y + 1) - here));
+    }
+}
+
+// The phase with the largest steps against the mean of the others, paired by period of the grid.
+CodingTraces traces_along(const std::vector<double>& steps) {
+  const std::size_t periods = steps.size() / kBlock;
+  std::array<double, kBlock> sums{};
+  for (std::size_t i = 0; i < periods * kBlock; ++i) sums[i % kBlock] += steps[i];
+  const std::size_t edge = std::size_t(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  double sum = 0, squares = 0, level = 0;
+  for (std::size_t p = 0; p < periods; ++p) {
+    double others = 0;
+    for (std::size_t k = 0; k < kBlock; ++k)
+      if (k != edge) others += steps[p * kBlock + k] / (kBlock - 1);
+    const double excess = steps[p * kBlock + edge] - others;
+    sum += excess;
+    squares += excess * excess;
+    level += others;
+  }
+  const auto n = double(periods);
+  const double variance = (squares - sum * sum / n) / (n - 1);
+  CodingTraces t;
+  if (sum > 0) t.block_steps = sum / std::max(level, sum / kMostSteps);
+  if (variance > 0) t.significance = sum / std::sqrt(n * variance);
+  return t;
+}
+
+template <class Take>  // called with the range of each complete block
+void for_blocks(const GrayF& g, Take&& take) {
+  for (int y = 0; y + kBlock <= g.height; y += kBlock)
+    for (int x = 0; x + kBlock <= g.width; x += kBlock) take(x, y);
+}
+
+bool changed(const GrayF& change, int left, int top) {
+  for (int y = top; y < top + kBlock; ++y)
+    for (int x = left; x < left + kBlock; ++x)
+      if (change.at(x, y) != 0) return true;
+  return false;
+}
+
+}  // namespace
+
+CodingTraces coding_traces(const std::vector<GrayF>& frames) {
+  if (frames.size() < 2 || std::min(frames[0].width, frames[0].height) < kSmallestFrame) return {};
+  Steps steps{std::vector<double>(std::size_t(frames[0].width - 1)),
+              std::vector<double>(std::size_t(frames[0].height - 1))};
+  double blocks = 0, equal = 0;
+  GrayF change(frames[0].width, frames[0].height);
+  for (std::size_t k = 1; k < std::min(frames.size(), kMostPairs + 1); ++k) {
+    for (std::size_t i = 0; i < change.px.size(); ++i) change.px[i] = frames[k].px[i] - frames[k - 1].px[i];
+    add_steps(change, steps);
+    for_blocks(change, [&](int x, int y) {
+      blocks += 1;
+      equal += changed(change, x, y) ? 0 : 1;
+    });
+  }
+  const CodingTraces across = traces_along(steps.across), down = traces_along(steps.down);
+  CodingTraces t = across.significance > down.significance ? across : down;
+  t.unchanged = equal / blocks;
+  return t;
+}
+
+float coded_noise(const GrayF& difference, const GrayF& response) {
+  constexpr double kQuantile = 0.8, kNormal = 1.2815515655446004;
+  std::vector<float> values;
+  for_blocks(difference, [&](int left, int top) {
+    if (!changed(difference, left, top)) return;
+    for (int y = top; y < top + kBlock; ++y)
+      for (int x = left; x < left + kBlock; ++x) values.push_back(std::fabs(response.at(x, y)));
+  });
+  return values.empty() ? 0 : quantile_low(values, kQuantile) / float(kNormal);
+}
+
+}  // namespace faba
