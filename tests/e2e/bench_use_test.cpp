@@ -142,8 +142,9 @@ TEST_CASE("capture without coils: numbered pictures, one of four, with their tim
                                 "--set \"rig.camera={ type = 'playback', file = 'a.avi', fast = true }\"");
   REQUIRE_MESSAGE(played.exit == 0, played.err);
   CHECK(played.err.find("the camera stopped after") != std::string::npos);
+  const auto notes = played.json()["notes"];
   int stopped = 0;  // another note concerns the scale of the pictures, which is not known
-  for (const auto& note : played.json()["notes"])
+  for (const auto& note : notes)
     stopped += note.get<std::string>().find("the camera stopped after") != std::string::npos;
   CHECK(stopped == 1);
   CHECK(played.json()["complete"] == true);
