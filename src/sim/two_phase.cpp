@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "core/random/splitmix64.h"
@@ -12,9 +13,10 @@ namespace {
 
 constexpr std::int32_t kGranted = -1;
 constexpr std::size_t kAgentsAtOnce = 1024;  // their sites fit into the L1 cache
-constexpr std::size_t kWords = 8;            // of a block of sites: a cache line, 512 sites
-constexpr unsigned kSiteShift = 9;
-constexpr std::size_t kBlocksAtOnce = 512;
+constexpr std::size_t kWords = 2;            // of a block of sites: 128 sites
+constexpr unsigned kSiteShift = 7;
+constexpr std::size_t kFlags = sizeof(std::uint64_t);  // blocks that are skipped at once
+constexpr std::size_t kBlocksAtOnce = 256 * kFlags;
 constexpr std::size_t kSmall = 4096;  // agents for which threads do not pay
 constexpr unsigned kMostParts = 8;    // each has three bits per site
 constexpr int kSweeps = 8;            // of follow()
@@ -67,7 +69,7 @@ void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::
 
 void TwoPhase::prepare(std::size_t agents, std::size_t words, unsigned parts) {
   words_ = words;
-  blocks_ = (words + kWords - 1) / kWords;
+  blocks_ = (words / (kWords * kFlags) + 1) * kFlags;
   parts_.resize(std::max<std::size_t>(parts_.size(), parts));
   parts_used_ = parts;
   for (Sites* s : {&granted_, &wanted_}) s->resize_words(words);
@@ -86,11 +88,17 @@ void TwoPhase::prepare(std::size_t agents, std::size_t words, unsigned parts) {
 
 template <class Use>
 void TwoPhase::each_used_word(std::size_t first_block, std::size_t end_block, Use&& use) const {
-  for (std::size_t b = first_block; b < end_block; ++b) {
-    unsigned used = 0;
-    for (std::size_t k = 0; k < parts_used_; ++k) used |= parts_[k].used[b];
-    if (used == 0) continue;
-    for (std::size_t w = b * kWords; w < std::min(words_, (b + 1) * kWords); ++w) use(w);
+  for (std::size_t first = first_block; first < end_block; first += kFlags) {
+    std::uint64_t used = 0;  // a byte per block
+    for (std::size_t k = 0; k < parts_used_; ++k) {
+      std::uint64_t of_part = 0;
+      std::memcpy(&of_part, &parts_[k].used[first], kFlags);
+      used |= of_part;
+    }
+    for (; used != 0; used &= used - 1) {
+      const std::size_t block = first + std::size_t(std::countr_zero(used)) / 8;
+      for (std::size_t w = block * kWords; w < std::min(words_, (block + 1) * kWords); ++w) use(w);
+    }
   }
 }
 
@@ -144,8 +152,11 @@ void TwoPhase::decide(std::span<const float> x, std::span<const float> y, std::s
 
 // One thread: few wishes are contested.
 void TwoPhase::settle(std::uint64_t key) {
+  const auto contested = [](const Part& p) { return p.contests > 0; };
+  if (std::none_of(parts_.begin(), parts_.begin() + std::ptrdiff_t(parts_used_), contested)) return;
   std::uint32_t sites = 0;
   each_used_word(0, blocks_, [&](std::size_t w) {
+    if (wanted_.words()[w] == 0) return;  // popcount is a call
     before_[w] = sites;
     sites += std::uint32_t(std::popcount(wanted_.words()[w]));
   });

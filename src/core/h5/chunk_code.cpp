@@ -27,7 +27,8 @@ libdeflate_compressor& compressor() {
 // The low bytes of floating-point numbers are noise to a compressor, which takes as long for them as for the
 // others. A shuffled chunk begins with them: its first bytes are stored if a sample of them does not shrink.
 // Twice the distance at which the values of a cell that does not move repeat (PositionTable's columns), so
-// that a sample contains repetitions.
+// that a sample contains repetitions. It is taken at the end of the bytes, because cells stop in the course
+// of a run.
 constexpr std::size_t kSample = 16384;
 // A sample shrinks if it loses 1/256 of its size: less is not worth the time of a level-1 compressor.
 constexpr std::size_t kLeastGain = kSample / 256;
@@ -42,7 +43,8 @@ std::size_t stored_bytes(std::span<const std::uint8_t> shuffled, std::size_t ele
   const std::size_t plane = shuffled.size() / element_bytes;
   if (plane < 2 * kSample) return 0;  // a sample costs too much of the compression
   std::size_t stored = 0;
-  while (stored + plane <= shuffled.size() && !shrinks(shuffled.subspan(stored, kSample))) stored += plane;
+  while (stored + plane <= shuffled.size() && !shrinks(shuffled.subspan(stored + plane - kSample, kSample)))
+    stored += plane;
   return stored;
 }
 

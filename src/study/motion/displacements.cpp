@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/random/distributions.h"
+#include "core/threads/parallel.h"
 #include "core/units.h"
 #include "core/vec.h"
 #include "study/stats/study_random.h"
@@ -78,8 +80,9 @@ class Correlator {
   }
   Vec2 along() const { return along_; }
 
-  Profile between(const Sparse& a, const GrayF& b) {
-    for (auto& sums : sums_) sums.fill(0);
+  /// Several threads may call it at the same time.
+  Profile between(const Sparse& a, const GrayF& b) const {
+    Sums sums{};
     for (const Sparse::Pixel& p : a.pixels)
       for (int dy = -kRadius; dy <= kRadius; ++dy) {
         const Row& row = rows_[std::size_t(dy + kRadius)];
@@ -87,13 +90,14 @@ class Correlator {
         const int from = std::max(row.from, -p.col), to = std::min(row.to, b.width - 1 - p.col);
         if (y < 0 || y >= b.height || from > to) continue;
         const float* other = &b.px[std::size_t(y) * std::size_t(b.width) + std::size_t(p.col + from)];
-        float* sum = &sums_[std::size_t(dy + kRadius)][std::size_t(from + kRadius)];
+        float* sum = &sums[std::size_t(dy + kRadius)][std::size_t(from + kRadius)];
         for (int i = 0; i <= to - from; ++i) sum[i] += p.value * other[i];
       }
-    return projected();
+    return projected(sums);
   }
 
  private:
+  using Sums = std::array<std::array<float, 2 * kRadius + 1>, 2 * kRadius + 1>;
   struct Row {
     int from = kRadius + 1, to = -kRadius - 1;
   };
@@ -101,13 +105,13 @@ class Correlator {
     const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
     return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
   }
-  Profile projected() const {
+  Profile projected(const Sums& sums) const {
     Profile profile{};
     for (int dy = -kRadius; dy <= kRadius; ++dy)
       for (int dx = -kRadius; dx <= kRadius; ++dx) {
         if (!inside(dx, dy)) continue;
         const double s = dx * along_.x + dy * along_.y + kRadius, low = std::floor(s);
-        const double sum = double(sums_[std::size_t(dy + kRadius)][std::size_t(dx + kRadius)]);
+        const double sum = double(sums[std::size_t(dy + kRadius)][std::size_t(dx + kRadius)]);
         profile[std::size_t(low)] += (low + 1 - s) * sum;
         if (s > low) profile[std::size_t(low) + 1] += (s - low) * sum;
       }
@@ -116,7 +120,6 @@ class Correlator {
 
   Vec2 along_;
   std::array<Row, 2 * kRadius + 1> rows_;
-  std::array<std::array<float, 2 * kRadius + 1>, 2 * kRadius + 1> sums_{};
 };
 
 /// Sums over the pairs of a block.
@@ -228,19 +231,22 @@ ShiftFit fit_of(const PairBlock& b, double size, double way) {
 }
 
 std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const Sparse& noise, std::size_t gap,
-                                 double direction_deg) {
-  Correlator correlate(direction_deg);
+                                 double direction_deg, Pool& pool) {
+  const Correlator correlate(direction_deg);
   // Noise correlates with itself only: it is not part of the objects.
   const Profile of_noise = correlate.between(noise, noise.band);
   std::vector<PairBlock> blocks(kPairBlocks);
   const std::size_t pairs = pictures.size() - gap;
+  std::vector<Profile> next(pairs), self(pairs);
+  pool.run(pairs, [&](std::size_t k) {
+    next[k] = correlate.between(pictures[k], pictures[k + gap].band);
+    self[k] = correlate.between(pictures[k], pictures[k].band);
+  });
   for (std::size_t k = 0; k < pairs; ++k) {
     PairBlock& b = blocks[k * kPairBlocks / pairs];
-    const Profile next = correlate.between(pictures[k], pictures[k + gap].band);
-    const Profile self = correlate.between(pictures[k], pictures[k].band);
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      b.next[i] += next[i];
-      b.self[i] += self[i] - of_noise[i];
+    for (std::size_t i = 0; i < of_noise.size(); ++i) {
+      b.next[i] += next[k][i];
+      b.self[i] += self[k][i] - of_noise[i];
     }
     add_energy(b, pictures[k], correlate.along());
   }
@@ -288,13 +294,18 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
                                                       double direction_deg, double frame_s) {
   const double size = frames.object_px();
   std::vector<Sparse> pictures;
-  frames.each(part, [&](const GrayF& objects, double) {
-    if (pictures.size() < kMostFrames) pictures.push_back(sparse_of(objects, size, frames.noise()));
+  std::vector<Sparse> slots(frames.slots());
+  const auto work = [&](std::size_t slot, const GrayF& objects, double) {
+    slots[slot] = sparse_of(objects, size, frames.noise());
+  };
+  frames.each(part, work, [&](std::size_t slot) {
+    if (pictures.size() < kMostFrames) pictures.push_back(std::move(slots[slot]));
   });
   if (pictures.size() < kLeastFrames) return {};
   const Sparse noise = noise_picture(frames);
+  Pool pool(frames.threads());
   for (std::size_t gap = 1;; gap *= 2) {
-    const std::vector<PairBlock> blocks = blocks_of(pictures, noise, gap, direction_deg);
+    const std::vector<PairBlock> blocks = blocks_of(pictures, noise, gap, direction_deg, pool);
     PairBlock all;
     for (const PairBlock& b : blocks) all.add(b, 1);
     if (!(all.energy > 0)) return {};

@@ -83,11 +83,15 @@ const char* word_of(ShiftMeasure measure) {
 PairShifts pair_shifts(const ResponseFrames& frames, const VideoPart& part) {
   PairShifts shifts;
   std::optional<ShiftPicture> before;
-  frames.each(part, [&](const GrayF& objects, double t_s) {
-    ShiftPicture now = shift_picture(objects, t_s, frames.object_px(), frames.noise());
+  std::vector<ShiftPicture> pictures(frames.slots());
+  const auto work = [&](std::size_t slot, const GrayF& objects, double t_s) {
+    pictures[slot] = shift_picture(objects, t_s, frames.object_px(), frames.noise());
+  };
+  frames.each(part, work, [&](std::size_t slot) {
+    ShiftPicture& now = pictures[slot];
     if (before) {
       shifts.t0_s.push_back(before->t_s);
-      shifts.t1_s.push_back(t_s);
+      shifts.t1_s.push_back(now.t_s);
       const bool seen = before->mass > 0 && now.mass > 0;
       const double side = frames.side();
       shifts.by[0].push_back(seen ? side * (now.centroid - before->centroid) : Vec2{});

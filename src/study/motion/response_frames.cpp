@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "core/threads/ordered_work.h"
 #include "study/data/frame_inspector.h"
 #include "study/tracks/track_survey.h"
 #include "vision/cells/detector.h"
@@ -32,9 +34,14 @@ GrayF scaled(const GrayF& frame, float by) {
 
 ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
                                std::function<void()> check)
-    : video_(std::move(video)), threads_(threads), check_(std::move(check)) {
+    : video_(std::move(video)), threads_(OrderedWork::threads(threads)), check_(std::move(check)) {
   BackgroundSampler sampler(kSampled);
-  const FrameInspector sample{[](double) { return true; },
+  const FrameInspector sample{[&](double) {
+                                ++frames_;
+                                const bool needed = sampler.needs_next();
+                                if (!needed) sampler.skip();
+                                return needed;
+                              },
                               [&](const GrayF& frame) -> std::function<void()> {
                                 side_ = std::max(
                                     1, (std::max(frame.width, frame.height) + kLongSide - 1) / kLongSide);
@@ -44,7 +51,6 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
                                   shrink(GrayF(small), side_, small);
                                 }
                                 sampler.take(small);
-                                ++frames_;
                                 return {};
                               }};
   inspect_video(video_, part, sample, threads_, [&](auto, auto) { check_(); });
@@ -74,18 +80,31 @@ GrayF ResponseFrames::prepared(const GrayF& frame) const {
   return out;
 }
 
+std::size_t ResponseFrames::slots() const { return OrderedWork::slots(threads_); }
+
 void ResponseFrames::each(const VideoPart& part,
-                          const std::function<void(const GrayF&, double)>& take) const {
-  double now = 0;
-  const FrameInspector all{[&](double t_s) {
-                             now = t_s;
-                             return true;
-                           },
-                           [&](const GrayF& frame) -> std::function<void()> {
-                             take(prepared(frame), now);
-                             return {};
-                           }};
-  inspect_video(video_, part, all, threads_, [&](auto, auto) { check_(); });
+                          const std::function<void(std::size_t, const GrayF&, double)>& work,
+                          const std::function<void(std::size_t)>& take) const {
+  VideoReader reader(video_, part.fps, threads_);
+  if (part.from_s > 0) reader.skip_to(part.from_s);
+  std::vector<GrayF> frames(slots());
+  std::vector<double> times_s(slots());
+  const auto read = [&](std::size_t slot) {
+    double& t_s = times_s[slot];
+    while (reader.next(t_s) && !part.ends_before(t_s)) {
+      if (!part.holds(t_s)) continue;
+      reader.picture(frames[slot]);
+      return true;
+    }
+    return false;
+  };
+  OrderedWork pictures(threads_, {read, [&](std::size_t slot, unsigned) {
+                                    work(slot, prepared(frames[slot]), times_s[slot]);
+                                  }});
+  while (const std::optional<std::size_t> slot = pictures.next()) {
+    check_();
+    take(*slot);
+  }
 }
 
 }  // namespace faba

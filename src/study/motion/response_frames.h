@@ -25,8 +25,14 @@ class ResponseFrames {
   int width() const { return filled_.width; }    ///< px of the pictures
   int height() const { return filled_.height; }  ///< px of the pictures
 
-  /// Reads a part and passes each picture with its time.
-  void each(const VideoPart& part, const std::function<void(const GrayF& objects, double t_s)>& take) const;
+  unsigned threads() const { return threads_; }  ///< that work on a video
+  /// Number of pictures that are worked on, or held, at a time.
+  std::size_t slots() const;
+  /// Reads a part. Threads call work(slot, objects, t_s) for each picture; then take(slot) is called for the
+  /// pictures in order, by the calling thread. Two pictures in work have different slots, below slots().
+  void each(const VideoPart& part,
+            const std::function<void(std::size_t slot, const GrayF& objects, double t_s)>& work,
+            const std::function<void(std::size_t slot)>& take) const;
 
  private:
   GrayF prepared(const GrayF& frame) const;
