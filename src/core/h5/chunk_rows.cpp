@@ -58,7 +58,7 @@ void ChunkRows::encode(Batch& batch) const {
   batch.chunks.resize(shape_.columns());
   const auto job = [&](std::size_t column) { encode(batch, column); };
   if (coders_) {
-    coders_->pool.run(shape_.columns(), job);
+    coders_->pool.run_uneven(shape_.columns(), job);
   } else {
     for (std::size_t column = 0; column < shape_.columns(); ++column) job(column);
   }

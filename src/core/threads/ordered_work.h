@@ -31,8 +31,9 @@ class OrderedWork {
   /// The number of threads to use when `wanted` are wanted; 0: all. Every thread needs a slot in memory, so
   /// more than can run at a time are not used.
   static unsigned threads(unsigned wanted);
-  /// Number of slots for `threads` threads: the items in work, one that the caller holds, and one ahead.
-  static std::size_t slots(unsigned threads) { return threads + 2; }
+  /// Number of slots for `threads` threads: the items in work, one that the caller holds, and some ahead, so
+  /// that the other threads do not wait for an item that takes longer than most.
+  static std::size_t slots(unsigned threads) { return threads > 1 ? 3 * threads + 2 : 2; }
 
   /// The slot of the next item, which is the caller's until the next call; empty at the end. While it is not
   /// finished, the calling thread works as well. Throws what the steps of this item threw.

@@ -86,4 +86,11 @@ void Pool::run(std::size_t blocks, const std::function<void(std::size_t)>& job) 
   if (error_) std::rethrow_exception(error_);
 }
 
+void Pool::run_uneven(std::size_t blocks, const std::function<void(std::size_t)>& job) {
+  std::atomic<std::size_t> next{0};
+  run(threads(), [&](std::size_t) {
+    for (std::size_t b; !failed_.load(std::memory_order_relaxed) && (b = next++) < blocks;) job(b);
+  });
+}
+
 }  // namespace faba

@@ -33,6 +33,9 @@ class Pool {
   /// all are done. The first exception thrown by a job is rethrown here.
   void run(std::size_t blocks, const std::function<void(std::size_t)>& job);
 
+  /// Like run(), for blocks of different durations: each thread takes the next block when it is free.
+  void run_uneven(std::size_t blocks, const std::function<void(std::size_t)>& job);
+
   /// run() over [0, n) in blocks of `block` elements: job(begin, end).
   template <class Job>
   void for_blocks(std::size_t n, std::size_t block, Job&& job) {

@@ -149,11 +149,10 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   options.kept = std::move(prepared.flows);
   FlowSource source(a.input.file, options);
   FlowPair pair;
-  VideoLook look;
+  LightChange light;
   double most = -1;
   while (source.next(pair)) {
     a.signature.add(pair, source.shrink());
-    look.add(pair.image);
     const std::size_t k = a.signature.size() - 1;
     const double now = a.direction_given ? a.signature.along(k, zero) : norm(a.signature.sum(k));
     if (now > most) {
@@ -161,10 +160,11 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
       a.busiest = pair;
       a.busiest_deg = direction_of(a.signature.sum(k));
     }
+    light.add(std::move(pair.image));
     job.progress(index, k + 1, source.pairs());
     check_stop(job, a.input);
   }
-  if (auto warning = light_warning(look, source.shrink(), a.threshold_px)) a.warnings.push_back(*warning);
+  if (auto warning = light_warning(light, source.shrink(), a.threshold_px)) a.warnings.push_back(*warning);
   a.notes = source.notes();
   a.scale = source.scale();
   a.timed = source.fps() > 0;

@@ -6,9 +6,8 @@
 
 namespace faba {
 
-std::optional<Warning> light_warning(const VideoLook& look, int px_side, double threshold_px) {
-  if (look.empty()) return std::nullopt;
-  const double imitated = px_side * look.imitated_px();
+std::optional<Warning> light_warning(const LightChange& light, int px_side, double threshold_px) {
+  const double imitated = px_side * light.imitated_px();
   if (imitated <= threshold_px) return std::nullopt;
   return Warning{
       "light", "the brightness changes from frame to frame, which counts as motion everywhere",

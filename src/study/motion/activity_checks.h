@@ -9,7 +9,7 @@ namespace faba {
 
 /// The brightness changes between frames by more than the flow of a pixel at the threshold; `px_side` is
 /// FlowSource::shrink().
-std::optional<Warning> light_warning(const VideoLook& look, int px_side, double threshold_px);
+std::optional<Warning> light_warning(const LightChange& light, int px_side, double threshold_px);
 
 /// Flows along a direction and against it at the same time, which cancel in along(): cells of both
 /// polarities.

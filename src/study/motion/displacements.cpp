@@ -8,6 +8,7 @@
 #include "core/threads/parallel.h"
 #include "core/units.h"
 #include "core/vec.h"
+#include "study/motion/kernels/correlation_window.h"
 #include "study/stats/study_random.h"
 #include "vision/cells/spot_fit.h"
 #include "vision/image/kernels/smoothing.h"
@@ -33,12 +34,8 @@ using Profile = std::array<double, 2 * kRadius + 1>;  ///< against the displacem
 
 /// A band-passed picture, and its pixels above the noise.
 struct Sparse {
-  struct Pixel {
-    int col, row;
-    float value;
-  };
   GrayF band;  ///< 0 below the threshold
-  std::vector<Pixel> pixels;
+  std::vector<SparsePixel> pixels;
 };
 
 Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
@@ -72,54 +69,33 @@ class Correlator {
       : along_{std::cos(direction_deg * kDegree), std::sin(direction_deg * kDegree)} {
     for (int dy = -kRadius; dy <= kRadius; ++dy)
       for (int dx = -kRadius; dx <= kRadius; ++dx)
-        if (inside(dx, dy)) {
-          Row& row = rows_[std::size_t(dy + kRadius)];
-          row.from = std::min(row.from, dx);
-          row.to = std::max(row.to, dx);
-        }
+        if (inside(dx, dy)) window_.include(dx, dy);
   }
   Vec2 along() const { return along_; }
 
   /// Several threads may call it at the same time.
-  Profile between(const Sparse& a, const GrayF& b) const {
-    Sums sums{};
-    for (const Sparse::Pixel& p : a.pixels)
-      for (int dy = -kRadius; dy <= kRadius; ++dy) {
-        const Row& row = rows_[std::size_t(dy + kRadius)];
-        const int y = p.row + dy;
-        const int from = std::max(row.from, -p.col), to = std::min(row.to, b.width - 1 - p.col);
-        if (y < 0 || y >= b.height || from > to) continue;
-        const float* other = &b.px[std::size_t(y) * std::size_t(b.width) + std::size_t(p.col + from)];
-        float* sum = &sums[std::size_t(dy + kRadius)][std::size_t(from + kRadius)];
-        for (int i = 0; i <= to - from; ++i) sum[i] += p.value * other[i];
-      }
-    return projected(sums);
-  }
-
- private:
-  using Sums = std::array<std::array<float, 2 * kRadius + 1>, 2 * kRadius + 1>;
-  struct Row {
-    int from = kRadius + 1, to = -kRadius - 1;
-  };
-  bool inside(int dx, int dy) const {
-    const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
-    return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
-  }
-  Profile projected(const Sums& sums) const {
+  Profile between(const Sparse& a, const Sparse& b) const {
+    const CorrelationSums sums = window_.sums(a.pixels, b.band);
     Profile profile{};
     for (int dy = -kRadius; dy <= kRadius; ++dy)
       for (int dx = -kRadius; dx <= kRadius; ++dx) {
         if (!inside(dx, dy)) continue;
         const double s = dx * along_.x + dy * along_.y + kRadius, low = std::floor(s);
-        const double sum = double(sums[std::size_t(dy + kRadius)][std::size_t(dx + kRadius)]);
+        const auto sum = double(sums.at(dx, dy));
         profile[std::size_t(low)] += (low + 1 - s) * sum;
         if (s > low) profile[std::size_t(low) + 1] += (s - low) * sum;
       }
     return profile;
   }
 
+ private:
+  bool inside(int dx, int dy) const {
+    const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
+    return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
+  }
+
   Vec2 along_;
-  std::array<Row, 2 * kRadius + 1> rows_;
+  CorrelationWindow window_{kRadius};
 };
 
 /// Sums over the pairs of a block.
@@ -145,7 +121,7 @@ struct PairBlock {
 };
 
 void add_energy(PairBlock& b, const Sparse& s, Vec2 along) {
-  for (const Sparse::Pixel& p : s.pixels) {
+  for (const SparsePixel& p : s.pixels) {
     const double e = double(p.value) * double(p.value);
     const double right = along.x > 0 ? s.band.width - 1 - p.col : p.col;
     const double down = along.y > 0 ? s.band.height - 1 - p.row : p.row;
@@ -230,23 +206,30 @@ ShiftFit fit_of(const PairBlock& b, double size, double way) {
   return best;
 }
 
-std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const Sparse& noise, std::size_t gap,
-                                 double direction_deg, Pool& pool) {
-  const Correlator correlate(direction_deg);
-  // Noise correlates with itself only: it is not part of the objects.
-  const Profile of_noise = correlate.between(noise, noise.band);
+// Correlation of each picture with itself. Noise correlates with itself only: it is not part of the objects.
+std::vector<Profile> self_of(const std::vector<Sparse>& pictures, const Sparse& noise,
+                             const Correlator& correlate, Pool& pool) {
+  const Profile of_noise = correlate.between(noise, noise);
+  std::vector<Profile> self(pictures.size());
+  pool.run_uneven(pictures.size(), [&](std::size_t k) {
+    self[k] = correlate.between(pictures[k], pictures[k]);
+    for (std::size_t i = 0; i < of_noise.size(); ++i) self[k][i] -= of_noise[i];
+  });
+  return self;
+}
+
+std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const std::vector<Profile>& self,
+                                 std::size_t gap, const Correlator& correlate, Pool& pool) {
   std::vector<PairBlock> blocks(kPairBlocks);
   const std::size_t pairs = pictures.size() - gap;
-  std::vector<Profile> next(pairs), self(pairs);
-  pool.run(pairs, [&](std::size_t k) {
-    next[k] = correlate.between(pictures[k], pictures[k + gap].band);
-    self[k] = correlate.between(pictures[k], pictures[k].band);
-  });
+  std::vector<Profile> next(pairs);
+  pool.run_uneven(pairs,
+                  [&](std::size_t k) { next[k] = correlate.between(pictures[k], pictures[k + gap]); });
   for (std::size_t k = 0; k < pairs; ++k) {
     PairBlock& b = blocks[k * kPairBlocks / pairs];
-    for (std::size_t i = 0; i < of_noise.size(); ++i) {
+    for (std::size_t i = 0; i < next[k].size(); ++i) {
       b.next[i] += next[k][i];
-      b.self[i] += self[k][i] - of_noise[i];
+      b.self[i] += self[k][i];
     }
     add_energy(b, pictures[k], correlate.along());
   }
@@ -302,10 +285,11 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
     if (pictures.size() < kMostFrames) pictures.push_back(std::move(slots[slot]));
   });
   if (pictures.size() < kLeastFrames) return {};
-  const Sparse noise = noise_picture(frames);
   Pool pool(frames.threads());
+  const Correlator correlate(direction_deg);
+  const std::vector<Profile> self = self_of(pictures, noise_picture(frames), correlate, pool);
   for (std::size_t gap = 1;; gap *= 2) {
-    const std::vector<PairBlock> blocks = blocks_of(pictures, noise, gap, direction_deg, pool);
+    const std::vector<PairBlock> blocks = blocks_of(pictures, self, gap, correlate, pool);
     PairBlock all;
     for (const PairBlock& b : blocks) all.add(b, 1);
     if (!(all.energy > 0)) return {};

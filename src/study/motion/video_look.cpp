@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "vision/image/kernels/frame_change.h"
 #include "vision/image/picture_noise.h"
 
 namespace faba {
@@ -14,36 +16,37 @@ namespace {
 // and noise adds to every flow.
 constexpr double kSameSize = 1.2, kSameNoise = 1.5;  // ratios
 
-double half_difference(float a, float b) { return double(a - b) / 2; }
+double imitated_px_by(const FrameChange& change) {
+  return change.gradient > 0 ? std::fabs(change.mean) / std::sqrt(change.gradient) : 0;
+}
+
+bool too_small(const GrayF& frame) { return frame.width < 3 || frame.height < 3; }
 
 }  // namespace
 
+void LightChange::add(GrayF frame) {
+  if (too_small(frame)) return;
+  if (!before_.empty()) {
+    imitated_px_ += imitated_px_by(frame_change(before_, frame));
+    ++pairs_;
+  }
+  before_ = std::move(frame);
+}
+
+double LightChange::imitated_px() const { return pairs_ > 0 ? imitated_px_ / pairs_ : 0; }
+
 void VideoLook::add(const GrayF& frame) {
-  if (frame.empty()) return;
+  if (too_small(frame)) return;
   if (before_.empty()) {
     before_ = frame;
     return;
   }
-  double change = 0, sum = 0, slope = 0, gradient = 0;
-  GrayF d = frame;
-  for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] -= before_.px[i];
-  for (int r = 1; r + 1 < d.height; ++r)
-    for (int c = 1; c + 1 < d.width; ++c) {
-      const double here = double(d.at(c, r));
-      sum += here;
-      change += here * here;
-      const double x = half_difference(d.at(c + 1, r), d.at(c - 1, r)),
-                   y = half_difference(d.at(c, r + 1), d.at(c, r - 1));
-      slope += x * x + y * y;
-      const double gx = half_difference(frame.at(c + 1, r), frame.at(c - 1, r)),
-                   gy = half_difference(frame.at(c, r + 1), frame.at(c, r - 1));
-      gradient += gx * gx + gy * gy;
-    }
-  const double n = double(d.width - 2) * (d.height - 2), sd = picture_noise(frame);
+  const FrameChange now = frame_change(before_, frame);
+  const double sd = picture_noise(frame);
   noise_ += sd * sd;
-  change_ += change / n;
-  gradient_ += slope / n;
-  if (gradient > 0) imitated_px_ += std::fabs(sum / n) / std::sqrt(gradient / n);
+  change_ += now.squared;
+  gradient_ += now.slope;
+  imitated_px_ += imitated_px_by(now);
   ++pairs_;
   before_ = frame;
 }

@@ -8,10 +8,24 @@
 
 namespace faba {
 
+/// Change of the brightness from frame to frame.
+class LightChange {
+ public:
+  /// Frames in sequence; those smaller than 3 x 3 px, as of flows from a file, are ignored.
+  void add(GrayF frame);
+  /// Displacement, px, that the mean change of the brightness imitates at the mean gradient; 0 without frames.
+  double imitated_px() const;
+
+ private:
+  GrayF before_;
+  double imitated_px_ = 0;  ///< sum over pairs
+  int pairs_ = 0;
+};
+
 /// Properties of the frames of a video on which the optical flow of equal motion depends.
 class VideoLook {
  public:
-  /// Frames in sequence; empty ones, of flows from a file, are ignored.
+  /// Frames in sequence; those smaller than 3 x 3 px, as of flows from a file, are ignored.
   void add(const GrayF& frame);
 
   bool empty() const { return pairs_ == 0; }
@@ -20,7 +34,7 @@ class VideoLook {
   /// Size of what changes between frames, px: rms of the change over that of its gradient, without the noise;
   /// the standard deviation for Gaussian spots. Empty when the change is not greater than the noise.
   std::optional<double> size_px() const;
-  /// Displacement, px, that the mean change of the brightness between frames imitates at the mean gradient.
+  /// As LightChange::imitated_px().
   double imitated_px() const;
 
  private:

@@ -38,27 +38,18 @@ bool sweep(ResultStore& store, std::span<const Task> tasks, const SweepOptions& 
     ++shard_tasks;
     if (!store.find(tasks[i].key)) todo.push_back(&tasks[i]);
   }
-  std::atomic<std::size_t> next{0};
   std::atomic<bool> stopped{false};
   std::mutex storing;
   std::uint64_t done = shard_tasks - todo.size();
   Pool pool(o.threads);
-  // Tasks have different durations: each thread takes the next task when it is free.
-  if (!todo.empty())
-    pool.run(pool.threads(), [&](std::size_t) {
-      for (std::size_t i; !stopped && (i = next++) < todo.size();) {
-        try {
-          const std::vector<double> values = todo[i]->work();
-          const std::lock_guard lock(storing);
-          store.add(todo[i]->key, values);
-          o.progress(++done, shard_tasks);
-          if (o.stop()) stopped = true;
-        } catch (...) {
-          stopped = true;
-          throw;
-        }
-      }
-    });
+  pool.run_uneven(todo.size(), [&](std::size_t i) {
+    if (stopped) return;
+    const std::vector<double> values = todo[i]->work();
+    const std::lock_guard lock(storing);
+    store.add(todo[i]->key, values);
+    o.progress(++done, shard_tasks);
+    if (o.stop()) stopped = true;
+  });
   if (done < shard_tasks)
     throw Error(Errc::interrupted, "",
                 "stopped; completed results are kept; run the same command again to continue");

@@ -11,7 +11,7 @@
 namespace faba {
 namespace {
 
-constexpr std::int64_t kFramesCounted = 50;  // at most
+constexpr std::int64_t kFramesCounted = 25;  // at most
 
 // Number of visible cells recorded by the simulation.
 std::optional<double> counted_by_run(const std::filesystem::path& run, const VideoPart& part) {

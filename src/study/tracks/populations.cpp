@@ -106,19 +106,19 @@ bool separated(const Mixture& m) {
   return true;
 }
 
-Mixture chosen(const std::vector<Sample>& samples) {
+Mixture chosen(const std::vector<Sample>& samples, Pool& pool) {
   double n = 0;
   for (const Sample& s : samples) n += s.weight;
   const auto criterion = [&](const Mixture& m) {
     return -2 * log_likelihood(samples, m) +
            (3 * double(m.size()) - 1) * std::max(kLeastPenalty, std::log(n));
   };
-  Mixture best = fitted(samples, 1);
-  for (std::size_t components = 2; components <= kMostComponents; ++components) {
-    if (samples.size() < kFewWindows * components) break;
-    const Mixture m = fitted(samples, components);
-    if (separated(m) && criterion(m) < criterion(best)) best = m;
-  }
+  const std::size_t most = std::clamp<std::size_t>(samples.size() / kFewWindows, 1, kMostComponents);
+  std::array<Mixture, kMostComponents> fits;
+  pool.run_uneven(most, [&](std::size_t i) { fits[most - 1 - i] = fitted(samples, most - i); });
+  Mixture best = fits[0];
+  for (std::size_t k = 1; k < most; ++k)
+    if (separated(fits[k]) && criterion(fits[k]) < criterion(best)) best = fits[k];
   return best;
 }
 
@@ -196,7 +196,8 @@ void PopulationSurvey::take(const Track& track, std::size_t lag) {
   }
 }
 
-std::vector<SpeedPopulation> PopulationSurvey::populations(int interval, double localisation_px) const {
+std::vector<SpeedPopulation> PopulationSurvey::populations(int interval, double localisation_px,
+                                                          Pool& pool) const {
   const auto lag = std::size_t(
       std::min<std::ptrdiff_t>(std::lower_bound(kLags.begin(), kLags.end(), interval) - kLags.begin(),
                                std::ptrdiff_t(kLags.size()) - 1));
@@ -218,7 +219,7 @@ std::vector<SpeedPopulation> PopulationSurvey::populations(int interval, double 
   for (Sample& s : sorted) s.weight = double(tracks.size()) / double(windows.size());
   std::sort(sorted.begin(), sorted.end(),
             [](const Sample& a, const Sample& b) { return a.log_speed < b.log_speed; });
-  const Mixture mixture = chosen(sorted);
+  const Mixture mixture = chosen(sorted, pool);
   std::vector<Members> groups(mixture.size());
   for (std::size_t i = 0; i < windows.size(); ++i) {
     Members& g = groups[most_probable(mixture, samples[i].log_speed)];

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/threads/parallel.h"
 #include "vision/cells/tracker.h"
 
 namespace faba {
@@ -38,7 +39,7 @@ class PopulationSurvey {
   void take(const Track& track);
   /// `interval`: frames between the positions of a displacement; `localisation_px`: standard deviation of a
   /// position per axis. Sorted by speed, the slowest first; empty without windows.
-  std::vector<SpeedPopulation> populations(int interval, double localisation_px) const;
+  std::vector<SpeedPopulation> populations(int interval, double localisation_px, Pool& pool) const;
 
  private:
   static constexpr std::array<int, 6> kLags{1, 2, 4, 8, 16, 32};

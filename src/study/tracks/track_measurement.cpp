@@ -73,7 +73,8 @@ class TrackPass {
   std::vector<TrackScore> scores() const { return scores_.scores(links_); }
   const StageDrift& stage() const { return stage_; }
   std::vector<SpeedPopulation> populations(const TrackSummary& s) const {
-    return populations_.populations(s.interval_frames, std::max(s.localisation_px, stage_.error_px));
+    Pool pool(options_.threads);
+    return populations_.populations(s.interval_frames, std::max(s.localisation_px, stage_.error_px), pool);
   }
   TrackSummary summary() { return statistics_.summary(); }
   std::int64_t repeated_times() const { return repeated_times_; }

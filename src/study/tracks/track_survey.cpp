@@ -57,10 +57,10 @@ void warn_background(TrackSurvey& s, const Background& median, const Background&
        "look at --preview; give the --size and --threshold of the objects, or a --region"});
 }
 
-void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler, Pool& pool) {
+// `fine`: spatial background of the middle frame.
+void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler,
+                       const Background& fine, Pool& pool) {
   const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
-  const Background fine =
-      spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
   Background median = sampler.background(pool);
   const bool many = s.frames >= kFewFrames;
   const Background& first_guess = many ? median : fine;
@@ -86,7 +86,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
       [&] {
         stationary = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
       }};
-  pool.run(many ? std::size(counts) : 1, [&](std::size_t i) { counts[i](); });
+  pool.run_uneven(many ? std::size(counts) : 1, [&](std::size_t i) { counts[i](); });
   s.stationary_spots = stationary;
   if (many && !(o.size_px > 0 && o.threshold_sd > 0)) warn_background(s, median, smooth);
   s.temporal = o.background == BackgroundKind::median ||
@@ -184,11 +184,20 @@ TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
     std::vector<double> gaps = gaps_;
     s.frame_s = median_high(gaps);
   }
-  std::vector<float> levels = s.first.px;
-  s.black = quantile_low(levels, 0.001);
-  s.white = quantile_low(levels, 0.999);
-  if (side_ == 1) s.coding = coding_traces(sampler_.kept());
-  choose_background(options_, s, sampler_, pool);
+  const GrayF& middle = sampler_.kept()[sampler_.kept().size() / 2];
+  Background fine;
+  const std::function<void()> jobs[] = {
+      [&] {
+        if (side_ == 1) s.coding = coding_traces(sampler_.kept());
+      },
+      [&] {
+        fine = spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
+        std::vector<float> levels = s.first.px;
+        s.black = quantile_low(levels, 0.001);
+        s.white = quantile_low(levels, 0.999);
+      }};
+  pool.run_uneven(std::size(jobs), [&](std::size_t i) { jobs[i](); });
+  choose_background(options_, s, sampler_, fine, pool);
   return s;
 }
 

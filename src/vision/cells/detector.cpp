@@ -128,22 +128,49 @@ std::vector<ScaledMaximum> significant_maxima(const GrayF& frame, const Backgrou
   return out;
 }
 
+/// Objects in squares of a picture, to search the neighbours of a place.
+class ObjectGrid {
+ public:
+  /// `reach`: px, the largest distance of near().
+  ObjectGrid(const GrayF& picture, double reach)
+      : side_(reach), columns_(1 + int(picture.width / reach)), rows_(1 + int(picture.height / reach)) {
+    squares_.resize(std::size_t(columns_) * std::size_t(rows_));
+  }
+  void add(const ScaledMaximum& m) { square(column_of(m.at), row_of(m.at)).push_back(m); }
+  /// Whether there is an object closer than half of the larger size.
+  bool near(const ScaledMaximum& m) const {
+    const int column = column_of(m.at), row = row_of(m.at);
+    for (int r = std::max(0, row - 1); r <= std::min(row + 1, rows_ - 1); ++r)
+      for (int c = std::max(0, column - 1); c <= std::min(column + 1, columns_ - 1); ++c)
+        for (const ScaledMaximum& o : squares_[std::size_t(r) * std::size_t(columns_) + std::size_t(c)])
+          if (norm(o.at - m.at) < 0.5 * std::max(o.size, m.size)) return true;
+    return false;
+  }
+
+ private:
+  int column_of(Vec2 at) const { return int(at.x / side_); }
+  int row_of(Vec2 at) const { return int(at.y / side_); }
+  std::vector<ScaledMaximum>& square(int column, int row) {
+    return squares_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
+  }
+
+  double side_;
+  int columns_, rows_;
+  std::vector<std::vector<ScaledMaximum>> squares_;
+};
+
 // The number of objects whose response is largest at each size.
 std::vector<double> objects_of_sizes(const std::vector<std::vector<ScaledMaximum>>& maxima,
-                                     const std::vector<double>& sizes) {
+                                     const std::vector<double>& sizes, const GrayF& picture) {
   std::vector<ScaledMaximum> all;
   for (const auto& of_size : maxima) all.insert(all.end(), of_size.begin(), of_size.end());
   std::sort(all.begin(), all.end(),
             [](const ScaledMaximum& a, const ScaledMaximum& b) { return a.snr > b.snr; });
+  ObjectGrid objects(picture, 0.5 * sizes.back());
   std::vector<double> counts(sizes.size());
-  std::vector<ScaledMaximum> objects;
   for (const ScaledMaximum& m : all) {
-    // The other sizes respond to the same object, less strongly.
-    if (std::any_of(objects.begin(), objects.end(), [&](const ScaledMaximum& o) {
-          return norm(o.at - m.at) < 0.5 * std::max(o.size, m.size);
-        }))
-      continue;
-    objects.push_back(m);
+    if (objects.near(m)) continue;  // the other sizes respond to the same object, less strongly
+    objects.add(m);
     counts[std::size_t(std::find(sizes.begin(), sizes.end(), m.size) - sizes.begin())] += 1;
   }
   return counts;
@@ -262,7 +289,7 @@ SpotSize spot_size(const GrayF& frame, const Background& background, Polarity po
     sizes.push_back(size);
   }
   std::vector<std::vector<ScaledMaximum>> maxima(sizes.size());
-  pool.run(sizes.size(), [&](std::size_t i) {
+  pool.run_uneven(sizes.size(), [&](std::size_t i) {
     const std::size_t k = sizes.size() - 1 - i;  // the large sizes take longest
     maxima[k] = significant_maxima(frame, background, polarity, sizes[k]);
   });
@@ -280,7 +307,7 @@ SpotSize spot_size(const GrayF& frame, const Background& background, Polarity po
       out.px = sizes[k];
     }
   }
-  if (out.px > 0) out.two = two_sizes(objects_of_sizes(maxima, sizes), sizes, out.px);
+  if (out.px > 0) out.two = two_sizes(objects_of_sizes(maxima, sizes, frame), sizes, out.px);
   return out;
 }
 

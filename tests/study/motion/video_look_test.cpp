@@ -52,3 +52,19 @@ TEST_CASE("flows from a file have no frames and no warnings") {
   CHECK(none.empty());
   CHECK(look_warnings(none, none, 0.3).empty());
 }
+
+TEST_CASE("light: a uniform change imitates the displacement of an edge by its change over the gradient") {
+  LightChange light;
+  const auto ramp = [](float level) {
+    GrayF p(40, 30);
+    for (int r = 0; r < p.height; ++r)
+      for (int c = 0; c < p.width; ++c) p.at(c, r) = level + 4 * float(c);
+    return p;
+  };
+  light.add(ramp(50));
+  CHECK(light.imitated_px() == 0);
+  light.add(ramp(53));  // 3 grey levels at 4 levels per px
+  CHECK(light.imitated_px() == doctest::Approx(0.75).epsilon(1e-6));
+  light.add(GrayF(2, 2));  // too small
+  CHECK(light.imitated_px() == doctest::Approx(0.75).epsilon(1e-6));
+}

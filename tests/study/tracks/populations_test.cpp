@@ -12,6 +12,7 @@ using namespace faba;
 namespace {
 
 constexpr double kFrame = 0.1, kError = 0.1;  // s; px, of a position
+Pool pool(2);
 
 std::array<float, 2> normal_pair(std::uint32_t a, std::uint32_t b) {
   const auto w = draw(5, Stream::study, a, b);
@@ -47,7 +48,7 @@ TEST_CASE("objects that move and objects that do not move are separated, with th
     const double speed = k % 3 == 0 ? 0 : 40 * std::exp(0.2 * double(normal_pair(1000, k)[0]));
     survey.take(track_of(k, 0, 50, [&](int) { return in_direction(k, speed); }));
   }
-  const auto found = survey.populations(1, kError);
+  const auto found = survey.populations(1, kError, pool);
   REQUIRE(found.size() == 2);
   CHECK(found[0].motion == PopulationMotion::still);
   CHECK(found[0].fraction == doctest::Approx(1.0 / 3).epsilon(1e-9));
@@ -64,7 +65,7 @@ TEST_CASE("one population is not divided") {
     survey.take(track_of(k, 0, 40, [&](int) {
       return in_direction(k, 30 * std::exp(0.4 * double(normal_pair(2000, k)[0])));
     }));
-  const auto found = survey.populations(1, kError);
+  const auto found = survey.populations(1, kError, pool);
   REQUIRE(found.size() == 1);
   CHECK(found[0].fraction == 1);
   CHECK(found[0].motion == PopulationMotion::moving);
@@ -74,7 +75,7 @@ TEST_CASE("objects that stop and start belong to both populations for the time t
   PopulationSurvey survey(kFrame);
   for (std::uint32_t k = 1; k <= 30; ++k)
     survey.take(track_of(k, 0, 401, [&](int i) { return in_direction(k, i / 100 % 2 == 0 ? 50 : 0); }));
-  const auto found = survey.populations(1, kError);
+  const auto found = survey.populations(1, kError, pool);
   REQUIRE(found.size() == 2);
   CHECK(found[0].motion == PopulationMotion::still);
   CHECK(found[0].fraction ==
@@ -88,7 +89,7 @@ TEST_CASE("slow objects that all move in one direction are drifting") {
     survey.take(track_of(k, 0, 50, [&](int) {
       return Vec2{6, 1} + (k % 2 == 0 ? in_direction(k, 60) : Vec2{});
     }));
-  const auto found = survey.populations(2, kError);
+  const auto found = survey.populations(2, kError, pool);
   REQUIRE(found.size() == 2);
   CHECK(found[0].motion == PopulationMotion::drifting);
   CHECK(found[1].motion == PopulationMotion::moving);
@@ -97,5 +98,5 @@ TEST_CASE("slow objects that all move in one direction are drifting") {
 TEST_CASE("too few windows give no population") {
   PopulationSurvey survey(kFrame);
   survey.take(track_of(1, 0, 3, [](int) { return Vec2{10, 0}; }));
-  CHECK(survey.populations(1, kError).empty());
+  CHECK(survey.populations(1, kError, pool).empty());
 }

@@ -160,7 +160,7 @@ void CellSplats::sort_into_bands(int height) {
 void CellSplats::add(std::span<const CameraCell> cells, GrayF& sum, Pool& pool) {
   make_spots(cells, sum);
   sort_into_bands(sum.height);
-  pool.run(band_begin_.size() - 1, [&](std::size_t band) {
+  pool.run_uneven(band_begin_.size() - 1, [&](std::size_t band) {
     const int low = int(band) * kBand, high = std::min(low + kBand, sum.height);
     std::vector<float> across(tables_.back().stride()), down(tables_.back().stride());
     for (std::uint32_t k = band_begin_[band]; k < band_begin_[band + 1]; ++k) {
