@@ -10,6 +10,7 @@
 #include "cli/options/scene.h"
 #include "cli/progress.h"
 #include "cli/recorded_run.h"
+#include "vision/files/libav.h"
 
 namespace faba::cli {
 namespace {
@@ -26,8 +27,10 @@ std::string command_with_seed(const SceneOptions& v, std::uint64_t seed) {
 
 int run(const SceneOptions& v, const Common& c) {
   std::string drop_note;
-  const Scenario s = read_scenario(read_scene(v, &drop_note), builtin_parts());
-
+  const Document scene = read_scene(v, &drop_note);
+  const Json record = scene.root.value("record", Json::object());
+  if (!record.is_object() || record.value("video", Json(true)) != false) libav::load_in_background();
+  const Scenario s = read_scenario(scene, builtin_parts());
   const std::uint64_t seed = s.params.seed.value_or(random_seed());
   Progress bar("simulating", !c.quiet && !c.json);
   RunOptions o;
