@@ -8,6 +8,7 @@
 #include "app/run/notes.h"
 #include "control/setpoint_count.h"
 #include "core/file.h"
+#include "vision/files/video_libraries.h"
 
 namespace faba {
 
@@ -20,6 +21,11 @@ Session::Session(Scenario s, std::uint64_t seed, const RunOptions& o)
 }
 
 Session::~Session() = default;
+
+void Session::prepare(const Document& scenario) {
+  const Json record = scenario.root.value("record", Json::object());
+  if (!record.is_object() || record.value("video", Json(true)) != false) load_video_libraries();
+}
 
 Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& o) {
   Session session(s, seed, o);

@@ -10,7 +10,6 @@
 #include "cli/options/scene.h"
 #include "cli/progress.h"
 #include "cli/recorded_run.h"
-#include "vision/files/libav.h"
 
 namespace faba::cli {
 namespace {
@@ -28,8 +27,7 @@ std::string command_with_seed(const SceneOptions& v, std::uint64_t seed) {
 int run(const SceneOptions& v, const Common& c) {
   std::string drop_note;
   const Document scene = read_scene(v, &drop_note);
-  const Json record = scene.root.value("record", Json::object());
-  if (!record.is_object() || record.value("video", Json(true)) != false) libav::load_in_background();
+  Session::prepare(scene);
   const Scenario s = read_scenario(scene, builtin_parts());
   const std::uint64_t seed = s.params.seed.value_or(random_seed());
   Progress bar("simulating", !c.quiet && !c.json);

@@ -4,10 +4,8 @@
 
 #include <array>
 #include <string>
-#include <thread>
 
 #include "core/error.h"
-#include "vision/files/libav.h"
 
 namespace faba::libav {
 namespace {
@@ -36,15 +34,6 @@ void* function(const char* name) {
     if (void* address = dlsym(library, name)) return address;
   throw Error(Errc::internal, name,
               "is not a function of this FFmpeg; install the version that Faba was built with");
-}
-
-void load_in_background() {
-  static const std::jthread loading([] {
-    try {
-      function("avformat_version");
-    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the first call of a function reports it
-    }
-  });
 }
 
 void Free::operator()(AVFrame* frame) const { FABA_AV(av_frame_free)(&frame); }

@@ -6,8 +6,6 @@ namespace faba::libav {
 /// Redirects the log of libavformat and libavcodec: nothing is printed, the first error is kept for reason().
 /// Cheap and thread-safe; every function that uses these libraries calls it first.
 void quiet();
-/// Loads the libraries of FFmpeg in a thread, so that the first call of one of their functions need not wait.
-void load_in_background();
 
 /// Clears the log messages of this thread, so that the next reason() refers to the next call only.
 void forget_messages();

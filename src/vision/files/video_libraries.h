@@ -1,0 +1,9 @@
+#pragma once
+
+namespace faba {
+
+/// Loads the libraries for videos in a thread, so that the first video need not wait for them. An error is
+/// reported when they are used.
+void load_video_libraries();
+
+}  // namespace faba
