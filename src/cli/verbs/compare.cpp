@@ -13,6 +13,7 @@
 #include "study/motion/segments.h"
 #include "study/pages/compare_report.h"
 #include "study/pages/flow_report.h"
+#include "study/quality/rounded.h"
 
 namespace faba::cli {
 namespace {
@@ -34,14 +35,15 @@ void print_runs(const Comparison& result) {
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
   for (const ComparedRun& r : result.runs) {
     const auto score = score_of(result, r);
-    fmt::print("{:10.4f} {:10.4f} {:12.5f} {:>8}  {}\n", r.distance.mean, r.distance.sd,
-               r.distance.line.slope, score ? fmt::format("{:.3f}", *score) : "-", r.file.string());
+    const Rounded mean = rounded(r.distance.mean, r.distance.sd);
+    fmt::print("{:>10} {:>10} {:>12.2g} {:>8}  {}\n", mean.value, mean.uncertainty, r.distance.line.slope,
+               score ? fmt::format("{:.2f}", *score) : "-", r.file.string());
   }
   if (result.noise_floor)
-    fmt::print("{:10.4f} {:43}noise floor: {}\n", *result.noise_floor, "", result.noise_floor_from);
+    fmt::print("{:10.3g} {:43}noise floor: {}\n", *result.noise_floor, "", result.noise_floor_from);
   else
     fmt::print("{:>10} {:43}noise floor: {}\n", "-", "", result.noise_floor_from);
-  fmt::print("{:10.4f} {:43}baseline: no motion\n", result.naive.mean, "");
+  fmt::print("{:10.3g} {:43}baseline: no motion\n", result.naive.mean, "");
 }
 
 int compare(const CompareVerb& v, const Common& c) {

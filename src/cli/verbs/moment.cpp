@@ -9,6 +9,7 @@
 #include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "study/pages/moment_report.h"
+#include "study/quality/rounded.h"
 #include "study/uturn/moment_study.h"
 
 namespace faba::cli {
@@ -19,26 +20,29 @@ struct MomentVerb {
   unsigned threads = 0;
 };
 
+// A median with its interval, in `unit`, which is `si` of the SI unit.
+std::string in_unit(const MedianInterval& m, double si, const char* unit) {
+  const RoundedInterval r = rounded_interval(m.median / si, {m.ci90[0] / si, m.ci90[1] / si});
+  return fmt::format("{} {} (90 % interval {} to {})", r.value, unit, r.low, r.high);
+}
+
 void print_moment(const MomentEstimate& e) {
   for (const FieldStrength& f : e.fields) {
     if (!f.rate_per_t) {
       fmt::print("{:<9.4g} mT  no complete turns\n", 1e3 * f.field_t);
       continue;
     }
-    fmt::print("{:<9.4g} mT  {} turns, {:.3g} rad/(s mT) (90 % interval {:.3g} to {:.3g})\n", 1e3 * f.field_t,
-               f.survey.turns.size(), 1e-3 * f.rate_per_t->median, 1e-3 * f.rate_per_t->ci90[0],
-               1e-3 * f.rate_per_t->ci90[1]);
+    fmt::print("{:<9.4g} mT  {} turns, {}\n", 1e3 * f.field_t, f.survey.turns.size(),
+               in_unit(*f.rate_per_t, 1e3, "rad/(s mT)"));
   }
   if (quality_of(e.warnings) == Quality::poor) {
     fmt::print("the moment is not stated, because the quality is poor; --json gives all values\n");
     return;
   }
   if (e.rate_per_t)
-    fmt::print("rate      {:.3g} rad/(s mT), median of the cells (90 % interval {:.3g} to {:.3g})\n",
-               1e-3 * e.rate_per_t->median, 1e-3 * e.rate_per_t->ci90[0], 1e-3 * e.rate_per_t->ci90[1]);
+    fmt::print("rate      {}, median of the cells\n", in_unit(*e.rate_per_t, 1e3, "rad/(s mT)"));
   if (e.moment)
-    fmt::print("moment    {:.2g} A m^2, median of the cells (90 % interval {:.2g} to {:.2g})\n",
-               e.moment->median, e.moment->ci90[0], e.moment->ci90[1]);
+    fmt::print("moment    {}, median of the cells\n", in_unit(*e.moment, 1e-15, "fA m^2"));
 }
 
 int moment(const MomentVerb& v, const Common& c) {

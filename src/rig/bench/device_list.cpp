@@ -63,7 +63,7 @@ void add_ni_usb(std::vector<Device>& all, const fs::path& sys) {
     all.push_back(
         {"USB device", device.filename().string(),
          product + (without_linux
-                        ? ": not supported by NI-DAQmx for Linux; use NI-DAQmx Base, or a serial board"
+                        ? ": not supported by NI-DAQmx for Linux; use a serial board, or try NI-DAQmx Base"
                         : ": install NI-DAQmx, or NI-DAQmx Base if it does not support this device")});
   }
 }

@@ -54,6 +54,7 @@ double log_likelihood(const std::vector<Sample>& samples, const Mixture& m) {
 // add up to their effective number.
 Mixture fitted(const std::vector<Sample>& samples, std::size_t components) {
   constexpr int kIterations = 200;
+  constexpr double kConverged = 1e-7;  // of the mean of a logarithm, and of a weight
   double total = 0, mean = 0, square = 0;
   for (const Sample& s : samples) {
     total += s.weight;
@@ -85,12 +86,15 @@ Mixture fitted(const std::vector<Sample>& samples, std::size_t components) {
         sums[k][2] += w * s.log_speed * s.log_speed;
       }
     }
+    double change = 0;
     for (std::size_t k = 0; k < components; ++k) {
       const double w = std::max(sums[k][0], 1e-9 * total);
       const double centre = sums[k][1] / w;
+      change = std::max({change, std::fabs(w / total - m[k].weight), std::fabs(centre - m[k].mean)});
       m[k] = {w / total, centre,
               std::max(kLeastLogSpread, std::sqrt(std::max(0.0, sums[k][2] / w - centre * centre)))};
     }
+    if (change < kConverged) break;
   }
   std::sort(m.begin(), m.end(), [](const Component& a, const Component& b) { return a.mean < b.mean; });
   return m;
