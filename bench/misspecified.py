@@ -17,6 +17,7 @@ files; delete both when the program has changed. Exit status 1 if a goal is not 
 import argparse
 import datetime
 import json
+import os
 import pathlib
 import random
 import sys
@@ -172,7 +173,7 @@ def main():
     a.add_argument("--cases", default=",".join(CASES), help="cases, default all")
     a.add_argument("--models", default="basic,adapted,dipole", help="candidates, default basic,adapted,dipole")
     a.add_argument("--simulations", type=int, default=300, help="number of simulations per model, default 300")
-    a.add_argument("--threads", type=int, default=0, help="threads, default all")
+    a.add_argument("--threads", type=int, default=os.cpu_count(), help="threads, default all")
     a.add_argument("--keep", type=pathlib.Path, default=HERE.parent / "build/misspecified", help="folder of the experiments")
     a.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = a.parse_args()

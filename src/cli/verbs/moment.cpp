@@ -41,8 +41,7 @@ void print_moment(const MomentEstimate& e) {
   }
   if (e.rate_per_t)
     fmt::print("rate      {}, median of the cells\n", in_unit(*e.rate_per_t, 1e3, "rad/(s mT)"));
-  if (e.moment)
-    fmt::print("moment    {}, median of the cells\n", in_unit(*e.moment, 1e-15, "fA m^2"));
+  if (e.moment) fmt::print("moment    {}, median of the cells\n", in_unit(*e.moment, 1e-15, "fA m^2"));
 }
 
 int moment(const MomentVerb& v, const Common& c) {

@@ -118,7 +118,8 @@ class NiDaqmx final : public CoilDriver {
         .validity(
             "Channels have NI names: outputs \"Dev1/ao0\", inputs \"Dev1/ai0\". The driver "
             "was tested with mocks of both libraries, not on hardware. NI-DAQmx for Linux does not support "
-            "the USB-6008 and USB-6009; NI-DAQmx Base was made for such devices. A USB-6009 keeps its last voltage if "
+            "the USB-6008 and USB-6009; NI-DAQmx Base was made for such devices. A USB-6009 keeps its last "
+            "voltage if "
             "the computer fails and has no watchdog: without an enable line the guard does not arm.");
   }
   NiDaqmx(const Params& p, const DriverContext& c) : p_(p), ni_(p.library) {

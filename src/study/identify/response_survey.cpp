@@ -321,9 +321,8 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   v.um_per_px = *scale;
   if (const auto& stated = source.scale.um_per_px; stated && std::fabs(*scale / *stated - 1) > kSameScale) {
     v.recorded_um_per_px = stated;
-    v.notes.push_back(
-        fmt::format("recorded picture scale {:g} um per pixel; {:g} um per pixel of the study is used",
-                    *stated, *scale));
+    v.notes.push_back(fmt::format(
+        "recorded picture scale {:g} um per pixel; {:g} um per pixel of the study is used", *stated, *scale));
   }
   const TrackSurvey survey = survey_view(v, boundary, measure, tick);
 

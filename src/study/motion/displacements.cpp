@@ -223,8 +223,7 @@ std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const std:
   std::vector<PairBlock> blocks(kPairBlocks);
   const std::size_t pairs = pictures.size() - gap;
   std::vector<Profile> next(pairs);
-  pool.run_uneven(pairs,
-                  [&](std::size_t k) { next[k] = correlate.between(pictures[k], pictures[k + gap]); });
+  pool.run_uneven(pairs, [&](std::size_t k) { next[k] = correlate.between(pictures[k], pictures[k + gap]); });
   for (std::size_t k = 0; k < pairs; ++k) {
     PairBlock& b = blocks[k * kPairBlocks / pairs];
     for (std::size_t i = 0; i < next[k].size(); ++i) {

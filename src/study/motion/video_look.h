@@ -13,7 +13,8 @@ class LightChange {
  public:
   /// Frames in sequence; those smaller than 3 x 3 px, as of flows from a file, are ignored.
   void add(GrayF frame);
-  /// Displacement, px, that the mean change of the brightness imitates at the mean gradient; 0 without frames.
+  /// Displacement, px, that the mean change of the brightness imitates at the mean gradient; 0 without
+  /// frames.
   double imitated_px() const;
 
  private:

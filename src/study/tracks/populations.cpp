@@ -201,7 +201,7 @@ void PopulationSurvey::take(const Track& track, std::size_t lag) {
 }
 
 std::vector<SpeedPopulation> PopulationSurvey::populations(int interval, double localisation_px,
-                                                          Pool& pool) const {
+                                                           Pool& pool) const {
   const auto lag = std::size_t(
       std::min<std::ptrdiff_t>(std::lower_bound(kLags.begin(), kLags.end(), interval) - kLags.begin(),
                                std::ptrdiff_t(kLags.size()) - 1));

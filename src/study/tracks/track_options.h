@@ -39,7 +39,7 @@ struct TrackOptions {
   std::optional<PixelRegion> region;  ///< only this part of the frames is searched; empty: all of it
   bool inside_drop = false;  ///< detect the edge of the drop in the first frame and search inside it only
   TrackerOptions tracker;
-  bool keep_drift = false;  ///< do not subtract the motion of the stage
+  bool keep_drift = false;     ///< do not subtract the motion of the stage
   int interval_frames = 0;     ///< interval of displacements for speeds and turns; 0: automatic
   Provenance provenance = {};  ///< for the report
 };

@@ -29,7 +29,7 @@ struct FieldStrength {
   std::filesystem::path file;
   double field_t = 0;
   UTurnSurvey survey;
-  double bias = 1;                           ///< of the estimated rate, from simulated turns; corrected
+  double bias = 1;                                ///< of the estimated rate, from simulated turns; corrected
   std::optional<MedianInterval> rate_per_t = {};  ///< 1 / (s T)
 };
 

@@ -72,6 +72,11 @@ struct Threshold {
 
 bool is_maximum(const GrayF& g, int col, int row, int reach) {
   const float v = g.at(col, row);
+  const bool inner = col > 0 && row > 0 && col + 1 < g.width && row + 1 < g.height;
+  // Most pixels of a spot are excluded by their nearest neighbours.
+  if (inner &&
+      (g.at(col - 1, row) > v || g.at(col + 1, row) > v || g.at(col, row - 1) > v || g.at(col, row + 1) > v))
+    return false;
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx) {
       const int c = col + dx, r = row + dy;
@@ -242,10 +247,17 @@ Detector::Detector(Background background, DetectorOptions options)
           ? options_.threshold_sd
           : detection_threshold(options_.size_px, double(background_.level.px.size()), options_.false_alarms);
   noise_gain_ = noise_response(sd_px_).gain;
+  const std::vector<float>& noise = background_.noise_sd.px;
+  if (options_.coded || std::all_of(noise.begin(), noise.end(), [&](float v) { return v == noise[0]; }))
+    return;
   relative_noise_ = background_.noise_sd;
-  std::vector<float> work = relative_noise_.px;
+  std::vector<float> work = noise;
   const float typical = robust_spread_low(work).median;
-  for (float& v : relative_noise_.px) v = options_.coded ? 1 : v / typical;
+  for (float& v : relative_noise_.px) v /= typical;
+}
+
+double Detector::relative_noise(int col, int row) const {
+  return relative_noise_.empty() ? 1 : double(relative_noise_.at(col, row));
 }
 
 std::vector<Spot> Detector::find(const GrayF& frame) const {
@@ -263,11 +275,12 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
     // A uniform picture, or one whose noise was removed by a codec, has zero spread: the quantisation step is
     // then the noise.
     const float noise = std::max(sd, float(noise_gain_) * 0.25F);
-    const Threshold threshold{float(threshold_) * noise, relative_noise_.px.data()};
+    const Threshold threshold{float(threshold_) * noise,
+                              relative_noise_.empty() ? nullptr : relative_noise_.px.data()};
     std::vector<SpotSeed> seeds;
     for (const Maximum& m : maxima(response, reach, margin, threshold)) {
       if (excludes(options_.drop, m.col, m.row)) continue;
-      const double local = double(noise * relative_noise_.at(m.col, m.row));
+      const double local = double(noise) * relative_noise(m.col, m.row);
       double pixel_noise = double(background_.noise_sd.at(m.col, m.row));
       if (options_.coded) pixel_noise = std::max(pixel_noise, double(noise) / noise_gain_);
       seeds.push_back({m.col, m.row, double(m.value) / local, pixel_noise});

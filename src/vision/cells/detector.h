@@ -56,8 +56,10 @@ class Detector {
   const DetectorOptions& options() const { return options_; }
 
  private:
+  double relative_noise(int col, int row) const;
+
   Background background_;
-  GrayF relative_noise_;
+  GrayF relative_noise_;  ///< over the typical one; empty if it is the same everywhere
   DetectorOptions options_;
   double sd_px_ = 1, threshold_ = 5, noise_gain_ = 1;
 };

@@ -34,7 +34,8 @@ class BackgroundSampler {
   void skip() { ++seen_; }
   /// Offers the next frame. All frames must have the same size, else Error(Errc::internal).
   void take(const GrayF& frame);
-  /// The final stride for a video of `frames` frames of `pixels` pixels: one of this number of frames is sampled.
+  /// The final stride for a video of `frames` frames of `pixels` pixels: one of this number of frames is
+  /// sampled.
   std::uint64_t stride_for(std::uint64_t frames, std::size_t pixels) const;
   /// Frames sampled so far.
   const std::vector<GrayF>& kept() const { return kept_; }

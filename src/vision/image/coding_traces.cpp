@@ -99,12 +99,19 @@ CodingTraces coding_traces(const std::vector<GrayF>& frames) {
 
 float coded_noise(const GrayF& difference, const GrayF& response) {
   constexpr double kQuantile = 0.8, kNormal = 1.2815515655446004;
-  std::vector<float> values;
+  constexpr std::size_t kMostBlocks = 4000;  // a sample is sufficient
+  struct Corner {
+    int left, top;
+  };
+  std::vector<Corner> blocks;
   for_blocks(difference, [&](int left, int top) {
-    if (!changed(difference, left, top)) return;
-    for (int y = top; y < top + kBlock; ++y)
-      for (int x = left; x < left + kBlock; ++x) values.push_back(std::fabs(response.at(x, y)));
+    if (changed(difference, left, top)) blocks.push_back({left, top});
   });
+  std::vector<float> values;
+  for (std::size_t i = 0; i < blocks.size(); i += 1 + blocks.size() / kMostBlocks)
+    for (int y = blocks[i].top; y < blocks[i].top + kBlock; ++y)
+      for (int x = blocks[i].left; x < blocks[i].left + kBlock; ++x)
+        values.push_back(std::fabs(response.at(x, y)));
   return values.empty() ? 0 : quantile_low(values, kQuantile) / float(kNormal);
 }
 

@@ -41,7 +41,8 @@ bool warns(const std::vector<Warning>& all, const char* aspect) {
 
 TEST_CASE("the noise of a picture does not depend on its smooth structure") {
   // Standard error of a median deviation of n values: 1.17 / sqrt(n); four of them.
-  for (const double sd : {1.0, 5.0}) CHECK(picture_noise(pattern(0, sd, 1)) == doctest::Approx(sd).epsilon(0.08));
+  for (const double sd : {1.0, 5.0})
+    CHECK(picture_noise(pattern(0, sd, 1)) == doctest::Approx(sd).epsilon(0.08));
 }
 
 TEST_CASE(

@@ -17,9 +17,10 @@ TEST_CASE("drop report: exactly the documented fields, in order") {
   edge.image_width = 518;
   edge.image_height = 488;
   edge.support = 0.9;
-  CHECK(drop_json(edge, {}).dump() ==
-        R"({"center_px":[258.5,-12.25],"radius_px":161.0,"sd_px":{"x":0.5,"y":0.75,"radius":0.25},)"
-        R"("arc_deg":90.0,"support":0.9,"edge_width_px":0.0,"out_of_round_px":0.0,"inside":[3.0,4.0],"image_size":[518,488],"um_per_px":null,"um_per_px_source":null,"quality":"good","warnings":[]})");
+  CHECK(
+      drop_json(edge, {}).dump() ==
+      R"({"center_px":[258.5,-12.25],"radius_px":161.0,"sd_px":{"x":0.5,"y":0.75,"radius":0.25},)"
+      R"("arc_deg":90.0,"support":0.9,"edge_width_px":0.0,"out_of_round_px":0.0,"inside":[3.0,4.0],"image_size":[518,488],"um_per_px":null,"um_per_px_source":null,"quality":"good","warnings":[]})");
 }
 
 TEST_CASE("drop report: a picture without a drop gives a default circle and a reason") {

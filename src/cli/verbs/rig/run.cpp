@@ -13,8 +13,8 @@
 #include "core/error.h"
 #include "study/pages/quality_output.h"
 #include "study/pages/run_report.h"
-#include "study/quality/scale_warning.h"
 #include "study/plot/markup.h"
+#include "study/quality/scale_warning.h"
 #include "study/steering/metrics.h"
 
 namespace faba::cli {

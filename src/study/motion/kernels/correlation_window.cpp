@@ -58,8 +58,8 @@ CorrelationSums CorrelationWindow::sums(std::span<const SparsePixel> first, cons
   for (int r = 0; r < second.height; ++r)
     std::copy_n(&second.px[std::size_t(r) * std::size_t(second.width)], second.width,
                 &padded[std::size_t(r + radius_) * std::size_t(width) + std::size_t(radius_)]);
-  add_products(first.data(), first.size(), {padded.data(), width}, groups.data(), groups.size(),
-               out.data(), out.stride());
+  add_products(first.data(), first.size(), {padded.data(), width}, groups.data(), groups.size(), out.data(),
+               out.stride());
   return out;
 }
 

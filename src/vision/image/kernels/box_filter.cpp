@@ -118,7 +118,7 @@ FABA_VECTORISED void next_row(const float* entering, const float* leaving, doubl
   }
 }
 
-// One filter, in place. The means along rows are kept for the rows that the means along columns still need.
+// Several filters along the rows, then the same along the columns, in place.
 class BoxFilter {
  public:
   BoxFilter(GrayF& picture, int half)
@@ -130,27 +130,38 @@ class BoxFilter {
         dropped_(width()),
         sums_(width()) {}
 
-  void run() {
+  // The means along rows are kept for the rows that the first means along columns still need.
+  void run(int times) {
+    run([&](int end) { mean_rows(end, times); });
+    for (int i = 1; i < times; ++i) run([&](int end) { copy_rows(end); });
+  }
+
+ private:
+  // Means along columns of the rows that fill(end) has put into means_, up to row `end`.
+  template <class Fill>
+  void run(Fill&& fill) {
     const int h = picture_.height;
     done_ = 0;
     std::fill(sums_.begin(), sums_.end(), 0.0);
-    mean_rows(std::min(h, half_ + 1));
+    fill(std::min(h, half_ + 1));
     for (int row = -half_; row <= half_; ++row) add_row(mean_row(row), sums_.data(), picture_.width);
     const double weight = 1.0 / (2 * half_ + 1);
     for (int row = 0; row < h; ++row) {
-      mean_rows(std::min(h, row + half_ + 2));
+      fill(std::min(h, row + half_ + 2));
       next_row(mean_row(row + half_ + 1), mean_row(row - half_), weight, sums_.data(), pixels(row),
                picture_.width);
     }
   }
 
- private:
   std::size_t width() const { return std::size_t(picture_.width); }
   float* pixels(int row) { return &picture_.px[std::size_t(row) * width()]; }
   float* mean_row(int row) { return &means_[std::size_t(mirrored(row, picture_.height) % kept_) * width()]; }
 
-  // Computes the means along rows up to row `end`.
-  void mean_rows(int end) {
+  void copy_rows(int end) {
+    for (; done_ < end; ++done_) std::copy_n(pixels(done_), picture_.width, mean_row(done_));
+  }
+
+  void mean_rows(int end, int times) {
     const int w = picture_.width;
     for (; done_ < end; done_ += kRows) {
       // Below the last row its pixels are used, and the results are dropped.
@@ -161,13 +172,21 @@ class BoxFilter {
         to[std::size_t(i)] = row <= last ? mean_row(row) : dropped_.data();
       }
       rows_to_columns(from, w, column(half_));
-      for (int i = 1; i <= half_; ++i)
-        std::memcpy(column(half_ - i), column(half_ + mirrored(-i, w)), kRows * sizeof(float));
-      for (int i = 0; i <= half_; ++i)
-        std::memcpy(column(half_ + w + i), column(half_ + mirrored(w + i, w)), kRows * sizeof(float));
-      running_means(columns_.data(), w, half_);
+      for (int i = 0; i < times; ++i) {
+        mirror_columns();
+        running_means(columns_.data(), w, half_);
+        if (i + 1 < times) std::memmove(column(half_), column(0), std::size_t(w) * kRows * sizeof(float));
+      }
       columns_to_rows(columns_.data(), w, to);
     }
+  }
+
+  void mirror_columns() {
+    const int w = picture_.width;
+    for (int i = 1; i <= half_; ++i)
+      std::memcpy(column(half_ - i), column(half_ + mirrored(-i, w)), kRows * sizeof(float));
+    for (int i = 0; i <= half_; ++i)
+      std::memcpy(column(half_ + w + i), column(half_ + mirrored(w + i, w)), kRows * sizeof(float));
   }
 
   float* column(int i) { return &columns_[std::size_t(i) * kRows]; }
@@ -181,8 +200,7 @@ class BoxFilter {
 }  // namespace
 
 void box_filter(GrayF& picture, int half, int times) {
-  BoxFilter filter(picture, half);
-  for (int i = 0; i < times; ++i) filter.run();
+  if (times > 0) BoxFilter(picture, half).run(times);
 }
 
 }  // namespace faba

@@ -7,6 +7,7 @@
 #include "core/portable_math.h"
 #include "core/wide.h"
 #include "vision/image/kernels/box_filter.h"
+#include "vision/image/kernels/grey_scale.h"
 #include "vision/image/kernels/mirrored.h"
 
 namespace faba {
@@ -85,6 +86,39 @@ void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& w
   }
 }
 
+/// Where a pixel of a large picture lies between the pixels of a picture of averaged squares.
+struct Between {
+  std::size_t before = 0, after = 0;
+  float weight = 0;  // of `after`
+};
+
+std::vector<Between> places(int size, int small_size, int side) {
+  std::vector<Between> all;
+  for (int i = 0; i < size; ++i) {
+    const float at = std::clamp((float(i) + 0.5F) / float(side) - 0.5F, 0.0F, float(small_size - 1));
+    const int before = std::min(int(at), std::max(0, small_size - 2));
+    all.push_back(
+        {std::size_t(before), std::size_t(std::min(before + 1, small_size - 1)), at - float(before)});
+  }
+  return all;
+}
+
+// Linear interpolation.
+GrayF enlarged(const GrayF& small, int side, int width, int height) {
+  GrayF out(width, height);
+  const std::vector<Between> columns = places(width, small.width, side),
+                             rows = places(height, small.height, side);
+  const auto small_row = [&](std::size_t r) { return &small.px[r * std::size_t(small.width)]; };
+  std::vector<float> line(std::size_t(small.width));
+  float* to = out.px.data();
+  for (const Between& row : rows) {
+    const float *above = small_row(row.before), *below = small_row(row.after);
+    for (std::size_t i = 0; i < line.size(); ++i) line[i] = above[i] + row.weight * (below[i] - above[i]);
+    for (const Between& c : columns) *to++ = line[c.before] + c.weight * (line[c.after] - line[c.before]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<float> gaussian_weights(double sd_px) {
@@ -105,6 +139,15 @@ GrayF smoothed(const GrayF& picture, double sd_px) {
   const auto row = [&](int r) { return &picture.px[std::size_t(r) * std::size_t(picture.width)]; };
   smooth(picture.width, picture.height, row, sd_px, out, work);
   return out;
+}
+
+GrayF smoothed_broadly(const GrayF& picture, double sd_px) {
+  constexpr double kLeastSd = 16;  // px of the picture of averaged squares
+  const int side = std::min({int(sd_px / kLeastSd), picture.width, picture.height});
+  if (side < 2) return smoothed(picture, sd_px);
+  GrayF small;
+  shrink(picture, side, small);
+  return enlarged(smoothed(small, sd_px / side), side, picture.width, picture.height);
 }
 
 void smooth(int width, int height, const RowSource& row, double sd_px, GrayF& out, GrayF& work) {

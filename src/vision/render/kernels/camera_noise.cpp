@@ -67,8 +67,9 @@ void expose_as(const CameraSensor& s, const GrayF& ground, const GrayF& cells, P
   out.width = ground.width;
   out.height = ground.height;
   out.px.resize(n);
-  const SensorConstants k{float(s.lamp), float(s.shot), float(s.constant),
-                          float(std::numeric_limits<T>::max()), s.absorbing, float(s.emission)};
+  const SensorConstants k{float(s.lamp),     float(s.shot),
+                          float(s.constant), float(std::numeric_limits<T>::max()),
+                          s.absorbing,       float(s.emission)};
   const bool noisy = s.shot > 0 || s.constant > 0;
   pool.for_blocks(n, kBlock, [&](std::size_t begin, std::size_t end) {
     alignas(64) float z[kBlock] = {}, light[kBlock], grey[kBlock];

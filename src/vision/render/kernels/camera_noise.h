@@ -18,9 +18,9 @@ struct CameraSensor {
 };
 
 /// Grey = round(white (light + sqrt(shot light + constant) z)), clipped to 0..white, with light = lamp ground
-/// exp(-cells) or lamp ground (1 + emission cells) and z standard normal, from Philox in blocks of 1024 pixels. White
-/// is the maximum of the pixel type. `ground`, `cells` and `out` have the same size. Bit-identical for any
-/// number of threads and on every machine (theory G3).
+/// exp(-cells) or lamp ground (1 + emission cells) and z standard normal, from Philox in blocks of 1024
+/// pixels. White is the maximum of the pixel type. `ground`, `cells` and `out` have the same size.
+/// Bit-identical for any number of threads and on every machine (theory G3).
 void expose(const CameraSensor& sensor, const GrayF& ground, const GrayF& cells, Pool& pool, Gray8& out);
 void expose(const CameraSensor& sensor, const GrayF& ground, const GrayF& cells, Pool& pool,
             Image<std::uint16_t>& out);  ///< As above, 16 bits.
