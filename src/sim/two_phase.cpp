@@ -162,7 +162,7 @@ void TwoPhase::settle(std::uint64_t key) {
   });
   const auto rank = [&](std::int32_t site) {
     const std::uint64_t smaller = wanted_.word(site) & (Sites::bit(site) - 1);
-    return std::size_t(before_[std::size_t(site) >> 6] + std::uint32_t(std::popcount(smaller)));
+    return std::size_t(before_[std::size_t(site) >> 6]) + std::size_t(std::popcount(smaller));
   };
   best_.assign(sites, std::numeric_limits<std::uint64_t>::max());
   winner_.resize(sites);

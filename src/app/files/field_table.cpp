@@ -135,7 +135,7 @@ std::vector<std::string> header_of(const FieldLines& f) {
         trimmed(std::string_view(f.comment).substr(f.comment.find_first_not_of("#%!/")));
     for (const char separator : {f.separator, ',', ';', '\t', ' '}) {
       const auto fields = fields_of(text, separator);
-      const auto names = separator == ' ' ? joined_units(fields) : fields;
+      auto names = separator == ' ' ? joined_units(fields) : fields;
       if (names.size() == f.lines[0].fields.size() && is_header(names)) return names;
     }
     return {};
@@ -333,6 +333,7 @@ Table read_field_table(const std::filesystem::path& file, const FieldTableFormat
   check_columns(f, used);
   check_decimals(f, used);
   std::vector<std::string> names;
+  names.reserve(used.size());
   for (const UsedColumn& u : used)
     names.push_back(fmt::format("{} ({})", u.column.quantity, u.column.unit_text));
   std::vector<std::vector<double>> columns(used.size());

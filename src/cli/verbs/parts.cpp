@@ -67,7 +67,7 @@ void describe(const Json& schema, const std::string& indent) {
 }
 
 int parts(const PartsVerb& v, const Common& c) {
-  const Parts all = builtin_parts();
+  const Parts& all = builtin_parts();
   Json out = Json::object();
   std::vector<std::string> kinds;
   each_kind(all, [&](const char* kind, const auto& registry) {

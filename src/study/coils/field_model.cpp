@@ -87,7 +87,7 @@ bool on_a_line(const FieldModel& model) {
 }
 
 Minimum best_minimum(const FieldModel& model) {
-  const Minimum near = minimum_from(model, Eigen::VectorXd::Ones(model.parameters()));
+  Minimum near = minimum_from(model, Eigen::VectorXd::Ones(model.parameters()));
   const double n = double(model.values().size());
   const auto& fitted = model.fitted();
   const bool moves = std::any_of(fitted.begin(), fitted.end(), [&](const FieldParameter& p) {

@@ -25,12 +25,18 @@ constexpr double kShiftSizes = 1.25;            // displacement in sizes of an o
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
 // limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
 constexpr double kLeastShiftSpread = 0.15;
-constexpr double kShiftStep = 0.1;    // px: grid of the fitted displacement
-constexpr double kLongestGap = 0.25;  // s: cells turn and leave the picture
-constexpr double kExplained = 0.8;    // fraction of the variance that the model must explain
-constexpr double kSignificant = 3;    // standard errors of the fraction
+constexpr double kRoughStep = 0.5, kShiftStep = 0.1;  // px: grids of the fitted displacement
+constexpr int kFineSteps = 5;                         // on each side of the rough displacement
+constexpr double kLongestGap = 0.25;                  // s: cells turn and leave the picture
+constexpr double kExplained = 0.8;                    // fraction of the variance that the model must explain
+constexpr double kSignificant = 3;                    // standard errors of the fraction
 
 using Profile = std::array<double, 2 * kRadius + 1>;  ///< against the displacement along, in px
+
+std::size_t index_of(int displacement) {
+  const int i = displacement + kRadius;
+  return std::size_t(i);
+}
 
 /// A band-passed picture, and its pixels above the noise.
 struct Sparse {
@@ -146,15 +152,15 @@ Profile template_of(const Profile& self, double shift, double sd) {
     // Integral over the pixel, so that a narrow distribution is not missed between two of them.
     const double w =
         std::erf((u + 0.5 - shift) / (sd * M_SQRT2)) - std::erf((u - 0.5 - shift) / (sd * M_SQRT2));
-    weight[std::size_t(u + kRadius)] = w;
+    weight[index_of(u)] = w;
     sum += w;
   }
   for (int u = -kRadius; u <= kRadius; ++u) {
-    const double w = weight[std::size_t(u + kRadius)] / sum;
+    const double w = weight[index_of(u)] / sum;
     if (w < 1e-6) continue;
     for (int s = -kRadius; s <= kRadius; ++s) {
-      if (std::abs(s - u) <= kRadius) t[std::size_t(s + kRadius)] += w * self[std::size_t(s - u + kRadius)];
-      if (std::abs(s + u) <= kRadius) t[std::size_t(s + kRadius)] -= w * self[std::size_t(s + u + kRadius)];
+      if (std::abs(s - u) <= kRadius) t[index_of(s)] += w * self[index_of(s - u)];
+      if (std::abs(s + u) <= kRadius) t[index_of(s)] -= w * self[index_of(s + u)];
     }
   }
   return t;
@@ -176,8 +182,8 @@ ShiftFit fit_with(const PairBlock& b, double shift, double sd, double way) {
   const Profile model = template_of(b.self, shift, sd);
   std::array<double, kRadius> t{}, a{};
   for (int s = 1; s < kRadius; ++s) {
-    a[std::size_t(s)] = way * (b.next[std::size_t(kRadius + s)] - b.next[std::size_t(kRadius - s)]);
-    t[std::size_t(s)] = model[std::size_t(kRadius + s)];
+    a[std::size_t(s)] = way * (b.next[index_of(s)] - b.next[index_of(-s)]);
+    t[std::size_t(s)] = model[index_of(s)];
   }
   remove_slope(t);
   remove_slope(a);
@@ -198,11 +204,13 @@ ShiftFit fit_of(const PairBlock& b, double size, double way) {
         f.explained > best.explained)
       best = f;
   };
-  for (double shift = size / 4; shift < kRadius - size; shift += 0.5)
-    for (const double sd : {0.3, 0.7, 1.2, 2.0, 3.0, 4.5}) take(shift, sd);
+  const auto rough_shift = [&](int i) { return size / 4 + i * kRoughStep; };
+  for (int i = 0; rough_shift(i) < kRadius - size; ++i)
+    for (const double sd : {0.3, 0.7, 1.2, 2.0, 3.0, 4.5}) take(rough_shift(i), sd);
   const ShiftFit rough = best;
-  for (double shift = rough.shift - 0.5; shift <= rough.shift + 0.5; shift += kShiftStep)
-    for (const double factor : {0.75, 0.9, 1.0, 1.15, 1.35}) take(std::max(shift, 0.1), rough.sd * factor);
+  for (int i = -kFineSteps; i <= kFineSteps; ++i)
+    for (const double factor : {0.75, 0.9, 1.0, 1.15, 1.35})
+      take(std::max(rough.shift + i * kShiftStep, 0.1), rough.sd * factor);
   return best;
 }
 

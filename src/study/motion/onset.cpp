@@ -102,11 +102,14 @@ std::vector<RampTrial> ramp_trials(const ShiftSeries& s, const ChangeWindow& w, 
   std::vector<RampTrial> trials;
   const double step = w.pair_s / kPerPair;
   std::vector<double> rises{0};
-  for (double r = w.pair_s / 2; r < 2 * (w.half_s - earliest) + w.pair_s; r *= std::sqrt(2.0))
-    rises.push_back(r);
+  double rise_s = w.pair_s / 2;
+  while (rise_s < 2 * (w.half_s - earliest) + w.pair_s) {
+    rises.push_back(rise_s);
+    rise_s *= std::sqrt(2.0);
+  }
   for (const double rise : rises)
-    for (double start = earliest; start <= w.half_s + w.pair_s / 2; start += step) {
-      RampTrial t = ramp_trial(s, w, start, rise);
+    for (int i = 0; earliest + i * step <= w.half_s + w.pair_s / 2; ++i) {
+      RampTrial t = ramp_trial(s, w, earliest + i * step, rise);
       if (t.values[1] > 0) trials.push_back(t);
     }
   return trials;

@@ -184,6 +184,7 @@ struct Rigid {
 Rigid rigid_lines(const std::vector<StraightTrack>& set, const CommonPath& path) {
   Rigid rigid;
   std::vector<double> errors;
+  errors.reserve(set.size());
   for (const StraightTrack& l : set) errors.push_back(residual_of(*l.track, path).error);
   rigid.error = median(errors);
   for (const StraightTrack& l : set)

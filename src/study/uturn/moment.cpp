@@ -44,6 +44,7 @@ MedianInterval interval_of(const std::vector<const std::vector<CellTurns>*>& gro
                            double factor_sd, std::uint64_t seed) {
   StudyRandom random(seed, StudyDraws::u_turn);
   std::vector<double> resampled;
+  resampled.reserve(kResampledCells);
   for (int i = 0; i < kResampledCells; ++i)
     resampled.push_back(factor * rate_of(groups, &random) * std::exp(factor_sd * random.normal()));
   return {factor * rate_of(groups, nullptr), {quantile(resampled, 0.05), quantile(resampled, 0.95)}};
@@ -68,6 +69,7 @@ std::vector<CellTurns> cells_of(const FieldStrength& f) {
   std::map<std::uint64_t, CellTurns> cells;
   for (const UTurn& t : f.survey.turns) cells[t.track].inverse_rate.push_back(t.time_s * f.bias * f.field_t);
   std::vector<CellTurns> out;
+  out.reserve(cells.size());
   for (auto& [track, turns] : cells) out.push_back(std::move(turns));
   return out;
 }

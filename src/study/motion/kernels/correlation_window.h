@@ -17,7 +17,10 @@ struct SparsePixel {
 class CorrelationSums {
  public:
   explicit CorrelationSums(int radius) : radius_(radius), sums_(std::size_t(stride() * (2 * radius + 1))) {}
-  float at(int dx, int dy) const { return sums_[std::size_t((dy + radius_) * stride() + dx + radius_)]; }
+  float at(int dx, int dy) const {
+    const std::ptrdiff_t row = dy + radius_, column = dx + radius_;
+    return sums_[std::size_t(row * stride() + column)];
+  }
   float* data() { return sums_.data(); }
   /// Number of columns, a multiple of kPadding.
   int stride() const { return (2 * radius_ + kPadding) / kPadding * kPadding; }
