@@ -109,7 +109,7 @@ bool are_at_rest(const std::vector<StraightTrack>& lines) {
   return dot(sum, sum) <= kAgree * weight;
 }
 
-// The lines that agree on a velocity: those at rest if there are enough, else the largest set.
+// The lines that agree on a velocity: the stationary ones if there are enough, else the largest set.
 std::vector<StraightTrack> largest_set(const std::vector<StraightTrack>& lines) {
   std::vector<StraightTrack> best = with_velocity(lines, {}, 0);
   if (best.size() >= kFewReferences && are_at_rest(best)) return best;

@@ -42,7 +42,7 @@ double typical_noise(const Background& b) {
   return double(robust_spread_low(noise).median);
 }
 
-// The temporal statistics of a background at rest are those of its noise. Moving objects cover a pixel in a
+// The temporal statistics of a stationary background are those of its noise. Moving objects cover a pixel in a
 // minority of the frames and do not change its median deviation.
 void warn_background(TrackSurvey& s, const Background& median, const Background& smooth) {
   const double temporal = typical_noise(median), spatial = typical_noise(smooth);

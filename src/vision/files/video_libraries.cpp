@@ -1,19 +1,31 @@
 #include "vision/files/video_libraries.h"
 
+#include <system_error>
 #include <thread>
 
 #include "core/error.h"
 #include "vision/files/ffmpeg.h"
 
 namespace faba {
+namespace {
 
-void load_video_libraries() {
-  static const std::jthread loading([] {
-    try {
-      libav::function("avformat_version");
-    } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the first use reports it
-    }
-  });
+void load() {
+  try {
+    libav::function("avformat_version");
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the first use reports it
+  }
 }
+
+std::jthread thread_of_loading() {
+  try {
+    return std::jthread(load);
+  } catch (const std::system_error&) {  // no more threads: the first use loads them
+    return {};
+  }
+}
+
+}  // namespace
+
+void load_video_libraries() { static const std::jthread loading = thread_of_loading(); }
 
 }  // namespace faba

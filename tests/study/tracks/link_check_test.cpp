@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/random/philox.h"
+#include "tests/study/tracks/spot_at.h"
 
 using namespace faba;
 
@@ -33,15 +34,6 @@ double reproduced(int frames, const Spots& spots_in) {
   const auto fraction = check.reproduced();
   REQUIRE(fraction);
   return *fraction;
-}
-
-Spot spot_at(double x, double y) {
-  Spot s;
-  s.x_px = x;
-  s.y_px = y;
-  s.snr = 10;
-  s.sd_px = 0.1;
-  return s;
 }
 
 }  // namespace

@@ -2,20 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/study/tracks/spot_at.h"
+
 using namespace faba;
-
-namespace {
-
-Spot spot_at(double x, double y) {
-  Spot s;
-  s.x_px = x;
-  s.y_px = y;
-  s.snr = 10;
-  s.sd_px = 0.1;
-  return s;
-}
-
-}  // namespace
 
 TEST_CASE("track scores: long tracks without gaps are near 1, gaps and short tracks reduce the score") {
   TrackerOptions options;

@@ -134,7 +134,7 @@ void add_recording(std::vector<ModelFamily>& all) {
                  .amount = kDrift,
                  .two_sided = true,
                  .of_cells = false,
-                 .advice = "fix the stage, wait until the fluid is at rest, or correct the video",
+                 .advice = "fix the stage, wait until the fluid does not flow, or correct the video",
                  .drift_px_s = kDrift});
 }
 
