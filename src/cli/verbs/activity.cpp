@@ -13,6 +13,7 @@
 #include "cli/quality_text.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "study/data/run_video.h"
 #include "study/motion/activity_study.h"
 #include "study/pages/activity_report.h"
 #include "study/pages/flow_report.h"
@@ -169,6 +170,13 @@ int activity(const ActivityVerb& v, const Common& c) {
   if (!v.picture.empty() && job.videos.size() != 1)
     throw Error(Errc::usage, "--picture",
                 fmt::format("requires a single video, but {} are given", job.videos.size()));
+  expect_videos();
+  Provenance provenance;
+  if (c.json || !v.report.empty()) {
+    for (const ActivityInput& input : job.videos) inputs.push_back(input.file);
+    inputs.push_back(job.noise);
+    provenance = provenance_of(c, inputs);
+  }
   Progress bar("measuring", !c.quiet && !c.json);
   job.progress = [&](std::size_t video, std::uint64_t done, std::uint64_t total) {
     if (total > 0) bar.update(video * total + std::min(done, total), job.videos.size() * total);
@@ -177,12 +185,6 @@ int activity(const ActivityVerb& v, const Common& c) {
   const ActivityResult result = measure_activity(job);
   bar.clear();
   if (!v.out.empty()) write_file(v.out, activity_csv(result));
-  Provenance provenance;
-  if (c.json || !v.report.empty()) {
-    for (const ActivityInput& input : job.videos) inputs.push_back(input.file);
-    inputs.push_back(job.noise);
-    provenance = provenance_of(c, inputs);
-  }
   if (!v.report.empty()) write_file(v.report, activity_page(result, provenance));
   if (!v.picture.empty()) write_activity_picture(v.picture, result.videos.front());
   if (c.json) {

@@ -15,6 +15,7 @@
 #include "cli/quality_text.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "study/data/run_video.h"
 #include "study/pages/tracks/preview_output.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_report.h"
@@ -193,6 +194,7 @@ int preview(const TrackVerb& v, const Common& c) {
 
 int track(const TrackVerb& v, const Common& c) {
   check_outputs(v);
+  expect_videos();
   if (!v.preview.empty()) return preview(v, c);
   const auto& stop = stop_requested();
   Progress bar("tracking", !c.quiet);

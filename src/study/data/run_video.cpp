@@ -10,6 +10,7 @@
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "study/data/run_info.h"
+#include "vision/files/video_libraries.h"
 #include "vision/files/video_reader.h"
 
 namespace faba {
@@ -18,6 +19,8 @@ namespace {
 constexpr std::array kVideos = {"video.avi", "video.mp4"};  // the first is lossless
 
 }  // namespace
+
+void expect_videos() { load_video_libraries(); }
 
 bool is_run(const std::filesystem::path& path) {
   std::error_code absent;

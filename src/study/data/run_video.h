@@ -13,6 +13,9 @@ struct RunVideo {
   VideoScale scale;  ///< of a run, or in the metadata of the file
 };
 
+/// Starts to load the libraries for videos in another thread: for a verb that reads a video a little later.
+void expect_videos();
+
 /// Whether `path` is a run directory: a folder with a manifest.
 bool is_run(const std::filesystem::path& path);
 /// Whether a run is complete.

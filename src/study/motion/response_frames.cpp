@@ -30,6 +30,15 @@ GrayF scaled(const GrayF& frame, float by) {
   return out;
 }
 
+// Averages over squares of `side` px.
+GrayF reduced(GrayF& frame, int side) {
+  make_finite(frame);
+  if (side == 1) return frame;
+  GrayF small;
+  shrink(frame, side, small);
+  return small;
+}
+
 }  // namespace
 
 ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
@@ -45,12 +54,8 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
                               [&](const GrayF& frame) -> std::function<void()> {
                                 side_ = std::max(
                                     1, (std::max(frame.width, frame.height) + kLongSide - 1) / kLongSide);
-                                GrayF small = frame;
-                                make_finite(small);
-                                if (side_ > 1) {
-                                  shrink(GrayF(small), side_, small);
-                                }
-                                sampler.take(small);
+                                GrayF finite = frame;
+                                sampler.take(reduced(finite, side_));
                                 return {};
                               }};
   inspect_video(video_, part, sample, threads_, [&](auto, auto) { check_(); });
@@ -71,10 +76,8 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   filled_ = line_closing(scaled(median.level, float(sign_)), std::max(3.0, kSegmentSizes * size_)).least;
 }
 
-GrayF ResponseFrames::prepared(const GrayF& frame) const {
-  GrayF out = frame;
-  make_finite(out);
-  if (side_ > 1) shrink(GrayF(out), side_, out);
+GrayF ResponseFrames::prepared(GrayF& frame) const {
+  GrayF out = reduced(frame, side_);
   const auto sign = float(sign_);
   for (std::size_t i = 0; i < out.px.size(); ++i) out.px[i] = filled_.px[i] - sign * out.px[i];
   return out;

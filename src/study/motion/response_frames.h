@@ -35,7 +35,7 @@ class ResponseFrames {
             const std::function<void(std::size_t slot)>& take) const;
 
  private:
-  GrayF prepared(const GrayF& frame) const;
+  GrayF prepared(GrayF& frame) const;
 
   std::filesystem::path video_;
   unsigned threads_;

@@ -33,18 +33,29 @@ struct Sample {
 
 struct Component {
   double weight = 0, mean = 0, sd = 1;
-  double density(double x) const {
-    const double z = (x - mean) / sd;
-    return weight * std::exp(-0.5 * z * z) / (sd * std::sqrt(2 * std::numbers::pi));
+};
+
+// The density of a component, for many values.
+class Density {
+ public:
+  explicit Density(const Component& c)
+      : mean_(c.mean), per_sd_(1 / c.sd), peak_(c.weight / (c.sd * std::sqrt(2 * std::numbers::pi))) {}
+  double operator()(double x) const {
+    const double z = (x - mean_) * per_sd_;
+    return peak_ * std::exp(-0.5 * z * z);
   }
+
+ private:
+  double mean_, per_sd_, peak_;
 };
 using Mixture = std::vector<Component>;
 
 double log_likelihood(const std::vector<Sample>& samples, const Mixture& m) {
+  const std::vector<Density> densities(m.begin(), m.end());
   double sum = 0;
   for (const Sample& s : samples) {
     double p = 0;
-    for (const Component& c : m) p += c.density(s.log_speed);
+    for (const Density& density : densities) p += density(s.log_speed);
     sum += s.weight * std::log(std::max(p, 1e-300));
   }
   return sum;
@@ -71,11 +82,12 @@ Mixture fitted(const std::vector<Sample>& samples, std::size_t components) {
             components == 1 ? sd : std::max(kLeastLogSpread, sd / double(components))};
   for (int i = 0; i < kIterations && components > 1; ++i) {
     std::vector<std::array<double, 3>> sums(components);  // weight, first and second moment
+    const std::vector<Density> densities(m.begin(), m.end());
     std::array<double, kMostComponents> density{};
     for (const Sample& s : samples) {
       double p = 0;
       for (std::size_t k = 0; k < components; ++k) {
-        density[k] = m[k].density(s.log_speed);
+        density[k] = densities[k](s.log_speed);
         p += density[k];
       }
       if (!(p > 0)) continue;
@@ -129,7 +141,7 @@ Mixture chosen(const std::vector<Sample>& samples, Pool& pool) {
 std::size_t most_probable(const Mixture& m, double x) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < m.size(); ++k)
-    if (m[k].density(x) > m[best].density(x)) best = k;
+    if (Density(m[k])(x) > Density(m[best])(x)) best = k;
   return best;
 }
 

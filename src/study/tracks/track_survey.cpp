@@ -42,8 +42,8 @@ double typical_noise(const Background& b) {
   return double(robust_spread_low(noise).median);
 }
 
-// The temporal statistics of a stationary background are those of its noise. Moving objects cover a pixel in a
-// minority of the frames and do not change its median deviation.
+// The temporal statistics of a stationary background are those of its noise. Moving objects cover a pixel in
+// a minority of the frames and do not change its median deviation.
 void warn_background(TrackSurvey& s, const Background& median, const Background& smooth) {
   const double temporal = typical_noise(median), spatial = typical_noise(smooth);
   if (spatial <= kFloorNoise || temporal < kChanging * spatial) return;
@@ -159,17 +159,18 @@ bool TrackSurveyor::needs(double t_s) {
 }
 
 void TrackSurveyor::take(const GrayF& frame) {
-  GrayF finite = frame, small;
+  GrayF finite = frame;
   make_finite(finite);
   if (side_ > 1) {
+    GrayF small;
     shrink(finite, side_, small);
-    std::swap(small, finite);
+    finite = std::move(small);
   }
   if (frames_ == 1) {
     first_ = finite;
     region_ = searched_region(options_, finite.width, finite.height);
   }
-  sampler_.take(options_.region ? cropped(finite, region_) : finite);
+  sampler_.take(options_.region ? cropped(finite, region_) : std::move(finite));
 }
 
 TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {

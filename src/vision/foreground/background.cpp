@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/error.h"
 #include "core/statistics.h"
@@ -52,7 +53,7 @@ std::uint64_t BackgroundSampler::stride_for(std::uint64_t frames, std::size_t pi
   return stride;
 }
 
-void BackgroundSampler::take(const GrayF& frame) {
+void BackgroundSampler::take(GrayF frame) {
   if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
     throw Error(Errc::internal, "", "the frame differs in size from the previous frames of the background");
   const bool wanted = needs_next();
@@ -65,7 +66,7 @@ void BackgroundSampler::take(const GrayF& frame) {
     stride_ *= 2;
     if ((seen_ - 1) % stride_ != 0) return;
   }
-  kept_.push_back(frame);
+  kept_.push_back(std::move(frame));
 }
 
 Background BackgroundSampler::background() const {

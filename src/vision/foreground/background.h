@@ -33,7 +33,7 @@ class BackgroundSampler {
   bool needs_next() const { return seen_ % stride_ == 0; }
   void skip() { ++seen_; }
   /// Offers the next frame. All frames must have the same size, else Error(Errc::internal).
-  void take(const GrayF& frame);
+  void take(GrayF frame);
   /// The final stride for a video of `frames` frames of `pixels` pixels: one of this number of frames is
   /// sampled.
   std::uint64_t stride_for(std::uint64_t frames, std::size_t pixels) const;
