@@ -38,7 +38,6 @@ bench: build          ## measure speed and compare it with NumPy, Octave and har
 	@/usr/bin/python3 bench/study.py
 	@/usr/bin/python3 bench/loop.py
 	@/usr/bin/python3 bench/jobs.py
-	@/usr/bin/python3 bench/engines.py
 	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md
 
 accuracy: build       ## test measurements on rendered videos with known ground truth; with SEEDS=20 EXPERIMENTS=40: two hours
