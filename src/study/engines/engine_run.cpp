@@ -164,7 +164,7 @@ void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how)
   const std::string name = ended.attempt.results.stem().string(), message = first_line(ended.attempt.log);
   std::vector<std::uint64_t> left, numbers;
   const auto failures = s.store.failures(s.key);
-  bool failed = false;  // a task, with a recorded reason
+  bool failed = false;           // a task, with a recorded reason
   bool charged = how.exit == 0;  // the first task without a record is the one that the worker computed
   for (const std::uint64_t task : ended.tasks) {
     if (!s.open.contains(task)) continue;
